@@ -12,14 +12,16 @@ exit code 0 if all faults were caught, 1 if any survives, 2 if a fault has to be
 --only: faults whose names match; --list: the faults, nothing else; --check: that each is found where it says
 --drawn: N faults of each module by machine (mutation_operators.py) in place of the planted ones: a comparison, sign, constant, term, bound
 or connective changed. Exit code 1 if more than 5 % of those that compile survive: some make no difference that a test could see.
+A fault's module is compiled one source at a time, and its quick tests are asked first, in one process, so that most faults take seconds.
 --near: tests of the fault's own module only, for a first look
 --within: tests of these modules only, those of the fault's own first: a sample of all four that fits into an hour. What survives them is looked
-at, or tried again without it by --only and the same seed
+at, or tried again without it by --only and the same seed. A drawn change that is no fault is told with its reason and not tried
 """
 
 import argparse
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -34,7 +36,8 @@ COPY, LOG = os.path.join(WORK, "sources"), os.path.join(WORK, "log")
 BUILD = os.path.join(COPY, "build/release")  # where a clone has it: ccache knows what the user has compiled
 PROGRAM = ["results_file", "defects", "cli"]  # tests of the whole, tried last
 DRAWN_MAY_SURVIVE = 0.05  # of faults by machine
-TIME_LIMIT = 120  # s of one test: a fault may turn an iteration into an endless one
+TIME_LIMIT = 100  # s of a processor that one test may take: a fault may turn an iteration into an endless one
+QUICK = 0.5  # s of a test that is asked before those that take longer
 # Ahead of a file with a fault: what compilers say of a && b || c, or of a name that nothing asks any longer, is no verdict.
 UNWARNED = "#ifdef __clang__\n#pragma clang diagnostic ignored \"-Weverything\"\n#endif\n"
 
@@ -45,6 +48,7 @@ class Fault(NamedTuple):
     old: str     # text that occurs once in it
     new: str
     tests: str = ""  # regex of the tests tried first; of the fault's own module where empty
+    equivalent: str = ""  # why it is no fault, though drawn
 
     @property
     def module(self):
@@ -222,10 +226,11 @@ def check_places(faults):
                       "\n".join(f"  {fault.name}\n    libs/{fault.file}: {why}" for fault, why in wrong))
 
 
-def logged(title, command):
-    """Runs a command, its output to the log too."""
+def logged(title, command, seconds=resource.RLIM_INFINITY):
+    """Runs a command, its output to the log too, each of its processes for so many seconds of a processor at most."""
     run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-                         cwd=COPY, check=False)
+                         cwd=COPY, check=False, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},  # tests run beside each other
+                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds)))
     with open(LOG, "a", encoding="utf-8") as log:
         log.write(f"\n==== {title}: {' '.join(command)}\n{run.stdout}")
     return run
@@ -237,8 +242,10 @@ class Trial:
     def __init__(self, jobs, is_near=False, within=()):
         self.jobs, self.is_near, self.within = str(jobs), is_near, within
 
-    def configure(self):
-        run = logged("configure", ["scripts/compiler", "cmake", "--preset", "release", "-DHERSEY_UNITY=ON"])
+    def configure(self, one_by_one):
+        """Several sources are compiled as one, which ccache may know from the user's build, but for those of the modules `one_by_one`."""
+        run = logged("configure", ["scripts/compiler", "cmake", "--preset", "release", "-DHERSEY_UNITY=ON",
+                                   "-DHERSEY_UNITY_EXCEPT=" + ";".join(one_by_one)])
         if run.returncode:
             raise Trouble(f"the copy cannot be configured, see {LOG}:\n{run.stdout[-2000:]}")
 
@@ -246,10 +253,48 @@ class Trial:
         targets = sorted({"hersey" if module in PROGRAM else f"{module}_test" for module in modules})
         return logged(title, ["cmake", "--build", BUILD, "-j", self.jobs, "--target", *targets])
 
-    def test(self, title, regex):
-        """The first tests that fail of those whose names match."""
-        run = logged(title, ["ctest", "--test-dir", BUILD, "-j", self.jobs, "--stop-on-failure", "--timeout",
-                             str(TIME_LIMIT), "--no-tests=error", "--output-on-failure", "-R", regex])
+    def costs(self):
+        """test -> seconds it took when it last passed, as ctest keeps them."""
+        path = os.path.join(BUILD, "Testing/Temporary/CTestCostData.txt")
+        if not os.path.isfile(path):
+            return {}
+        with open(path, encoding="utf-8") as file:
+            lines = [line.split() for line in file.read().split("---")[0].splitlines()]
+        return {name: float(cost) for name, runs, cost in lines if int(runs) > 0}
+
+    def try_without(self, modules):
+        """Passes the tests of modules whose costs are not known yet, in sources without a fault."""
+        for module in modules:
+            if any(name.startswith(module + ".") for name in self.costs()):
+                continue
+            if self.build("no fault", [module]).returncode:
+                raise Trouble(f"the copy does not compile without a fault, see {LOG}")
+            if failed := self.run("no fault", ["-R", rf"^{module}\."]):
+                raise Trouble(f"{', '.join(failed)} fails without a fault, see {LOG}")
+
+    def test(self, title, regex, modules):
+        """The first tests that fail of the modules, whose names match: quick ones are asked first, in one go."""
+        costs = self.costs()
+        known = [module for module in modules if any(name.startswith(module + ".") for name in costs)]
+        slow = [name for name, cost in costs.items() if cost > QUICK and name.split(".")[0] in known]
+        for module in known:
+            if failed := self.run_quick(title, module, [name[len(module) + 1:] for name in slow if name.startswith(module + ".")]):
+                return failed
+        if known != modules:
+            return self.run(title, ["-R", regex])
+        return self.run(title, ["-R", "^(" + "|".join(re.escape(name) for name in slow) + ")$"]) if slow else []
+
+    def run_quick(self, title, module, but):
+        """The first test that fails of a module's, but for some, in one process."""
+        run = logged(title, [os.path.join(BUILD, f"{module}_test"), "--abort-after=1", "--test-case-exclude=" + ",".join(but)], TIME_LIMIT)
+        found = re.search(r"^TEST CASE: +(\S+)", run.stdout, re.MULTILINE)
+        # A process that is ended from outside does not tell which.
+        return [f"{module}." + (found[1] if found else "*")] if run.returncode else []
+
+    def run(self, title, which):
+        """The first tests that fail."""
+        run = logged(title, ["ctest", "--test-dir", BUILD, "-j", self.jobs, "--stop-on-failure", "--timeout", "1500",
+                             "--no-tests=error", "--output-on-failure", *which], TIME_LIMIT)
         if "***Not Run" in run.stdout or "No tests were found" in run.stdout:
             raise Trouble(f"{title}: tests that cannot run, see {LOG}")
         failed = re.findall(r"Test +#\d+: (\S+) \.+[^*\n]*\*\*\*", run.stdout)
@@ -268,7 +313,9 @@ class Trial:
         shutil.copyfile(os.path.join(SOURCE, "libs", fault.file), os.path.join(COPY, "libs", fault.file))
 
     def verdict(self, fault, modules_above):
-        """What became of a fault: caught, survived or broken, and the tests that caught it."""
+        """What became of a fault: caught, survived, broken or equivalent, and the tests that caught it or the reason."""
+        if fault.equivalent:
+            return "equivalent", [fault.equivalent]
         first = fault.tests or rf"^{fault.module}\."
         rest = [fault.module] if self.is_near else modules_above[fault.module] + PROGRAM
         if self.within:
@@ -283,7 +330,7 @@ class Trial:
                 build = self.build(fault.name, modules)
                 if build.returncode:
                     return "broken", [line for line in build.stdout.splitlines() if "error" in line][:3]
-                if failed := self.test(fault.name, regex):
+                if failed := self.test(fault.name, regex, modules):
                     return "caught", failed
             return "survived", []
         finally:
@@ -294,14 +341,15 @@ def try_all(faults, jobs, is_near=False, within=()):
     modules_above = dependents()
     trial = Trial(jobs, is_near, within)
     copy_sources()
-    trial.configure()
+    trial.configure(sorted({fault.module for fault in faults if not fault.equivalent}.union(within)))
+    trial.try_without(sorted({fault.module for fault in faults if not fault.equivalent}))
     verdicts, catching = [], {}
     for fault in faults:
         began = time.monotonic()
         what, tests = trial.verdict(fault, modules_above)
         verdicts.append(what)
         catching.update({test: fault.name for test in tests if what == "caught"})
-        told = {"caught": "caught by " + ", ".join(tests[:2]), "survived": "SURVIVED",
+        told = {"caught": "caught by " + ", ".join(tests[:2]), "survived": "SURVIVED", "equivalent": "NO FAULT: " + "".join(tests),
                 "broken": "DOES NOT COMPILE: " + " / ".join(tests)}[what]
         print(f"{fault.name:<66} {told}  ({time.monotonic() - began:.0f} s)", flush=True)
     return verdicts, failing_anyway(trial, catching)
@@ -309,12 +357,12 @@ def try_all(faults, jobs, is_near=False, within=()):
 
 def failing_anyway(trial, catching):
     """Tests that have caught faults and fail without any."""
-    if not catching:
-        return []
     modules = sorted({test.split(".")[0] for test in catching})
+    if not modules:
+        return []
     if trial.build("no fault", modules).returncode:
         raise Trouble(f"the copy does not compile without a fault, see {LOG}")
-    return trial.test("no fault", "^(" + "|".join(re.escape(test) for test in catching) + ")$")
+    return trial.run("no fault", ["-R", "^(" + "|".join(re.escape(test).replace(r"\*", ".*") for test in catching) + ")$"])
 
 
 def try_drawn(options):
@@ -322,9 +370,9 @@ def try_drawn(options):
     seed = options.seed or str(int(time.time()))
     print(f"seed {seed}", flush=True)
     drawn = mutation_operators.drawn(SOURCE, options.modules.split(","), options.drawn, seed)
-    faults = [fault for fault in (Fault(*one) for one in drawn) if re.search(options.only, fault.name)]
+    faults = [Fault(name, file, old, new, "", why) for name, file, old, new, why in drawn if re.search(options.only, name)]
     for fault in faults if options.list else ():
-        print(f"{fault.name}\n    {fault.old.splitlines()[-1].strip()}\n    {fault.new.splitlines()[-1].strip()}")
+        tell_change(fault)
     if options.list or not faults:
         return 0 if faults else 2
     try:
@@ -334,15 +382,34 @@ def try_drawn(options):
     except Trouble as trouble:
         print(f"mutations: {trouble}", file=sys.stderr)
         return 2
-    compiled, survived = len(verdicts) - verdicts.count("broken"), verdicts.count("survived")
-    print(f"{verdicts.count('caught')} of {compiled} caught that compile, {100 * survived / max(compiled, 1):.0f} % survive")
     for fault, verdict in zip(faults, verdicts):
         if verdict == "survived":
-            print(f"{fault.name}\n    {fault.old.splitlines()[-1].strip()}\n    {fault.new.splitlines()[-1].strip()}")
+            tell_change(fault)
+    tell_counts(faults, verdicts)
     if anyway:
         print("these fail without any fault: " + ", ".join(anyway))
         return 2
-    return 1 if survived > DRAWN_MAY_SURVIVE * compiled else 0
+    return 1 if verdicts.count("survived") > DRAWN_MAY_SURVIVE * tried(verdicts) else 0
+
+
+def tell_change(fault):
+    print("\n    ".join((fault.name, mutation_operators.last_line(fault.old), mutation_operators.last_line(fault.new))))
+
+
+def tried(verdicts):
+    """How many faults the tests were asked about."""
+    return verdicts.count("caught") + verdicts.count("survived")
+
+
+def tell_counts(faults, verdicts):
+    """A table of what became of the faults of each module."""
+    print("\n| module | drawn | do not compile | equivalent | tried | caught | survive |\n|---|---|---|---|---|---|---|")
+    modules = list(dict.fromkeys(fault.module for fault in faults))
+    for module in modules + ["all"] * (len(modules) > 1):
+        of = [verdict for fault, verdict in zip(faults, verdicts) if module in (fault.module, "all")]
+        counts = (len(of), of.count("broken"), of.count("equivalent"), tried(of), of.count("caught"), of.count("survived"))
+        print(f"| {module} | " + " | ".join(str(count) for count in counts) + " |")
+    print(f"{100 * verdicts.count('survived') / max(tried(verdicts), 1):.1f} % of those tried survive")
 
 
 def main():
