@@ -71,6 +71,23 @@ class Mutations(unittest.TestCase):
                 self.assertIn(part, source.read(), file)
             self.assertRegex(reason, "^(nothing changes|round-off|cost): ")
 
+    def test_each_planted_fault_is_found_where_it_says(self):
+        mutations.check_places(mutations.FAULTS)
+
+    def test_quick_tests_and_new_ones_are_asked_first(self):
+        class Stub(mutations.Trial):
+            asked = []
+
+            def run_parts(self, _, __, wanted):
+                self.asked = self.asked + wanted
+                return []
+
+        trial = Stub(2)
+        trial.costs = {"film": {"slow": 60.0, "a": 0.01, "b": 0.02, "slower": 90.0, "middling": 1.0}}
+        self.assertEqual(trial.test("x", "film"), [])
+        self.assertEqual(trial.asked, ["--test-case-exclude=slow,b,slower,middling", "--test-case=b", "--test-case=middling",
+                                       "--test-case=slow", "--test-case=slower"])
+
     def test_only_the_tests_of_the_modules_asked_for_are_built(self):
         class Stub(mutations.Trial):
             built = []
