@@ -59,8 +59,10 @@ class Mutations(unittest.TestCase):
             self.assertEqual(drawn_of(["  y();\n"] + [line for line in lines if line != others[0]]), first)
 
     def test_changes_that_are_no_faults_are_counted_and_not_tried(self):
-        (file, part, _), reason = next(iter(operators.EQUIVALENT.items()))
-        self.assertEqual(operators.why_equivalent(file, "  " + part, "anything"), reason)
+        for (file, part, new), reason in operators.EQUIVALENT.items():
+            self.assertEqual(operators.why_equivalent(file, f"  {part}", f"  x {new};"), reason)
+            if new:
+                self.assertEqual(operators.why_equivalent(file, f"  {part}", "  another change;"), "")
         self.assertEqual(operators.why_equivalent(file, "  x = a;", "x = b;"), "")
         fault = mutations.Fault("solver: x", file, part, "", "", reason)
         self.assertEqual(mutations.Trial(1).verdict(fault, {}), ("equivalent", [reason]))
