@@ -52,10 +52,10 @@ coverage:  ## counts the branches of film, solver, mbd and bearing that their te
 	  --target solver_test --target film_test --target mbd_test --target bearing_test
 	@tests/coverage/coverage.py . build/coverage --jobs $(JOBS) $(if $(KEEP),--keep)
 
-mutations:  ## plants faults one at a time in a copy and tells which no test notices; an hour (ONLY=regex: some; DRAWN=n, SEED=s: n a module by machine; WITHIN=film,solver: tests of these modules only)
+mutations:  ## plants faults one at a time in a copy and tells which no test notices; an hour (ONLY=regex: some; DRAWN=n, SEED=s: n a module by machine, MODULES=film,solver: of these; WITHIN=film,solver: tests of these modules only)
 	@scripts/setup build test
 	@validation/mutations.py --jobs $(JOBS) --only '$(ONLY)' $(if $(DRAWN),--drawn $(DRAWN)) $(if $(SEED),--seed $(SEED)) \
-	  $(if $(WITHIN),--within '$(WITHIN)')
+	  $(if $(MODULES),--modules '$(MODULES)') $(if $(WITHIN),--within '$(WITHIN)')
 
 fuzz: program  ## feeds the readers with mutated input for TIME=60, address and undefined-behaviour checks on (FILTER=regex: some; SEED=n)
 	@scripts/setup build test fuzz

@@ -1,12 +1,19 @@
 """Faults by machine: one operator, sign, constant or term of a kernel's line changed, drawn by a seed.
 
 `drawn(source, modules, count, seed)` gives as many faults as `mutations.py` plants, each in one line of the sources of `modules`; comments,
-text, preprocessor lines, checks of contracts and messages are left alone. A fault that does not compile says nothing, one whose line
-makes no difference that could be seen (the bound of an iteration, the start of a search) may survive with a reason: `EQUIVALENT`.
+text, preprocessor lines, checks of contracts and messages are left alone. What is drawn hangs on a change's own text, so that a line
+written, moved or taken out elsewhere leaves the rest of a sample as it was.
+
+A fault that does not compile says nothing. One that is drawn and stands in `EQUIVALENT` is not tried but counted by itself, with its reason, of
+which there are three kinds:
+- nothing changes: the line does the same for every input that can reach it (an allocation's size, a bound that something else keeps),
+- round-off: results change by no more than rounding does, since the line chooses between two right ways (a pivot, an order of sums),
+- cost: an iteration whose end is judged by something else arrives later or sooner, at the same answer within its tolerance. A constant whose
+  change moves answers beyond that, lets a case fail or makes an outcome say something else is no such constant, however heuristic.
 """
 
+import hashlib
 import os
-import random
 import re
 
 # What each operator does: (name, pattern, replacement of the match). Blanks around binary operators are clang-format's.
@@ -16,9 +23,14 @@ LITERAL = re.compile(r"(?<![\w.])(\d+\.\d*|\d+)(e[-+]?\d+)?(?![\w.])")
 SKIP = re.compile(r"^\s*(//|#|\*|using |namespace |static_assert|template|HERSEY_|case |extern)|HERSEY_(REQUIRE|ENSURE|ASSERT)|"
                   r"\b(require|ensure|throw|fmt::|InputError|std::string|reserve|for \(|array<|Matrix<|Eigen::Ref|constexpr int)\b")
 
-# Lines in which a change is no fault: a trial's start, the bound of an iteration. (file, part of the line): reason.
+# Changes that are no faults: (file, part of the line, part of the changed line, empty where any change of it): kind and reason.
 EQUIVALENT = {
-    ("solver/src/symmetric_factor.cpp", "icntl(7) = 5;"): "the ordering of a factor: its answers do not depend on it",
+    ("film/src/balance/flow_balance.cpp", "has_tension() || !is_given(node)) return outflow(node);", "has_tension() && "):
+        "nothing changes: nodes that are not given have, under laws with tension, neither u on an edge nor an outflow of their row; laws "
+        "without it no p < 0",
+    ("solver/src/symmetric_factor.cpp", "icntl(7) = 5;", ""): "cost: the ordering of a factor, whose answers do not depend on it",
+    ("solver/src/kinematics.cpp", "Index worst = 0;", ""): "nothing changes: where the largest stands is written there in any case",
+    ("solver/src/equilibrium.cpp", "|| mu_ > 1e30) {", "(1.5 * 1e30)"): "cost: a search that grows tenfold without success ends one step later",
 }
 
 
@@ -92,8 +104,6 @@ def of_file(file, lines):
     for k, line in enumerate(lines):
         if SKIP.search(line) or not re.search(r"[;{,)&|+\-*/]\s*(//.*)?$", line):
             continue
-        if any(file == other and part in line for other, part in EQUIVALENT):
-            continue
         before = unique_context(lines, k)
         head = "".join(lines[k - (before or 0):k])
         for operator, changed in changes(line):
@@ -101,20 +111,38 @@ def of_file(file, lines):
                 yield file, k + 1, operator, head + line, head + changed
 
 
+def why_equivalent(file, line, changed):
+    """The reason for which a change of a line is no fault, or nothing."""
+    for (other, part, new), reason in EQUIVALENT.items():
+        if file == other and part in line and new in changed:
+            return reason
+    return ""
+
+
 def drawn(source, modules, count, seed):
-    """`count` changes of each module, each operator as often as it can be: (name, file, old, new)."""
+    """`count` changes of each module, each operator as often as it can be: (name, file, old, new, why it is no fault or nothing)."""
     faults = []
     for module in modules:
         by_operator = {}
         for candidate in candidates(source, module):
             by_operator.setdefault(candidate[2], []).append(candidate)
-        rng = random.Random(f"{seed}/{module}")
         for pool in by_operator.values():
-            rng.shuffle(pool)
+            pool.sort(key=lambda candidate: lot(seed, candidate), reverse=True)
         order = sorted(by_operator)
         for k in range(count):
             pool = by_operator[order[k % len(order)]]
             if pool:
                 file, line, operator, old, new = pool.pop()
-                faults.append((f"{module}: {operator}, {os.path.basename(file)}:{line}", file, old, new))
+                name = f"{module}: {operator}, {os.path.basename(file)}:{line}"
+                faults.append((name, file, old, new, why_equivalent(file, last_line(old), last_line(new))))
     return faults
+
+
+def last_line(text):
+    return text.splitlines()[-1].strip()
+
+
+def lot(seed, candidate):
+    """Where a candidate stands in the order of a seed, by its own text alone."""
+    file, _, _, old, new = candidate
+    return hashlib.sha256("\n".join((str(seed), file, last_line(old), last_line(new))).encode()).hexdigest()

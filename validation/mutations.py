@@ -3,21 +3,24 @@
 
 Works on a copy of the sources and a build of its own below build/mutations, so that neither sources nor build of the
 user are touched. A fault is tried on the tests most likely to see it first, then on those of every module that depends
-on the one that has it, then on those of the program. All faults are real changes of behaviour: one that survives is a test
-that is missing.
+on the one that has it, then on those of the program; quick tests first. A module with a fault is compiled one source at a time. All faults are real changes of
+behaviour: one that survives is a test that is missing.
 
 Usage: mutations.py [--only REGEX] [--jobs N] [--list] [--check]     as `make mutations`
        mutations.py --drawn N [--seed SEED] [--modules A,B] ...         as `make mutations DRAWN=N SEED=...`
 exit code 0 if all faults were caught, 1 if any survives, 2 if a fault has to be re-pointed or does not compile
 --only: faults whose names match; --list: the faults, nothing else; --check: that each is found where it says
 --drawn: N faults of each module by machine (mutation_operators.py) in place of the planted ones: a comparison, sign, constant, term, bound
-or connective changed. Exit code 1 if more than 5 % of those that compile survive: some make no difference that a test could see.
+or connective changed. Exit code 1 if more than 5 % of those that compile survive. A drawn change that is no fault (EQUIVALENT) is told with its
+reason and not tried.
 --near: tests of the fault's own module only, for a first look
 --within: tests of these modules only, those of the fault's own first: a sample of all four that fits into an hour. What survives them is looked
 at, or tried again without it by --only and the same seed
 """
 
 import argparse
+import concurrent.futures
+import json
 import os
 import re
 import shutil
@@ -30,11 +33,12 @@ import mutation_operators
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 WORK = os.path.join(SOURCE, "build/mutations")
-COPY, LOG = os.path.join(WORK, "sources"), os.path.join(WORK, "log")
+COPY, LOG, COSTS = os.path.join(WORK, "sources"), os.path.join(WORK, "log"), os.path.join(WORK, "costs.json")
 BUILD = os.path.join(COPY, "build/release")  # where a clone has it: ccache knows what the user has compiled
 PROGRAM = ["results_file", "defects", "cli"]  # tests of the whole, tried last
 DRAWN_MAY_SURVIVE = 0.05  # of faults by machine
-TIME_LIMIT = 120  # s of one test: a fault may turn an iteration into an endless one
+TIME_LIMIT = 100  # s of a processor that one test may take: a fault may turn an iteration into an endless one
+QUICK = (0.2, 2)  # s of tests that are asked before those that take longer
 # Ahead of a file with a fault: what compilers say of a && b || c, or of a name that nothing asks any longer, is no verdict.
 UNWARNED = "#ifdef __clang__\n#pragma clang diagnostic ignored \"-Weverything\"\n#endif\n"
 
@@ -44,7 +48,8 @@ class Fault(NamedTuple):
     file: str    # below libs/
     old: str     # text that occurs once in it
     new: str
-    tests: str = ""  # regex of the tests tried first; of the fault's own module where empty
+    tests: str = ""  # regex of the modules, "film.", whose tests are tried first; the fault's own where empty
+    equivalent: str = ""  # why it is no fault, though drawn
 
     @property
     def module(self):
@@ -76,7 +81,7 @@ FAULTS = [
     Fault("film: dense oil is stored as light oil", "film/src/balance/node.cpp",
           "node.content = node.density * node.theta;", "node.content = node.theta;"),
     Fault("film: liner gives way to the oil only", "film/src/balance/node.cpp",
-          "node.w = C * (node.wall + node.asperity);", "node.w = C * node.wall;"),
+          "node.w = C * (pressed + node.asperity);", "node.w = C * pressed;"),
     Fault("film: side flows change places", "film/src/balance/flow_balance.h",
           "node % model_.grid.n_z == 0 ? flows.flow_left : flows.flow_right;",
           "node % model_.grid.n_z == 0 ? flows.flow_right : flows.flow_left;"),
@@ -222,34 +227,79 @@ def check_places(faults):
                       "\n".join(f"  {fault.name}\n    libs/{fault.file}: {why}" for fault, why in wrong))
 
 
-def logged(title, command):
-    """Runs a command, its output to the log too."""
-    run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-                         cwd=COPY, check=False)
+def logged(title, command, seconds=None):
+    """Runs a command, its output to the log too, each of its processes for so many seconds of a processor at most."""
+    limited = ["prlimit", f"--cpu={seconds}"] if seconds else []
+    run = subprocess.run(limited + command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+                         cwd=COPY, check=False, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})  # tests run beside each other
     with open(LOG, "a", encoding="utf-8") as log:
         log.write(f"\n==== {title}: {' '.join(command)}\n{run.stdout}")
     return run
+
+
+def program_of(module):
+    return os.path.join(BUILD, f"{module}_test")
 
 
 class Trial:
     """The copy, with one fault or none."""
 
     def __init__(self, jobs, is_near=False, within=()):
-        self.jobs, self.is_near, self.within = str(jobs), is_near, within
+        self.jobs, self.is_near, self.within, self.costs = jobs, is_near, within, {}
 
-    def configure(self):
-        run = logged("configure", ["scripts/compiler", "cmake", "--preset", "release", "-DHERSEY_UNITY=ON"])
+    def configure(self, one_by_one):
+        """Several sources are compiled as one, which ccache may know from the user's build, but for those of the modules `one_by_one`."""
+        run = logged("configure", ["scripts/compiler", "cmake", "--preset", "release", "-DHERSEY_UNITY=ON",
+                                   "-DHERSEY_UNITY_EXCEPT=" + ";".join(one_by_one)])
         if run.returncode:
             raise Trouble(f"the copy cannot be configured, see {LOG}:\n{run.stdout[-2000:]}")
 
     def build(self, title, modules):
         targets = sorted({"hersey" if module in PROGRAM else f"{module}_test" for module in modules})
-        return logged(title, ["cmake", "--build", BUILD, "-j", self.jobs, "--target", *targets])
+        return logged(title, ["cmake", "--build", BUILD, "-j", str(self.jobs), "--target", *targets])
 
-    def test(self, title, regex):
-        """The first tests that fail of those whose names match."""
-        run = logged(title, ["ctest", "--test-dir", BUILD, "-j", self.jobs, "--stop-on-failure", "--timeout",
-                             str(TIME_LIMIT), "--no-tests=error", "--output-on-failure", "-R", regex])
+    def know_costs(self, modules):
+        """Passes the tests of modules in sources without a fault, where what each takes is not known from an earlier run."""
+        if os.path.isfile(COSTS):
+            with open(COSTS, encoding="utf-8") as file:
+                self.costs = json.load(file)
+        for module in sorted(set(modules) - set(self.costs)):
+            if self.build("no fault", [module]).returncode:
+                raise Trouble(f"the copy does not compile without a fault, see {LOG}")
+            run = logged("no fault", [program_of(module), "--duration=true"])
+            if run.returncode:
+                raise Trouble(f"tests of {module} fail without a fault, see {LOG}")
+            self.costs[module] = {name: float(s) for s, name in re.findall(r"^([\d.]+) s: (\S+)$", run.stdout, re.MULTILINE)}
+            with open(COSTS, "w", encoding="utf-8") as file:
+                json.dump(self.costs, file, indent=1)
+
+    def test(self, title, module):
+        """The first tests that fail of a module's, or of those of the program: quick ones are asked first."""
+        costs = self.costs.get(module)
+        if costs is None:
+            return self.run(title, ["-R", rf"^{module}\."])
+        for low, high in zip((0, *QUICK), (*QUICK, float("inf"))):
+            names = [name for name, cost in sorted(costs.items(), key=lambda item: item[1]) if low <= cost < high]
+            parts = [names[k::self.jobs] for k in range(self.jobs)]
+            wanted = ["--test-case=" + ",".join(part) for part in parts if part]
+            if low == 0:  # and those that are new
+                wanted[:1] = ["--test-case-exclude=" + ",".join(name for name in costs if name not in parts[0])]
+            if failed := self.run_parts(title, module, wanted):
+                return failed
+        return []
+
+    def run_parts(self, title, module, wanted):
+        """The first tests that fail of some of a module's, each part in a process beside the others."""
+        with concurrent.futures.ThreadPoolExecutor(len(wanted) or 1) as pool:
+            runs = list(pool.map(lambda which: logged(title, [program_of(module), "--abort-after=1", which], TIME_LIMIT), wanted))
+        # A process that is ended from outside may not tell which.
+        found = [re.search(r"^TEST CASE: +(\S+)", run.stdout, re.MULTILINE) for run in runs if run.returncode]
+        return [f"{module}." + (one[1] if one else "*") for one in found]
+
+    def run(self, title, which):
+        """The first tests that fail."""
+        run = logged(title, ["ctest", "--test-dir", BUILD, "-j", str(self.jobs), "--stop-on-failure", "--timeout", "1500",
+                             "--no-tests=error", "--output-on-failure", *which], TIME_LIMIT)
         if "***Not Run" in run.stdout or "No tests were found" in run.stdout:
             raise Trouble(f"{title}: tests that cannot run, see {LOG}")
         failed = re.findall(r"Test +#\d+: (\S+) \.+[^*\n]*\*\*\*", run.stdout)
@@ -268,23 +318,22 @@ class Trial:
         shutil.copyfile(os.path.join(SOURCE, "libs", fault.file), os.path.join(COPY, "libs", fault.file))
 
     def verdict(self, fault, modules_above):
-        """What became of a fault: caught, survived or broken, and the tests that caught it."""
-        first = fault.tests or rf"^{fault.module}\."
+        """What became of a fault: caught, survived, broken or equivalent, and the tests that caught it or the reason."""
+        if fault.equivalent:
+            return "equivalent", [fault.equivalent]
         rest = [fault.module] if self.is_near else modules_above[fault.module] + PROGRAM
         if self.within:
             rest = [module for module in rest if module == fault.module or module in self.within]
-        likely = [module for module in rest if re.search(first, module + ".")] or rest[:1]
-        stages = {first: likely}
-        for module in rest:
-            stages.setdefault(rf"^{module}\.", [module])
+        likely = [module for module in rest if re.search(fault.tests or rf"^{fault.module}\.", module + ".")] or rest[:1]
         self.plant(fault)
         try:
-            for regex, modules in stages.items():
+            for modules in [likely] + [[module] for module in rest if module not in likely]:
                 build = self.build(fault.name, modules)
                 if build.returncode:
                     return "broken", [line for line in build.stdout.splitlines() if "error" in line][:3]
-                if failed := self.test(fault.name, regex):
-                    return "caught", failed
+                for module in modules:
+                    if failed := self.test(fault.name, module):
+                        return "caught", failed
             return "survived", []
         finally:
             self.mend(fault)
@@ -294,14 +343,15 @@ def try_all(faults, jobs, is_near=False, within=()):
     modules_above = dependents()
     trial = Trial(jobs, is_near, within)
     copy_sources()
-    trial.configure()
+    trial.configure(sorted({fault.module for fault in faults if not fault.equivalent}.union(within)))
+    trial.know_costs(sorted({fault.module for fault in faults if not fault.equivalent}))
     verdicts, catching = [], {}
     for fault in faults:
         began = time.monotonic()
         what, tests = trial.verdict(fault, modules_above)
         verdicts.append(what)
         catching.update({test: fault.name for test in tests if what == "caught"})
-        told = {"caught": "caught by " + ", ".join(tests[:2]), "survived": "SURVIVED",
+        told = {"caught": "caught by " + ", ".join(tests[:2]), "survived": "SURVIVED", "equivalent": "NO FAULT: " + "".join(tests),
                 "broken": "DOES NOT COMPILE: " + " / ".join(tests)}[what]
         print(f"{fault.name:<66} {told}  ({time.monotonic() - began:.0f} s)", flush=True)
     return verdicts, failing_anyway(trial, catching)
@@ -309,12 +359,12 @@ def try_all(faults, jobs, is_near=False, within=()):
 
 def failing_anyway(trial, catching):
     """Tests that have caught faults and fail without any."""
-    if not catching:
-        return []
     modules = sorted({test.split(".")[0] for test in catching})
+    if not modules:
+        return []
     if trial.build("no fault", modules).returncode:
         raise Trouble(f"the copy does not compile without a fault, see {LOG}")
-    return trial.test("no fault", "^(" + "|".join(re.escape(test) for test in catching) + ")$")
+    return trial.run("no fault", ["-R", "^(" + "|".join(re.escape(test).replace(r"\*", ".*") for test in catching) + ")$"])
 
 
 def try_drawn(options):
@@ -322,9 +372,9 @@ def try_drawn(options):
     seed = options.seed or str(int(time.time()))
     print(f"seed {seed}", flush=True)
     drawn = mutation_operators.drawn(SOURCE, options.modules.split(","), options.drawn, seed)
-    faults = [fault for fault in (Fault(*one) for one in drawn) if re.search(options.only, fault.name)]
+    faults = [Fault(name, file, old, new, "", why) for name, file, old, new, why in drawn if re.search(options.only, name)]
     for fault in faults if options.list else ():
-        print(f"{fault.name}\n    {fault.old.splitlines()[-1].strip()}\n    {fault.new.splitlines()[-1].strip()}")
+        tell_change(fault)
     if options.list or not faults:
         return 0 if faults else 2
     try:
@@ -334,15 +384,34 @@ def try_drawn(options):
     except Trouble as trouble:
         print(f"mutations: {trouble}", file=sys.stderr)
         return 2
-    compiled, survived = len(verdicts) - verdicts.count("broken"), verdicts.count("survived")
-    print(f"{verdicts.count('caught')} of {compiled} caught that compile, {100 * survived / max(compiled, 1):.0f} % survive")
     for fault, verdict in zip(faults, verdicts):
         if verdict == "survived":
-            print(f"{fault.name}\n    {fault.old.splitlines()[-1].strip()}\n    {fault.new.splitlines()[-1].strip()}")
+            tell_change(fault)
+    tell_counts(faults, verdicts)
     if anyway:
         print("these fail without any fault: " + ", ".join(anyway))
         return 2
-    return 1 if survived > DRAWN_MAY_SURVIVE * compiled else 0
+    return 1 if verdicts.count("survived") > DRAWN_MAY_SURVIVE * tried(verdicts) else 0
+
+
+def tell_change(fault):
+    print("\n    ".join((fault.name, mutation_operators.last_line(fault.old), mutation_operators.last_line(fault.new))))
+
+
+def tried(verdicts):
+    """How many faults the tests were asked about."""
+    return verdicts.count("caught") + verdicts.count("survived")
+
+
+def tell_counts(faults, verdicts):
+    """A table of what became of the faults of each module."""
+    print("\n| module | drawn | do not compile | equivalent | tried | caught | survive |\n|---|---|---|---|---|---|---|")
+    modules = list(dict.fromkeys(fault.module for fault in faults))
+    for module in modules + ["all"] * (len(modules) > 1):
+        of = [verdict for fault, verdict in zip(faults, verdicts) if module in (fault.module, "all")]
+        counts = (len(of), of.count("broken"), of.count("equivalent"), tried(of), of.count("caught"), of.count("survived"))
+        print(f"| {module} | " + " | ".join(str(count) for count in counts) + " |")
+    print(f"{100 * verdicts.count('survived') / max(tried(verdicts), 1):.1f} % of those tried survive")
 
 
 def main():

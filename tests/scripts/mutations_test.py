@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 SOURCE = os.path.abspath(sys.argv.pop(1))
@@ -40,10 +41,54 @@ class Mutations(unittest.TestCase):
         drawn = operators.drawn(SOURCE, ["solver"], 12, "1")
         self.assertEqual(drawn, operators.drawn(SOURCE, ["solver"], 12, "1"))
         self.assertEqual(len(drawn), 12)
-        for _, file, old, new in drawn:
+        for _, file, old, new, _ in drawn:
             with open(os.path.join(SOURCE, "libs", file), encoding="utf-8") as source:
                 self.assertEqual(source.read().count(old), 1)
             self.assertNotEqual(old, new)
+
+    def test_a_sample_stays_as_it_is_where_other_lines_come_and_go(self):
+        lines = [f"  x = a{k} + b{k};\n" for k in range(9)]
+        with tempfile.TemporaryDirectory() as folder:
+            def drawn_of(of):
+                os.makedirs(os.path.join(folder, "libs/film/src"), exist_ok=True)
+                with open(os.path.join(folder, "libs/film/src/x.cpp"), "w", encoding="utf-8") as file:
+                    file.writelines(of)
+                return [fault[3] for fault in operators.drawn(folder, ["film"], 4, "7")]
+            first = drawn_of(lines)
+            others = [line for line in lines if not any(line[:8] == new[:8] for new in first)]
+            self.assertEqual(drawn_of(["  y();\n"] + [line for line in lines if line != others[0]]), first)
+
+    def test_changes_that_are_no_faults_are_counted_and_not_tried(self):
+        for (file, part, new), reason in operators.EQUIVALENT.items():
+            self.assertEqual(operators.why_equivalent(file, f"  {part}", f"  x {new};"), reason)
+            if new:
+                self.assertEqual(operators.why_equivalent(file, f"  {part}", "  another change;"), "")
+        self.assertEqual(operators.why_equivalent(file, "  x = a;", "x = b;"), "")
+        fault = mutations.Fault("solver: x", file, part, "", "", reason)
+        self.assertEqual(mutations.Trial(1).verdict(fault, {}), ("equivalent", [reason]))
+
+    def test_each_change_that_is_no_fault_has_its_line_and_its_kind(self):
+        for (file, part, _), reason in operators.EQUIVALENT.items():
+            with open(os.path.join(SOURCE, "libs", file), encoding="utf-8") as source:
+                self.assertIn(part, source.read(), file)
+            self.assertRegex(reason, "^(nothing changes|round-off|cost): ")
+
+    def test_each_planted_fault_is_found_where_it_says(self):
+        mutations.check_places(mutations.FAULTS)
+
+    def test_quick_tests_and_new_ones_are_asked_first(self):
+        class Stub(mutations.Trial):
+            asked = []
+
+            def run_parts(self, _, __, wanted):
+                self.asked = self.asked + wanted
+                return []
+
+        trial = Stub(2)
+        trial.costs = {"film": {"slow": 60.0, "a": 0.01, "b": 0.02, "slower": 90.0, "middling": 1.0}}
+        self.assertEqual(trial.test("x", "film"), [])
+        self.assertEqual(trial.asked, ["--test-case-exclude=slow,b,slower,middling", "--test-case=b", "--test-case=middling",
+                                       "--test-case=slow", "--test-case=slower"])
 
     def test_only_the_tests_of_the_modules_asked_for_are_built(self):
         class Stub(mutations.Trial):

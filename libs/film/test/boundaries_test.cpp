@@ -60,6 +60,11 @@ TEST_CASE("Features_OverlapWhereAPlaceIsInBoth") {
   hole.phi = 1.31;
   CHECK(!overlap(groove, hole));
   CHECK(!overlap(hole, groove));
+  // So thin a strip that places spread over either of them miss it.
+  const SurfaceFeature beside{.phi = 1, .z = 5.99e-3, .arc = 0.4, .length = 2e-3};
+  CHECK(overlap(groove, beside));
+  CHECK(overlap(beside, groove));
+  CHECK(!overlap(groove, {.phi = 1, .z = 6.01e-3, .arc = 0.4, .length = 2e-3}));
   // The box around an ellipse reaches into the groove's corner, the ellipse does not: (0.9 of a half extent)^2 twice.
   hole.phi = 1.29, hole.z = 5.9e-3;
   CHECK(!overlap(groove, hole));

@@ -124,6 +124,40 @@ TEST_CASE("FixedNode_IsATemperature") {
   CHECK(by_node.network.observables().to_fixed > 0);
 }
 
+// What the drain takes up by its own temperature is exact in the mean, the film does not know of it; and where oil does
+// not thin, a rise of all temperatures changes no heat.
+TEST_CASE("MeanAnswerToNodes_IsThatOfTheirHeat") {
+  FilmModel model = bearing();
+  model.features[0].pressure = 3e6;  // that no oil goes back into the hole, which the mean counts as drained
+  std::get<ExponentialViscosity>(model.lubricant.temperature_law).beta = 0;
+  for (const bool has_block : {true, false}) {
+    CAPTURE(has_block);
+    ThermalModel thermal = with_sump();
+    thermal.walls = WallMotion::held;
+    if (!has_block) {  // the drain is the only node
+      std::get<RingWall>(thermal.shell).surroundings = std::nullopt;
+      thermal.oil = {.drain = thermal.oil.drain};
+    }
+    const FilmTerminals at = terminals_of(thermal);
+    REQUIRE(at.outside() == (has_block ? 3 : 1));
+    const Eigen::Index drain = 2 + at.place_of_drain();
+    const auto mean_over_a_cycle = [&](double rise) {
+      FilmOverTime film(model, thermal, loaded);
+      HeatState begin = film.heat.state();
+      begin.outside[drain - 2] += rise;
+      film.heat.set_state(begin);
+      for (int k = 0; k < 5; ++k) film.advance(0.1);
+      return film.heat.mean_exchange();
+    };
+    const WallExchange seen = mean_over_a_cycle(0), other = mean_over_a_cycle(10);
+    const double scale = seen.by_T.cwiseAbs().maxCoeff();
+    CHECK(scale > 1);  // W/K, of a flow of some grams per second
+    CHECK((other.heat - seen.heat - 10 * seen.by_T.col(drain)).norm() < 1e-10 * seen.heat.norm());  // round-off
+    // W/K; of the film's storage the mean keeps a millionth.
+    if (has_block) CHECK(seen.by_T.rowwise().sum().norm() < 1e-5 * scale);
+  }
+}
+
 // Nodes over cycles settle where those of a film at rest end, and a checkpoint keeps every bit on the way.
 TEST_CASE("NodesOfOil_SettleOverCycles") {
   const FilmModel model = bearing();

@@ -8,6 +8,7 @@
 #include "balance/flow_balance.h"
 #include "film_cases.h"
 #include "gap/gap_interpolation.h"
+#include "gap/thinnest_film.h"
 #include "relative.h"
 
 // Depth of features: volume, flow over their steps, and what the film beside them feels.
@@ -180,10 +181,35 @@ TEST_CASE("SmallestFilmInTheMiddle_IsThatOfItsOwnRow") {
 TEST_CASE("SmallestFilm_OfAGrooveOverAllOfTheBearing_IsThatOfTheGroove") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}};
   m.features = {{.name = "groove", .arc = 2 * pi, .length = 0.02, .pressure = 1e6, .depth = 1e-4}};
-  const FilmObservables o = solve_cold(m, turning(m, 0.5, 100)).observed;
-  CHECK(o.h_min == doctest::Approx(115e-6));
-  CHECK(o.h_min_phi == doctest::Approx(pi));
-  CHECK(o.h_min_features == o.h_min);
+  for (const double phi : {pi, 0.0}) {
+    const FilmObservables o = solve_cold(m, {.e = {15e-6 * std::cos(phi), 0}, .omega_journal = 100}).observed;
+    CHECK(o.h_min == doctest::Approx(115e-6));
+    CHECK(std::abs(o.h_min_phi) == doctest::Approx(phi));
+    CHECK(o.h_min_features == o.h_min);
+  }
+}
+
+TEST_CASE("PlaceOfTheSmallestFilm_IsToldWithinATurn") {
+  const FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}, .cavitation = Cavitation::guembel};
+  for (const double phi : {2 * pi - 0.03, 0.03, 2.0, 5.0}) {
+    CAPTURE(phi);
+    const Journal journal{.e = {15e-6 * std::cos(phi), 15e-6 * std::sin(phi)}, .omega_journal = 100};
+    // Between nodes of 6 degrees: a parabola's error.
+    CHECK(solve_cold(m, journal).observed.h_min_phi == doctest::Approx(phi).epsilon(1e-3));
+  }
+}
+
+// Beside a groove there are nodes for one parabola only, and it may dip below nothing.
+TEST_CASE("SmallestFilmBesideAGroove_IsNotNegative") {
+  FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}};
+  m.features = {{.name = "groove", .phi = 0.4 * pi, .arc = 0.05, .length = 0.02, .pressure = 1e6, .depth = 1e-4}};
+  Eigen::VectorXd h = Eigen::VectorXd::Constant(m.grid.size(), 1e-4);
+  h.segment(m.grid.index(9, 0), 5).setConstant(1e-3);
+  h.segment(m.grid.index(10, 0), 5).setConstant(1e-5);
+  h.segment(m.grid.index(11, 0), 5).setConstant(1.1e-5);  // the groove covers the next line
+  const Thinnest found = thinnest_film(m, GridGeometry(m), h, 0);
+  CHECK(found.value == 1e-5);
+  CHECK(found.in_the_middle == 1e-5);
 }
 
 // Rate and wedge of a gap that travels around the bearing are the same oil: exactly, on any grid.

@@ -36,15 +36,14 @@ MatrixXd normalised_rows(const MatrixXd& G) {
 /// 1/sqrt(M_kk): coordinates of unit inertia. Those without inertia get the largest of the others' scales.
 VectorXd inertia_scales(const MatrixXd& M) {
   const VectorXd diagonal = M.diagonal();
-  const double largest = diagonal.size() > 0 ? diagonal.maxCoeff() : 0;
   VectorXd s = VectorXd::Ones(M.rows());
-  double largest_scale = largest > 0 ? 0 : 1;
+  double largest_scale = 0;
   for (Index k = 0; k < s.size(); ++k) {
     if (!(diagonal[k] > 0)) continue;
     s[k] = 1 / std::sqrt(diagonal[k]);
     largest_scale = std::max(largest_scale, s[k]);
   }
-  for (Index k = 0; k < s.size(); ++k)
+  for (Index k = 0; k < s.size() && largest_scale > 0; ++k)
     if (!(diagonal[k] > 0)) s[k] = largest_scale;
   return s;
 }

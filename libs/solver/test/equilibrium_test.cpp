@@ -90,6 +90,20 @@ TEST_CASE("Equilibrium_OfSpringsThatHardenAndSoften") {
   CHECK(std::abs(far.q[0] - 1) < solved);
 }
 
+// Forces far below those that a row compares (1 N here) settle within its tolerance at some hundredths of a metre.
+TEST_CASE("Equilibrium_OfForcesBelowTheToleranceOfTheirRow_IsSolvedAsWell") {
+  constexpr double small = 2e-9;
+  test::OneCoordinate soft;
+  soft.force = [](double q, double, double) { return small * (std::pow(q, 9) - 1); };
+  soft.force_dq = [](double q, double, double) { return 9 * small * std::pow(q, 8); };
+  for (const double start : {1.003, 1.005, 1.05, 1.1, 1.2, 1.3, 1.5, 2.0}) {
+    CAPTURE(start);
+    State state = soft.at(start, 0);
+    REQUIRE(find_equilibrium(soft, state).solved());
+    CHECK(std::abs(state.q[0] - 1) < solved);
+  }
+}
+
 TEST_CASE("NoEquilibrium_IsToldAndLeavesTheStateAlone") {
   test::OneCoordinate pushed = with_force(2, 0);
   State state = pushed.at(0.7, 0);

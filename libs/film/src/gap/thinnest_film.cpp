@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "gap/feature_cover.h"
 #include "hersey/core/turn.h"
 
 namespace hersey::film {

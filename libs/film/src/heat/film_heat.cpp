@@ -267,8 +267,7 @@ Eigen::VectorXd FilmHeat::journal_growth_in_time() const {
 
 Eigen::VectorXd FilmHeat::journal_body_temperatures() const {
   const JournalConduction* journal = conduction_of(impl_->thermal.journal);
-  return journal == nullptr || journal->T_body0.size() == 0 ? Eigen::VectorXd()
-                                                            : journal->body(impl_->state.journal_heat);
+  return journal == nullptr ? Eigen::VectorXd() : journal->body(impl_->state.journal_heat);
 }
 
 Eigen::VectorXd FilmHeat::body_temperatures() const {

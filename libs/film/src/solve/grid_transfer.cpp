@@ -19,7 +19,7 @@ Grid half_of(const Grid& grid) {
 
 bool can_be_coarsened(const Grid& grid) { return grid.closes() && half_of(grid).n_phi >= fewest_around; }
 
-GridTransfer::GridTransfer(const Grid& from, const Grid& to) : n_z_(from.n_z) {
+GridTransfer::GridTransfer(const Grid& from, const Grid& to) : GridTransfer(from) {
   HERSEY_REQUIRE(from.closes() && to.closes(), "between rings");
   around_.reserve(static_cast<std::size_t>(to.n_phi));
   along_.reserve(static_cast<std::size_t>(to.n_z));
@@ -37,7 +37,7 @@ GridTransfer::GridTransfer(const Grid& from, const Grid& to) : n_z_(from.n_z) {
 
 GridTransfer GridTransfer::by_place(const Grid& from, const Grid& to) {
   HERSEY_REQUIRE(from.closes() && to.closes(), "between rings");
-  GridTransfer transfer(from.n_z);
+  GridTransfer transfer(from);
   const auto phi = [&](int k) { return from.phi(k % from.n_phi) + (k < from.n_phi ? 0 : turn); };
   for (int i = 0; i < to.n_phi; ++i) {
     const double at = to.phi(i) < phi(0) ? to.phi(i) + turn : to.phi(i);
@@ -55,6 +55,8 @@ GridTransfer GridTransfer::by_place(const Grid& from, const Grid& to) {
 }
 
 Eigen::VectorXd GridTransfer::operator()(const Eigen::VectorXd& field, int per_node) const {
+  HERSEY_REQUIRE(field.size() == static_cast<Eigen::Index>(n_phi_) * n_z_ * per_node,
+                 "a field of the grid it is taken from");
   Eigen::VectorXd result(static_cast<Eigen::Index>(around_.size() * along_.size()) * per_node);
   Eigen::Index place = 0;
   for (const Between& i : around_) {
@@ -77,8 +79,14 @@ Eigen::MatrixXd GridTransfer::between(const std::vector<Between>& places, const 
   return result;
 }
 
-Eigen::MatrixXd GridTransfer::around(const Eigen::MatrixXd& values) const { return between(around_, values); }
+Eigen::MatrixXd GridTransfer::around(const Eigen::MatrixXd& values) const {
+  HERSEY_REQUIRE(values.rows() == n_phi_, "one row for each angle of the grid it is taken from");
+  return between(around_, values);
+}
 
-Eigen::MatrixXd GridTransfer::along(const Eigen::MatrixXd& values) const { return between(along_, values); }
+Eigen::MatrixXd GridTransfer::along(const Eigen::MatrixXd& values) const {
+  HERSEY_REQUIRE(values.rows() == n_z_, "one row for each place along the axis of the grid it is taken from");
+  return between(along_, values);
+}
 
 }  // namespace hersey::film

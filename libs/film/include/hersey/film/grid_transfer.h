@@ -34,10 +34,10 @@ class GridTransfer {
     int first = 0, second = 0;
     double share = 0;  ///< of the second
   };
-  explicit GridTransfer(int n_z) : n_z_(n_z) {}
+  explicit GridTransfer(const Grid& from) : n_phi_(from.n_phi), n_z_(from.n_z) {}
   [[nodiscard]] static Eigen::MatrixXd between(const std::vector<Between>& places, const Eigen::MatrixXd& values);
 
-  int n_z_;
+  int n_phi_, n_z_;  // of the grid that fields are taken from
   std::vector<Between> around_, along_;
 };
 
