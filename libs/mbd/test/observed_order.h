@@ -33,8 +33,9 @@ class Errors {
 
 /// Every figure has the order `expected`, from both sides: on three grids, each `ratio` times as fine as the one
 /// before, between the last two. What the next order leaves is halved with the grid; `margin` is what may be left here.
-/// A figure that is met on every grid has none.
-inline void check_orders(const std::vector<Errors>& on, double expected, double margin, double ratio = 2) {
+/// A figure that is met on every grid has none. Where `main` names one, the others may be better.
+inline void check_orders(const std::vector<Errors>& on, double expected, double margin, double ratio = 2,
+                         const std::string& main = "") {
   REQUIRE(on.size() == 3);
   constexpr double exact = 1e-12;  // round-off of numbers of size one
   const auto coarse = on[0].figures(), middle = on[1].figures(), last = on[2].figures();
@@ -43,7 +44,8 @@ inline void check_orders(const std::vector<Errors>& on, double expected, double 
     const std::string what = figure;  // clang 14 captures no structured binding
     MESSAGE(what, ": ", coarse.at(what), ", ", middle.at(what), ", ", fine, ", order ", order);
     const bool is_met = std::max({coarse.at(what), middle.at(what), fine}) < exact;
-    CHECK_MESSAGE((is_met || std::abs(order - expected) < margin), what);
+    const bool may_be_better = !main.empty() && what != main;
+    CHECK_MESSAGE((is_met || std::abs(order - expected) < margin || (may_be_better && order > expected)), what);
   }
 }
 
