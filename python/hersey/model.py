@@ -13,7 +13,7 @@ from . import _core
 from .bearing import BearingSolution, solved
 from .errors import Fault, InputError, Stopped
 from .functions import Function
-from .overrides import assignments, give_units, has_numbers, listed, plain, value_of, with_unit, yaml_of
+from .overrides import assignments, give_study_units, give_units, has_numbers, listed, plain, value_of, with_unit, yaml_of
 from .words import did_you_mean
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -69,6 +69,8 @@ class Model:
         def text() -> str:
             return json.dumps(values[""], indent=2, ensure_ascii=False)
 
+        parameters = values[""].get("parameters")
+        give_study_units(values, lambda name, items: _in_unit_of(_path_among(parameters, name), items, text(), file, []))
         try:
             checked = _in_si(lambda: _core.read_text(text(), file, []), values, lambda: _core.bare_numbers(text(), file, []))
         except InputError as error:
@@ -195,7 +197,7 @@ class Model:
 
     def _path(self, path: str) -> str:
         """A parameter's name stands for its value, as with --set."""
-        return f"parameters.{path}" if path in self._parameters() else path
+        return _path_among(self._parameters(), path)
 
     def _parameters(self) -> dict[str, Any]:
         """Those of the file."""
@@ -207,6 +209,7 @@ class Model:
             return self._checked
         kept = [change for change in self._checked.overrides if change.partition("=")[0] not in values]
         given = {path: plain(value) for path, value in values.items()}
+        give_study_units(given, lambda name, items: _in_unit_of(self._path(name), items, self.text, self.file, kept))
         return _in_si(lambda: self._read(kept + assignments(given)), given,
                       lambda: _core.bare_numbers(self.text, self.file, kept + assignments(given)))
 
@@ -276,6 +279,7 @@ class Model:
         name = self._bearing_called(name)
         lists = {given: listed(items) for given, items in values.items()}
         if not all(lists.values()):
+            self._require_names(name, lists)
             return sweep(lists, [], _core.figure_keys())
         try:
             base, lists, combinations = self._combinations(name, lists)
@@ -289,6 +293,15 @@ class Model:
         if raised is not None:
             raise raised
         return results
+
+    def _require_names(self, name: str, names: Iterable[str]) -> None:
+        """That each of `names` is one of the bearing's, of which a list without values says nothing else."""
+        for given in names:
+            try:
+                self._with(self._keys(name, {given: "?"}))  # of what kind a value has to be does not matter here
+            except InputError as error:
+                if any(_is_unknown(fault, given) for fault in error.faults):
+                    raise self._told(self._hinting(error, [given])) from None
 
     def _combinations(self, name: str, lists: Mapping[str, list[Any]]):
         """The model at the first values, the lists with units, and of each combination label, changes, and texts."""
@@ -307,16 +320,9 @@ class Model:
         return base, united, combinations
 
     def _with_units(self, path: str, items: list[Any], others: Mapping[str, Any]) -> list[Any]:
-        """Items with the SI unit of `path` behind bare numbers, which the first that is not 0 tells: a 0 needs none."""
-        numbers = [item for item in items if has_numbers(item) and item != 0]
-        if not numbers:
-            return items
+        """Items with the SI unit of `path` behind bare numbers, where `others` are changed as well."""
         kept = [change for change in self.changes if change.partition("=")[0] not in others]
-        given = {path: numbers[0]}
-        if not give_units(given, _core.bare_numbers(self.text, self.file, kept + assignments({**others, **given}))):
-            return items
-        unit = given[path].split(" ", 1)[1]
-        return [with_unit(item, unit) if has_numbers(item) else item for item in items]
+        return _in_unit_of(path, items, self.text, self.file, kept + assignments(others))
 
     def _hinting(self, error: InputError, names: Iterable[str]) -> InputError:
         """With the nearest name for what is no key of the bearing: of parameters, of its operating point, of options."""
@@ -324,7 +330,7 @@ class Model:
 
         def hint(fault: Fault) -> str:
             for key in names:
-                if fault.found == f"unknown key '{key}'" or fault.found.endswith(f".{key}'"):
+                if _is_unknown(fault, key):
                     return did_you_mean(key, known)
             return ""
 
@@ -408,6 +414,28 @@ _POINT = ("journal_speed", "shell_speed", "load", "load_angle", "eccentricity_ra
 def _require_coefficients(name: str) -> None:
     if name not in ("frozen", "total"):
         raise InputError(f"thermal_coefficients: {name!r}: expected 'frozen' or 'total'")
+
+
+def _is_unknown(fault: Fault, key: str) -> bool:
+    """Whether there is no such key."""
+    return fault.found == f"unknown key '{key}'" or fault.found.endswith(f".{key}'")
+
+
+def _path_among(parameters: Any, name: str) -> str:
+    """A parameter's name stands for its value."""
+    return f"parameters.{name}" if isinstance(parameters, Mapping) and name in parameters else name
+
+
+def _in_unit_of(path: str, items: list[Any], text: str, file: str, changes: list[str]) -> list[Any]:
+    """Items with the SI unit of `path` behind bare numbers, which the first that is not 0 tells: a 0 needs none."""
+    numbers = [item for item in items if has_numbers(item) and item != 0]
+    if not numbers:
+        return items
+    given = {path: numbers[0]}
+    if not give_units(given, _core.bare_numbers(text, file, changes + assignments(given))):
+        return items
+    unit = given[path].split(" ", 1)[1]
+    return [with_unit(item, unit) if has_numbers(item) else item for item in items]
 
 
 def _in_si(read: Callable[[], Any], values: dict[str, Any], bare: Callable[[], Any]) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from typing import Any, Iterable, Mapping
+from typing import Any, Callable, Iterable, Iterator, Mapping
 
 import numpy as np
 
@@ -87,6 +87,35 @@ def give_units(values: dict[str, Any], bare: Iterable[tuple[str, str, str]]) -> 
         for root in values:
             given = any(_give_unit(values, root, name, unit) for name in wanted) or given
     return given
+
+
+def give_study_units(values: dict[str, Any], united: Callable[[str, list[Any]], list[Any]]) -> None:
+    """Gives bare numbers among a study's lists in `values` (key path: plain value) their units, in place.
+
+    `united` tells items of a parameter with them.
+
+    >>> values = {"study": {"parameters": {"load": [500, "2 kN"], "speed": ["50 Hz"]}}}
+    >>> give_study_units(values, lambda name, items: [with_unit(item, "N") if has_numbers(item) else item for item in items])
+    >>> values
+    {'study': {'parameters': {'load': ['500 N', '2 kN'], 'speed': ['50 Hz']}}}
+    """
+    for holder, key, name in [*_of_study(values)]:
+        if isinstance(holder[key], list) and has_numbers(holder[key]):
+            holder[key] = united(name, holder[key])
+
+
+def _of_study(values: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str, str]]:
+    """Where the values of a study's parameters stand, and the names of these."""
+    prefix, ways = "study.parameters.", {"": ("study", "parameters"), "study": ("parameters",), "study.parameters": ()}
+    for root, value in values.items():
+        if root.startswith(prefix):
+            yield values, root, root.removeprefix(prefix)
+        if root not in ways:
+            continue
+        for part in ways[root]:
+            value = value.get(part) if isinstance(value, dict) else None
+        if isinstance(value, dict):
+            yield from ((value, name, name) for name in value)
 
 
 def _give_unit(values: dict[str, Any], root: str, path: str, unit: str) -> bool:

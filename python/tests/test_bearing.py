@@ -153,6 +153,14 @@ def test_sweeps_without_points_are_empty(alone):
     assert alone.sweep(grid_error=False)["h_min"].shape == ()
 
 
+def test_a_sweep_over_a_name_that_is_none_says_so_with_or_without_values(alone):
+    for values in ([], ["40 um"]):
+        for other in ({}, {"load": []}):
+            with pytest.raises(hersey.InputError, match="unknown key 'clearence'; did you mean 'clearance'"):
+                alone.sweep(**other, clearence=values)
+    assert alone.sweep(grid=[])["h_min"].shape == (0,)  # a name, of whatever kind its values would be
+
+
 def test_ctrl_c_ends_a_sweep_between_points_with_those_that_are_done(tmp_path):
     """A process of its own, interrupted while it solves; some points are done by then, and far from all."""
     script = tmp_path / "sweep.py"

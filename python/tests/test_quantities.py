@@ -67,6 +67,21 @@ def test_arrays_are_swept_in_si(alone):
     assert by_numbers["load"].attrs["units"] == "N" and by_numbers["clearance"].values.tolist() == [30, 40]
 
 
+def test_lists_of_a_study_take_what_a_text_with_a_unit_stands_for(alone):
+    texts = {**alone.to_dict(), "study": {"parameters": {"load": ["500 N", "700 N"], "bearings.main.width": ["20 mm"]}}}
+    texts["bearings"]["main"]["operating_point"]["load"] = "${load}"
+    by_texts = [run.bearing(grid_error=False)["h_min"] for run in hersey.Model.from_dict(texts).runs()]
+    assert by_texts[0] != by_texts[1]
+    for loads in ([500, 700.0], np.array([500, 700]), ([0.5, 0.7], "kN"), [(0.5, "kN"), 700]):
+        given = {**texts, "study": {"parameters": {"load": loads, "bearings.main.width": [0.02]}}}
+        model = hersey.Model.from_dict(given)
+        assert not any(str(value).replace(".", "").isdigit() for value in model.study["load"])
+        for study in ({"study": given["study"]}, {"study.parameters": given["study"]["parameters"]}, {"study.parameters.load": loads}):
+            assert model.copy().set(study).study == model.study
+        # Values differ in their last bits, which the solver's tolerance of 1e-8 of the load may carry on.
+        assert [run.bearing(grid_error=False)["h_min"] for run in model.runs()] == pytest.approx(by_texts, rel=1e-6)
+
+
 def test_a_dictionary_takes_numbers_in_every_place(machine):
     machine["gravity"] = np.array([0, -9.81, 0])
     machine["parameters"]["load"] = 500

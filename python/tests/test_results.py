@@ -1,8 +1,10 @@
 """Results as xarray and pandas, lazily, with everything named."""
 
 import copy
+import json
 import pickle
 import shutil
+import subprocess
 
 import h5py
 import numpy as np
@@ -165,3 +167,36 @@ def test_nearest_names_of_groups(results):
 def test_results_pickle(results):
     again = pickle.loads(pickle.dumps(results))
     assert again.path == results.path and dict(again.summary) == dict(results.summary)
+
+
+def test_every_number_of_a_run_from_python_is_the_program_s(machine, program, tmp_path):
+    file = tmp_path / "model.yaml"
+    file.write_text(json.dumps({"hersey": 1, **machine}), encoding="utf-8")  # JSON is YAML
+    results = hersey.Model.load(file).run(tmp_path / "by_python")
+    run = subprocess.run([program, "run", file, "--output", tmp_path / "by_program", "--json"], capture_output=True, text=True, check=True)
+    told = json.loads(run.stdout)
+    compared = set()
+    with h5py.File(tmp_path / "by_program" / "results.h5") as written:
+        for group in ["/", *results.groups]:
+            data = results[group].load()
+            for name, variable in {**data.data_vars, **data.coords}.items():
+                stored = written[group].get(name)
+                if isinstance(stored, h5py.Dataset) and stored.dtype.kind in "fi":
+                    compared.add(stored.name)
+                    assert np.array_equal(variable.values, stored[()], equal_nan=True), stored.name
+        every = set()
+
+        def visit(path, item):
+            if isinstance(item, h5py.Dataset) and item.dtype.kind == "f":
+                every.add("/" + path)
+
+        written.visititems(visit)
+        assert len(every) > 100 and every <= compared, sorted(every - compared)
+    for key, value in told["runs"][0].items():
+        if key in results.summary and key not in ("wall_time", "work", "results"):  # times and places
+            assert value == results.summary[key], key
+    table = results.table()
+    shown = [(*row.Index, row.value) for row in table.itertuples()]
+    for figure in told["summary"]:
+        if figure["group"] != "computing" and isinstance(figure["value"], float):  # computing: times of this machine
+            assert (figure["group"], figure["name"], figure["value"]) in shown

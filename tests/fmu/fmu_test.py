@@ -65,6 +65,17 @@ def run(*words, expect=0):
     return done.stdout + done.stderr
 
 
+def column_of(file, name):
+    """What a results file has under the name of an FMU's output: `a.b.c`, a component by its label or place: `a.b.x`, `a.b[3]`."""
+    name, _, place = name.rstrip("]").partition("[")
+    path = name.replace(".", "/")
+    if path in file:
+        return file[path][:, int(place) - 1] if place else file[path][:]
+    path, _, label = path.rpartition("/")
+    labels = [text.decode() for text in file[path].dims[1][0][:]]
+    return file[path][:, labels.index(label)]
+
+
 class Fmu:
     """An unpacked FMU: description and library."""
 
@@ -218,6 +229,27 @@ class Cases:
         one.must("Terminate")
         self.assertEqual(one.get(H_MIN), rows[-1])
         one.free()
+
+    def test_every_output_is_that_of_the_results_file(self):
+        out = tempfile.mkdtemp(dir=self.folder)
+        run("run", self.model, "--output", out, "--force")
+        outputs = [name for name, variable in self.fmu.variables.items() if variable.get("causality") == "output"]
+        self.assertGreater(len(outputs), 150)
+        with h5py.File(os.path.join(out, "results.h5")) as file:
+            columns = {name: column_of(file, name) for name in outputs}
+        for steps in (1, 4):  # of the solver in one communication step
+            one = Instance(self.fmu).initialise()
+            for row in range(0, 41, steps):
+                if row > 0:
+                    self.assertEqual(one.step((row - steps) * STEP, steps * STEP), OK, one.log)
+                status, values = one.access("Get", outputs, [0] * len(outputs))
+                self.assertEqual(status, OK, one.log)
+                # As precise as the file has them: fields in single precision.
+                told = {name: columns[name].dtype.type(value) for name, value in zip(outputs, values)}
+                apart = {name: (value, columns[name][row]) for name, value in told.items()
+                         if not np.array_equal(value, columns[name][row], equal_nan=True)}
+                self.assertEqual(apart, {}, f"FMU, results file at row {row} by {steps}")
+            one.free()
 
     def test_parameters_change_the_machine(self):
         one = Instance(self.fmu).initialise(parameters={CLEARANCE: 40e-6, "parameters.load": 700})

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""One number in every output: figures of `hersey bearing` as JSON and CSV; figures of a run as JSON, in the printed table and in the report;
+"""One number in every output: figures of `hersey bearing` as JSON, as CSV and printed; figures of a run as JSON, in the printed table and in the report;
 rows of the results file and of the report.
 
     outputs_test.py HERSEY [Class.test_name]
@@ -38,6 +38,8 @@ SI = {"": 1, "rpm": math.pi / 30, "deg": math.pi / 180, "°": math.pi / 180, "um
 OF_TABLE, OF_CSV = 0.6e-4, 1e-9
 
 LINE = re.compile(r"  (\S.*?) {2,}(-?\d\S*)(?:  (\S+))?(?: {2,}.*)?$")
+
+FIGURE = re.compile(r"  +(\S.*?) {2,}(-?\d[\d.e+-]*)(?:  (\S+))?(?: {2,}.*)?$")  # of a bearing by itself: what belongs to another is indented
 
 
 def report_of(path):
@@ -99,6 +101,26 @@ class Outputs(unittest.TestCase):
                 if isinstance(value, float) and text and unit != "degC":
                     with self.subTest(f"{name} {key}"):
                         self.assertLessEqual(abs(in_si(text, unit) - value), OF_CSV * abs(value) + 1e-300)
+
+    def test_a_bearings_printed_table_has_the_numbers_of_its_json(self):
+        for name in ("PLAIN", "FULL", "HOT", "GLOBAL"):
+            model = trees.write(trees.load(getattr(models, name)), self.folder)
+            words = [HERSEY, "bearing", model, "--no-grid-error", "--jobs", "1"]
+            printed = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+            document = json.loads(subprocess.run([*words, "--json"], capture_output=True, text=True, check=True).stdout)
+            figures = [f for f in document["solutions"][0]["figures"].values() if isinstance(f["value"], float)]
+            told = [(match[1], in_si(match[2], match[3])) for match in map(FIGURE.match, printed.splitlines()) if match]
+            self.assertGreater(len(told), 30)
+
+            def is_same(figure, line):
+                return figure["name"].strip() == line[0] and abs(line[1] - figure["value"]) <= OF_TABLE * abs(figure["value"])
+
+            for figure in figures:
+                with self.subTest(f"{name} {figure['name']}"):
+                    self.assertTrue(any(is_same(figure, line) for line in told), f"{figure['value']} {figure['unit']}")
+            for line in told:
+                with self.subTest(f"{name} printed {line[0]}"):
+                    self.assertTrue(any(is_same(figure, line) for figure in figures), line[1])
 
     def test_a_runs_table_has_the_numbers_of_its_json(self):
         for name in ("CRANK", "ROTOR", "WORKSHOP", "WHIP"):

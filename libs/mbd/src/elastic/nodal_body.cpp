@@ -94,10 +94,11 @@ void NodalBody::add_load(const NodalLoad& load) {
   loads_.push_back(load);
 }
 
-/// All loads at their present values, in the body's axes.
-Matrix3Xd NodalBody::loads_on_nodes(const ElasticMotion& motion) const {
+/// Loads at their present values, in the body's axes: all, or those given in `axes`.
+Matrix3Xd NodalBody::loads_on_nodes(const ElasticMotion& motion, std::optional<LoadAxes> axes) const {
   Matrix3Xd sum = Matrix3Xd::Zero(3, x_.cols());
   for (std::size_t i = 0; i < loads_.size(); ++i) {
+    if (axes && loads_[i].axes != *axes) continue;
     const double value = motion.loads[static_cast<Index>(i)];
     if (loads_[i].axes == LoadAxes::body)
       sum += value * loads_[i].forces;
@@ -289,7 +290,12 @@ void NodalBody::add_nodes(const ElasticMotion& motion, bool want_tangent) {
   Workspace& w = work();
   const Index n = data().shapes();
   w.force.tail(n) += damping_.mass * (columns_.middleCols(kInertiaColumns, n).transpose() * w_.rate());
-  if (!loads_.empty()) w.force.head<3>() -= cross_moment(nodes_of(w_.position()) * loads_on_nodes(motion).transpose());
+  if (!loads_.empty()) {
+    w.force.head<3>() += torque_of_loads(loads_on_nodes(motion), w_.position());
+    if (want_tangent)
+      for (Index k = 0; k < 3; ++k)
+        w.K.col(k).head<3>() -= torque_of_loads(nodes_of(turned_loads(motion).col(k)), w_.position());
+  }
   const VectorXd size = kNodalShare * sizes_;
   const Eigen::RowVectorXd each = nodes_of(size).colwise().norm();
   w.magnitude.head<3>().array() += each.dot(fields_->y.colwise().norm());

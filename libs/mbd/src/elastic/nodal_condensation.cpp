@@ -31,7 +31,8 @@ void NodalBody::condense(const ElasticMotion& motion) {
     by_rate[r] = sums.middleCols<3>(3);
     by_acc[r] = sums.rightCols<3>();
   }
-  const MatrixXd onto = forces_of_answers(factor, stage, base, by_y, by_rate, by_acc);
+  MatrixXd onto = forces_of_answers(factor, stage, base, by_y, by_rate, by_acc);
+  if (!loads_.empty()) onto.topRows<3>() += stage.k * torque_of_loads(loads_on_nodes(motion), factor.X);
   // Columns of forces and of masses differ by many decades, and some shapes move nothing.
   const VectorXd size = factor.W.diagonal().cwiseMax(0).cwiseSqrt();
   const VectorXd scale = (size.array() > 0).select(size.cwiseInverse(), 0.0);
@@ -39,6 +40,28 @@ void NodalBody::condense(const ElasticMotion& motion) {
   const MatrixXd answer =
       (scale.asDiagonal() * scaled.fullPivLu().solve(scale.asDiagonal() * onto.transpose())).transpose();
   add_forces_on_nodes(factor, base, by_y, by_rate, answer);
+  if (!loads_.empty()) w.K.leftCols<3>().noalias() -= answer * (factor.X.transpose() * turned_loads(motion));
+}
+
+/// Torque about frame 0 that the motion needs against `loads` on the nodes, for displacements of these, (3, columns).
+MatrixXd NodalBody::torque_of_loads(const Eigen::Matrix3Xd& loads, const MatrixXd& displacements) {
+  MatrixXd torque(3, displacements.cols());
+  for (Index z = 0; z < displacements.cols(); ++z) {
+    const Eigen::Map<const Eigen::Matrix3Xd> moved(displacements.col(z).data(), 3, loads.cols());
+    torque.col(z) = -cross_moment(moved * loads.transpose());
+  }
+  return torque;
+}
+
+/// d forces that the nodes need against loads / d turn of frame 0, (3 nodes, 3): those in ground's axes stay behind.
+MatrixXd NodalBody::turned_loads(const ElasticMotion& motion) const {
+  const Eigen::Matrix3Xd loads = loads_on_nodes(motion, LoadAxes::ground);
+  MatrixXd turned(3 * loads.cols(), 3);
+  for (Index k = 0; k < 3; ++k) {
+    const Eigen::Matrix3Xd column = skew(Vector3::Unit(k)) * loads;
+    turned.col(k) = Eigen::Map<const VectorXd>(column.data(), column.size());
+  }
+  return turned;
 }
 
 /// d forces on the nodes / d (accelerations, velocities, places) of [frame 0; amplitudes], taken by X^T, theory manual

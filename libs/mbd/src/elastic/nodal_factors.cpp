@@ -56,7 +56,7 @@ const NodalFactor* NodalFactors::of(const solver::Stage& stage, std::string& mes
 
 bool NodalFactors::add(double shift, double scale, std::string& message) {
   factors_.push_front(
-      {shift, scale, fem::HeldStiffness(body_.K, body_.m, supports_.held, supports_.C), {}, {}, {}, {}});
+      {shift, scale, fem::HeldStiffness(body_.K, body_.m, supports_.held, supports_.C), {}, {}, {}, {}, {}});
   return factorise(factors_.front(), shift, scale, message);
 }
 
@@ -80,11 +80,11 @@ void NodalFactors::restiffen(const Eigen::SparseMatrix<double>& K) {
 }
 
 void NodalFactors::describe(NodalFactor& factor) const {
-  const MatrixXd X = factor.matrix.solve(columns_) / factor.scale;
-  factor.W = columns_.transpose() * X;
+  factor.X = factor.matrix.solve(columns_) / factor.scale;
+  factor.W = columns_.transpose() * factor.X;
   std::array<MatrixXd, 3> answer, shape;
   for (std::size_t p = 0; p < 3; ++p) {
-    answer[p] = component(X, p);
+    answer[p] = component(factor.X, p);
     shape[p] = component(shapes_, p);
   }
   for (std::size_t p = 0; p < 3; ++p) {

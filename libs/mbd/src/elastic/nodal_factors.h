@@ -20,6 +20,7 @@ struct NodalFactor {
   double shift = 0;
   double scale = 1;  ///< m M + c D + k K = scale (K - shift M)
   fem::HeldStiffness matrix;
+  Eigen::MatrixXd X;                   ///< (3 n, columns)
   Eigen::MatrixXd W;                   ///< E^T X, symmetric
   std::array<Eigen::MatrixXd, 3> m_X;  ///< m times each component of X, (n, columns)
   /// X_p^T m X_r and X_p^T m Psi_r of components p and r, at 3 p + r.

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,7 +83,11 @@ class NodalBody final : public ModalBody {
  private:
   /// Static shapes, (3 nodes, shapes).
   [[nodiscard]] const Eigen::MatrixXd& Psi() const { return data().displacements; }
-  [[nodiscard]] Eigen::Matrix3Xd loads_on_nodes(const ElasticMotion& motion) const;
+  [[nodiscard]] Eigen::Matrix3Xd loads_on_nodes(const ElasticMotion& motion,
+                                                std::optional<LoadAxes> axes = std::nullopt) const;
+  [[nodiscard]] Eigen::MatrixXd turned_loads(const ElasticMotion& motion) const;
+  [[nodiscard]] static Eigen::MatrixXd torque_of_loads(const Eigen::Matrix3Xd& loads,
+                                                       const Eigen::MatrixXd& displacements);
   [[nodiscard]] bool follows(const ElasticMotion& motion) const;
   [[nodiscard]] solver::Stage stage_of(const ElasticMotion& motion) const;
   void settle(const ElasticMotion& motion);
