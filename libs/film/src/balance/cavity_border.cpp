@@ -67,8 +67,10 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
 CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j), before = grid.before(i), after = grid.next(i);
-  CavityBorder border{.node = k, .of = k, .share = u_[k] >= 0 ? 1.0 : 0.0};
-  if (u_[k] >= 0 || is_held(k) || is_given(k)) return border;
+  // A groove at p_cav holds u = 0 to round-off, of either sign.
+  const bool is_full = u_[k] >= -kNoPressure * fill_scale(model_);
+  CavityBorder border{.node = k, .of = k, .share = is_full ? 1.0 : 0.0};
+  if (is_full || is_held(k) || is_given(k)) return border;
   border.beside = {before < 0 ? -1 : grid.index(before, j), after < 0 ? -1 : grid.index(after, j), j > 0 ? k - 1 : -1,
                    j + 1 < grid.n_z ? k + 1 : -1};
   const std::array<std::size_t, 4> faces{before < 0 ? 0 : face_after(before, j), face_after(i, j),
