@@ -48,6 +48,12 @@ inline HotFilm compare(const Case& c) {
   CAPTURE(c.name);
   HotFilm hot = solve_hot(c.model, c.thermal, surfaces(c.model, c.journal), c.journal.e);
   const Reference& ref = c.expected;
+  // A row of docs/validation.md.
+  MESSAGE(c.name, ", ", c.model.grid.n_phi, " x ", c.model.grid.n_z, ": load ",
+          100 * (hot.film.force_pressure.norm() / ref.load - 1), " %, T_groove ",
+          hot.heat.T_supplies[0] - zero_celsius - ref.T_groove, " K, T_side ",
+          hot.heat.T_side - zero_celsius - ref.T_side, " K, power ", 100 * (hot.heat.balance.power / ref.power - 1),
+          " %, side flow ", 100 * ((hot.film.flow_left + hot.film.flow_right) / ref.side_flow - 1), " %");
   CHECK(hot.film.force_pressure.norm() == relative(ref.load).epsilon(c.bars.load));
   CHECK(std::abs(attitude_of(hot, c.journal.e) - ref.attitude) < c.bars.attitude);
   CHECK(hot.film.p_max == relative(ref.p_max).epsilon(c.bars.p_max));
