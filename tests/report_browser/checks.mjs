@@ -704,6 +704,12 @@ export const bearingReport = {
     assert.match(await page.locator('[data-figure="map"] .tooltip').innerText(), /φ .*°, z .*mm/, "the map's tooltip does not tell where");
   },
 
+  "stiffness and damping carry their grid error": async (page) => {
+    const errors = await page.locator(".matrix tfoot").allInnerTexts();
+    assert.equal(errors.length, 4, "not every matrix has an error");
+    for (const error of errors) assert.match(error, /^± [\d.,·⁻⁰-⁹]+ \(grid\)$/, `no error: ${error}`);
+  },
+
   "the button switches to dark and back": async (page) => {
     const look = () => picture(page, "map");
     const before = await look();

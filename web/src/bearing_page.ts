@@ -299,14 +299,20 @@ class SolutionView {
   private coefficients(): HTMLElement {
     const axes = ["x", "y"];
     const cell = (key: string) => h("td", { class: "number", "data-quantity": key }, format(this.value(key)));
-    const matrix = (title: string, key: string) =>
-      h(
+    // One error for all entries of a matrix.
+    const error = (key: string) => this.solution.figures.find((f) => f.key === `${key}_xx` && f.grid_error);
+    const foot = (f: FigureText) => h("tfoot", {}, h("tr", {}, h("td", { class: "number", colspan: "3" }, h("span", { class: "where" }, errorText(f)))));
+    const matrix = (title: string, key: string) => {
+      const known = error(key);
+      return h(
         "table",
         { class: "matrix" },
         h("caption", {}, title),
         h("thead", {}, h("tr", {}, h("td", {}), ...axes.map((axis) => h("th", { scope: "col", class: "number" }, axis)))),
         h("tbody", {}, ...axes.map((row) => h("tr", {}, h("th", { scope: "row" }, row), ...axes.map((column) => cell(`${key}_${row}${column}`))))),
+        known ? foot(known) : null,
       );
+    };
     return h(
       "section",
       { class: "summary matrices", "aria-label": "Stiffness and damping" },

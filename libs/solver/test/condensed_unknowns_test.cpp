@@ -1,10 +1,9 @@
-#include "hersey/solver/second_order_history.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "hersey/solver/generalized_alpha.h"
+#include "hersey/solver/second_order_history.h"
 #include "one_coordinate.h"
 
 namespace hersey::solver {
