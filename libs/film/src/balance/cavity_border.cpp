@@ -8,9 +8,6 @@
 namespace hersey::film {
 namespace {
 
-// Of P0: unknowns below it are round-off.
-constexpr double kNoPressure = 1e-9;
-
 // Tension and missing oil below these shares of their scales do not break a film: a journal at the centre has no
 // cavity, and one near it no torque that jumps.
 constexpr double kLeastTension = 5e-4, kLeastSlack = 1e-3;
@@ -67,8 +64,7 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
 CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j), before = grid.before(i), after = grid.next(i);
-  // A groove at p_cav holds u = 0 to round-off, of either sign.
-  const bool is_full = u_[k] >= -kNoPressure * fill_scale(model_);
+  const bool is_full = u_[k] >= -round_off_of_u();
   CavityBorder border{.node = k, .of = k, .share = is_full ? 1.0 : 0.0};
   if (is_full || is_held(k) || is_given(k)) return border;
   border.beside = {before < 0 ? -1 : grid.index(before, j), after < 0 ? -1 : grid.index(after, j), j > 0 ? k - 1 : -1,
@@ -126,7 +122,7 @@ void FlowBalance::take_borders_to_edges() {
 double FlowBalance::broken_share(int node) const {
   const Node& at = nodes_[node];
   if (!cavitation_.has_fill()) return 1 - (model_.cavitated_shear == CavitatedShear::full ? at.other_share : at.share);
-  if (u_[node] >= -kNoPressure * fill_scale(model_)) return 0;
+  if (u_[node] >= -round_off_of_u()) return 0;
   const Grid& grid = model_.grid;
   const int i = node / grid.n_z, j = node % grid.n_z, before = grid.before(i);
   double in = 0, carried = 0;  // by pressure; out of a full gap by the surfaces

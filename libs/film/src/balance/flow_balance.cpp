@@ -279,9 +279,7 @@ double FlowBalance::slack_u(int node) const {
 
 // A film that does not conserve oil lacks some wherever it is broken: the half volumes on an edge do not draw it in.
 bool FlowBalance::lets_nothing_in(int node) const {
-  // A groove at p_cav holds u = 0 to round-off, of either sign.
-  const double round_off = 1e-9 * fill_scale(model_);
-  return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off;
+  return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off_of_u();
 }
 
 // On an edge in air what a supply beside it would take back leaves, too.
@@ -296,7 +294,7 @@ double FlowBalance::outflow(int node) const { return outflow_of_row(node) + over
 double FlowBalance::acting_outflow(int node) const {
   if (!cavitation_.has_tension() || !is_given(node)) return outflow(node);
   const int inside = edges_[node].inside;
-  if (nodes_[inside].p >= 0) return outflow(node);
+  if (nodes_[inside].p >= -round_off_of_u()) return outflow(node);
   return over_land(node) - flows_[face_at_edge(node)].K * edge_unknown(node);
 }
 

@@ -366,6 +366,8 @@ class FlowBalance {
   void take_motion(const SurfaceMotion& motion);
   /// States of the nodes, and the storage in their control volumes into the balance.
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
+  /// A line or groove at p_cav holds u = 0 to this, of either sign [Pa].
+  [[nodiscard]] double round_off_of_u() const { return 1e-9 * fill_scale(model_); }
   void find_borders();
   [[nodiscard]] CavityBorder cut_by_tension(int i, int j) const;
   [[nodiscard]] CavityBorder filled_by_pressure(int i, int j) const;
