@@ -31,6 +31,8 @@ EQUIVALENT = {
     ("solver/src/symmetric_factor.cpp", "icntl(7) = 5;", ""): "cost: the ordering of a factor, whose answers do not depend on it",
     ("solver/src/kinematics.cpp", "Index worst = 0;", ""): "nothing changes: where the largest stands is written there in any case",
     ("solver/src/equilibrium.cpp", "|| mu_ > 1e30) {", "(1.5 * 1e30)"): "cost: a search that grows tenfold without success ends one step later",
+    ("mbd/src/elastic/nodal_factors.cpp", "if (!archive.restores() || K_.rows() > 0) return;", "() && "):
+        "cost: factors of a state that is saved are made anew, or dropped until they are asked for, from the same matrices",
 }
 
 

@@ -10,6 +10,7 @@
 
 #include "hersey/bearing/bearing_numbers.h"
 #include "source_dir.h"
+#include "steady/short_bearing.h"
 
 namespace hersey::bearing {
 namespace steady_bearing_test {
@@ -110,6 +111,10 @@ TEST_CASE("ShortBearing_WhirlsAtOcvirksThreshold") {
     // The same number written in two ways: round-off.
     CHECK(whirl.critical_mass ==
           doctest::Approx(std::pow(whirl.stability_number, 2) * numbers.load / (model.c * 9e4)).epsilon(1e-9));
+    // Searches start from the closed form's position, here the answer but for the grid's error.
+    OperatingPoint loaded{.journal_speed = 300};
+    loaded.load = state.load;
+    CHECK((ocvirk_position(model, loaded) - point.e).norm() < 5e-3 * model.c);
   }
 }
 

@@ -33,6 +33,20 @@ TEST_CASE("GrooveEdges_LieWhereTheyAre") {
   }
 }
 
+// What nothing drives has no flow, and a residual of round-off is to be measured by more than that.
+TEST_CASE("FilmAtRestBetweenClosedEdges_TakesItsGroovesPressure") {
+  FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {60, 5}};
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
+  m.features = {{.name = "groove", .phi = 1, .arc = 0.37, .length = 0.004, .pressure = 3e5}};
+  for (const auto solver : {FilmSolver::newton, FilmSolver::multigrid, FilmSolver::sor}) {
+    const SolvedFilm film = solve_cold(m, turning(m, 0.6, 0), {.solver = solver});
+    CAPTURE(film.summary.message);
+    REQUIRE(film.summary.solved());
+    CHECK(film.fields.p.minCoeff() == relative(3e5).epsilon(1e-6));
+    CHECK(film.fields.p.maxCoeff() == relative(3e5).epsilon(1e-6));
+  }
+}
+
 // A broken film comes to a groove at p_s > p_cav, which fills it back to where the pressure has fallen:
 // l = h^2 p_s/[6 mu U (1 - theta)], a sixth of a cell here. Its nodes lie beyond, so that theta h stays what it was,
 // and what P0 is has no part in it.

@@ -155,6 +155,31 @@ TEST_CASE("BeamSegment_GravityIsWeightAtItsMiddle") {
   CHECK(e.potential == doctest::Approx(-body.mass() * g.dot(middle)).epsilon(1e-14));  // round-off
 }
 
+// What round-off of poses does to forces is a share of a deformation as large as the piece, whichever of its
+// stiffnesses is the largest: a thick one resists bending about one axis more than all else.
+TEST_CASE("BeamSegment_MagnitudeCoversItsLargestStiffness") {
+  constexpr double kShare = 1e-6;  // as the segment takes it
+  for (const int largest : {0, 1, 2, 3, 4, 5}) {
+    CAPTURE(largest);
+    double of[6] = {50, 30, 20, 3, 5, 7};
+    of[largest] = 5000;
+    BeamSegmentData data;
+    data.element = {.length = 0.1, .stiffness = {of[0], of[1], of[2], of[3], of[4], of[5]}};
+    data.mass_per_length = 2.5;
+    data.inertia_per_length = {0.7, 0.5, 0.3};
+    BeamSegment body(data);
+    ElasticMotion rest;
+    for (int i = 0; i < 2; ++i) rest.frames.push_back({.X_WF = body.rest_pose(i)});
+    ElasticResponse response;
+    body.evaluate(rest, true, response);
+    for (Index i = 0; i < 12; ++i) {
+      CAPTURE(i);
+      const double deformation = i % 6 < 3 ? 1 : data.element.length;  // a radian, a length
+      CHECK(response.magnitude[i] >= (1 - kRoundOff) * kShare * response.K(i, i) * deformation);
+    }
+  }
+}
+
 TEST_CASE("BeamSegment_RigidMotionStoresNothingAndNeedsTheRigidBodysForces") {
   BeamSegment body = any_segment();
   const double L = body.data().element.length, m = body.mass();

@@ -170,6 +170,25 @@ TEST_CASE("EnergyOfLongRuns_LeaksLittleThroughMildDissipation") {
   CHECK(late < 1e-3);   // as said above
 }
 
+// What a step's energy is judged by is what is observed, of a mass without extent as of any other.
+TEST_CASE("EnergyViewOfAPendulum_IsWhatIsObserved") {
+  for (const bool closed : {false, true}) {
+    CAPTURE(closed);
+    const auto m = pendulum(closed);
+    solver::State state = test::start(*m);
+    test::run(*m, state, 0.4, 40);
+    const Observation seen = m->observe(state);
+    EnergyView view;
+    m->view_energy(state, false, view);
+    double kinetic = 0;
+    for (const double of_link : view.kinetic) kinetic += of_link;
+    CHECK(seen.kinetic_energy > 1);
+    // The same products, summed otherwise: round-off.
+    CHECK(kinetic == doctest::Approx(seen.kinetic_energy).epsilon(1e-12));
+    CHECK(view.potential == doctest::Approx(seen.potential_energy).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("SpectralRadiusOne_IsRefusedWithConstraints") {
   const auto m = pendulum(true);
   solver::State state = test::start(*m);

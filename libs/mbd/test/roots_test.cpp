@@ -160,6 +160,25 @@ TEST_CASE("OtherRootOfTheTree_GoesOnTheSameWay") {
   }
 }
 
+// What is fixed to a body turns with it as if it were of one piece: the light one of two carries nothing.
+TEST_CASE("LightPieceThatIsFixedToAHeavyOne_IsNotTooLight") {
+  for (const bool light_is_first : {true, false}) {
+    CAPTURE(light_is_first);
+    MechanismBuilder b;
+    b.choose_roots();
+    const auto piece = [&](const char* name, double size) {
+      return b.add_body({.name = name, .mass = size, .inertia = size * Vector3(0.1, 0.12, 0.15).asDiagonal()});
+    };
+    BodyId light, heavy;
+    if (light_is_first) light = piece("light", 1e-3);
+    heavy = piece("heavy", 1);
+    if (!light_is_first) light = piece("light", 1e-3);
+    b.add_joint({.type = JointType::free, .inboard = b.frame_of(b.ground()), .outboard = b.frame_of(light)});
+    b.add_joint({.type = JointType::fixed, .inboard = b.frame_of(light), .outboard = b.frame_of(heavy)});
+    CHECK(build_tree(b.finalise()->spec()).own_motions.empty());
+  }
+}
+
 TEST_CASE("FreeBody_KeepsItsEnergyWhereverItsOriginLies") {
   // With coordinates at a point off the centre of mass the steps turned a tumbling bar's energy up by 6 % a second.
   for (const Vector3& origin : {Vector3(0, 0, 0), Vector3(0.06, 0, 0), Vector3(-0.02, 0.3, 0.1)})
