@@ -217,6 +217,18 @@ std::vector<State> states_on_surfaces() {
     for (const int line : {2, 4, 9, 12}) s.motion.g.segment(s.model.grid.index(line, 0), s.model.grid.n_z) *= 40;
     s.name = "pads, gap that jumps";
     states.push_back(s);
+    s.motion = rough_state(Cavitation::mass_conserving, true, transient, pads).motion;
+    s.motion.u_shell = 0;
+    s.history.phi_journal = -0.33;
+    s.model.features = {{.name = "slot",
+                         .surface = Surface::journal,
+                         .phi = 4.6,
+                         .arc = 0.7,
+                         .length = 0.013,
+                         .is_fed = false,
+                         .depth = 2e-5}};
+    s.name = "pads, pocket that travels";
+    states.push_back(s);
     for (State pockets : states_with_pockets()) {
       if ((pockets.history.dt > 0) != transient || pockets.motion.phi_supply != 1.3) continue;
       pockets.model.surface = Annulus{};

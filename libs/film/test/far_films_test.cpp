@@ -326,5 +326,39 @@ TEST_CASE("PocketOfAPlane_DoesNotAskWhereThePlaneBegins") {
   CHECK(there.h_min_features == relative(here.h_min_features).epsilon(1e-9));
 }
 
+// A border that two pockets have in common is none.
+TEST_CASE("PocketsSideBySide_AreOne") {
+  std::vector<SolvedFilm> films;
+  for (const bool are_two : {false, true}) {
+    FilmModel m = big_end();
+    const SurfaceFeature pocket{.arc = 0.25, .length = 0.008, .is_fed = false, .depth = 30e-6};
+    m.features.assign(are_two ? 2 : 1, pocket);
+    m.features[0].phi = are_two ? 1 : 1.125;
+    if (are_two) m.features[1].phi = 1.25;
+    if (!are_two) m.features[0].arc = 0.5;
+    films.push_back(solve_cold(m, turning(m, 0.6, omega)));
+    REQUIRE(films.back().summary.solved());
+  }
+  CHECK((films[0].fields.p - films[1].fields.p).norm() < 1e-7 * films[0].fields.p.norm());  // the residual of 1e-10
+}
+
+// What was there before is brought to coarser grids, too: a step from nothing ends where one from nearby does.
+TEST_CASE("StepOfACompressibleOil_EndsWhereItDoesFromAnyStart") {
+  FilmModel m = big_end();
+  m.lubricant.density_law = DowsonHigginson{};
+  Journal journal = turning(m, 0.7, omega);
+  journal.e_rate = {0.03, -0.05};
+  const SurfaceMotion motion = surfaces(m, journal);
+  const int n = m.grid.size();
+  FilmHistory history{1e-4, Eigen::VectorXd::Constant(n, 0.9), {}, Eigen::VectorXd::Constant(n, 1.01)};
+  history.gap = 0.98 * motion.g;
+  Reynolds reynolds(m);
+  Eigen::VectorXd cold = Eigen::VectorXd::Zero(n);
+  REQUIRE(solve_film(reynolds, motion, history, {}, cold).solved());
+  Eigen::VectorXd warm = 0.9 * cold;
+  REQUIRE(solve_film(reynolds, motion, history, {}, warm).solved());
+  CHECK((warm - cold).norm() < 1e-7 * cold.norm());  // the residual of 1e-10
+}
+
 }  // namespace far_films_test
 }  // namespace hersey::film
