@@ -345,6 +345,7 @@ TEST_CASE("PocketsSideBySide_AreOne") {
 // What was there before is brought to coarser grids, too: a step from nothing ends where one from nearby does.
 TEST_CASE("StepOfACompressibleOil_EndsWhereItDoesFromAnyStart") {
   FilmModel m = big_end();
+  m.grid = {60, 13};
   m.lubricant.density_law = DowsonHigginson{};
   Journal journal = turning(m, 0.7, omega);
   journal.e_rate = {0.03, -0.05};
@@ -358,6 +359,68 @@ TEST_CASE("StepOfACompressibleOil_EndsWhereItDoesFromAnyStart") {
   Eigen::VectorXd warm = 0.9 * cold;
   REQUIRE(solve_film(reynolds, motion, history, {}, warm).solved());
   CHECK((warm - cold).norm() < 1e-7 * cold.norm());  // the residual of 1e-10
+}
+
+// Wherever a line lies in a groove or beside it, and wherever a hole reaches an edge, no oil is lost.
+TEST_CASE("LineAcrossAGrooveAndHoleOnAnEdge_KeepTheirOil") {
+  FilmModel m = big_end();
+  const double step = 2 * pi / m.grid.n_phi, dz = m.L / (m.grid.n_z - 1);
+  m.features = {{.name = "groove", .phi = 6 * step, .arc = 2.6 * step, .length = 0.6 * m.L, .pressure = 2e5},
+                {.name = "hole",
+                 .shape = Ellipse{},
+                 .phi = 12 * step,
+                 .z = 0.5 * m.L,
+                 .arc = 2.6 * step,
+                 .length = 0.3 * m.L,
+                 .pressure = 3e5},
+                {.name = "slit",
+                 .phi = 20 * step,
+                 .z = -0.5 * m.L + 0.5 * dz,
+                 .arc = 2.6 * step,
+                 .length = 0.4 * dz,
+                 .pressure = 3e5}};
+  for (const double line : {4.4, 4.9, 5.0, 5.5, 6.0, 7.1, 7.5, 8.3}) {
+    CAPTURE(line);
+    m.supply = {SupplyKind::fixed_angle, line * step, 1e5};
+    const SolvedFilm film = solve_cold(m, surfaces(m, turning(m, 0.5, omega), line * step), {-0.5 * m.c, 0});
+    REQUIRE(film.summary.solved());
+    CHECK(film.observed.mass_balance_error < 1e-8);  // what the residual of 1e-10 leaves
+    // Round-off of its angle decides nothing.
+    const SolvedFilm beside = solve_cold(m, surfaces(m, turning(m, 0.5, omega), line * step + 1e-12), {-0.5 * m.c, 0});
+    CHECK((beside.fields.p - film.fields.p).norm() < 1e-6 * film.fields.p.norm());  // 1e-12 over a step, residuals
+  }
+}
+
+// Pockets over one another are as deep as both, whichever is named first.
+TEST_CASE("PocketsOverEachOther_AddUpInAnyOrder") {
+  const SurfaceFeature slot{.phi = 1, .arc = 0.5, .length = 0.008, .is_fed = false, .depth = 30e-6};
+  SurfaceFeature dimple = slot, deep = slot;
+  dimple.shape = Ellipse{}, dimple.phi = 1.2;
+  deep.depth = 60e-6;
+  const auto film_with = [](const std::vector<SurfaceFeature>& features) {
+    FilmModel m = big_end();
+    m.features = features;
+    return solve_cold(m, turning(m, 0.6, omega));
+  };
+  const auto differ = [](const SolvedFilm& a, const SolvedFilm& b) {
+    return (a.fields.p - b.fields.p).norm() / a.fields.p.norm();
+  };
+  constexpr double solved = 1e-7;  // the residual of 1e-10
+  CHECK(differ(film_with({slot, dimple}), film_with({dimple, slot})) < solved);
+  CHECK(differ(film_with({slot, slot}), film_with({deep})) < solved);
+  CHECK(differ(film_with({slot}), film_with({deep})) > 1e-4);
+}
+
+// A film that re-forms with its highest pressure at the first full node does so within the cell before it.
+TEST_CASE("CavityThatEndsAtAPeak_EndsInTheCellBeforeIt") {
+  const FilmModel m{.grid = {60, 13}};
+  const Grid& grid = m.grid;
+  Eigen::VectorXd u = Eigen::VectorXd::Constant(grid.size(), 1e5);
+  for (int i = 20; i < 30; ++i) u.segment(grid.index(i, 0), grid.n_z).setConstant(-0.5 * fill_scale(m));
+  u.segment(grid.index(30, 0), grid.n_z).setConstant(3e5);
+  const FilmObservables seen = observe_film(m, surfaces(m, turning(m, 0.5, omega)), {}, {0, 0}, u);
+  CHECK(seen.reformation_angle >= grid.phi(29) - 1e-12);  // round-off
+  CHECK(seen.reformation_angle <= grid.phi(30) + 1e-12);
 }
 
 }  // namespace far_films_test

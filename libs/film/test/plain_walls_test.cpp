@@ -75,6 +75,45 @@ TEST_CASE("WallsThatKeepTheirShape_HaveNone") {
   CHECK((seen.body(Eigen::VectorXd::Constant(12, 4)) - bodies.body_temperatures()).norm() < 310 * round_off);
 }
 
+// The hottest of a body's nodes by the heat that has settled it; before, as warm everywhere.
+TEST_CASE("HottestOfBodies_IsThatOfTheirNodes") {
+  const FilmModel model = bearing();
+  auto wall = std::make_shared<WallConduction>();
+  wall->T0.setConstant(model.grid.n_phi, 310);
+  wall->rise = 0.5 * Eigen::MatrixXd::Identity(model.grid.n_phi, model.grid.n_phi);
+  wall->T_body0 = Eigen::Vector2d(305, 310);
+  wall->rise_body = Eigen::MatrixXd::Constant(2, model.grid.n_phi, 0.05);
+  auto shaft = std::make_shared<JournalConduction>();
+  shaft->T0 = 310, shaft->rise = 0.1;
+  ThermalModel thermal = supplied_at_40(3);
+  thermal.shell = BodyWall{.conduction = wall, .T_start = 320};
+  thermal.journal = BodyJournal{.conduction = shaft};
+  FilmOverTime steady(model, thermal, loaded), step(model, thermal, loaded);
+  steady.advance(0), step.advance(1e-3);
+  CHECK(steady.heat.observables().T_body_max == steady.heat.body_temperatures().maxCoeff());
+  CHECK(step.heat.observables().T_body_max == 320);
+}
+
+// A journal that is a node takes the film along, whatever the shell is.
+TEST_CASE("NodeBesideAShellWithoutHeat_TakesTheFilmAlong") {
+  const FilmModel model = bearing();
+  ThermalModel thermal = supplied_at_40(3);
+  thermal.journal = NodeWall{.T = 320, .node = 0, .name = "shaft"};
+  FilmOverTime film(model, thermal, loaded), other(model, thermal, loaded);
+  film.advance(1e-3);
+  const WallExchange seen = film.heat.exchange();
+  Eigen::VectorXd T = seen.T;
+  T[1] += 10;
+  film.heat.move_walls(T);
+  HeatState begin = other.heat.state();
+  begin.journal = T[1];
+  other.heat.set_state(begin);
+  other.advance(1e-3);
+  CHECK(film.heat.state().journal == T[1]);
+  // K; a step's systems are solved to 1e-7 of an answer of some 10 K.
+  CHECK((film.heat.state().film - other.heat.state().film).cwiseAbs().maxCoeff() < 1e-5);
+}
+
 // What shear leaves is what the last film says: asked twice, nothing changes; an oil that does not thin never does.
 TEST_CASE("ThinningOfTheSameFilm_IsTheSame") {
   FilmModel model = bearing();
@@ -126,6 +165,9 @@ TEST_CASE("OneLayer_HasNoSlope") {
 
 TEST_CASE("TurnedGrid_HasItsLinesBetweenThoseItHad") {
   const Grid grid = graded_grid(24, 9, {{.place = 1, .reach = 0.5, .factor = 4}}, {});
+  CHECK(Grid{24, 9}.is_uniform());
+  CHECK(!grid.is_uniform());
+  CHECK(!graded_grid(24, 9, {}, {{.place = 0.5, .reach = 0.1, .factor = 4}}).is_uniform());
   const Grid same = turned(grid, 0), other = turned(grid, 0.25);
   for (int i = 0; i < grid.n_phi; ++i) {
     const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + 2 * pi;
