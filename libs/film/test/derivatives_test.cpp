@@ -104,6 +104,13 @@ std::vector<State> rough_states() {
   states.push_back(s);
   for (const bool transient : {false, true}) {
     s = rough_state(Cavitation::mass_conserving, true, transient);
+    for (int i = 0; i < s.model.grid.n_phi; ++i) {
+      const bool is_wide = i % 4 < 2;  // what is fitted through the nodes would cross zero between two narrow ones
+      s.motion.g.segment(s.model.grid.index(i, 0), s.model.grid.n_z) *= is_wide ? 30 : 1;
+    }
+    s.name = std::string("gap that jumps from line to line") + (transient ? ", transient" : ", steady");
+    states.push_back(s);
+    s = rough_state(Cavitation::mass_conserving, true, transient);
     s.motion.phi_supply = 1.5;  // within a cell, away from its middle
     s.name = "line between nodes";
     states.push_back(s);
@@ -173,7 +180,7 @@ std::vector<State> states_with_pockets() {
            .depth = 2e-5}};
       s.motion.u_shell = 0;
       if (backwards) s.motion.u_journal *= -1;
-      s.history.phi_journal = -0.33;
+      s.history.phi_journal = backwards ? -0.27 : -0.33;
       s.name = std::string("pockets") + (transient ? ", transient" : ", steady") + (backwards ? ", backwards" : "");
       states.push_back(s);
       for (const double line : {1.5, 2.3, 4.85}) {  // through each of them, within cells; 1.5: through two
@@ -205,6 +212,22 @@ std::vector<State> states_on_surfaces() {
     s.model.ends = {{.first = {.pressure = 4e5}, .last = {.pressure = 1e4, .ambient_fill = 0.7}},
                     {.first = {.kind = EdgeKind::closed}, .last = {.pressure = 2e5}}};
     s.name = "pads";
+    states.push_back(s);
+    // So wide there that what is fitted through the nodes would cross zero beside the ends.
+    for (const int line : {2, 4, 9, 12}) s.motion.g.segment(s.model.grid.index(line, 0), s.model.grid.n_z) *= 40;
+    s.name = "pads, gap that jumps";
+    states.push_back(s);
+    s.motion = rough_state(Cavitation::mass_conserving, true, transient, pads).motion;
+    s.motion.u_shell = 0;
+    s.history.phi_journal = -0.33;
+    s.model.features = {{.name = "slot",
+                         .surface = Surface::journal,
+                         .phi = 4.6,
+                         .arc = 0.7,
+                         .length = 0.013,
+                         .is_fed = false,
+                         .depth = 2e-5}};
+    s.name = "pads, pocket that travels";
     states.push_back(s);
     for (State pockets : states_with_pockets()) {
       if ((pockets.history.dt > 0) != transient || pockets.motion.phi_supply != 1.3) continue;

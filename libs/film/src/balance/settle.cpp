@@ -85,7 +85,7 @@ double FlowBalance::pass_along(int j, double carry, const std::vector<char>& tak
     const int line = forwards ? step : grid.n_phi - 1 - step, i = grid.index(line, j);
     if ((forwards ? grid.before(line) : grid.next(line)) < 0) {
       // A patch begins: what another one before it had left stays there.
-      if (for_good && step > 0) leave(carry, forwards ? i - grid.n_z : i + grid.n_z, takes_what_comes, oil);
+      if (step > 0) leave(carry, forwards ? i - grid.n_z : i + grid.n_z, takes_what_comes, oil);
       carry = 0;
     }
     if (takes_what_comes[static_cast<std::size_t>(i)] != 0) {

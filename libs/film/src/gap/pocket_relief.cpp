@@ -93,7 +93,7 @@ void PocketRelief::add_cells(const SurfaceFeature& feature, double phi_journal, 
 
 void PocketRelief::place(double phi_journal, double phi_start, double dt, double speed) {
   const Placement asked{phi_journal, phi_start, dt, dt > 0 ? 0 : speed};
-  if (is_empty() || (placed_ && (!any_turns_ || *placed_ == asked))) return;
+  if (placed_ && (!any_turns_ || *placed_ == asked)) return;
   const int n = model_.grid.size();
   covered_.clear();
   for (const auto* features : {&pockets_, &fed_}) {

@@ -19,11 +19,11 @@ MultigridSolver::MultigridSolver(int n_phi, int n_z, std::span<const int> column
   for (int column = 0; column < n; ++column) {
     for (int k = column_start[column]; k < column_start[column + 1]; ++k) {
       const int row = row_index[k], lines = (column / n_z - row / n_z + n_phi) % n_phi;
-      const int place = column == row                     ? centre
-                        : column == row - 1 && lines == 0 ? south
-                        : column == row + 1 && lines == 0 ? north
-                        : lines == 1                      ? east
-                                                          : west;
+      const int place = column == row       ? centre
+                        : column == row - 1 ? south
+                        : column == row + 1 ? north
+                        : lines == 1        ? east
+                                            : west;
       HERSEY_REQUIRE(place != west || lines == n_phi - 1, "a five-point pattern");
       slot_.push_back(5 * row + place);
     }
