@@ -114,8 +114,8 @@ TEST_CASE("SoftBoreUnderALoadThatIsTurned_TurnsItsAnswer") {
                     there = solved(model, under_load(1e4, 0.3 + turn), options);
   CHECK(here.s.norm() > 0.1 * model.c);
   CHECK((Eigen::Rotation2Dd(turn) * here.e - there.e).norm() <= 1e-7 * model.c);  // the same film, by another search
-  CHECK((Eigen::Rotation2Dd(2 * turn) * here.s.head<2>() - there.s.head<2>()).norm() <= 1e-7 * model.c);
-  CHECK((Eigen::Rotation2Dd(3 * turn) * here.s.tail<2>() - there.s.tail<2>()).norm() <= 1e-7 * model.c);
+  CHECK((Eigen::Rotation2Dd(2 * turn) * here.s.head<2>() - there.s.head<2>()).norm() <= 1e-7 * model.c);  // likewise
+  CHECK((Eigen::Rotation2Dd(3 * turn) * here.s.tail<2>() - there.s.tail<2>()).norm() <= 1e-7 * model.c);  // likewise
 }
 
 }  // namespace elastic_steady_test

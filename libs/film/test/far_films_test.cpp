@@ -321,9 +321,9 @@ TEST_CASE("PocketOfAPlane_DoesNotAskWhereThePlaneBegins") {
   CHECK(here.p_max > 1e5);
   CHECK((films[0].fields.p - films[1].fields.p).norm() < 1e-7 * films[0].fields.p.norm());  // the residual of 1e-10
   CHECK(there.h_min == relative(here.h_min).epsilon(1e-9));                                 // round-off of angles
-  CHECK(here.h_min == relative(0.5 * 40e-6).epsilon(1e-9));
-  CHECK(there.h_min_phi - far == relative(here.h_min_phi).epsilon(1e-9));
-  CHECK(there.h_min_features == relative(here.h_min_features).epsilon(1e-9));
+  CHECK(here.h_min == relative(0.5 * 40e-6).epsilon(1e-9));                                 // likewise
+  CHECK(there.h_min_phi - far == relative(here.h_min_phi).epsilon(1e-9));                   // likewise
+  CHECK(there.h_min_features == relative(here.h_min_features).epsilon(1e-9));               // likewise
 }
 
 // A border that two pockets have in common is none.
@@ -420,7 +420,7 @@ TEST_CASE("CavityThatEndsAtAPeak_EndsInTheCellBeforeIt") {
   u.segment(grid.index(30, 0), grid.n_z).setConstant(3e5);
   const FilmObservables seen = observe_film(m, surfaces(m, turning(m, 0.5, omega)), {}, {0, 0}, u);
   CHECK(seen.reformation_angle >= grid.phi(29) - 1e-12);  // round-off
-  CHECK(seen.reformation_angle <= grid.phi(30) + 1e-12);
+  CHECK(seen.reformation_angle <= grid.phi(30) + 1e-12);  // likewise
 }
 
 }  // namespace far_films_test

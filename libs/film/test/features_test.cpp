@@ -42,8 +42,8 @@ TEST_CASE("FilmAtRestBetweenClosedEdges_TakesItsGroovesPressure") {
     const SolvedFilm film = solve_cold(m, turning(m, 0.6, 0), {.solver = solver});
     CAPTURE(film.summary.message);
     REQUIRE(film.summary.solved());
-    CHECK(film.fields.p.minCoeff() == relative(3e5).epsilon(1e-6));
-    CHECK(film.fields.p.maxCoeff() == relative(3e5).epsilon(1e-6));
+    CHECK(film.fields.p.minCoeff() == relative(3e5).epsilon(1e-6));  // what sweeps leave
+    CHECK(film.fields.p.maxCoeff() == relative(3e5).epsilon(1e-6));  // likewise
   }
 }
 

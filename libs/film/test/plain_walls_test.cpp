@@ -190,8 +190,8 @@ TEST_CASE("ScaleOfPressures_ChangesNoFilm") {
     films[k] = solve_cold(m, loaded);
     REQUIRE(films[k].summary.solved());
   }
-  CHECK((films[1].fields.h - films[0].fields.h).norm() < 1e-7 * films[0].fields.h.norm());  // residuals of 1e-10
-  CHECK(films[1].observed.p_max - atmosphere == relative(films[0].observed.p_max).epsilon(1e-7));
+  CHECK((films[1].fields.h - films[0].fields.h).norm() < 1e-7 * films[0].fields.h.norm());         // residuals of 1e-10
+  CHECK(films[1].observed.p_max - atmosphere == relative(films[0].observed.p_max).epsilon(1e-7));  // likewise
 }
 
 TEST_CASE("PressureOfAFeature_MayComeWithTheMotion") {
@@ -219,8 +219,8 @@ TEST_CASE("FilmWithoutShapes_IsCondensedToTheSameWrench") {
     reynolds.condense(directions, Eigen::MatrixXd(m.grid.size(), 0), plain);
     reynolds.condense(directions, Eigen::MatrixXd::Ones(m.grid.size(), 1), shaped);
     CHECK(plain.Q.size() == 0);
-    CHECK((plain.wrench - shaped.wrench).norm() < 1e-9 * shaped.wrench.norm());  // the solver leaves 1e-10
-    CHECK((plain.wrench_ds - shaped.wrench_ds).norm() < 1e-9 * shaped.wrench_ds.norm());
+    CHECK((plain.wrench - shaped.wrench).norm() < 1e-9 * shaped.wrench.norm());           // the solver leaves 1e-10
+    CHECK((plain.wrench_ds - shaped.wrench_ds).norm() < 1e-9 * shaped.wrench_ds.norm());  // likewise
   }
 }
 
