@@ -12,6 +12,13 @@ namespace {
 // cavity, and one near it no torque that jumps.
 constexpr double kLeastTension = 5e-4, kLeastSlack = 1e-3;
 
+/// Nodes before and after along phi, then along z; -1: none.
+std::array<int, 4> nodes_beside(const Grid& grid, int i, int j) {
+  const int k = grid.index(i, j), before = grid.before(i), after = grid.next(i);
+  return {before < 0 ? -1 : grid.index(before, j), after < 0 ? -1 : grid.index(after, j), j > 0 ? k - 1 : -1,
+          j + 1 < grid.n_z ? k + 1 : -1};
+}
+
 /// Differences of a field over a control volume: sum of weight[k] * (field at beside[k]) + own * (field at its node).
 struct Fall {
   double own = 0;
@@ -28,10 +35,9 @@ Fall fall_over_volume(int before, int after) {
 // Of a film that bears tension u is a pressure on both sides of the border (film.60).
 CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   const Grid& grid = model_.grid;
-  const int k = grid.index(i, j), before = grid.before(i), after = grid.next(i);
+  const int k = grid.index(i, j);
   CavityBorder border{.node = k, .of = k};
-  border.beside = {before < 0 ? -1 : grid.index(before, j), after < 0 ? -1 : grid.index(after, j), j > 0 ? k - 1 : -1,
-                   j + 1 < grid.n_z ? k + 1 : -1};
+  border.beside = nodes_beside(grid, i, j);
   const double least = kLeastTension * fill_scale(model_);
   double range = 2 * least, range_own = 0, middle = u_[k] + least, middle_own = 1;
   std::array<double, 4> range_by{}, middle_by{};
@@ -63,12 +69,11 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
 // (film.61).
 CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const Grid& grid = model_.grid;
-  const int k = grid.index(i, j), before = grid.before(i), after = grid.next(i);
+  const int k = grid.index(i, j), before = grid.before(i);
   const bool is_full = u_[k] >= -round_off_of_u();
   CavityBorder border{.node = k, .of = k, .share = is_full ? 1.0 : 0.0};
   if (is_full || is_held(k) || is_given(k)) return border;
-  border.beside = {before < 0 ? -1 : grid.index(before, j), after < 0 ? -1 : grid.index(after, j), j > 0 ? k - 1 : -1,
-                   j + 1 < grid.n_z ? k + 1 : -1};
+  border.beside = nodes_beside(grid, i, j);
   const std::array<std::size_t, 4> faces{before < 0 ? 0 : face_after(before, j), face_after(i, j),
                                          j > 0 ? face_above(i, j - 1) : 0, j + 1 < grid.n_z ? face_above(i, j) : 0};
   const Node& node = nodes_[k];
@@ -105,16 +110,18 @@ void FlowBalance::show_border(const CavityBorder& border) {
 
 // An edge at p_cav has u = 0 whether the film beside it is full or broken: it is what the next node is.
 void FlowBalance::take_borders_to_edges() {
-  const std::vector<CavityBorder> inside = borders_;
+  const std::size_t count = borders_.size();  // in the order of their nodes
   for (const int edge : given_) {
     const int next = phase_node(edge);
     if (next == edge) continue;
     nodes_[edge].share = nodes_[next].share, nodes_[edge].other_share = nodes_[next].other_share;
-    for (const CavityBorder& border : inside) {
-      if (border.node != next) continue;
-      borders_.push_back(border);
-      borders_.back().node = edge;
-    }
+    const auto end = borders_.begin() + static_cast<std::ptrdiff_t>(count);
+    const auto found = std::lower_bound(borders_.begin(), end, next,
+                                        [](const CavityBorder& border, int node) { return border.node < node; });
+    if (found == end || found->node != next) continue;
+    CavityBorder same = *found;
+    same.node = edge;
+    borders_.push_back(same);
   }
 }
 
