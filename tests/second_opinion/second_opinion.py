@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Random bearings by hersey and by the second film solver: where both differ by more than the errors they tell.
+"""Random bearings by hersey and by the second film solver, at rest and on an orbit in time: where both differ by more than the errors
+they tell.
 
     second_opinion.py HERSEY [--count N] [--seed SEED] [--only NAME] [--jobs N] [--output FOLDER]
 
@@ -16,12 +17,14 @@ from concurrent.futures import ProcessPoolExecutor
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import comparison  # noqa: E402
+import in_time  # noqa: E402
 
 
 def one_case(program, seed, name, output):
     with tempfile.TemporaryDirectory(prefix="hersey-second-") as folder:
         begin = time.time()
-        found = comparison.examine(program, seed, name, folder)
+        examine = in_time.examine if name.startswith("orbit") else comparison.examine
+        found = examine(program, seed, name, folder)
     if found.off and output:
         os.makedirs(output, exist_ok=True)
         with open(os.path.join(output, f"{name}.yaml"), "w", encoding="utf-8") as file:
@@ -43,7 +46,7 @@ def table(results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--count", type=int, default=100, help="of bearings at rest; a quarter as many go round an orbit")
     parser.add_argument("--seed", default="1")
     parser.add_argument("--only", action="append")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
@@ -51,7 +54,7 @@ def main():
     arguments = parser.parse_args()
     print(f"seed {arguments.seed}", flush=True)
     program = os.path.abspath(arguments.program)
-    names = arguments.only or [f"bearing-{k}" for k in range(arguments.count)]
+    names = arguments.only or [f"bearing-{k}" for k in range(arguments.count)] + [f"orbit-{k}" for k in range(arguments.count // 4)]
     results = []
     with ProcessPoolExecutor(arguments.jobs) as pool:
         waiting = [pool.submit(one_case, program, arguments.seed, name, arguments.output) for name in names]

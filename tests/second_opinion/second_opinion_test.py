@@ -13,6 +13,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import comparison  # noqa: E402  (it finds the second solver)
+import in_time  # noqa: E402
 import numpy as np  # noqa: E402
 from bearing import Bearing, Feature  # noqa: E402
 from figures import figures  # noqa: E402
@@ -113,11 +114,11 @@ class Conditions(unittest.TestCase):
 class Agreement(unittest.TestCase):
     """A few of what `make second-opinion` draws."""
 
-    def agree(self, first, count):
+    def agree(self, first, count, examine=comparison.examine):
         answered = 0
         for k in range(first, first + count):
             with tempfile.TemporaryDirectory(prefix="hersey-second-") as folder:
-                found = comparison.examine(HERSEY, "hersey", f"bearing-{k}", folder, is_small=True)
+                found = examine(HERSEY, "hersey", f"bearing-{k}", folder, is_small=True)
             with self.subTest(f"bearing-{k}"):
                 self.assertEqual(found.off, [], found.model)
             answered += found.ending == "answer"
@@ -128,6 +129,20 @@ class Agreement(unittest.TestCase):
 
     def test_random_bearings_3_to_5(self):
         self.agree(3, 3)
+
+    def test_random_orbits_in_time(self):
+        self.agree(0, 2, in_time.examine)
+
+    def test_forces_in_time_ten_percent_off_are_found(self):
+        b = comparison.bearings.Bearing(0.025, 0.02, 40e-6, 0.015, 60, 13, supply=(0.5 * math.pi, 1e5))
+        orbit = in_time.Orbit(comparison.steady.Steady(b, 300.0, position=(0.3, -1.5)), (6e-6, 6e-6), 0.02)
+        with tempfile.TemporaryDirectory(prefix="hersey-second-") as folder:
+            other = in_time.by_the_second(orbit, folder, comparison.ROWS_SMALL, in_time.STEPS_SMALL)
+            one = in_time.by_hersey(HERSEY, orbit, folder, in_time.STEPS_SMALL)
+        self.assertEqual(in_time.compare(orbit, one, other)[0], [])
+        for key in ("force_x", "force_y", "torque_journal", "power_film", "fill_volume"):
+            told = [a | {key: (1.1 * a[key][0], a[key][1])} for a in other]
+            self.assertIn(key, [figure for figure, _ in in_time.compare(orbit, one, told)[0]])
 
     def test_figures_three_percent_off_are_found(self):
         b = comparison.bearings.Bearing(0.025, 0.02, 40e-6, 0.015, 60, 13, supply=("widest_gap", 0.0))

@@ -1,7 +1,7 @@
 """What a bearing is: gap, oil and what feeds it, by published formulas. SI units; pressures count from that of cavitation."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -76,6 +76,10 @@ class Bearing:
     dowson_higginson: tuple | None = None  # (rise, saturation)
     cavitated_shear: str = "film_share"
     shear_force: str = "full"
+
+    def turned(self, angle):
+        """With the journal's profiles turned on."""
+        return replace(self, profiles=[replace(f, angle=f.angle + angle * f.on_journal) for f in self.profiles])
 
     # -- oil
 

@@ -23,7 +23,8 @@ def figures(film):
     px, pz = q.slopes(film.p, nodes)
     px, pz = np.where(signed > 0, px, 0), np.where(signed > 0, pz, 0)
     h = b.gap(q.phi, q.z, motion) + b.pocket_depth(q.phi, q.z)
-    share, sheared = _share(film, q, signed), h + b.shear_depth(q.phi, q.z)
+    fill, sheared = _fill(film, q, signed), h + b.shear_depth(q.phi, q.z)
+    share = np.ones_like(fill) if b.cavitated_shear == "full" else fill
     mu = b.viscosity(p)[0]
     slip = b.R * (motion.journal - motion.shell)
     couette = mu * slip / sheared * share
@@ -47,15 +48,13 @@ def figures(film):
         "power_film": float((q.area * (couette * slip + h**3 / (12 * mu) * (px**2 + pz**2))).sum()),
         "flow_left": ends[0], "flow_right": ends[1], "side_flow": sum(ends),
         "flow_supply": -float(flow[film.owner >= 0].sum()),
-        "p_max": float(_peak(film)), "h_min": b.smallest_gap(motion), "fill_volume": float((q.area * h * share).sum()),
+        "p_max": float(_peak(film)), "h_min": b.smallest_gap(motion), "fill_volume": float((q.area * h * fill).sum()),
     }
 
 
-def _share(film, q, signed):
+def _fill(film, q, signed):
     """The oil's share of the gap at the points."""
     b = film.bearing
-    if b.cavitated_shear == "full":
-        return np.ones_like(signed)
     if b.cavitation == "mass_conserving":
         # voids belong to what lies behind their node: a row of an element has that of its node upstream
         left = film.U > 0

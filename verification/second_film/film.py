@@ -226,14 +226,26 @@ class Film:
         return wrong, np.where(to_full, 0, np.where(to_drawn, 2, 1))
 
 
-def march(bearing, motion_at, times, columns, rows):
-    """Films at each of `times` but the first, which is steady: pressure and void of oil that is conserved, in time."""
+def march(bearing, motion_at, times, columns, rows, filled=None):
+    """Films at each of `times` but the first: pressure and void of oil that is conserved, in time.
+
+    At the first the film is steady, or that of a gap which was full a time `filled` before [s].
+    """
     if bearing.bulk_modulus or bearing.dowson_higginson or bearing.line == "widest_gap":
         raise NoAnswer("in time: an incompressible oil, and feeds that stay where they are")
-    film = Film(bearing, motion_at(times[0]), columns, rows)
+    if any(f.on_journal for f in bearing.features) or any(f.on_journal and f.kind == "lobes" for f in bearing.profiles):
+        raise NoAnswer("a feature or kinks that travel over the mesh")
+
+    def film_at(t):
+        motion = motion_at(t)
+        return Film(bearing.turned(motion.journal * (t - times[0])), motion, columns, rows)
+
+    film = film_at(times[0])
+    if filled:
+        film.before = (film.room, filled)
     state = film.solve()
     for start, end in zip(times, times[1:]):
-        after = Film(bearing, motion_at(end), columns, rows)
+        after = film_at(end)
         after.before = (film.oil(), end - start)
         state = after.solve(state)
         film = after
