@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hersey/bearing/elastic_surface.h"
+#include "hersey/bearing/film_observation.h"
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/film/film_heat.h"
@@ -42,35 +43,10 @@ struct BearingOptions {
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
 
-/// Oil in a film over a run: what is there, what has passed, and what nobody can explain (theory manual, film.15).
-struct CumulativeOilBalance {
-  double volume = 0;        ///< in the film [m^3]
-  double through_flow = 0;  ///< volume that has passed: the larger of what came in and what left, step by step [m^3]
-  double unexplained = 0;   ///< change of the volume since the start less what came in [m^3]
-  double step_error = 0;    ///< the last step's share of that [m^3]
-};
-
-/// What one bearing shows at an accepted state.
-struct BearingObservation {
-  GapPosition position;                       ///< of the journal, or what moves in its place
-  Vector6 wrench_on_shell = Vector6::Zero();  ///< [moment about the bearing's origin; force], bearing frame
-  double power_into_bodies = 0;  ///< of wrench, forces on shapes and growing walls [W]; negative: the film takes power
-  double power_of_growth = 0;    ///< its part on walls that grow with their temperature [W]
-  double clearance = 0;          ///< radial, at the temperatures of the walls [m]
-  /// How far walls in bodies have grown outwards by temperature, their means over the nodes [m]; and the clearance with
-  /// them (theory manual, thermal.64).
-  double bore_growth = 0, journal_growth = 0, clearance_of_bodies = 0;
-  film::FilmObservables film;
-  std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
-  film::WallCorrection walls;                 ///< of held walls, when they settled last
-  CumulativeOilBalance oil;
-  int film_iterations = 0;  ///< film linearisations in the last step
-  int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step
-};
-
-class ClearanceGrowth;
 class DeformingSurfaces;
-class ThermalShape;
+class FilmElement;
+class ThermalSurfaces;
+class WrenchExchange;
 
 /// An oil film between the surfaces of a shell frame A and of a journal frame B (theory manual, chapter bearing), where
 /// GapKinematics says how those lie to each other. The surfaces are rigid, or belong to elastic bodies whose shapes
@@ -96,7 +72,7 @@ class FilmForce : public mbd::TwoBodyForce {
   /// How its surfaces lie to each other; at the motion evaluated last.
   [[nodiscard]] const GapKinematics& gap() const { return *gap_; }
   /// Of the film; constant.
-  [[nodiscard]] const film::FilmModel& model() const { return reynolds_.model(); }
+  [[nodiscard]] const film::FilmModel& model() const;
   /// As asked for; a step may be taken as one system all the same.
   [[nodiscard]] Coupling coupling() const { return options_.coupling; }
 
@@ -121,7 +97,7 @@ class FilmForce : public mbd::TwoBodyForce {
   /// Likewise film::FilmHeat::settle_walls().
   void settle_walls(const Eigen::VectorXd& T_nodes);
   /// Of a film with temperatures; null: it has one.
-  [[nodiscard]] const film::FilmHeat* heat() const { return heat_ ? &*heat_ : nullptr; }
+  [[nodiscard]] const film::FilmHeat* heat() const;
   /// After a step has been accepted: likewise film::FilmHeat::move_walls().
   void move_walls(const Eigen::VectorXd& T);
   /// What temperatures have come to at the state last accepted, where no film goes on from there: a clearance that they
@@ -139,68 +115,37 @@ class FilmForce : public mbd::TwoBodyForce {
   void place(const mbd::RelativeMotion& motion);
   void feed(double t);
   void report_contact();
-  [[nodiscard]] double smallest_gap() const;
   void report(const film::FilmDomain& domain);
-  void fill_gap();
-  void settle();
-  void close_step();
-  void show_oil(film::FilmObservables& film) const;
-  [[nodiscard]] double growth_by_temperature() const;
-  [[nodiscard]] Eigen::VectorXd journal_shape_by_temperature() const;
-  void follow_surfaces();
-  [[nodiscard]] film::FilmDomain linearise_film();
+  [[nodiscard]] double smallest_gap() const;
+  [[nodiscard]] double summed_forces() const;
+  void start_film();
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
   void evaluate_partitioned(mbd::ForceResponse& response);
   void condense_film(mbd::ForceResponse& response);
-  [[nodiscard]] double summed_forces() const;
-  void increment_film(mbd::ForceResponse& response);  // forces after the film's increment at fixed surfaces
+  void increment_film(mbd::ForceResponse& response);
 
   std::string name_;
   BearingOptions options_;
-  film::Reynolds reynolds_;
-  std::optional<film::FilmHeat> heat_;  // at the state last accepted
-  film::WallCorrection walls_;
-  std::unique_ptr<ThermalShape> thermal_shape_, journal_shape_;  // of a shell and a journal in bodies
-  std::unique_ptr<ClearanceGrowth> growth_;
   std::unique_ptr<GapKinematics> gap_;
   std::unique_ptr<DeformingSurfaces> deforming_;
+  std::unique_ptr<FilmElement> film_;
+  std::unique_ptr<ThermalSurfaces> thermal_;
+  std::unique_ptr<WrenchExchange> exchange_;
+  bool is_monolithic_step_ = true;
+
+  // The surfaces, and what moves them: parameters of the gap, amplitudes of the surfaces' shapes, their rates.
   film::SurfaceMotion surfaces_;
-  film::SurfaceMotion observed_surfaces_;  // at the state last accepted
-  Eigen::VectorXd observed_s_;
-  Eigen::Index gap_parameter_count_;               // parameters of the gap
-  Eigen::VectorXd parameters_;                     // those, amplitudes of the surfaces' shapes, and their rates
+  Eigen::Index gap_parameter_count_;
+  Eigen::VectorXd parameters_;
   std::vector<film::MotionDirection> directions_;  // one per parameter
 
-  // The film in the current step: unknowns, their increment, and where (in parameters) they were last linearised.
-  Eigen::VectorXd u_, u_linearised_, du_;
-  Eigen::VectorXd parameters_linearised_, parameter_change_;
-  film::CondensedFilm condensed_;
-  bool linearised_ = false;
-  bool is_thinned_ = false;  // the layers' shear has been found at the start
-
-  // The film at the start of the step: what a rejected step returns to.
-  film::FilmHistory history_;           // of the step being solved
-  film::FilmHistory history_start_;     // what the next step starts from
-  film::FilmHistory observed_history_;  // of the step last accepted
-  Eigen::VectorXd u_start_;
-
-  // Partitioned: the wrench on the journal and the forces on shapes that the bodies have been given.
-  solver::FixedPointIteration interface_;
-  Eigen::VectorXd interface_wrench_, interface_wrench_start_;
-  bool has_interface_response_ = false;
-  bool exchange_has_ended_ = false;
-  int monolithic_steps_left_ = 0;   // before exchanging is tried again
-  bool is_monolithic_step_ = true;  // the step is solved monolithically
-
-  // Oil of the step last accepted, and over the run.
-  film::StepOilBalance oil_;
-  CumulativeOilBalance oil_of_run_;
-  bool started_ = false;
-  bool settled_ = false;  // oil_ belongs to the film evaluated last
+  // The state last accepted.
+  film::SurfaceMotion accepted_surfaces_;
+  Eigen::VectorXd accepted_s_;
+  film::WallCorrection walls_;
+  int accepted_iterations_ = 0, accepted_exchanges_ = 0;
 
   double internal_residual_ = 0;
-  int iterations_ = 0, exchanges_ = 0;
-  int observed_iterations_ = 0, observed_exchanges_ = 0;
   std::string domain_error_;
 };
 

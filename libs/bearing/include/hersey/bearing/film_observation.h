@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "hersey/bearing/gap_kinematics.h"
+#include "hersey/core/spatial.h"
+#include "hersey/film/film_observables.h"
+#include "hersey/film/heat_state.h"
+
+namespace hersey::bearing {
+
+/// Oil in a film over a run: what is there, what has passed, and what nobody can explain (theory manual, film.15).
+struct CumulativeOilBalance {
+  double volume = 0;        ///< in the film [m^3]
+  double through_flow = 0;  ///< volume that has passed: the larger of what came in and what left, step by step [m^3]
+  double unexplained = 0;   ///< change of the volume since the start less what came in [m^3]
+  double step_error = 0;    ///< the last step's share of that [m^3]
+};
+
+/// What one bearing shows at an accepted state.
+struct BearingObservation {
+  GapPosition position;                       ///< of the journal, or what moves in its place
+  Vector6 wrench_on_shell = Vector6::Zero();  ///< [moment about the bearing's origin; force], bearing frame
+  double power_into_bodies = 0;  ///< of wrench, forces on shapes and growing walls [W]; negative: the film takes power
+  double power_of_growth = 0;    ///< its part on walls that grow with their temperature [W]
+  double clearance = 0;          ///< radial, at the temperatures of the walls [m]
+  /// How far walls in bodies have grown outwards by temperature, their means over the nodes [m]; and the clearance with
+  /// them (theory manual, thermal.64).
+  double bore_growth = 0, journal_growth = 0, clearance_of_bodies = 0;
+  film::FilmObservables film;
+  std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
+  film::WallCorrection walls;                 ///< of held walls, when they settled last
+  CumulativeOilBalance oil;
+  int film_iterations = 0;  ///< film linearisations in the last step
+  int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step
+};
+
+}  // namespace hersey::bearing

@@ -1,0 +1,215 @@
+#include "force/film_element.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "hersey/bearing/clearance.h"
+#include "hersey/film/observables.h"
+
+namespace hersey::bearing {
+namespace {
+
+// Share of a control volume that may be left to the next one at the end of a step.
+constexpr double kLargestRedistributedOverfill = 0.02;
+
+// Linearisations of a step from which on nodes that empty do so as their oil says: one that the linear film empties far
+// too much and the next one fills again would do so for ever. Between surfaces that deform the gap would not follow.
+constexpr int kFrontUpdateAfter = 4;
+
+// Linearisations of a step from which on only half of the nodes that would cavitate or fill do so.
+constexpr int kAntiCyclingAfter = 6;
+
+// Films at the start of a run whose layers thin by their shear, and the change of viscosity with which they end.
+constexpr int kMostFirstFilms = 20;
+constexpr double kAsThin = 1e-6;
+
+void persist_history(Archive& archive, film::FilmHistory& history) {
+  archive.io("dt", history.dt), archive.io("by_gap", history.by_gap);
+  archive.io("theta", history.theta), archive.io("w", history.w), archive.io("density", history.density);
+  archive.io("gap", history.gap), archive.io("phi_journal", history.phi_journal);
+  film::LayeredViscosity& viscosity = history.viscosity;
+  archive.io("fluidity", viscosity.fluidity), archive.io("shear_fluidity", viscosity.shear_fluidity);
+  archive.io("skew", viscosity.skew), archive.io("at_rest", viscosity.at_rest);
+  archive.io("axial_fluidity", viscosity.axial_fluidity);
+}
+
+}  // namespace
+
+FilmElement::FilmElement(const film::FilmModel& model, Options options)
+    : options_(std::move(options)), reynolds_(model, film::linear_solver_of(options_.solve.solver)) {
+  const int n = model.grid.size();
+  u_ = u_start_ = du_ = Eigen::VectorXd::Zero(n);
+  history_.theta = Eigen::VectorXd::Ones(n);
+  history_.w = Eigen::VectorXd::Zero(n);
+  if (options_.thermal) {
+    heat_.emplace(model, *options_.thermal);
+    history_.viscosity = heat_->viscosity();
+  }
+  history_start_ = history_accepted_ = history_;
+}
+
+film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
+  history_.dt = options_.initial_dt;
+  history_.theta.setOnes();
+  history_.w.resize(0);
+  history_.density.setOnes(u_.size());
+  history_.gap.resize(0);
+  history_.phi_journal = surfaces.phi_journal;
+  has_started_ = false;
+  film::FilmSolveSummary summary;
+  for (int k = 0; k < kMostFirstFilms; ++k) {
+    summary = film::solve_film(reynolds_, surfaces, history_, options_.solve, u_);
+    if (!summary.solved()) return summary;
+    // Later films of this start have the same viscosities: what asks for them compares forces.
+    if (!heat_ || has_layer_shear_ || heat_->thin(surfaces, history_, u_) <= kAsThin) break;
+    if (k + 1 < kMostFirstFilms) history_.viscosity = heat_->viscosity();
+  }
+  has_layer_shear_ = true;
+  return summary;
+}
+
+void FilmElement::begin_step(double dt) {
+  history_ = history_start_;
+  history_.dt = dt;
+  u_ = u_start_;
+  is_linearised_ = false;
+  iterations_ = 0;
+}
+
+// u += du0 + U (s - s_last): the film's share of the Newton increment the bodies have just taken.
+void FilmElement::follow(const Eigen::VectorXd& parameters) {
+  if (!is_linearised_) return;
+  parameter_change_ = parameters - parameters_linearised_;
+  for (const Eigen::Index k : options_.angles)
+    parameter_change_[k] = std::remainder(parameter_change_[k], 2 * std::numbers::pi);
+  reynolds_.follow(parameter_change_, du_);
+  u_ = u_linearised_ + du_;
+  const bool is_rigid = options_.is_rigid && model().compliance == 0;
+  if (is_rigid && iterations_ > kFrontUpdateAfter) reynolds_.advance_rupture_front(u_);
+  if (iterations_ > kAntiCyclingAfter) reynolds_.limit_active_set_changes(u_linearised_, iterations_, u_);
+}
+
+film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters) {
+  follow(parameters);
+  film::FilmDomain domain = linearise(surfaces);
+  if (!domain.is_inside() && is_linearised_) {
+    u_ = u_linearised_;
+    domain = linearise(surfaces);
+  }
+  if (!domain.is_inside()) return domain;
+  parameters_linearised_ = parameters;
+  u_linearised_ = u_;
+  ++iterations_;
+  return domain;
+}
+
+film::CondensedFilm& FilmElement::condense(const std::vector<film::MotionDirection>& directions,
+                                           const Eigen::MatrixXd& openings) {
+  reynolds_.condense(directions, openings, condensed_);
+  is_linearised_ = true;
+  return condensed_;
+}
+
+FilmElement::Forces FilmElement::increment(const Eigen::MatrixXd& openings) {
+  reynolds_.newton_increment(du_);
+  const film::NormalForces& normal = reynolds_.normal_forces();
+  is_linearised_ = false;
+  return {.wrench_on_shell = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du_),
+          .Q = openings.transpose() * (normal.value + normal.by_u.cwiseProduct(du_))};
+}
+
+film::FilmSolveSummary FilmElement::solve(const film::SurfaceMotion& surfaces) {
+  film::FilmSolveOptions without_fallback = options_.solve;
+  without_fallback.allows_fallback = false;
+  film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, without_fallback, u_);
+  iterations_ += summary.iterations;
+  return summary;
+}
+
+film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces) {
+  return reynolds_.linearise(surfaces, history_, u_);
+}
+
+bool FilmElement::is_step_consistent(const film::SurfaceMotion& surfaces) {
+  if (!has_started_) return true;
+  close_oil(surfaces);
+  if (oil_.of_step().redistributed_overfill <= kLargestRedistributedOverfill || history_.by_gap) return true;
+  history_.by_gap = true;
+  Eigen::VectorXd film = u_;
+  const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, options_.solve, film);
+  if (summary.solved()) u_ = film;
+  iterations_ += summary.iterations;
+  return false;
+}
+
+// Uses up the linearisation of the film.
+void FilmElement::close_oil(const film::SurfaceMotion& surfaces) {
+  oil_.close_step(reynolds_, surfaces, history_, u_);
+  has_step_oil_ = true;
+  is_linearised_ = false;
+}
+
+// The next step starts from the oil there is, which is what was there before and what has come in since. Temperatures
+// follow the film by a step, so that its derivatives are those of what is solved.
+void FilmElement::accept_step(const film::SurfaceMotion& surfaces) {
+  history_accepted_ = history_;
+  const bool is_step = has_started_;
+  if (is_step) {
+    if (!has_step_oil_) close_oil(surfaces);
+  } else {
+    oil_.initialise(reynolds_, surfaces, history_, u_);
+    has_started_ = true;
+  }
+  if (heat_) {
+    heat_->advance(surfaces, history_, u_);
+    history_start_.viscosity = heat_->viscosity();
+  }
+  const film::FilmFields fields = film::film_fields(model(), surfaces, u_);
+  history_start_.w = fields.w;
+  history_start_.density = fields.density;
+  history_start_.theta = oil_.of_step().content.cwiseQuotient(fields.density);
+  history_start_.gap = oil_.of_step().gap;
+  history_start_.phi_journal = surfaces.phi_journal;
+  if (is_step) oil_.accumulate(history_.dt);
+  u_start_ = u_;
+  is_linearised_ = false;
+}
+
+film::FilmObservables FilmElement::observe(const film::SurfaceMotion& accepted, const Eigen::Vector2d& e,
+                                           const Eigen::Vector2d& tilt) const {
+  film::FilmObservables film = heat_ ? heat_->film(accepted, e, u_start_, tilt)
+                                     : film::observe_film(model(), accepted, history_accepted_, e, u_start_, tilt);
+  film.oil_volume = oil_.of_run().volume;
+  // A film that bears tension has no past: its flows are those of the pressure that acts, at the end of the step.
+  if (!film::cavitation_law(model()).has_tension()) {
+    const double sliding_flow = std::abs(accepted.u_journal) * clearance(model()) * model().L;
+    oil_.report_flows(history_accepted_.dt, sliding_flow, film);
+  }
+  return film;
+}
+
+film::FilmFields FilmElement::fields(const film::SurfaceMotion& accepted) const {
+  film::FilmFields fields = film::film_fields(model(), accepted, u_start_);
+  if (film::cavitation_law(model()).has_fill() && history_start_.theta.size() == u_.size())
+    fields.theta = history_start_.theta.cwiseMax(0.0).cwiseMin(1.0);
+  fields.depth = film::mean_depth(model(), accepted.phi_journal);
+  if (heat_) heat_->fields().show_in(fields);
+  return fields;
+}
+
+void FilmElement::persist(Archive& archive) {
+  persist_history(archive, history_start_);
+  oil_.persist(archive);
+  if (heat_) {
+    const Archive::Group heat(archive, "heat");
+    heat_->persist(archive);
+  }
+  archive.io("started", has_started_);
+  archive.io("u", u_start_);
+  if (archive.restores()) u_ = u_start_;
+}
+
+void FilmElement::persist_step(Archive& archive) { persist_history(archive, history_); }
+
+}  // namespace hersey::bearing

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "force/oil_balance.h"
+#include "hersey/core/archive.h"
+#include "hersey/film/film_heat.h"
+#include "hersey/film/film_solver.h"
+#include "hersey/film/reynolds.h"
+
+namespace hersey::bearing {
+
+/// An oil film as an element of a machine: its unknowns u and temperatures, their history from step to step, and its
+/// forces with u eliminated. It sees two surfaces that move with parameters, and knows no bodies.
+///
+/// The parameters are those of the gap's kinematics, then amplitudes of the surfaces' shapes, then their rates. Within
+/// a step u follows their change through the last linearisation, u += du0 + (du/ds) (s - s_last) (theory manual,
+/// bearing.9).
+class FilmElement {
+ public:
+  struct Options {
+    film::FilmSolveOptions solve;
+    double initial_dt;  ///< the film at the start is that of a full gap after a step of this length [s], > 0
+    std::optional<film::ThermalModel> thermal;
+    bool is_rigid;                     ///< surfaces without shapes of their own
+    std::vector<Eigen::Index> angles;  ///< parameters that are the same after a whole revolution
+  };
+  FilmElement(const film::FilmModel& model, Options options);
+
+  /// The film of a freshly filled gap at the start of a run; a liner has yielded to it and rests. Not solved: why not,
+  /// or where outside the domain.
+  [[nodiscard]] film::FilmSolveSummary start(const film::SurfaceMotion& surfaces);
+  /// Starts a step of length dt from the film accepted last.
+  void begin_step(double dt);
+
+  /// Linearises the film at surfaces that have moved with `parameters`, after u has followed these. A prediction that
+  /// lies outside the domain is not taken: the film then stays as it was while the surfaces move.
+  [[nodiscard]] film::FilmDomain linearise(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters);
+  /// Forces after the film's increment with their derivatives by each parameter (bearing.10), from the last
+  /// linearisation; u follows the parameters from now on.
+  film::CondensedFilm& condense(const std::vector<film::MotionDirection>& directions, const Eigen::MatrixXd& openings);
+  struct Forces {
+    Vector6 wrench_on_shell;
+    Eigen::VectorXd Q;  ///< on shapes
+  };
+  /// The same forces without derivatives; u does not follow.
+  [[nodiscard]] Forces increment(const Eigen::MatrixXd& openings);
+
+  /// Solves the film at fixed surfaces. Films that do not converge have no fallback: the step is rather shortened.
+  [[nodiscard]] film::FilmSolveSummary solve(const film::SurfaceMotion& surfaces);
+  /// Linearises at fixed surfaces, u as it is.
+  [[nodiscard]] film::FilmDomain linearise(const film::SurfaceMotion& surfaces);
+  /// u += du of the last increment.
+  void take_increment() { u_ += du_; }
+
+  /// False where the oil of the step needs another film than the one found, which then follows the change of the gap
+  /// over the step instead of its rate (theory manual, film.15); u is a film of that kind, if there is one.
+  [[nodiscard]] bool is_step_consistent(const film::SurfaceMotion& surfaces);
+  /// Accepts the film at the end of a step, or at the start of a run: oil, temperatures and history move on.
+  void accept_step(const film::SurfaceMotion& surfaces);
+  /// The film is evaluated anew.
+  void reset_linearisation() { is_linearised_ = false; }
+  /// The oil closed last belongs to another evaluation of the film.
+  void reset_oil() { has_step_oil_ = false; }
+
+  [[nodiscard]] const film::FilmModel& model() const { return reynolds_.model(); }
+  [[nodiscard]] const film::Reynolds& reynolds() const { return reynolds_; }
+  /// True once the start of a run has been accepted.
+  [[nodiscard]] bool has_started() const { return has_started_; }
+  /// Step being solved [s].
+  [[nodiscard]] double dt() const { return history_.dt; }
+  /// Film linearisations in the current step.
+  [[nodiscard]] int iterations() const { return iterations_; }
+  [[nodiscard]] const OilBalance& oil() const { return oil_; }
+  /// Null: the film has one temperature.
+  [[nodiscard]] film::FilmHeat* heat() { return heat_ ? &*heat_ : nullptr; }
+  [[nodiscard]] const film::FilmHeat* heat() const { return heat_ ? &*heat_ : nullptr; }
+  /// Temperatures of the step accepted last have changed: the next step sees their viscosities.
+  void update_viscosity() { history_start_.viscosity = heat_->viscosity(); }
+
+  /// What the film shows at the state accepted last, whose surfaces are given.
+  [[nodiscard]] film::FilmObservables observe(const film::SurfaceMotion& accepted, const Eigen::Vector2d& e,
+                                              const Eigen::Vector2d& tilt) const;
+  /// Fields at the nodes at that state.
+  [[nodiscard]] film::FilmFields fields(const film::SurfaceMotion& accepted) const;
+
+  /// Saves or restores what the next step starts from.
+  void persist(Archive& archive);
+  /// Saves or restores the history of the last step: where the integrator starts afresh, accelerations at the step's
+  /// end follow from it (solver::solve_accelerations).
+  void persist_step(Archive& archive);
+  /// Saves or restores the equation's pivot order.
+  void persist_reynolds(Archive& archive) { reynolds_.persist(archive); }
+
+ private:
+  void follow(const Eigen::VectorXd& parameters);
+  void close_oil(const film::SurfaceMotion& surfaces);
+
+  Options options_;
+  film::Reynolds reynolds_;
+  std::optional<film::FilmHeat> heat_;  // at the state accepted last
+
+  // Unknowns in the current step, their increment, and the state linearised last.
+  Eigen::VectorXd u_, du_, u_linearised_;
+  Eigen::VectorXd parameters_linearised_, parameter_change_;
+  film::CondensedFilm condensed_;
+  bool is_linearised_ = false;
+  bool has_layer_shear_ = false;  // the layers' shear at the start has been found
+  int iterations_ = 0;
+
+  // What a rejected step returns to.
+  Eigen::VectorXd u_start_;
+  film::FilmHistory history_;           // of the step being solved
+  film::FilmHistory history_start_;     // what the next step starts from
+  film::FilmHistory history_accepted_;  // of the step accepted last
+
+  OilBalance oil_;
+  bool has_started_ = false;
+  bool has_step_oil_ = false;  // oil_ belongs to the film evaluated last
+};
+
+}  // namespace hersey::bearing
