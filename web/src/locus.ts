@@ -1,6 +1,6 @@
-// Where the journal's centre stands in the clearance circle: one equilibrium, or the locus of a sweep.
+// Position of the journal's centre in the clearance circle: one equilibrium, or the locus of a sweep.
 
-import { Drawing } from "./canvas";
+import { ClearanceCircle, dot } from "./clearance_circle";
 import { palette } from "./theme";
 import { format } from "./units";
 
@@ -20,7 +20,7 @@ export interface LocusData {
   clearance: (index: number) => number;
 }
 
-export class Locus extends Drawing {
+export class Locus extends ClearanceCircle {
   constructor(
     private readonly data: LocusData,
     private chosen: number,
@@ -38,115 +38,40 @@ export class Locus extends Drawing {
     this.draw();
   }
 
-  protected heightFor(width: number): number {
-    return Math.min(width, 380);
+  protected clearance(): number {
+    return this.data.clearance(this.chosen);
+  }
+
+  protected reach(): number {
+    return Math.max(0, ...this.points().map((p) => Math.hypot(p.x, p.y)));
   }
 
   private points(): LocusPoint[] {
     return this.data.lines.flatMap((line) => line.points);
   }
 
-  private place(): { cx: number; cy: number; scale: number } {
-    const half = Math.min(this.width, this.height) / 2;
-    const reach = Math.max(1, ...this.points().map((p) => Math.hypot(p.x, p.y)));
-    return { cx: this.width / 2, cy: this.height / 2, scale: (half - 26) / reach };
-  }
-
-  private at(p: LocusPoint): [number, number] {
-    const { cx, cy, scale } = this.place();
-    return [cx + scale * p.x, cy - scale * p.y];
-  }
-
   protected paint(context: CanvasRenderingContext2D): void {
-    const { series, accent, paper, ink } = palette();
+    const at = this.mapped();
+    const { series } = palette();
     this.paintCircles(context);
     for (const line of this.data.lines) {
-      const colour = series[line.colour % series.length]!;
-      context.strokeStyle = context.fillStyle = colour;
+      context.strokeStyle = context.fillStyle = series[line.colour % series.length]!;
       context.lineWidth = 1.4;
       context.beginPath();
-      line.points.forEach((p, i) => (i === 0 ? context.moveTo(...this.at(p)) : context.lineTo(...this.at(p))));
+      line.points.forEach((p, i) => (i === 0 ? context.moveTo(...at(p.x, p.y)) : context.lineTo(...at(p.x, p.y))));
       context.stroke();
-      for (const p of line.points) dot(context, ...this.at(p), 3);
+      for (const p of line.points) dot(context, ...at(p.x, p.y), 3);
     }
     const chosen = this.points().find((p) => p.index === this.chosen);
     if (!chosen) return;
-    this.paintLoad(context, series[1]!);
-    const { cx, cy } = this.place();
-    const [x, y] = this.at(chosen);
-    context.strokeStyle = accent;
-    context.lineWidth = 1;
-    context.beginPath();
-    context.moveTo(cx, cy);
-    context.lineTo(x, y);
-    context.stroke();
-    context.fillStyle = accent;
-    context.strokeStyle = paper;
-    context.lineWidth = 2;
-    dot(context, x, y, 5.5);
-    context.stroke();
-    context.fillStyle = ink;
-    context.textAlign = "left";
-    context.textBaseline = "top";
-    context.fillText(`ε = ${format(Math.hypot(chosen.x, chosen.y), 4)}`, 2, 2);
-  }
-
-  private paintCircles(context: CanvasRenderingContext2D): void {
-    const { cx, cy, scale } = this.place();
-    const { ink, faint, line } = palette();
-    context.lineWidth = 1;
-    context.strokeStyle = line;
-    for (const share of [0.25, 0.5, 0.75]) ring(context, cx, cy, share * scale);
-    context.beginPath();
-    context.moveTo(cx - scale, cy);
-    context.lineTo(cx + scale, cy);
-    context.moveTo(cx, cy - scale);
-    context.lineTo(cx, cy + scale);
-    context.stroke();
-    context.strokeStyle = faint;
-    context.lineWidth = 1.6;
-    ring(context, cx, cy, scale);
-    context.fillStyle = ink;
-    context.textBaseline = "middle";
-    context.textAlign = "left";
-    context.fillText("x", cx + scale + 6, cy);
-    context.textAlign = "center";
-    context.textBaseline = "bottom";
-    context.fillText("y", cx, cy - scale - 4);
-    context.textBaseline = "top";
-    const clearance = format(1e6 * this.data.clearance(this.chosen), 4);
-    context.fillText(`clearance circle, radius ${clearance} µm`, cx, cy + scale + 8);
-  }
-
-  private paintLoad(context: CanvasRenderingContext2D, colour: string): void {
-    const [fx, fy] = this.data.load(this.chosen);
-    const size = Math.hypot(fx, fy);
-    if (!(size > 0)) return;
-    const { cx, cy, scale } = this.place();
-    const [ux, uy] = [fx / size, -fy / size];
-    const [x, y] = [cx + 0.32 * scale * ux, cy + 0.32 * scale * uy];
-    context.strokeStyle = context.fillStyle = colour;
-    context.lineWidth = 2;
-    context.beginPath();
-    context.moveTo(cx, cy);
-    context.lineTo(x, y);
-    context.stroke();
-    context.beginPath();
-    context.moveTo(x + 7 * ux, y + 7 * uy);
-    context.lineTo(x - 4 * uy, y + 4 * ux);
-    context.lineTo(x + 4 * uy, y - 4 * ux);
-    context.fill();
+    this.paintLoad(context, ...this.data.load(this.chosen));
+    this.paintCentre(context, chosen.x, chosen.y);
   }
 
   private near(px: number, py: number): LocusPoint | null {
-    let best: LocusPoint | null = null;
-    let distance = 18;
-    for (const p of this.points()) {
-      const [x, y] = this.at(p);
-      const d = Math.hypot(x - px, y - py);
-      if (d < distance) [best, distance] = [p, d];
-    }
-    return best;
+    const points = this.points();
+    const i = this.nearestTo(px, py, points.length, (k) => [points[k]!.x, points[k]!.y]);
+    return i < 0 ? null : points[i]!;
   }
 
   protected describe(px: number, py: number): string[] | null {
@@ -155,16 +80,4 @@ export class Locus extends Drawing {
     const c = 1e6 * this.data.clearance(p.index);
     return [...(p.label ? [p.label] : []), `x ${format(c * p.x)} µm, y ${format(c * p.y)} µm`, `ε = ${format(Math.hypot(p.x, p.y))}`];
   }
-}
-
-function ring(context: CanvasRenderingContext2D, x: number, y: number, radius: number): void {
-  context.beginPath();
-  context.arc(x, y, Math.max(0, radius), 0, 2 * Math.PI);
-  context.stroke();
-}
-
-function dot(context: CanvasRenderingContext2D, x: number, y: number, radius: number): void {
-  context.beginPath();
-  context.arc(x, y, radius, 0, 2 * Math.PI);
-  context.fill();
 }
