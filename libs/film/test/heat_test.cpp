@@ -533,7 +533,7 @@ TEST_CASE("HeatOfAGapThatFills_IsConserved") {
     CHECK(heat.observables().balance.error() < 1e-7);                   // the film's residual
     CHECK(heat.observables().T_film_mean >= 40 + zero_celsius - 1e-6);  // K, what the steps' systems leave
   }
-  CHECK(history.theta.minCoeff() < 1e-3);
+  CHECK(history.theta.minCoeff() < 1e-3);  // where next to no oil has come
   CHECK(history.theta.maxCoeff() == 1);
 }
 
