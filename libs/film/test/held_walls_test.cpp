@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "film_over_time.h"
-#include "heat/wall_pace.h"
+#include "heat/wall_relaxation.h"
 #include "relative.h"
 
 // Walls that keep their temperature over a cycle and settle at its end.
