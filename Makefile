@@ -45,12 +45,12 @@ validate: program  ## compares the examples with published numbers
 	@scripts/setup test
 	@scripts/validate $(BUILD)
 
-coverage:  ## counts the branches of film, solver, mbd and bearing that their tests take: build/coverage/uncovered.txt (KEEP=1: of the last run)
+coverage:  ## counts the branches of film, solver and bearing that their tests take: build/coverage/uncovered.txt (KEEP=1: of the last run; MBD=1: of mbd, too)
 	@scripts/setup build coverage
 	@$(MAKE) --no-print-directory PRESET=coverage build/coverage/build.ninja
 	@$(PHASE) compile build/log/coverage.log cmake --build build/coverage -j $(JOBS) \
-	  --target solver_test --target film_test --target mbd_test --target bearing_test
-	@tests/coverage/coverage.py . build/coverage --jobs $(JOBS) $(if $(KEEP),--keep)
+	  --target solver_test --target film_test --target bearing_test $(if $(MBD),--target mbd_test)
+	@tests/coverage/coverage.py . build/coverage --jobs $(JOBS) $(if $(KEEP),--keep) $(if $(MBD),--with-mbd)
 
 mutations:  ## plants faults one at a time in a copy and tells which no test notices; an hour (ONLY=regex: some; DRAWN=n, SEED=s: n a module by machine, MODULES=film,solver: of these; WITHIN=film,solver: tests of these modules only)
 	@scripts/setup build test

@@ -250,7 +250,7 @@ TEST_CASE("FilmAtRest_HoldsNoLessThanNoOil") {
 
 // Between walls, with a line between nodes, in either sense of rotation.
 TEST_CASE("SweepsBetweenWalls_MeetNewton") {
-  for (const double sense : {1.0, -1.0}) {
+  for (const double sense : {1.0, -1.0, 0.0}) {
     for (const double line : {0.0, 0.26, 0.9}) {
       CAPTURE(sense);
       CAPTURE(line);
@@ -262,8 +262,10 @@ TEST_CASE("SweepsBetweenWalls_MeetNewton") {
                        sor = solve_cold(m, motion, {0, 0}, {.solver = FilmSolver::sor});
       REQUIRE(newton.summary.solved());
       REQUIRE(sor.summary.solved());
+      // At rest the line's pressure is everywhere, and bears nothing.
+      const double load = sense == 0 ? m.supply.pressure * m.R * m.L : newton.wrench.norm();
       // Residuals of 1e-10, which weak spots of the film amplify by the condition, some 1e3.
-      CHECK((sor.wrench - newton.wrench).norm() < 1e-6 * newton.wrench.norm());
+      CHECK((sor.wrench - newton.wrench).norm() < 1e-6 * load);
       CHECK((sor.fields.theta - newton.fields.theta).cwiseAbs().maxCoeff() < 1e-5);
     }
   }
@@ -422,6 +424,50 @@ TEST_CASE("CavityThatEndsAtAPeak_EndsInTheCellBeforeIt") {
   const FilmObservables seen = observe_film(m, surfaces(m, turning(m, 0.5, omega)), {}, {0, 0}, u);
   CHECK(seen.reformation_angle >= grid.phi(29) - 1e-12);  // round-off
   CHECK(seen.reformation_angle <= grid.phi(30) + 1e-12);  // likewise
+}
+
+// A groove across the line holds its nodes, where the line has no part in their rows.
+TEST_CASE("SweepsOverALineAcrossAGroove_MeetNewton") {
+  FilmModel m = big_end();
+  m.supply = {SupplyKind::fixed_angle, 0.26, 1e5};
+  m.features = {{.name = "groove", .phi = 0.26, .arc = 0.6, .length = 0.5 * m.L, .pressure = 3e5}};
+  const SurfaceMotion motion = surfaces(m, turning(m, 0.6, omega), 0.26);
+  const SolvedFilm newton = solve_cold(m, motion, {0, 0}),
+                   sor = solve_cold(m, motion, {0, 0}, {.solver = FilmSolver::sor});
+  REQUIRE(newton.summary.solved());
+  REQUIRE(sor.summary.solved());
+  // Residuals of 1e-10, which weak spots of the film amplify by the condition, some 1e3.
+  CHECK((sor.wrench - newton.wrench).norm() < 1e-6 * newton.wrench.norm());
+}
+
+// Surfaces that overlap are no film for sweeps either.
+TEST_CASE("SweepsInAClosedGap_TellWhere") {
+  const FilmModel m = big_end();
+  const SurfaceMotion motion = surfaces(m, turning(m, 1.2, omega));
+  Reynolds reynolds(m);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+  const FilmSolveSummary told = solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor}, u);
+  CHECK_FALSE(told.solved());
+  CHECK(told.domain.trouble == Trouble::closed);
+  CHECK(motion.g[told.domain.node] <= 0);
+}
+
+// A step that is to follow its gap but does not know the one it began with goes by the rate, as any first step does.
+TEST_CASE("StepThatDoesNotKnowItsGap_GoesByTheRate") {
+  const FilmModel m = big_end();
+  Journal journal = turning(m, 0.5, omega);
+  journal.e_rate = {0, 2e-3};
+  const SurfaceMotion motion = surfaces(m, journal);
+  std::array<Eigen::VectorXd, 2> u;
+  for (const bool by_gap : {false, true}) {
+    FilmHistory history;
+    history.dt = 1e-3, history.theta = Eigen::VectorXd::Ones(m.grid.size()), history.by_gap = by_gap;
+    Reynolds reynolds(m);
+    Eigen::VectorXd& film = u[by_gap ? 1 : 0];
+    film.setZero(m.grid.size());
+    REQUIRE(solve_film(reynolds, motion, history, {}, film).solved());
+  }
+  CHECK(u[1] == u[0]);
 }
 
 }  // namespace far_films_test

@@ -220,10 +220,14 @@ TEST_CASE("TemperaturesBySweeps_AreThoseOfTheFactorisedSystem") {
   flows.evaluate(balance, wrench, motion, mu);
   const CarryingFilm film{balance, wrench, flows, 0};
   const std::vector<ShellWall> shells{RingWall{.outer_radius = 0.1, .T_ambient = 40 + zero_celsius},
-                                      some_body(model.grid)};
+                                      some_body(model.grid), WallAtTemperature{.T = 45 + zero_celsius}};
   for (const ShellWall& shell : shells) {
     CAPTURE(shell.index());
     thermal.shell = shell;
+    if (std::holds_alternative<WallAtTemperature>(shell)) {
+      thermal.journal = WallAtTemperature{.T = 50 + zero_celsius};
+      thermal.carry_over = 0.6;
+    }
     if (std::holds_alternative<BodyWall>(shell)) {
       auto shaft = std::make_shared<JournalConduction>();
       shaft->T0 = 310, shaft->rise = 0.3;
@@ -436,6 +440,101 @@ TEST_CASE("FilmThatWarms_ConservesHeatAndEndsSteady") {
   CHECK(std::abs(film.heat.observables().T_max - steady.heat.T_max) < 1e-3);
   // Likewise.
   CHECK(std::abs(film.heat.state().journal - steady.heat.T_journal) < 1e-3);
+}
+
+// What comes out of a ring that gives off nothing has gone into it elsewhere.
+TEST_CASE("RingThatGivesOffNothing_TakesUpNothing") {
+  FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
+  model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
+  for (const int layers : {1, 4}) {
+    CAPTURE(layers);
+    ThermalModel thermal = supplied_at_40(layers);
+    thermal.shell = RingWall{.outer_radius = 0.05, .transfer = 0, .T_ambient = 20 + zero_celsius};
+    const Journal journal = turning(model, 0.6, 300);
+    const HotFilm hot = solve_hot(model, thermal, surfaces(model, journal), journal.e);
+    constexpr double solved = 1e-5;  // share to which the equations of heat are solved
+    CHECK(std::abs(hot.heat.balance.to_shell) < solved * hot.heat.balance.power);
+    CHECK(hot.heat.balance.to_oil == relative(hot.heat.balance.power).epsilon(solved));
+    CHECK(hot.heat.T_shell_max > hot.heat.T_shell_mean + 1);  // it passes heat around all the same
+  }
+}
+
+// Where oil conducts no heat, walls in bodies get none and are as warm as these, at rest and over cycles.
+TEST_CASE("OilThatDoesNotConduct_LeavesBodiesAsTheyAre") {
+  FilmModel model = bearing(0.025, 0.02, 30e-6, 24, 7);
+  model.lubricant.conductivity = 0;
+  model.lubricant.temperature_law = FixedViscosity{model.lubricant.mu0};
+  model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
+  auto wall = std::make_shared<WallConduction>();
+  wall->T0.setConstant(model.grid.n_phi, 315);
+  wall->rise = 0.5 * Eigen::MatrixXd::Identity(model.grid.n_phi, model.grid.n_phi);
+  wall->T_body0 = Eigen::Vector2d(312, 314);
+  wall->rise_body = Eigen::MatrixXd::Constant(2, model.grid.n_phi, 0.05);
+  auto shaft = std::make_shared<JournalConduction>();
+  shaft->T0 = 320, shaft->rise = 0.1;
+  for (const double dt : {0.0, 1e-3}) {
+    CAPTURE(dt);
+    ThermalModel thermal = supplied_at_40(3);
+    thermal.shell = BodyWall{.conduction = wall, .T_start = 330};
+    thermal.journal = BodyJournal{.conduction = shaft, .T_start = 340};
+    thermal.walls = dt > 0 ? WallMotion::held : WallMotion::by_their_heat;
+    FilmOverTime film(model, thermal, turning(model, 0.5, 300));
+    for (int k = 0; k < 3; ++k) film.advance(dt);
+    if (dt > 0) {
+      CHECK(film.heat.observables().T_body_max == 330);  // nothing has settled yet
+      (void)film.settle();
+      film.advance(dt);
+    }
+    constexpr double solved = 1e-9;  // K, round-off of 300
+    CHECK((film.heat.state().shell.array() - 315).abs().maxCoeff() < solved);
+    CHECK(std::abs(film.heat.state().journal - 320) < solved);
+    CHECK(std::abs(film.heat.observables().T_body_max - 314) < solved);
+    CHECK(film.heat.observables().T_max > 40 + zero_celsius + 1);  // the oil keeps what is made in it
+  }
+}
+
+// Nothing moves and nothing presses: no heat is made, and everything stays as warm as it is.
+TEST_CASE("FilmAtRest_StaysAsWarmAsItIs") {
+  FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
+  model.features.push_back({.name = "hole", .phi = 1, .arc = 0.5, .length = 8e-3, .pressure = model.p_cav});
+  ThermalModel thermal = supplied_at_40(3);
+  thermal.carry_over = 0.5;
+  FilmOverTime film(model, thermal);
+  for (int step = 0; step < 3; ++step) film.advance(1e-3);
+  const HeatObservables seen = film.heat.observables();
+  CHECK(std::abs(seen.T_max - thermal.T_supply) < 1e-9);        // K, round-off of 300
+  CHECK(std::abs(seen.T_film_mean - thermal.T_supply) < 1e-9);  // likewise
+  CHECK(seen.balance.power == 0);
+}
+
+// From a gap with next to no oil, which a hole begins to fill: heat of a film that is nearly nothing is kept as well.
+TEST_CASE("HeatOfAGapThatFills_IsConserved") {
+  FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
+  model.features.push_back({.name = "hole", .phi = 1, .arc = 0.5, .length = 8e-3, .pressure = 3e5});
+  const SurfaceMotion motion = surfaces(model, turning(model, 0.5, 300));
+  FilmHeat heat(model, supplied_at_40(3));
+  Reynolds reynolds(model);
+  Eigen::VectorXd u = Eigen::VectorXd::Constant(model.grid.size(), -fill_scale(model));
+  FilmHistory dry;
+  dry.dt = 1e-4, dry.theta = Eigen::VectorXd::Zero(model.grid.size());
+  FilmHeat of_no_oil(model, supplied_at_40(3));
+  of_no_oil.advance(motion, dry, u);
+  CHECK(std::isnan(of_no_oil.observables().T_film_mean));
+  FilmHistory history = dry;
+  history.theta.setConstant(5e-4);
+  u.setZero();
+  for (int step = 0; step < 5; ++step) {
+    history.viscosity = heat.viscosity();
+    const FilmSolveSummary solved = solve_film(reynolds, motion, history, {}, u);
+    CAPTURE(solved.message);
+    REQUIRE(solved.solved());
+    heat.advance(motion, history, u);
+    history.theta = film_fields(model, motion, u).theta;
+    CHECK(heat.observables().balance.error() < 1e-7);                   // the film's residual
+    CHECK(heat.observables().T_film_mean >= 40 + zero_celsius - 1e-6);  // K, what the steps' systems leave
+  }
+  CHECK(history.theta.minCoeff() < 1e-3);  // where next to no oil has come
+  CHECK(history.theta.maxCoeff() == 1);
 }
 
 }  // namespace heat_test

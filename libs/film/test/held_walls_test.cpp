@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "film_over_time.h"
+#include "heat/wall_relaxation.h"
 #include "relative.h"
 
 // Walls that keep their temperature over a cycle and settle at its end.
@@ -161,6 +164,133 @@ TEST_CASE("HeldWalls_ResumeToTheSameNumbers") {
   CHECK(machine.film.settle().largest == resumed.settle_walls(seen.T).largest);
   CHECK(machine.film.heat.state().shell == resumed.state().shell);
   CHECK(machine.film.heat.state().journal == resumed.state().journal);
+}
+
+// Without heat on one side, with a temperature given there, through a line instead of a hole.
+TEST_CASE("HeldWallsOfAllKinds_SettleAtThoseOfTheSteadyFilm") {
+  const RingWall ring{.outer_radius = 0.05, .transfer = 80, .T_ambient = 30 + zero_celsius};
+  const std::vector<std::pair<ShellWall, JournalWall>> kinds{
+      {InsulatedWall{}, FreeJournal{.heat_capacity = 100}},
+      {WallAtTemperature{.T = 45 + zero_celsius}, FreeJournal{.heat_capacity = 100}},
+      {ring, WallAtTemperature{.T = 45 + zero_celsius}},
+      {ring, InsulatedWall{}}};
+  for (const auto& kind : kinds) {
+    CAPTURE(kind.first.index());
+    CAPTURE(kind.second.index());
+    FilmModel model = bearing();
+    model.features.clear();
+    model.supply = {SupplyKind::fixed_angle, 0, 3e5};
+    ThermalModel thermal = walls(WallMotion::held);
+    thermal.shell = kind.first, thermal.journal = kind.second;
+    Machine machine(model, thermal, 0);
+    for (int cycle = 0; cycle < 8; ++cycle) {
+      machine.run_cycle();
+      (void)machine.film.settle();
+    }
+    machine.run_cycle();
+    thermal.walls = WallMotion::by_their_heat;
+    const Journal there = turning(model, 0.5, 300);
+    const HotFilm steady = solve_hot(model, thermal, surfaces(model, there), there.e);
+    constexpr double last = 5e-3;  // K, what the last corrections and the film's own transient amount to
+    CHECK(std::abs(machine.film.heat.observables().T_journal - steady.heat.T_journal) < last);
+    CHECK(std::abs(machine.film.heat.observables().T_shell_mean - steady.heat.T_shell_mean) < last);
+  }
+}
+
+// A journal of its own heat and one that is a node which nothing else reaches, beside either kind of shell.
+TEST_CASE("HeldNodeThatNothingReaches_IsAFreeJournal") {
+  const FilmModel model = bearing();
+  for (const bool has_ring : {false, true}) {
+    CAPTURE(has_ring);
+    std::array<double, 2> journal{}, shell{};
+    for (const bool is_node : {false, true}) {
+      ThermalModel thermal = walls(WallMotion::held);
+      if (!has_ring) thermal.shell = NodeWall{.T = 40 + zero_celsius, .node = 0, .name = "shell"};
+      if (is_node) thermal.journal = NodeWall{.T = 40 + zero_celsius, .node = 1, .name = "journal"};
+      ThermalNetwork network({.nodes = {{"shell", 1e3, 40 + zero_celsius, false},
+                                        {"journal", 1e3, 40 + zero_celsius, false},
+                                        {"air", 0, 30 + zero_celsius, true}},
+                              .paths = {{"to air", 0, 2, 2.0}}});
+      Machine machine(model, thermal, 0);
+      for (int cycle = 0; cycle < 8; ++cycle) {
+        machine.run_cycle();
+        machine.film.settle(network);
+      }
+      journal[is_node ? 1 : 0] = machine.film.heat.state().journal;
+      shell[is_node ? 1 : 0] = machine.film.heat.observables().T_shell_mean;
+    }
+    constexpr double last = 1e-3;  // K, what the last corrections amount to
+    CHECK(std::abs(journal[1] - journal[0]) < last);
+    CHECK(std::abs(shell[1] - shell[0]) < last);
+    CHECK(journal[0] > 45 + zero_celsius);
+  }
+}
+
+// Walls of given temperatures have nothing to settle.
+TEST_CASE("HeldWallsThatAreGiven_StayAsTheyAre") {
+  ThermalModel thermal = walls(WallMotion::held);
+  thermal.shell = WallAtTemperature{.T = 45 + zero_celsius};
+  thermal.journal = WallAtTemperature{.T = 50 + zero_celsius};
+  Machine machine(bearing(), thermal, 0.2);
+  machine.run_cycle();
+  const WallCorrection correction = machine.film.settle();
+  CHECK(correction.largest == 0);
+  CHECK(correction.rise == 0);
+  CHECK(machine.film.heat.state().journal == 50 + zero_celsius);
+}
+
+// Where oil comes from and what surrounds a ring are nodes that keep their temperatures, or such temperatures: through
+// a line, with a hole that takes oil away, all of it renewed in part.
+TEST_CASE("HeldWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
+  FilmModel model = bearing();
+  model.supply = {SupplyKind::fixed_angle, 0, 3e5};
+  model.features[0].phi = 2.6, model.features[0].pressure = 0;
+  ThermalModel thermal = walls(WallMotion::held);
+  thermal.carry_over = 0.7;
+  Machine by_temperature(model, thermal, 0.1);
+  thermal.oil.line = NetworkNode{.T = 40 + zero_celsius, .node = 0, .name = "oil"};
+  std::get<RingWall>(thermal.shell).surroundings = NetworkNode{.T = 30 + zero_celsius, .node = 1, .name = "air"};
+  REQUIRE(terminals_of(thermal).place_of_drain() == -1);
+  Machine by_node(model, thermal, 0.1);
+  ThermalNetwork network(
+      {.nodes = {{"oil", 0, 40 + zero_celsius, true}, {"air", 0, 30 + zero_celsius, true}}, .paths = {}});
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    by_temperature.run_cycle(), by_node.run_cycle();
+    (void)by_temperature.film.settle();
+    by_node.film.settle(network);
+    constexpr double solved = 1e-6;  // K, of answers of some 20 K solved to 1e-7
+    CHECK(std::abs(by_node.film.heat.state().journal - by_temperature.film.heat.state().journal) < solved);
+    CHECK((by_node.film.heat.state().shell - by_temperature.film.heat.state().shell).cwiseAbs().maxCoeff() < solved);
+  }
+}
+
+// A film at rest does not ask what walls would do over time.
+TEST_CASE("SteadyFilmWithHeldNodes_IsTheSteadyFilm") {
+  const FilmModel model = bearing();
+  std::array<WallExchange, 2> seen;
+  for (const bool held : {false, true}) {
+    ThermalModel thermal = walls(held ? WallMotion::held : WallMotion::by_their_heat);
+    thermal.journal = NodeWall{.T = 40 + zero_celsius, .node = 0, .name = "journal"};
+    FilmOverTime film(model, thermal, turning(model, 0.5, 300));
+    film.advance(0);
+    seen[held ? 1 : 0] = film.heat.exchange();
+  }
+  CHECK(seen[1].heat == seen[0].heat);
+  CHECK(seen[1].by_T == seen[0].by_T);
+}
+
+// What goes elsewhere than foretold tells nothing of the pace.
+TEST_CASE("PaceOfWalls_IsLearnedOfWhatGoesTheSameWay") {
+  const Eigen::Vector2d ones(1, 1), foretold(10, 0);
+  for (const auto& [then, share] : std::vector<std::pair<Eigen::Vector2d, double>>{
+           {{0, 0}, 1.0}, {{2.5, 0}, 0.75}, {{9, 0}, 0.5}, {{0, 10}, 1.0}, {{12, 0}, 1.0}}) {
+    WallPace pace;
+    pace.learn(Eigen::Vector2d(10, 0), ones);
+    CHECK(pace.share() == 1);
+    pace.foretell(foretold);
+    pace.learn(then, ones);
+    CHECK(pace.share() == relative(share).epsilon(1e-15));  // eps
+  }
 }
 
 }  // namespace held_walls_test

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "hersey/film/rising_stress.h"
+
 // Layers of one film share a stress that is linear across it, whatever shear leaves of their viscosities (thermal.25).
 namespace hersey::film {
 namespace layer_shear_test {
@@ -64,17 +66,48 @@ TEST_CASE("ShearOfLayers_IsWhatTheirOwnStressTakes") {
   }
 }
 
-// Where the stress hardly rises with the rate any more, in an oil that is much thinner on one side, Newton's steps do
-// not arrive; viscosities that follow the rates they have led to do.
+// Where the stress hardly rises with the rate any more, however suddenly it stops, in oils that are much thinner on one
+// side: Newton's steps do not arrive there unless they are shortened.
 TEST_CASE("ShearOfLayersThatGiveWayAtOnce_IsFoundAllTheSame") {
+  constexpr double of_rates = 1e-5;  // a rate's change of 1e-6 changes the stress by next to nothing
+  for (const double thinner : {0.0, 0.1, 0.4, 1.0}) {
+    std::vector<double> mu_n;
+    for (int l = 0; l < layers; ++l) mu_n.push_back(0.1 * std::exp(-thinner * l));
+    for (const double limit : {0.1, 1e-2, 1e-3, 1e-5, 0.0}) {
+      for (const double transition : {0.5, 2.0, 20.0}) {
+        CAPTURE(thinner);
+        CAPTURE(limit);
+        CAPTURE(transition);
+        const Carreau law{.limit = limit, .exponent = limit > 0 ? 0.0 : 0.1, .transition = transition};
+        const ShearThinning oil{.law = law, .critical_rate = 1e3};
+        REQUIRE(has_rising_stress(oil));
+        for (const double rate : {0.0, 1.0, 1e3, 1e6, 1e8}) {
+          for (const Vector2d& fall : {Vector2d(0, 0), Vector2d(10, 1), Vector2d(0, 1e3), Vector2d(1e5, 0)})
+            CHECK(inconsistency(oil, mu_n, {{rate, 0}, fall}, thinned(oil, mu_n, {{rate, 0}, fall})) < of_rates);
+        }
+      }
+    }
+  }
+}
+
+// Layers that hardly move are as thick as their own rate says, too.
+TEST_CASE("LayersThatHardlyMove_AreAsThickAsTheirStressSays") {
   std::vector<double> mu_n;
   for (int l = 0; l < layers; ++l) mu_n.push_back(0.1 * std::exp(-0.4 * l));
-  for (const double limit : {0.1, 1e-2, 1e-3}) {
-    CAPTURE(limit);
-    const ShearThinning oil{.law = Carreau{.limit = limit, .exponent = 0}, .critical_rate = 1e3};
-    for (const ShearOfGap& shear : {ShearOfGap{{1e3, 0}, {10, 1}}, ShearOfGap{{1e6, 0}, {10, 1}}})
-      CHECK(inconsistency(oil, mu_n, shear, thinned(oil, mu_n, shear)) < by_squares);
-  }
+  const ShearThinning oil{.law = Carreau{.limit = 0.1, .exponent = 0, .transition = 0.5}, .critical_rate = 1e3};
+  const ShearOfGap shear{{1e6, 0}, {1e3, 0}};
+  CHECK(inconsistency(oil, mu_n, shear, thinned(oil, mu_n, shear)) < by_squares);  // it was 0.2
+}
+
+// Oils whose stress does not rise any more have no rates of their own, and are not asked for them.
+TEST_CASE("StressThatStopsRising_IsKnown") {
+  CHECK(has_rising_stress(ShearThinning{.law = Newtonian{}}));
+  CHECK(has_rising_stress(ShearThinning{.law = Carreau{.limit = 0, .exponent = 0.1}}));
+  CHECK(has_rising_stress(ShearThinning{.law = Carreau{.limit = 1e-5, .exponent = 0}}));
+  CHECK_FALSE(has_rising_stress(ShearThinning{.law = Carreau{.limit = 1e-6, .exponent = 0.05}}));
+  CHECK(has_rising_stress(ShearThinning{.law = Cross{.limit = 0, .exponent = 0.9}}));
+  CHECK(has_rising_stress(ShearThinning{.law = Cross{.limit = 1e-5, .exponent = 1}}));
+  CHECK_FALSE(has_rising_stress(ShearThinning{.law = Cross{.limit = 0, .exponent = 1}}));
 }
 
 TEST_CASE("OilThatNothingShears_IsAsAtRest") {

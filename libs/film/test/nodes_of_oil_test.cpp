@@ -197,5 +197,20 @@ TEST_CASE("NodesOfOil_SettleOverCycles") {
     CHECK(std::abs(machine.network.temperatures()[node] - wanted.network.temperatures()[node]) < 0.01);
 }
 
+// What a second hole takes away comes to the drain as what leaves over the edges does.
+TEST_CASE("DrainGetsWhatHolesTakeAway") {
+  FilmModel model = bearing();
+  model.features.push_back({.name = "outlet", .phi = 3.4, .arc = 0.7, .length = 8e-3, .pressure = 0});
+  ThermalModel thermal = with_sump();
+  thermal.oil.features.push_back(thermal.oil.features[0]);
+  thermal.shell = InsulatedWall{};
+  FilmOverTime film(model, thermal, loaded);
+  for (int k = 0; k < 100; ++k) film.advance(0);
+  const FilmTerminals at = terminals_of(thermal);
+  const HeatBalance balance = film.heat.observables().balance;
+  CHECK(film.heat.exchange().heat[2 + at.place_of_drain()] == relative(balance.to_oil).epsilon(1e-5));  // as solved
+  CHECK(balance.to_oil == relative(balance.power).epsilon(1e-5));                                       // likewise
+}
+
 }  // namespace nodes_of_oil_test
 }  // namespace hersey::film

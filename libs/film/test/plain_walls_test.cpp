@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "film_over_time.h"
 #include "heat/layering.h"
+#include "hersey/film/grid_transfer.h"
 #include "relative.h"
 
 // Walls that keep their shape, networks and scales turned round, and what is asked of a film before it has moved.
@@ -221,6 +223,24 @@ TEST_CASE("FilmWithoutShapes_IsCondensedToTheSameWrench") {
     CHECK(plain.Q.size() == 0);
     CHECK((plain.wrench - shaped.wrench).norm() < 1e-9 * shaped.wrench.norm());           // the solver leaves 1e-10
     CHECK((plain.wrench_ds - shaped.wrench_ds).norm() < 1e-9 * shaped.wrench_ds.norm());  // likewise
+  }
+}
+
+// Between rings whose lines lie elsewhere fields keep their places, whichever begins first.
+TEST_CASE("FieldBetweenTurnedRings_StaysWhereItIs") {
+  const Grid one{36, 5}, other = turned(Grid{24, 7}, 0.5);
+  for (const bool backwards : {false, true}) {
+    CAPTURE(backwards);
+    const Grid &from = backwards ? other : one, &to = backwards ? one : other;
+    const auto field = [](const Grid& grid) {
+      Eigen::VectorXd values(grid.size());
+      for (int k = 0; k < grid.size(); ++k)
+        values[k] = std::cos(grid.phi(k / grid.n_z)) + 3 * grid.z_over_L(k % grid.n_z);
+      return values;
+    };
+    const Eigen::VectorXd there = GridTransfer::by_place(from, to)(field(from), 1);
+    const double step = 2 * pi / from.n_phi;
+    CHECK((there - field(to)).cwiseAbs().maxCoeff() < step * step / 8);  // of straight lines along a cosine
   }
 }
 

@@ -420,5 +420,37 @@ TEST_CASE("InterpolatedGaps_AreOfFourthOrder") {
   CHECK(std::log2(cell[0] / cell[1]) == doctest::Approx(4).epsilon(0.02));
 }
 
+// Parabolas that dip below nothing between nodes, one way or both ways together, are not believed.
+TEST_CASE("SmallestFilmBetweenNodes_IsThatOfTheNodeWhereParabolasDipBelowNothing") {
+  FilmModel m{.R = 0.03, .L = 0.06 * pi, .c = 30e-6, .grid = {60, 61}};  // equal cells both ways
+  for (const double beside : {4.0, 6.0, 20.0}) {
+    CAPTURE(beside);
+    // Four nodes as narrow as each other, all around them wider: parabolas dip by an eighth of the step.
+    Eigen::VectorXd h = Eigen::VectorXd::Constant(m.grid.size(), 1e-3);
+    for (int i = 9; i <= 12; ++i) {
+      for (int j = 9; j <= 12; ++j) {
+        const bool out_i = i == 9 || i == 12, out_j = j == 9 || j == 12;
+        h[m.grid.index(i, j)] = 1e-5 * (1 + (out_i ? beside - 1 : 0) + (out_j ? beside - 1 : 0));
+      }
+    }
+    const double dip = (beside - 1) / 8, both = 1 - 2 * dip;
+    const double found = thinnest_film(m, GridGeometry(m), h, 0).value;
+    CHECK(found == relative(1e-5 * (both > 0 ? both : 1)).epsilon(1e-9));  // round-off
+  }
+}
+
+// Between two rows only places count where neither lies in a groove.
+TEST_CASE("SmallestFilmInTheMiddle_IsThatBesideTheGroove") {
+  FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 6}};
+  for (const double side : {-1.0, 1.0}) {
+    CAPTURE(side);
+    m.features = {{.name = "pocket", .phi = pi, .z = side * 3e-3, .arc = 0.55, .length = 5e-3, .depth = 1e-4}};
+    const Eigen::VectorXd h = surfaces(m, turning(m, 0.5, 100)).g;
+    // The pocket ends 0.275 rad from the narrowest place; the next line beside it lies at 18 degrees.
+    const double at_line = 30e-6 - 15e-6 * std::cos(pi / 10);
+    CHECK(thinnest_film(m, GridGeometry(m), h, 0).in_the_middle == relative(at_line).epsilon(1e-9));  // round-off
+  }
+}
+
 }  // namespace pocket_relief_test
 }  // namespace hersey::film

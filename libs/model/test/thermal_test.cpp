@@ -225,6 +225,15 @@ TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
               "a limit above the viscosity at rest, 10 mPa.s"));
   CHECK(tells(sheared("law: cross, exponent: 2, critical_stress: 1 kPa, limit_ratio: 0.1"), "",
               "an exponent of at most 1, or with this one a limit_ratio above 0.111"));
+  // Layers share the film's stress; a film in one layer has its rate from its surfaces.
+  const std::string stops = ", specific_heat: 1900 J/kg/K, conductivity: 0.14 W/m/K";
+  for (const std::string law : {"law: carreau, exponent: 0.05", "law: cross, exponent: 1"}) {
+    const std::string oil = sheared(law + ", critical_stress: 1 kPa") + stops;
+    CHECK(tells(oil, "model: film, supply_temperature: 50 degC", "stress all but stops rising"));
+    CHECK_NOTHROW(read_bearing(oil, "model: film, supply_temperature: 50 degC, layers: 1"));
+    const std::string risen = sheared(law + ", critical_stress: 1 kPa, limit_ratio: 1e-4") + stops;
+    CHECK_NOTHROW(read_bearing(risen, "model: film, supply_temperature: 50 degC"));
+  }
   CHECK(
       tells("grade: iso_vg_46, shear_thinning: {law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 5 "
             "mPa.s}",

@@ -69,21 +69,20 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
 // (film.61).
 CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const Grid& grid = model_.grid;
-  const int k = grid.index(i, j), before = grid.before(i);
+  const int k = grid.index(i, j);
   const bool is_full = u_[k] >= -round_off_of_u();
   CavityBorder border{.node = k, .of = k, .share = is_full ? 1.0 : 0.0};
   if (is_full || is_held(k) || is_given(k)) return border;
   border.beside = nodes_beside(grid, i, j);
-  const std::array<std::size_t, 4> faces{before < 0 ? 0 : face_after(before, j), face_after(i, j),
-                                         j > 0 ? face_above(i, j - 1) : 0, j + 1 < grid.n_z ? face_above(i, j) : 0};
+  const std::array<int, 4> faces = faces_around(k);
   const Node& node = nodes_[k];
   const double cube = node.h * node.h * node.h;
   double in = 0, in_by_h = 0, in_by_rate = 0, in_by_turn = 0;
   std::array<double, 4> in_by{};
   for (std::size_t side = 0; side < 4; ++side) {
     const int other = border.beside[side];
-    if (other < 0 || u_[other] <= 0 || is_cut(faces[side])) continue;
-    const Face& face = faces_[faces[side]];
+    if (other < 0 || u_[other] <= 0) continue;
+    const Face& face = faces_[faces[side]];  // which no line cuts: it would hold the node
     const Fluidity& flow = node.flow[side < 2 ? 0 : 1];
     const double unit = face.width / (12 * face.length), pressed = unit * u_[other];
     in_by[side] = unit * cube * flow.value;
@@ -91,7 +90,7 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
     in_by_h += pressed * (3 * node.h * node.h * flow.value + cube * flow.h);
     in_by_rate += pressed * cube * flow.rate, in_by_turn += pressed * cube * flow.turn;
   }
-  const double missing = -D0_ * u_[k], least = kLeastSlack * D0_ * cavitation_scales(model_).slack;
+  const double missing = -D0_ * u_[k], least = kLeastSlack * D0_ * scales_.slack;
   if (missing < least) in += least - missing;
   border.share = in / (in + missing);
   if (in == 0) return border;
@@ -130,18 +129,13 @@ double FlowBalance::broken_share(int node) const {
   const Node& at = nodes_[node];
   if (!cavitation_.has_fill()) return 1 - (model_.cavitated_shear == CavitatedShear::full ? at.other_share : at.share);
   if (u_[node] >= -round_off_of_u()) return 0;
-  const Grid& grid = model_.grid;
-  const int i = node / grid.n_z, j = node % grid.n_z, before = grid.before(i);
   double in = 0, carried = 0;  // by pressure; out of a full gap by the surfaces
-  const auto count = [&](std::size_t f) {
+  for (const int f : faces_around(node)) {
+    if (f < 0) continue;
     const Face& face = faces_[f];
     in += flows_[f].K * nodes_[face.a == node ? face.b : face.a].p;
     carried += std::max(face.a == node ? flows_[f].couette : -flows_[f].couette, 0.0);
-  };
-  if (before >= 0) count(face_after(before, j));
-  if (grid.next(i) >= 0) count(face_after(i, j));
-  if (j > 0) count(face_above(i, j - 1));
-  if (j + 1 < grid.n_z) count(face_above(i, j));
+  }
   const double missing = (1 - at.theta) * carried;
   return missing > 0 ? missing / (in + missing) : 1;
 }

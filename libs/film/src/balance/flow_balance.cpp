@@ -29,6 +29,7 @@ void check(const FilmModel& m) {
 FlowBalance::FlowBalance(const FilmModel& model)
     : model_(model),
       cavitation_(cavitation_law(model_)),
+      scales_(cavitation_scales(model_)),
       law_(model_),
       rough_law_(model_.roughness),
       geometry_(model_),
@@ -104,6 +105,14 @@ void FlowBalance::lay_faces() {
                         {}});
     }
   }
+}
+
+std::array<int, 4> FlowBalance::faces_around(int node) const {
+  const Grid& grid = model_.grid;
+  const int i = node / grid.n_z, j = node % grid.n_z, before = grid.before(i);
+  const auto face = [](bool is_there, std::size_t f) { return is_there ? static_cast<int>(f) : -1; };
+  return {face(before >= 0, face_after(std::max(before, 0), j)), face(grid.next(i) >= 0, face_after(i, j)),
+          face(j > 0, face_above(i, j - 1)), face(j + 1 < grid.n_z, face_above(i, j))};
 }
 
 void FlowBalance::lay_pattern() {
@@ -261,7 +270,6 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
 }
 
 int FlowBalance::phase_node(int node) const {
-  if (cavitation_.has_fill()) return node;
   while (is_given(node) && edge_unknown(node) == 0) node = edges_[node].inside;
   return node;
 }

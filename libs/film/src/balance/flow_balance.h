@@ -132,6 +132,8 @@ class FlowBalance {
   [[nodiscard]] std::size_t face_above(int i, int j) const {
     return first_axial_face_ + static_cast<std::size_t>(i * (model_.grid.n_z - 1) + j);
   }
+  /// Faces of a node to those before and after it around, then along the axis; -1: none.
+  [[nodiscard]] std::array<int, 4> faces_around(int node) const;
   [[nodiscard]] double storage(int node) const;             ///< [m^3/s]
   [[nodiscard]] double storage_by_content(int node) const;  ///< its derivative with the oil's content [m^3/s]
   /// The gap that holds oil over a control volume, mean depth of pockets included [m].
@@ -417,6 +419,7 @@ class FlowBalance {
 
   FilmModel model_;
   const CavitationLaw& cavitation_;
+  CavitationScales scales_;
   NodeLaw law_;
   RoughGapLaw rough_law_;
   GridGeometry geometry_;

@@ -21,9 +21,9 @@ namespace {
 // What responses leave of their right-hand sides.
 constexpr double tight = 1e-10;
 
-// What one solution leaves of a step's defect of oil, and what refinement leaves.
-constexpr double settling = 1e-6, refined_to = 1e-10;
-constexpr int most_refinements = 5;
+// What one solution leaves of a step's defect of oil, what refinement leaves, and what each of its turns leaves of the
+// last at most: ten turns cost what a factor does.
+constexpr double settling = 1e-6, refined_to = 1e-10, least_gain = 0.1;
 
 // Right-hand sides that multigrid has not solved after so many iterations are left to the direct solver.
 constexpr int most_iterations = 80;
@@ -368,12 +368,12 @@ void Reynolds::Impl::solve_for_settling() {
   const double enough = refined_to * rhs.cwiseAbs().maxCoeff();
   solve(rhs, settling, answer);
   double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < most_refinements; ++k) {
+  for (;;) {
     rest = rhs;
     subtract_product(answer, rest);
     const double size = rest.cwiseAbs().maxCoeff();
     if (size <= enough) return;
-    if (!(size < 0.5 * last)) {  // too old a factor
+    if (!(size < least_gain * last)) {  // too old a factor
       factorised = false;
       factorise();
       return solve(rhs, settling, answer);

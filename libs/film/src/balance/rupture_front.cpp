@@ -55,10 +55,8 @@ class Fronts {
     if (balance_.is_open(node) && ambient_fill(balance_.model(), node) > 0) return;  // oil comes in there
     const double storage_slope = balance_.nodes()[node].density * balance_.storage_by_content(node);
     Balance sum{balance_.storage(node) + storage_slope * (1 - balance_.nodes()[node].theta), storage_slope};
-    add_face(node, balance_.face_after(i, j), sum);
-    if (const int before = grid_.before(i); before >= 0) add_face(node, balance_.face_after(before, j), sum);
-    if (j > 0) add_face(node, balance_.face_above(i, j - 1), sum);
-    if (j + 1 < grid_.n_z) add_face(node, balance_.face_above(i, j), sum);
+    for (const int f : balance_.faces_around(node))
+      if (f >= 0) add_face(node, static_cast<std::size_t>(f), sum);
     if (sum.lack <= 0 || sum.slope <= 0) return;
     u_[node] = -fill_ * std::min(1.0, sum.lack / sum.slope);
     moved_[node] = 1;

@@ -56,8 +56,7 @@ Surroundings within_film(Surroundings s, const Grid& grid, int i, int j) {
 Share ramp(double d, double half, double step) {
   const double outside = (std::abs(d) - half) / step;
   if (outside <= 0) return {1, 0};
-  if (outside >= 1) return {0, 0};
-  return {1 - outside, (d > 0 ? 1 : -1) / step};
+  return {std::max(1 - outside, 0.0), (d > 0 ? 1 : -1) / step};
 }
 
 /// Row shares (film.22): the conductance from a node to the feature's edge where that is a share of one cell away.
@@ -65,7 +64,6 @@ Share held(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surr
   const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / s.R);
   const double along = ramp(s.z, 0.5 * feature.length, s.to_z).value;
   const double covered = around.value * along;
-  if (covered == 0) return {};
   const double by_phi = unit * s.to_phi / s.width_z, by_z = unit * s.to_z / s.width_phi;
   const double sum = covered + (1 - around.value) * by_phi + (1 - along) * by_z, gap = sum - covered;
   const double covered_phi = around.phi * along, gap_phi = -by_phi * around.phi;

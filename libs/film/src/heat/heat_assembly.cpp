@@ -43,11 +43,17 @@ void HeatEquations::assemble(const CarryingFilm& film, const HeatState& start) {
   if (holds_walls(film)) hold_walls(start);
 }
 
+// Where nothing flows, threads are those of the film's own oil once a second.
+double HeatEquations::throughput(const CarryingFilm& film) const {
+  const double flows = film.balance.largest_throughput();
+  return flows > 0 ? flows : model_.c * model_.R * model_.L;
+}
+
 // (thermal.10): without flow a steady film would have no temperature, so that a thread of storage is left to it.
 void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start) {
   storage_.resize(start.film.size());
   for (int node = 0; node < model_.grid.size(); ++node) {
-    const double thread = least_fill_ * film.balance.largest_throughput();
+    const double thread = least_fill_ * throughput(film);
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       const double rate = film.dt > 0 ? start_volume(film, node) / film.dt : thread * 1e-6;
@@ -305,7 +311,7 @@ void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& star
               .chi = film.balance.supplied_share(node),
               .flow = film.balance.supply(node)};
     supply_of_[node] = held.supply;
-    const double thread = least_fill_ * film.balance.largest_throughput();
+    const double thread = least_fill_ * throughput(film);
     Eigen::VectorXd taken_on(layers());
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
@@ -402,7 +408,7 @@ void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& s
     if (body != nullptr) {
       journal_self_ += 1 / body->rise;
       known_[journal] += body->T0 / body->rise;
-    } else if (free != nullptr && film.dt > 0 && !holds_walls(film)) {
+    } else if (film.dt > 0 && !holds_walls(film)) {
       journal_self_ += free->heat_capacity / film.dt;
       known_[journal] += free->heat_capacity / film.dt * start.journal;
     }
@@ -414,7 +420,7 @@ void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& s
 void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& start) {
   const int journal = system_.size();
   add_journal_row(film, start);
-  const double thread = rc_ * kThreadOfSupply * film.balance.largest_throughput();
+  const double thread = rc_ * kThreadOfSupply * throughput(film);
   std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
   for (const Held& held : held_) {
     flow[held.supply] += held.flow;

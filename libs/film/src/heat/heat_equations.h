@@ -84,6 +84,7 @@ class HeatEquations {
   [[nodiscard]] static double oil_share(const Node& node);
   [[nodiscard]] bool has_line() const { return model_.supply.kind != SupplyKind::none; }
   [[nodiscard]] bool is_line(int supply) const { return has_line() && supply == 0; }
+  [[nodiscard]] double throughput(const CarryingFilm& film) const;  ///< largest of a control volume [m^3/s], > 0
   [[nodiscard]] int layers() const { return thermal_.layers; }
   /// Of the film's thickness [-].
   [[nodiscard]] double width(int layer) const { return across_.width(static_cast<std::size_t>(layer)); }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "heat/layer_profile.h"
+#include "hersey/core/contract.h"
 
 namespace hersey::film {
 namespace {
@@ -11,10 +12,14 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-// Newton converges by squares: a change of this share of the largest rate leaves its square. Kacanov's method gains a
-// factor 1 - (tangent over secant viscosity) in each turn.
-constexpr double newton_change = 1e-4, kacanov_change = 1e-11;
-constexpr int most_newton = 12, most_kacanov = 2000;
+// Newton converges by squares: a change of this share of the largest rate leaves its square. Steps that are shortened
+// are judged by what shear leaves of each layer.
+constexpr double newton_change = 1e-4, shortened_change = 1e-6;
+// Oils whose stress all but stops rising take some 80 steps of the other kind.
+constexpr int most_newton = 12, most_shortened = 1000;
+
+// Of the fall of the potential at the beginning of a step, what is left of it at its end at most.
+constexpr double flat = 0.3;
 
 // A rate that changes by less than this share of itself takes its viscosity along to first order. One next to nothing,
 // where the stress turns, does not.
@@ -26,7 +31,7 @@ LayerShear::LayerShear(const ShearThinning& thinning, int layers)
     : thinning_(thinning), across_(layering_of(static_cast<std::size_t>(layers))) {
   const auto n = static_cast<std::size_t>(layers);
   rates_.resize(n), missing_.resize(n), by_stress_.resize(n), ratios_.resize(n), sizes_.resize(n), left_.resize(n);
-  mu_.resize(n);
+  mu_.resize(n), steps_.resize(n);
 }
 
 /// Stress in the middle of a layer over that in the middle of the film.
@@ -53,9 +58,8 @@ void LayerShear::look() {
   }
 }
 
-/// One step towards rates whose stresses are linear across the film; its size over the largest rate. What shear leaves
-/// follows to first order.
-double LayerShear::newton_step() {
+/// Towards rates whose stresses are linear across the film; all of them still make up the sliding.
+void LayerShear::find_steps() {
   look();
   Matrix2d all = Matrix2d::Zero();
   Vector2d rest = shear_.rate;
@@ -68,48 +72,92 @@ double LayerShear::newton_step() {
     all += across_.width(l) * by_stress_[l];
     rest -= across_.width(l) * (rates_[l] + by_stress_[l] * missing_[l]);
   }
-  const Vector2d mean = all.inverse() * rest;
-  double largest = 0, change = 0;
+  mean_ = all.inverse() * rest;
+  for (std::size_t l = 0; l < rates_.size(); ++l) steps_[l] = by_stress_[l] * (mean_ + missing_[l]);
+}
+
+/// Size of the step over the largest rate, or what it changes of what shear leaves of a layer, if that is more. The
+/// latter follows to first order.
+double LayerShear::take_steps() {
+  double largest = 0, change = 0, change_left = 0;
   for (std::size_t l = 0; l < rates_.size(); ++l) {
-    const Vector2d step = by_stress_[l] * (mean + missing_[l]);
-    const double along = rates_[l].dot(step), size = step.norm();
-    rates_[l] += step;
+    const double along = rates_[l].dot(steps_[l]), size = steps_[l].norm(), before = left_[l];
+    rates_[l] += steps_[l];
     if (size < first_order * sizes_[l])
       left_[l] += ratios_[l].slope * along / (sizes_[l] * sizes_[l]);
     else if (size > 0)
       left_[l] = thinning_.ratio(rates_[l].norm(), mu_n_[l]).value;
     largest = std::max(largest, rates_[l].norm()), change = std::max(change, size);
+    change_left = std::max(change_left, std::abs(left_[l] / before - 1));
   }
-  return largest > 0 ? change / largest : change;
+  return std::max(largest > 0 ? change / largest : change, change_left);
 }
 
 bool LayerShear::by_newton(std::span<double> left) {
   for (int k = 0; k < most_newton; ++k) {
-    if (!(newton_step() <= newton_change)) continue;
+    find_steps();
+    if (!(take_steps() <= newton_change)) continue;
     std::copy(left_.begin(), left_.end(), left.begin());
     return true;
   }
   return false;
 }
 
-void LayerShear::by_kacanov(std::span<double> left) {
-  std::fill(left.begin(), left.end(), 1.0);
-  double change = 1;
-  for (int k = 0; k < most_kacanov && change > kacanov_change; ++k) {
-    follow(left);
-    look();
-    change = 0;
-    for (std::size_t l = 0; l < left.size(); ++l) {
-      change = std::max(change, std::abs(left_[l] - left[l]) / left_[l]);
-      left[l] = left_[l];
-    }
+/// Whether the steps change next to nothing of what shear leaves of any layer. NaN is not near.
+bool LayerShear::is_near() const {
+  for (std::size_t l = 0; l < rates_.size(); ++l) {
+    const double then = thinning_.ratio((rates_[l] + steps_[l]).norm(), mu_n_[l]).value;
+    if (!(std::abs(then / left_[l] - 1) <= shortened_change)) return false;
   }
+  return true;
+}
+
+/// Slope of the potential (thermal.67) along the steps, at a share of them. They are none in the mean, so that a stress
+/// of all layers does not count.
+double LayerShear::slope_at(double share) const {
+  double slope = 0;
+  for (std::size_t l = 0; l < rates_.size(); ++l) {
+    const Vector2d rate = rates_[l] + share * steps_[l];
+    const double mu = mu_n_[l] * thinning_.ratio(rate.norm(), mu_n_[l]).value;
+    slope += across_.width(l) * (mu * rate - beyond_mean(l) - mean_).dot(steps_[l]);
+  }
+  return slope;
+}
+
+/// The potential is convex: its slope rises along the steps, and is bracketed where they go too far.
+double LayerShear::share_of_steps() const {
+  const double enough = flat * std::abs(slope_at(0));
+  double low = 0, high = 1, share = 1, slope = slope_at(1);
+  if (slope <= enough) return share;
+  constexpr double narrow = 1e-3;  // of the share
+  while (std::abs(slope) > enough && high - low > narrow * high) {
+    (slope > 0 ? high : low) = share;
+    share = 0.5 * (low + high);
+    slope = slope_at(share);
+  }
+  return share;
+}
+
+bool LayerShear::by_descent(std::span<double> left) {
+  std::fill(left.begin(), left.end(), 1.0);
+  follow(left);
+  for (int k = 0; k < most_shortened; ++k) {
+    find_steps();
+    const bool are_last = is_near();
+    const double share = are_last ? 1 : share_of_steps();
+    for (std::size_t l = 0; l < rates_.size(); ++l) rates_[l] += share * steps_[l];
+    if (!are_last) continue;
+    look();
+    std::copy(left_.begin(), left_.end(), left.begin());
+    return true;
+  }
+  return false;
 }
 
 void LayerShear::thin(std::span<const double> mu_n, const ShearOfGap& shear, std::span<double> left) {
   mu_n_ = mu_n, shear_ = shear;
   follow(left);
-  if (!by_newton(left)) by_kacanov(left);
+  HERSEY_REQUIRE(by_newton(left) || by_descent(left), "an oil whose stress rises with its rate: has_rising_stress()");
 }
 
 Vector2d LayerShear::flow_factors() {

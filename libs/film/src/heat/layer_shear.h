@@ -22,7 +22,7 @@ class LayerShear {
   /// @param thinning  not Newtonian; the caller keeps it alive
   LayerShear(const ShearThinning& thinning, int layers);
 
-  /// Newton's method, or where that does not arrive Kacanov's, by which viscosities follow the rates they have led to.
+  /// Newton's method, or where that does not arrive the same with steps that go down the potential (thermal.67).
   /// @param mu_n  of the layers at rest at their temperatures and the pressure of the place [Pa s]; the caller keeps it
   /// @param left  what shear leaves of them, R [-]: a start (1 is one) and the answer
   void thin(std::span<const double> mu_n, const ShearOfGap& shear, std::span<double> left);
@@ -35,20 +35,25 @@ class LayerShear {
  private:
   void follow(std::span<const double> left);
   void look();
-  [[nodiscard]] double newton_step();
+  void find_steps();
+  [[nodiscard]] double take_steps();
+  [[nodiscard]] bool is_near() const;
+  [[nodiscard]] double slope_at(double share) const;
+  [[nodiscard]] double share_of_steps() const;
   [[nodiscard]] bool by_newton(std::span<double> left);
-  void by_kacanov(std::span<double> left);
+  [[nodiscard]] bool by_descent(std::span<double> left);
   [[nodiscard]] Eigen::Vector2d beyond_mean(std::size_t l) const;
 
   const ShearThinning& thinning_;
   const Layering& across_;
   std::span<const double> mu_n_;
   ShearOfGap shear_;
-  std::vector<Eigen::Vector2d> rates_, missing_;  ///< around and along the axis [1/s]; [Pa]
-  std::vector<Eigen::Matrix2d> by_stress_;        ///< of the rates [1/(Pa s)]
-  std::vector<ShearRatio> ratios_;                ///< of the rates last looked at
-  std::vector<double> sizes_;                     ///< of these [1/s]
-  std::vector<double> left_, mu_;                 ///< R at the rates; viscosities with it [Pa s]
+  std::vector<Eigen::Vector2d> rates_, steps_, missing_;  ///< around and along the axis [1/s]; [Pa]
+  Eigen::Vector2d mean_ = Eigen::Vector2d::Zero();        ///< stress in the middle of the film, after the steps [Pa]
+  std::vector<Eigen::Matrix2d> by_stress_;                ///< of the rates [1/(Pa s)]
+  std::vector<ShearRatio> ratios_;                        ///< of the rates last looked at
+  std::vector<double> sizes_;                             ///< of these [1/s]
+  std::vector<double> left_, mu_;                         ///< R at the rates; viscosities with it [Pa s]
 };
 
 }  // namespace hersey::film

@@ -23,6 +23,17 @@ Eigen::VectorXd parabolic_shares(const Eigen::VectorXd& length) {
   return shares;
 }
 
+/// By which sums over volumes, which the balance of oil implies, become integrals by the weights of the wrench, which
+/// lose nothing of a film's parabola across the width.
+struct Across {
+  Eigen::VectorXd axial;   ///< of faces along the axis
+  Eigen::VectorXd around;  ///< of nodes, and of faces around
+};
+
+Across across(const GridGeometry& geometry) {
+  return {parabolic_shares(geometry.dz), geometry.weight_z.cwiseQuotient(geometry.width_z)};
+}
+
 /// Work that oil brings along which a feature feeds over the land before an edge, beyond what a held node says of it.
 double oil_over_land(const FlowBalance& balance, int node) {
   if (balance.over_land(node) == 0) return 0;
@@ -60,9 +71,8 @@ double pressure_power(const FlowBalance& balance, std::size_t f) {
 Eigen::VectorXd power_beyond_volumes(const FlowBalance& balance, const SurfaceMotion& motion,
                                      const FilmWrench& wrench) {
   const Grid& grid = balance.model().grid;
-  const GridGeometry& geometry = balance.geometry();
-  const Eigen::VectorXd axial = parabolic_shares(geometry.dz).array() - 1,
-                        around = geometry.weight_z.cwiseQuotient(geometry.width_z).array() - 1;
+  const Across weights = across(balance.geometry());
+  const Eigen::VectorXd axial = weights.axial.array() - 1, around = weights.around.array() - 1;
   Eigen::VectorXd beyond = Eigen::VectorXd::Zero(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
     const int next = std::max(grid.next(i), 0);  // there is no face, and no power, after the end of a patch
@@ -85,10 +95,7 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
   const FilmModel& model = balance.model();
   const Grid& grid = model.grid;
   const GridGeometry& geometry = balance.geometry();
-  // The sums that the balance of oil implies are trapezoidal; integrals by the weights of the wrench lose nothing of a
-  // film's parabola across the width.
-  const Eigen::VectorXd axial = parabolic_shares(geometry.dz),
-                        around = geometry.weight_z.cwiseQuotient(geometry.width_z);
+  const auto [axial, around] = across(geometry);
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
       const int k = grid.index(i, j);

@@ -361,7 +361,9 @@ Vector6 FilmWrench::along(const MotionDirection& direction) const {
   const Eigen::Vector2d slip(direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell);
   Vector6 d = by_slip_ * slip + direction.phi_journal * by_journal_ + pushes_along(direction);
   if (direction.g.size() != 0) d += by_g_ * direction.g;
-  if (direction.shell_share != 0 && opening_.size() != 0) d += direction.shell_share * (by_opening_ * direction.g);
+  if (direction.shell_share == 0) return d;
+  HERSEY_REQUIRE(opening_.size() != 0, "what the shell's surface opens the gap by comes with the motion");
+  d += direction.shell_share * (by_opening_ * direction.g);
   return d;
 }
 

@@ -78,9 +78,10 @@ class PeakFinder {
   const GridGeometry& at_;
 };
 
-/// Whether the pressure has no kink between two nodes: neither a supply line nor a feature holds one of them, and no
-/// border of a pocket lies between.
+/// Whether the pressure has no kink between a node and another: no edge gives it the pressure, neither a supply line
+/// nor a feature holds one of them, and no border of a pocket lies between.
 bool is_smooth(const FlowBalance& balance, int a, int b) {
+  if (balance.is_given(a)) return false;
   if (balance.balance_share(a) < 1 || balance.balance_share(b) < 1) return false;
   const Eigen::VectorXd& depth = balance.relief().depth();
   return depth.size() == 0 || std::abs(depth[a] - depth[b]) <= 1e-9 * balance.model().c;

@@ -287,7 +287,6 @@ FilmSolveSummary solve_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, c
   FilmSolveSummary summary = sor.solve(options, u);
   // Leaves the object at the answer, as Newton does.
   if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
-  summary.set_solved(summary.solved() && summary.domain.is_inside());
   return summary;
 }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <variant>
 
+#include "hersey/film/rising_stress.h"
 #include "interpret/interpret.h"
 #include "schema/thermal_walls.h"
 
@@ -169,10 +170,22 @@ film::SurfaceMaterial surface_of(Context& context, const Value& bearing, const c
           .heat_capacity = density * number_of(*material, "specific_heat")};
 }
 
+// Layers share the film's stress: where that stops rising, rates are anything.
+void check_shear(Context& context, const Value& thermal, int layers, const film::ShearThinning& oil) {
+  if (layers == 1 || film::has_rising_stress(oil)) return;
+  context.fault(
+      thermal, "layers of an oil whose shear stress all but stops rising as it is sheared faster",
+      fmt::format("a limit_ratio of at least {:g} in the oil's shear_thinning, or the tenth power of the rate "
+                  "or more (an exponent of at least 0.1 in carreau, at most 0.9 in cross); or 'layers: 1'",
+                  film::least_limit),
+      "each layer is sheared at the rate that its stress takes");
+}
+
 film::ThermalModel film_heat(Context& context, const Value& value, const film::FilmModel& film) {
   const Value& thermal = *value.find("thermal");
   film::ThermalModel heat;
   heat.layers = integer_of(thermal, "layers");
+  check_shear(context, thermal, heat.layers, film.lubricant.shear_thinning);
   heat.carry_over = number_of(thermal, "carry_over");
   heat.shell_surface = surface_of(context, value, "shell");
   heat.journal_surface = surface_of(context, value, "journal");
