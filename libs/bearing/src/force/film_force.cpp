@@ -201,7 +201,7 @@ void FilmForce::follow_surfaces() {
   reynolds_.follow(parameter_change_, du_);
   u_ = u_linearised_ + du_;
   const bool is_rigid = deforming_->amplitudes() == 0 && model().compliance == 0;
-  if (is_rigid && iterations_ > kMostByItself) reynolds_.let_fronts_follow(u_);
+  if (is_rigid && iterations_ > kMostByItself) reynolds_.advance_rupture_front(u_);
   if (iterations_ > kMostAtOnce) reynolds_.let_half_change(u_linearised_, iterations_, u_);
 }
 

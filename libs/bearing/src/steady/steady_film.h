@@ -67,8 +67,8 @@ class SteadyFilm {
   [[nodiscard]] int linearise_near(const Eigen::Vector2d& e, Eigen::VectorXd& x);
   /// After a step of Newton's method from the last linearisation, of a film between surfaces that do not deform: fronts
   /// it has moved go all the way.
-  void let_fronts_follow(Eigen::VectorXd& x) const {
-    if (!deforms()) reynolds_.let_fronts_follow(x);
+  void advance_rupture_front(Eigen::VectorXd& x) const {
+    if (!deforms()) reynolds_.advance_rupture_front(x);
   }
   /// Whether the last linearisation has a factor for chord_about().
   [[nodiscard]] bool has_factor() const { return !deforms() && reynolds_.has_factor(); }

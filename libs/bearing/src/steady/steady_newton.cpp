@@ -140,7 +140,7 @@ bool SteadySearch::together(const Eigen::Vector2d& target) {
     e_ += step.de;
     const Eigen::VectorXd film = x_;
     x_ += step.dx;
-    film_.let_fronts_follow(x_);
+    film_.advance_rupture_front(x_);
     if (stands_inside() && !turns_far(from, e_) && linearise()) continue;
     x_ = film;
     if (!film_at(e_)) return false;

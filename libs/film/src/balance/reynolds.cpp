@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "balance/flow_balance.h"
-#include "balance/fronts.h"
 #include "balance/halves.h"
+#include "balance/rupture_front.h"
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
 #include "observe/film_wrench.h"
@@ -237,7 +237,7 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
   return {};
 }
 
-void Reynolds::let_fronts_follow(Eigen::VectorXd& u) const { film::let_fronts_follow(impl_->balance, u); }
+void Reynolds::advance_rupture_front(Eigen::VectorXd& u) const { film::advance_rupture_front(impl_->balance, u); }
 
 void Reynolds::let_half_change(const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) const {
   film::let_half_change(impl_->balance.model(), before, turn, u);

@@ -172,7 +172,7 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
     last = summary.relative_residual;
     before = u;
     u += step_share(reynolds.model(), motion, u, du) * du;
-    reynolds.let_fronts_follow(u);
+    reynolds.advance_rupture_front(u);
     u = u.cwiseMax(least);
   }
 }

@@ -91,7 +91,7 @@ class Reynolds {
 
   /// Empties the nodes downstream of those that the step to `u` from the last linearisation has emptied, as far as they
   /// live on their oil: fronts then follow in one iteration instead of one per node.
-  void let_fronts_follow(Eigen::VectorXd& u) const;
+  void advance_rupture_front(Eigen::VectorXd& u) const;
   /// Of the nodes that break or fill between the unknowns `before` and `u`, about half stay as they were, another half
   /// for each `turn`: steps that go round and round find their way so.
   void let_half_change(const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) const;

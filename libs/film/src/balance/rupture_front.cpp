@@ -1,4 +1,4 @@
-#include "balance/fronts.h"
+#include "balance/rupture_front.h"
 
 #include <algorithm>
 #include <vector>
@@ -73,7 +73,7 @@ class Fronts {
 
 }  // namespace
 
-void let_fronts_follow(const FlowBalance& balance, Eigen::VectorXd& u) {
+void advance_rupture_front(const FlowBalance& balance, Eigen::VectorXd& u) {
   if (cavitation_law(balance.model()).has_fill()) Fronts(balance, u).sweep();
 }
 
