@@ -26,7 +26,7 @@ struct Groups {
   };
   [[nodiscard]] Turn at(int turn) const {
     Turn seen{.u = after};
-    let_half_change(model, before, turn, seen.u);
+    limit_active_set_changes(model, before, turn, seen.u);
     for (Eigen::Index node = 0; node < seen.u.size(); ++node)
       seen.changed.push_back((seen.u[node] < 0) != (before[node] < 0));
     return seen;

@@ -202,7 +202,7 @@ void FilmForce::follow_surfaces() {
   u_ = u_linearised_ + du_;
   const bool is_rigid = deforming_->amplitudes() == 0 && model().compliance == 0;
   if (is_rigid && iterations_ > kMostByItself) reynolds_.advance_rupture_front(u_);
-  if (iterations_ > kMostAtOnce) reynolds_.let_half_change(u_linearised_, iterations_, u_);
+  if (iterations_ > kMostAtOnce) reynolds_.limit_active_set_changes(u_linearised_, iterations_, u_);
 }
 
 // Pressures from a linear prediction may lie beyond any film: then the film stays as it was while the surfaces move.

@@ -17,7 +17,7 @@ bool is_heads(std::uint32_t node, std::uint32_t turn) {
 
 }  // namespace
 
-void let_half_change(const FilmModel& model, const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) {
+void limit_active_set_changes(const FilmModel& model, const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) {
   HERSEY_REQUIRE(before.size() == u.size(), "two states of one film");
   if (!cavitation_law(model).has_fill()) return;
   constexpr double all_but_full = 1e-9;  // on its side of the border, however round-off falls

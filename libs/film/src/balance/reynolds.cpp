@@ -239,8 +239,8 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
 
 void Reynolds::advance_rupture_front(Eigen::VectorXd& u) const { film::advance_rupture_front(impl_->balance, u); }
 
-void Reynolds::let_half_change(const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) const {
-  film::let_half_change(impl_->balance.model(), before, turn, u);
+void Reynolds::limit_active_set_changes(const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) const {
+  film::limit_active_set_changes(impl_->balance.model(), before, turn, u);
 }
 
 void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial) {

@@ -94,7 +94,7 @@ class Reynolds {
   void advance_rupture_front(Eigen::VectorXd& u) const;
   /// Of the nodes that break or fill between the unknowns `before` and `u`, about half stay as they were, another half
   /// for each `turn`: steps that go round and round find their way so.
-  void let_half_change(const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) const;
+  void limit_active_set_changes(const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) const;
 
   /// Answer to a change of the surfaces (film.39): `du` = -J^{-1} dr/d(parameter), and the wrench's *partial*
   /// derivative at fixed u. The total derivative is  partial + wrench_gradient(du).
