@@ -392,7 +392,7 @@ TEST_CASE("Oil_IsConservedAtAnyStep") {
       const SurfaceMotion motion = at(step * dt);
       REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
       if (step == 0) {
-        reynolds.take_stock(motion, history, u, oil);
+        reynolds.initialise_oil_balance(motion, history, u, oil);
       } else {
         reynolds.settle(motion, history, u, oil);
         if (oil.passed_on > 0.02) {

@@ -371,7 +371,7 @@ void FilmForce::close_step() {
   if (is_step) {
     if (!settled_) settle();
   } else {
-    reynolds_.take_stock(surfaces_, history_, u_, oil_);
+    reynolds_.initialise_oil_balance(surfaces_, history_, u_, oil_);
     oil_of_run_ = {};
     started_ = true;
   }

@@ -109,7 +109,7 @@ class FlowBalance {
   /// Oil of the step whose state was last evaluated, with flows changed along `du`.
   void settle(const Eigen::VectorXd& du, OilOfStep& oil) const;
   /// Oil there is, without any flow.
-  void take_stock(OilOfStep& oil) const;
+  void initialise_oil_balance(OilOfStep& oil) const;
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   /// Share of a control volume in which the film is broken (film.62) [-].

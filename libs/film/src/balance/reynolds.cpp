@@ -353,12 +353,12 @@ void Reynolds::persist(Archive& archive) {
   if (archive.restores()) impl_->linearised = impl_->factorised = impl_->set_up = impl_->condensed = false;
 }
 
-void Reynolds::take_stock(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
-                          OilOfStep& oil) {
+void Reynolds::initialise_oil_balance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
+                                      OilOfStep& oil) {
   Impl& m = *impl_;
   const FilmDomain domain = m.balance.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(m.balance.model(), domain));
-  m.balance.take_stock(oil);
+  m.balance.initialise_oil_balance(oil);
   m.linearised = m.summed = m.factorised = m.set_up = false;
 }
 

@@ -32,7 +32,7 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
     leaving[face.a] += q;
     leaving[face.b] -= q;
   }
-  take_stock(oil);
+  initialise_oil_balance(oil);
   const bool conserves = cavitation_.has_fill();
   std::vector<char> takes_what_comes(static_cast<std::size_t>(size()), 0);
   for (int i = 0; i < size(); ++i) {
@@ -107,7 +107,7 @@ double FlowBalance::pass_along(int j, double carry, const std::vector<char>& tak
   return carry;
 }
 
-void FlowBalance::take_stock(OilOfStep& oil) const {
+void FlowBalance::initialise_oil_balance(OilOfStep& oil) const {
   oil = {};
   oil.content.resize(size()), oil.gap.resize(size());
   oil.flow_features.setZero(static_cast<Eigen::Index>(model_.features.size()));

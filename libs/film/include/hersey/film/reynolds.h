@@ -136,7 +136,8 @@ class Reynolds {
   void solve_transposed(Eigen::MatrixXd& columns);
 
   /// The oil of a film at `u` with which a run starts: no step has led there, and no flow is told.
-  void take_stock(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, OilOfStep& oil);
+  void initialise_oil_balance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
+                              OilOfStep& oil);
 
   /// Closes a step of history.dt > 0 that has ended at `u`: forces belong to its end, where the gap opens at its exact
   /// rate; flows are to bring what the gap has gained over the whole step. Their difference is led through the film
