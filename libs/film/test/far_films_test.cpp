@@ -177,7 +177,7 @@ TEST_CASE("OilOfAStep_DoesNotAskWhichFactorLedThere") {
       const Journal journal{.e = {-0.8 * m.c, 0}, .e_rate = {0.02, 0.01}, .omega_journal = sense * omega};
       const SurfaceMotion motion = surfaces(m, journal);
       Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size()), du;
-      std::array<OilOfStep, 2> oil;
+      std::array<StepOilBalance, 2> oil;
       std::array<Reynolds, 2> films{Reynolds(m), Reynolds(m)};
       REQUIRE(solve_film(films[0], motion, history, {}, u).solved());
       films[0].newton_increment(du);

@@ -376,7 +376,7 @@ TEST_CASE("Oil_IsConservedAtAnyStep") {
     Reynolds reynolds(m);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
     FilmHistory history{dt, Eigen::VectorXd::Ones(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
-    OilOfStep oil;
+    StepOilBalance oil;
     double volume = 0, passed = 0, worst = 0;
     // Orbit with a radius that pulsates: gap and rate at the end of each step are exact, so that a step's rate is not
     // the quotient of its gaps.

@@ -224,7 +224,7 @@ TEST_CASE("OilOfPads_IsConservedAtAnyStep") {
       Reynolds reynolds(m);
       Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
       FilmHistory history{dt, Eigen::VectorXd::Ones(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
-      OilOfStep oil;
+      StepOilBalance oil;
       double volume = 0, passed = 0, worst = 0;
       const auto at = [&](double t) {
         const double r = m.c * (0.4 + 0.3 * std::sin(900 * t)), r_rate = m.c * 0.3 * 900 * std::cos(900 * t);

@@ -107,9 +107,9 @@ class FlowBalance {
   /// gained over the step (film.15).
   void subtract_defect(Eigen::VectorXd& rhs) const;
   /// Oil of the step whose state was last evaluated, with flows changed along `du`.
-  void settle(const Eigen::VectorXd& du, OilOfStep& oil) const;
+  void settle(const Eigen::VectorXd& du, StepOilBalance& oil) const;
   /// Oil there is, without any flow.
-  void initialise_oil_balance(OilOfStep& oil) const;
+  void initialise_oil_balance(StepOilBalance& oil) const;
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   /// Share of a control volume in which the film is broken (film.62) [-].
@@ -400,9 +400,9 @@ class FlowBalance {
   [[nodiscard]] double storage_excess(int node) const;
   [[nodiscard]] double storage_g_rate(int node) const;
   [[nodiscard]] double storage_excess_rate(int node) const;
-  void pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const;
-  void leave(double rest, int node, const std::vector<char>& takes_what_comes, OilOfStep& oil) const;
-  double pass_along(int j, double carry, const std::vector<char>& takes_what_comes, OilOfStep& oil,
+  void pass_on(const std::vector<char>& takes_what_comes, StepOilBalance& oil) const;
+  void leave(double rest, int node, const std::vector<char>& takes_what_comes, StepOilBalance& oil) const;
+  double pass_along(int j, double carry, const std::vector<char>& takes_what_comes, StepOilBalance& oil,
                     bool for_good) const;
   [[nodiscard]] double start_of(int node) const;  ///< film's gap at the start of the step, pockets apart [m]
   [[nodiscard]] double oil_shown(int node, double content) const;  ///< per area, with a fill fraction of 0 to 1 [m]

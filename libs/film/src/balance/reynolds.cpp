@@ -354,7 +354,7 @@ void Reynolds::persist(Archive& archive) {
 }
 
 void Reynolds::initialise_oil_balance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
-                                      OilOfStep& oil) {
+                                      StepOilBalance& oil) {
   Impl& m = *impl_;
   const FilmDomain domain = m.balance.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(m.balance.model(), domain));
@@ -391,7 +391,7 @@ void Reynolds::Impl::subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x
 }
 
 void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
-                      OilOfStep& oil) {
+                      StepOilBalance& oil) {
   Impl& m = *impl_;
   const FilmDomain domain = m.balance.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(m.balance.model(), domain));

@@ -21,7 +21,7 @@ void FlowBalance::subtract_defect(Eigen::VectorXd& rhs) const {
   }
 }
 
-void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
+void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {
   Eigen::VectorXd leaving = Eigen::VectorXd::Zero(size());
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
@@ -59,7 +59,7 @@ void FlowBalance::settle(const Eigen::VectorXd& du, OilOfStep& oil) const {
 // What a full control volume cannot hold, and what an empty one has not, goes on with the flow to the next that can: a
 // film in which pressure carries oil knows no delay. Lines and features take what comes. A first round only finds what
 // arrives where the rows begin, so that no place around the bearing is the first.
-void FlowBalance::pass_on(const std::vector<char>& takes_what_comes, OilOfStep& oil) const {
+void FlowBalance::pass_on(const std::vector<char>& takes_what_comes, StepOilBalance& oil) const {
   for (int j = 0; j < model_.grid.n_z; ++j) {
     const bool closes = model_.grid.closes();
     const double arriving = closes ? pass_along(j, 0, takes_what_comes, oil, false) : 0;
@@ -70,14 +70,14 @@ void FlowBalance::pass_on(const std::vector<char>& takes_what_comes, OilOfStep& 
 }
 
 // At a node from where no flow carries it on.
-void FlowBalance::leave(double rest, int node, const std::vector<char>& takes_what_comes, OilOfStep& oil) const {
+void FlowBalance::leave(double rest, int node, const std::vector<char>& takes_what_comes, StepOilBalance& oil) const {
   const double homeless = rest / (area_[node] * oil_gap(node));
   if (takes_what_comes[static_cast<std::size_t>(node)] == 0) oil.content[node] += homeless;
   if (std::abs(homeless) > round_off) oil.passed_on = 1;
 }
 
 // Once around with the flow; what is carried on at the end [m^3]. It is handed out where it is meant `for_good`.
-double FlowBalance::pass_along(int j, double carry, const std::vector<char>& takes_what_comes, OilOfStep& oil,
+double FlowBalance::pass_along(int j, double carry, const std::vector<char>& takes_what_comes, StepOilBalance& oil,
                                bool for_good) const {
   const Grid& grid = model_.grid;
   const bool forwards = speed_phi_ >= 0;
@@ -107,7 +107,7 @@ double FlowBalance::pass_along(int j, double carry, const std::vector<char>& tak
   return carry;
 }
 
-void FlowBalance::initialise_oil_balance(OilOfStep& oil) const {
+void FlowBalance::initialise_oil_balance(StepOilBalance& oil) const {
   oil = {};
   oil.content.resize(size()), oil.gap.resize(size());
   oil.flow_features.setZero(static_cast<Eigen::Index>(model_.features.size()));

@@ -43,7 +43,7 @@ struct BearingOptions {
 };
 
 /// Oil in a film over a run: what is there, what has passed, and what nobody can explain (theory manual, film.15).
-struct OilOfRun {
+struct CumulativeOilBalance {
   double volume = 0;        ///< in the film [m^3]
   double through_flow = 0;  ///< volume that has passed: the larger of what came in and what left, step by step [m^3]
   double unexplained = 0;   ///< change of the volume since the start less what came in [m^3]
@@ -63,7 +63,7 @@ struct BearingObservation {
   film::FilmObservables film;
   std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
   film::WallCorrection walls;                 ///< of held walls, when they settled last
-  OilOfRun oil;
+  CumulativeOilBalance oil;
   int film_iterations = 0;  ///< film linearisations in the last step
   int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step
 };
@@ -193,8 +193,8 @@ class FilmForce : public mbd::TwoBodyForce {
   bool is_one_system_ = true;  // the step is solved monolithically
 
   // Oil of the step last accepted, and over the run.
-  film::OilOfStep oil_;
-  OilOfRun oil_of_run_;
+  film::StepOilBalance oil_;
+  CumulativeOilBalance oil_of_run_;
   bool started_ = false;
   bool settled_ = false;  // oil_ belongs to the film evaluated last
 

@@ -24,7 +24,7 @@ struct NormalForces {
 
 /// The oil of one step: flows as means over it, with which what is in the film at its end is what was there at its
 /// start and what has come in since, to round-off (theory manual, film.15). Volumes are masses over rho0.
-struct OilOfStep {
+struct StepOilBalance {
   Eigen::VectorXd content;  ///< oil in each control volume over the volume itself, rho theta [-], shape (n)
   Eigen::VectorXd gap;      ///< that volume per area, without pockets [m], shape (n)
   double volume = 0;  ///< in the film, every control volume counted as no emptier than empty, no fuller than full [m^3]

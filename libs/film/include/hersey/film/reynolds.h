@@ -137,12 +137,12 @@ class Reynolds {
 
   /// The oil of a film at `u` with which a run starts: no step has led there, and no flow is told.
   void initialise_oil_balance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
-                              OilOfStep& oil);
+                              StepOilBalance& oil);
 
   /// Closes a step of history.dt > 0 that has ended at `u`: forces belong to its end, where the gap opens at its exact
   /// rate; flows are to bring what the gap has gained over the whole step. Their difference is led through the film
   /// along the last linearisation. linearise() comes next.
-  void settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, OilOfStep& oil);
+  void settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, StepOilBalance& oil);
 
   /// The pivot order in use; linearise() comes next.
   void persist(Archive& archive);
