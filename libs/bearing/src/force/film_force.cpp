@@ -19,7 +19,7 @@ namespace hersey::bearing {
 namespace {
 
 // Share of a control volume that may be left to the next one at the end of a step.
-constexpr double kMostPassedOn = 0.02;
+constexpr double kLargestRedistributedOverfill = 0.02;
 
 // Steps taken as one system after an exchange without end, before exchanging is tried again.
 constexpr int kStepsAsOne = 16;
@@ -329,7 +329,7 @@ bool FilmForce::step_stands() {
   exchange_has_ended_ = true;
   if (!started_) return true;
   settle();
-  if (oil_.passed_on <= kMostPassedOn || history_.by_gap) return true;
+  if (oil_.redistributed_overfill <= kLargestRedistributedOverfill || history_.by_gap) return true;
   history_.by_gap = true;
   Eigen::VectorXd film = u_;
   const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, options_.film, film);

@@ -73,7 +73,7 @@ void FlowBalance::pass_on(const std::vector<char>& takes_what_comes, StepOilBala
 void FlowBalance::leave(double rest, int node, const std::vector<char>& takes_what_comes, StepOilBalance& oil) const {
   const double homeless = rest / (area_[node] * oil_gap(node));
   if (takes_what_comes[static_cast<std::size_t>(node)] == 0) oil.content[node] += homeless;
-  if (std::abs(homeless) > round_off) oil.passed_on = 1;
+  if (std::abs(homeless) > round_off) oil.redistributed_overfill = 1;
 }
 
 // Once around with the flow; what is carried on at the end [m^3]. It is handed out where it is meant `for_good`.
@@ -102,7 +102,7 @@ double FlowBalance::pass_along(int j, double carry, const std::vector<char>& tak
     carry = there - holds;
     if (!for_good) continue;
     oil.content[i] = holds / whole;
-    oil.passed_on = std::max(oil.passed_on, std::abs(carry) / whole);
+    oil.redistributed_overfill = std::max(oil.redistributed_overfill, std::abs(carry) / whole);
   }
   return carry;
 }

@@ -34,7 +34,7 @@ struct StepOilBalance {
   double flow_supply = 0;         ///< in through line and features [m^3/s]
   Eigen::VectorXd flow_features;  ///< in through each feature [m^3/s]
   /// Largest share of a control volume that the linear way through the film left over [-]; 1 where some found no place.
-  double passed_on = 0;
+  double redistributed_overfill = 0;
 };
 
 /// Forces of a film whose unknowns are eliminated, and their derivatives with directions in which the surfaces move.
