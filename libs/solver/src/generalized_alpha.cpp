@@ -328,7 +328,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   for (;;) {
     const bool may_go_on = summary.iterations < options_.max_iterations;
     if (w.is_solved(keeps_factors && may_go_on ? kWithOldFactors : 1)) {
-      if (equations.step_stands()) break;
+      if (equations.is_step_consistent()) break;
       if (!w.assemble(equations, options_)) return fail(StepStatus::domain_error, w.why_outside);
       keeps_factors = false;
       continue;

@@ -86,7 +86,7 @@ class SeveralCoordinates final : public Equations {
   [[nodiscard]] bool has_condensed_unknowns() const override { return condenses; }
   [[nodiscard]] double internal_residual() const override { return unsolved > 0 ? 1 : 0; }
   [[nodiscard]] std::string name_of_internal_residual() const override { return "what is condensed"; }
-  [[nodiscard]] bool step_stands() override {
+  [[nodiscard]] bool is_step_consistent() override {
     if (stands_after == 0) return true;
     --stands_after;
     changed();

@@ -325,7 +325,7 @@ void FilmForce::evaluate_partitioned(mbd::ForceResponse& response) {
   response.Q = given_.tail(deforming_->amplitudes());
 }
 
-bool FilmForce::step_stands() {
+bool FilmForce::is_step_consistent() {
   exchange_has_ended_ = true;
   if (!started_) return true;
   settle();

@@ -353,13 +353,13 @@ void Mechanism::begin_step(const State& start, double dt) {
   m.for_each_force(std::cref(begin));
 }
 
-bool Mechanism::step_stands() {
+bool Mechanism::is_step_consistent() {
   MechanismParts& m = *parts_;
   const Stopwatch all(m.timing.total), forces(m.timing.forces);
   bool stands = true;
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
     const Stopwatch one(m.timing.force[i]);
-    stands = m.spec.forces[i].force->step_stands() && stands;
+    stands = m.spec.forces[i].force->is_step_consistent() && stands;
   }
   return stands;
 }

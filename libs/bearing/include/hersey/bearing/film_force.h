@@ -106,7 +106,7 @@ class FilmForce : public mbd::TwoBodyForce {
   void begin_step(const mbd::RelativeMotion& start, double dt) override;
   /// False where the oil that has come in over the step fills another film than the one found: that follows the change
   /// of the gap over the step instead of its rate (theory manual, film.15).
-  [[nodiscard]] bool step_stands() override;
+  [[nodiscard]] bool is_step_consistent() override;
   void accept_step(const mbd::RelativeMotion& end) override;
   [[nodiscard]] bool is_costly() const override { return true; }
   [[nodiscard]] bool has_tangent() const override { return options_.coupling == Coupling::monolithic; }

@@ -37,7 +37,7 @@ class Mechanism final : public solver::Equations {
   [[nodiscard]] Eigen::VectorXd position_scales() const override;
   [[nodiscard]] std::string name_of_row(Index row) const override;
   void begin_step(const solver::State& start, double dt) override;
-  [[nodiscard]] bool step_stands() override;
+  [[nodiscard]] bool is_step_consistent() override;
   void accept_step(const solver::State& end) override;
   [[nodiscard]] bool has_condensed_unknowns() const override;
   [[nodiscard]] double internal_residual() const override;

@@ -26,7 +26,7 @@ class CondensedPart {
   /// Whether the step may end where it was evaluated last and Newton's method found it solved. False: what belongs to
   /// the whole of the step changes the equations (a film whose oil the step's end does not account for), and they are
   /// to be solved once more from there; asked again afterwards.
-  [[nodiscard]] virtual bool step_stands() { return true; }
+  [[nodiscard]] virtual bool is_step_consistent() { return true; }
 
   /// A state outside the domain of the equations, e.g. "bearing big_end: gap closed (-1.2 um at ...)"; empty if inside.
   /// Whoever solves asks after each evaluation and shortens the Newton increment where it is not empty.
