@@ -48,10 +48,11 @@ TEST_CASE("FilmThatDoesNotInsist_EndsWhereNewtonDoes") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 0.9, omega));
   std::array<Eigen::VectorXd, 2> u{Eigen::VectorXd::Zero(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
-  for (const bool insists : {false, true}) {
+  for (const bool allows_fallback : {false, true}) {
     Reynolds reynolds(m);
-    CHECK_FALSE(
-        solve_film(reynolds, motion, {}, {.max_iterations = 1, .insists = insists}, u[insists ? 1 : 0]).solved());
+    CHECK_FALSE(solve_film(reynolds, motion, {}, {.max_iterations = 1, .allows_fallback = allows_fallback},
+                           u[allows_fallback ? 1 : 0])
+                    .solved());
   }
   CHECK(u[0] == u[1]);
 }
@@ -135,7 +136,7 @@ TEST_CASE("RingAsNarrowAsAThread_IsLeftToTheDirectSolver") {
     REQUIRE(films[k].linearise(motion, {}, u).is_inside());
     films[k].newton_increment(du[k]);
   }
-  CHECK(films[1].counts().rescues == 1);
+  CHECK(films[1].counts().fallback_solves == 1);
   CHECK(du[1] == du[0]);
 }
 

@@ -18,7 +18,7 @@ constexpr double omega = 374;
 
 struct Increments {
   Eigen::VectorXd direct, multigrid;
-  int iterations = 0, rescues = 0;
+  int iterations = 0, fallback_solves = 0;
 };
 
 Increments increments(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
@@ -30,7 +30,7 @@ Increments increments(const FilmModel& model, const SurfaceMotion& motion, const
   direct.newton_increment(found.direct);
   multigrid.newton_increment(found.multigrid, 1e-10);
   found.iterations = multigrid.counts().iterations;
-  found.rescues = multigrid.counts().rescues;
+  found.fallback_solves = multigrid.counts().fallback_solves;
   return found;
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("MultigridIterations_DoNotGrowWithTheGrid") {
         const SolvedFilm film = solve_cold(m, motion, journal.e);
         REQUIRE(film.summary.solved());
         const Increments found = increments(m, motion, {}, 0.9 * film.u);
-        CHECK(found.rescues == 0);
+        CHECK(found.fallback_solves == 0);
         CHECK(found.iterations <= 16);
         CHECK((found.multigrid - found.direct).norm() < 1e-6 * found.direct.norm());  // 1e-10 times the condition
       }
@@ -172,7 +172,7 @@ TEST_CASE("MultigridInTime_MeetsNewton") {
     CHECK((reynolds[0].wrench_on_shell() - reynolds[1].wrench_on_shell()).norm() <
           1e-6 * reynolds[0].wrench_on_shell().norm());
   }
-  CHECK(reynolds[1].counts().rescues == 0);
+  CHECK(reynolds[1].counts().fallback_solves == 0);
 }
 
 TEST_CASE("Responses_AreThoseOfTheDirectSolver") {
@@ -189,7 +189,7 @@ TEST_CASE("Responses_AreThoseOfTheDirectSolver") {
     Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
     REQUIRE(solve_film(reynolds, motion, {}, {.rtol = 1e-12}, u).solved());
     reynolds.responses(directions, du[k], partial[k]);
-    CHECK(reynolds.counts().rescues == 0);
+    CHECK(reynolds.counts().fallback_solves == 0);
   }
   for (int column = 0; column < 3; ++column) {
     // Multigrid answers to 1e-10, about films that both are solved to 1e-12.

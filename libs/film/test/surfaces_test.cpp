@@ -206,7 +206,7 @@ TEST_CASE("PatchesOfOneFilm_HaveOneAnswer") {
   Reynolds reynolds(m, LinearSolver::multigrid);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   REQUIRE(solve_film(reynolds, motion, {}, {}, u).solved());
-  CHECK(reynolds.counts().rescues == 0);
+  CHECK(reynolds.counts().fallback_solves == 0);
   CHECK((film_fields(m, motion, u).p - by_newton.fields.p).cwiseAbs().maxCoeff() <
         of_fields * by_newton.observed.p_max);
 }

@@ -295,9 +295,9 @@ void FilmForce::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& respo
 void FilmForce::evaluate_partitioned(mbd::ForceResponse& response) {
   // The first surfaces of a step are a prediction, no answer to any wrench yet.
   if (answered_) {
-    film::FilmSolveOptions briefly = options_.film;
-    briefly.insists = false;
-    const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, briefly, u_);
+    film::FilmSolveOptions without_fallback = options_.film;
+    without_fallback.allows_fallback = false;
+    const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, without_fallback, u_);
     iterations_ += summary.iterations;
     ++exchanges_;
     if (!summary.domain.is_inside()) return report(summary.domain);

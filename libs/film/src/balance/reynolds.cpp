@@ -131,7 +131,7 @@ bool Reynolds::Impl::solve_by_multigrid(const Eigen::VectorXd& b, double rtol, E
 void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
   if (linear == LinearSolver::multigrid) {
     if (solve_by_multigrid(b, rtol, x)) return;
-    ++counts.rescues;
+    ++counts.fallback_solves;
   }
   factorise();
   x = b;

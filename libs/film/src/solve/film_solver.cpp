@@ -227,14 +227,14 @@ FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, 
   int swept = 0;  // sweeps are no iterations of Newton's method
   start_on_coarser_grid(reynolds, motion, history, sweeps, swept, near);
   (void)solve_by_sor(reynolds, motion, history, sweeps, near);
-  FilmSolveOptions briefly = options;
-  briefly.max_iterations = std::min(options.max_iterations, patience);
+  FilmSolveOptions without_fallback = options;
+  without_fallback.max_iterations = std::min(options.max_iterations, patience);
   u = near;
-  FilmSolveSummary summary = solve_by_newton(reynolds, motion, history, briefly, u);
+  FilmSolveSummary summary = solve_by_newton(reynolds, motion, history, without_fallback, u);
   if (summary.solved()) return summary;
   u = near;
   summary = sweep_on(reynolds, motion, history, options, u);
-  summary.iterations = briefly.max_iterations;
+  summary.iterations = without_fallback.max_iterations;
   return summary;
 }
 
@@ -247,7 +247,7 @@ FilmSolveSummary fill_from_none(Reynolds& reynolds, const SurfaceMotion& motion,
   Reynolds direct(reynolds.model());
   const Eigen::VectorXd start = u;
   FilmSolveSummary summary = solve_by_newton(direct, motion, history, options, u, none);
-  if (!summary.solved() && options.insists) {
+  if (!summary.solved() && options.allows_fallback) {
     const int before = summary.iterations;
     u = start;
     summary = sweep_on(reynolds, motion, history, options, u);
@@ -266,9 +266,9 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
   int coarse_iterations = 0;
   const bool cold = u.isZero(0);
   if (!cold) {
-    FilmSolveOptions briefly = options;
-    if (options.solver != FilmSolver::sor) briefly.max_iterations = std::min(options.max_iterations, patience);
-    summary = solve_here(reynolds, motion, history, briefly, u);
+    FilmSolveOptions without_fallback = options;
+    if (options.solver != FilmSolver::sor) without_fallback.max_iterations = std::min(options.max_iterations, patience);
+    summary = solve_here(reynolds, motion, history, without_fallback, u);
     const bool is_no_film = summary.iterations == 0 && !summary.domain.is_inside();
     if (is_no_film) start.setZero();
   }
@@ -279,7 +279,8 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
     summary = solve_here(reynolds, motion, history, options, u);
     summary.iterations += before;
   }
-  if (!summary.solved() && options.insists && options.solver != FilmSolver::sor && options.max_iterations > patience) {
+  if (!summary.solved() && options.allows_fallback && options.solver != FilmSolver::sor &&
+      options.max_iterations > patience) {
     const int before = summary.iterations;
     summary = rescue_by_sor(reynolds, motion, history, options, start, u);
     summary.iterations += before;

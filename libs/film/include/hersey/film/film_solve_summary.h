@@ -10,7 +10,8 @@ struct FilmSolveOptions {
   FilmSolver solver = FilmSolver::newton;
   double rtol = 1e-10;      ///< on Reynolds::relative_residual, > 0
   int max_iterations = 50;  ///< Newton iterations, or thousands of SOR sweeps
-  bool insists = true;      ///< where Newton's method cycles, SOR sweeps go on; a step in time may rather be shortened
+  bool allows_fallback =
+      true;  ///< where Newton's method cycles, SOR sweeps go on; a step in time may rather be shortened
 };
 
 /// Unsolved, `message` tells why; solved, a film without oil.

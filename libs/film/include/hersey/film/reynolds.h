@@ -20,10 +20,10 @@ enum class LinearSolver { direct, multigrid };
 
 /// What the linear solver has done since a film was made.
 struct LinearSolverCounts {
-  int factorisations = 0;  ///< of the Jacobian
-  int setups = 0;          ///< of multigrid
-  int iterations = 0;      ///< of GMRES, over all right-hand sides
-  int rescues = 0;         ///< right-hand sides that multigrid left to the direct solver
+  int factorisations = 0;   ///< of the Jacobian
+  int setups = 0;           ///< of multigrid
+  int iterations = 0;       ///< of GMRES, over all right-hand sides
+  int fallback_solves = 0;  ///< right-hand sides that multigrid left to the direct solver
 };
 
 /// Reynolds' equation on the grid with its derivatives (theory manual, chapter film): residual and Jacobian at a state,
