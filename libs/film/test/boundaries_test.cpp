@@ -39,15 +39,15 @@ TEST_CASE("EmptiestNode_HasLessThanNoOil") {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   const double none = -fill_scale(m);
   u.setConstant(none);
-  CHECK(emptiest_node(m, u) == -1);  // empty is no less than empty
+  CHECK(lowest_fill_node(m, u) == -1);  // empty is no less than empty
   u[m.grid.index(3, 5)] = 1.1 * none, u[m.grid.index(20, 7)] = 1.2 * none, u[m.grid.index(30, 2)] = 1.05 * none;
-  CHECK(emptiest_node(m, u) == m.grid.index(20, 7));
+  CHECK(lowest_fill_node(m, u) == m.grid.index(20, 7));
   u[m.grid.index(40, 0)] = 2 * none;  // more than any other
-  CHECK(emptiest_node(m, u) == m.grid.index(40, 0));
+  CHECK(lowest_fill_node(m, u) == m.grid.index(40, 0));
   m.edge_left.ambient_fill = 0.3;  // there u < 0 is oil that comes in
-  CHECK(emptiest_node(m, u) == m.grid.index(20, 7));
+  CHECK(lowest_fill_node(m, u) == m.grid.index(20, 7));
   m.cavitation = Cavitation::reynolds;  // which knows no fill fraction
-  CHECK(emptiest_node(m, u) == -1);
+  CHECK(lowest_fill_node(m, u) == -1);
 }
 
 TEST_CASE("Features_OverlapWhereAPlaceIsInBoth") {

@@ -240,10 +240,10 @@ TEST_CASE("FilmAtRest_HoldsNoLessThanNoOil") {
     Reynolds reynolds(m);
     Eigen::VectorXd u = Eigen::VectorXd::Constant(m.grid.size(), -0.5 * fill_scale(m));
     u.segment(m.grid.index(5, 0), m.grid.n_z).setConstant(-1.5 * fill_scale(m));
-    const int emptiest = emptiest_node(m, u);
+    const int emptiest = lowest_fill_node(m, u);
     REQUIRE(emptiest >= 0);
     CHECK(solve_film(reynolds, surfaces(m, {.e = {1e-5, 0}}), {}, {.solver = solver}, u).solved());
-    CHECK(emptiest_node(m, u) == -1);
+    CHECK(lowest_fill_node(m, u) == -1);
     CHECK(u.maxCoeff() <= 0);
   }
 }

@@ -82,7 +82,7 @@ bool SteadySearch::holds(const Eigen::Vector2d& target) {
 
 bool SteadySearch::settle() {
   const Eigen::VectorXd x = x_ + film_.increment();
-  if (film::emptiest_node(model_, film_.film_of(x)) >= 0) return false;
+  if (film::lowest_fill_node(model_, film_.film_of(x)) >= 0) return false;
   x_ = x;
   return true;
 }

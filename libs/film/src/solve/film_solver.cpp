@@ -19,7 +19,7 @@ FilmSolver usual_solver(const Grid& grid) {
   return grid.size() > kManyNodes ? FilmSolver::multigrid : FilmSolver::newton;
 }
 
-int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u) {
+int lowest_fill_node(const FilmModel& model, const Eigen::VectorXd& u) {
   if (!cavitation_law(model).has_fill()) return -1;
   int emptiest = -1;
   double least = -fill_scale(model) * (1 + 1e-9);
@@ -107,7 +107,7 @@ void explain(const FilmModel& model, const Eigen::VectorXd& u, double rtol, bool
     summary.message = text(model, summary.domain);
     return;
   }
-  const int empty = emptiest_node(model, u);
+  const int empty = lowest_fill_node(model, u);
   if (summary.solved() && empty >= 0) {
     summary.set_solved(false);
     summary.worst_node = empty;
@@ -286,7 +286,7 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
     summary.iterations += before;
   }
   summary.coarse_iterations = coarse_iterations;
-  if (summary.solved() && emptiest_node(reynolds.model(), u) >= 0) {
+  if (summary.solved() && lowest_fill_node(reynolds.model(), u) >= 0) {
     const int before = summary.iterations;
     summary = fill_from_none(reynolds, motion, history, options, u);
     summary.iterations += before;

@@ -20,7 +20,7 @@ namespace hersey::film {
 
 /// Where the fill fraction is furthest below zero, -1 where it is nowhere: that is no film, but says that more oil
 /// leaves a node than comes in, though the equations hold.
-[[nodiscard]] int emptiest_node(const FilmModel& model, const Eigen::VectorXd& u);
+[[nodiscard]] int lowest_fill_node(const FilmModel& model, const Eigen::VectorXd& u);
 
 /// Solves the film for u at given surfaces, starting from `u`, from zeros where that is no film there. From all zeros
 /// (a cold start), and where a start does not lead to an answer soon, it starts from the solution on a grid of half the
