@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 
 #include "heat/mean_heat.h"
-#include "heat/wall_pace.h"
+#include "heat/wall_relaxation.h"
 #include "hersey/core/archive.h"
 #include "hersey/film/heat_state.h"
 #include "hersey/film/thermal_model.h"

@@ -1,4 +1,4 @@
-#include "heat/wall_pace.h"
+#include "heat/wall_relaxation.h"
 
 #include <algorithm>
 
