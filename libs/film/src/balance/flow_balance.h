@@ -324,7 +324,7 @@ class FlowBalance {
   void hold_line(double phi);
   void find_strips(int feature, double phi, double u);
   void unite_lands();
-  void forget_lands();
+  void clear_lands();
   [[nodiscard]] const Land* land_at(int node) const;
   [[nodiscard]] static bool gives_way(const HeldNode& held, const HeldNode& to);
   void hold(const HeldNode& held, bool only_oil = false);

@@ -63,7 +63,7 @@ void FlowBalance::unite_lands() {
   }
 }
 
-void FlowBalance::forget_lands() {
+void FlowBalance::clear_lands() {
   for (const Land& land : lands_) land_index_[land.node] = -1;
   lands_.clear(), strips_.clear();
 }

@@ -207,7 +207,7 @@ void FlowBalance::hold_line(double phi) {
 void FlowBalance::find_supply(const SurfaceMotion& motion) {
   for (const HeldNode& held : held_) held_index_[held.node] = -1;
   for (const HeldNode& held : held_at_edges_) edge_index_[held.node] = -1;
-  held_.clear(), held_at_edges_.clear(), forget_lands();
+  held_.clear(), held_at_edges_.clear(), clear_lands();
   line_ = {};
   if (model_.supply.kind != SupplyKind::none) hold_line(motion.phi_supply);
   for (std::size_t f = 0; f < model_.features.size(); ++f) {
