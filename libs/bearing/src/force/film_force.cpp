@@ -93,7 +93,7 @@ Eigen::VectorXd FilmForce::journal_shape_by_temperature() const {
 }
 
 void FilmForce::place(const mbd::RelativeMotion& motion) {
-  gap_->open_by(growth_->now(), growth_->rate());
+  gap_->set_clearance_change(growth_->now(), growth_->rate());
   domain_error_ = gap_->place(motion, surfaces_);
   if (!domain_error_.empty()) return;
   HERSEY_REQUIRE(motion.s.size() == deforming_->amplitudes(), "the amplitudes of both surfaces' bodies");

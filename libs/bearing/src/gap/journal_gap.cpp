@@ -65,7 +65,7 @@ std::string JournalGap::place(const mbd::RelativeMotion& motion, film::SurfaceMo
     kinematics_.value[kSupplyAngle] = *held_supply_;
     kinematics_.d_dX.row(kSupplyAngle).setZero();
   }
-  surfaces_.open_by(growth_, growth_rate_);
+  surfaces_.set_clearance_change(growth_, growth_rate_);
   surfaces_.place(kinematics_.value, surfaces);
   parameters_ = kinematics_.value.head(parameters_.size());
   d_dX_ = kinematics_.d_dX.topRows(parameters_.size());

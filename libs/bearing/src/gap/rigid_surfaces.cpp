@@ -72,13 +72,13 @@ void RigidSurfaces::add_turning(double phi_journal, double omega, film::SurfaceM
 void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion,
                     double growth) {
   RigidSurfaces surfaces(model);
-  surfaces.open_by(growth, 0);
+  surfaces.set_clearance_change(growth, 0);
   surfaces.place(parameters, motion);
 }
 
 double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters, double growth) {
   RigidSurfaces surfaces(model);
-  surfaces.open_by(growth, 0);
+  surfaces.set_clearance_change(growth, 0);
   film::SurfaceMotion motion;
   surfaces.place(parameters, motion);
   return surfaces.smallest_gap();

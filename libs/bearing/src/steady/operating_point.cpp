@@ -28,7 +28,7 @@ film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const Operatin
 film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmModel& model, const OperatingPoint& point,
                                     const Eigen::Vector2d& e) {
   film::SurfaceMotion motion;
-  surfaces.open_by(point.growth, 0);
+  surfaces.set_clearance_change(point.growth, 0);
   surfaces.place(parameters_of(model, point, e), motion);
   motion.u_shell = model.R * point.shell_speed;
   // The bearing's axes rest: a shell that turns takes its shape along.

@@ -34,7 +34,7 @@ class GapKinematics {
 
   /// Both surfaces together have moved apart and move apart everywhere, as their bodies grow [m, m/s]; what is placed
   /// next has it, and positions are over the gap as it then is.
-  void open_by(double growth, double rate) { growth_ = growth, growth_rate_ = rate; }
+  void set_clearance_change(double growth, double rate) { growth_ = growth, growth_rate_ = rate; }
 
   /// A step begins at this motion: what it cannot follow within a step stays as it is here until the next call.
   virtual void begin_step(const mbd::RelativeMotion& /*start*/) {}
@@ -79,7 +79,7 @@ class GapKinematics {
  protected:
   Eigen::VectorXd parameters_;
   Jacobian d_dX_, d_dV_;
-  double growth_ = 0, growth_rate_ = 0;  ///< as given to open_by()
+  double growth_ = 0, growth_rate_ = 0;  ///< as given to set_clearance_change()
 };
 
 }  // namespace hersey::bearing

@@ -16,7 +16,7 @@ class RigidSurfaces {
   explicit RigidSurfaces(const film::FilmModel& model);
 
   /// The clearance has grown and grows with the temperatures of its walls [m, m/s]; what is placed next has it.
-  void open_by(double growth, double rate) { growth_ = growth, growth_rate_ = rate; }
+  void set_clearance_change(double growth, double rate) { growth_ = growth, growth_rate_ = rate; }
 
   /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi) (bearing.2), widened by profiles, its rate at fixed
   /// grid points (bearing.3), the speeds, the place of the supply line and the journal's angle into `motion`.
