@@ -57,8 +57,8 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
       growth_(std::make_unique<ClearanceGrowth>()),
       gap_(std::move(gap)),
       deforming_(std::make_unique<DeformingSurfaces>(model, options.shell_surface, options.journal_surface)),
-      acting_(gap_->parameters().size()),
-      directions_(static_cast<std::size_t>(acting_ + 2 * deforming_->amplitudes())),
+      gap_parameter_count_(gap_->parameters().size()),
+      directions_(static_cast<std::size_t>(gap_parameter_count_ + 2 * deforming_->amplitudes())),
       interface_(options.acceleration, options.relaxation) {
   const int n = model.grid.size();
   u_ = u_start_ = du_ = Eigen::VectorXd::Zero(n);
@@ -74,7 +74,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
   history_start_ = observed_history_ = history_;
   observed_s_ = Eigen::VectorXd::Zero(deforming_->amplitudes());
   parameters_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions_.size()));
-  given_ = given_start_ = Eigen::VectorXd::Zero(6 + deforming_->amplitudes());
+  interface_wrench_ = interface_wrench_start_ = Eigen::VectorXd::Zero(6 + deforming_->amplitudes());
 }
 
 FilmForce::~FilmForce() = default;
@@ -97,8 +97,8 @@ void FilmForce::place(const mbd::RelativeMotion& motion) {
   domain_error_ = gap_->place(motion, surfaces_);
   if (!domain_error_.empty()) return;
   HERSEY_REQUIRE(motion.s.size() == deforming_->amplitudes(), "the amplitudes of both surfaces' bodies");
-  parameters_.head(acting_) = gap_->parameters();
-  parameters_.segment(acting_, motion.s.size()) = motion.s;
+  parameters_.head(gap_parameter_count_) = gap_->parameters();
+  parameters_.segment(gap_parameter_count_, motion.s.size()) = motion.s;
   parameters_.tail(motion.s.size()) = motion.s_rate;
   add_to_shell(thermal_shape_->now(), surfaces_);
   if (thermal_shape_->moves()) surfaces_.g_rate += thermal_shape_->rate();
@@ -176,9 +176,9 @@ void FilmForce::fill_gap() {
 void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {
   gap_->begin_step(start);
   // A trial of this step has exchanged wrenches without end, as where the film damps more than inertia holds.
-  if (exchanges_ > 0 && !exchange_has_ended_) steps_as_one_left_ = kStepsAsOne;
+  if (exchanges_ > 0 && !exchange_has_ended_) monolithic_steps_left_ = kStepsAsOne;
   exchange_has_ended_ = false;
-  is_one_system_ = options_.coupling == Coupling::monolithic || steps_as_one_left_ > 0;
+  is_monolithic_step_ = options_.coupling == Coupling::monolithic || monolithic_steps_left_ > 0;
   history_ = history_start_;
   history_.dt = dt;
   growth_->begin_step(dt);
@@ -187,8 +187,8 @@ void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {
   u_ = u_start_;
   linearised_ = false;
   iterations_ = exchanges_ = 0;
-  given_ = given_start_;
-  answered_ = false;
+  interface_wrench_ = interface_wrench_start_;
+  has_interface_response_ = false;
   interface_.begin_step();
 }
 
@@ -196,7 +196,7 @@ void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {
 void FilmForce::follow_surfaces() {
   if (!linearised_) return;
   parameter_change_ = parameters_ - parameters_linearised_;
-  for (Eigen::Index k = 0; k < acting_; ++k)
+  for (Eigen::Index k = 0; k < gap_parameter_count_; ++k)
     if (gap_->is_angle(k)) parameter_change_[k] = std::remainder(parameter_change_[k], 2 * std::numbers::pi);
   reynolds_.follow(parameter_change_, du_);
   u_ = u_linearised_ + du_;
@@ -217,22 +217,23 @@ film::FilmDomain FilmForce::linearise_film() {
 // The journal takes the negative of the wrench that the shell takes.
 void FilmForce::condense_film(mbd::ForceResponse& response) {
   const Eigen::Index m = deforming_->amplitudes();
-  for (Eigen::Index k = 0; k < acting_; ++k) directions_[static_cast<std::size_t>(k)] = gap_->direction(k);
-  std::copy(deforming_->directions().begin(), deforming_->directions().end(), directions_.begin() + acting_);
+  for (Eigen::Index k = 0; k < gap_parameter_count_; ++k) directions_[static_cast<std::size_t>(k)] = gap_->direction(k);
+  std::copy(deforming_->directions().begin(), deforming_->directions().end(),
+            directions_.begin() + gap_parameter_count_);
   deforming_->add_turning(gap_->turning(), directions_);
   reynolds_.condense(directions_, deforming_->openings(), condensed_);
   response.W_B_A = -condensed_.wrench;
-  const auto by_journal = condensed_.wrench_ds.leftCols(acting_);
+  const auto by_journal = condensed_.wrench_ds.leftCols(gap_parameter_count_);
   response.dW_dX.noalias() = -by_journal * gap_->d_dX();
   response.dW_dV.noalias() = -by_journal * gap_->d_dV();
   if (m == 0) return;
   deforming_->add_turning_forces(gap_->turning(), reynolds_.normal_forces().value, condensed_.Q_ds);
   response.Q = condensed_.Q;
-  response.dW_ds = -condensed_.wrench_ds.middleCols(acting_, m);
+  response.dW_ds = -condensed_.wrench_ds.middleCols(gap_parameter_count_, m);
   response.dW_dr = -condensed_.wrench_ds.rightCols(m);
-  response.dQ_dX.noalias() = condensed_.Q_ds.leftCols(acting_) * gap_->d_dX();
-  response.dQ_dV.noalias() = condensed_.Q_ds.leftCols(acting_) * gap_->d_dV();
-  response.dQ_ds = condensed_.Q_ds.middleCols(acting_, m);
+  response.dQ_dX.noalias() = condensed_.Q_ds.leftCols(gap_parameter_count_) * gap_->d_dX();
+  response.dQ_dV.noalias() = condensed_.Q_ds.leftCols(gap_parameter_count_) * gap_->d_dV();
+  response.dQ_ds = condensed_.Q_ds.middleCols(gap_parameter_count_, m);
   response.dQ_dr = condensed_.Q_ds.rightCols(m);
 }
 
@@ -256,15 +257,16 @@ void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, m
     if (!domain_error_.empty()) return;
     linearised_ = false;
     evaluate_monolithic(want_tangent, response);
-    given_ << response.W_B_A, response.Q;
-  } else if (is_one_system_) {
+    interface_wrench_ << response.W_B_A, response.Q;
+  } else if (is_monolithic_step_) {
     evaluate_monolithic(want_tangent, response);
-    given_ << response.W_B_A, response.Q;
+    interface_wrench_ << response.W_B_A, response.Q;
   } else {
     evaluate_partitioned(response);
   }
   // A prediction of a step that exchanges forces has no film yet.
-  if (domain_error_.empty() && (motion.dt == 0 || is_one_system_ || exchanges_ > 0)) response.summed = summed_forces();
+  if (domain_error_.empty() && (motion.dt == 0 || is_monolithic_step_ || exchanges_ > 0))
+    response.summed = summed_forces();
 }
 
 // Of the pressures, and of those that the flows would build up which balance in a film without any.
@@ -294,7 +296,7 @@ void FilmForce::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& respo
 
 void FilmForce::evaluate_partitioned(mbd::ForceResponse& response) {
   // The first surfaces of a step are a prediction, no answer to any wrench yet.
-  if (answered_) {
+  if (has_interface_response_) {
     film::FilmSolveOptions without_fallback = options_.film;
     without_fallback.allows_fallback = false;
     const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces_, history_, without_fallback, u_);
@@ -310,19 +312,19 @@ void FilmForce::evaluate_partitioned(mbd::ForceResponse& response) {
     increment_film(response);
     u_ += du_;
     // Moments over the radius, so that all entries are forces of comparable size.
-    Eigen::VectorXd size = Eigen::VectorXd::Ones(given_.size()), answer(given_.size());
+    Eigen::VectorXd size = Eigen::VectorXd::Ones(interface_wrench_.size()), answer(interface_wrench_.size());
     size.head<3>().setConstant(model().R);
     answer << response.W_B_A, response.Q;
-    const Eigen::VectorXd x = given_.cwiseQuotient(size), image = answer.cwiseQuotient(size);
+    const Eigen::VectorXd x = interface_wrench_.cwiseQuotient(size), image = answer.cwiseQuotient(size);
     const double largest = std::max(x.norm(), image.norm());
     internal_residual_ = largest > 0 ? (image - x).norm() / largest : 0;
-    given_ = interface_.next(x, image).cwiseProduct(size);
+    interface_wrench_ = interface_.next(x, image).cwiseProduct(size);
   } else {
     internal_residual_ = 1;
   }
-  answered_ = true;
-  response.W_B_A = given_.head<6>();
-  response.Q = given_.tail(deforming_->amplitudes());
+  has_interface_response_ = true;
+  response.W_B_A = interface_wrench_.head<6>();
+  response.Q = interface_wrench_.tail(deforming_->amplitudes());
 }
 
 bool FilmForce::is_step_consistent() {
@@ -359,10 +361,10 @@ void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   close_step();
   linearised_ = false;
   u_start_ = u_;
-  given_start_ = given_;
+  interface_wrench_start_ = interface_wrench_;
   interface_.begin_step();
   exchanges_ = 0;
-  steps_as_one_left_ = std::max(steps_as_one_left_ - 1, 0);
+  monolithic_steps_left_ = std::max(monolithic_steps_left_ - 1, 0);
 }
 
 // The next step starts from the oil there is, which is what was there before and what has come in since.
@@ -430,7 +432,7 @@ std::string FilmForce::thermal_trouble(double closed) const {
 }
 
 std::string FilmForce::name_of_internal_residual() const {
-  if (!is_one_system_) {
+  if (!is_monolithic_step_) {
     return "wrench exchanged between film and bodies";
   }
   const int node = reynolds_.worst_node(), n_z = model().grid.n_z;
@@ -499,8 +501,8 @@ void FilmForce::persist(Archive& archive) {
   {
     const Archive::Group group(archive, "last_step");
     persist_history(archive, history_);
-    archive.io("is_one_system", is_one_system_);
-    archive.io("answered", answered_);
+    archive.io("is_one_system", is_monolithic_step_);
+    archive.io("answered", has_interface_response_);
     archive.io("exchange_has_ended", exchange_has_ended_);
     gap_->persist(archive);
   }
@@ -518,13 +520,13 @@ void FilmForce::persist(Archive& archive) {
   }
   archive.io("started", started_);
   archive.io("u", u_start_);
-  archive.io("given_wrench", given_start_);
-  archive.io("steps_as_one_left", steps_as_one_left_);
+  archive.io("given_wrench", interface_wrench_start_);
+  archive.io("steps_as_one_left", monolithic_steps_left_);
   {
     const Archive::Group group(archive, "exchange");
     interface_.persist(archive);
   }
-  if (archive.restores()) u_ = u_start_, given_ = given_start_;
+  if (archive.restores()) u_ = u_start_, interface_wrench_ = interface_wrench_start_;
   const Archive::Group group(archive, "film");
   reynolds_.persist(archive);
 }

@@ -72,11 +72,11 @@ HeatConduction::HeatConduction(const Mesh& mesh, const std::vector<ThermalMateri
   }
   cool(mesh);
   owner_.assign(mesh.nodes.size(), -1);
-  given_ = VectorXd::Zero(A_.rows());
+  interface_wrench_ = VectorXd::Zero(A_.rows());
   for (std::size_t s = 0; s < surroundings_.held.size(); ++s)
     for (const int node : surroundings_.held[s].nodes) {
       owner_[static_cast<std::size_t>(node)] = static_cast<int>(s);
-      given_[node] = surroundings_.held[s].T;
+      interface_wrench_[node] = surroundings_.held[s].T;
     }
   for (std::size_t a = 0; a < owner_.size(); ++a)
     if (owner_[a] < 0) free_.push_back(static_cast<int>(a));
@@ -131,8 +131,8 @@ MatrixXd HeatConduction::rises(const MatrixXd& heat) const {
 }
 
 MatrixXd HeatConduction::temperatures(const MatrixXd& heat) const {
-  const VectorXd known = ambient_ - A_ * given_;
-  return rises(heat.colwise() + known).colwise() + given_;
+  const VectorXd known = ambient_ - A_ * interface_wrench_;
+  return rises(heat.colwise() + known).colwise() + interface_wrench_;
 }
 
 VectorXd HeatConduction::cooling(const VectorXd& T) const {

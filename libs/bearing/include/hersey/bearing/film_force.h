@@ -167,7 +167,7 @@ class FilmForce : public mbd::TwoBodyForce {
   film::SurfaceMotion surfaces_;
   film::SurfaceMotion observed_surfaces_;  // at the state last accepted
   Eigen::VectorXd observed_s_;
-  Eigen::Index acting_;                            // parameters of the gap
+  Eigen::Index gap_parameter_count_;               // parameters of the gap
   Eigen::VectorXd parameters_;                     // those, amplitudes of the surfaces' shapes, and their rates
   std::vector<film::MotionDirection> directions_;  // one per parameter
 
@@ -186,11 +186,11 @@ class FilmForce : public mbd::TwoBodyForce {
 
   // Partitioned: the wrench on the journal and the forces on shapes that the bodies have been given.
   solver::FixedPointIteration interface_;
-  Eigen::VectorXd given_, given_start_;
-  bool answered_ = false;
+  Eigen::VectorXd interface_wrench_, interface_wrench_start_;
+  bool has_interface_response_ = false;
   bool exchange_has_ended_ = false;
-  int steps_as_one_left_ = 0;  // before exchanging is tried again
-  bool is_one_system_ = true;  // the step is solved monolithically
+  int monolithic_steps_left_ = 0;   // before exchanging is tried again
+  bool is_monolithic_step_ = true;  // the step is solved monolithically
 
   // Oil of the step last accepted, and over the run.
   film::StepOilBalance oil_;

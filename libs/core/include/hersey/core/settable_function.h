@@ -13,7 +13,7 @@ namespace hersey {
 class SettableFunction final : public ScalarFunction {
  public:
   /// Stands for `given`, never null.
-  explicit SettableFunction(std::shared_ptr<const ScalarFunction> given) : given_(std::move(given)) {}
+  explicit SettableFunction(std::shared_ptr<const ScalarFunction> given) : interface_wrench_(std::move(given)) {}
 
   /// From now on this number, in SI, whatever the variables are.
   void set(double value) { held_.emplace(value); }
@@ -30,11 +30,11 @@ class SettableFunction final : public ScalarFunction {
   /// The function whose values it has now.
   [[nodiscard]] const ScalarFunction& now() const {
     if (held_) return *held_;
-    return *given_;
+    return *interface_wrench_;
   }
 
  private:
-  std::shared_ptr<const ScalarFunction> given_;
+  std::shared_ptr<const ScalarFunction> interface_wrench_;
   std::optional<ConstantFunction> held_;
 };
 

@@ -78,7 +78,7 @@ class HeatConduction {
   ThermalSurroundings surroundings_;
   Eigen::SparseMatrix<double> A_;
   Eigen::VectorXd ambient_;               ///< right side of the cooled faces [W]
-  Eigen::VectorXd given_;                 ///< temperatures of held nodes, 0 of the others
+  Eigen::VectorXd interface_wrench_;      ///< temperatures of held nodes, 0 of the others
   std::vector<int> owner_;                ///< which of the held sets a node belongs to, -1: none
   std::vector<int> free_;                 ///< nodes without a given temperature
   std::vector<Eigen::VectorXd> to_face_;  ///< of each of the cooled faces alpha int N_a dA (n) [W/K]
