@@ -41,7 +41,7 @@ constexpr double kLastTolerance = 1e-6;
 constexpr double kHalfGridTolerance = 0.1;
 
 // The film is solved to this share of how far its temperatures still move.
-constexpr double kShareOfNearness = 0.1;
+constexpr double kShareOfDistance = 0.1;
 
 // Of the clearance between bodies a turn leaves at least this share: films that close too far on the way make heat that
 // no answer has.
@@ -81,15 +81,16 @@ void tell_runaway(const film::HeatObservables& seen, bool has_lost_film, SteadyS
 
 // Of the film in the next turn: all that was asked for where that may be the last, as a turn brings temperatures nearer
 // by a factor of ten or so.
-double film_tolerance(const SteadyOptions& options, double nearness) {
-  const double near = kShareOfNearness * nearness;
+double film_tolerance(const SteadyOptions& options, double relative_distance) {
+  const double near = kShareOfDistance * relative_distance;
   return near <= 10 * kHeatTolerance ? options.rtol : std::max(options.rtol, std::min(kCoarsest, near));
 }
 
 // Film and temperature in turn until the film's temperatures, and the clearance with those of its walls, stay.
 // @param network  of walls that are nodes; null: none is
-SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& options, double nearness,
-                            SteadySearch& search, TemperaturePath& path, film::ThermalNetwork* network) {
+SteadySummary iterate_film_and_heat(const film::FilmModel& model, const SteadyOptions& options,
+                                    double relative_distance, SteadySearch& search, TemperaturePath& path,
+                                    film::ThermalNetwork* network) {
   SteadySummary summary;
   double clearance_before = 0;
   int turns_near = 0;
@@ -103,10 +104,10 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     summary.set_solved(false);
     if (is_open) {
       search.set_growth(path.growth());
-      search.set_tolerance(film_tolerance(options, path.nearness()));
+      search.set_tolerance(film_tolerance(options, path.relative_distance()));
       search.set_viscosity(path.heat().viscosity());
       search.set_thermal_shapes(std::move(shell), std::move(journal));
-      summary = search.has_film() ? search.once_more() : search.solve();
+      summary = search.has_film() ? search.retry() : search.solve();
     }
     summary.heat_iterations = k + 1;
     if (!summary.solved()) {
@@ -121,8 +122,8 @@ SteadySummary come_together(const film::FilmModel& model, const SteadyOptions& o
     search.heat(path.heat());
     if (network != nullptr) balance(*network, path.heat());
     path.take();
-    const bool is_only_begun = nearness > kHeatTolerance;
-    const bool is_near = path.nearness() <= (is_last ? kLastTolerance : nearness);
+    const bool is_only_begun = relative_distance > kHeatTolerance;
+    const bool is_near = path.relative_distance() <= (is_last ? kLastTolerance : relative_distance);
     if (is_near) ++turns_near;
     const bool is_balanced =
         path.heat().observables().balance.error() <= kBalanceTolerance || turns_near > kTurnsForTheBalance;
@@ -162,7 +163,7 @@ void begin_on_half_grid(const film::FilmModel& model, const OperatingPoint& poin
     wall->around = film::GridTransfer(model.grid, half.grid).around(wall->around);
   SteadySearch search_there(half, point, on_half);
   TemperaturePath path_there(half, thermal, point, std::nullopt);
-  if (!come_together(half, on_half, kHalfGridTolerance, search_there, path_there, nullptr).solved()) return;
+  if (!iterate_film_and_heat(half, on_half, kHalfGridTolerance, search_there, path_there, nullptr).solved()) return;
   const film::GridTransfer transfer(half.grid, model.grid);
   const double fill = film::fill_scale(model) / film::fill_scale(half);
   search.begin_at(search_there.position(),
@@ -180,7 +181,7 @@ SteadySummary solve_with_heat(const film::FilmModel& model, const OperatingPoint
   if (options.network && film::terminals_of(*options.thermal).has_any()) network.emplace(*options.network);
   begin_on_half_grid(model, point, options, search, path);
   const SteadySummary summary =
-      come_together(model, options, kHeatTolerance, search, path, network ? &*network : nullptr);
+      iterate_film_and_heat(model, options, kHeatTolerance, search, path, network ? &*network : nullptr);
   if (!summary.solved()) return summary;
   state = search.state();
   state.heat = SteadyHeat{path.heat().state(),

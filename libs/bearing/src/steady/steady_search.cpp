@@ -94,7 +94,7 @@ SteadySummary SteadySearch::under_load() {
   return summary_;
 }
 
-SteadySummary SteadySearch::once_more() {
+SteadySummary SteadySearch::retry() {
   if (!point_.load) return at_given_position();
   budget_ = summary_.iterations + options_.max_linearisations;
   const Eigen::Vector2d e = e_;

@@ -44,7 +44,7 @@ class SteadySearch {
   [[nodiscard]] SteadySummary under_load();
 
   /// The same with other viscosities, from the film and the position there are.
-  [[nodiscard]] SteadySummary once_more();
+  [[nodiscard]] SteadySummary retry();
 
   /// Whether the film and position there are, linearised anew, are the answer.
   [[nodiscard]] bool is_settled();

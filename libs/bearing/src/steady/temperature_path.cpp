@@ -127,8 +127,9 @@ void TemperaturePath::try_next(film::HeatState next, double growth) {
 void TemperaturePath::take() {
   last_ = tried_;
   image_ = unknowns(called_for());
-  nearness_ = std::min(1.0, (image_ - last_).cwiseAbs().maxCoeff() / (1 + image_.cwiseAbs().maxCoeff()));
-  if (nearest_.x.size() == 0 || nearness_ <= nearest_.nearness) nearest_ = {last_, image_, nearness_};
+  relative_distance_ = std::min(1.0, (image_ - last_).cwiseAbs().maxCoeff() / (1 + image_.cwiseAbs().maxCoeff()));
+  if (nearest_.x.size() == 0 || relative_distance_ <= nearest_.relative_distance)
+    nearest_ = {last_, image_, relative_distance_};
 }
 
 void TemperaturePath::step_on(int turn) {
@@ -148,7 +149,9 @@ void TemperaturePath::step_on(int turn) {
   T_oil_.reset();
 }
 
-bool TemperaturePath::leads_away() const { return !is_accelerated_ && nearness_ > kAway * nearest_.nearness; }
+bool TemperaturePath::leads_away() const {
+  return !is_accelerated_ && relative_distance_ > kAway * nearest_.relative_distance;
+}
 
 bool TemperaturePath::step_back() {
   if (last_.size() == 0) {

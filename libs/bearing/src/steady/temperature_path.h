@@ -35,7 +35,7 @@ class TemperaturePath {
   /// Of the clearance, to be tried with them [m]; 0 where walls keep their size.
   [[nodiscard]] double growth() const { return growth_; }
   /// Largest change of the last turn over the largest rise (plus 1 K).
-  [[nodiscard]] double nearness() const { return nearness_; }
+  [[nodiscard]] double relative_distance() const { return relative_distance_; }
 
   /// Whether a film has been found at one of the temperatures tried.
   [[nodiscard]] bool has_film() const { return last_.size() > 0; }
@@ -47,8 +47,8 @@ class TemperaturePath {
   [[nodiscard]] bool leads_away() const;
   /// To be tried once more.
   void return_to_nearest() { try_next(nearest_.x); }
-  /// nearness() of these.
-  [[nodiscard]] double nearest() const { return nearest_.nearness; }
+  /// relative_distance() of these.
+  [[nodiscard]] double nearest() const { return nearest_.relative_distance; }
   /// No film has been found there: half-way back, at first to the supply's temperature. False where there is no way
   /// back.
   [[nodiscard]] bool step_back();
@@ -78,13 +78,13 @@ class TemperaturePath {
   Eigen::VectorXd tried_, last_, image_;
   struct Turn {
     Eigen::VectorXd x, image;
-    double nearness = 1;
+    double relative_distance = 1;
   };
   Turn nearest_;                 ///< of all turns so far
   std::optional<double> T_oil_;  ///< one temperature that all oil has at first [K]
   int steps_back_ = 0;
   bool is_accelerated_ = true;
-  double nearness_ = 1;
+  double relative_distance_ = 1;
 };
 
 }  // namespace hersey::bearing
