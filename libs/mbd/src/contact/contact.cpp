@@ -75,8 +75,8 @@ VelocityOf velocity_with_derivatives(const Vector6& V) {
 }  // namespace
 
 struct Contact::Workspace {
-  std::unique_ptr<SpotFinder> finder;
-  std::vector<SpotId> found;
+  std::unique_ptr<ContactSearch> finder;
+  std::vector<ContactPointId> found;
 };
 
 /// Where B's material of one spot is: the pose of B that puts the undeformed corner where it is now, and the velocity
@@ -119,14 +119,14 @@ Contact::Place Contact::place_of(const RelativeMotion& motion, int corner) const
   return place;
 }
 
-const std::vector<SpotId>& Contact::find(const RelativeMotion& motion) const {
+const std::vector<ContactPointId>& Contact::find(const RelativeMotion& motion) const {
   work_->found.clear();
   if (displacements_.rows() == 0) {
     work_->finder->find(motion.X_AB, work_->found);
     return work_->found;
   }
   work_->finder->find_all(work_->found);
-  std::erase_if(work_->found, [&](const SpotId& id) {
+  std::erase_if(work_->found, [&](const ContactPointId& id) {
     return !(work_->finder->spot(id, plain_pose(place_of(motion, id.index).X_AB)).gap < 0);
   });
   return work_->found;
@@ -160,28 +160,29 @@ void Contact::evaluate(const RelativeMotion& motion, bool want_tangent, ForceRes
   response.set_zero(motion.s.size());
   too_deep_ = 0;
   const Vector3 omega = motion.V_AB_A.head<3>(), v = motion.V_AB_A.tail<3>();
-  for (const SpotId& id : find(motion)) {
+  for (const ContactPointId& id : find(motion)) {
     const Place place = place_of(motion, id.index);
-    const Spot<double> spot = work_->finder->spot(id, plain_pose(place.X_AB));
+    const ContactPoint<double> spot = work_->finder->spot(id, plain_pose(place.X_AB));
     if (-spot.gap > deepest_) too_deep_ = std::max(too_deep_, -spot.gap);
     // B's material moves with (contact.1), and with (contact.4) where it deforms.
-    const SpotForce<double> force = spot_force<double>(law_, spot, v + omega.cross(spot.position) + place.velocity);
+    const ContactPointForce<double> force =
+        spot_force<double>(law_, spot, v + omega.cross(spot.position) + place.velocity);
     const Vector3 f = force.normal * spot.normal + force.friction;
     response.W_B_A.head<3>() += spot.position.cross(f);
     response.W_B_A.tail<3>() += f;
     push_shapes(place, f, response);
   }
   if (!want_tangent) return;
-  for (const SpotId& id : work_->found) differentiate(id, motion, response);
+  for (const ContactPointId& id : work_->found) differentiate(id, motion, response);
 }
 
-void Contact::differentiate(const SpotId& id, const RelativeMotion& motion, ForceResponse& response) const {
+void Contact::differentiate(const ContactPointId& id, const RelativeMotion& motion, ForceResponse& response) const {
   const Place place = place_of(motion, id.index);
   const VelocityOf V = velocity_with_derivatives(motion.V_AB_A);
-  const Spot<Dual> spot = work_->finder->spot(id, pose_with_derivatives(place.X_AB));
+  const ContactPoint<Dual> spot = work_->finder->spot(id, pose_with_derivatives(place.X_AB));
   Vec3<Dual> velocity = V.v + cross(V.omega, spot.position);
   if (place.corner >= 0) velocity += turning(place.velocity);
-  const SpotForce<Dual> force = spot_force<Dual>(law_, spot, velocity);
+  const ContactPointForce<Dual> force = spot_force<Dual>(law_, spot, velocity);
   const Vec3<Dual> f = scaled(force.normal, spot.normal) + force.friction;
   const Vec3<Dual> torque = cross(spot.position, f);
   Eigen::Matrix<double, 6, 12> derivative;
@@ -198,8 +199,8 @@ void Contact::differentiate(const SpotId& id, const RelativeMotion& motion, Forc
 
 double Contact::stored_energy(const RelativeMotion& motion) const {
   double energy = 0;
-  for (const SpotId& id : find(motion)) {
-    const Spot<double> spot = work_->finder->spot(id, plain_pose(place_of(motion, id.index).X_AB));
+  for (const ContactPointId& id : find(motion)) {
+    const ContactPoint<double> spot = work_->finder->spot(id, plain_pose(place_of(motion, id.index).X_AB));
     energy += spot.weight * law_.stiffness * std::pow(-spot.gap, law_.exponent + 1) / (law_.exponent + 1);
   }
   return energy;
@@ -214,9 +215,9 @@ std::string Contact::domain_error() const {
 double Contact::smallest_gap(const RelativeMotion& motion) const {
   if (displacements_.rows() == 0) return work_->finder->smallest_gap(motion.X_AB);
   double nearest = kUnbounded;
-  std::vector<SpotId> all;
+  std::vector<ContactPointId> all;
   work_->finder->find_all(all);
-  for (const SpotId& id : all)
+  for (const ContactPointId& id : all)
     nearest = std::min(nearest, work_->finder->spot(id, plain_pose(place_of(motion, id.index).X_AB)).gap);
   return nearest;
 }
@@ -225,11 +226,11 @@ ContactObservation Contact::observe(const RelativeMotion& motion) {
   ContactObservation seen;
   seen.gap = smallest_gap(motion);
   const Vector3 omega = motion.V_AB_A.head<3>(), v = motion.V_AB_A.tail<3>();
-  for (const SpotId& id : find(motion)) {
+  for (const ContactPointId& id : find(motion)) {
     const Place place = place_of(motion, id.index);
-    const Spot<double> spot = work_->finder->spot(id, plain_pose(place.X_AB));
+    const ContactPoint<double> spot = work_->finder->spot(id, plain_pose(place.X_AB));
     const Vector3 velocity = v + omega.cross(spot.position) + place.velocity;
-    const SpotForce<double> force = spot_force<double>(law_, spot, velocity);
+    const ContactPointForce<double> force = spot_force<double>(law_, spot, velocity);
     const double rate = -spot.normal.dot(velocity);
     const double elastic = spot.weight * law_.stiffness * std::pow(-spot.gap, law_.exponent);
     ++seen.spots;
@@ -251,7 +252,7 @@ bool can_touch_deforming(const ShapeGeometry& shape) {
 }
 
 bool touches_with_pressure(const ShapeGeometry& a, const ShapeGeometry& b) {
-  const std::unique_ptr<SpotFinder> finder = make_spot_finder(a, b);
+  const std::unique_ptr<ContactSearch> finder = make_spot_finder(a, b);
   return finder != nullptr && finder->weighs_area();
 }
 

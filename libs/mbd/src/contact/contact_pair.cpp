@@ -22,7 +22,7 @@ std::vector<Sphere> corners_of(const Box& box) {
 }
 
 /// The finder with `first` looking for the surface of `second`; null if it is none that looks.
-std::unique_ptr<SpotFinder> finder_of(const ShapeGeometry& first, const ShapeGeometry& second, bool first_on_b) {
+std::unique_ptr<ContactSearch> finder_of(const ShapeGeometry& first, const ShapeGeometry& second, bool first_on_b) {
   if (const auto* ball = as<Sphere>(first)) {
     if (const auto* mesh = as<MeshPointer>(second)) return ball_on_mesh(*ball, *mesh, first_on_b);
     return balls_on_solid({*ball}, second, first_on_b);
@@ -42,7 +42,7 @@ std::unique_ptr<SpotFinder> finder_of(const ShapeGeometry& first, const ShapeGeo
 
 }  // namespace
 
-std::unique_ptr<SpotFinder> make_spot_finder(const ShapeGeometry& a, const ShapeGeometry& b) {
+std::unique_ptr<ContactSearch> make_spot_finder(const ShapeGeometry& a, const ShapeGeometry& b) {
   if (as<Capsule>(a) != nullptr && as<Capsule>(b) != nullptr)
     return capsule_on_capsule(std::get<Capsule>(a), std::get<Capsule>(b));
   if (auto finder = finder_of(b, a, true)) return finder;

@@ -11,7 +11,7 @@ namespace hersey::mbd {
 
 /// One place where two surfaces are close: all that the contact law needs to know of shapes. In frame A.
 template <class T>
-struct Spot {
+struct ContactPoint {
   T gap;             ///< along the normal, negative where they overlap [m]
   Vec3<T> normal;    ///< unit vector from A to B
   Vec3<T> position;  ///< half-way between the surfaces
@@ -19,26 +19,26 @@ struct Spot {
 };
 
 /// Names one spot of a pair of shapes; what the numbers mean is the finder's own affair.
-struct SpotId {
+struct ContactPointId {
   int kind = 0;
   int index = 0;
   int part = 0;
 };
 
 /// The geometry of a pair of shapes: finds spots that overlap, and gives each with its derivatives.
-class SpotFinder {
+class ContactSearch {
  public:
-  SpotFinder() = default;
-  SpotFinder(const SpotFinder&) = delete;
-  SpotFinder& operator=(const SpotFinder&) = delete;
-  virtual ~SpotFinder() = default;
+  ContactSearch() = default;
+  ContactSearch(const ContactSearch&) = delete;
+  ContactSearch& operator=(const ContactSearch&) = delete;
+  virtual ~ContactSearch() = default;
 
   /// Adds every spot with gap < 0. Allocates nothing once `found` and the finder's workspace have grown to their size.
-  virtual void find(const Pose& X_AB, std::vector<SpotId>& found) = 0;
-  [[nodiscard]] virtual Spot<double> spot(const SpotId& id, const PoseOf<double>& X_AB) const = 0;
-  [[nodiscard]] virtual Spot<Dual> spot(const SpotId& id, const PoseOf<Dual>& X_AB) const = 0;
+  virtual void find(const Pose& X_AB, std::vector<ContactPointId>& found) = 0;
+  [[nodiscard]] virtual ContactPoint<double> spot(const ContactPointId& id, const PoseOf<double>& X_AB) const = 0;
+  [[nodiscard]] virtual ContactPoint<Dual> spot(const ContactPointId& id, const PoseOf<Dual>& X_AB) const = 0;
   /// Every spot that there may be, where each of them has its own place: of corners that deform.
-  virtual void find_all(std::vector<SpotId>& found) const { (void)found; }
+  virtual void find_all(std::vector<ContactPointId>& found) const { (void)found; }
   /// Smallest gap of all spots [m], touching or not.
   [[nodiscard]] virtual double smallest_gap(const Pose& X_AB) = 0;
   /// Whether a spot's weight is an area.
@@ -47,12 +47,12 @@ class SpotFinder {
 
 /// Passes both number types on to the derived class's template `at`.
 template <class Derived>
-class SpotFinderOf : public SpotFinder {
+class ContactSearchOf : public ContactSearch {
  public:
-  [[nodiscard]] Spot<double> spot(const SpotId& id, const PoseOf<double>& X_AB) const override {
+  [[nodiscard]] ContactPoint<double> spot(const ContactPointId& id, const PoseOf<double>& X_AB) const override {
     return static_cast<const Derived&>(*this).template at<double>(id, X_AB);
   }
-  [[nodiscard]] Spot<Dual> spot(const SpotId& id, const PoseOf<Dual>& X_AB) const override {
+  [[nodiscard]] ContactPoint<Dual> spot(const ContactPointId& id, const PoseOf<Dual>& X_AB) const override {
     return static_cast<const Derived&>(*this).template at<Dual>(id, X_AB);
   }
 };
@@ -65,8 +65,8 @@ class SpotFinderOf : public SpotFinder {
 /// @param centre    of the ball, in its own body's frame
 /// @param distance  gives distance and normal of a point in the surface's frame
 template <class T, class Distance>
-Spot<T> ball_spot(bool on_b, const Vector3& centre, double radius, double weight, const PoseOf<T>& X_AB,
-                  Distance distance) {
+ContactPoint<T> ball_spot(bool on_b, const Vector3& centre, double radius, double weight, const PoseOf<T>& X_AB,
+                          Distance distance) {
   const Vec3<T> own = constant<T>(centre);
   const auto seen = distance(on_b ? X_AB.place(own) : X_AB.place_back(own));
   const T middle = T(0.5) * (seen.distance + T(radius));
@@ -77,15 +77,15 @@ Spot<T> ball_spot(bool on_b, const Vector3& centre, double radius, double weight
 }
 
 /// The finder for a pair of shapes; null if the pair is not supported.
-[[nodiscard]] std::unique_ptr<SpotFinder> make_spot_finder(const ShapeGeometry& a, const ShapeGeometry& b);
+[[nodiscard]] std::unique_ptr<ContactSearch> make_spot_finder(const ShapeGeometry& a, const ShapeGeometry& b);
 
 // Those it chooses from. `on_b`: the first shape is on body B.
-[[nodiscard]] std::unique_ptr<SpotFinder> balls_on_solid(std::vector<Sphere> balls, ShapeGeometry solid, bool on_b);
-[[nodiscard]] std::unique_ptr<SpotFinder> rims_on_plane(const Cylinder& cylinder, const HalfSpace& plane, bool on_b);
-[[nodiscard]] std::unique_ptr<SpotFinder> capsule_on_capsule(const Capsule& a, const Capsule& b);
-[[nodiscard]] std::unique_ptr<SpotFinder> ball_on_mesh(const Sphere& ball, std::shared_ptr<const TriangleMesh> mesh,
-                                                       bool on_b);
-[[nodiscard]] std::unique_ptr<SpotFinder> corners_on_solid(std::shared_ptr<const TriangleMesh> mesh,
-                                                           ShapeGeometry solid, bool on_b);
+[[nodiscard]] std::unique_ptr<ContactSearch> balls_on_solid(std::vector<Sphere> balls, ShapeGeometry solid, bool on_b);
+[[nodiscard]] std::unique_ptr<ContactSearch> rims_on_plane(const Cylinder& cylinder, const HalfSpace& plane, bool on_b);
+[[nodiscard]] std::unique_ptr<ContactSearch> capsule_on_capsule(const Capsule& a, const Capsule& b);
+[[nodiscard]] std::unique_ptr<ContactSearch> ball_on_mesh(const Sphere& ball, std::shared_ptr<const TriangleMesh> mesh,
+                                                          bool on_b);
+[[nodiscard]] std::unique_ptr<ContactSearch> corners_on_solid(std::shared_ptr<const TriangleMesh> mesh,
+                                                              ShapeGeometry solid, bool on_b);
 
 }  // namespace hersey::mbd

@@ -1,4 +1,4 @@
-// Spots of triangulated surfaces: a ball on the mesh, and the mesh's corners on a solid.
+// ContactPoints of triangulated surfaces: a ball on the mesh, and the mesh's corners on a solid.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,12 +12,12 @@ namespace {
 
 // The ball touches each face, edge and corner whose distance from its centre is a local minimum: one spot on flat and
 // convex places, one per wall in a corner. Where faces meet at an edge the distance is continuous with its gradient.
-class BallOnMesh final : public SpotFinderOf<BallOnMesh> {
+class BallOnMesh final : public ContactSearchOf<BallOnMesh> {
  public:
   BallOnMesh(const Sphere& ball, std::shared_ptr<const TriangleMesh> mesh, bool on_b)
       : ball_(ball), surface_(std::move(mesh)), on_b_(on_b) {}
 
-  void find(const Pose& X_AB, std::vector<SpotId>& found) override {
+  void find(const Pose& X_AB, std::vector<ContactPointId>& found) override {
     const Vector3 centre = centre_on_mesh(X_AB);
     near_.clear();
     const double reach2 = ball_.radius * ball_.radius;
@@ -51,7 +51,7 @@ class BallOnMesh final : public SpotFinderOf<BallOnMesh> {
   }
 
   template <class T>
-  [[nodiscard]] Spot<T> at(const SpotId& id, const PoseOf<T>& X) const {
+  [[nodiscard]] ContactPoint<T> at(const ContactPointId& id, const PoseOf<T>& X) const {
     const auto distance = [&](const Vec3<T>& p) {
       const Vec3<T> corner = constant<T>(surface_.corner(id.index, id.part));
       const auto feature = static_cast<Feature>(id.kind);
@@ -78,7 +78,7 @@ class BallOnMesh final : public SpotFinderOf<BallOnMesh> {
     return on_b_ ? X_AB * ball_.centre : X_AB.inverse() * ball_.centre;
   }
 
-  static SpotId id_of(const Near& spot) {
+  static ContactPointId id_of(const Near& spot) {
     return {static_cast<int>(spot.nearest.feature), spot.triangle, spot.nearest.part};
   }
 
@@ -104,12 +104,12 @@ class BallOnMesh final : public SpotFinderOf<BallOnMesh> {
 };
 
 // Each corner of the mesh stands for the area around it.
-class CornersOnSolid final : public SpotFinderOf<CornersOnSolid> {
+class CornersOnSolid final : public ContactSearchOf<CornersOnSolid> {
  public:
   CornersOnSolid(std::shared_ptr<const TriangleMesh> mesh, ShapeGeometry solid, bool on_b)
       : surface_(std::move(mesh)), solid_(std::move(solid)), on_b_(on_b) {}
 
-  void find(const Pose& X_AB, std::vector<SpotId>& found) override {
+  void find(const Pose& X_AB, std::vector<ContactPointId>& found) override {
     const Pose X_SM = on_b_ ? X_AB : X_AB.inverse();
     // No point of a box is nearer to the solid than its centre less half its diagonal.
     surface_.corners().visit(
@@ -119,7 +119,7 @@ class CornersOnSolid final : public SpotFinderOf<CornersOnSolid> {
         });
   }
 
-  void find_all(std::vector<SpotId>& found) const override {
+  void find_all(std::vector<ContactPointId>& found) const override {
     for (int corner = 0; corner < static_cast<int>(surface_.mesh().corners.size()); ++corner)
       found.push_back({0, corner, 0});
   }
@@ -136,7 +136,7 @@ class CornersOnSolid final : public SpotFinderOf<CornersOnSolid> {
   [[nodiscard]] bool weighs_area() const override { return true; }
 
   template <class T>
-  [[nodiscard]] Spot<T> at(const SpotId& id, const PoseOf<T>& X) const {
+  [[nodiscard]] ContactPoint<T> at(const ContactPointId& id, const PoseOf<T>& X) const {
     return ball_spot(on_b_, surface_.mesh().corners[id.index], 0, surface_.corner_areas()[id.index], X,
                      [&](const Vec3<T>& p) { return surface_distance(p); });
   }
@@ -159,11 +159,12 @@ class CornersOnSolid final : public SpotFinderOf<CornersOnSolid> {
 
 }  // namespace
 
-std::unique_ptr<SpotFinder> ball_on_mesh(const Sphere& ball, std::shared_ptr<const TriangleMesh> mesh, bool on_b) {
+std::unique_ptr<ContactSearch> ball_on_mesh(const Sphere& ball, std::shared_ptr<const TriangleMesh> mesh, bool on_b) {
   return std::make_unique<BallOnMesh>(ball, std::move(mesh), on_b);
 }
 
-std::unique_ptr<SpotFinder> corners_on_solid(std::shared_ptr<const TriangleMesh> mesh, ShapeGeometry solid, bool on_b) {
+std::unique_ptr<ContactSearch> corners_on_solid(std::shared_ptr<const TriangleMesh> mesh, ShapeGeometry solid,
+                                                bool on_b) {
   return std::make_unique<CornersOnSolid>(std::move(mesh), std::move(solid), on_b);
 }
 

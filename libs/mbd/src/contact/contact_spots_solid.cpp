@@ -1,4 +1,5 @@
-// Spots of smooth shapes: balls (spheres, ends of capsules, corners of boxes) on solids, cylinders on planes, capsules.
+// ContactPoints of smooth shapes: balls (spheres, ends of capsules, corners of boxes) on solids, cylinders on planes,
+// capsules.
 #include <algorithm>
 #include <limits>
 
@@ -8,12 +9,12 @@
 namespace hersey::mbd {
 namespace {
 
-class BallsOnSolid final : public SpotFinderOf<BallsOnSolid> {
+class BallsOnSolid final : public ContactSearchOf<BallsOnSolid> {
  public:
   BallsOnSolid(std::vector<Sphere> balls, ShapeGeometry solid, bool on_b)
       : balls_(std::move(balls)), solid_(std::move(solid)), on_b_(on_b) {}
 
-  void find(const Pose& X_AB, std::vector<SpotId>& found) override {
+  void find(const Pose& X_AB, std::vector<ContactPointId>& found) override {
     const PoseOf<double> X = plain_pose(X_AB);
     for (int i = 0; i < static_cast<int>(balls_.size()); ++i)
       if (at<double>({0, i, 0}, X).gap < 0) found.push_back({0, i, 0});
@@ -27,7 +28,7 @@ class BallsOnSolid final : public SpotFinderOf<BallsOnSolid> {
   }
 
   template <class T>
-  [[nodiscard]] Spot<T> at(const SpotId& id, const PoseOf<T>& X) const {
+  [[nodiscard]] ContactPoint<T> at(const ContactPointId& id, const PoseOf<T>& X) const {
     const Sphere& ball = balls_[id.index];
     const auto distance = [&](const Vec3<T>& p) {
       if (const auto* plane = std::get_if<HalfSpace>(&solid_)) return distance_from(*plane, p);
@@ -47,25 +48,25 @@ class BallsOnSolid final : public SpotFinderOf<BallsOnSolid> {
 
 // Each rim touches in its lowest point and the three a quarter turn on: the lowest alone carries a lying cylinder, all
 // four together a standing one, and the sum hardly depends on where on the rim they are (contact.3).
-class RimsOnPlane final : public SpotFinderOf<RimsOnPlane> {
+class RimsOnPlane final : public ContactSearchOf<RimsOnPlane> {
  public:
   RimsOnPlane(const Cylinder& cylinder, const HalfSpace& plane, bool on_b)
       : cylinder_(cylinder), plane_(plane), axis_((cylinder.to - cylinder.from).normalized()), on_b_(on_b) {}
 
-  void find(const Pose& X_AB, std::vector<SpotId>& found) override {
-    visit(X_AB, [&](const SpotId& id, double gap) {
+  void find(const Pose& X_AB, std::vector<ContactPointId>& found) override {
+    visit(X_AB, [&](const ContactPointId& id, double gap) {
       if (gap < 0) found.push_back(id);
     });
   }
 
   double smallest_gap(const Pose& X_AB) override {
     double smallest = std::numeric_limits<double>::infinity();
-    visit(X_AB, [&](const SpotId&, double gap) { smallest = std::min(smallest, gap); });
+    visit(X_AB, [&](const ContactPointId&, double gap) { smallest = std::min(smallest, gap); });
     return smallest;
   }
 
   template <class T>
-  [[nodiscard]] Spot<T> at(const SpotId& id, const PoseOf<T>& X) const {
+  [[nodiscard]] ContactPoint<T> at(const ContactPointId& id, const PoseOf<T>& X) const {
     // All in the cylinder's own frame.
     const Vec3<T> normal = on_b_ ? X.turn_back(constant<T>(plane_.normal)) : X.turn(constant<T>(plane_.normal));
     const Vec3<T> on_plane = on_b_ ? X.place_back(constant<T>(plane_.point)) : X.place(constant<T>(plane_.point));
@@ -91,7 +92,7 @@ class RimsOnPlane final : public SpotFinderOf<RimsOnPlane> {
     const PoseOf<double> X = plain_pose(X_AB);
     for (int end = 0; end < 2; ++end)
       for (int part = 0; part < 4; ++part) {
-        const SpotId id{0, end, part};
+        const ContactPointId id{0, end, part};
         see(id, at<double>(id, X).gap);
       }
   }
@@ -118,26 +119,27 @@ T clamped(const T& s) {
 
 // Crossed capsules touch in one spot; parallel ones in two, the ends of the length they share, with half the weight
 // each; between 1 and 4 degrees the one passes into the others.
-class CapsuleOnCapsule final : public SpotFinderOf<CapsuleOnCapsule> {
+class CapsuleOnCapsule final : public ContactSearchOf<CapsuleOnCapsule> {
  public:
   CapsuleOnCapsule(const Capsule& a, const Capsule& b) : a_(a), b_(b) {}
 
-  void find(const Pose& X_AB, std::vector<SpotId>& found) override {
+  void find(const Pose& X_AB, std::vector<ContactPointId>& found) override {
     const PoseOf<double> X = plain_pose(X_AB);
     for (int kind = 0; kind < 3; ++kind)
-      if (const Spot<double> s = at<double>({kind, 0, 0}, X); s.gap < 0 && s.weight > 0) found.push_back({kind, 0, 0});
+      if (const ContactPoint<double> s = at<double>({kind, 0, 0}, X); s.gap < 0 && s.weight > 0)
+        found.push_back({kind, 0, 0});
   }
 
   double smallest_gap(const Pose& X_AB) override {
     const PoseOf<double> X = plain_pose(X_AB);
     double gap = std::numeric_limits<double>::infinity();
     for (int kind = 0; kind < 3; ++kind)
-      if (const Spot<double> s = at<double>({kind, 0, 0}, X); s.weight > 0) gap = std::min(gap, s.gap);
+      if (const ContactPoint<double> s = at<double>({kind, 0, 0}, X); s.weight > 0) gap = std::min(gap, s.gap);
     return gap;
   }
 
   template <class T>
-  [[nodiscard]] Spot<T> at(const SpotId& id, const PoseOf<T>& X) const {
+  [[nodiscard]] ContactPoint<T> at(const ContactPointId& id, const PoseOf<T>& X) const {
     const Vec3<T> a = constant<T>(a_.from), along_a = constant<T>(a_.to - a_.from);
     const Vec3<T> b = X.place(constant<T>(b_.from)), along_b = X.turn(constant<T>(b_.to - b_.from));
     const T aa = dot(along_a, along_a), bb = dot(along_b, along_b), ab = dot(along_a, along_b);
@@ -162,7 +164,7 @@ class CapsuleOnCapsule final : public SpotFinderOf<CapsuleOnCapsule> {
   static constexpr double kParallel = 0.0175, kCrossed = 0.0698;  ///< sines of 1 and 4 degrees
 
   template <class T>
-  [[nodiscard]] Spot<T> between(const Vec3<T>& on_a, const Vec3<T>& on_b, const T& weight) const {
+  [[nodiscard]] ContactPoint<T> between(const Vec3<T>& on_a, const Vec3<T>& on_b, const T& weight) const {
     const SurfaceDistance<T> seen = distance_from(on_a, on_b);
     const T gap = seen.distance - T(a_.radius + b_.radius);
     return {gap, seen.normal, Vec3<T>(on_a + scaled(T(a_.radius) + T(0.5) * gap, seen.normal)), weight};
@@ -173,15 +175,15 @@ class CapsuleOnCapsule final : public SpotFinderOf<CapsuleOnCapsule> {
 
 }  // namespace
 
-std::unique_ptr<SpotFinder> balls_on_solid(std::vector<Sphere> balls, ShapeGeometry solid, bool on_b) {
+std::unique_ptr<ContactSearch> balls_on_solid(std::vector<Sphere> balls, ShapeGeometry solid, bool on_b) {
   return std::make_unique<BallsOnSolid>(std::move(balls), std::move(solid), on_b);
 }
 
-std::unique_ptr<SpotFinder> rims_on_plane(const Cylinder& cylinder, const HalfSpace& plane, bool on_b) {
+std::unique_ptr<ContactSearch> rims_on_plane(const Cylinder& cylinder, const HalfSpace& plane, bool on_b) {
   return std::make_unique<RimsOnPlane>(cylinder, plane, on_b);
 }
 
-std::unique_ptr<SpotFinder> capsule_on_capsule(const Capsule& a, const Capsule& b) {
+std::unique_ptr<ContactSearch> capsule_on_capsule(const Capsule& a, const Capsule& b) {
   return std::make_unique<CapsuleOnCapsule>(a, b);
 }
 

@@ -9,7 +9,7 @@ namespace hersey::mbd {
 
 /// Normal and friction force of one spot.
 template <class T>
-struct SpotForce {
+struct ContactPointForce {
   T normal;          ///< N >= 0 [N]
   Vec3<T> friction;  ///< on B [N]
 };
@@ -17,10 +17,10 @@ struct SpotForce {
 /// Theory manual eqs. (contact.6) to (contact.8).
 /// @param velocity  of B's material relative to A's at the spot, A's axes
 template <class T>
-SpotForce<T> spot_force(const ContactLaw& law, const Spot<T>& spot, const Vec3<T>& velocity) {
+ContactPointForce<T> spot_force(const ContactLaw& law, const ContactPoint<T>& spot, const Vec3<T>& velocity) {
   using std::pow;
   using std::sqrt;
-  SpotForce<T> force{T(0.0), constant<T>(Vector3::Zero())};
+  ContactPointForce<T> force{T(0.0), constant<T>(Vector3::Zero())};
   if (!(spot.gap < T(0.0))) return force;
   const T rate = -dot(spot.normal, velocity);  // of penetration
   const T damped = T(1.0) + T(law.damping) * rate;

@@ -11,7 +11,7 @@
 
 namespace hersey::mbd {
 
-struct SpotId;
+struct ContactPointId;
 
 /// What a contact shows of itself, in frame A.
 struct ContactObservation {
@@ -58,9 +58,9 @@ class Contact final : public TwoBodyForce {
   struct Workspace;
   struct Place;
   [[nodiscard]] Place place_of(const RelativeMotion& motion, int corner) const;
-  [[nodiscard]] const std::vector<SpotId>& find(const RelativeMotion& motion) const;
+  [[nodiscard]] const std::vector<ContactPointId>& find(const RelativeMotion& motion) const;
   [[nodiscard]] double smallest_gap(const RelativeMotion& motion) const;
-  void differentiate(const SpotId& id, const RelativeMotion& motion, ForceResponse& response) const;
+  void differentiate(const ContactPointId& id, const RelativeMotion& motion, ForceResponse& response) const;
   void push_shapes(const Place& place, const Vector3& force, ForceResponse& response) const;
   void differentiate_shapes(const Place& place, const Vector3& force, const Eigen::Matrix<double, 6, 12>& spot,
                             ForceResponse& response) const;
