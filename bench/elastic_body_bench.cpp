@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/vibration.h"
 
@@ -40,7 +40,7 @@ bool time_body(const std::array<int, 3>& cells) {
     body = assemble(box_mesh(ElementType::tet10, {0.3, 0.05, 0.04}, cells),
                     {isotropic({.youngs_modulus = 2.1e11, .poisson_ratio = 0.3, .density = 7850})});
   });
-  HeldStiffness stiffness(body.K, body.m, dofs_of(body.mesh.node_sets.at("x0")));
+  ConstrainedStiffness stiffness(body.K, body.m, dofs_of(body.mesh.node_sets.at("x0")));
   double memory = 0;
   const double analysis = seconds([&] { memory = stiffness.memory_estimate(); });
   bool sound = true;

@@ -11,8 +11,8 @@
 #include <memory>
 
 #include "hersey/core/scalar_function.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/elastic_body.h"
-#include "hersey/fem/held_stiffness.h"
 #include "hersey/mbd/mechanism.h"
 #include "hersey/mbd/mechanism_builder.h"
 #include "hersey/mbd/nodal_body.h"
@@ -100,7 +100,7 @@ bool time_body(const std::array<int, 3>& cells) {
   const fem::FrameSupports supports = fem::frame_supports(mesh.mesh, reduction.body.frames);
   double solve = 1e9;
   {
-    fem::HeldStiffness held(mesh.K, mesh.m, supports.held, supports.C);
+    fem::ConstrainedStiffness held(mesh.K, mesh.m, supports.held, supports.C);
     if (!held.factorise(-1 / (0.25 * dt * dt)).solved()) std::abort();
     const Eigen::VectorXd one = Eigen::VectorXd::Ones(mesh.size());
     for (int i = 0; i < 10; ++i) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/finite_strain.h"
-#include "hersey/fem/held_stiffness.h"
 
 /// A whole mesh in equilibrium under large displacements: what bodies of nodes, and bars pulled and bent far, are held
 /// against.
@@ -26,7 +26,7 @@ inline bool reach(double share, const fem::ElasticBody& body, const std::vector<
     held.push_back(s.dof);
     prescribed[s.dof] = share * s.displacement - u[s.dof];
   }
-  fem::HeldStiffness stiffness(body.K, body.m, held);
+  fem::ConstrainedStiffness stiffness(body.K, body.m, held);
   for (int i = 0; i < 25; ++i) {
     fem::FiniteStrain inner;
     fem::finite_strain(body, u, inner);

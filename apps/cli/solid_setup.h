@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "commands.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/elastic_body.h"
-#include "hersey/fem/held_stiffness.h"
 
 namespace hersey::cli {
 

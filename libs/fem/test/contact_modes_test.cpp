@@ -22,7 +22,7 @@ TEST_CASE("NodalNormals_AddUpToTheFacesAndShareItEvenly") {
 TEST_CASE("ContactModes_AnswerEveryForceOnTheirFaces") {
   const ElasticBody body =
       assemble(box_mesh(ElementType::hex8, {1, 0.2, 0.2}, {5, 2, 2}), {isotropic({2.1e11, 0.3, 7850})});
-  HeldStiffness stiffness(body.K, body.m, dofs_of(body.mesh.node_sets.at("x0")));
+  ConstrainedStiffness stiffness(body.K, body.m, dofs_of(body.mesh.node_sets.at("x0")));
   REQUIRE(stiffness.factorise().solved());
   const auto& faces = body.mesh.surfaces.at("y1");
   // The nodes on the held end answer nothing.

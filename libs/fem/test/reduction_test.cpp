@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/loads.h"
 #include "hersey/fem/vibration.h"
 #include "small_bodies.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/heat_conduction.h"
-#include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/loads.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/reduction.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/surface_loads.h"
@@ -50,7 +50,7 @@ TEST_CASE("StaticError_HoldsForACosinePressureNotAmongTheShapes") {
   const Eigen::VectorXd load = cosine_pressure_load(mesh, faces_called(mesh, "big_end"), Vector3(0.6, 0.8, 0));
   // The whole mesh with its frames held.
   const FrameSupports supports = frame_supports(mesh, frames);
-  HeldStiffness held(body.K, body.m, supports.held, supports.C);
+  ConstrainedStiffness held(body.K, body.m, supports.held, supports.C);
   REQUIRE(held.factorise().solved());
   const Eigen::VectorXd exact = held.solve(load);
   const auto size_on_bore = [&](const Eigen::VectorXd& u) {

@@ -4,8 +4,8 @@
 
 #include <limits>
 
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/finite_strain.h"
-#include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/loads.h"
 #include "small_bodies.h"
 

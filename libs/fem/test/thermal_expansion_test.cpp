@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/heat_conduction.h"
-#include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/stress.h"
 #include "ring.h"
 #include "small_bodies.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/skin.h"
 #include "hersey/fem/surface_loads.h"
 #include "hersey/model/build.h"

@@ -4,7 +4,7 @@
 
 namespace hersey::fem {
 
-FilmModes contact_modes(const HeldStiffness& stiffness, const Mesh& mesh, const std::vector<ElementFace>& faces,
+FilmModes contact_modes(const ConstrainedStiffness& stiffness, const Mesh& mesh, const std::vector<ElementFace>& faces,
                         int most, double tolerance) {
   const Eigen::Matrix3Xd normals = nodal_normals(mesh, faces);
   std::vector<Eigen::Triplet<double>> forces;

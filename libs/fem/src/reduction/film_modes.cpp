@@ -16,7 +16,7 @@ constexpr Index at_once = 48;  // solutions kept: all of them would take a gigab
 
 MatrixXd SurfaceMap::coefficients(const MatrixXd& U) const { return G.llt().solve(T.transpose() * U); }
 
-MatrixXd SurfaceMap::compliance(const HeldStiffness& stiffness) const {
+MatrixXd SurfaceMap::compliance(const ConstrainedStiffness& stiffness) const {
   const Index count = T.cols();
   MatrixXd C(count, count);
   for (Index first = 0; first < count; first += at_once) {
@@ -26,7 +26,7 @@ MatrixXd SurfaceMap::compliance(const HeldStiffness& stiffness) const {
   return (C + C.transpose()) / 2;
 }
 
-FilmModes film_modes(const HeldStiffness& stiffness, const SurfaceMap& surface, int most, double tolerance) {
+FilmModes film_modes(const ConstrainedStiffness& stiffness, const SurfaceMap& surface, int most, double tolerance) {
   HERSEY_REQUIRE(most >= 0 && tolerance > 0 && tolerance < 1, "a number of modes and a share of the largest");
   HERSEY_REQUIRE(stiffness.size() == surface.T.rows(), "the surface is one of this body");
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(surface.compliance(stiffness), surface.G);

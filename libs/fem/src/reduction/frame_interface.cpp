@@ -91,7 +91,7 @@ Interface interface_of(const Mesh& mesh, const std::vector<InterfaceFrame>& fram
   return interface;
 }
 
-MatrixXd constraint_modes(const ElasticBody& body, const Interface& interface, const HeldStiffness& stiffness) {
+MatrixXd constraint_modes(const ElasticBody& body, const Interface& interface, const ConstrainedStiffness& stiffness) {
   const MatrixXd d = interface.motion - interface.C * interface.prescribed;
   return interface.prescribed + stiffness.solve(-(body.K * interface.prescribed), d);
 }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/elastic_body.h"
-#include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/interface_frame.h"
 
 namespace hersey::fem {
@@ -27,6 +27,6 @@ struct Interface {
 
 /// Displacements for unit motions of the frames, (3 n, 6 frames). @pre `stiffness` is factorised
 [[nodiscard]] Eigen::MatrixXd constraint_modes(const ElasticBody& body, const Interface& interface,
-                                               const HeldStiffness& stiffness);
+                                               const ConstrainedStiffness& stiffness);
 
 }  // namespace hersey::fem

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "hersey/core/contract.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/contact_modes.h"
 #include "hersey/fem/frame_motion.h"
-#include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/vibration.h"
 #include "reduction/frame_interface.h"
 #include "reduction/static_error.h"
@@ -88,7 +88,7 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
   if (frames.empty()) return no_answer<Reduction>("a reduced body needs a frame that something attaches to");
   if (std::string fault = fault_of(body.mesh, frames); !fault.empty()) return no_answer<Reduction>(std::move(fault));
   const Interface interface = interface_of(body.mesh, frames);
-  HeldStiffness stiffness(body.K, body.m, interface.held, interface.C);
+  ConstrainedStiffness stiffness(body.K, body.m, interface.held, interface.C);
   if (const solver::FactorSummary summary = stiffness.factorise(); !summary.solved())
     return no_answer<Reduction>(summary.status == solver::FactorStatus::singular
                                     ? "a part of the body is not connected to the frames"

@@ -1,6 +1,6 @@
 #include "hersey/fem/static_answers.h"
 
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "reduction/frame_interface.h"
 
 namespace hersey::fem {
@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// G^-1 T^T K^-1 T G^-1.
-MatrixXd compliance_of(const HeldStiffness& stiffness, const SurfaceMap& surface) {
+MatrixXd compliance_of(const ConstrainedStiffness& stiffness, const SurfaceMap& surface) {
   const Eigen::LDLT<MatrixXd> G(surface.G);
   MatrixXd C = G.solve(surface.compliance(stiffness));
   C = G.solve(C.transpose()).eval();
@@ -34,7 +34,7 @@ StaticAnswers static_answers(const ElasticBody& body, const std::vector<Interfac
   answers.message = fault_of(body.mesh, frames);
   if (!answers.message.empty()) return answers;
   const Interface interface = interface_of(body.mesh, frames);
-  HeldStiffness stiffness(body.K, body.m, interface.held, interface.C);
+  ConstrainedStiffness stiffness(body.K, body.m, interface.held, interface.C);
   if (const solver::FactorSummary summary = stiffness.factorise(); !summary.solved()) {
     answers.message = summary.status == solver::FactorStatus::singular
                           ? "a part of the body is not connected to the frames"

@@ -36,7 +36,8 @@ double largest_error(const Missing& missing) { return errors_of(missing).maxCoef
 
 }  // namespace
 
-StaticShapes static_shapes(const HeldStiffness& stiffness, const Vibration& modes, const ReductionOptions& options) {
+StaticShapes static_shapes(const ConstrainedStiffness& stiffness, const Vibration& modes,
+                           const ReductionOptions& options) {
   StaticShapes result{.added = MatrixXd(stiffness.size(), 0), .errors = {}};
   std::vector<Missing> all;
   all.reserve(options.surfaces.size());

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/reduction_options.h"
 #include "hersey/fem/vibration.h"
 
@@ -16,7 +16,7 @@ struct StaticShapes {
 
 /// Adds the static displacement with the largest error until none is larger than options.static_error, (elastic.16).
 /// @param stiffness  factorised, frames held
-[[nodiscard]] StaticShapes static_shapes(const HeldStiffness& stiffness, const Vibration& modes,
+[[nodiscard]] StaticShapes static_shapes(const ConstrainedStiffness& stiffness, const Vibration& modes,
                                          const ReductionOptions& options);
 
 }  // namespace hersey::fem

@@ -54,7 +54,7 @@ Vibration natural_modes(const ElasticBody& body, const std::vector<int>& held, c
   if (!(body.mass > 0)) return no_answer<Vibration>("the body has no mass: give its material a density");
   const bool are_given = constraints.cols() > 0;
   const Eigen::SparseMatrix<double> C = are_given ? constraints : tie_constraints(body.mesh, held).C;
-  HeldStiffness stiffness(body.K, body.m, held, C);
+  ConstrainedStiffness stiffness(body.K, body.m, held, C);
   const double estimate = lowest_estimate(body);
   const double shift = -shift_share * estimate;
   const solver::FactorSummary summary = stiffness.factorise(shift);

@@ -5,7 +5,7 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/core/turn.h"
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/ties.h"
 #include "surface/cylinder_point.h"
@@ -156,7 +156,7 @@ HeatedSurface heated_surface(const ElasticBody& body, const std::vector<ThermalM
   MatrixXd rises(P.rows(), P.cols() + 2);
   rises << result.rise_body, result.T_body0.array() - options.T_reference, VectorXd::Ones(P.rows());
   const std::vector<int> held = options.held.empty() ? statically_determinate(body.mesh) : options.held;
-  HeldStiffness stiffness(body.K, body.m, held, tie_constraints(body.mesh, held).C);
+  ConstrainedStiffness stiffness(body.K, body.m, held, tie_constraints(body.mesh, held).C);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular)
     return no_answer<HeatedSurface>("what holds the body as it expands leaves it a motion");

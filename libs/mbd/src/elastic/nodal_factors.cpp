@@ -56,7 +56,7 @@ const NodalFactor* NodalFactors::of(const solver::Stage& stage, std::string& mes
 
 bool NodalFactors::add(double shift, double scale, std::string& message) {
   factors_.push_front(
-      {shift, scale, fem::HeldStiffness(body_.K, body_.m, supports_.held, supports_.C), {}, {}, {}, {}, {}});
+      {shift, scale, fem::ConstrainedStiffness(body_.K, body_.m, supports_.held, supports_.C), {}, {}, {}, {}, {}});
   return factorise(factors_.front(), shift, scale, message);
 }
 

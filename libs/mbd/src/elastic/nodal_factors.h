@@ -5,8 +5,8 @@
 #include <list>
 #include <string>
 
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/elastic_body.h"
-#include "hersey/fem/held_stiffness.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/mbd/modal_body.h"
 
@@ -19,7 +19,7 @@ inline constexpr Eigen::Index kInertiaColumns = 12;
 struct NodalFactor {
   double shift = 0;
   double scale = 1;  ///< m M + c D + k K = scale (K - shift M)
-  fem::HeldStiffness matrix;
+  fem::ConstrainedStiffness matrix;
   Eigen::MatrixXd X;                   ///< (3 n, columns)
   Eigen::MatrixXd W;                   ///< E^T X, symmetric
   std::array<Eigen::MatrixXd, 3> m_X;  ///< m times each component of X, (n, columns)

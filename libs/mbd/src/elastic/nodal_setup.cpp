@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "hersey/core/contract.h"
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 
 namespace hersey::mbd {
 
@@ -54,7 +54,7 @@ ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& 
   }
   if (further > 0) {
     const fem::FrameSupports supports = supports_of(body, reduced);
-    fem::HeldStiffness held(body.K, body.m, supports.held, supports.C);
+    fem::ConstrainedStiffness held(body.K, body.m, supports.held, supports.C);
     HERSEY_REQUIRE(held.factorise().solved(), "a reduction has held it");
     Psi -= held.solve(MatrixXd(body.K * Psi));
   }

@@ -9,8 +9,8 @@
 #include "build/fingerprint.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
+#include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/heated_surface.h"
-#include "hersey/fem/held_stiffness.h"
 
 namespace hersey::model {
 namespace {

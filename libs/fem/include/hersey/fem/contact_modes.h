@@ -12,7 +12,7 @@ namespace hersey::fem {
 /// @param stiffness  factorised, its frames held
 /// @cost one solution per node of the faces and one per mode
 /// @verified_by contact_modes_test.cpp
-[[nodiscard]] FilmModes contact_modes(const HeldStiffness& stiffness, const Mesh& mesh,
+[[nodiscard]] FilmModes contact_modes(const ConstrainedStiffness& stiffness, const Mesh& mesh,
                                       const std::vector<ElementFace>& faces, int most, double tolerance);
 
 }  // namespace hersey::fem

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 
 namespace hersey::fem {
 
@@ -17,7 +17,7 @@ struct SurfaceMap {
   /// Radial displacement outward, G^-1 T^T U (functions, columns), of nodal displacements U (3 n, columns).
   [[nodiscard]] Eigen::MatrixXd coefficients(const Eigen::MatrixXd& U) const;
   /// T^T K^-1 T, symmetric, shape (functions, functions) [m^3/Pa]: what pressures do to G d.
-  [[nodiscard]] Eigen::MatrixXd compliance(const HeldStiffness& stiffness) const;
+  [[nodiscard]] Eigen::MatrixXd compliance(const ConstrainedStiffness& stiffness) const;
 };
 
 /// Static answers of a body to film pressures, the most compliant ones first: pressures p_k and displacements
@@ -34,7 +34,7 @@ struct FilmModes {
 /// @param stiffness  factorised, its frames held
 /// @cost one solution per function of the surface and one per mode
 /// @verified_by film_modes_test.cpp
-[[nodiscard]] FilmModes film_modes(const HeldStiffness& stiffness, const SurfaceMap& surface, int most,
+[[nodiscard]] FilmModes film_modes(const ConstrainedStiffness& stiffness, const SurfaceMap& surface, int most,
                                    double tolerance);
 
 }  // namespace hersey::fem

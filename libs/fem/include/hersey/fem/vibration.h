@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "hersey/core/outcome.h"
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 
 namespace hersey::fem {
 

@@ -1,4 +1,4 @@
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 
 #include <fmt/format.h>
 
@@ -89,8 +89,8 @@ SparseMatrix mass_matrix(const SparseMatrix& m) {
   return M;
 }
 
-HeldStiffness::HeldStiffness(const SparseMatrix& K, const SparseMatrix& m, const std::vector<int>& held,
-                             const SparseMatrix& C)
+ConstrainedStiffness::ConstrainedStiffness(const SparseMatrix& K, const SparseMatrix& m, const std::vector<int>& held,
+                                           const SparseMatrix& C)
     : place_(static_cast<std::size_t>(K.rows()), 0), constraints_(C.rows()) {
   HERSEY_REQUIRE(K.rows() == 3 * m.rows(), "three degrees of freedom per node");
   HERSEY_REQUIRE(C.rows() == 0 || C.cols() == K.cols(), "constraints are on the degrees of freedom");
@@ -109,41 +109,41 @@ HeldStiffness::HeldStiffness(const SparseMatrix& K, const SparseMatrix& m, const
   replace(K);
 }
 
-void HeldStiffness::replace(const SparseMatrix& K) {
+void ConstrainedStiffness::replace(const SparseMatrix& K) {
   HERSEY_REQUIRE(K.rows() == size(), "one row per degree of freedom");
   K_free_ = lower_part(K, place_, M_free_.rows());
 }
 
-SparseMatrix HeldStiffness::shifted(double shift) const {
+SparseMatrix ConstrainedStiffness::shifted(double shift) const {
   // Zeros are stored: one pattern for every shift.
   SparseMatrix A = K_free_ - shift * M_free_;
   if (constraints_ > 0) A = (A + C_free_).eval();
   return A;
 }
 
-void HeldStiffness::analyse() {
+void ConstrainedStiffness::analyse() {
   if (analysed_) return;
   factor_.analyse(shifted(0));
   analysed_ = true;
 }
 
-double HeldStiffness::memory_estimate() {
+double ConstrainedStiffness::memory_estimate() {
   if (free_.empty()) return 0;
   analyse();
   return factor_.memory_estimate();
 }
 
-solver::FactorSummary HeldStiffness::factorise(double shift) {
+solver::FactorSummary ConstrainedStiffness::factorise(double shift) {
   if (free_.empty()) return {{solver::FactorStatus::factorised}};
   analyse();
   return factor_.factorise(shifted(shift));
 }
 
-Eigen::MatrixXd HeldStiffness::solve(const Eigen::MatrixXd& f) const {
+Eigen::MatrixXd ConstrainedStiffness::solve(const Eigen::MatrixXd& f) const {
   return solve(f, Eigen::MatrixXd::Zero(constraints_, f.cols()));
 }
 
-Eigen::MatrixXd HeldStiffness::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& d) const {
+Eigen::MatrixXd ConstrainedStiffness::solve(const Eigen::MatrixXd& f, const Eigen::MatrixXd& d) const {
   HERSEY_REQUIRE(f.rows() == size(), "one row per degree of freedom");
   HERSEY_REQUIRE(d.rows() == constraints_ && d.cols() == f.cols(), "one row per constraint");
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(size(), f.cols());
@@ -167,7 +167,7 @@ StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>&
     prescribed[support.dof] = support.displacement;
   }
   const TieConstraints ties = tie_constraints(body.mesh, held);
-  HeldStiffness stiffness(body.K, body.m, held, ties.C);
+  ConstrainedStiffness stiffness(body.K, body.m, held, ties.C);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular) {
     auto loose = no_answer<StaticSolution>(what_is_loose(body, held));

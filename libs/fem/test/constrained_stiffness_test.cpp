@@ -1,4 +1,4 @@
-#include "hersey/fem/held_stiffness.h"
+#include "hersey/fem/constrained_stiffness.h"
 
 #include <doctest/doctest.h>
 

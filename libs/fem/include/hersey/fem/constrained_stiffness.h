@@ -21,12 +21,12 @@ namespace hersey::fem {
 /// factorised:
 ///     [K - shift M   C^T] [u     ]   [f]
 ///     [C             0  ] [lambda] = [d].                                                         (elastic.11)
-class HeldStiffness {
+class ConstrainedStiffness {
  public:
   /// @param held places of degrees of freedom, any order, repetitions allowed
   /// @param C (constraints, 3 n), independent of each other on the free degrees of freedom; no rows: none
-  HeldStiffness(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& m,
-                const std::vector<int>& held, const Eigen::SparseMatrix<double>& C = {});
+  ConstrainedStiffness(const Eigen::SparseMatrix<double>& K, const Eigen::SparseMatrix<double>& m,
+                       const std::vector<int>& held, const Eigen::SparseMatrix<double>& C = {});
 
   /// Takes another K of the same pattern.
   void replace(const Eigen::SparseMatrix<double>& K);
