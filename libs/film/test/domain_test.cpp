@@ -51,9 +51,9 @@ TEST_CASE("OutflowOverAnOpenEdge_IsNoPressure") {
   m.lubricant.viscosity_law = Barus{2e-8};
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   u[m.grid.index(7, 0)] = 1e12;
-  CHECK(judge_unknowns(m, u).is_inside());
+  CHECK(check_unknowns(m, u).is_inside());
   u[m.grid.index(7, 3)] = 1e12;
-  CHECK(judge_unknowns(m, u).node == m.grid.index(7, 3));
+  CHECK(check_unknowns(m, u).node == m.grid.index(7, 3));
 }
 
 // Pressures of 1e10 Pa on a soft liner lift its surfaces by centimetres: conductances 1e9 times the model's.

@@ -262,7 +262,7 @@ VectorXd SteadyFilm::cut(const Eigen::Vector2d& e, const VectorXd& x, const Vect
 bool SteadyFilm::keeps_film(const Eigen::Vector2d& e, const VectorXd& x, const Eigen::Vector2d& e_next,
                             const VectorXd& x_next) {
   const VectorXd u = film_of(x), u_next = film_of(x_next);
-  if (!film::judge_unknowns(model_, u_next).is_inside()) return false;
+  if (!film::check_unknowns(model_, u_next).is_inside()) return false;
   const VectorXd before = film::film_fields(model_, surfaces(e, x), u).h;
   const VectorXd after = film::film_fields(model_, surfaces(e_next, x_next), u_next).h;
   if (!(after.array() >= kThinnest * before.array()).all()) return false;

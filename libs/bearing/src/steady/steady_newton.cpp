@@ -158,7 +158,7 @@ bool SteadySearch::in_turn(const Eigen::Vector2d& target) {
     bool nearer = false;
     for (double share = 1; !nearer && share > 1e-4 && !is_tired(); share /= 2) {
       x_ = x + share * step.dx;
-      if (!film::judge_unknowns(model_, film_.film_of(x_)).is_inside()) x_ = x;
+      if (!film::check_unknowns(model_, film_.film_of(x_)).is_inside()) x_ = x;
       nearer = film_at(e + share * step.de) && distance_to(target) < distance;
     }
     if (!nearer) return false;

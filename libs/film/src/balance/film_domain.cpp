@@ -9,7 +9,7 @@
 
 namespace hersey::film {
 
-FilmDomain judge_unknowns(const FilmModel& model, const Eigen::VectorXd& u) {
+FilmDomain check_unknowns(const FilmModel& model, const Eigen::VectorXd& u) {
   int highest = -1;
   double most = 0;
   for (int node = 0; node < u.size(); ++node) {

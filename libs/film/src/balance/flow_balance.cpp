@@ -241,7 +241,7 @@ NodeViscosity FlowBalance::viscosity_of(int node) const {
 }
 
 FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
-  if (const FilmDomain domain = judge_unknowns(model_, u); !domain.is_inside()) return domain;
+  if (const FilmDomain domain = check_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
     const Sliding& sliding = sliding_[static_cast<std::size_t>(i % model_.grid.n_z)];
     if (is_layered())

@@ -28,7 +28,7 @@ inline constexpr double largest_pressure = 1e11;
 
 /// Whether `u` is finite everywhere and its pressures are such that the laws still say something about them: below
 /// `largest_pressure`, and no viscosity above exp(largest_log_viscosity) times that at p_cav.
-[[nodiscard]] FilmDomain judge_unknowns(const FilmModel& model, const Eigen::VectorXd& u);
+[[nodiscard]] FilmDomain check_unknowns(const FilmModel& model, const Eigen::VectorXd& u);
 
 /// What a user needs to know of a trial outside the domain: what happens, and where in the bearing.
 [[nodiscard]] std::string text(const FilmModel& model, const FilmDomain& domain);
