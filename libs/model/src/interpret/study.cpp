@@ -67,7 +67,7 @@ StudyRun run_of(const std::vector<StudyParameter>& parameters, std::size_t index
 }
 
 /// "5 m" and "5 µm" have one slug, and results must not: later ones get a number.
-void tell_slugs_apart(std::vector<StudyRun>& runs) {
+void make_slugs_unique(std::vector<StudyRun>& runs) {
   std::set<std::string> taken;
   for (StudyRun& run : runs) {
     const std::string slug = run.slug;
@@ -127,7 +127,7 @@ std::vector<StudyRun> expand_parameters(const std::string& path, const std::vect
   check_values(path, overrides, parameters);
   std::vector<StudyRun> runs;
   for (std::size_t i = 0; i < count; ++i) runs.push_back(run_of(parameters, i, overrides));
-  tell_slugs_apart(runs);
+  make_slugs_unique(runs);
   return runs;
 }
 
@@ -201,7 +201,7 @@ std::vector<StudyRun> expand_list(const std::vector<StudyParameter>& parameters,
     for (std::size_t k = 0; k < parameters.size(); ++k)
       runs.back().values[k] = value_of(parameters[k], parameters[k].values[i]);
   }
-  tell_slugs_apart(runs);
+  make_slugs_unique(runs);
   return runs;
 }
 
