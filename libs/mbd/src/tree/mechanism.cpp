@@ -421,7 +421,7 @@ bool Mechanism::has_whole_tangent() const {
 }
 
 std::string Mechanism::domain_error() const {
-  if (!parts_->came_apart.empty()) return parts_->came_apart;
+  if (!parts_->constraint_violation.empty()) return parts_->constraint_violation;
   std::string first;
   parts_->for_each_part([&](const auto& owner, const auto& part) {
     if (!first.empty()) return;

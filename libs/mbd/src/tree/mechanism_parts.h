@@ -80,7 +80,7 @@ struct MechanismParts {
   // Redundant constraints
   std::vector<Redundancy> redundancies;
   std::optional<SharedReactions> shared_reactions;  ///< where there are any
-  std::string came_apart;  ///< which joint's dropped rows do not hold any more; empty as long as all do
+  std::string constraint_violation;  ///< which joint's dropped rows do not hold any more; empty as long as all do
   void release_redundant_rows();
   [[nodiscard]] double opening_of(const Closure& closure) const;
   void watch_dropped_rows();

@@ -158,7 +158,7 @@ void MechanismParts::watch_dropped_rows() {
     const Closure& closure = tree.closures[tree.joints[redundancy.joint.index].closure];
     const double opening = opening_of(closure);
     if (opening <= tolerance) continue;
-    came_apart = fmt::format(
+    constraint_violation = fmt::format(
         "joint {}: constraints that followed from others at the start have opened by {:.2g} of the mechanism's size; "
         "free a motion in its loop instead, for example with a spherical or cylindrical joint",
         spec.joints[redundancy.joint.index].name, opening);
