@@ -135,13 +135,13 @@ class EquilibriumSearch {
     (void)assemble(here_);
     for (int i = 0; i < most; ++i, ++summary_.iterations) {
       if (worst_ <= 1) return true;
-      if (!solve() || !take_whole(kLargestMove)) return false;
+      if (!solve() || !take_full_step(kLargestMove)) return false;
     }
     return false;
   }
 
   /// Moves by the whole increment, if it is no longer than `most`.
-  bool take_whole(double most) {
+  bool take_full_step(double most) {
     const Index nv = equations_.nv();
     if (increment_.head(nv).cwiseQuotient(reach_).lpNorm<Eigen::Infinity>() > most) return false;
     State next = here_;
@@ -162,7 +162,7 @@ class EquilibriumSearch {
       if (!solve()) return;
       const double reach = increment_.head(equations_.nv()).cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
       if (reach <= kSolved) return;
-      if (take_whole(0.01) && worst_ <= std::max(before, 1e-3)) continue;
+      if (take_full_step(0.01) && worst_ <= std::max(before, 1e-3)) continue;
       here_ = from;
       (void)assemble(here_);
       return;
