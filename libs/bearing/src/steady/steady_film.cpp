@@ -255,12 +255,12 @@ film::FilmSolveSummary SteadyFilm::solve_in_turn(const Eigen::Vector2d& e, Vecto
 
 VectorXd SteadyFilm::cut(const Eigen::Vector2d& e, const VectorXd& x, const VectorXd& dx) {
   double share = 1;
-  while (share > kSmallestShare && !keeps_film(e, x, e, x + share * dx)) share *= 0.7;
+  while (share > kSmallestShare && !reuses_film(e, x, e, x + share * dx)) share *= 0.7;
   return share * dx;
 }
 
-bool SteadyFilm::keeps_film(const Eigen::Vector2d& e, const VectorXd& x, const Eigen::Vector2d& e_next,
-                            const VectorXd& x_next) {
+bool SteadyFilm::reuses_film(const Eigen::Vector2d& e, const VectorXd& x, const Eigen::Vector2d& e_next,
+                             const VectorXd& x_next) {
   const VectorXd u = film_of(x), u_next = film_of(x_next);
   if (!film::check_unknowns(model_, u_next).is_inside()) return false;
   const VectorXd before = film::film_fields(model_, surfaces(e, x), u).h;

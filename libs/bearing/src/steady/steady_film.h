@@ -88,8 +88,8 @@ class SteadyFilm {
   [[nodiscard]] Eigen::Matrix2Xd change_of_force(const Eigen::MatrixXd& dx, const Columns& dW) const;
 
   /// Whether from x at e the step to x_next at e_next thins or thickens no film by more than Newton may.
-  [[nodiscard]] bool keeps_film(const Eigen::Vector2d& e, const Eigen::VectorXd& x, const Eigen::Vector2d& e_next,
-                                const Eigen::VectorXd& x_next);
+  [[nodiscard]] bool reuses_film(const Eigen::Vector2d& e, const Eigen::VectorXd& x, const Eigen::Vector2d& e_next,
+                                 const Eigen::VectorXd& x_next);
 
   /// How far the surfaces of elastic bodies give way to a load [m], roughly.
   [[nodiscard]] double depth(const Eigen::Vector2d& load);

@@ -57,7 +57,7 @@ SteadySearch::Step SteadySearch::newton_step(const Eigen::Vector2d& target) {
   if (!film_.yields()) step.de *= share_of_gap(step.de);
   step.dx += dx_de_ * step.de;
   double share = 1;
-  while (share > 1e-6 && !film_.keeps_film(e_, x_, e_ + share * step.de, x_ + share * step.dx)) share *= 0.7;
+  while (share > 1e-6 && !film_.reuses_film(e_, x_, e_ + share * step.de, x_ + share * step.dx)) share *= 0.7;
   step.de *= share;
   step.dx *= share;
   return step;
