@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "exit_code.h"
-#include "hersey/core/doubtful_file.h"
+#include "hersey/core/untrusted_file.h"
 
 namespace hersey::cli {
 namespace {
@@ -18,7 +18,7 @@ void write(const char* text) {
 
 // Calls alone that are safe in signal handlers.
 extern "C" void on_crash(int signal) {
-  if (const char* const file = doubtful_file(); file != nullptr) {
+  if (const char* const file = untrusted_file(); file != nullptr) {
     for (const char* const text : {"hersey: ", file, ": damaged: its structure cannot be read\n"}) write(text);
     ::_exit(kWrongInput);
   }

@@ -1,4 +1,4 @@
-#include "hersey/core/doubtful_file.h"
+#include "hersey/core/untrusted_file.h"
 
 namespace hersey {
 namespace {
@@ -7,7 +7,7 @@ thread_local const char* current = nullptr;
 
 }  // namespace
 
-const char* doubtful_file() { return current; }
+const char* untrusted_file() { return current; }
 
 DoubtfulFile::DoubtfulFile(const char* path) : before_(current) {
   if (path != nullptr) current = path;

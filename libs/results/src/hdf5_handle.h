@@ -5,8 +5,8 @@
 #include <mutex>
 #include <utility>
 
-#include "hersey/core/doubtful_file.h"
 #include "hersey/core/hdf5_lock.h"
+#include "hersey/core/untrusted_file.h"
 
 namespace hersey::results {
 
@@ -46,7 +46,7 @@ class Handle {
 /// printed, for failures are told by exceptions, once.
 class Hdf5Session {
  public:
-  /// @param doubtful  the file that is read, if nothing vouches for it (hersey/core/doubtful_file.h)
+  /// @param doubtful  the file that is read, if nothing vouches for it (hersey/core/untrusted_file.h)
   explicit Hdf5Session(const char* doubtful = nullptr) : lock_(hdf5_lock()), doubtful_(doubtful) {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -74,7 +74,7 @@ struct Reader::Impl {
     const Seal seal = check_seal(path);
     if (seal == Seal::broken) fail("damaged: it has changed since it was written");
     is_sealed = seal == Seal::intact;
-    const DoubtfulFile doubtful_file(doubtful());
+    const DoubtfulFile untrusted_file(doubtful());
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
     keep_metadata(access.get());
     file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));

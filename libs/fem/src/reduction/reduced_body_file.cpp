@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "hersey/core/doubtful_file.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/sealed_file.h"
+#include "hersey/core/untrusted_file.h"
 #include "mesh/mesh_data.h"
 #include "reduction/hdf5_file.h"
 

@@ -4,7 +4,7 @@ namespace hersey {
 
 /// The file that this thread reads by HDF5 and that nothing vouches for, for whoever is told of a crash: the library
 /// trusts what a file says of its structure. Null where there is none. Safe in signal handlers.
-[[nodiscard]] const char* doubtful_file();
+[[nodiscard]] const char* untrusted_file();
 
 /// Names such a file as long as it lives.
 class DoubtfulFile {
