@@ -150,7 +150,7 @@ TEST_CASE("CautiousIncrement_IsTheSameForAFreshFilm") {
   CHECK_FALSE(fresh.has_factor());
   REQUIRE((fresh.linearise(motion, {}, u).is_inside() && used.linearise(motion, {}, u).is_inside()));
   used.newton_increment(newton);
-  fresh.cautious_increment(du), used.cautious_increment(other);
+  fresh.regularised_increment(du), used.regularised_increment(other);
   CHECK((du - other).norm() < 1e-10 * du.norm());  // pivots of another matrix: round-off times the condition
   CHECK(du.norm() < newton.norm());
 }

@@ -208,7 +208,7 @@ void Reynolds::newton_increment(Eigen::VectorXd& du, double rtol) {
   impl_->solve(impl_->rhs, rtol, du);
 }
 
-void Reynolds::cautious_increment(Eigen::VectorXd& du) {
+void Reynolds::regularised_increment(Eigen::VectorXd& du) {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.linearised, "linearise() comes first");
   if (m.lu.size() == 0) m.lu.analyse(m.balance.size(), m.balance.column_start(), m.balance.row_index());

@@ -145,7 +145,7 @@ FilmDomain enter_domain(Reynolds& reynolds, const SurfaceMotion& motion, const F
   if (domain.trouble != FilmDomain::Trouble::pressure) return domain;
   Eigen::VectorXd du;
   (void)reynolds.linearise(motion, history, before);
-  reynolds.cautious_increment(du);
+  reynolds.regularised_increment(du);
   u = before + step_share(reynolds.model(), motion, before, du) * du;
   return reynolds.linearise(motion, history, u);
 }
