@@ -89,6 +89,26 @@ TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
   }
 }
 
+// A groove along all of the journal overtakes the oil it holds: what comes to its end fills the groove as it grows, and
+// the film ahead of it. In the middle of the groove the shell keeps it full and takes pressure away. Wherever within a
+// cell the end lies, the film ahead is filled to U (h + d)/(U h + u_J d).
+TEST_CASE("FilmAheadOfATurningGroove_DoesNotSeeWhereLinesLie") {
+  FilmModel m{.R = 0.05, .L = 0.05, .c = 40e-6, .grid = {72, 5}};
+  m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
+  SurfaceFeature groove = pocket(Rectangle{}, Surface::journal), feed = pocket(Rectangle{}, Surface::shell);
+  groove.z = feed.z = 0, groove.length = feed.length = m.L;
+  groove.arc = 1.5, groove.depth = 300e-6;
+  feed.phi = 1.3, feed.arc = 0.3, feed.depth = 0, feed.is_fed = true;
+  for (int k = 0; k < 10; ++k) {
+    groove.phi = 2 * pi / 72 * (24.01 + k / 10.0) - 0.75;
+    m.features = {groove, feed};
+    const SolvedFilm film = solve_cold(m, turning(m, 0, 100));
+    REQUIRE(film.summary.solved());
+    // Of a tube with the end in it I_2/I_3 is up to 1 % more than h (film.26), and so is what goes on.
+    CHECK(film.fields.theta[m.grid.index(30, 2)] == doctest::Approx(340.0 / 640).epsilon(0.01));
+  }
+}
+
 // Side flow of a bearing with an axial groove at given pressure: its depth is no business of the land beside it.
 TEST_CASE("FedGrooveWithDepth_DoesNotLeakOntoTheLand") {
   for (const auto surface : {Surface::shell, Surface::journal}) {

@@ -101,17 +101,31 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap) {
   m.journal = drag * past * deep.excess.journal + face.width * deep.carry.journal * drop;
 }
 
+bool FlowBalance::passes_steps(std::size_t f) const {
+  const double speed = entrainment(f);
+  return axial(f) || (speed - faces_[f].stretch * speeds_.u_journal) * speed > 0;
+}
+
+double FlowBalance::held_upstream(std::size_t f, int from, const Speeds& speeds) const {
+  const Cell& cell = cells_[from];
+  double held = speeds.mean * (cell.gap + cell.depth) + speeds.half_slip * rough_[from].drag[axial(f) ? 1 : 0];
+  if (cell.turning > 0 && !axial(f)) held -= (passes_steps(f) ? speeds.journal : speeds.mean) * cell.turning;
+  return held;
+}
+
 // The oil of the node upstream, whole as it is (film.28): what its control volume holds goes on at the surfaces' mean
-// speed.
+// speed, of a turning pocket's only what is faster than its step, and what turns over the face with the pocket.
 void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
   gap.little = gap.full;
   gap.from = gap.full >= 0 ? faces_[f].a : faces_[f].b;
   if (gap.full == 0 || (nodes_[gap.from].theta == 1 && !expects_any_fill_)) return;
-  const double speed = entrainment(f), half_slip = this->half_slip(f);
+  const double speed = entrainment(f), half_slip = this->half_slip(f), journal = faces_[f].stretch * speeds_.u_journal;
   const RoughGap& rough = rough_[gap.from];
   const int k = axial(f) ? 1 : 0;
-  const double little = speed * oil_gap(gap.from) + half_slip * rough.drag[k];
   const bool is_deep = tube_of_[f] >= 0;
+  const PocketTube* tube = is_deep ? &relief_.tubes()[static_cast<std::size_t>(tube_of_[f])] : nullptr;
+  const double swept = is_deep ? tube->swept / faces_[f].width : 0;
+  const double little = held_upstream(f, gap.from, {speed, half_slip, journal}) + swept;
   if (little * gap.full <= 0 || (is_deep && std::abs(little) <= std::abs(gap.full))) return;
   const double ratio = little / gap.full;
   if (!is_deep && (ratio > most_widening || ratio * most_widening < 1)) {
@@ -122,7 +136,10 @@ void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
   gap.little = little;
   gap.little_h = speed * cells_[gap.from].gap_h + half_slip * rough.drag_h[k];
   gap.little_excess = speed * cells_[gap.from].gap_excess;
-  if (is_deep) gap.little_journal = speed * relief_.depth_by_journal()[gap.from];
+  if (is_deep) gap.little_journal = tube->swept_journal / faces_[f].width;
+  if (relief_.has_pockets() && passes_steps(f)) {
+    gap.little_journal += (axial(f) ? speed : speed - journal) * relief_.depth_by_journal()[gap.from];
+  }
 }
 
 std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
@@ -219,15 +236,16 @@ std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speed
   const int k = axial(f) ? 1 : 0;
   double full = speeds.mean * h + 0.5 * (speeds.mean * (a.mean - nodes_[face.a].h + b.mean - nodes_[face.b].h) +
                                          speeds.half_slip * (a.drag[k] + b.drag[k]));
+  double swept = 0;
   if (tube_of_[f] >= 0) {
     const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
     const double step = axial(f) ? 0 : step_of(tube, speeds.mean, speeds.journal);
-    full +=
-        (speeds.mean - step) * (relief_.gap(tube, h).carry.value - h) + tube.swept_speed * speeds.journal / face.width;
+    swept = tube.swept_speed * speeds.journal / face.width;
+    full += (speeds.mean - step) * (relief_.gap(tube, h).carry.value - h) + swept;
   }
   const FaceFlow& flow = flows_[f];
   const int from = flow.couette >= 0 ? face.a : face.b;
-  const double own = speeds.mean * oil_gap(from) + speeds.half_slip * rough_[from].drag[k];
+  const double own = held_upstream(f, from, speeds) + swept;
   const double limited = flow.little_by_couette * full;
   const double little = flow.little == flow.couette ? full : flow.little_by_couette > 0 ? limited : own;
   return {face.width * full, face.width * little};

@@ -26,6 +26,7 @@ void FlowBalance::evaluate_cell(int i, const SurfaceMotion& motion) {
   if (relief_.has_pockets()) {
     cell.depth = relief_.depth()[i];
     cell.depth_start = relief_.depth_start()[i];
+    cell.turning = relief_.turning_depth()[i];
   }
   if (dt_ == 0) return;
   if (follows_gap_) {

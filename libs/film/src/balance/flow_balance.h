@@ -277,6 +277,7 @@ class FlowBalance {
   struct Cell {
     double gap = 0, gap_h = 1, gap_excess = 1;            ///< [m]
     double depth = 0, depth_start = 0;                    ///< mean depth of pockets [m]
+    double turning = 0;                                   ///< of them those of the journal [m]
     double start = 0, start_slope = 1, start_excess = 1;  ///< gap from which the rate leads to the present one [m]
   };
   /// The gap between two nodes: what of it counts for flow along pressure and with the surfaces, with derivatives by
@@ -353,6 +354,10 @@ class FlowBalance {
     if (!tube.in_journal) return 0;
     return tube.in_shell ? mean : journal;
   }
+  /// Whether oil that a pocket of the journal holds comes past its step over face f.
+  [[nodiscard]] bool passes_steps(std::size_t f) const;
+  /// What the control volume of the node upstream holds, as far as it goes on over face f, per width [m^2/s].
+  [[nodiscard]] double held_upstream(std::size_t f, int from, const Speeds& speeds) const;
   [[nodiscard]] const Node& upstream(std::size_t f) const {
     return nodes_[flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b];
   }

@@ -105,11 +105,12 @@ void PocketRelief::place(double phi_journal, double phi_start, double dt, double
   }
   placed_ = asked;
   if (pockets_.empty()) return;
-  for (auto* field : {&depth_, &depth_start_, &depth_journal_}) field->setZero(n);
+  for (auto* field : {&depth_, &depth_start_, &depth_journal_, &turning_depth_}) field->setZero(n);
   for (const SurfaceFeature& pocket : pockets_) {
     const bool turns = pocket.surface == Surface::journal;
     add_cells(pocket, phi_journal, depth_, &depth_journal_);
     add_cells(pocket, turns && dt > 0 ? phi_start : phi_journal, depth_start_, nullptr);
+    if (turns) add_cells(pocket, phi_journal, turning_depth_, nullptr);
   }
   place_tubes(phi_journal);
   sweep(phi_journal, phi_start, dt, speed);

@@ -63,6 +63,8 @@ class PocketRelief {
   [[nodiscard]] const Eigen::VectorXd& depth() const { return depth_; }
   [[nodiscard]] const Eigen::VectorXd& depth_start() const { return depth_start_; }
   [[nodiscard]] const Eigen::VectorXd& depth_by_journal() const { return depth_journal_; }
+  /// Of the journal's pockets alone, now.
+  [[nodiscard]] const Eigen::VectorXd& turning_depth() const { return turning_depth_; }
   /// Pockets and fed features alike.
   [[nodiscard]] const std::vector<CoveredDepth>& covered() const { return covered_; }
 
@@ -98,7 +100,7 @@ class PocketRelief {
   std::vector<PocketTube> tubes_;
   std::vector<Strip> strips_;
   std::vector<Segment> segments_;
-  Eigen::VectorXd depth_, depth_start_, depth_journal_, unused_;
+  Eigen::VectorXd depth_, depth_start_, depth_journal_, turning_depth_;
   std::vector<CoveredDepth> covered_;
   std::vector<CoveredNode> cells_;
 };
