@@ -7,13 +7,13 @@ namespace hersey {
 [[nodiscard]] const char* untrusted_file();
 
 /// Names such a file as long as it lives.
-class DoubtfulFile {
+class UntrustedFile {
  public:
   /// @param path  kept by the caller; null: nothing is doubtful, and what is named stays named
-  explicit DoubtfulFile(const char* path);
-  DoubtfulFile(const DoubtfulFile&) = delete;
-  DoubtfulFile& operator=(const DoubtfulFile&) = delete;
-  ~DoubtfulFile();
+  explicit UntrustedFile(const char* path);
+  UntrustedFile(const UntrustedFile&) = delete;
+  UntrustedFile& operator=(const UntrustedFile&) = delete;
+  ~UntrustedFile();
 
  private:
   const char* before_;
