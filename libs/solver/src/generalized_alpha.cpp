@@ -293,7 +293,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   return step(equations, state, dt, {});
 }
 
-StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt, const StepJudge& judge) {
+StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt, const StepCheck& judge) {
   HERSEY_REQUIRE(dt > 0, "time runs forward");
   const bool is_chosen = judge && options_.chosen_by_error;
   if (options_.spectral_radius == 1 && equations.nlambda() > 0 && !is_chosen)

@@ -96,7 +96,7 @@ TEST_CASE("StepChosenByItsError_EndsOnTheConstraints") {
     State state = from_the_side(e);
     GeneralizedAlpha integrator({.spectral_radius = 0.8, .chosen_by_error = chosen});
     VectorXd error;
-    const StepJudge judge = [&](const State&, const VectorXd& estimate) {
+    const StepCheck judge = [&](const State&, const VectorXd& estimate) {
       error = estimate;
       return true;
     };

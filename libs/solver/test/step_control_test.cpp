@@ -125,7 +125,7 @@ double estimate_over_truth(double rho, double dt, double& smallest) {
   for (int i = 0; i < 30; ++i) {
     const State before = s;
     Eigen::VectorXd error;
-    const StepJudge judge = [&](const State&, const Eigen::VectorXd& estimate) {
+    const StepCheck judge = [&](const State&, const Eigen::VectorXd& estimate) {
       error = estimate;
       return true;
     };

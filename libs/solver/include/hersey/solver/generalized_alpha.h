@@ -38,7 +38,7 @@ struct [[nodiscard]] StepSummary : OutcomeOf<StepStatus, StepStatus::converged> 
 
 /// Says whether a solved step is accurate enough, from the state it ends in and the estimate of its error of position:
 /// an increment of position, shape (nv), from the end of the step to where the exact motion would have ended.
-using StepJudge = std::function<bool(const State& end, const Eigen::VectorXd& error)>;
+using StepCheck = std::function<bool(const State& end, const Eigen::VectorXd& error)>;
 
 /// Generalized-alpha for constrained mechanical systems of index 3 on a Lie group (theory manual, chapter integrator).
 ///
@@ -71,7 +71,7 @@ class GeneralizedAlpha {
 
   /// The same, kept only if `judge` finds the step's local error (theory manual eq. (integrator.11)) small enough;
   /// otherwise the step is `inaccurate`, and state, condensed unknowns and history are those before it.
-  [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt, const StepJudge& judge);
+  [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt, const StepCheck& judge);
 
   /// Computing time of factorising and solving linear systems so far [s].
   [[nodiscard]] double linear_solve_time() const;
