@@ -80,9 +80,9 @@ TEST_CASE("CoordinatesOfJoints_FollowFromTheirChains") {
   CHECK(find_coordinate(JointType::universal, "rotation_2")->offset == 1);
   CHECK(joint_type_of("screw") == JointType::screw);
   CHECK(!joint_type_of("scew"));
-  CHECK(turns_about_one_axis(JointType::planar));
-  CHECK(!turns_about_one_axis(JointType::universal));
-  CHECK(!turns_about_one_axis(JointType::spherical));
+  CHECK(rotates_about_one_axis(JointType::planar));
+  CHECK(!rotates_about_one_axis(JointType::universal));
+  CHECK(!rotates_about_one_axis(JointType::spherical));
 }
 
 }  // namespace joint_kind_test

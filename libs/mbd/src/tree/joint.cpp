@@ -117,7 +117,7 @@ Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> val
   return X_IO;
 }
 
-bool turns_about_one_axis(JointType type) {
+bool rotates_about_one_axis(JointType type) {
   int turning = 0;
   for (const JointKind::Step& step : kind_of(type).chain)
     if (turns(step.motion)) turning += values_of(step.motion);

@@ -37,7 +37,7 @@ struct Coordinate {
 [[nodiscard]] std::string rate_name(const Coordinate& coordinate);
 
 /// Whether it lets its bodies turn against each other about its axis alone.
-[[nodiscard]] bool turns_about_one_axis(JointType type);
+[[nodiscard]] bool rotates_about_one_axis(JointType type);
 
 /// Number of values (and of degrees of freedom) of a joint type, 0..6.
 [[nodiscard]] int degrees_of_freedom(JointType type);
