@@ -219,9 +219,9 @@ WorkBetween Mechanism::work_between(const EnergyView& from, const EnergyView& to
   return work;
 }
 
-EnergyPlaces Mechanism::energy_places(const EnergyView& from, const EnergyView& to) const {
+LargestEnergyChanges Mechanism::largest_energy_changes(const EnergyView& from, const EnergyView& to) const {
   const MechanismParts& m = *parts_;
-  EnergyPlaces places;
+  LargestEnergyChanges places;
   double most = 0;
   const auto offer = [&](std::string& best, double growth, const std::string& name) {
     if (!(growth > most)) return;

@@ -54,7 +54,7 @@ struct WorkBetween {
 };
 
 /// The parts that have gained or released most.
-struct EnergyPlaces {
+struct LargestEnergyChanges {
   std::string body;   ///< whose kinetic and strain energy has grown most
   std::string force;  ///< the spring, contact or load that has given most, empty where none has
 };

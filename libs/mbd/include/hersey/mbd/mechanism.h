@@ -75,7 +75,7 @@ class Mechanism final : public solver::Equations {
   [[nodiscard]] WorkBetween work_between(const EnergyView& from, const EnergyView& to);
 
   /// Where energy has gone between two views.
-  [[nodiscard]] EnergyPlaces energy_places(const EnergyView& from, const EnergyView& to) const;
+  [[nodiscard]] LargestEnergyChanges largest_energy_changes(const EnergyView& from, const EnergyView& to) const;
 
   /// What the user gave for the start and `start` does not have, beyond round-off, in order of declaration.
   [[nodiscard]] std::vector<ChangedStart> changed_values(const solver::State& start);
