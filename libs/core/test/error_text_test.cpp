@@ -26,7 +26,7 @@ std::string text_of(const std::function<void()>& what) {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST_CASE("ErrorText_OfABugIsARequestAndAPlaceOfItsOwnLine") {
+TEST_CASE("ErrorText_OfABugIsARequestAndALocationOnItsOwnLine") {
   const std::string text = text_of([] { divide(0); });
   const std::size_t end = text.find('\n');
   REQUIRE(end != std::string::npos);

@@ -72,7 +72,7 @@ TEST_CASE("Rows_AreSplitAtSpaces") {
   CHECK_THROWS_AS((void)evaluate_formulas("0 1", 3), QuantityError);
 }
 
-TEST_CASE("WhatIsNoFormula_IsTold") {
+TEST_CASE("InvalidFormula_IsReported") {
   CHECK(error_of("(3 mm") == "found '(3 mm'; expected numbers with units, + - * / ^ and parentheses");
   CHECK(error_of("2*t").starts_with("found '2*t'"));
   CHECK(error_of("").starts_with("found ''"));

@@ -76,7 +76,7 @@ TEST_CASE("SurfaceFunctions_DerivativesMatchFiniteDifferences") {
   }
 }
 
-TEST_CASE("SurfaceFunctions_GoOnBeyondOneTurn_StopAtTheEnds") {
+TEST_CASE("SurfaceFunctions_ArePeriodicAround_EndAtTheEdges") {
   const SurfaceFunctions functions(9, 5, width);
   for (const double z : {-0.008, 0.003}) {
     const std::vector<SurfaceTerm> here = all_at(functions, 1.3, z), a_turn_on = all_at(functions, 1.3 - 4 * pi, z);

@@ -178,7 +178,7 @@ std::vector<double> blade_frequencies(int elements, double gamma) {
       {.name = "motor", .coordinate = {root, 0}, .kind = DriveSpec::Kind::speed, .function = test::constant(gamma)});
   const auto m = b.finalise();
   solver::State state = test::start(*m);
-  const solver::EquilibriumSummary steady = solver::find_equilibrium(*m, state, {.turning = true});
+  const solver::EquilibriumSummary steady = solver::find_equilibrium(*m, state, {.steady_motion = true});
   INFO(steady.message);
   REQUIRE(steady.solved());
   const double stretch = m->frame_motion(state, ids.frames.back()).X_WF.r.norm() - 1;
@@ -232,7 +232,7 @@ TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
       {.name = "drive", .coordinate = {motor, 0}, .kind = DriveSpec::Kind::speed, .function = test::constant(W)});
   const auto mechanism = b.finalise();
   solver::State state = test::start(*mechanism);
-  const solver::EquilibriumSummary steady = solver::find_equilibrium(*mechanism, state, {.turning = true});
+  const solver::EquilibriumSummary steady = solver::find_equilibrium(*mechanism, state, {.steady_motion = true});
   INFO(steady.message);
   REQUIRE(steady.solved());
 
@@ -266,7 +266,7 @@ TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(found[i] == doctest::Approx(expected[i]).epsilon(2e-3));
 }
 
-TEST_CASE("TurningBladeInGravityAcross_HasNoSteadyMotion") {
+TEST_CASE("RotatingBladeInGravityAcross_HasNoSteadyMotion") {
   test::StraightBeam blade{.length = 1,
                            .elements = 4,
                            .stiffness = {1e6, 1e5, 1e5, 1, 1, 1},
@@ -283,7 +283,7 @@ TEST_CASE("TurningBladeInGravityAcross_HasNoSteadyMotion") {
                  .function = test::constant(3)});
     const auto m = b.finalise();
     solver::State state = test::start(*m);
-    const solver::EquilibriumSummary steady = solver::find_equilibrium(*m, state, {.turning = true});
+    const solver::EquilibriumSummary steady = solver::find_equilibrium(*m, state, {.steady_motion = true});
     CAPTURE(steady.message);
     CHECK(steady.solved() == !across);
     CHECK((steady.message.find("no steady motion: joint beam.4, ") == 0) == across);

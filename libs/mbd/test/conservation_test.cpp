@@ -170,7 +170,7 @@ VectorXd arm_on_ground(const Pose& X_WG, const Vector3& carriage_velocity, bool 
   return answer;
 }
 
-TEST_CASE("Ground_HasNoPreferredPlaceAxesOrSpeed") {
+TEST_CASE("Ground_HasNoPreferredOriginAxesOrSpeed") {
   const VectorXd here = arm_on_ground({}, Vector3::Zero(), false);
   // Newton's tolerance is 1e-9 of each row's terms; lever arms to the origin enlarge it by a decade.
   const double tolerance = 1e-7 * here.cwiseAbs().maxCoeff();

@@ -34,7 +34,7 @@ void torque_about_z(MechanismBuilder& b, BodyId body, double torque) {
               .terms = {{(Vector6() << 0, 0, 1, 0, 0, 0).finished(), test::constant(torque), {}}}});
 }
 
-TEST_CASE("CardanJoint_TurnsUnevenlyByTheClosedForm") {
+TEST_CASE("CardanJoint_RotatesUnevenlyByTheClosedForm") {
   // Shafts at an angle beta through the centre of the cross: tan(out) = cos(beta) tan(in). Their bearings hold the
   // centre already, so the cross's three positions are redundant.
   const double beta = 0.5;

@@ -52,7 +52,7 @@ std::unique_ptr<Mechanism> four_bar(JointType middle, JointType closing, double 
 TEST_CASE("PlaneLoop_ClosesWithCylindricalAndSphericalJoints") {
   const auto m = four_bar(JointType::cylindrical, JointType::spherical);
   solver::State state = m->initial_state();
-  const InitialiseSummary summary = solver::initialise(*m, state, {.held = {0}});
+  const InitialiseSummary summary = solver::initialise(*m, state, {.fixed = {0}});
   INFO(summary.message);
   CHECK(summary.solved());
   CHECK(std::abs(state.q[0] - 1.2) <

@@ -174,7 +174,7 @@ TEST_CASE("FiniteStrainBetweenFrames_BalancesPowers") {
   CHECK(std::abs(stored(last) + lost - stored(first)) < 1e-5 * last.kinetic);  // 400 steps, second order
 }
 
-TEST_CASE("FiniteStrain_DampingDoesNotFeelATurnOfAnEnd") {
+TEST_CASE("FiniteStrain_DampingIsIndependentOfARotationOfAnEnd") {
   // What is bent and turns as a whole against its first frame loses nothing but what it bends further: the power of the
   // damping forces in a rigid motion of all nodes is nothing.
   const test::Beam beam = strip(false);

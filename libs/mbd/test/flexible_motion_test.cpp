@@ -159,7 +159,7 @@ SpinErrors spin(double turns, int steps_per_turn, const Vector3& omega, double s
   return errors;
 }
 
-TEST_CASE("FreeSpinningBeam_KeepsMomentumAndEnergyOver100Turns") {
+TEST_CASE("FreeSpinningBeam_KeepsMomentumAndEnergyOver100Revolutions") {
   // The errors of the steps themselves swing with their square; what counts is that they do not grow.
   const SpinErrors e = spin(100, 400, {0, 0, 20}, 1.0, false);
   MESSAGE("strain energy up to ", e.strain, ", energy swings by ", e.energy, " and drifts by ", e.drift,
@@ -223,7 +223,7 @@ TEST_CASE("SpinningRod_StretchesByTheClosedForm") {
   CHECK(sum / steps == doctest::Approx(exact).epsilon(1e-2));  // omega^2 L^2 rho/E of it, and the mean of ten periods
 }
 
-TEST_CASE("HangingBeam_ComesToRestAtItsStaticShape") {
+TEST_CASE("HangingBeam_SettlesAtItsStaticShape") {
   // Under gravity a cantilever's tip sinks by rho g A L^4/(8 E I): 1e-3 for shear, of the square of its thickness.
   test::Beam beam{.size = {1, 0.02, 0.02}, .cells = {20, 1, 1}, .tip = true};
   beam.material.poisson_ratio = 0;

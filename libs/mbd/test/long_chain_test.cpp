@@ -15,7 +15,7 @@ constexpr int uncut = std::numeric_limits<int>::max();
 
 void step_to(Mechanism& mechanism, solver::State& state, double end, int steps) {
   REQUIRE(solver::initialise(mechanism, state,
-                             {.held = mechanism.given_coordinates(), .held_rates = mechanism.given_rates()})
+                             {.fixed = mechanism.given_coordinates(), .fixed_rates = mechanism.given_rates()})
               .solved());
   solver::GeneralizedAlpha integrator({.spectral_radius = 0.9});
   for (int i = 1; i <= steps; ++i) REQUIRE(integrator.step(mechanism, state, end * i / steps - state.t).solved());
@@ -52,7 +52,7 @@ TEST_CASE("LongChain_StartsWhereItsJointsSay") {
   const Observation seen = parts->observe(start);
   CHECK(seen.constraint_drift < 1e-12);  // round-off of 30 joints
   solver::State state = start;
-  REQUIRE(solver::initialise(*parts, state, {.held = parts->given_coordinates(), .held_rates = parts->given_rates()})
+  REQUIRE(solver::initialise(*parts, state, {.fixed = parts->given_coordinates(), .fixed_rates = parts->given_rates()})
               .solved());
   CHECK((state.q - start.q).norm() < 1e-12);  // round-off of 30 joints
   CHECK((state.v - start.v).norm() < 1e-10);  // round-off of rates over 30 joints

@@ -122,7 +122,7 @@ TEST_CASE("OtherRootOfTheTree_GivesTheSameMotion") {
   CHECK(of_planes > 10);
 }
 
-TEST_CASE("OtherRootOfTheTree_GoesOnTheSameWay") {
+TEST_CASE("OtherRootOfTheTree_ContinuesTheSameMotion") {
   // Both follow one motion, each with the error of its own steps, which falls with their square.
   for (const bool in_plane : {false, true}) {
     int compared = 0;

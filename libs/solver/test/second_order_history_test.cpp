@@ -52,7 +52,7 @@ struct Condensed {
   }
 };
 
-TEST_CASE("CondensedUnknown_GoesAsACoordinateOfTheSystem") {
+TEST_CASE("CondensedUnknown_MovesLikeACoordinateOfTheSystem") {
   test::OneCoordinate e;
   e.force = [](double q, double, double t) { return force(q, t); };
   e.force_dq = [](double, double, double) { return omega * omega; };
@@ -107,7 +107,7 @@ TEST_CASE("FreshStep_StartsFromTheAccelerationThereIs") {
   CHECK((going_on.x.position() - expected).norm() > 1e-10);
 }
 
-TEST_CASE("RestoredHistory_GoesOnToTheSameBits") {
+TEST_CASE("RestoredHistory_ContinuesToTheSameBits") {
   Condensed saved, restored;
   saved.x.start(VectorXd::Constant(1, 0.01));
   saved.step(0.01), saved.step(0.004);

@@ -52,7 +52,7 @@ class Mechanism final : public solver::Equations {
   /// Velocity components whose initial position the user gave: InitialiseOptions::held.
   [[nodiscard]] std::vector<Index> given_coordinates() const;
 
-  /// Velocity components that the user gave a value at the start: InitialiseOptions::held_rates.
+  /// Velocity components that the user gave a value at the start: InitialiseOptions::fixed_rates.
   [[nodiscard]] std::vector<Index> given_rates() const;
 
   /// Velocity components that deform elastic bodies: InitialiseOptions::stiff.
