@@ -10,7 +10,7 @@
 
 namespace hersey::mbd::test {
 
-/// A consistent start, given coordinates held.
+/// Returns a consistent start with prescribed coordinates fixed.
 inline solver::State start(Mechanism& mechanism) {
   solver::State state = mechanism.initial_state();
   const solver::InitialiseSummary summary = solver::initialise(mechanism, state,

@@ -44,13 +44,14 @@ struct ShapeColumns {
   }
 };
 
-/// An elastic body as the tree sees it: where its frames hang, which columns move them, where its own coordinates lie.
+/// Connection of an elastic body to the tree: the links of its frames, the columns that move them, the indices of its
+/// own coordinates.
 class ElasticAssembly {
  public:
-  /// @param own_q, own_v  places of the body's first own coordinate in q and v
+  /// @param own_q, own_v  indices of the body's first own coordinate in q and v
   ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree& tree, int own_q, int own_v);
 
-  /// Reads the motion of the assembly's state; no force acts on the body's shapes yet. Comes before `add`.
+  /// Reads the motion of the assembly's state and clears the forces on the body's shapes. Must be called before `add`.
   void prepare(const Assembly& assembly, const solver::State& state);
   /// The same for a motion of other velocities at the same positions; forces on the body's shapes stay.
   void prepare_again(const Assembly& assembly, const solver::State& state);
@@ -58,9 +59,10 @@ class ElasticAssembly {
   /// Adds the forces the body needs and their tangent (theory manual eq. (flexible-bodies.13)).
   void add(Assembly& assembly, const Vector3& gravity);
 
-  /// For forces that see the body deform: its amplitudes and what moves them, per column; see ShapeColumns.
+  /// Computes the amplitudes and their derivatives by the columns for forces that depend on the deformation; see
+  /// ShapeColumns.
   void find_shapes(const Assembly& assembly);
-  /// At the motion last read, for looking only.
+  /// Computes the amplitudes at the motion last read, for observation.
   void find_shapes();
   [[nodiscard]] const ShapeMotion& shapes() const { return shapes_; }
   [[nodiscard]] const ShapeColumns& shape_columns() const { return shape_columns_; }
@@ -99,7 +101,7 @@ class ElasticAssembly {
   [[nodiscard]] static std::optional<Vector6> deformation(const Freedom& freedom, const Eigen::VectorXd& q);
   void fill_directions(const Assembly& assembly);
   void add_tangent(Assembly& assembly);
-  void add_turning(Assembly& assembly);
+  void add_rotation(Assembly& assembly);
 
   std::string name_;
   std::shared_ptr<ElasticBody> body_;
@@ -108,7 +110,7 @@ class ElasticAssembly {
   std::vector<Freedom> freedoms_;         ///< of all frames but the first; empty where none are known
   std::vector<int> columns_;              ///< tree columns that move any frame, then own coordinates
   int tree_columns_ = 0;                  ///< how many of them are the tree's
-  std::vector<std::vector<char>> moves_;  ///< [frame][place in columns_]
+  std::vector<std::vector<char>> moves_;  ///< [frame][index in columns_]
   int own_q_ = 0, own_v_ = 0;
 
   ElasticMotion motion_;

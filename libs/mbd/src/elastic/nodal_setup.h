@@ -10,8 +10,8 @@ namespace hersey::mbd {
 [[nodiscard]] ModalBodyData static_data(const fem::ElasticBody& body, const fem::ReducedBody& reduced,
                                         const RayleighDamping& damping);
 
-/// The same for strains of any size: the nodes of a frame move as a rigid piece however far it turns, the others as the
-/// undeformed body answers (theory manual eq. (flexible-bodies.22)). `damping` is that by mass alone.
+/// The same for strains of any size: the nodes of a frame move rigidly at any rotation, the others respond as those of
+/// the undeformed body (theory manual eq. (flexible-bodies.22)). `damping` is that by mass alone.
 /// @pre the frames but the first are rigid
 [[nodiscard]] ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& reduced,
                                         const RayleighDamping& damping);

@@ -24,8 +24,8 @@ struct JointKind {
     std::string_view text;
     int steps = 1;  ///< of the chain that have it
   };
-  /// An elementary joint of the chain, from the inboard frame on. Those that shift come first, so that frames show how
-  /// far; of two that turn the axes are at right angles.
+  /// An elementary joint of the chain, from the inboard frame on. Prismatic ones come first, so that frames define
+  /// their displacement; the axes of two revolute ones are at right angles.
   struct Step {
     Motion motion;
     Along along = Along::axis;
@@ -48,6 +48,8 @@ struct JointKind {
 
 /// Values that an elementary joint has.
 [[nodiscard]] constexpr int values_of(Motion motion) { return motion == Motion::ball ? 3 : 1; }
-[[nodiscard]] constexpr bool turns(Motion motion) { return motion != Motion::prismatic && motion != Motion::none; }
+[[nodiscard]] constexpr bool is_rotational(Motion motion) {
+  return motion != Motion::prismatic && motion != Motion::none;
+}
 
 }  // namespace hersey::mbd

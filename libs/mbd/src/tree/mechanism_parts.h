@@ -26,7 +26,7 @@ struct BoundDrive {
   DriveMotion motion;
 };
 
-/// What a Mechanism works with: its tree, the parts as the tree sees them, scratch.
+/// Data of a Mechanism: its tree, the connections of its parts to the tree, scratch memory.
 struct MechanismParts {
   using Index = solver::Equations::Index;
   using SparseMatrix = solver::Equations::SparseMatrix;
@@ -48,13 +48,13 @@ struct MechanismParts {
   SparseMatrix pattern;             ///< of the tangent, zeros
   SparseMatrix constraint_pattern;  ///< of G, zeros
 
-  /// The elastic bodies that a two-body force sees deform, by place among `elastics`; -1: none.
+  /// Indices in `elastics` of the bodies on whose deformation a two-body force depends; -1: none.
   struct Sides {
     int a = -1, b = -1;
   };
   std::vector<Sides> sides;                ///< of each two-body force
   std::vector<std::size_t> costly, cheap;  ///< two-body forces worth a thread each, and the others
-  std::vector<char> seen_deforming;        ///< of each elastic body: some force sees it deform
+  std::vector<char> deforms_surface;       ///< for each elastic body: a force depends on its deformation
   std::vector<RelativeMotion> relatives;   ///< of the two-body forces at the last assembly
   std::vector<ForceResponse> responses;    ///< the same
   MechanismTiming timing;
@@ -85,7 +85,7 @@ struct MechanismParts {
   [[nodiscard]] double opening_of(const Closure& closure) const;
   void watch_dropped_rows();
 
-  void place_elastic_bodies();
+  void add_elastic_bodies();
   /// Calls visit(elastic) for each, and takes its time.
   template <class Visit>
   void for_each_elastic(Visit visit) {
@@ -101,9 +101,9 @@ struct MechanismParts {
     for (const ElasticAssembly& elastic : elastics) visit([&] { return "body " + elastic.name(); }, elastic.body());
   }
   void make_patterns();
-  void place_surfaces();
+  void find_deforming_surfaces();
   [[nodiscard]] RelativeMotion relative_motion(std::size_t force, double t) const;
-  /// Calls visit(row, column) for what the shapes of the bodies that force i sees deform add to its tangent.
+  /// Calls visit(row, column) for the entries of the tangent by the shapes on which force i depends.
   template <class Visit>
   void visit_surface_columns(std::size_t i, Visit visit) const;
   void read_elastic_bodies(const solver::State& state);
@@ -125,12 +125,12 @@ struct MechanismParts {
 
   // Observation
   [[nodiscard]] FrameMotion frame_motion(const Attachment& frame) const;
-  void observe_joint_coordinates(const solver::State& state, Observation& seen) const;
-  void observe_efforts(const solver::State& state, Observation& seen);
-  void observe_reactions(const solver::State& state, Observation& seen);
-  void observe_drift(const solver::State& state, Observation& seen) const;
-  void observe_energies(Observation& seen) const;
-  void observe_elastic_bodies(Observation& seen);
+  void observe_joint_coordinates(const solver::State& state, Observation& observation) const;
+  void observe_efforts(const solver::State& state, Observation& observation);
+  void observe_reactions(const solver::State& state, Observation& observation);
+  void observe_drift(const solver::State& state, Observation& observation) const;
+  void observe_energies(Observation& observation) const;
+  void observe_elastic_bodies(Observation& observation);
 
   // Energy of a step
   using Retract = std::function<void(const Eigen::VectorXd&, const Eigen::VectorXd&, Eigen::VectorXd&)>;

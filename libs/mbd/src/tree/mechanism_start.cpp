@@ -59,9 +59,9 @@ std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
   constexpr double round_off = 1e-10;
   MechanismParts& m = *parts_;
   m.motion.update(start);
-  Observation seen;
-  seen.joints.resize(m.spec.joints.size());
-  m.observe_joint_coordinates(start, seen);
+  Observation observation;
+  observation.joints.resize(m.spec.joints.size());
+  m.observe_joint_coordinates(start, observation);
   const double fastest = m.largest_rate(start);
   std::vector<ChangedStart> changes;
   for (std::size_t j = 0; j < m.spec.joints.size(); ++j) {
@@ -76,7 +76,7 @@ std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
         };
         ChangedStart change{{static_cast<int>(j)}, coordinate, is_rate, {}, {}, 0};
         change.given = part(is_rate ? joint.initial_rate : joint.initial);
-        change.found = part(is_rate ? seen.joints[j].rate : seen.joints[j].position);
+        change.found = part(is_rate ? observation.joints[j].rate : observation.joints[j].position);
         const double size = (coordinate.rotational ? 1.0 : m.tree.length) * (is_rate ? fastest : 1.0);
         change.share = size > 0 ? distance(coordinate, is_rate, change.given, change.found) / size : 0;
         if (change.share > round_off) changes.push_back(std::move(change));

@@ -199,11 +199,11 @@ std::vector<int> dependent_rows(const RowMatrix& G, double tolerance) {
 }
 
 std::vector<int> redundant_rows(const Tree& tree, TreeMotion& motion, const solver::State& guess,
-                                const std::vector<Index>& held) {
+                                const std::vector<Index>& fixed) {
   if (tree.nclosure == 0) return {};
   // What the user gave moves a thousand times less readily than the rest.
   VectorXd weight = VectorXd::Ones(tree.nv);
-  for (Index k : held) weight[k] = 1e-3;
+  for (Index k : fixed) weight[k] = 1e-3;
   LoopCloser loops(tree, motion);
   std::mt19937 random(1);
   const auto moved_by = [&](double reach) {

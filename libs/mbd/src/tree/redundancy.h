@@ -20,9 +20,9 @@ namespace hersey::mbd {
 /// The closing joints' rows that say nothing new wherever the mechanism can go (theory manual, section "Redundant
 /// constraints"); empty where the loops cannot be assembled.
 /// @param guess   a state near which the loops close
-/// @param held    velocity components that assembly should leave alone
+/// @param fixed    velocity components that assembly should not change
 [[nodiscard]] std::vector<int> redundant_rows(const Tree& tree, TreeMotion& motion, const solver::State& guess,
-                                              const std::vector<Eigen::Index>& held);
+                                              const std::vector<Eigen::Index>& fixed);
 
 /// Takes these rows out of the closures (they stay known as Closure::dropped) and numbers the rest afresh.
 void drop_rows(Tree& tree, const std::vector<int>& rows);

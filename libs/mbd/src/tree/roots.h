@@ -13,7 +13,7 @@ namespace hersey::mbd {
 /// body beyond it may have a pose of its own, from which the joint's coordinates are read off.
 class Roots {
  public:
-  /// @param tree  as joints come in their order; where it starts tells how far bodies are from each other
+  /// @param tree  with joints in order of declaration; its initial configuration gives the distances of bodies
   Roots(const MechanismSpec& spec, const Tree& tree);
 
   /// Whether any body of `spec` may be too light to carry others.
@@ -26,8 +26,8 @@ class Roots {
   /// too light. No joint: nothing holds them.
   [[nodiscard]] int carrier(std::optional<int> j, int first) const;
 
-  /// Whether `body` turns far too lightly to carry what comes with `first` (mechanisms.28): coordinates counted from it
-  /// would be the outcome of two fast motions (mechanisms.27).
+  /// True if the moment of inertia of `body` is too small to carry the bodies that `first` brings along
+  /// (mechanisms.28): coordinates counted from it would be the outcome of two fast motions (mechanisms.27).
   [[nodiscard]] bool is_too_light(int body, int first) const;
 
   /// Whether joint `other` (none: a body free in space) moves nothing out of the motions that joint `j` allows.
@@ -38,7 +38,7 @@ class Roots {
   [[nodiscard]] Vector3 centre(int body) const;
 
   /// Whether joint `j` (none: nothing holds the body) lets `body` move freely in space about another point than that.
-  [[nodiscard]] bool turns_off_centre(std::optional<int> j, int body) const;
+  [[nodiscard]] bool rotates_off_centre(std::optional<int> j, int body) const;
 
   /// Pose of a body at the start, and its velocity at ground's origin and in its axes.
   [[nodiscard]] const Pose& pose(int body) const { return poses_[static_cast<std::size_t>(body)]; }
@@ -49,10 +49,10 @@ class Roots {
  private:
   struct Weight {
     double mass = 0;
-    double turning = 0;                ///< half the trace of the inertia about the centre [kg m^2]
+    double inertia = 0;                ///< half the trace of the inertia about the centre [kg m^2]
     Vector3 centre = Vector3::Zero();  ///< at the start, ground axes [m]
     void add(const Weight& other);
-    [[nodiscard]] double turning_about(const Vector3& point) const;
+    [[nodiscard]] double inertia_about(const Vector3& point) const;
   };
 
   [[nodiscard]] int body_of(FrameId frame) const { return spec_.frames[frame.index].body.index; }

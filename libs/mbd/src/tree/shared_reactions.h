@@ -29,7 +29,7 @@ class SharedReactions {
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
 
  private:
-  /// A joint of the loops, and the places of its bodies among the equations; -1: ground.
+  /// Joint of the loops, and the indices of its bodies among the equations; -1: ground.
   struct Joint {
     int index = 0, inboard = -1, outboard = -1;
     std::array<int, 4> blocks{-1, -1, -1, -1};  ///< in `starts_`: (in, in), (out, out), (in, out), (out, in)
@@ -38,7 +38,7 @@ class SharedReactions {
   };
 
   void lay_out_blocks();
-  void place(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion);
+  void set_positions(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion);
   void add_block(const Joint& joint, int block, const Matrix6& value);
   [[nodiscard]] bool factorise();
   /// What the joints' wrenches W (scaled, about their inboard frames) do to the bodies.

@@ -129,7 +129,7 @@ bool EnergyJudge::allows(const solver::State& end) {
   double doubt = 0;
   const auto put_in = [&](const mbd::StepWork& one) {
     gain -= one.value;
-    doubt += one.doubt;
+    doubt += one.uncertainty;
     moved += std::abs(one.value);
   };
   for (const auto* list : {&work.drives, &work.loads, &work.functions, &work.pressures})

@@ -14,10 +14,10 @@
 #include "hersey/mbd/load_axes.h"
 #include "hersey/mbd/two_body_force.h"
 
-/// The parts of a mechanism as they are given: bodies, frames, joints, forces, drives.
+/// Specification of a mechanism: bodies, frames, joints, forces, drives.
 namespace hersey::mbd {
 
-/// Index of a thing in the order it was added; a different type for each kind of thing.
+/// Index of an item in the order of addition; each kind of item has its own type.
 template <class Tag>
 struct Id {
   int index = -1;
@@ -55,18 +55,18 @@ struct JointSpec {
   FrameId inboard;
   FrameId outboard;
   Vector3 axis = Vector3::UnitZ();  ///< in the inboard frame; normalised here, length > 0
-  double lead = 0;                  ///< of a screw: travel per turn [m], right-handed where positive
+  double lead = 0;  ///< axial displacement of a screw per revolution [m], positive for a right-handed screw
   std::vector<double>
       initial;  ///< values in the order of coordinates_of(type); empty: zero, and free to move in assembly
   std::vector<double> initial_rate;  ///< the same for their rates
   std::vector<bool> loose;           ///< per value: `initial` is a guess, free to move; empty: none is
   std::vector<bool> loose_rate;      ///< the same for their rates
 
-  /// Whether value `i` starts where `initial` says.
+  /// True if the initial value `i` is prescribed.
   [[nodiscard]] bool is_given(int i) const { return is_in(initial, loose, i); }
-  /// Whether its rate starts as `initial_rate` says.
+  /// True if the initial rate `i` is prescribed.
   [[nodiscard]] bool is_rate_given(int i) const { return is_in(initial_rate, loose_rate, i); }
-  /// Whether any value or rate does.
+  /// True if any initial value or rate is prescribed.
   [[nodiscard]] bool has_given() const {
     for (int i = 0; i < degrees_of_freedom(type); ++i)
       if (is_given(i) || is_rate_given(i)) return true;
@@ -79,7 +79,7 @@ struct JointSpec {
   }
 };
 
-/// A scalar joint coordinate: place `value` in the joint's list of values.
+/// A scalar joint coordinate: entry `value` of the joint's list of values.
 struct CoordinateRef {
   JointId joint;
   int value = 0;
@@ -139,12 +139,12 @@ struct CouplingSpec {
   std::vector<Term> terms;
 };
 
-/// The elastic bodies that a force between two bodies sees deform, beside the motion of its frames.
+/// Elastic bodies on whose deformation a force between two bodies depends, beside the motion of its frames.
 struct ForceSurfaces {
   std::optional<ElasticId> a, b;
 };
 
-/// Everything a mechanism is made of, as added.
+/// All parts of a mechanism in the order of addition.
 struct MechanismSpec {
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2], ground axes
   std::vector<BodySpec> bodies;       ///< body 0 is ground
@@ -176,7 +176,7 @@ struct MechanismSpec {
     std::vector<FrameId> frames;    ///< as the elastic body counts them, each on a body of its own
     std::vector<JointId> freedoms;  ///< free joints from the first frame at rest_pose to each other; none of segments
     std::shared_ptr<ElasticBody> body;
-    std::vector<std::string> load_names;                       ///< of its loads, in the order they were added
+    std::vector<std::string> load_names;                       ///< names of its loads, in the order of addition
     std::vector<std::shared_ptr<const ScalarFunction>> loads;  ///< their values, functions of time
   };
   std::vector<Elastic> elastics;
@@ -186,18 +186,18 @@ struct MechanismSpec {
   bool chooses_roots = false;                          ///< see MechanismBuilder::choose_roots
 };
 
-/// Where a flexible body went in a mechanism.
+/// Ids of the parts of a flexible body in a mechanism.
 struct FlexibleBodyIds {
   ElasticId elastic;
-  std::vector<BodyId> bodies;   ///< of each frame; the first has the flexible body's name and axes
+  std::vector<BodyId> bodies;   ///< body of each frame; the first has the flexible body's name and axes
   std::vector<FrameId> frames;  ///< their own frames
 };
 
-/// Where a beam went in a mechanism.
+/// Ids of the parts of a beam in a mechanism.
 struct BeamBodyIds {
   std::vector<ElasticId> segments;
-  std::vector<JointId> freedoms;  ///< of each node but the first, against the first
-  std::vector<BodyId> bodies;     ///< of each node; the first has the beam's name and axes
+  std::vector<JointId> freedoms;  ///< joint of each node but the first, against the first
+  std::vector<BodyId> bodies;     ///< body of each node; the first has the beam's name and axes
   std::vector<FrameId> frames;    ///< their own frames
 };
 

@@ -6,7 +6,7 @@
 #include "hersey/mbd/elastic_body.h"
 #include "hersey/mbd/mechanism_spec.h"
 
-/// What a mechanism shows of itself.
+/// Observations of a mechanism.
 namespace hersey::mbd {
 
 /// Motion of a frame relative to ground, in ground's axes.
@@ -21,7 +21,7 @@ struct FrameMotion {
 /// Values of a joint, one for each of its coordinates: none to six.
 using JointValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
 
-/// Coordinates of a joint and what it transmits.
+/// Coordinates of a joint and its reactions.
 struct JointObservation {
   JointValues position;  ///< as in coordinates_of; of a closing joint in (-pi, pi]
   JointValues rate;
@@ -29,8 +29,8 @@ struct JointObservation {
   Vector3 torque = Vector3::Zero();  ///< the same about the inboard frame's origin [N m]; drives and springs excluded
 };
 
-/// Constraints of a joint that closes a loop which follow from the rest of the mechanism wherever it can go. They are
-/// left out of the equations; reactions that they leave undetermined are the ones of smallest norm.
+/// Redundant constraints of a joint that closes a loop: in all configurations they follow from the rest of the
+/// mechanism. They are omitted from the equations; reactions that are then not determined are those of smallest norm.
 struct Redundancy {
   JointId joint;              ///< the closing joint
   std::vector<JointId> loop;  ///< the joints of its loop, itself last
@@ -38,23 +38,23 @@ struct Redundancy {
   int orientations = 0;       ///< and on orientations
 };
 
-/// A value of a joint at the start that could not be the one given.
+/// Initial value of a joint that had to differ from the prescribed one.
 struct ChangedStart {
   JointId joint;
   Coordinate coordinate;
   bool is_rate = false;
   std::vector<double> given, found;  ///< SI
-  double share = 0;  ///< of the change: in rad or of the mechanism's size; of a rate, relative to the largest one
+  double share = 0;  ///< change [rad or relative to the mechanism's size]; for a rate relative to the largest rate
 };
 
-/// What an elastic body shows.
+/// Observation of an elastic body.
 struct ElasticObservation {
   ElasticEnergy energy;
   std::vector<Vector6> wrenches;  ///< that the mechanism puts on each frame, at the frame, in its axes [N m; N]
   ElasticMotion motion;
 };
 
-/// Everything known about a mechanism at one state. Indices are those of the ids.
+/// Observation of a mechanism at one state. Indices are those of the ids.
 struct Observation {
   double t = 0;
   std::vector<FrameMotion> bodies;  ///< of each body's own frame
@@ -76,7 +76,7 @@ struct Observation {
   double constraint_drift = 0;  ///< largest violation, redundant rows included, relative to size or radian
 };
 
-/// Computing time since the mechanism was made, looking at it (`observe`) excluded [s].
+/// Computing time since construction of the mechanism, `observe` excluded [s].
 struct MechanismTiming {
   double total = 0;             ///< of its equations: assembling them, beginning and accepting steps
   double forces = 0;            ///< of that, until all two-body forces are known, costly ones side by side
