@@ -154,7 +154,7 @@ Losses tumble(int steps) {
 }
 
 TEST_CASE("TumblingBeam_LosesNothingBeyondTheErrorOfTheSteps") {
-  // What is lost falls with the square of the step: the equations themselves lose nothing.
+  // The loss decreases with the square of the step: the equations themselves conserve energy.
   const Losses coarse = tumble(1000), fine = tumble(2000);
   MESSAGE("strain energy up to ", fine.strain, " of the kinetic, energy off by ", fine.energy, ", momentum by ",
           fine.momentum, ", angular momentum by ", fine.spin);

@@ -30,7 +30,7 @@ inline std::unique_ptr<Mechanism> simple_pendulum() {
   return b.finalise();
 }
 
-/// How joint i of `chain` starts.
+/// Initial state of joint i of `chain`.
 inline double chain_angle(int i) { return i == 0 ? -0.3 : 0.05 * std::sin(0.7 * i); }
 
 /// A hanging chain of rods of 0.1 m and 0.1 kg on hinges, the first of them swinging at 1 rad/s, cut wherever more than

@@ -1,4 +1,4 @@
-// What mechanics conserves, whatever the mechanism: momentum, energy and power, and indifference to the observer.
+// Conservation laws for all mechanisms: momentum, energy and power, and independence of the observer.
 #include <doctest/doctest.h>
 
 #include <cmath>

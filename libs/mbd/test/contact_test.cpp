@@ -162,7 +162,7 @@ TEST_CASE("ContactOfCornersThatDeform_MatchesFiniteDifferencesAndDoesTheWorkOfIt
       column << response.dW_dr.col(a), response.dQ_dr.col(a);
       compare(column, [&](RelativeMotion& m, double h) { m.s_rate[a] += h; });
     }
-    // What the forces do is what the contact takes: its springs fill up, its damping and friction lose the rest.
+    // The work of the forces equals the energy stored in the springs plus the losses of damping and friction.
     constexpr double dt = 1e-6;
     const auto later = [&](double t) {
       RelativeMotion m = motion;
@@ -331,7 +331,7 @@ TEST_CASE("StandingCylinder_FeelsNoPreferredDirection") {
   for (const double phi : {0.3, 1.1, 2.5}) {
     const auto other = tilting(phi);
     CHECK(other[0] == doctest::Approx(one[0]).epsilon(1e-9));  // round-off
-    // Of third order in the tilt.
+    // Third order in the tilt.
     CHECK(other[1] == doctest::Approx(one[1]).epsilon(1e-6));
     CHECK(std::abs(other[2]) < 1e-6 * std::abs(one[1]));
   }

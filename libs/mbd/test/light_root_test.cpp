@@ -129,7 +129,7 @@ std::unique_ptr<Mechanism> soft_beam(std::optional<std::size_t> hinge, bool loos
   return b.finalise();
 }
 
-/// Where the beam's ends are after a while, and what carries it transmits.
+/// Returns the positions of the beam's ends after a while and the reactions of its joint.
 Eigen::VectorXd swing(std::optional<std::size_t> hinge, bool loosened, int steps) {
   BeamBodyIds ids;
   const auto m = soft_beam(hinge, loosened, ids);

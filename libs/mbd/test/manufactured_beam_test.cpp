@@ -90,7 +90,7 @@ Motion motion_of(const test::ManufacturedLine& line, double x, double t) {
           {omega(2, 1), omega(0, 2), omega(1, 0)}};
 }
 
-/// What a beam shows at the end beside what it should show.
+/// Returns the errors of the beam at the end.
 /// @param is_loose  its nodes are counted from ground, not from the first
 test::Errors errors_of(const std::shared_ptr<NodalLoads>& loads, int steps, bool is_loose) {
   const ManufacturedBeam& exact = loads->exact();

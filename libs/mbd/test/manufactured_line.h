@@ -58,7 +58,7 @@ struct ManufacturedLine {
   }
 };
 
-/// What a beam needs to move along a given line, theory manual eq. (beams.9).
+/// Loads that a beam needs to move along a given line, theory manual eq. (beams.9).
 struct ManufacturedBeam {
   ManufacturedLine line;
   double length = 1;                                           // [m]

@@ -126,7 +126,7 @@ struct ManufacturedSolid {
     return now.Q * (matrix(stress<double>(now, gradients<double>({X[0], X[1], X[2]}))) * n);
   }
 
-  /// What a point of the body needs at any instant.
+  /// Loads that a point of the body needs at an instant.
   struct Point {
     Vector3 X;
     Each<Vector3> phi;

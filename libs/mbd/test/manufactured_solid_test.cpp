@@ -95,7 +95,7 @@ void add_loads(MechanismBuilder& b, ElasticId elastic, const Solid& exact, const
   }
 }
 
-/// What the block shows at the end beside what it should show.
+/// Returns the errors of the block at the end.
 template <class Solid>
 test::Errors errors_of(const Solid& exact, const Block& how) {
   const fem::ElasticBody body = fem::assemble(fem::box_mesh(how.type, size, how.cells), {exact.material});

@@ -163,7 +163,7 @@ TEST_CASE("NodalBody_DerivativesOfItsCondensedForcesMatchFiniteDifferences") {
       whole(differences(*body, motion, Moved::position, 1e-9), differences(*body, motion, Moved::velocity, 1e-4),
             differences(*body, motion, Moved::acceleration, 1e-1));
   const MatrixXd J = whole(response.K, response.C, response.M);
-  // How much of a Newton increment is wrong, with and without the nodes' answer.
+  // Relative error of a Newton increment with and without the response of the nodes.
   const auto wrong = [&](const MatrixXd& tangent) {
     return (tangent.partialPivLu().solve(exact) - MatrixXd::Identity(12, 12)).eigenvalues().cwiseAbs().maxCoeff();
   };

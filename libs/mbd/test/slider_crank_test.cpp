@@ -97,7 +97,7 @@ TEST_CASE("SliderCrank_MeetsClosedFormKinematicsAndReactions") {
       CHECK((joint[m.big_end.index].force.head<2>() - big_end).norm() < roundoff * force);
       const Eigen::Vector2d small_end = Eigen::Rotation2Dd(answer.beta) * answer.small_end;
       CHECK((joint[m.small_end.index].force.head<2>() - small_end).norm() < roundoff * force);
-      // As said above: round-off of the solutions.
+      // Round-off of the solutions, as above.
       CHECK(joint[m.small_end.index].position[2] == doctest::Approx(answer.beta).epsilon(1e-9).scale(1));
       CHECK(joint[m.small_end.index].rate[2] == doctest::Approx(answer.beta_rate).epsilon(1e-9).scale(exact.omega));
     }

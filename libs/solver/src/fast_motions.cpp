@@ -25,9 +25,9 @@ constexpr double kFloor = 1e-6;
 constexpr std::array<double, 6> kShares{0, 15, -40, 45, -24, 5};
 
 /// Implicit Euler steps of the velocities alone (integrator.8). Inertia forces keep the velocities of the start:
-/// undamped motions then have the same acceleration in all steps and remain unchanged, however light the body is and
-/// whatever it carries; with velocities that grow from step to step, forces quadratic in them would be extrapolated by
-/// the shares.
+/// undamped motions then have the same acceleration in all steps and remain unchanged, independent of the mass of the
+/// body and of the bodies that it carries; with velocities that grow from step to step, forces quadratic in them would
+/// be extrapolated by the shares.
 class VelocitySteps {
  public:
   VelocitySteps(Equations& equations, const State& start, double dt)
@@ -93,7 +93,7 @@ class VelocitySteps {
   double worst_ = 0;
 };
 
-/// Whether damping changes some acceleration noticeably within the step.
+/// True if damping changes an acceleration noticeably within the step.
 bool differs(const VectorXd& damped, const VectorXd& undamped, const VectorXd& reach) {
   const VectorXd size = undamped.cwiseAbs().cwiseMax(damped.cwiseAbs()).cwiseQuotient(reach);
   const double least = kFloor * (size.size() > 0 ? size.maxCoeff() : 0);
@@ -117,7 +117,7 @@ std::optional<SettledStart> settle_fast_motions(Equations& equations, const Stat
   }
   if (!differs(steps.vdot(), instant, equations.position_scales())) return std::nullopt;
 
-  // What the equations at hand give for the instant of the start may differ from vdot where condensed unknowns follow.
+  // The acceleration that the equations give at the start may differ from vdot, because condensed unknowns respond.
   SettledStart settled{VectorXd::Zero(state.v.size()), VectorXd::Zero(state.v.size()), state.vdot - instant};
   VectorXd v = state.v, way = VectorXd::Zero(v.size());
   for (std::size_t k = 0; k < kShares.size(); ++k) {

@@ -53,7 +53,7 @@ struct GeneralizedAlpha::Workspace {
   // One step
   State trial;
   Stage stage;
-  VectorXd dq_before, lambda_before;  ///< where an increment starts from
+  VectorXd dq_before, lambda_before;  ///< values before an increment
   VectorXd a_n, dq, dq_predicted, v_predicted, vdot_predicted, increment, residual, scale, tolerance, rhs;
   Equations::SparseMatrix tangent;
   SparseLu lu;

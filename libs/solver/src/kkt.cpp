@@ -138,8 +138,9 @@ class SparseKkt {
 
   [[nodiscard]] bool sound() const { return factorised_ && lu_.reciprocal_condition() > kSoundCondition; }
 
-  /// Whether every motion that the rows allow has inertia. The condition of a chain falls with its length, and says no
-  /// more then: the least inertia in the null space, 1/|A|, by a few powers of A: y -> x,  M x + G^T l = y,  G x = 0.
+  /// True if every motion that the rows allow has inertia. The condition estimate decreases with the length of a chain
+  /// and is then not conclusive; the criterion is the least inertia in the null space, 1/|A|, by a few powers of A: y
+  /// -> x,  M x + G^T l = y,  G x = 0.
   [[nodiscard]] bool all_motions_have_inertia(Index nv) const {
     if (!factorised_ || sound()) return factorised_;
     VectorXd y = VectorXd::Zero(scale_.size());

@@ -23,7 +23,7 @@ constexpr double kTolerance = 1e-9;  // of the terms that a row balances
 constexpr double kConstraintTolerance = 1e-12;
 constexpr int kMaxIterations = 40, kMaxHalvings = 14, kMaxInnerIterations = 60;
 
-/// Which positions and which accelerations are unknown. Constraints make as many components depend on the others as
+/// Selection of the unknown positions and accelerations. Constraints make as many components depend on the others as
 /// there are constraints: of these both are.
 struct Unknowns {
   std::vector<Index> dependent, positions, accelerations;

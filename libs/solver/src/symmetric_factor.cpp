@@ -74,7 +74,7 @@ struct SymmetricFactor::Impl {
     icntl(7) = 5;          // METIS, where MUMPS has it
     icntl(8) = 7;          // scaling of rows and columns: the same decisions in any units
     icntl(12) = 1;         // ordering by pattern alone
-    icntl(24) = 1;         // go on past null pivots, and list them
+    icntl(24) = 1;         // continue past null pivots and list them
     mumps.cntl[0] = 0.01;  // a pivot is at least this share of its column; null pivots are not looked for without
     mumps.cntl[2] = null_pivot;
   }

@@ -169,7 +169,7 @@ TEST_CASE("Closure_EndsAtRoundOff") {
   State state = e.at(one(0.1));
   CHECK(initialise(e, state, {.rtol = 1e-18}).solved());
   CHECK(std::abs(state.q[0] - std::asin(0.3)) < 1e-13);  // that much is put on the constraint, over its slope
-  // Of a steep wall the first increments overshoot.
+  // At a steep wall the first increments overshoot.
   test::SeveralCoordinates steep(MatrixXd::Identity(1, 1), 1);
   steep.phi = [](const VectorXd& q, double) { return one(std::atan(50 * q[0])); };
   steep.G = [](const VectorXd& q, double) { return MatrixXd(one(50 / (1 + 2500 * q[0] * q[0]))); };

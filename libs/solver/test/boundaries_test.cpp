@@ -9,7 +9,7 @@
 #include "hersey/solver/step_control.h"
 #include "hersey/solver/symmetric_factor.h"
 
-// What solvers do where there is nothing to do, nothing to be had, or nothing new to be learned.
+// Solvers without unknowns, without a solution, or without new information.
 namespace hersey::solver {
 namespace boundaries_test {
 

@@ -217,7 +217,7 @@ TEST_CASE("LastIteration_IsMeasuredByTheToleranceItself") {
   CHECK(with_one_less > 2);  // each iteration divides the residual by more than twenty: 100 is one or two of them
 }
 
-// Of the rows that are off the worst is named, wherever it stands.
+// The row with the largest residual is named, irrespective of its index.
 TEST_CASE("WorstRow_IsNamedWhereverItStands") {
   for (const Eigen::Index worst : {0, 1}) {
     test::SeveralCoordinates e(Matrix2d::Identity());

@@ -121,7 +121,7 @@ TEST_CASE("NoEquilibrium_IsReportedAndLeavesTheStateUnchanged") {
   CHECK(summary.message == "gap closed");
 }
 
-// Where the way to rest would lead out of the domain, shorter steps do not.
+// If a step towards equilibrium leaves the domain, shorter steps do not.
 TEST_CASE("Equilibrium_NearTheEndOfTheDomain_IsFoundFromInside") {
   test::OneCoordinate p;  // a gap: the force grows without bound as q falls to 0
   p.lowest = 0;

@@ -178,7 +178,7 @@ TEST_CASE("FailedStep_LeavesTheStateAndSaysWhy") {
 }
 
 TEST_CASE("RejectedStep_CanBeRepeatedShorter") {
-  // What a run does after a failure: the same state with half the step gives what the half step alone gives.
+  // A run repeats a failed step with half its length: the result equals that of the half step alone.
   test::OneCoordinate e = oscillator(3), fresh = oscillator(3);
   GeneralizedAlpha integrator({.spectral_radius = 0.7}), other({.spectral_radius = 0.7});
   State s = e.at(1, 0), alone = s;

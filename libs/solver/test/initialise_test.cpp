@@ -96,7 +96,7 @@ TEST_CASE("RankAnalysis_OfIndependentRowsOrNone_NamesNone") {
   CHECK(zero.involved == std::vector<Eigen::Index>{1});  // a row that says nothing depends on no other
 }
 
-/// Whether the rows are independent, by elimination or by what it leaves to decide.
+/// Returns whether the rows are independent, by elimination or, if that is not conclusive, by QR.
 TEST_CASE("Rank_IsFullDownToRowsThatDifferByRoundOff") {
   const auto full = [](const MatrixXd& G) { return has_full_rank(G.sparseView(1, 0)); };
   for (const double apart : {1.0, 1e-4, 1e-7, 1e-9}) {

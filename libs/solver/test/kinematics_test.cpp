@@ -107,7 +107,7 @@ void check_failure(test::SeveralCoordinates& e, const State& start, KinematicsSt
 TEST_CASE("MotionThatCannotBeFollowed_IsReportedWithItsInstant") {
   test::SeveralCoordinates out_of_reach = pushed(1.3), at_the_end = pushed(1), jumping = pushed(0.6);
   check_failure(out_of_reach, out_of_reach.at(Vector2d(0.8, 0.6)), KinematicsStatus::cannot_close, "stays open");
-  // Where the drive has pushed the point as far as it goes, x says nothing of y any more.
+  // At the end of the range of the drive x does not determine y.
   check_failure(at_the_end, at_the_end.at(Vector2d(1, 0)), KinematicsStatus::undetermined,
                 "a dead point: drives and joints do not prescribe the motion of coordinate 1 here");
   // A root of time has no rate at zero.

@@ -99,7 +99,7 @@ TEST_CASE("WhatIsCondensed_IsSolvedBeforeForcesAreBalanced") {
 }
 
 TEST_CASE("MotionsThatNothingHolds_AreNamedAloneWhateverBalances") {
-  // Of three the second is damped; the third is pushed, the first not even that.
+  // Only the second of three motions is damped; the third is loaded, the first is not.
   test::SeveralCoordinates e(MatrixXd::Zero(3, 3));
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd(Vector3d(0, 2 * v[1] - 1, 0)); };
   e.force_dv = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector3d(0, 2, 0).asDiagonal()); };

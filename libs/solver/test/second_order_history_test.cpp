@@ -8,7 +8,7 @@
 #include "hersey/solver/generalized_alpha.h"
 #include "one_coordinate.h"
 
-// What is condensed is integrated like the coordinates of the system: by the same steps to the same numbers.
+// Condensed unknowns are integrated like the coordinates of the system, with the same steps and results.
 namespace hersey::solver {
 namespace second_order_history_test {
 

@@ -107,7 +107,7 @@ class BallOnMesh final : public ContactSearchOf<BallOnMesh> {
   std::vector<Near> near_;
 };
 
-// Each corner of the mesh stands for the area around it.
+// Each corner of the mesh represents the area around it.
 class CornersOnSolid final : public ContactSearchOf<CornersOnSolid> {
  public:
   CornersOnSolid(std::shared_ptr<const TriangleMesh> mesh, ShapeGeometry solid, bool on_b)

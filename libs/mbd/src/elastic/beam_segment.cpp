@@ -13,7 +13,7 @@ using fem::BeamVector;
 // As in modal_body.cpp: the share of the force of a deformation as large as the body that counts as a magnitude.
 constexpr double kStiffnessShare = 1e-6;
 
-/// What moves of one frame: acceleration of its origin with gravity taken off, in its axes.
+/// Motion of one frame: acceleration of its origin with gravity taken off, in its axes.
 Vector3 origin_acceleration(const ElasticFrame& frame) {
   return frame.A.tail<3>() + frame.V.head<3>().cross(frame.V.tail<3>());
 }

@@ -312,7 +312,7 @@ void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
   }
 }
 
-/// What a step's round-off in velocity means in forces counts as a magnitude too; see inertia.cpp.
+/// Adds the force that corresponds to the round-off of velocities within a step to the magnitudes; see inertia.cpp.
 void ModalBody::add_momentum_share(const ElasticFrame& base, double dt) {
   if (dt == 0) return;
   Workspace& w = *work_;

@@ -11,7 +11,7 @@ using Eigen::Index;
 
 namespace {
 
-/// What a load's axes are in the body's: f_body = Q^T f.
+/// Returns Q, the body's axes in those of the load: f_body = Q^T f.
 Matrix3 axes_of(LoadAxes axes, const Pose& X_WB) { return axes == LoadAxes::ground ? X_WB.R : Matrix3::Identity(); }
 
 }  // namespace

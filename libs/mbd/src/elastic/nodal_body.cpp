@@ -27,7 +27,8 @@ constexpr double kServes = 1e-4;     // the same: the matrix of a body of finite
 // on frames still have the round-off of these forces.
 constexpr double kNodalShare = 1e-4;
 
-// Square of the time within which nodes let go take up their acceleration [s^2]: no stiffness of a mesh acts so fast.
+// Square of the time step in which released nodes get their acceleration [s^2]: it is too short for the stiffness of a
+// mesh to act.
 constexpr double kInstant = 1e-24;
 
 constexpr Index kRotation = 3;  // the first of these columns of (flexible-bodies.19)
@@ -165,7 +166,7 @@ void NodalBody::gather(const ElasticMotion& motion, bool want_tangent) {
   }
 }
 
-/// Of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.21).
+/// Returns the forces of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.21).
 VectorXd NodalBody::elastic_forces() {
   if (strain_ == Strain::small) return body_.K * (w_.position() + damping_.stiffness * w_.rate());
   const VectorXd rate = flat(fields_->y_rate);
@@ -230,7 +231,8 @@ bool NodalBody::follows(const ElasticMotion& motion) const {
   return at_rest_ || is_let_go_ || (motion.stage.dt > 0 && motion.stage.k != 0);
 }
 
-/// The stage of the nodes' own equations: of statics at rest, of accelerations alone where they are let go.
+/// Returns the stage of the nodes' equations: that of statics at rest, that of accelerations alone if the nodes are
+/// released.
 solver::Stage NodalBody::stage_of(const ElasticMotion& motion) const {
   if (at_rest_) return solver::Stage{};
   if (is_let_go_) return {.dt = 0, .k = kInstant, .c = 0, .m = 1, .dq = {}};

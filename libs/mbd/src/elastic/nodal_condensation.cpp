@@ -1,5 +1,5 @@
-// How the answer of the nodes changes the derivatives of a nodal body's forces, theory manual eq. (flexible-bodies.18)
-// and (flexible-bodies.19).
+// Condensation of the nodes: their contribution to the derivatives of a nodal body's forces, theory manual eq.
+// (flexible-bodies.18) and (flexible-bodies.19).
 #include "elastic/modal_workspace.h"
 #include "elastic/nodal_factors.h"
 #include "elastic/nodal_fields.h"
@@ -11,8 +11,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// How the nodes' answer changes the derivatives. It is sought among the columns of X: onto (X^T S X)^-1 from, theory
-/// manual eq. (flexible-bodies.18) and (flexible-bodies.19).
+/// Adds the contribution of the nodes' response to the derivatives. The response is approximated by the columns of X:
+/// onto (X^T S X)^-1 from, theory manual eq. (flexible-bodies.18) and (flexible-bodies.19).
 void NodalBody::condense(const ElasticMotion& motion) {
   Workspace& w = work();
   const solver::Stage stage = stage_of(motion);

@@ -48,8 +48,8 @@ class NodalFactors {
   /// Removes from `f` the reactions of the frames: forces on fixed nodes and constraint forces of averaging frames.
   void leave_to_frames(Eigen::VectorXd& f) const;
 
-  /// Which step sizes there are factors for, where their matrix stays: a step takes the factor of one nearly as long,
-  /// so that the round-off of answers depends on those before. Restoring factorises them again.
+  /// Saves or restores the step sizes of the factors if their matrix is constant: a step uses the factor of a nearly
+  /// equal step size, so that the round-off of solutions depends on previous steps. Restoring factorises them again.
   void persist(Archive& archive);
 
   [[nodiscard]] long solves() const { return solves_; }

@@ -9,7 +9,7 @@ namespace hersey::mbd {
 struct NodalFields {
   Eigen::Matrix3Xd y, y_rate, y_acc, acceleration;
   Eigen::VectorXd u;  ///< displacements of the nodes; y contains them with the round-off of positions
-  /// Of the static shapes alone: displacements, rates and accelerations (3 nodes, 3) for these amplitudes of theirs.
+  /// Displacements, rates and accelerations of the static shapes alone (3 nodes, 3) for these amplitudes.
   Eigen::MatrixXd carried, amplitudes;
 
   /// Positions, rates and accelerations side by side, (nodes, 9).

@@ -3,10 +3,10 @@
 namespace hersey::mbd {
 namespace {
 
-// The share of forces of which a wrench is the rest, counted as a magnitude too: their sum has a round-off of 1e-15.
+// Share of the sum of force magnitudes that counts as a magnitude of their resultant, whose round-off is 1e-15 of it.
 constexpr double kSummedShare = 1e-6;
 
-/// Of a wrench about the ground's origin whose forces act about a point there.
+/// Returns the magnitude of a wrench about ground's origin whose forces act near a point.
 Vector6 sizes(const Vector6& W, double summed, const Vector3& at) {
   Vector6 size = W.cwiseAbs();
   size.head<3>().array() += kSummedShare * summed * at.norm();

@@ -12,7 +12,7 @@ namespace hersey::mbd {
 namespace {
 
 /// The twist that takes B from one pose to another, at A's origin in A's axes: its rotation, and the shift of the point
-/// of B that lies half-way, so that a wrench that keeps does the work of its force and its torque.
+/// of B that lies half-way, so that a constant wrench does the work of its force and its torque.
 Vector6 twist_between(const Pose& from, const Pose& to) {
   const Vector3 rotation = rotation_log(Eigen::Quaterniond(to.R * from.R.transpose()));
   Vector6 xi;

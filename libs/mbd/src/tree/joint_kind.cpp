@@ -57,7 +57,7 @@ const std::vector<JointKind>& joint_kinds() {
 const JointKind& kind_of(JointType type) {
   const auto index = static_cast<std::size_t>(type);
   HERSEY_REQUIRE(index < joint_kinds().size() && joint_kinds()[index].type == type,
-                 "kinds of joints stand in their order");
+                 "kinds of joints are listed in the order of JointType");
   return joint_kinds()[index];
 }
 

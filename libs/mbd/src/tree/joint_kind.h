@@ -19,10 +19,10 @@ enum class Along { t1, t2, axis, x, y, z };
 
 /// All that makes a joint type what it is: what else is known of one follows.
 struct JointKind {
-  /// Of some of the values, in the order of the chain.
+  /// Coordinate that consists of some of the values, in the order of the chain.
   struct Name {
     std::string_view text;
-    int steps = 1;  ///< of the chain that have it
+    int steps = 1;  ///< number of elementary joints of the chain that it comprises
   };
   /// An elementary joint of the chain, from the inboard frame on. Prismatic ones come first, so that frames define
   /// their displacement; the axes of two revolute ones are at right angles.
@@ -30,7 +30,7 @@ struct JointKind {
     Motion motion;
     Along along = Along::axis;
   };
-  /// What holds a joint outside the tree (mechanisms.14): a position along a; with b the cosine between a of the
+  /// Constraint of a joint outside the tree (mechanisms.14): a position along a; with b the cosine between a of the
   /// inboard and b of the outboard frame.
   struct Row {
     Along a;

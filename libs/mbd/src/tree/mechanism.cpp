@@ -356,12 +356,12 @@ void Mechanism::begin_step(const State& start, double dt) {
 bool Mechanism::is_step_consistent() {
   MechanismParts& m = *parts_;
   const Stopwatch all(m.timing.total), forces(m.timing.forces);
-  bool stands = true;
+  bool is_consistent = true;
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
     const Stopwatch one(m.timing.force[i]);
-    stands = m.spec.forces[i].force->is_step_consistent() && stands;
+    is_consistent = m.spec.forces[i].force->is_step_consistent() && is_consistent;
   }
-  return stands;
+  return is_consistent;
 }
 
 void Mechanism::accept_step(const State& end) {

@@ -1,4 +1,4 @@
-// Where a mechanism starts, and which of its constraints are redundant there and wherever it can go.
+// Initial state of a mechanism, and its constraints that are redundant in all configurations.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ std::vector<Mechanism::Index> MechanismParts::columns_where(Choose is_chosen) co
 
 namespace {
 
-/// Of a coordinate's values: of an orientation the angle between both.
+/// Returns the difference between two values of a coordinate; for an orientation the angle between them.
 double distance(const Coordinate& coordinate, bool is_rate, const std::vector<double>& a,
                 const std::vector<double>& b) {
   if (coordinate.orientation && !is_rate)
@@ -85,7 +85,7 @@ std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
   return changes;
 }
 
-/// Of the rates given and of those at `start`, lengths over the mechanism's size [1/s].
+/// Returns the largest rate of those given and those at `start`, lengths divided by the mechanism's size [1/s].
 double MechanismParts::largest_rate(const State& start) const {
   const State given = initial_state();
   double largest = 0;
@@ -151,7 +151,7 @@ double MechanismParts::opening_of(const Closure& closure) const {
   return worst;
 }
 
-/// A redundant row holds by itself; if it does not, the loop is not the one it was taken for.
+/// Checks the omitted rows: a redundant row is satisfied by the others; a violation means that it is not redundant.
 void MechanismParts::watch_dropped_rows() {
   constexpr double tolerance = 1e-5;
   for (const Redundancy& redundancy : redundancies) {

@@ -18,7 +18,7 @@ constexpr double kFar = 10;
 /// Sine of the angle between axes that are parallel but for round-off.
 constexpr double kParallel = 1e-12;
 
-/// Of the mechanism's size: what round-off may put between two points.
+/// Distance of coincident points by round-off, relative to the mechanism's size.
 constexpr double kOffCentre = 1e-9;
 
 bool is_whole_motion(JointType type) { return type == JointType::free || type == JointType::planar; }
@@ -147,7 +147,7 @@ std::vector<int> Roots::cluster(int first) const {
   return members;
 }
 
-/// Those of the cluster to which joints lead from `first` that keep the motions of joint `j`.
+/// Returns the bodies of the cluster that joints compatible with the motions of joint `j` connect to `first`.
 std::vector<int> Roots::candidates(std::optional<int> j, int first) const {
   std::vector<int> members{first};
   for (std::size_t i = 0; i < members.size(); ++i)

@@ -140,7 +140,7 @@ void SharedReactions::lay_out_blocks() {
   lu_.analyse(normal_);
 }
 
-void SharedReactions::set_positions(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion) {
+void SharedReactions::update_geometry(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion) {
   const auto shift_to = [&](int row, const Vector3& p) {
     if (row < 0) return Matrix6::Identity().eval();
     const Vector3& origin =
@@ -202,7 +202,7 @@ Vector6 SharedReactions::spread(const Joint& joint, const VectorXd& y) const {
 void SharedReactions::share(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion,
                             std::vector<Vector6>& wrenches) {
   constexpr int refinements = 4;  // of the shift
-  set_positions(spec, tree, motion);
+  update_geometry(spec, tree, motion);
   if (!factorise()) return;
   // x of smallest norm with A x = A x0: x = A^T y, (A A^T) y = A x0.
   std::vector<Vector6> given(joints_.size()), least(joints_.size(), Vector6::Zero());
@@ -221,7 +221,7 @@ void SharedReactions::share(const MechanismSpec& spec, const Tree& tree, const T
     for (std::size_t i = 0; i < joints_.size(); ++i) least[i] += spread(joints_[i], y);
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    // What the joint cannot transmit (round-off of the solution) stays with it.
+    // The part that the joint cannot transmit (round-off of the solution) is not changed.
     Vector6 change = least[i] - given[i];
     change.head<3>() *= tree.length;
     wrenches[joints_[i].index] += about(-origin(joints_[i]), change);

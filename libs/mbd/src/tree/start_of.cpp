@@ -40,7 +40,7 @@ void set_cut_bodies(const Tree& tree, solver::State& state) {
   }
 }
 
-/// Nodes of loose beams start undeformed beside the first, and move as if they were fixed to it.
+/// Nodes of loose beams start undeformed relative to the first, and move as if they were fixed to it.
 void set_loosened_nodes(const MechanismSpec& spec, const Tree& tree, solver::State& state) {
   TreeMotion at(tree, Vector3::Zero());
   for (const Loosened& node : tree.loosened) {

@@ -18,8 +18,8 @@ struct Link {
   int parent = -1;
   Motion motion = Motion::none;
   Pose X_PF;
-  Vector3 axis = Vector3::UnitZ();  ///< of a revolute, prismatic or screw motion, in F
-  double travel = 0;                ///< of a screw [m/rad]
+  Vector3 axis = Vector3::UnitZ();  ///< axis of a revolute, prismatic or screw motion, in F
+  double travel = 0;                ///< travel of a screw [m/rad]
   int first_q = 0;                  ///< index of its coordinate in q; a ball's quaternion (w, x, y, z)
   int first_v = 0;                  ///< and in v
   int columns = 0;                  ///< 0 (ground), 1, or 3 (ball)
@@ -125,13 +125,13 @@ struct Tree {
   std::vector<Loosened> loosened;      ///< from the node where each beam is entered outwards
   std::vector<OwnMotion> own_motions;  ///< from ground outwards
   std::vector<int> enter, leave;       ///< per link: numbers of the links it carries, itself the first
-  std::vector<Pair> forces;            ///< of the two-body forces
+  std::vector<Pair> forces;            ///< frames of the two-body forces
   int nq = 0;
   int nv = 0;
   int nclosure = 0;   ///< constraint rows of all closures
   double length = 1;  ///< size of the mechanism [m]: scale of positional constraints
 
-  /// Whether column k moves link l.
+  /// True if column k moves link l.
   [[nodiscard]] bool moves(int k, int l) const {
     const int link = columns[k].link;
     return enter[link] <= enter[l] && enter[l] < leave[link];

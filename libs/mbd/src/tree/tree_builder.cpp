@@ -171,7 +171,7 @@ class TreeBuilder {
     carried_by_[root] = {base, j};
   }
 
-  /// Whether the path from ground would grow too long beyond `body`. Deformations stay with their bodies.
+  /// True if the path from ground would become too long beyond `body`. Deformations are not cut from their bodies.
   [[nodiscard]] bool is_cut(int j, int body) const {
     const int more = degrees_of_freedom(spec_.joints[j].type);
     return !deforms_[j] && depth_[tree_.bodies[body].link] + more > spec_.longest_path;
@@ -304,7 +304,7 @@ class TreeBuilder {
     double length = 0;
     for (const Link& link : tree_.links) length = std::max(length, link.X_PF.r.norm());
     for (const Attachment& f : tree_.frames) length = std::max(length, f.X_LF.r.norm());
-    // Frames of a flexible body may stand where its axes do, and say nothing of its size.
+    // Frames of a flexible body may coincide with its axes and then do not define its size.
     for (const MechanismSpec::Elastic& elastic : spec_.elastics)
       length = std::max(length, elastic.body->centre().norm());
     if (length > 0) tree_.length = length;
@@ -335,7 +335,7 @@ class TreeBuilder {
       if (!tree_.moves(k, pair.a.link)) pair.columns.push_back({k, +1.0});
   }
 
-  /// What a body's path leads through last.
+  /// Last element of a body's path.
   struct Carried {
     int parent = 0;
     std::optional<int> joint;  ///< none: it moves freely
@@ -344,14 +344,14 @@ class TreeBuilder {
   const MechanismSpec& spec_;
   const Roots* roots_;
   Tree tree_;
-  std::vector<Carried> carried_by_;        ///< of each body
+  std::vector<Carried> carried_by_;        ///< carrier of each body
   std::vector<bool> reached_;              ///< bodies
   std::vector<bool> used_;                 ///< joints in the tree
   std::vector<bool> read_;                 ///< joints whose coordinates something needs
   std::vector<bool> deforms_;              ///< joints inside elastic bodies
   std::vector<bool> loose_;                ///< joints of loose beams
   std::vector<std::vector<int>> at_body_;  ///< joints of each body, in order of declaration
-  std::vector<int> depth_{0};              ///< of each link: columns that move it
+  std::vector<int> depth_{0};              ///< number of columns that move each link
 };
 
 /// Finds the rotations of planar joints that are in no path from those of links, full revolutions included.
@@ -379,7 +379,7 @@ void find_rotations(const MechanismSpec& spec, Tree& tree) {
   }
 }
 
-/// Reactions are reckoned along the joints, whatever carries what.
+/// Reactions are summed along the joints, independent of the tree.
 void follow_joints_of(const Tree& as_declared, Tree& tree) {
   tree.body_order = as_declared.body_order;
   tree.body_parent = as_declared.body_parent;

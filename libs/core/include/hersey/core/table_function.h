@@ -68,7 +68,7 @@ class TableFunction final : public ScalarFunction {
   void find_slopes();
 
   std::vector<double> x_, y_;
-  std::vector<double> slope_;  ///< at the points; empty for linear tables
+  std::vector<double> slope_;  ///< slopes at the points; empty for linear tables
   Options options_;
 };
 

@@ -9,7 +9,7 @@ namespace hersey::mbd {
 struct BeamSegmentData {
   fem::BeamElement element;                      ///< element frame in the axes that both frames have at rest
   double mass_per_length = 0;                    ///< [kg/m]
-  Vector3 inertia_per_length = Vector3::Zero();  ///< of the section about its own x, y and z [kg m]
+  Vector3 inertia_per_length = Vector3::Zero();  ///< inertia of the section about its own x, y and z [kg m]
   double damping = 0;                            ///< forces of strain rates over those of strains [s]
   double reach = 0;                              ///< size of the whole beam, whose round-off its positions carry [m]
 };
@@ -42,8 +42,8 @@ class BeamSegment final : public ElasticBody {
   void differentiate_inertia(const ElasticMotion& motion, ElasticResponse& response) const;
 
   BeamSegmentData data_;
-  Matrix3 inertia_;            ///< of half the sections, in a frame's axes [kg m^2]
-  fem::BeamVector round_off_;  ///< what round-off of positions does to forces, over a share
+  Matrix3 inertia_;            ///< inertia of half of the sections in a frame's axes [kg m^2]
+  fem::BeamVector round_off_;  ///< magnitude of forces by the round-off of positions
 };
 
 }  // namespace hersey::mbd

@@ -22,7 +22,7 @@ class Bushing final : public TwoBodyForce {
 
  private:
   Matrix6 K_, D_;
-  double angle_ = 0;  ///< at the last evaluation
+  double angle_ = 0;  ///< angle of rotation at the last evaluation
 };
 
 }  // namespace hersey::mbd

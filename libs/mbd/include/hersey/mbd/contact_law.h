@@ -9,7 +9,7 @@ namespace hersey::mbd {
 struct ContactLaw {
   double stiffness = 0;   ///< [N/m^exponent]; of a mesh's corners on a solid [Pa/m^exponent]; > 0
   double exponent = 1.5;  ///< >= 1
-  double damping = 0;     ///< of Hunt and Crossley [s/m], >= 0
+  double damping = 0;     ///< damping of Hunt and Crossley [s/m], >= 0
   double friction = 0;    ///< coefficient of Coulomb friction, >= 0
   double slip_speed =
       0;  ///< speed of the regularised friction law below which the surfaces creep [m/s]; > 0 with friction

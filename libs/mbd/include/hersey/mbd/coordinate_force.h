@@ -6,7 +6,7 @@ namespace hersey::mbd {
 
 /// A force or torque on a scalar coordinate, with its derivatives.
 struct CoordinateEffort {
-  double value = 0;        ///< in the direction of the coordinate [N; N m]
+  double value = 0;        ///< effort in the direction of the coordinate [N; N m]
   double by_position = 0;  ///< d value / d coordinate
   double by_rate = 0;      ///< d value / d rate
 };

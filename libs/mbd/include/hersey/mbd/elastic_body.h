@@ -30,7 +30,7 @@ struct ElasticMotion {
   solver::Stage stage;  ///< stage of the step being solved; its dq is empty
   std::vector<ElasticFrame> frames;
   Eigen::VectorXd eta, eta_rate, eta_acceleration;  ///< own coordinates, shape (coordinate_count)
-  Eigen::VectorXd loads;                            ///< value of each load now, in the order they were added
+  Eigen::VectorXd loads;                            ///< present value of each load, in the order of addition
   /// Generalised forces of surfaces on the amplitudes of shapes, and the magnitudes of the terms in their sums; empty
   /// if there are none.
   Eigen::VectorXd shape_forces, shape_force_sizes;
@@ -72,14 +72,14 @@ struct ElasticLoad {
 struct ElasticEnergy {
   double kinetic = 0;                          ///< [J]
   double strain = 0;                           ///< [J]
-  double potential = 0;                        ///< of gravity, zero at ground's origin [J]
+  double potential = 0;                        ///< potential energy of gravity, zero at ground's origin [J]
   double kinetic_rate = 0;                     ///< [W]
   double strain_rate = 0;                      ///< [W]
   double dissipation = 0;                      ///< [W], >= 0
   double gravity = 0;                          ///< power of gravity [W]
   Vector3 momentum = Vector3::Zero();          ///< ground axes [kg m/s]
   Vector3 angular_momentum = Vector3::Zero();  ///< about ground's origin, ground axes [kg m^2/s]
-  std::vector<ElasticLoad> loads;              ///< in the order they were added
+  std::vector<ElasticLoad> loads;              ///< loads in the order of addition
 };
 
 /// A deformable body that is connected to a mechanism through frames. Each frame is a massless rigid body of the

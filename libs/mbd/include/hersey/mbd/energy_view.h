@@ -33,7 +33,7 @@ struct EnergyView {
   std::vector<double> strain, elastic_kinetic;    ///< strain and kinetic energies of elastic bodies [J]
   std::vector<double> pressures;                  ///< power of all loads on each elastic body's mesh [W]
   std::vector<double> drive_efforts;              ///< [N; N m]
-  std::vector<double> coordinate_efforts;         ///< of coordinate forces [N; N m]
+  std::vector<double> coordinate_efforts;         ///< efforts of coordinate forces [N; N m]
   std::vector<Eigen::VectorXd> load_generalised;  ///< generalised forces of each load on the columns of its path
 
   /// Saves or restores the view, with which the next step is compared.

@@ -54,13 +54,13 @@ struct JointSpec {
   JointType type = JointType::fixed;
   FrameId inboard;
   FrameId outboard;
-  Vector3 axis = Vector3::UnitZ();  ///< in the inboard frame; normalised here, length > 0
+  Vector3 axis = Vector3::UnitZ();  ///< axis in the inboard frame; any length > 0
   double lead = 0;  ///< axial displacement of a screw per revolution [m], positive for a right-handed screw
   std::vector<double>
       initial;  ///< values in the order of coordinates_of(type); empty: zero, and free to move in assembly
-  std::vector<double> initial_rate;  ///< the same for their rates
-  std::vector<bool> loose;           ///< per value: `initial` is a guess, free to move; empty: none is
-  std::vector<bool> loose_rate;      ///< the same for their rates
+  std::vector<double> initial_rate;  ///< rates likewise
+  std::vector<bool> loose;           ///< per value: `initial` is a guess and free to move; empty: no value is a guess
+  std::vector<bool> loose_rate;      ///< per value: `initial_rate` is a guess
 
   /// True if the initial value `i` is prescribed.
   [[nodiscard]] bool is_given(int i) const { return is_in(initial, loose, i); }
@@ -122,17 +122,17 @@ struct DriveSpec {
   std::string name;
   CoordinateRef coordinate;
   Kind kind = Kind::position;
-  std::shared_ptr<const ScalarFunction> function;  ///< of time alone
+  std::shared_ptr<const ScalarFunction> function;  ///< function of time alone
   double ramp = 0;   ///< time over which the motion is blended in from rest, twice differentiable [s]
   double start = 0;  ///< when the ramp begins [s]
 };
 
-/// A relation between scalar joint coordinates that always holds: output = sum of f_i(input_i). Gear, rack, cam,
+/// Holonomic relation between scalar joint coordinates: output = sum of f_i(input_i). Gear, rack, cam,
 /// differential. It acts between the two bodies of each joint and does no work in all.
 struct CouplingSpec {
   struct Term {
     CoordinateRef input;
-    std::shared_ptr<const ScalarFunction> function;  ///< of the input alone, twice differentiable
+    std::shared_ptr<const ScalarFunction> function;  ///< function of the input alone, twice differentiable
   };
   std::string name;
   CoordinateRef output;
@@ -173,7 +173,7 @@ struct MechanismSpec {
 
   struct Elastic {
     std::string name;
-    std::vector<FrameId> frames;    ///< as the elastic body counts them, each on a body of its own
+    std::vector<FrameId> frames;    ///< frames in the order of the elastic body, each on a body of its own
     std::vector<JointId> freedoms;  ///< free joints from the first frame at rest_pose to each other; none of segments
     std::shared_ptr<ElasticBody> body;
     std::vector<std::string> load_names;                       ///< names of its loads, in the order of addition
@@ -190,7 +190,7 @@ struct MechanismSpec {
 struct FlexibleBodyIds {
   ElasticId elastic;
   std::vector<BodyId> bodies;   ///< body of each frame; the first has the flexible body's name and axes
-  std::vector<FrameId> frames;  ///< their own frames
+  std::vector<FrameId> frames;  ///< own frames of `bodies`
 };
 
 /// Ids of the parts of a beam in a mechanism.
@@ -198,7 +198,7 @@ struct BeamBodyIds {
   std::vector<ElasticId> segments;
   std::vector<JointId> freedoms;  ///< joint of each node but the first, against the first
   std::vector<BodyId> bodies;     ///< body of each node; the first has the beam's name and axes
-  std::vector<FrameId> frames;    ///< their own frames
+  std::vector<FrameId> frames;    ///< own frames of `bodies`
 };
 
 }  // namespace hersey::mbd

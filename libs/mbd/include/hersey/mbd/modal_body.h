@@ -19,7 +19,7 @@ struct ModalWorkspace;
 /// moves frame 0.
 struct ModalBodyData {
   double mass = 0;                ///< [kg]
-  std::vector<Pose> rest;         ///< of each frame in the body's axes; rest[0] is the identity
+  std::vector<Pose> rest;         ///< rest pose of each frame in the body's axes; rest[0] is the identity
   Eigen::Matrix3Xd first_moment;  ///< integral of rho Y_a, Y_0 = x and Y_a = Phi_a, shape (3, 1 + shapes)
   /// Integrals of rho Y_a,p Y_b,r, component by component: second_moment[3 p + r](a, b), shape (1 + shapes)^2.
   std::array<Eigen::MatrixXd, 9> second_moment;
@@ -27,9 +27,9 @@ struct ModalBodyData {
   /// (theory manual eq. (flexible-bodies.22)).
   int shapes_per_frame = 6;
   Eigen::MatrixXd stiffness;      ///< shape (shapes, shapes)
-  Eigen::MatrixXd damping;        ///< the same
+  Eigen::MatrixXd damping;        ///< shape (shapes, shapes)
   Eigen::Matrix3Xd nodes;         ///< undeformed [m], shape (3, nodes)
-  Eigen::MatrixXd displacements;  ///< of the nodes for unit amplitudes, shape (3 nodes, shapes)
+  Eigen::MatrixXd displacements;  ///< displacements of the nodes for unit amplitudes, shape (3 nodes, shapes)
   /// Returns the number of shapes.
   [[nodiscard]] Eigen::Index shapes() const { return stiffness.rows(); }
 };

@@ -22,7 +22,7 @@ struct NodalFields;
 /// Measure of strain.
 enum class Strain {
   small,  ///< linearly, in the body's axes
-  finite  ///< by Green and Lagrange
+  finite  ///< strain of Green and Lagrange
 };
 
 /// The flexible body of small strain and large motion with a displacement of every node: over the static shapes of its
@@ -115,8 +115,8 @@ class NodalBody final : public ModalBody {
   Eigen::RowVectorXd nodal_mass_;  ///< sums of the rows of m
   Eigen::Index frame_shapes_ = 0;  ///< static shapes of the frames; those of films follow
   Eigen::MatrixXd Psi_size_;       ///< absolute values of Psi
-  Eigen::MatrixXd drawn_frames_;   ///< finite strains: static shapes of the frames, to draw with
-  Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
+  Eigen::MatrixXd drawn_frames_;   ///< finite strains: static shapes of the frames for drawing
+  Eigen::MatrixXd vibrations_;     ///< vibration modes for drawing, largest displacement 1
   Eigen::VectorXd vibration_mass_;
   std::array<Eigen::MatrixXd, 3> m_Psi_;  ///< m times each component of Psi, (nodes, shapes)
   /// Columns E of (flexible-bodies.19): 3 accelerations, 9 of rotation, M Psi; with finite strain K(u) Psi as well.
@@ -128,13 +128,13 @@ class NodalBody final : public ModalBody {
   fem::FiniteStrain finite_;             ///< at the last displacement evaluated
   Eigen::VectorXd elastic_;              ///< forces of the material there
   Eigen::MatrixXd stiffness_of_shapes_;  ///< Psi^T K(u) Psi, of the state the matrix is of
-  Eigen::VectorXd followed_;             ///< amplitudes that the nodes have followed
+  Eigen::VectorXd followed_;             ///< amplitudes of the frames at the last motion of the nodes with them
   Eigen::VectorXd r_, sizes_;            ///< residual forces on the nodes, and magnitudes of their terms
   bool at_rest_ = true;
-  bool lets_go_ = false;       ///< the motion is still to start, from w = 0
-  bool is_let_go_ = false;     ///< what is evaluated is the instant of that start
-  bool is_stale_ = true;       ///< finite strains: the matrix is not of this step, or serves it no longer
-  bool is_predicted_ = false;  ///< the step has just begun, with frames and nodes as they are predicted
+  bool lets_go_ = false;       ///< the motion has not started yet; it starts from w = 0
+  bool is_let_go_ = false;     ///< the present evaluation is at the instant of that start
+  bool is_stale_ = true;       ///< finite strains: the matrix is not that of this step, or does not converge any more
+  bool is_predicted_ = false;  ///< the step has just begun, with predicted frames and nodes
   double internal_residual_ = 0;
   std::string failure_;
 };

@@ -23,10 +23,11 @@ using JointValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6,
 
 /// Coordinates of a joint and its reactions.
 struct JointObservation {
-  JointValues position;  ///< as in coordinates_of; of a closing joint in (-pi, pi]
+  JointValues position;  ///< values as in coordinates_of; angles of a closing joint lie in (-pi, pi]
   JointValues rate;
-  Vector3 force = Vector3::Zero();   ///< of the inboard on the outboard body, in the inboard frame's axes [N]
-  Vector3 torque = Vector3::Zero();  ///< the same about the inboard frame's origin [N m]; drives and springs excluded
+  Vector3 force = Vector3::Zero();  ///< force of the inboard on the outboard body, in the inboard frame's axes [N]
+  Vector3 torque =
+      Vector3::Zero();  ///< torque likewise, about the inboard frame's origin [N m]; drives and springs excluded
 };
 
 /// Redundant constraints of a joint that closes a loop: in all configurations they follow from the rest of the
@@ -34,8 +35,8 @@ struct JointObservation {
 struct Redundancy {
   JointId joint;              ///< the closing joint
   std::vector<JointId> loop;  ///< the joints of its loop, itself last
-  int positions = 0;          ///< how many of its constraints on positions were left out
-  int orientations = 0;       ///< and on orientations
+  int positions = 0;          ///< number of omitted constraints on positions
+  int orientations = 0;       ///< number of omitted constraints on orientations
 };
 
 /// Initial value of a joint that had to differ from the prescribed one.
@@ -50,14 +51,14 @@ struct ChangedStart {
 /// Observation of an elastic body.
 struct ElasticObservation {
   ElasticEnergy energy;
-  std::vector<Vector6> wrenches;  ///< that the mechanism puts on each frame, at the frame, in its axes [N m; N]
+  std::vector<Vector6> wrenches;  ///< wrench of the mechanism on each frame, at the frame, in its axes [N m; N]
   ElasticMotion motion;
 };
 
 /// Observation of a mechanism at one state. Indices are those of the ids.
 struct Observation {
   double t = 0;
-  std::vector<FrameMotion> bodies;  ///< of each body's own frame
+  std::vector<FrameMotion> bodies;  ///< motion of each body's own frame
   std::vector<JointObservation> joints;
   std::vector<double> drive_efforts;             ///< force or torque each drive exerts on its coordinate [N; N m]
   std::vector<double> drive_powers;              ///< [W], > 0 puts energy in
@@ -66,11 +67,11 @@ struct Observation {
   std::vector<double> coordinate_force_efforts;  ///< [N; N m]
   std::vector<double> coordinate_force_powers;   ///< [W]
   std::vector<double> spring_powers;             ///< [W], stored and dissipated together
-  std::vector<Vector6> force_wrenches;           ///< of each two-body force on b, at a's origin, a's axes [N m; N]
-  std::vector<double> force_powers;              ///< of wrenches and of forces on shapes [W]
+  std::vector<Vector6> force_wrenches;  ///< wrench of each two-body force on b, at a's origin, a's axes [N m; N]
+  std::vector<double> force_powers;     ///< powers of wrenches and of forces on shapes [W]
   std::vector<ElasticObservation> elastics;
-  double kinetic_energy = 0;    ///< [J], of elastic bodies too
-  double potential_energy = 0;  ///< of gravity, zero at ground's origin [J]
+  double kinetic_energy = 0;    ///< [J], elastic bodies included
+  double potential_energy = 0;  ///< potential energy of gravity, zero at ground's origin [J]
   double spring_energy = 0;     ///< stored in springs on coordinates and in two-body forces [J]
   double damper_power = 0;      ///< lost in dampers on coordinates and in two-body forces, TwoBodyForce::lost_power [W]
   double constraint_drift = 0;  ///< largest violation, redundant rows included, relative to size or radian
@@ -78,10 +79,10 @@ struct Observation {
 
 /// Computing time since construction of the mechanism, `observe` excluded [s].
 struct MechanismTiming {
-  double total = 0;             ///< of its equations: assembling them, beginning and accepting steps
-  double forces = 0;            ///< of that, until all two-body forces are known, costly ones side by side
-  std::vector<double> force;    ///< of each of them by itself, in the thread it has
-  std::vector<double> elastic;  ///< of the total, in each elastic body
+  double total = 0;             ///< time of the equations: assembling them, beginning and accepting steps
+  double forces = 0;            ///< part of `total` until all two-body forces are known, with costly ones in parallel
+  std::vector<double> force;    ///< time of each two-body force in its own thread
+  std::vector<double> elastic;  ///< part of `total` in each elastic body
 };
 
 }  // namespace hersey::mbd

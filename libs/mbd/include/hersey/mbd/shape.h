@@ -30,7 +30,7 @@ struct Capsule {
 };
 
 struct Box {
-  Pose X_BS;                       ///< of its centre and axes
+  Pose X_BS;                       ///< pose of its centre and axes
   Vector3 size = Vector3::Zero();  ///< whole edges, > 0
 };
 

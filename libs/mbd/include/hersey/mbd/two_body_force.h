@@ -31,7 +31,7 @@ struct ForceResponse {
   double summed = 0;
 
   Eigen::VectorXd Q;                                      ///< shape (amplitudes) [N m; N]
-  Eigen::Matrix<double, 6, Eigen::Dynamic> dW_ds, dW_dr;  ///< by amplitudes and by their rates
+  Eigen::Matrix<double, 6, Eigen::Dynamic> dW_ds, dW_dr;  ///< derivatives by amplitudes and by their rates
   Eigen::Matrix<double, Eigen::Dynamic, 6> dQ_dX, dQ_dV;
   Eigen::MatrixXd dQ_ds, dQ_dr;
 

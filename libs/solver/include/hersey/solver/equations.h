@@ -18,15 +18,15 @@ struct State {
   Eigen::VectorXd lambda;  ///< Lagrange multipliers, shape (nlambda)
 };
 
-/// How one Newton increment dx of positions moves the state: position by k dx, velocity by c dx, acceleration by m dx.
-/// The tangent asked for is  J = k K T + c C + m M,  bordered by the constraint Jacobian.
+/// Change of the state by one Newton increment dx of positions: position by k dx, velocity by c dx, acceleration by m
+/// dx. The tangent asked for is  J = k K T + c C + m M,  bordered by the constraint Jacobian.
 struct Stage {
   double dt = 0;            ///< length of the step being solved [s]; 0 asks for a steady or instantaneous evaluation
   double k = 1;             ///< d position / dx
   double c = 0;             ///< d velocity / dx
   double m = 0;             ///< d acceleration / dx
   Eigen::VectorXd dq = {};  ///< increment of position since the step's start, shape (nv) or empty: K acts on T(dq) dx
-  AlphaParameters parameters{};  ///< of the step being solved
+  AlphaParameters parameters{};  ///< parameters of the step being solved
   bool fresh = false;            ///< no step has been accepted since the last reset of the history
   /// True: inertia forces and all forces of elastic bodies are evaluated at the velocities given to begin_step and do
   /// not depend on c; only forces between bodies contribute damping (theory manual eq. (integrator.8)).
