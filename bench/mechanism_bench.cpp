@@ -33,7 +33,7 @@ template <class Watch>
 Cost run(Mechanism& mechanism, solver::State& state, double end, int steps, double spectral_radius, Watch watch) {
   Cost cost;
   const solver::InitialiseSummary start = solver::initialise(
-      mechanism, state, {.held = mechanism.given_coordinates(), .held_rates = mechanism.given_rates()});
+      mechanism, state, {.fixed = mechanism.given_coordinates(), .fixed_rates = mechanism.given_rates()});
   if (!start.solved()) {
     fmt::print("{}\n", start.message);
     return cost;

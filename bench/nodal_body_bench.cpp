@@ -65,7 +65,7 @@ Steps turn(const std::shared_ptr<mbd::ModalBody>& body, int steps) {
   const auto m = b.finalise();
   solver::State state = m->initial_state();
   const auto start = solver::initialise(
-      *m, state, {.held = m->given_coordinates(), .held_rates = m->given_rates(), .stiff = m->elastic_coordinates()});
+      *m, state, {.fixed = m->given_coordinates(), .fixed_rates = m->given_rates(), .stiff = m->elastic_coordinates()});
   if (!start.solved()) std::abort();
   solver::GeneralizedAlpha integrator;
   const auto step = [&] {

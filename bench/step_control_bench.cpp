@@ -103,7 +103,7 @@ class FourBars {
 
   FourBars() : mechanism_(mbd::test::four_bars(2)), state_(mechanism_->initial_state()) {
     const solver::InitialiseSummary start = solver::initialise(
-        *mechanism_, state_, {.held = mechanism_->given_coordinates(), .held_rates = mechanism_->given_rates()});
+        *mechanism_, state_, {.fixed = mechanism_->given_coordinates(), .fixed_rates = mechanism_->given_rates()});
     if (!start.solved()) throw std::runtime_error(start.message);
   }
 

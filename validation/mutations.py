@@ -123,7 +123,7 @@ FAULTS = [
     Fault("mbd: Coriolis force of a deforming body", "mbd/src/elastic/modal_body.cpp",
           "w.Omega * w.S + 2 * omega.cross(w.S_rate) + w.S_acc;", "w.Omega * w.S + omega.cross(w.S_rate) + w.S_acc;"),
     Fault("mbd: moment of a contact", "mbd/src/contact/contact.cpp",
-          "response.W_B_A.head<3>() += spot.position.cross(f);", "response.W_B_A.head<3>() -= spot.position.cross(f);"),
+          "response.W_B_A.head<3>() += point.position.cross(f);", "response.W_B_A.head<3>() -= point.position.cross(f);"),
     Fault("mbd: curvature of a coupling", "mbd/src/tree/coupling.cpp",
           "bias -= input.curvature(state) * v * v;", "bias += input.curvature(state) * v * v;"),
     # -- solver

@@ -21,7 +21,7 @@ int main() {
                      .initial = {0.1}});
   const auto mechanism = builder.finalise();
   solver::State state = mechanism->initial_state();
-  const auto start = solver::initialise(*mechanism, state, {.held = mechanism->given_coordinates()});
+  const auto start = solver::initialise(*mechanism, state, {.fixed = mechanism->given_coordinates()});
   if (!start.solved()) return std::fprintf(stderr, "%s\n", start.message.c_str()), 1;
   solver::GeneralizedAlpha integrator;
   const double period = 2 * M_PI * std::sqrt((I + m * l * l) / (m * 9.81 * l)), dt = period / 400;

@@ -63,7 +63,7 @@ struct Rig {
     mechanism = builder.finalise();
     state = mechanism->initial_state();
     const solver::InitialiseSummary summary = solver::initialise(
-        *mechanism, state, {.held = mechanism->given_coordinates(), .held_rates = mechanism->given_rates()});
+        *mechanism, state, {.fixed = mechanism->given_coordinates(), .fixed_rates = mechanism->given_rates()});
     REQUIRE_MESSAGE(summary.solved(), summary.message);
   }
 

@@ -8,7 +8,7 @@ namespace hersey {
 
 Archive::Group::Group(Archive& archive, std::string_view name) : archive_(archive), length_(archive.prefix_.size()) {
   std::string part(name);
-  std::replace(part.begin(), part.end(), '/', '|');  // a name that users gave is one step of the path
+  std::replace(part.begin(), part.end(), '/', '|');  // a name given by a user is one element of the path
   archive_.prefix_ += part + "/";
 }
 

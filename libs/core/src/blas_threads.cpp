@@ -1,6 +1,6 @@
 #include "hersey/core/blas_threads.h"
 
-// Of the BLAS and the OpenMP that the program happens to be linked with; null if it is another one.
+// Functions of the BLAS and OpenMP libraries with which the program is linked; null for those of other libraries.
 extern "C" {
 __attribute__((weak)) void openblas_set_num_threads(int threads);
 __attribute__((weak)) void MKL_Set_Num_Threads(int threads);

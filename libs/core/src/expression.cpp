@@ -44,11 +44,12 @@ void define_constants(mu::Parser& parser) {
   parser.DefineConst("e", 2.71828182845904523536);
 }
 
-/// muParser's messages without its own "at position n", and its positions held inside the expression.
+/// Converts muParser's errors: removes "at position n" from the message and limits the position to the expression.
 ExpressionError translated(const mu::Parser::exception_type& error, const std::string& expression) {
   const std::string token = error.GetToken();
   const int length = static_cast<int>(expression.size());
-  // muParser points behind the token or beyond the end for some errors; where the token can be found, point at it.
+  // For some errors muParser returns a position behind the token or beyond the end; use that of the token if it can be
+  // found.
   int position = error.GetPos();
   if (!token.empty()) {
     const auto last = expression.rfind(token, static_cast<std::size_t>(std::clamp(position, 0, length)));
@@ -96,7 +97,7 @@ std::vector<std::string> variables_of(const std::string& expression) {
   return names;
 }
 
-/// muParser evaluates in buffers of its own and reads the variables from fixed places: one evaluation at a time.
+/// muParser evaluates in its own buffers and reads the variables from fixed addresses; hence one evaluation at a time.
 struct ExpressionFunction::Parser {
   mu::Parser parser;
   std::vector<double> arguments;

@@ -15,7 +15,7 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t), "the header names HDF5's id
 
 constexpr int kDeepest = 32;
 constexpr double kMostCompressed = 2000;  // deflate makes at most 1032 bytes of one
-constexpr double kSmall = 1 << 20;        // [bytes] of which nobody minds
+constexpr double kSmall = 1 << 20;        // [bytes] always accepted
 
 class Identifier {
  public:
@@ -41,7 +41,7 @@ herr_t collect(hid_t, const char* name, const H5L_info_t* info, void* links) {
   return 0;
 }
 
-/// Goes through all objects below a group.
+/// Visits all objects below a group.
 class Survey {
  public:
   explicit Survey(double file_size) : file_size_(file_size) {}
@@ -66,7 +66,7 @@ class Survey {
       return fmt::format("an object that cannot be read: '{}'", path);
     if (info.type == H5O_TYPE_DATASET) return of_data(object.get(), path);
     if (info.type != H5O_TYPE_GROUP) return {};
-    // A group of two names may lie within itself.
+    // A group with two names may contain itself.
     if (info.rc > 1) return fmt::format("a group that has another name, too: '{}'", path);
     return of_group(object.get(), path, depth + 1);
   }
@@ -75,7 +75,7 @@ class Survey {
     const Identifier space(H5Dget_space(data)), type(H5Dget_type(data)), made(H5Dget_create_plist(data));
     if (H5Pget_external_count(made.get()) != 0 || H5Pget_layout(made.get()) == H5D_VIRTUAL)
       return fmt::format("a data set whose numbers lie in another file: '{}'", path);
-    // As a product of doubles: that of whole numbers may overflow.
+    // The product of integers may overflow; that of doubles does not.
     std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.get()), 0)));
     if (!shape.empty()) H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
     double bytes = static_cast<double>(H5Tget_size(type.get()));

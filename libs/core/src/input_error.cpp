@@ -6,14 +6,14 @@
 namespace hersey {
 namespace {
 
-// As many as somebody reads.
-constexpr std::size_t kMostTold = 100;
+// Largest number of faults that are listed.
+constexpr std::size_t kMostListed = 100;
 
 std::string join(const std::vector<Fault>& faults) {
   std::string text;
-  const std::size_t told = std::min(faults.size(), kMostTold);
-  for (std::size_t i = 0; i < told; ++i) text += (i > 0 ? "\n" : "") + faults[i].text();
-  if (told < faults.size()) text += "\nand " + std::to_string(faults.size() - told) + " more faults";
+  const std::size_t listed = std::min(faults.size(), kMostListed);
+  for (std::size_t i = 0; i < listed; ++i) text += (i > 0 ? "\n" : "") + faults[i].text();
+  if (listed < faults.size()) text += "\nand " + std::to_string(faults.size() - listed) + " more faults";
   return text;
 }
 
@@ -27,7 +27,7 @@ std::string Fault::text() const {
   if (!text.empty()) text += " ";
   if (!path.empty()) text += path + ": ";
   text += found;
-  // A name that was likely meant comes before a list, however long, of all that would do.
+  // A suggested name precedes the list of allowed values, which may be long.
   const bool is_name = suggestion.starts_with("did you mean ") && suggestion.ends_with('?');
   if (is_name) text += "; " + suggestion;
   if (!expected.empty()) text += (is_name ? " expected " : "; expected ") + expected;

@@ -9,18 +9,18 @@
 namespace hersey {
 namespace {
 
-constexpr int kDeepestFormula = 100;  // parentheses and signs inside each other
+constexpr int kDeepestFormula = 100;  // largest depth of nested parentheses and signs
 constexpr const char* kExpected = "numbers with units, + - * / ^ and parentheses";
 
 bool is_digit(char c) { return '0' <= c && c <= '9'; }
-/// Letters of any alphabet (µ, °, Å are several bytes of UTF-8) and the percent sign.
+/// True for letters of any alphabet (µ, °, Å are several bytes of UTF-8) and the percent sign.
 bool is_letter(char c) {
   return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || c == '_' || c == '%' ||
          static_cast<unsigned char>(c) >= 128;
 }
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-/// Recursive descent, one method per rank of operators.
+/// Parser by recursive descent with one method per precedence of operators.
 class Formula {
  public:
   explicit Formula(std::string_view text) : text_(text) {}
@@ -102,7 +102,7 @@ class Formula {
     return finite(value);
   }
 
-  /// The unit at hand, empty where there is none. See the header for how far it reaches.
+  /// Reads the unit at the present position, empty if there is none. The header defines where a unit ends.
   std::string take_unit() {
     const char first = next();
     const bool is_inverse =
@@ -115,7 +115,7 @@ class Formula {
     return std::string(text_.substr(begin, at_ - begin));
   }
 
-  /// Goes on over what belongs to a unit, or returns false.
+  /// Advances over the next part of a unit; returns false if there is none.
   bool continue_unit() {
     const char c = text_[at_];
     if (is_letter(c) || is_digit(c)) return ++at_, true;
@@ -137,7 +137,7 @@ class Formula {
     return false;
   }
 
-  /// W/(m.K): a group of units in the denominator.
+  /// Advances over a group of units in the denominator, as in W/(m.K).
   bool take_group(std::size_t open) {
     if (open + 1 >= text_.size() || text_[open] != '(' || !is_letter(text_[open + 1])) return false;
     const std::size_t close = text_.find(')', open);
@@ -156,7 +156,7 @@ class Formula {
     while (at_ < text_.size() && is_space(text_[at_])) ++at_;
   }
 
-  /// The next character that is no space; 0 at the end.
+  /// Returns the next character that is no space; 0 at the end.
   char next() {
     skip_spaces();
     return at_ < text_.size() ? text_[at_] : '\0';
@@ -190,14 +190,14 @@ class Formula {
   int depth_ = 0;
 };
 
-/// Whether a word opens the next formula of a row: a unit, or an operator that hangs on, does not.
+/// True if a word begins the next formula of a row; a unit or an operator continues the present one.
 bool opens_formula(std::string_view word) {
   const bool is_inverse_unit = word.size() > 2 && word.starts_with("1/") && is_letter(word[2]);
   const char first = word.front();
   return !is_inverse_unit && (is_digit(first) || first == '.' || first == '(' || first == '+' || first == '-');
 }
 
-/// Splits at spaces outside of parentheses, words that open no formula staying with the one before.
+/// Splits at spaces outside of parentheses; words that begin no formula belong to the one before.
 std::vector<std::string> split_formulas(std::string_view text) {
   std::vector<std::string> formulas;
   for (std::size_t at = 0; at < text.size();) {

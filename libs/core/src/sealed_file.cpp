@@ -22,7 +22,7 @@ std::string line(std::uint64_t length, std::uint64_t checksum) {
   return fmt::format("{}{:016x} {:016x}\n", kBegin, length, checksum);
 }
 
-/// Checksum of the first `length` bytes; none where there are fewer.
+/// Returns the checksum of the first `length` bytes; nothing if the file is shorter.
 std::optional<std::uint64_t> checksum_of(std::ifstream& file, std::uint64_t length) {
   std::vector<char> block(kBlock);
   std::uint64_t checksum = 0;
@@ -55,7 +55,7 @@ void seal_file(const std::filesystem::path& path) {
 
 Seal check_seal(const std::filesystem::path& path) {
   std::error_code error;
-  // A pipe would be waited for as soon as it is opened.
+  // Opening a pipe would block.
   if (!std::filesystem::is_regular_file(path, error)) return Seal::none;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   std::ifstream file(path, std::ios::binary);

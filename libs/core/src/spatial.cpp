@@ -5,7 +5,7 @@
 namespace hersey {
 namespace {
 
-// (1 - cos a)/a^2 and (a - sin a)/a^3 by their series where the closed forms lose digits.
+// Returns (1 - cos a)/a^2 and (a - sin a)/a^3, by their series where the closed forms lose digits.
 double versine_ratio(double a) { return a < 1e-3 ? 0.5 - a * a / 24.0 : (1.0 - std::cos(a)) / (a * a); }
 double sine_defect_ratio(double a) {
   return a < 1e-2 ? 1.0 / 6.0 - a * a / 120.0 + a * a * a * a / 5040.0 : (a - std::sin(a)) / (a * a * a);

@@ -11,7 +11,7 @@ char lower(char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + '
 }  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
-  // d[i][j]: distance of the first i letters of a to the first j of b; three rows suffice.
+  // d[i][j] is the distance between the first i letters of a and the first j of b; three rows suffice.
   const std::size_t n = b.size();
   std::vector<int> two_above(n + 1), above(n + 1), row(n + 1);
   for (std::size_t j = 0; j <= n; ++j) above[j] = static_cast<int>(j);
@@ -37,7 +37,7 @@ std::string nearest_name(std::string_view word, std::span<const std::string> can
   };
   for (const std::string& candidate : candidates) {
     const int distance = edit_distance(word, candidate);
-    // Of two equally near names the one as long as the word: a slip of the finger is likelier than a lost letter.
+    // Among equally near names prefer one of the same length: a mistyped letter is more likely than a missing one.
     const bool is_nearer = distance < least || (distance == least && !best.empty() &&
                                                 length_difference(candidate) < length_difference(best));
     if (is_nearer) least = distance, best = candidate;

@@ -13,7 +13,7 @@ namespace {
 constexpr int cubic = 3;
 using Four = std::array<double, 4>;
 
-/// The uniform cubic B-splines that live between two knots, at s = 0..1 between them, with their derivatives by s.
+/// Uniform cubic B-splines that are not zero between two knots, at s = 0..1 between them, and their derivatives by s.
 struct CubicPieces {
   Four value, slope, curvature;
 };
@@ -25,8 +25,8 @@ CubicPieces cubic_pieces(double s) {
           .curvature = {t, 3 * s - 2, 3 * t - 2, s}};
 }
 
-/// B-splines of `degree` on uniform knots in [0, intervals] whose end knots are repeated, by the recurrence of Cox and
-/// de Boor: those of the interval that x lies in, the first of them being function number `first`.
+/// B-splines of `degree` on uniform knots in [0, intervals] with repeated end knots, by the recurrence of Cox and de
+/// Boor: those that are not zero in the interval of x; the first of them has the index `first`.
 struct ClampedPieces {
   int first = 0;
   Four value{};
@@ -62,8 +62,8 @@ SurfaceFunctions::SurfaceFunctions(int around, int along, double width)
 
 void SurfaceFunctions::at(double phi, double z, std::vector<SurfaceTerm>& terms) const {
   const double per_angle = around_ / (2 * std::numbers::pi);
-  const double turns = phi / (2 * std::numbers::pi);
-  const double u = (turns - std::floor(turns)) * around_;
+  const double revolutions = phi / (2 * std::numbers::pi);
+  const double u = (revolutions - std::floor(revolutions)) * around_;
   const int interval = std::min(static_cast<int>(u), around_ - 1);
   const CubicPieces on_circle = cubic_pieces(u - interval);
 
@@ -76,8 +76,8 @@ void SurfaceFunctions::at(double phi, double z, std::vector<SurfaceTerm>& terms)
     if (along == 0) continue;
     for (int i = 0; i <= cubic; ++i) {
       const auto piece = static_cast<std::size_t>(i);
-      const int place = (interval - 1 + i + around_) % around_;
-      terms.push_back({.index = (on_axis.first + k) * around_ + place,
+      const int column = (interval - 1 + i + around_) % around_;
+      terms.push_back({.index = (on_axis.first + k) * around_ + column,
                        .value = on_circle.value[piece] * along,
                        .by_phi = on_circle.slope[piece] * along * per_angle,
                        .by_phi_phi = on_circle.curvature[piece] * along * per_angle * per_angle});

@@ -14,15 +14,15 @@ std::string text_of(double x) {
   return buffer.data();
 }
 
-/// Slope at a point between intervals of widths h0, h1 and secants d0, d1: 0 at an extremum, else the weighted harmonic
-/// mean, which is at most three times the smaller secant and so keeps the cubics monotone.
+/// Returns the slope at a point between intervals of widths h0, h1 and secants d0, d1: 0 at an extremum, otherwise the
+/// weighted harmonic mean, which is at most three times the smaller secant, so that the cubics are monotone.
 double monotone_slope(double h0, double d0, double h1, double d1) {
   if (d0 * d1 <= 0) return 0;
   const double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
   return (w0 + w1) / (w0 / d0 + w1 / d1);
 }
 
-/// One-sided three-point slope at an end, limited so that the first cubic stays monotone.
+/// Returns the one-sided three-point slope at an end, limited so that the first cubic is monotone.
 double end_slope(double h0, double d0, double h1, double d1) {
   const double slope = ((2 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
   if (slope * d0 <= 0) return 0;
@@ -48,7 +48,7 @@ TableFunction::TableFunction(std::vector<double> x, std::vector<double> y, const
 
 void TableFunction::close_period() {
   const double missing = options_.period - (x_.back() - x_.front());
-  const double round_off = 1e-9 * options_.period;  // of converted units, not of the table's author
+  const double round_off = 1e-9 * options_.period;  // round-off of the conversion of units
   HERSEY_REQUIRE(missing >= -round_off, "a periodic table spans at most its period");
   if (missing > round_off) {
     x_.push_back(x_.front() + options_.period);
@@ -83,8 +83,8 @@ void TableFunction::find_slopes() {
 
 double TableFunction::into_range(double x) const {
   if (is_periodic()) {
-    const double turns = std::floor((x - lower()) / options_.period);
-    return std::clamp(x - turns * options_.period, lower(), upper());
+    const double periods = std::floor((x - lower()) / options_.period);
+    return std::clamp(x - periods * options_.period, lower(), upper());
   }
   if (!covers(x, x)) {
     throw TableRangeError("the table covers " + text_of(lower()) + " to " + text_of(upper()) + " but was asked for " +
@@ -94,7 +94,7 @@ double TableFunction::into_range(double x) const {
 }
 
 bool TableFunction::covers(double lo, double hi) const {
-  // The last time of a run is a sum of steps: allow it round-off beyond the table's end, no more.
+  // The last time of a run is a sum of steps: it may exceed the table's end by round-off, but no more.
   const double slack = 1e-9 * (upper() - lower());
   return is_periodic() || (lower() - slack <= lo && hi <= upper() + slack);
 }
@@ -107,9 +107,9 @@ std::vector<double> TableFunction::kinks(double lo, double hi) const {
   const auto secant = [&](std::size_t i) { return (y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i]); };
   const double first = is_periodic() ? std::floor((lo - lower()) / options_.period) : 0;
   const double last = is_periodic() ? std::floor((hi - lower()) / options_.period) : 0;
-  for (double turn = first; turn <= last; ++turn) {
+  for (double period = first; period <= last; ++period) {
     for (std::size_t i = is_periodic() ? 0 : 1; i + 1 < n; ++i) {
-      const double x = x_[i] + turn * (is_periodic() ? options_.period : 0);
+      const double x = x_[i] + period * (is_periodic() ? options_.period : 0);
       const bool bends = secant(i) != secant(i == 0 ? n - 2 : i - 1);
       if (bends && lo + slack < x && x < hi - slack) found.push_back(x);
     }

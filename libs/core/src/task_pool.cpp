@@ -23,11 +23,11 @@ int available_processors() {
 
 namespace {
 
-/// What one call of run() hands out.
+/// Parts of one call of run().
 struct Batch {
   const std::function<void(std::size_t)>* part = nullptr;
   std::size_t count = 0;
-  std::size_t next = 0;  ///< first part that no one has taken
+  std::size_t next = 0;  ///< first part that no thread has taken
   std::size_t done = 0;
   std::exception_ptr error;
   std::condition_variable finished;
@@ -36,19 +36,19 @@ struct Batch {
 }  // namespace
 
 struct TaskPool::Impl {
-  mutable std::mutex mutex;  // of everything here
+  mutable std::mutex mutex;  // protects all members
   std::condition_variable work;
   int threads = 1;
-  int own = 0;   // threads that work by themselves
-  int busy = 0;  // workers at a part
+  int own = 0;   // number of threads that work independently
+  int busy = 0;  // number of workers that execute a part
   bool ends = false;
-  std::deque<Batch*> batches;  // with parts left
+  std::deque<Batch*> batches;  // batches with parts that no thread has taken
   std::vector<std::thread> workers;
 
   /// The caller of run() works as well.
   [[nodiscard]] int helpers() const { return threads - std::max(own, 1); }
 
-  /// Takes a part of `batch` and does it, without the lock.
+  /// Takes a part of `batch` and executes it without the lock.
   void do_part(Batch& batch, std::unique_lock<std::mutex>& lock) {
     const std::size_t i = batch.next++;
     if (batch.next == batch.count) batches.erase(std::find(batches.begin(), batches.end(), &batch));
@@ -83,7 +83,7 @@ struct TaskPool::Impl {
     lock.unlock();
     for (std::size_t i = 1; i < count; ++i) work.notify_one();
     lock.lock();
-    while (batch.next < batch.count) do_part(batch, lock);  // workers go on with what is left
+    while (batch.next < batch.count) do_part(batch, lock);  // workers continue with the remaining parts
     batch.finished.wait(lock, [&] { return batch.done == batch.count; });
     if (batch.error) std::rethrow_exception(batch.error);
   }

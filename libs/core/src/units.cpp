@@ -17,8 +17,8 @@
 #include "hersey/core/spelling.h"
 #include "hersey/core/unit_database.h"
 
-// All zeros, which is PTHREAD_MUTEX_INITIALIZER of Linux; only an assembler can make a symbol that is unique in the
-// process, whichever compiler is used.
+// All zeros, which is PTHREAD_MUTEX_INITIALIZER on Linux. Only the assembler can define a symbol that is unique in the
+// process with every compiler.
 extern "C" pthread_mutex_t hersey_udunits2_lock;
 static_assert(sizeof(pthread_mutex_t) <= 64);
 __asm__(
@@ -40,8 +40,8 @@ std::string_view trimmed(std::string_view text) {
 
 constexpr const char* kInstalled = "/usr/share/xml/udunits/udunits2.xml";
 
-/// Copies of this library in one process, of two FMUs say, share udunits2, which is not made for several threads:
-/// hence one lock for all of them, a symbol that the loader binds to the same address everywhere.
+/// Several copies of this library in one process, for example those of two FMUs, share udunits2, which does not support
+/// threads. They therefore share one lock: a symbol that the loader binds to the same address in all copies.
 class ProcessLock {
  public:
   void lock() { ::pthread_mutex_lock(&hersey_udunits2_lock); }
@@ -55,8 +55,8 @@ struct UnitDeleter {
 };
 using Unit = std::unique_ptr<ut_unit, UnitDeleter>;
 
-/// The one unit system of this copy of the library. udunits2 keeps its state and its last error in globals, hence the
-/// lock that every use holds.
+/// Unit system of this copy of the library. Every use holds the lock, because udunits2 keeps its state and its last
+/// error in global variables.
 class UnitSystem {
  public:
   UnitSystem() {
@@ -67,7 +67,7 @@ class UnitSystem {
           "the unit database of udunits2 cannot be read: install libudunits2-data, or set UDUNITS2_XML_PATH to its "
           "udunits2.xml");
     }
-    // Spellings of this field that the database lacks.
+    // Spellings usual in this field that the database lacks.
     add("deg", "arc_degree");
     add("rev", "turn");
     add("cP", "0.01 poise");
@@ -77,7 +77,7 @@ class UnitSystem {
 
   [[nodiscard]] Unit parse(const std::string& text) const { return Unit(ut_parse(system_, text.c_str(), UT_UTF8)); }
 
-  /// A unit as users write it: udunits2 also takes "3 mm" and "-4 mm" for units, where a number has slipped in.
+  /// Parses a unit as users write it. udunits2 would also accept "3 mm" and "-4 mm" as units, which contain a number.
   [[nodiscard]] Unit parse_written(const std::string& text) const {
     const bool begins_as_number = text.find_first_of("+-.0123456789") == 0;
     if (begins_as_number && text != "1" && !text.starts_with("1/")) return nullptr;
@@ -89,7 +89,8 @@ class UnitSystem {
     return of_process;
   }
 
-  /// The database that is given, else that of the environment, else that of the installation; see unit_database.h.
+  /// Returns the database given, otherwise that of the environment, otherwise that of the installation; see
+  /// unit_database.h.
   static std::vector<std::filesystem::path> candidates() {
     std::vector<std::filesystem::path> files;
     if (!given().empty()) files.push_back(given());
@@ -110,7 +111,7 @@ class UnitSystem {
     return file;
   }
 
-  /// Call with the lock held. Lives as long as the process: freeing at exit gains nothing.
+  /// Call with the lock held. The system exists until the process ends, since releasing it at exit has no benefit.
   static const UnitSystem& instance() {
     static const UnitSystem system;
     return system;
@@ -123,7 +124,7 @@ class UnitSystem {
       in_use() = file;
       return;
     }
-    system_ = ut_read_xml(nullptr);  // wherever another installation of udunits2 keeps it
+    system_ = ut_read_xml(nullptr);  // path compiled into another installation of udunits2
   }
 
   void add(const char* symbol, const char* meaning) {
@@ -135,8 +136,9 @@ class UnitSystem {
   ut_system* system_ = nullptr;
 };
 
-/// The base units of `unit`, "m.kg.s-2.rad", without factor and offset. Two units measure the same where these texts
-/// agree; udunits2's own test also accepts reciprocals (50 Hz for a time) and takes the radian for 1.
+/// Returns the base units of `unit`, such as "m.kg.s-2.rad", without factor and offset. Two units have the same
+/// dimension if these texts are equal; udunits2's own test also accepts reciprocals (50 Hz for a time) and takes the
+/// radian for 1.
 std::string base_units(const ut_unit* unit) {
   std::array<char, 256> buffer{};
   const int length = ut_format(unit, buffer.data(), buffer.size(), UT_ASCII | UT_DEFINITION);
@@ -154,14 +156,14 @@ bool measure_the_same(const ut_unit* given, const ut_unit* wanted) {
   return ut_are_convertible(given, wanted) != 0 && base_units(given) == base_units(wanted);
 }
 
-/// A torsional stiffness per radian is commonly written N.m: the radian may be left out there, and nowhere else.
+/// A torsional stiffness per radian is commonly written N.m: the radian may be omitted there and nowhere else.
 bool is_accepted(const ut_unit* given, const ut_unit* wanted, std::string_view si_unit) {
   if (measure_the_same(given, wanted)) return true;
   const bool torsional = si_unit == "N.m/rad" || si_unit == "N.m.s/rad";
   return torsional && base_units(given) + ".rad-1" == base_units(wanted);
 }
 
-/// "a pressure (kPa)", or "a quantity in xyz" for dimensions without a name here.
+/// Returns "a pressure (kPa)", or "a quantity in xyz" for dimensions without a name in `dimensions()`.
 std::string name_of(const UnitSystem& system, const ut_unit* unit, const std::string& text) {
   for (const Dimension& dimension : dimensions()) {
     if (measure_the_same(unit, system.parse(dimension.si_unit).get())) return dimension.name + " (" + text + ")";
@@ -169,7 +171,7 @@ std::string name_of(const UnitSystem& system, const ut_unit* unit, const std::st
   return "a quantity in " + text;
 }
 
-/// A unit as a factor: known, and zero where its quantity is.
+/// Returns a unit that may be a factor: it is known and has no offset.
 Unit factor_unit(const UnitSystem& system, const std::string& text) {
   Unit unit = text.empty() ? system.parse("1") : system.parse_written(text);
   if (!unit) throw QuantityError("unknown unit " + in_quotes(text), "a unit such as mm or N/mm^2");
@@ -201,7 +203,7 @@ std::string expectation_of_several(const Dimension& dimension, int count) {
 }
 
 /// Reads one number at the front of `text` and removes it; a digit group that belongs to a unit (the 1 of "1/Pa") is
-/// left alone. Returns false where no number stands.
+/// left alone. Returns false if there is no number.
 bool take_number(std::string_view& text, double& number) {
   std::string_view rest = trimmed(text);
   if (rest.starts_with('+') && !rest.starts_with("+-")) rest.remove_prefix(1);
@@ -217,14 +219,14 @@ void require_finite(double number, std::string_view text) {
   if (!std::isfinite(number)) throw QuantityError(in_quotes(text), "a finite number");
 }
 
-/// "1e+308 m": a value and its unit for messages.
+/// Returns a value and its unit for messages, such as "1e+308 m".
 std::string shown(double value, const std::string& unit) {
   std::array<char, 48> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "%g", value);
   return unit == "1" ? buffer.data() : buffer.data() + (" " + unit);
 }
 
-/// A value beyond what any machine has is a slip, and what is computed from it overflows or never ends.
+/// A value larger than in any machine is taken for a mistake: computations with it overflow or do not end.
 void require_meant(double value, const Dimension& dimension) {
   const double size = std::abs(value);
   if (value == 0 || (size >= smallest_quantity && size <= dimension.largest)) return;
@@ -243,7 +245,7 @@ void reject_decimal_comma(std::string_view unit, std::string_view text) {
   throw QuantityError(in_quotes(text), "a decimal point", "write " + remedy);
 }
 
-/// Takes the words of a unit off the front of `text`, up to the next number.
+/// Removes the words of a unit from the front of `text`, up to the next number.
 std::string take_unit(std::string_view& text) {
   std::string unit;
   bool may_be_number = text.empty() || text.front() == ' ' || text.front() == '\t';
@@ -259,7 +261,7 @@ std::string take_unit(std::string_view& text) {
 }
 
 /// Splits "0 -2500 N 0 N" or "0 48 0 mm" into numbers with units; a number without unit takes the next one given.
-/// @throws QuantityError unless the text is `count` finite numbers; `expected` is what to say then.
+/// @throws QuantityError unless the text is `count` finite numbers; `expected` is the second part of its message.
 std::vector<Quantity> split_quantities(std::string_view given, int count, const std::string& expected) {
   const std::string_view text = trimmed(given);
   std::vector<Quantity> parts;
@@ -410,7 +412,8 @@ double convert(const Quantity& quantity, const std::string& unit) {
 
 namespace {
 
-/// The SI units of `dimensions()` by the text of their base units; of two that measure the same the later, 1/s for Hz.
+/// Returns the SI units of `dimensions()` by the text of their base units; of two units of the same dimension the later
+/// one, 1/s for Hz.
 std::map<std::string, std::string> si_units_by_base(const UnitSystem& system) {
   std::map<std::string, std::string> spelled;
   for (const Dimension& dimension : dimensions()) {
@@ -419,7 +422,8 @@ std::map<std::string, std::string> si_units_by_base(const UnitSystem& system) {
   return spelled;
 }
 
-/// `number` in `unit`, in the SI unit of its dimension, or in base units where the dimension has no name here.
+/// Converts `number` in `unit` to the SI unit of its dimension, or to base units if the dimension has no name in
+/// `dimensions()`.
 Quantity in_si_units(const UnitSystem& system, double number, const Unit& unit) {
   if (!unit) throw QuantityError("units that do not multiply", "units such as mm or N/mm^2");
   const std::string base = base_units(unit.get());

@@ -9,10 +9,10 @@ thread_local const char* current = nullptr;
 
 const char* untrusted_file() { return current; }
 
-DoubtfulFile::DoubtfulFile(const char* path) : before_(current) {
+UntrustedFile::UntrustedFile(const char* path) : before_(current) {
   if (path != nullptr) current = path;
 }
 
-DoubtfulFile::~DoubtfulFile() { current = before_; }
+UntrustedFile::~UntrustedFile() { current = before_; }
 
 }  // namespace hersey

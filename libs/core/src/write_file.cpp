@@ -24,8 +24,8 @@ void write_file(const std::filesystem::path& path, std::initializer_list<std::st
     if (!write(path, parts)) throw std::runtime_error(std::strerror(errno));
     return;
   }
-  const std::filesystem::path place = std::filesystem::weakly_canonical(path, error);
-  const std::filesystem::path end = error ? path : place;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
+  const std::filesystem::path end = error ? path : target;
   std::filesystem::path unfinished = end;
   unfinished += ".new";
   if (!write(unfinished, parts)) {

@@ -15,7 +15,7 @@ namespace error_text_test {
 
 void divide(int by) { HERSEY_REQUIRE(by != 0, "a divisor"); }
 
-std::string told_of(const std::function<void()>& what) {
+std::string text_of(const std::function<void()>& what) {
   try {
     what();
   } catch (const std::exception& error) {
@@ -26,8 +26,8 @@ std::string told_of(const std::function<void()>& what) {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST_CASE("ErrorText_OfABugIsARequestAndAPlaceOfItsOwnLine") {
-  const std::string text = told_of([] { divide(0); });
+TEST_CASE("ErrorText_OfABugIsARequestAndALocationOnItsOwnLine") {
+  const std::string text = text_of([] { divide(0); });
   const std::size_t end = text.find('\n');
   REQUIRE(end != std::string::npos);
   CHECK(text.substr(0, end) == "internal error, please report it with the model and the next line");
@@ -38,13 +38,13 @@ TEST_CASE("ErrorText_OfABugIsARequestAndAPlaceOfItsOwnLine") {
 
 TEST_CASE("ErrorText_OfTheStandardLibrarysComplaintsIsOfABugToo") {
   const std::map<int, int> none;
-  CHECK(told_of([&] { (void)none.at(3); }).starts_with("internal error, please report it"));
-  CHECK(told_of([] { throw std::bad_function_call(); }).starts_with("internal error, please report it"));
+  CHECK(text_of([&] { (void)none.at(3); }).starts_with("internal error, please report it"));
+  CHECK(text_of([] { throw std::bad_function_call(); }).starts_with("internal error, please report it"));
 }
 
 TEST_CASE("ErrorText_OfWhatIsKnownToGoWrongIsItsOwn") {
-  CHECK(told_of([] { throw std::runtime_error("no convergence"); }) == "no convergence");
-  CHECK(told_of([] { throw std::bad_alloc(); }) == "the machine's memory does not suffice");
+  CHECK(text_of([] { throw std::runtime_error("no convergence"); }) == "no convergence");
+  CHECK(text_of([] { throw std::bad_alloc(); }) == "the machine's memory does not suffice");
 }
 
 }  // namespace error_text_test

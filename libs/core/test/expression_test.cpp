@@ -96,7 +96,7 @@ TEST_CASE("Derivative_RespectsKinks") {
   CHECK(std::isnan(slope("1/t", 0)));
 }
 
-TEST_CASE("SyntaxErrors_ArePlaced") {
+TEST_CASE("SyntaxErrors_HaveTheirPosition") {
   const ExpressionError name = error_of("100*sim(t)");
   CHECK(std::string(name.what()) == "unknown name 'sim'");
   CHECK(name.position == 4);

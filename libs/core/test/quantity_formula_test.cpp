@@ -16,7 +16,7 @@ bool is(const std::string& formula, const std::string& si_unit, double value) {
   return std::abs(convert_to_si(evaluate_formula(formula), si_unit) - value) <= 8 * eps * std::abs(value);
 }
 
-std::string trouble(const std::string& formula) {
+std::string error_of(const std::string& formula) {
   try {
     (void)evaluate_formula(formula);
   } catch (const QuantityError& error) {
@@ -72,20 +72,21 @@ TEST_CASE("Rows_AreSplitAtSpaces") {
   CHECK_THROWS_AS((void)evaluate_formulas("0 1", 3), QuantityError);
 }
 
-TEST_CASE("WhatIsNoFormula_IsTold") {
-  CHECK(trouble("(3 mm") == "found '(3 mm'; expected numbers with units, + - * / ^ and parentheses");
-  CHECK(trouble("2*t").starts_with("found '2*t'"));
-  CHECK(trouble("").starts_with("found ''"));
-  CHECK(trouble("1 2").starts_with("found '1 2'"));
-  CHECK(trouble("(3 mm) + (2 s)").starts_with("found a time (s); expected a length (mm)"));
-  CHECK(trouble("3 mm + 2").starts_with("found "));
-  CHECK(trouble("2*(60 degC)") == "found 'degC' in arithmetic; expected a unit whose zero is zero, such as K for degC");
-  CHECK(trouble("2^(3 mm)").starts_with("found an exponent with the unit 'mm'"));
-  CHECK(trouble("(3 mm)^0.5").starts_with("found the power 0.5"));
-  CHECK(trouble("1/0").starts_with("found a value beyond all numbers"));
-  CHECK(trouble("2*(3 mmm)").starts_with("found unknown unit 'mmm'"));
-  CHECK(trouble(std::string(5000, '(')).starts_with("found '(((("));
-  CHECK(trouble(std::string(5000, '-') + "1").starts_with("found '----"));
+TEST_CASE("InvalidFormula_IsReported") {
+  CHECK(error_of("(3 mm") == "found '(3 mm'; expected numbers with units, + - * / ^ and parentheses");
+  CHECK(error_of("2*t").starts_with("found '2*t'"));
+  CHECK(error_of("").starts_with("found ''"));
+  CHECK(error_of("1 2").starts_with("found '1 2'"));
+  CHECK(error_of("(3 mm) + (2 s)").starts_with("found a time (s); expected a length (mm)"));
+  CHECK(error_of("3 mm + 2").starts_with("found "));
+  CHECK(error_of("2*(60 degC)") ==
+        "found 'degC' in arithmetic; expected a unit whose zero is zero, such as K for degC");
+  CHECK(error_of("2^(3 mm)").starts_with("found an exponent with the unit 'mm'"));
+  CHECK(error_of("(3 mm)^0.5").starts_with("found the power 0.5"));
+  CHECK(error_of("1/0").starts_with("found a value beyond all numbers"));
+  CHECK(error_of("2*(3 mmm)").starts_with("found unknown unit 'mmm'"));
+  CHECK(error_of(std::string(5000, '(')).starts_with("found '(((("));
+  CHECK(error_of(std::string(5000, '-') + "1").starts_with("found '----"));
 }
 
 }  // namespace quantity_formula_test

@@ -46,11 +46,11 @@ TEST_CASE("ASealedFile_IsIntact_AndItsBytesAreAsTheyWere") {
 
 TEST_CASE("AnyBitThatFlips_BreaksTheSeal_OrIsInTheSealItself") {
   const TemporaryDirectory folder;
-  const std::string bytes = "forty-two bytes of which one bit is turned", sealed = bytes + seal_of(bytes);
+  const std::string bytes = "forty-two bytes of which one bit is flipped", sealed = bytes + seal_of(bytes);
   for (std::size_t bit = 0; bit < 8 * sealed.size(); ++bit) {
-    std::string turned = sealed;
-    turned[bit / 8] = static_cast<char>(turned[bit / 8] ^ (1 << (bit % 8)));
-    write(folder / "a", turned);
+    std::string flipped = sealed;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+    write(folder / "a", flipped);
     const Seal seal = check_seal(folder / "a");
     CHECK(seal != Seal::intact);
     if (bit < 8 * bytes.size()) CHECK(seal == Seal::broken);

@@ -59,24 +59,24 @@ TEST_CASE("SurfaceFunctions_AddUpToOne") {
 TEST_CASE("SurfaceFunctions_DerivativesMatchFiniteDifferences") {
   for (const auto& [around, along] : sizes) {
     const SurfaceFunctions functions(around, along, width);
-    const double h = 1e-5, turn = around / (2 * pi);
+    const double h = 1e-5, functions_per_rad = around / (2 * pi);
     for (const double phi : {-3.0, -0.01, 0.4, 2.0, 6.2})
       for (const double z : {-0.009, 0.0013, 0.0099}) {
         const std::vector<SurfaceTerm> here = all_at(functions, phi, z);
         const std::vector<SurfaceTerm> before = all_at(functions, phi - h, z), after = all_at(functions, phi + h, z);
         for (std::size_t j = 0; j < here.size(); ++j) {
-          // Central differences of a cubic: h^2 / 6 times its third derivative, at most 3 turn^3; of its slope they
-          // are exact within a piece.
-          const double error = h * h * turn * turn * turn;
+          // Central differences of a cubic: h^2 / 6 times its third derivative, at most 3 functions_per_rad^3; of its
+          // slope they are exact within a piece.
+          const double error = h * h * functions_per_rad * functions_per_rad * functions_per_rad;
           CHECK(std::abs((after[j].value - before[j].value) / (2 * h) - here[j].by_phi) < error + 4 * eps / h);
           CHECK(std::abs((after[j].by_phi - before[j].by_phi) / (2 * h) - here[j].by_phi_phi) <
-                h * turn * turn * turn * 3 + 8 * turn * eps / h);
+                h * functions_per_rad * functions_per_rad * functions_per_rad * 3 + 8 * functions_per_rad * eps / h);
         }
       }
   }
 }
 
-TEST_CASE("SurfaceFunctions_GoOnBeyondOneTurn_StopAtTheEnds") {
+TEST_CASE("SurfaceFunctions_ArePeriodicAround_EndAtTheEdges") {
   const SurfaceFunctions functions(9, 5, width);
   for (const double z : {-0.008, 0.003}) {
     const std::vector<SurfaceTerm> here = all_at(functions, 1.3, z), a_turn_on = all_at(functions, 1.3 - 4 * pi, z);

@@ -28,16 +28,16 @@ TEST_CASE("TaskPool_EveryPartIsDoneOnce_WithAnyNumberOfThreads") {
 TEST_CASE("TaskPool_KeepsItsThreads") {
   TaskPool pool(3);
   std::mutex mutex;
-  std::set<std::thread::id> seen;
+  std::set<std::thread::id> visited;
   for (int round = 0; round < 50; ++round) {
     pool.run(8, [&](std::size_t) {
       std::this_thread::sleep_for(std::chrono::microseconds(100));
       const std::scoped_lock lock(mutex);
-      seen.insert(std::this_thread::get_id());
+      visited.insert(std::this_thread::get_id());
     });
   }
-  CHECK(seen.size() <= 3);
-  CHECK(seen.size() >= 2);
+  CHECK(visited.size() <= 3);
+  CHECK(visited.size() >= 2);
 }
 
 TEST_CASE("TaskPool_NeverMoreThreadsAtWorkThanItMayHave") {
@@ -45,7 +45,7 @@ TEST_CASE("TaskPool_NeverMoreThreadsAtWorkThanItMayHave") {
   std::atomic<int> now = 0, most = 0;
   pool.run(20, [&](std::size_t) {
     const int n = ++now;
-    for (int seen = most; seen < n && !most.compare_exchange_weak(seen, n);) {
+    for (int largest = most; largest < n && !most.compare_exchange_weak(largest, n);) {
     }
     std::this_thread::sleep_for(std::chrono::microseconds(200));
     --now;
@@ -56,9 +56,9 @@ TEST_CASE("TaskPool_NeverMoreThreadsAtWorkThanItMayHave") {
 TEST_CASE("TaskPool_ThreadsOfTheirOwnLeaveFewerHelpers") {
   TaskPool pool(2);
   const TaskPool::OwnThread first(pool), second(pool);
-  std::set<std::thread::id> seen;
-  pool.run(8, [&](std::size_t) { seen.insert(std::this_thread::get_id()); });
-  CHECK(seen == std::set{std::this_thread::get_id()});
+  std::set<std::thread::id> visited;
+  pool.run(8, [&](std::size_t) { visited.insert(std::this_thread::get_id()); });
+  CHECK(visited == std::set{std::this_thread::get_id()});
 }
 
 TEST_CASE("TaskPool_SeveralCallersAtOnce") {

@@ -38,7 +38,7 @@ TEST_CASE("SizesThatNoMachineHas_AreRefusedInEveryDimension") {
       CHECK(error.expected.find(dimension.name) == 0);
     }
     CHECK(parse_quantity("0" + unit, dimension.si_unit) == 0);
-    // What users write is thousands of times smaller than what is refused.
+    // Usual values are thousands of times smaller than refused ones.
     CHECK(parse_quantity(dimension.example, dimension.si_unit) < 1e-3 * dimension.largest);
   }
   CHECK(error_of("1e308 mm", "m").found == "1e+305 m");

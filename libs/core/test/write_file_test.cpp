@@ -16,7 +16,7 @@ TEST_CASE("WrittenFile_IsWholeOrTheOldOne") {
   const std::filesystem::path page = folder / "page.html";
   write_file(page, {"a", "bc"});
   CHECK(read_input_file(page).content == "abc");
-  // Where the new one cannot be begun the old one stays.
+  // If the new file cannot be opened, the old one is unchanged.
   std::filesystem::create_directory(folder / "page.html.new");
   CHECK_THROWS_WITH((write_file(page, {"other"})), "Is a directory");
   CHECK(read_input_file(page).content == "abc");

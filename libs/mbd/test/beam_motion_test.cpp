@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Turns the beam's root about z of ground.
+/// Rotates the beam's root about z of ground.
 JointId hub(MechanismBuilder& b, const BeamBodyIds& beam, double rate = 0) {
   return b.add_joint({.name = "hub",
                       .type = JointType::revolute,
@@ -47,7 +47,7 @@ const test::StraightBeam spin_up_beam{.length = 10,
                                       .mass_per_length = 1.2,
                                       .inertia_per_length = {1.2e-3, 6e-4, 6e-4}};
 
-/// The tip in the axes that turn with the drive at t = 0, 0.2, ..., `end` [s]: stretch and deflection.
+/// The tip in the axes that rotate with the drive at t = 0, 0.2, ..., `end` [s]: stretch and deflection.
 std::vector<Eigen::Vector2d> spin_up(int elements, double dt, double end) {
   test::StraightBeam beam = spin_up_beam;
   beam.elements = elements;
@@ -64,8 +64,8 @@ std::vector<Eigen::Vector2d> spin_up(int elements, double dt, double end) {
     if (++step % per_row != 0) return;
     const double theta = angle->value({&s.t, 1});
     const Vector3 r = m->frame_motion(s, ids.frames.back()).X_WF.r;
-    const Vector3 seen = Eigen::AngleAxisd(-theta, Vector3::UnitZ()) * r;
-    tip.emplace_back(seen.x() - beam.length, seen.y());
+    const Vector3 observation = Eigen::AngleAxisd(-theta, Vector3::UnitZ()) * r;
+    tip.emplace_back(observation.x() - beam.length, observation.y());
   });
   return tip;
 }
@@ -102,7 +102,7 @@ TEST_CASE("SpinUpBeam_OfSimoAndVuQuoc_ConvergesWithOrderTwo") {
   CHECK(error < 3e-4);
   CHECK(order == doctest::Approx(2).epsilon(0.05));
   CHECK(fine[34].y() + (fine[34].y() - coarse[34].y()) / 3 == doctest::Approx(-0.573761).epsilon(5e-5));
-  // Turning steadily, it keeps the stretch of a rod in its own centrifugal field.
+  // In steady rotation it keeps the stretch of a rod in its own centrifugal field.
   const auto steady = spin_up(8, 0.02, 20);
   CHECK(steady.back().x() == doctest::Approx(5.1453e-4).epsilon(1e-3));  // stretch of eight elements: second order
 }
@@ -154,7 +154,7 @@ Losses tumble(int steps) {
 }
 
 TEST_CASE("TumblingBeam_LosesNothingBeyondTheErrorOfTheSteps") {
-  // What is lost falls with the square of the step: the equations themselves lose nothing.
+  // The loss decreases with the square of the step: the equations themselves conserve energy.
   const Losses coarse = tumble(1000), fine = tumble(2000);
   MESSAGE("strain energy up to ", fine.strain, " of the kinetic, energy off by ", fine.energy, ", momentum by ",
           fine.momentum, ", angular momentum by ", fine.spin);
@@ -164,7 +164,7 @@ TEST_CASE("TumblingBeam_LosesNothingBeyondTheErrorOfTheSteps") {
   CHECK(coarse.spin / fine.spin == doctest::Approx(4).epsilon(0.1));
 }
 
-/// Flap and lag frequencies of a slender blade that turns at `gamma`, both over sqrt(EI/(rho A L^4)).
+/// Flap and lag frequencies of a slender blade that rotates at `gamma`, both over sqrt(EI/(rho A L^4)).
 std::vector<double> blade_frequencies(int elements, double gamma) {
   test::StraightBeam blade{.length = 1,
                            .elements = elements,
@@ -178,7 +178,7 @@ std::vector<double> blade_frequencies(int elements, double gamma) {
       {.name = "motor", .coordinate = {root, 0}, .kind = DriveSpec::Kind::speed, .function = test::constant(gamma)});
   const auto m = b.finalise();
   solver::State state = test::start(*m);
-  const solver::EquilibriumSummary steady = solver::find_equilibrium(*m, state, {.turning = true});
+  const solver::EquilibriumSummary steady = solver::find_equilibrium(*m, state, {.steady_motion = true});
   INFO(steady.message);
   REQUIRE(steady.solved());
   const double stretch = m->frame_motion(state, ids.frames.back()).X_WF.r.norm() - 1;
@@ -190,7 +190,7 @@ std::vector<double> blade_frequencies(int elements, double gamma) {
 }
 
 TEST_CASE("RotatingBlade_HasTheFrequenciesOfTheClosedForm") {
-  // Slender beams that turn at 0, 3 and 12, no hub: flap and lag of the first two modes.
+  // Slender beams that rotate at 0, 3 and 12, no hub: flap and lag of the first two modes.
   const std::pair<double, std::vector<double>> exact[] = {
       {0, {3.516015268404576, 3.516015268404576, 22.034491562950702, 22.034491562950702}},
       {3, {3.743511896284581, 4.797278532420666, 23.126493419625884, 23.320263675353228}},
@@ -209,9 +209,9 @@ TEST_CASE("RotatingBlade_HasTheFrequenciesOfTheClosedForm") {
 }
 
 TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
-  // A disc (m, I_d across, I_p along) at the end of a massless shaft that turns at W: with deflection and slope as
-  // unknowns, (K - w^2 diag(m, I_d) + w W diag(0, I_p)) x = 0 for whirl at w, forward where w has W's sign. Seen in the
-  // axes that turn, its frequency is |w - W|.
+  // A disc (m, I_d across, I_p along) at the end of a massless shaft that rotates at W: with deflection and slope as
+  // unknowns, (K - w^2 diag(m, I_d) + w W diag(0, I_p)) x = 0 for whirl at w, forward where w has W's sign. In the
+  // rotating axes its frequency is |w - W|.
   constexpr double L = 0.5, EI = 400, m = 2, I_d = 0.012, I_p = 0.022, W = 150, e = 1e-5;
   test::StraightBeam shaft{.length = L,
                            .elements = 20,
@@ -232,7 +232,7 @@ TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
       {.name = "drive", .coordinate = {motor, 0}, .kind = DriveSpec::Kind::speed, .function = test::constant(W)});
   const auto mechanism = b.finalise();
   solver::State state = test::start(*mechanism);
-  const solver::EquilibriumSummary steady = solver::find_equilibrium(*mechanism, state, {.turning = true});
+  const solver::EquilibriumSummary steady = solver::find_equilibrium(*mechanism, state, {.steady_motion = true});
   INFO(steady.message);
   REQUIRE(steady.solved());
 
@@ -266,7 +266,7 @@ TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(found[i] == doctest::Approx(expected[i]).epsilon(2e-3));
 }
 
-TEST_CASE("TurningBladeInGravityAcross_HasNoSteadyMotion") {
+TEST_CASE("RotatingBladeInGravityAcross_HasNoSteadyMotion") {
   test::StraightBeam blade{.length = 1,
                            .elements = 4,
                            .stiffness = {1e6, 1e5, 1e5, 1, 1, 1},
@@ -283,7 +283,7 @@ TEST_CASE("TurningBladeInGravityAcross_HasNoSteadyMotion") {
                  .function = test::constant(3)});
     const auto m = b.finalise();
     solver::State state = test::start(*m);
-    const solver::EquilibriumSummary steady = solver::find_equilibrium(*m, state, {.turning = true});
+    const solver::EquilibriumSummary steady = solver::find_equilibrium(*m, state, {.steady_motion = true});
     CAPTURE(steady.message);
     CHECK(steady.solved() == !across);
     CHECK((steady.message.find("no steady motion: joint beam.4, ") == 0) == across);

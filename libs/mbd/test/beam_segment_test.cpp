@@ -31,7 +31,7 @@ BeamSegment any_segment() {
   return BeamSegment(data);
 }
 
-/// A motion in which everything turns, moves and deforms a lot; `bend` [rad].
+/// A motion in which everything rotates, moves and deforms a lot; `bend` [rad].
 ElasticMotion wild_motion(const BeamSegment& body, double bend) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -30,7 +30,7 @@ inline std::unique_ptr<Mechanism> simple_pendulum() {
   return b.finalise();
 }
 
-/// How joint i of `chain` starts.
+/// Initial state of joint i of `chain`.
 inline double chain_angle(int i) { return i == 0 ? -0.3 : 0.05 * std::sin(0.7 * i); }
 
 /// A hanging chain of rods of 0.1 m and 0.1 kg on hinges, the first of them swinging at 1 rad/s, cut wherever more than
@@ -97,7 +97,7 @@ inline std::unique_ptr<Mechanism> four_bars(int N, bool hinges = false) {
   return b.finalise();
 }
 
-/// A05: a shaft that turns freely, two arms hinged 1 m up and 0.05 m off it, a slider on it that stiff spring-dampers
+/// A05: a shaft that rotates freely, two arms hinged 1 m up and 0.05 m off it, a slider on it that stiff spring-dampers
 /// hold to the arms' middles. Rods and slider of density 3000 kg/m^3: 0.01 x 0.01 x 1 m and a cube of 0.1 m.
 inline std::unique_ptr<Mechanism> governor() {
   MechanismBuilder b;
@@ -179,9 +179,9 @@ class Squeezer {
   }
 
   /// Angle of the named joint: the last of its values.
-  [[nodiscard]] double angle(const Observation& seen, const std::string& name) const {
-    for (std::size_t j = 0; j < seen.joints.size(); ++j)
-      if (mechanism->spec().joints[j].name == name) return seen.joints[j].position.tail<1>()[0];
+  [[nodiscard]] double angle(const Observation& observation, const std::string& name) const {
+    for (std::size_t j = 0; j < observation.joints.size(); ++j)
+      if (mechanism->spec().joints[j].name == name) return observation.joints[j].position.tail<1>()[0];
     return std::numeric_limits<double>::quiet_NaN();
   }
 

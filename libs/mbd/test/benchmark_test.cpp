@@ -58,7 +58,7 @@ TEST_CASE("FourBars_PassTheirSingularPositionOnTheRightBranch") {
   CHECK(worst < 1e-3);  // the benchmark's own measure
 }
 
-/// Distance of B0 from its place at t = 10 s.
+/// Distance of B0 from its position at t = 10 s.
 double error_at_the_end(Mechanism& mechanism, const solver::State& state) {
   const Vector3 B0 = mechanism.frame_motion(state, mechanism.spec().body_frames[1]).X_WF * Vector3(1, 0, 0);
   return std::hypot(B0.x() - 0.3284581115, B0.y() - 0.9445185382);
@@ -79,11 +79,11 @@ ChosenSteps four_bars_with_tolerance(double tolerance) {
   while (state.t < 10 - 1e-12) {  // the end, but for round-off
     const double dt = control.proposed(10 - state.t);
     Eigen::VectorXd errors;
-    const auto judge = [&](const solver::State&, const Eigen::VectorXd& estimate) {
+    const auto check = [&](const solver::State&, const Eigen::VectorXd& estimate) {
       errors = estimate.cwiseQuotient(scales) / tolerance;
       return errors.lpNorm<Eigen::Infinity>() <= 1;
     };
-    const solver::StepSummary step = integrator.step(*m, state, dt, judge);
+    const solver::StepSummary step = integrator.step(*m, state, dt, check);
     chosen.iterations += step.iterations;
     if (step.solved()) {
       control.accepted(dt, errors);
@@ -130,11 +130,11 @@ TEST_CASE("FortyFourBarsOfHinges_RunLikeThoseWithoutRedundancy") {
   test::run(*m, state, 10, 500, 0.9);
   const Vector3 B0 = m->frame_motion(state, m->spec().body_frames[1]).X_WF * Vector3(1, 0, 0);
   CHECK(std::hypot(B0.x() - 0.1805122267, B0.y() - 0.9835727406) < kBenchmark);
-  const Observation seen = m->observe(state);
-  CHECK(seen.constraint_drift < 1e-11);  // Newton's tolerance of constraints
+  const Observation observation = m->observe(state);
+  CHECK(observation.constraint_drift < 1e-11);  // Newton's tolerance of constraints
   // Nothing acts across the plane, and nothing shares it out.
   // Nothing but what 1e-9 of the forces in the plane leaves.
-  for (const JointObservation& joint : seen.joints) CHECK(std::abs(joint.force.z()) < 1e-6);
+  for (const JointObservation& joint : observation.joints) CHECK(std::abs(joint.force.z()) < 1e-6);
 }
 
 TEST_CASE("FortyFourBars_MeetTheBenchmark") {
@@ -172,7 +172,7 @@ TEST_CASE("AndrewsSqueezer_MeetsTheTestSet") {
   Mechanism& m = *squeezer.mechanism;
   solver::State state = test::start(m);
   test::run(m, state, 0.03, 6000, 0.9);
-  const Observation seen = m.observe(state);
+  const Observation observation = m.observe(state);
   // Reference solution of the test set at t = 0.03 s.
   const std::pair<const char*, double> reference[] = {{"beta", 15.81077119629904},    {"Theta", -15.75637105984298},
                                                       {"gamma", 0.04082224013073101}, {"Phi", -0.5347301163226948},
@@ -180,7 +180,7 @@ TEST_CASE("AndrewsSqueezer_MeetsTheTestSet") {
                                                       {"epsilon", 1.048080741042263}};
   for (const auto& angle : reference) {
     CAPTURE(std::string(angle.first));
-    CHECK(std::abs(squeezer.angle(seen, angle.first) / angle.second - 1) < 1e-5);  // steps of 5 us, second order
+    CHECK(std::abs(squeezer.angle(observation, angle.first) / angle.second - 1) < 1e-5);  // steps of 5 us, second order
   }
 }
 

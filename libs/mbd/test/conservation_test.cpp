@@ -1,4 +1,4 @@
-// What mechanics conserves, whatever the mechanism: momentum, energy and power, and indifference to the observer.
+// Conservation laws for all mechanisms: momentum, energy and power, and independence of the observer.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -28,14 +28,15 @@ TEST_CASE("SymmetricTop_FollowsTorqueFreeRotation") {
     const auto m = b.finalise();
     solver::State state = test::start(*m);
     test::run(*m, state, 4, steps, 0.9);
-    const FrameMotion seen = m->observe(state).bodies[top.index];
+    const FrameMotion observation = m->observe(state).bodies[top.index];
     const Vector3 H =
-        seen.X_WF.R * Vector3(exact.A, exact.A, exact.C).cwiseProduct(seen.X_WF.R.transpose() * seen.omega);
+        observation.X_WF.R *
+        Vector3(exact.A, exact.A, exact.C).cwiseProduct(observation.X_WF.R.transpose() * observation.omega);
     const Vector3 H0(exact.A * exact.omega.x(), exact.A * exact.omega.y(), exact.C * exact.omega.z());
     momentum_error = (H - H0).norm() / H0.norm();
     // Free flight, which steps have exactly but for round-off.
-    CHECK((seen.X_WF.r - Vector3(1.4, 2.8, 4.2)).norm() < 1e-10);
-    return rotation_log(Eigen::Quaterniond(exact.orientation(4).transpose() * seen.X_WF.R)).norm();
+    CHECK((observation.X_WF.r - Vector3(1.4, 2.8, 4.2)).norm() < 1e-10);
+    return rotation_log(Eigen::Quaterniond(exact.orientation(4).transpose() * observation.X_WF.R)).norm();
   };
   double momentum_coarse = 0, momentum_fine = 0;
   const double coarse = run(800, momentum_coarse), fine = run(1600, momentum_fine);
@@ -71,10 +72,10 @@ TEST_CASE("InternalForces_ConserveMomentum") {
   solver::State state = test::start(*m);
   // Theory: d/dt of the momentum about a fixed point vanishes. The accelerations give it exactly, without integration.
   Vector6 rate = Vector6::Zero();
-  const Observation seen = m->observe(state);
+  const Observation observation = m->observe(state);
   double size = 0;
   for (BodyId id : bodies) {
-    const FrameMotion& f = seen.bodies[id.index];
+    const FrameMotion& f = observation.bodies[id.index];
     const Vector3 c = f.X_WF.R * Vector3(0.1, 0, 0.05);
     const Vector3 a = f.a + f.alpha.cross(c) + f.omega.cross(f.omega.cross(c));
     const Matrix3 I = f.X_WF.R * J * f.X_WF.R.transpose();
@@ -99,30 +100,30 @@ TEST_CASE("EnergyChangesByThePowersReported") {
     moved.t += s;
     m->retract(state.q, s * state.v + 0.5 * s * s * state.vdot, moved.q);
     moved.v = state.v + s * state.vdot;
-    const Observation seen = m->observe(moved);
+    const Observation observation = m->observe(moved);
     double strain = 0;
-    for (const ElasticObservation& body : seen.elastics) strain += body.energy.strain;
-    return seen.kinetic_energy + seen.potential_energy + strain;
+    for (const ElasticObservation& body : observation.elastics) strain += body.energy.strain;
+    return observation.kinetic_energy + observation.potential_energy + strain;
   };
   constexpr double step = 1e-4;  // central difference, Richardson's weights: error ~ step^4
   const double slope =
       (8 * (mechanical(step) - mechanical(-step)) - (mechanical(2 * step) - mechanical(-2 * step))) / (12 * step);
-  const Observation seen = m->observe(state);
+  const Observation observation = m->observe(state);
   double power = 0, size = 0;
-  for (const ElasticObservation& body : seen.elastics) power -= body.energy.dissipation;
-  for (const auto* powers :
-       {&seen.drive_powers, &seen.load_powers, &seen.spring_powers, &seen.force_powers, &seen.coordinate_force_powers})
+  for (const ElasticObservation& body : observation.elastics) power -= body.energy.dissipation;
+  for (const auto* powers : {&observation.drive_powers, &observation.load_powers, &observation.spring_powers,
+                             &observation.force_powers, &observation.coordinate_force_powers})
     for (double p : *powers) {
       power += p;
       size = std::max(size, std::abs(p));
     }
-  for (const ElasticLoad& load : seen.elastics[0].energy.loads) power += load.power;
+  for (const ElasticLoad& load : observation.elastics[0].energy.loads) power += load.power;
   CHECK(size > 1);
   // The Taylor polynomial leaves the true motion at third order, so kinetic energy is off by step^2 only at the ends.
   CHECK(std::abs(slope - power) < 1e-6 * size);
 }
 
-/// A driven arm with a bob on a spring, mounted on ground or on a carriage, seen from axes turned by `turn`.
+/// A driven arm with a bob on a spring, mounted on ground or on a carriage, in axes with the pose `X_WG`.
 VectorXd arm_on_ground(const Pose& X_WG, const Vector3& carriage_velocity, bool carriage) {
   MechanismBuilder b;
   b.set_gravity(X_WG.R * Vector3(0, -9.81, 0));
@@ -163,14 +164,14 @@ VectorXd arm_on_ground(const Pose& X_WG, const Vector3& carriage_velocity, bool 
   const auto m = b.finalise();
   solver::State state = test::start(*m);
   test::run(*m, state, 0.5, 100, 0.8);
-  const Observation seen = m->observe(state);
+  const Observation observation = m->observe(state);
   VectorXd answer(1 + 3 + 3 + 3);
-  answer << seen.joints[hinge.index].position[0], Vector3::Map(seen.joints[ball.index].position.data()),
-      seen.joints[hinge.index].force, seen.joints[ball.index].force;
+  answer << observation.joints[hinge.index].position[0], Vector3::Map(observation.joints[ball.index].position.data()),
+      observation.joints[hinge.index].force, observation.joints[ball.index].force;
   return answer;
 }
 
-TEST_CASE("Ground_HasNoPreferredPlaceAxesOrSpeed") {
+TEST_CASE("Ground_HasNoPreferredOriginAxesOrSpeed") {
   const VectorXd here = arm_on_ground({}, Vector3::Zero(), false);
   // Newton's tolerance is 1e-9 of each row's terms; lever arms to the origin enlarge it by a decade.
   const double tolerance = 1e-7 * here.cwiseAbs().maxCoeff();

@@ -13,14 +13,14 @@ namespace hersey::mbd::test {
 
 inline Pose pose_at(const Vector3& phi, const Vector3& r) { return {rotation_exp(phi).toRotationMatrix(), r}; }
 
-/// Corners of a mesh, those at one place (but for round-off) once.
+/// Corners of a mesh, those at the same position (but for round-off) once.
 struct UniqueCorners {
   std::vector<Vector3> corners;
   std::map<std::array<long, 3>, int> number_at;  // by nanometres
 
   int add(const Vector3& p) {
-    const std::array place{std::lround(1e9 * p.x()), std::lround(1e9 * p.y()), std::lround(1e9 * p.z())};
-    const auto [entry, is_new] = number_at.try_emplace(place, static_cast<int>(corners.size()));
+    const std::array position{std::lround(1e9 * p.x()), std::lround(1e9 * p.y()), std::lround(1e9 * p.z())};
+    const auto [entry, is_new] = number_at.try_emplace(position, static_cast<int>(corners.size()));
     if (is_new) corners.push_back(p);
     return entry->second;
   }
@@ -52,13 +52,13 @@ inline std::shared_ptr<const TriangleMesh> box_mesh(const Box& box, int cuts = 1
           }
         }
     }
-  // Corners at the same place are one corner, as the STL reader leaves them.
+  // Corners at the same position are one corner, as the STL reader leaves them.
   UniqueCorners unique;
-  std::vector<int> place;
-  for (const Vector3& corner : mesh->corners) place.push_back(unique.add(corner));
+  std::vector<int> index;
+  for (const Vector3& corner : mesh->corners) index.push_back(unique.add(corner));
   mesh->corners = unique.corners;
   for (auto& triangle : mesh->triangles)
-    for (int& corner : triangle) corner = place[corner];
+    for (int& corner : triangle) corner = index[corner];
   return mesh;
 }
 

@@ -59,7 +59,7 @@ Impact impact(const ContactLaw& law, int steps) {
                duration = 2.9432 * depth / speed;
   Rig rig = ball_on_floor(mass, radius, law, Vector3::Zero(), {0, 0, radius}, {0, 0, -speed});
   solver::State state = test::start(*rig.mechanism);
-  Impact seen;
+  Impact observation;
   double before = 0, t_before = 0;
   // The largest force lies between steps: the parabola through the three around it.
   std::vector<double> force{0};
@@ -67,9 +67,9 @@ Impact impact(const ContactLaw& law, int steps) {
   const auto look = [&](const solver::State& s) {
     const double f = rig.observe(s).normal_force;
     const double height = s.q[2] - radius;
-    if (seen.duration == 0 && height > 0) {  // left the floor: linear between steps
-      seen.duration = t_before + (s.t - t_before) * before / (before - height);
-      seen.speed_after = s.v[2];
+    if (observation.duration == 0 && height > 0) {  // left the floor: linear between steps
+      observation.duration = t_before + (s.t - t_before) * before / (before - height);
+      observation.speed_after = s.v[2];
     }
     before = height, t_before = s.t;
     force.push_back(f);
@@ -78,9 +78,10 @@ Impact impact(const ContactLaw& law, int steps) {
   for (std::size_t i = 1; i + 1 < force.size(); ++i) {
     if (force[i] < force[i - 1] || force[i] < force[i + 1]) continue;
     const double bend = force[i - 1] - 2 * force[i] + force[i + 1], slope = 0.5 * (force[i + 1] - force[i - 1]);
-    if (bend < 0) seen.largest_force = std::max(seen.largest_force, force[i] - 0.5 * slope * slope / bend);
+    if (bend < 0)
+      observation.largest_force = std::max(observation.largest_force, force[i] - 0.5 * slope * slope / bend);
   }
-  return seen;
+  return observation;
 }
 
 TEST_CASE("BallDrop_MeetsHertzForceAndDuration") {
@@ -91,16 +92,16 @@ TEST_CASE("BallDrop_MeetsHertzForceAndDuration") {
   const double force = law.stiffness * std::pow(depth, 1.5), duration = 2.943275 * depth;
   std::array<double, 3> force_error{}, duration_error{};
   for (int i = 0; i < 3; ++i) {
-    const Impact seen = impact(law, 20 << i);
-    force_error[i] = std::abs(seen.largest_force / force - 1);
-    duration_error[i] = std::abs(seen.duration / duration - 1);
+    const Impact observation = impact(law, 20 << i);
+    force_error[i] = std::abs(observation.largest_force / force - 1);
+    duration_error[i] = std::abs(observation.duration / duration - 1);
     CAPTURE(i);
     CAPTURE(force_error[i]);
     CAPTURE(duration_error[i]);
     CHECK(force_error[i] < 0.005 / std::pow(4, i));
     CHECK(duration_error[i] < 0.005 / std::pow(4, i));
     // Without damping the ball leaves as fast as it came.
-    CHECK(std::abs(seen.speed_after - 1) < 1e-4 / std::pow(4, i));  // second order
+    CHECK(std::abs(observation.speed_after - 1) < 1e-4 / std::pow(4, i));  // second order
   }
   CHECK(force_error[2] > force_error[0] / 32);  // and not by chance: order two from both sides
 }
@@ -114,9 +115,9 @@ TEST_CASE("Restitution_IsThatOfHuntAndCrossley") {
     CHECK(damping * (1 + exact) == doctest::Approx(std::log((1 + damping) / (1 - exact * damping))).epsilon(1e-12));
     for (const double exponent : {1.5, 2.0}) {
       const double stiffness = exponent == 1.5 ? 1e9 : 1e11;
-      const Impact seen =
+      const Impact observation =
           impact({.stiffness = stiffness, .exponent = exponent, .damping = damping}, exponent == 1.5 ? 160 : 320);
-      CHECK(seen.speed_after == doctest::Approx(exact).epsilon(2e-3));
+      CHECK(observation.speed_after == doctest::Approx(exact).epsilon(2e-3));
     }
     // Round-off of an iteration to the last digits.
     CHECK(damping_of_restitution(exact, 1.0) == doctest::Approx(damping).epsilon(1e-9));
@@ -139,7 +140,7 @@ Incline roll_down(double angle, double friction) {
   test::run(*rig.mechanism, state, 0.1, 500);
   const solver::State first = state;
   test::run(*rig.mechanism, state, 0.3, 1000);
-  // The rate of the orientation is the angular velocity in the ball's axes, which only turn about y.
+  // The rate of the orientation is the angular velocity in the ball's axes, which only rotate about y.
   return {(state.v[0] - first.v[0]) / 0.2, (state.v[4] - first.v[4]) / 0.2};
 }
 
@@ -184,9 +185,9 @@ TEST_CASE("BlockSlides_ItsStoppingDistance") {
   const double exact = (v * std::sqrt(v * v + slip * slip) + slip * slip * std::asinh(v / slip)) / (2 * mu * g);
   CHECK(state.q[0] == doctest::Approx(exact).epsilon(2e-3));
   CHECK(std::abs(state.v[0]) < 1e-4);  // m/s: creeping to rest
-  const ContactObservation seen = contact->observe(mechanism->relative_motion(state, {0}));
-  CHECK(seen.spots == 4);
-  CHECK(seen.normal_force == doctest::Approx(2 * g).epsilon(1e-4));  // what still bounces
+  const ContactObservation observation = contact->observe(mechanism->relative_motion(state, {0}));
+  CHECK(observation.spots == 4);
+  CHECK(observation.normal_force == doctest::Approx(2 * g).epsilon(1e-4));  // what still bounces
 }
 
 TEST_CASE("TwoBalls_ExchangeTheirVelocities") {
@@ -256,8 +257,8 @@ TEST_CASE("GlancingBlow_ConservesMomentumAndBalancesEnergy") {
     double lost = 0, worst = 0, last = 0;
     const int steps = 2000 << k;
     test::run(*mechanism, state, 1.5e-3, steps, 1.0, [&](const solver::State& s) {
-      const ContactObservation seen = contact->observe(mechanism->relative_motion(s, {0}));
-      const double power = seen.damping_power + seen.friction_power;
+      const ContactObservation observation = contact->observe(mechanism->relative_motion(s, {0}));
+      const double power = observation.damping_power + observation.friction_power;
       lost += 0.5 * (power + last) * 1.5e-3 / steps;
       last = power;
       worst = std::max(worst, (momentum(s) - before).tail<3>().norm() / before.tail<3>().norm());

@@ -32,7 +32,7 @@ std::vector<Pair> pairs() {
   const Capsule stick{{0.3, -2, 0.1}, {0.1, 2, 0}, 0.7};
   const Capsule along{{-2, 0, 0}, {1, 0, 0}, 0.5};
   const Box block{pose_at({0.2, 0.3, -0.1}, {0.1, 0.2, -0.1}), {2, 3, 2.5}};
-  const Pose turned = pose_at({0.3, -0.4, 0.2}, Vector3::Zero());
+  const Pose rotated = pose_at({0.3, -0.4, 0.2}, Vector3::Zero());
   const auto on_floor = [&](const Matrix3& R, double height) {
     return Pose{R, floor.point + height * up - R * Vector3::Zero()};
   };
@@ -42,7 +42,7 @@ std::vector<Pair> pairs() {
   };
   const Matrix3 tipped = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), up).toRotationMatrix();
   std::vector<Pair> list;
-  const auto ball_at = [&](const Vector3& centre) { return Pose{turned.R, centre - turned.R * ball.centre}; };
+  const auto ball_at = [&](const Vector3& centre) { return Pose{rotated.R, centre - rotated.R * ball.centre}; };
   list.push_back({"sphere on half-space", floor, ball, ball_at(floor.point + 0.95 * up + Vector3(0.3, 0.1, 0.06))});
   list.push_back({"sphere on sphere", ball, Sphere{{0, 0.1, 0}, 0.7}, pose_at({0.1, 0.2, 0.3}, {0.7, 0.5, 1.55})});
   list.push_back({"sphere on capsule's side", pill, ball, ball_at({0.3, 0.1, 1.9})});
@@ -53,7 +53,7 @@ std::vector<Pair> pairs() {
   list.push_back({"sphere on box's face", block, ball, ball_at(block.X_BS * Vector3(0.2, 0.3, 2.2))});
   list.push_back({"sphere on box's edge", block, ball, ball_at(block.X_BS * Vector3(1.6, 0.3, 1.9))});
   list.push_back({"sphere on box's corner", block, ball, ball_at(block.X_BS * Vector3(1.5, 2.0, 1.75))});
-  list.push_back({"capsule on half-space", floor, pill, on_floor(turned.R, 0.75)});
+  list.push_back({"capsule on half-space", floor, pill, on_floor(rotated.R, 0.75)});
   list.push_back({"box on half-space", floor, block, on_floor(tipped, 1.5)});
   list.push_back(
       {"lying cylinder", floor, can, Pose{tipped * pose_at({1.58, 0, 0}, Vector3::Zero()).R, floor.point + 0.9 * up}});
@@ -65,10 +65,10 @@ std::vector<Pair> pairs() {
   list.push_back({"sphere on mesh's face", test::box_mesh(block), ball, ball_at(block.X_BS * Vector3(0.2, 0.3, 2.2))});
   list.push_back({"sphere on mesh's edge", test::box_mesh(block), ball, ball_at(block.X_BS * Vector3(1.6, 0.3, 1.9))});
   list.push_back({"sphere on mesh's corner", test::box_mesh(block), ball, ball_at(block.X_BS * Vector3(1.5, 2, 1.75))});
-  list.push_back({"mesh on half-space", floor, test::ball_mesh(1, 3), on_floor(turned.R, 0.9)});
-  list.push_back({"mesh on box", block, test::ball_mesh(1, 3), Pose{turned.R, block.X_BS * Vector3(0.1, 0.2, 2.15)}});
-  list.push_back({"mesh on cylinder", can, test::ball_mesh(1, 3), Pose{turned.R, side(can, 1.9)}});
-  list.push_back({"mesh on capsule", pill, test::ball_mesh(1, 3), Pose{turned.R, {0.3, 0.1, 1.75}}});
+  list.push_back({"mesh on half-space", floor, test::ball_mesh(1, 3), on_floor(rotated.R, 0.9)});
+  list.push_back({"mesh on box", block, test::ball_mesh(1, 3), Pose{rotated.R, block.X_BS * Vector3(0.1, 0.2, 2.15)}});
+  list.push_back({"mesh on cylinder", can, test::ball_mesh(1, 3), Pose{rotated.R, side(can, 1.9)}});
+  list.push_back({"mesh on capsule", pill, test::ball_mesh(1, 3), Pose{rotated.R, {0.3, 0.1, 1.75}}});
   for (Pair& pair : list) {
     // The gap's gradient for translations is the normal.
     Contact contact(pair.a, pair.b, kLaw);
@@ -162,7 +162,7 @@ TEST_CASE("ContactOfCornersThatDeform_MatchesFiniteDifferencesAndDoesTheWorkOfIt
       column << response.dW_dr.col(a), response.dQ_dr.col(a);
       compare(column, [&](RelativeMotion& m, double h) { m.s_rate[a] += h; });
     }
-    // What the forces do is what the contact takes: its springs fill up, its damping and friction lose the rest.
+    // The work of the forces equals the energy stored in the springs plus the losses of damping and friction.
     constexpr double dt = 1e-6;
     const auto later = [&](double t) {
       RelativeMotion m = motion;
@@ -172,10 +172,10 @@ TEST_CASE("ContactOfCornersThatDeform_MatchesFiniteDifferencesAndDoesTheWorkOfIt
       return m;
     };
     const double filled = (contact.stored_energy(later(dt)) - contact.stored_energy(later(-dt))) / (2 * dt);
-    const ContactObservation seen = contact.observe(motion);
+    const ContactObservation observation = contact.observe(motion);
     const double done = response.W_B_A.dot(motion.V_AB_A) + response.Q.dot(motion.s_rate);
-    CHECK(done + filled + seen.damping_power + seen.friction_power ==
-          doctest::Approx(0).scale(std::abs(filled) + std::abs(seen.friction_power)).epsilon(kDifferences));
+    CHECK(done + filled + observation.damping_power + observation.friction_power ==
+          doctest::Approx(0).scale(std::abs(filled) + std::abs(observation.friction_power)).epsilon(kDifferences));
   }
 }
 
@@ -244,17 +244,17 @@ TEST_CASE("ObservedPowers_AddUpToTheWorkDone") {
     CAPTURE(pair.name);
     if (pair.name.find("parallel") != std::string::npos || pair.name == "leaning cylinder") continue;
     Contact contact(pair.a, pair.b, kLaw);
-    const ContactObservation seen = contact.observe(motion_at(pair.X_AB));
+    const ContactObservation observation = contact.observe(motion_at(pair.X_AB));
     constexpr double h = 1e-6;
     const double stored = (contact.stored_energy(motion_at(pose_exp(h * kVelocity) * pair.X_AB)) -
                            contact.stored_energy(motion_at(pose_exp(-h * kVelocity) * pair.X_AB))) /
                           (2 * h);
     const double work = wrench(contact, motion_at(pair.X_AB)).dot(kVelocity);
-    const double size = std::abs(stored) + seen.damping_power + seen.friction_power;
-    CHECK(std::abs(work + stored + seen.damping_power + seen.friction_power) < kDifferences * size);
-    CHECK(seen.damping_power >= 0);
-    CHECK(seen.friction_power > 0);
-    CHECK(seen.gap < 0);
+    const double size = std::abs(stored) + observation.damping_power + observation.friction_power;
+    CHECK(std::abs(work + stored + observation.damping_power + observation.friction_power) < kDifferences * size);
+    CHECK(observation.damping_power >= 0);
+    CHECK(observation.friction_power > 0);
+    CHECK(observation.gap < 0);
   }
 }
 
@@ -272,11 +272,11 @@ TEST_CASE("BallOnMeshOfABox_IsBallOnBox") {
       const Vector6 W = wrench(exact, motion);
       if (!exact.domain_error().empty()) continue;
       const double gap = exact.observe(motion).gap;
-      // Another way to the same places: round-off.
+      // Another way to the same positions: round-off.
       CHECK(meshed.observe(motion).gap == doctest::Approx(gap).epsilon(1e-10));
       if (W.norm() == 0) continue;
       ++touching;
-      CHECK((wrench(meshed, motion) - W).norm() < 1e-9 * W.norm());  // another way to the same places: round-off
+      CHECK((wrench(meshed, motion) - W).norm() < 1e-9 * W.norm());  // another way to the same positions: round-off
     }
     CHECK(touching > 50);
   }
@@ -292,9 +292,10 @@ TEST_CASE("BallInACornerOfAMesh_TouchesEveryWall") {
   corner.triangles = {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}};
   Contact contact(std::make_shared<const TriangleMesh>(corner), Sphere{Vector3::Zero(), 1},
                   {.stiffness = 1e3, .exponent = 1});
-  const ContactObservation seen = contact.observe(motion_at({Matrix3::Identity(), {0.9, 0.3, 0.95}}, Vector6::Zero()));
-  CHECK(seen.spots == 2);
-  CHECK((seen.force - Vector3(100, 0, 50)).norm() < 1e-9);  // N: round-off
+  const ContactObservation observation =
+      contact.observe(motion_at({Matrix3::Identity(), {0.9, 0.3, 0.95}}, Vector6::Zero()));
+  CHECK(observation.spots == 2);
+  CHECK((observation.force - Vector3(100, 0, 50)).norm() < 1e-9);  // N: round-off
 }
 
 TEST_CASE("MeshOfABall_PressesLikeTheBallAsItIsRefined") {
@@ -330,7 +331,7 @@ TEST_CASE("StandingCylinder_FeelsNoPreferredDirection") {
   for (const double phi : {0.3, 1.1, 2.5}) {
     const auto other = tilting(phi);
     CHECK(other[0] == doctest::Approx(one[0]).epsilon(1e-9));  // round-off
-    // Of third order in the tilt.
+    // Third order in the tilt.
     CHECK(other[1] == doctest::Approx(one[1]).epsilon(1e-6));
     CHECK(std::abs(other[2]) < 1e-6 * std::abs(one[1]));
   }
@@ -346,9 +347,9 @@ TEST_CASE("Contact_NeverPulls") {
   Contact contact(HalfSpace{}, Sphere{Vector3::Zero(), 1}, kLaw);
   Vector6 V = Vector6::Zero();
   V[5] = 10;  // leaving faster than 1/damping
-  const ContactObservation seen = contact.observe(motion_at({Matrix3::Identity(), {0, 0, 0.95}}, V));
-  CHECK(seen.spots == 1);
-  CHECK(seen.force.norm() == 0);
+  const ContactObservation observation = contact.observe(motion_at({Matrix3::Identity(), {0, 0, 0.95}}, V));
+  CHECK(observation.spots == 1);
+  CHECK(observation.force.norm() == 0);
 }
 
 TEST_CASE("DeepOverlap_IsADomainError") {

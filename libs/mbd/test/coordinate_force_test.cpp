@@ -30,17 +30,17 @@ std::unique_ptr<Mechanism> slider(double position, double rate, Add add) {
 }
 
 TEST_CASE("DryFriction_StopsASliderAfterItsTime") {
-  // 6 N on 2 kg: from 3 m/s to rest in 1 s; below the transition speed it creeps, and never turns back.
+  // 6 N on 2 kg: from 3 m/s to rest in 1 s; below the transition speed it creeps, and never reverses.
   const auto m = slider(0, 3, [](MechanismBuilder& b, CoordinateRef x, BodyId) {
     b.add_coordinate_force("friction", x, std::make_shared<JointFriction>(6, 0, 1e-3));
   });
   solver::State state = test::start(*m);
   test::run(*m, state, 0.5, 500, 0.8);
   CHECK(state.v[0] == doctest::Approx(1.5).epsilon(1e-5));  // steps of 1 ms, second order
-  const Observation seen = m->observe(state);
-  CHECK(seen.coordinate_force_efforts[0] == doctest::Approx(-6).epsilon(1e-6));  // (v_t/v)^2/2 is missing
-  CHECK(seen.coordinate_force_powers[0] == doctest::Approx(-9).epsilon(1e-4));   // the speed's own error
-  CHECK(seen.joints[0].force.norm() < 1e-7);                                     // friction acts inside the joint
+  const Observation observation = m->observe(state);
+  CHECK(observation.coordinate_force_efforts[0] == doctest::Approx(-6).epsilon(1e-6));  // (v_t/v)^2/2 is missing
+  CHECK(observation.coordinate_force_powers[0] == doctest::Approx(-9).epsilon(1e-4));   // the speed's own error
+  CHECK(observation.joints[0].force.norm() < 1e-7);  // friction acts inside the joint
   test::run(*m, state, 1.2, 700, 0.8);
   // The transition speed, 1e-3 m/s.
   CHECK(std::abs(state.v[0]) < 1e-3);
@@ -80,7 +80,7 @@ TEST_CASE("SpeedController_ReachesItsSpeedUnderLoadWithinItsLimit") {
   CHECK(state.v[0] == doctest::Approx((limit + load) / 2).epsilon(1e-6));  // saturated until then
   CHECK(m->observe(state).coordinate_force_efforts[0] == doctest::Approx(limit));
   test::run(*m, state, 15, 7000, 0.8, watch);
-  // Settled: what moved has died out like exp(-1.5 t).
+  // Settled: the motion has decayed like exp(-1.5 t).
   CHECK(state.v[0] == doctest::Approx(target).epsilon(1e-4));
   CHECK(m->observe(state).coordinate_force_efforts[0] == doctest::Approx(-load).epsilon(1e-3));
   CHECK(fastest < 1.25 * target);  // the integral did not wind up during saturation: without, it overshoots by half
@@ -100,11 +100,11 @@ TEST_CASE("Bushing_CarriesAWeightAndTwist") {
   const auto m = b.finalise();
   solver::State state = test::start(*m);
   test::run(*m, state, 4, 2000, 0.8);
-  const Observation seen = m->observe(state);
-  CHECK(seen.bodies[1].X_WF.r.z() == doctest::Approx(-40.0 / 8e3).epsilon(1e-6));  // settled
+  const Observation observation = m->observe(state);
+  CHECK(observation.bodies[1].X_WF.r.z() == doctest::Approx(-40.0 / 8e3).epsilon(1e-6));  // settled
   // A rotation of 1.2 rad: the rotation vector's moment is that of the linear law.
-  // Settled: what moved has died out like exp(-5.9 t).
-  CHECK(rotation_log(Eigen::Quaterniond(seen.bodies[1].X_WF.R)).z() == doctest::Approx(1.2).epsilon(1e-6));
+  // Settled: the motion has decayed like exp(-5.9 t).
+  CHECK(rotation_log(Eigen::Quaterniond(observation.bodies[1].X_WF.R)).z() == doctest::Approx(1.2).epsilon(1e-6));
 }
 
 DriveSpec drive(DriveSpec::Kind kind, double ramp) {

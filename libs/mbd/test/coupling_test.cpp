@@ -34,7 +34,7 @@ void torque_about_z(MechanismBuilder& b, BodyId body, double torque) {
               .terms = {{(Vector6() << 0, 0, 1, 0, 0, 0).finished(), test::constant(torque), {}}}});
 }
 
-TEST_CASE("CardanJoint_TurnsUnevenlyByTheClosedForm") {
+TEST_CASE("CardanJoint_RotatesUnevenlyByTheClosedForm") {
   // Shafts at an angle beta through the centre of the cross: tan(out) = cos(beta) tan(in). Their bearings hold the
   // centre already, so the cross's three positions are redundant.
   const double beta = 0.5;
@@ -55,15 +55,15 @@ TEST_CASE("CardanJoint_TurnsUnevenlyByTheClosedForm") {
   solver::State state = test::start(*m);
   double worst = 0, worst_pose = 0;
   test::run(*m, state, 0.5, 500, 0.8, [&](const solver::State& s) {
-    const Observation seen = m->observe(s);
-    const double phi = seen.joints[0].position[0], psi = seen.joints[1].position[0];
+    const Observation observation = m->observe(s);
+    const double phi = observation.joints[0].position[0], psi = observation.joints[1].position[0];
     worst = std::max(worst, std::abs(std::cos(phi) * std::sin(psi) - std::cos(beta) * std::sin(phi) * std::cos(psi)));
     // The angles read off the closing joint are those that lead from one shaft to the other.
-    const JointValues& angles = seen.joints[cross.index].position;
+    const JointValues& angles = observation.joints[cross.index].position;
     const Pose across = joint_pose(JointType::universal, {0, 0, 1}, {angles.data(), 2});
-    worst_pose = std::max(worst_pose, (seen.bodies[1].X_WF.R * across.R - seen.bodies[2].X_WF.R).norm());
+    worst_pose = std::max(worst_pose, (observation.bodies[1].X_WF.R * across.R - observation.bodies[2].X_WF.R).norm());
   });
-  // Constraints are held to round-off of their terms.
+  // Constraints are satisfied to round-off of their terms.
   CHECK(worst < 1e-11);
   CHECK(worst_pose < 1e-11);
 }
@@ -92,9 +92,10 @@ TEST_CASE("NutOnAScrew_FallsByTheClosedForm") {
     solver::State state = test::start(*m);
     test::run(*m, state, 1, 100, 0.8);
     const double acceleration = -mass * g * h / (J + mass * h * h);
-    const Observation seen = m->observe(state);
-    CHECK(seen.joints[screw.index].position[0] == doctest::Approx(0.5 * acceleration).epsilon(1e-8));  // several turns
-    CHECK(seen.bodies[1].X_WF.r.z() == doctest::Approx(0.5 * acceleration * h).epsilon(kNewton));
+    const Observation observation = m->observe(state);
+    CHECK(observation.joints[screw.index].position[0] ==
+          doctest::Approx(0.5 * acceleration).epsilon(1e-8));  // several revolutions
+    CHECK(observation.bodies[1].X_WF.r.z() == doctest::Approx(0.5 * acceleration * h).epsilon(kNewton));
     CHECK(std::abs(acceleration) > 4 * kPi);
   }
 }
@@ -113,17 +114,18 @@ TEST_CASE("GearPair_SharesTheTorqueByItsRatio") {
   solver::State state = test::start(*m);
   test::run(*m, state, 1, 50, 0.8);
   const double acceleration = torque / (J1 + ratio * ratio * J2);
-  const Observation seen = m->observe(state);
+  const Observation observation = m->observe(state);
   // Constant acceleration, which the method has exactly; Newton's tolerance.
   CHECK(state.q[0] == doctest::Approx(0.2 + 0.5 * acceleration).epsilon(1e-9));
   CHECK(state.q[1] == doctest::Approx(ratio * 0.5 * acceleration).epsilon(1e-9));
-  CHECK(seen.coupling_efforts[0] == doctest::Approx(J2 * ratio * acceleration).epsilon(kNewton));
-  CHECK(seen.joints[0].torque.norm() < 1e-8);  // gears act inside the joints: ideal bearings feel nothing about z
-  CHECK(seen.constraint_drift < 1e-11);        // constraints are held to round-off of their terms
+  CHECK(observation.coupling_efforts[0] == doctest::Approx(J2 * ratio * acceleration).epsilon(kNewton));
+  CHECK(observation.joints[0].torque.norm() <
+        1e-8);                                  // gears act inside the joints: ideal bearings feel nothing about z
+  CHECK(observation.constraint_drift < 1e-11);  // constraints are satisfied to round-off of their terms
 }
 
 TEST_CASE("Differential_AddsUpItsInputs") {
-  // cage = (left + right)/2: with the cage held, what turns one side turns the other back.
+  // cage = (left + right)/2: with the cage fixed, both sides rotate in opposite directions.
   MechanismBuilder b;
   const BodyId left = wheel(b, "left", 0.1), right = wheel(b, "right", 0.3), cage = wheel(b, "cage", 1);
   const JointId l = hinge(b, "l", left), r = hinge(b, "r", right), c = hinge(b, "c", cage);
@@ -144,16 +146,18 @@ TEST_CASE("Cam_LiftsItsFollowerByTheRelation") {
   b.set_gravity({0, 0, -9.81});
   const BodyId shaft = wheel(b, "shaft", 0.1),
                tappet = b.add_body({.name = "tappet", .mass = mass, .inertia = Matrix3::Identity()});
-  const JointId turn = hinge(b, "turn", shaft);
+  const JointId rotation = hinge(b, "rotation", shaft);
   const JointId lift = b.add_joint({.name = "lift",
                                     .type = JointType::prismatic,
                                     .inboard = b.frame_of(b.ground()),
                                     .outboard = b.frame_of(tappet)});
-  b.add_drive(
-      {.name = "motor", .coordinate = {turn, 0}, .kind = DriveSpec::Kind::speed, .function = test::constant(omega)});
+  b.add_drive({.name = "motor",
+               .coordinate = {rotation, 0},
+               .kind = DriveSpec::Kind::speed,
+               .function = test::constant(omega)});
   b.add_coupling({.name = "cam",
                   .output = {lift, 0},
-                  .terms = {{{turn, 0},
+                  .terms = {{{rotation, 0},
                              test::time_function([](double x) { return 0.02 * (1 - std::cos(3 * x)); },
                                                  [](double x) { return 0.06 * std::sin(3 * x); },
                                                  [](double x) { return 0.18 * std::cos(3 * x); })}}});
@@ -161,11 +165,11 @@ TEST_CASE("Cam_LiftsItsFollowerByTheRelation") {
   solver::State state = test::start(*m);
   // At the start exactly, after a second to second order of the step.
   for (double tolerance : {1e-10, 2e-4}) {
-    const Observation seen = m->observe(state);
+    const Observation observation = m->observe(state);
     const double x = 3 * omega * state.t, lift_rate = 0.06 * std::sin(x);
     const double force = mass * (0.18 * std::cos(x) * omega * omega + 9.81);
-    CHECK(seen.coupling_efforts[0] == doctest::Approx(force).epsilon(tolerance));
-    CHECK(std::abs(seen.drive_efforts[0] - force * lift_rate) < tolerance * force);
+    CHECK(observation.coupling_efforts[0] == doctest::Approx(force).epsilon(tolerance));
+    CHECK(std::abs(observation.drive_efforts[0] - force * lift_rate) < tolerance * force);
     if (state.t == 0) test::run(*m, state, 1, 4000, 0.8);
   }
 }

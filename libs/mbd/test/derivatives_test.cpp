@@ -144,9 +144,9 @@ TEST_CASE("FrameVelocityAndAcceleration_AreTimeDerivatives") {
     const FrameMotion now = m->frame_motion(centre, {f}), after = m->frame_motion(drift(*m, centre, kStep), {f}),
                       before = m->frame_motion(drift(*m, centre, -kStep), {f});
     const auto rate = [](const Vector3& a, const Vector3& b) { return Vector3((a - b) / (2 * kStep)); };
-    const Vector3 turn = rotation_log(Eigen::Quaterniond(after.X_WF.R * before.X_WF.R.transpose())) / (2 * kStep);
+    const Vector3 rotation = rotation_log(Eigen::Quaterniond(after.X_WF.R * before.X_WF.R.transpose())) / (2 * kStep);
     CHECK((rate(after.X_WF.r, before.X_WF.r) - now.v).norm() < kRelative * (1 + now.v.norm()));
-    CHECK((turn - now.omega).norm() < kRelative * (1 + now.omega.norm()));
+    CHECK((rotation - now.omega).norm() < kRelative * (1 + now.omega.norm()));
     CHECK((rate(after.v, before.v) - now.a).norm() < kRelative * (1 + now.a.norm()));
     CHECK((rate(after.omega, before.omega) - now.alpha).norm() < kRelative * (1 + now.alpha.norm()));
   }
@@ -191,11 +191,11 @@ TEST_CASE("B1AndB2_MatchFiniteDifferences") {
 
 TEST_CASE("AcrossEveryJointOfTheTree_VelocitiesObeyB1AndB2") {
   const auto m = test::nasty_mechanism();
-  const Observation seen = m->observe(test::wild_state(*m));
+  const Observation observation = m->observe(test::wild_state(*m));
   const MechanismSpec& spec = m->spec();
   const std::vector<JointId> closing = m->closing_joints();
   const auto Y = [&](int body) {
-    const FrameMotion& motion = seen.bodies[static_cast<std::size_t>(body)];
+    const FrameMotion& motion = observation.bodies[static_cast<std::size_t>(body)];
     return (Vector6() << motion.X_WF.R.transpose() * motion.omega, motion.X_WF.R.transpose() * motion.v).finished();
   };
   int in_tree = 0;
@@ -207,7 +207,7 @@ TEST_CASE("AcrossEveryJointOfTheTree_VelocitiesObeyB1AndB2") {
     ++in_tree;
     const FrameSpec& I = spec.frames[static_cast<std::size_t>(joint.inboard.index)];
     const FrameSpec& O = spec.frames[static_cast<std::size_t>(joint.outboard.index)];
-    const JointValues &q = seen.joints[j].position, &rate = seen.joints[j].rate;
+    const JointValues &q = observation.joints[j].position, &rate = observation.joints[j].rate;
     const auto relation = verification::recursive_velocity(joint.type, joint.axis, I.X_BF, O.X_BF,
                                                            {q.data(), static_cast<std::size_t>(q.size())}, joint.lead);
     const Vector6 expected = relation.B1 * Y(I.body.index) + relation.B2 * rate, found = Y(O.body.index);
@@ -281,7 +281,7 @@ TEST_CASE("Bushing_IsTheGradientOfItsEnergyAndDissipates") {
     motion.V_AB_A.setZero();
     elastic.evaluate(motion, false, response);
   }
-  // Half a turn has no rotation vector of its own.
+  // A rotation by 180 degrees has no unique rotation vector.
   motion.X_AB = test::pose({0, 0, 3.1}, {0, 0, 0});
   elastic.evaluate(motion, false, response);
   CHECK_FALSE(elastic.domain_error().empty());

@@ -39,7 +39,7 @@ TEST_CASE("SpeedWithAKink_IsIntegratedToo") {
   CHECK(std::abs(motion.position(1) - (0.5 * 0.09 + 0.5 * 0.49)) < 1e-12);  // the same quadrature
 }
 
-/// A wheel with inertia J turned by angle f(t): torque J f''.
+/// A wheel with inertia J rotated by the angle f(t): torque J f''.
 TEST_CASE("PositionDrive_ReportsTheTorqueItNeeds") {
   MechanismBuilder b;
   const BodyId wheel = b.add_body({.name = "wheel", .mass = 1, .inertia = Vector3(0.2, 0.2, 0.3).asDiagonal()});
@@ -57,13 +57,14 @@ TEST_CASE("PositionDrive_ReportsTheTorqueItNeeds") {
   CHECK(std::abs(state.q[0] - 0.5) < 1e-12);
   CHECK(std::abs(state.v[0] - 3) < 1e-12);
   test::run(*m, state, 1, 1000, 0.8);
-  const Observation seen = m->observe(state);
+  const Observation observation = m->observe(state);
   const double torque = 0.3 * -9 * std::sin(3.0);
-  CHECK(std::abs(state.q[0] - 0.5 - std::sin(3.0)) < 1e-12);  // a constraint, held to round-off
+  CHECK(std::abs(state.q[0] - 0.5 - std::sin(3.0)) < 1e-12);  // a constraint, satisfied to round-off
   // Second order in the multiplier: (omega dt)^2 of the torque's amplitude.
-  CHECK(std::abs(seen.drive_efforts[0] - torque) < std::pow(3e-3, 2) * 2.7);
-  CHECK(seen.drive_powers[0] == doctest::Approx(torque * 3 * std::cos(3.0)).epsilon(1e-4));  // the torque's own error
-  CHECK(seen.joints[0].torque.norm() < 64 * kEps * 2.7);  // an ideal bearing's part of it
+  CHECK(std::abs(observation.drive_efforts[0] - torque) < std::pow(3e-3, 2) * 2.7);
+  CHECK(observation.drive_powers[0] ==
+        doctest::Approx(torque * 3 * std::cos(3.0)).epsilon(1e-4));  // the torque's own error
+  CHECK(observation.joints[0].torque.norm() < 64 * kEps * 2.7);      // an ideal bearing's part of it
 }
 
 /// Two ways to model one slider on a rail: the coordinate in the tree, or of a joint that closes a loop.
@@ -89,10 +90,10 @@ TEST_CASE("CoordinateOfAClosingJoint_ActsLikeOneOfTheTree") {
     CHECK(m->closing_joints().size() == (closing ? 1u : 0u));
     solver::State state = test::start(*m);
     test::run(*m, state, 1, 400, 0.9);
-    const Observation seen = m->observe(state);
+    const Observation observation = m->observe(state);
     // The spring's force, up to 18 N, is not the rail's; Newton's tolerance is 1e-9 of it.
-    CHECK(seen.joints[rail.index].force.norm() < 2e-8);
-    return std::pair{seen.joints[rail.index].position[0], seen.joints[rail.index].rate[0]};
+    CHECK(observation.joints[rail.index].force.norm() < 2e-8);
+    return std::pair{observation.joints[rail.index].position[0], observation.joints[rail.index].rate[0]};
   };
   const auto tree = oscillate(false), loop = oscillate(true);
   CHECK(std::abs(tree.first - 0.25 * std::exp(-0.025) * std::cos(6.0)) < 1e-3);  // damped oscillator, (6 dt)^2

@@ -1,4 +1,4 @@
-// What a user gets wrong with mechanisms, and what they are told.
+// Faults of users in mechanisms and their messages.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -52,11 +52,10 @@ std::unique_ptr<Mechanism> four_bar(JointType middle, JointType closing, double 
 TEST_CASE("PlaneLoop_ClosesWithCylindricalAndSphericalJoints") {
   const auto m = four_bar(JointType::cylindrical, JointType::spherical);
   solver::State state = m->initial_state();
-  const InitialiseSummary summary = solver::initialise(*m, state, {.held = {0}});
+  const InitialiseSummary summary = solver::initialise(*m, state, {.fixed = {0}});
   INFO(summary.message);
   CHECK(summary.solved());
-  CHECK(std::abs(state.q[0] - 1.2) <
-        1e-9);  // the crank stayed where the user put it; held to 1e-7 of the others' motion
+  CHECK(std::abs(state.q[0] - 1.2) < 1e-9);  // the crank kept its prescribed position; to 1e-7 of the others' motion
 }
 
 TEST_CASE("LoopTooShort_CannotBeAssembledAndSaysWhere") {

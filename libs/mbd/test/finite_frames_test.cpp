@@ -1,4 +1,4 @@
-// Bodies of finite strain with several frames: which frame carries the axes is of no account, however far they turn.
+// Bodies of finite strain with several frames: which frame carries the axes does not matter at any rotation.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -30,12 +30,12 @@ test::Beam strip(bool tip_first, int cells = 10) {
 }
 
 /// A strip clamped or hinged at its root, with a force at its tip, in ground's axes.
-struct HeldStrip {
+struct SupportedStrip {
   std::unique_ptr<Mechanism> mechanism;
   FrameId tip;
   ElasticId elastic;
 
-  HeldStrip(const test::Beam& beam, JointType joint, const Vector3& force, double moment, bool is_let_go = false) {
+  SupportedStrip(const test::Beam& beam, JointType joint, const Vector3& force, double moment, bool is_let_go = false) {
     MechanismBuilder b;
     b.set_gravity({0, -9.81, 0});
     const std::shared_ptr<NodalBody> body = beam.all_nodes();
@@ -59,17 +59,17 @@ struct HeldStrip {
 };
 
 TEST_CASE("FiniteStrainBetweenFrames_IsTheSameFromEitherFrame") {
-  // By a force across and a moment, which turn the tip by 1.4 rad.
+  // By a force across and a moment, which rotate the tip by 1.4 rad.
   std::array<Pose, 2> tip;
   for (const bool tip_first : {false, true}) {
-    HeldStrip held(strip(tip_first), JointType::fixed, {0, 400, 60}, 1500);
-    solver::State state = test::start(*held.mechanism);
-    const solver::EquilibriumSummary summary = solver::find_equilibrium(*held.mechanism, state);
+    SupportedStrip supported(strip(tip_first), JointType::fixed, {0, 400, 60}, 1500);
+    solver::State state = test::start(*supported.mechanism);
+    const solver::EquilibriumSummary summary = solver::find_equilibrium(*supported.mechanism, state);
     REQUIRE_MESSAGE(summary.solved(), summary.message);
-    tip[tip_first] = held.mechanism->frame_motion(state, held.tip).X_WF;
+    tip[tip_first] = supported.mechanism->frame_motion(state, supported.tip).X_WF;
   }
   const double angle = std::acos(tip[0].R(0, 0));
-  MESSAGE("tip turned by ", angle, " rad");
+  MESSAGE("tip rotated by ", angle, " rad");
   CHECK(angle > 1.2);
   // Two equilibria of one mesh, each to 1e-10 of what its rows balance.
   CHECK((tip[0].r - tip[1].r).norm() < 1e-8);
@@ -77,13 +77,13 @@ TEST_CASE("FiniteStrainBetweenFrames_IsTheSameFromEitherFrame") {
 }
 
 TEST_CASE("FiniteStrainBetweenFrames_IsThatOfTheMesh") {
-  // The same mesh by itself, its end face moved and turned as the frame was: the same forces hold it there.
+  // The same mesh by itself, its end face displaced and rotated like the frame: it needs the same forces.
   const test::Beam beam = strip(false);
   const double moment = 1500;
-  HeldStrip held(beam, JointType::fixed, {0, 400, 60}, moment);
-  solver::State state = test::start(*held.mechanism);
-  REQUIRE(solver::find_equilibrium(*held.mechanism, state).solved());
-  Pose tip = held.mechanism->frame_motion(state, held.tip).X_WF;
+  SupportedStrip supported(beam, JointType::fixed, {0, 400, 60}, moment);
+  solver::State state = test::start(*supported.mechanism);
+  REQUIRE(solver::find_equilibrium(*supported.mechanism, state).solved());
+  Pose tip = supported.mechanism->frame_motion(state, supported.tip).X_WF;
   tip.r += beam.frame_at(0).r;  // ground's origin is the root's
 
   const fem::ElasticBody body = beam.elastic();
@@ -117,10 +117,10 @@ TEST_CASE("FiniteStrainBetweenFrames_SwingsTheSameFromEitherFrame") {
   const auto path = [](bool tip_first, int steps) {
     test::Beam beam = strip(tip_first, 4);
     beam.material.youngs_modulus = 5e8;
-    HeldStrip held(beam, JointType::revolute, {0, -60, 0}, 0, true);
-    solver::State state = test::start(*held.mechanism);
-    test::run(*held.mechanism, state, 0.3, steps);
-    return Vector3(held.mechanism->frame_motion(state, held.tip).X_WF.r);
+    SupportedStrip supported(beam, JointType::revolute, {0, -60, 0}, 0, true);
+    solver::State state = test::start(*supported.mechanism);
+    test::run(*supported.mechanism, state, 0.3, steps);
+    return Vector3(supported.mechanism->frame_motion(state, supported.tip).X_WF.r);
   };
   const double coarse = (path(false, 120) - path(true, 120)).norm(), fine = (path(false, 240) - path(true, 240)).norm();
   MESSAGE("apart by ", coarse, " m and ", fine, " m");
@@ -135,10 +135,10 @@ TEST_CASE("FiniteStrainOfAStiffBody_MovesItAsSmallStrainDoes") {
     beam.strain = strain;
     beam.material.youngs_modulus = modulus;
     beam.damping = {.mass = 2, .stiffness = 1e-5};
-    HeldStrip held(beam, JointType::revolute, {0, -60, 0}, 0);
-    solver::State state = test::start(*held.mechanism);
-    test::run(*held.mechanism, state, 0.05, 250);
-    return Vector3(held.mechanism->frame_motion(state, held.tip).X_WF.r);
+    SupportedStrip supported(beam, JointType::revolute, {0, -60, 0}, 0);
+    solver::State state = test::start(*supported.mechanism);
+    test::run(*supported.mechanism, state, 0.05, 250);
+    return Vector3(supported.mechanism->frame_motion(state, supported.tip).X_WF.r);
   };
   const Vector3 small = path(Strain::small, 1e11);
   const double bent = (path(Strain::small, 1e13) - small).norm(), apart = (path(Strain::finite, 1e11) - small).norm();
@@ -152,14 +152,14 @@ TEST_CASE("FiniteStrainBetweenFrames_BalancesPowers") {
   test::Beam beam = strip(false, 5);
   beam.material.youngs_modulus = 5e8;
   beam.damping = {.mass = 0, .stiffness = 1e-4};
-  HeldStrip held(beam, JointType::revolute, {0, 0, 0}, 0, true);
-  solver::State state = test::start(*held.mechanism);
-  const auto energy = [&](const solver::State& at) { return held.mechanism->observe(at).elastics[0].energy; };
+  SupportedStrip supported(beam, JointType::revolute, {0, 0, 0}, 0, true);
+  solver::State state = test::start(*supported.mechanism);
+  const auto energy = [&](const solver::State& at) { return supported.mechanism->observe(at).elastics[0].energy; };
   const auto stored = [](const ElasticEnergy& e) { return e.kinetic + e.strain + e.potential; };
   const ElasticEnergy first = energy(state);
   double lost = 0, before = first.dissipation, moved = 0;
   const double dt = 0.3 / 400;
-  test::run(*held.mechanism, state, 0.3, 400, 0.95, [&](const solver::State& now) {
+  test::run(*supported.mechanism, state, 0.3, 400, 0.95, [&](const solver::State& now) {
     const ElasticEnergy e = energy(now);
     lost += 0.5 * dt * (before + e.dissipation);
     before = e.dissipation;
@@ -174,21 +174,21 @@ TEST_CASE("FiniteStrainBetweenFrames_BalancesPowers") {
   CHECK(std::abs(stored(last) + lost - stored(first)) < 1e-5 * last.kinetic);  // 400 steps, second order
 }
 
-TEST_CASE("FiniteStrain_DampingDoesNotFeelATurnOfAnEnd") {
-  // What is bent and turns as a whole against its first frame loses nothing but what it bends further: the power of the
-  // damping forces in a rigid motion of all nodes is nothing.
+TEST_CASE("FiniteStrain_DampingIsIndependentOfARotationOfAnEnd") {
+  // A body that is bent and rotates rigidly against its first frame dissipates nothing but by further bending: the
+  // power of the damping forces in a rigid motion of all nodes is nothing.
   const test::Beam beam = strip(false);
   const fem::ElasticBody body = beam.elastic();
-  VectorXd u(body.size()), turning(body.size());
+  VectorXd u(body.size()), rotating(body.size());
   const Vector3 omega{0.3, -0.7, 1.1};
   for (Index i = 0; i < body.node_count(); ++i) {
     const Vector3 x = body.mesh.nodes[static_cast<std::size_t>(i)];
     u.segment<3>(3 * i) = Vector3(-0.2 * x.x() * x.x(), 0.5 * x.x() * x.x(), 0.1 * x.x() * x.y());
-    turning.segment<3>(3 * i) = omega.cross(x + u.segment<3>(3 * i));
+    rotating.segment<3>(3 * i) = omega.cross(x + u.segment<3>(3 * i));
   }
   fem::FiniteStrain strain, other;
   VectorXd stretching = u;
-  fem::finite_strain(body, u, strain, false, &turning);
+  fem::finite_strain(body, u, strain, false, &rotating);
   fem::finite_strain(body, u, other, false, &stretching);
   CHECK(strain.rate.norm() < 1e-9 * other.rate.norm());  // round-off of strains that vanish
   CHECK(stretching.dot(other.rate) > 0);
@@ -199,9 +199,9 @@ TEST_CASE("FiniteStrainBetweenFrames_DerivativesMatchFiniteDifferences") {
   const std::shared_ptr<NodalBody> body = beam.all_nodes();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const auto vector = [&](double turn, double shift) {
+  const auto vector = [&](double rotation, double shift) {
     Vector6 v;
-    for (Index i = 0; i < 6; ++i) v[i] = (i < 3 ? turn : shift) * uniform(random);
+    for (Index i = 0; i < 6; ++i) v[i] = (i < 3 ? rotation : shift) * uniform(random);
     return v;
   };
   ElasticMotion motion;

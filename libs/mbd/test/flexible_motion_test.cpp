@@ -38,9 +38,9 @@ TEST_CASE("FlexibleBeam_HasTheFrequenciesOfSlenderBeams") {
   beam.material.poisson_ratio = 0;
   const double speed = std::sqrt(beam.material.youngs_modulus / beam.material.density) * 0.01 / std::sqrt(12.0);
   const auto exact = [&](double root) { return root * root * speed / (2 * kPi); };
-  MechanismBuilder held;
-  clamp(held, beam.add_to(held));
-  const auto clamped = held.finalise();
+  MechanismBuilder builder_of_clamped;
+  clamp(builder_of_clamped, beam.add_to(builder_of_clamped));
+  const auto clamped = builder_of_clamped.finalise();
   std::vector<double> found = frequencies_of(*clamped, test::start(*clamped));
   CHECK(found[0] == doctest::Approx(exact(1.875104)).epsilon(3e-3));
   MechanismBuilder loose;
@@ -113,14 +113,15 @@ TEST_CASE("StiffBeam_SwingsLikeTheRigidOne") {
   CHECK(std::abs(swing(&stiff, stiff) - swing(nullptr, stiff)) < 1e-6);
 }
 
-/// Errors of energy and angular momentum over turns of a free beam that bends and stretches as it spins.
+/// Errors of energy and angular momentum over revolutions of a free beam that bends and stretches as it spins.
 struct SpinErrors {
   double strain = 0, energy = 0, momentum = 0;
   double drift = 0;           ///< of the energy: its mean over the last tenth less that over the first
   double momentum_drift = 0;  ///< the same of the angular momentum about the axis of spin
 };
 
-SpinErrors spin(double turns, int steps_per_turn, const Vector3& omega, double spectral_radius, bool nodal) {
+SpinErrors spin(double revolutions, int steps_per_revolution, const Vector3& omega, double spectral_radius,
+                bool nodal) {
   test::Beam beam{.size = {1, 0.05, 0.03}, .cells = {nodal ? 4 : 8, 1, 1}, .tip = true, .nodal = nodal};
   beam.material.youngs_modulus = 2e9;  // soft enough to bend
   beam.modes = 4;
@@ -141,15 +142,15 @@ SpinErrors spin(double turns, int steps_per_turn, const Vector3& omega, double s
   SpinErrors errors;
   int step = 0, early_count = 0, late_count = 0;
   double early = 0, late = 0, spin_early = 0, spin_late = 0;
-  test::run(*m, state, turns * 2 * kPi / omega.norm(), static_cast<int>(turns) * steps_per_turn, spectral_radius,
-            [&](const solver::State&) {
+  test::run(*m, state, revolutions * 2 * kPi / omega.norm(), static_cast<int>(revolutions) * steps_per_revolution,
+            spectral_radius, [&](const solver::State&) {
               if (++step % 10 != 0) return;
               const ElasticEnergy now = m->observe(state).elastics[0].energy;
               const double change = now.kinetic + now.strain - first.kinetic - first.strain;
               const Vector3 lost = now.angular_momentum - first.angular_momentum;
               const double along = lost.dot(first.angular_momentum) / first.angular_momentum.squaredNorm();
-              if (step <= 0.1 * turns * steps_per_turn) early += change, spin_early += along, ++early_count;
-              if (step > 0.9 * turns * steps_per_turn) late += change, spin_late += along, ++late_count;
+              if (step <= 0.1 * revolutions * steps_per_revolution) early += change, spin_early += along, ++early_count;
+              if (step > 0.9 * revolutions * steps_per_revolution) late += change, spin_late += along, ++late_count;
               errors.strain = std::max(errors.strain, now.strain / first.kinetic);
               errors.energy = std::max(errors.energy, std::abs(change) / first.kinetic);
               errors.momentum = std::max(errors.momentum, lost.norm() / first.angular_momentum.norm());
@@ -159,7 +160,7 @@ SpinErrors spin(double turns, int steps_per_turn, const Vector3& omega, double s
   return errors;
 }
 
-TEST_CASE("FreeSpinningBeam_KeepsMomentumAndEnergyOver100Turns") {
+TEST_CASE("FreeSpinningBeam_KeepsMomentumAndEnergyOver100Revolutions") {
   // The errors of the steps themselves swing with their square; what counts is that they do not grow.
   const SpinErrors e = spin(100, 400, {0, 0, 20}, 1.0, false);
   MESSAGE("strain energy up to ", e.strain, ", energy swings by ", e.energy, " and drifts by ", e.drift,
@@ -223,7 +224,7 @@ TEST_CASE("SpinningRod_StretchesByTheClosedForm") {
   CHECK(sum / steps == doctest::Approx(exact).epsilon(1e-2));  // omega^2 L^2 rho/E of it, and the mean of ten periods
 }
 
-TEST_CASE("HangingBeam_ComesToRestAtItsStaticShape") {
+TEST_CASE("HangingBeam_SettlesAtItsStaticShape") {
   // Under gravity a cantilever's tip sinks by rho g A L^4/(8 E I): 1e-3 for shear, of the square of its thickness.
   test::Beam beam{.size = {1, 0.02, 0.02}, .cells = {20, 1, 1}, .tip = true};
   beam.material.poisson_ratio = 0;
@@ -245,7 +246,7 @@ TEST_CASE("HangingBeam_ComesToRestAtItsStaticShape") {
   CHECK(clamp.force.z() == doctest::Approx(9.81 * beam.mass()).epsilon(1e-9));  // out of balance by 1e-10
 }
 
-/// Crank and slider with a rod that is rigid or elastic; the slider's place after half a turn.
+/// Crank and slider with a rod that is rigid or elastic; the slider's position after half a revolution.
 double slide(bool flexible, double stiffening) {
   test::Beam rod{.size = {0.3, 0.02, 0.02}, .cells = {8, 1, 1}, .tip = true};
   rod.material.youngs_modulus *= stiffening;

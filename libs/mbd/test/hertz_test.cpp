@@ -13,7 +13,7 @@ namespace hertz_test {
 TEST_CASE("HertzStiffness_OfRoundContactIsClosedForm") {
   CHECK(hertz_stiffness(2e11, {0.01, 0.01}) == doctest::Approx(4.0 / 3.0 * 2e11 * 0.1).epsilon(1e-14));  // round-off
   // Just beside the round contact the ellipse's formulas take over without a jump.
-  // Of second order in the 0.2 % between both radii.
+  // Second order in the 0.2 % between both radii.
   CHECK(hertz_stiffness(2e11, {0.01 * 1.001, 0.01 / 1.001}) ==
         doctest::Approx(hertz_stiffness(2e11, {0.01, 0.01})).epsilon(1e-6));
 }

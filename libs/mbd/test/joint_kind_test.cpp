@@ -30,7 +30,7 @@ double largest_value(JointType type, const std::vector<double>& q) {
   return largest;
 }
 
-// The smallest rotation turns about an axis across z, wherever it leads; -z has no smallest one.
+// The axis of the smallest rotation is normal to z for every direction; for -z it is not unique.
 TEST_CASE("JointAxes_AreTheSmallestRotationFromZ") {
   for (const Vector3& given : {kAxis, Vector3(0.3, -0.5, -0.8), Vector3(1e-9, 0, 1), Vector3(2e-9, -1e-9, -1),
                                Vector3(1e-4, 3e-4, -1), Vector3(0, 0, 2), Vector3(0, 0, -1)}) {
@@ -80,9 +80,9 @@ TEST_CASE("CoordinatesOfJoints_FollowFromTheirChains") {
   CHECK(find_coordinate(JointType::universal, "rotation_2")->offset == 1);
   CHECK(joint_type_of("screw") == JointType::screw);
   CHECK(!joint_type_of("scew"));
-  CHECK(turns_about_one_axis(JointType::planar));
-  CHECK(!turns_about_one_axis(JointType::universal));
-  CHECK(!turns_about_one_axis(JointType::spherical));
+  CHECK(rotates_about_one_axis(JointType::planar));
+  CHECK(!rotates_about_one_axis(JointType::universal));
+  CHECK(!rotates_about_one_axis(JointType::spherical));
 }
 
 }  // namespace joint_kind_test

@@ -17,9 +17,9 @@ namespace light_root_test {
 constexpr double kPi = std::numbers::pi;
 
 double energy(Mechanism& m, const solver::State& state) {
-  const Observation seen = m.observe(state);
-  double sum = seen.kinetic_energy + seen.spring_energy;
-  for (const ElasticObservation& part : seen.elastics) sum += part.energy.strain;
+  const Observation observation = m.observe(state);
+  double sum = observation.kinetic_energy + observation.spring_energy;
+  for (const ElasticObservation& part : observation.elastics) sum += part.energy.strain;
   return sum;
 }
 
@@ -81,8 +81,9 @@ Balance fly(int elements, double dt, double end, double spectral_radius, bool lo
 }
 
 TEST_CASE("LightFirstNodeUnderASuddenMoment_TakesUpTheWorkDone") {
-  // The first node alone turns some hundred radians per second, and steps of 20 ms do not resolve it. The method takes
-  // unresolved motions out, with a spectral radius of .5 a quarter of the work in four steps; it must add nothing.
+  // The first node alone rotates at some hundred radians per second, and steps of 20 ms do not resolve it. The method
+  // takes unresolved motions out, with a spectral radius of .5 a quarter of the work in four steps; it must add
+  // nothing.
   for (const int elements : {4, 8, 16})
     for (const double dt : {2.5e-3, 5e-3, 10e-3, 20e-3})
       for (const double rho : {0.5, 0.9, 1.0}) {
@@ -128,22 +129,22 @@ std::unique_ptr<Mechanism> soft_beam(std::optional<std::size_t> hinge, bool loos
   return b.finalise();
 }
 
-/// Where the beam's ends are after a while, and what carries it transmits.
+/// Returns the positions of the beam's ends after a while and the reactions of its joint.
 Eigen::VectorXd swing(std::optional<std::size_t> hinge, bool loosened, int steps) {
   BeamBodyIds ids;
   const auto m = soft_beam(hinge, loosened, ids);
   solver::State state = test::start(*m);
   test::run(*m, state, 0.1, steps, 0.9);
-  const Observation seen = m->observe(state);
+  const Observation observation = m->observe(state);
   Eigen::VectorXd ends(9);
   ends << m->frame_motion(state, ids.frames.front()).X_WF.r, m->frame_motion(state, ids.frames.back()).X_WF.r,
-      seen.joints.back().force;
+      observation.joints.back().force;
   return ends;
 }
 
 TEST_CASE("LooseBeam_MovesAsCountedFromItsFirstNode") {
-  const std::optional<std::size_t> places[] = {std::nullopt, 2U, 4U};
-  for (const std::optional<std::size_t>& hinge : places) {
+  const std::optional<std::size_t> hinges[] = {std::nullopt, 2U, 4U};
+  for (const std::optional<std::size_t>& hinge : hinges) {
     CAPTURE(hinge.value_or(99));
     BeamBodyIds ids;
     const auto from_first = soft_beam(hinge, false, ids), loose = soft_beam(hinge, true, ids);
@@ -165,7 +166,7 @@ TEST_CASE("LooseBeam_MovesAsCountedFromItsFirstNode") {
   }
 }
 
-/// A light body and a heavy one far from it, held together by a joint and a stiff bushing, a torque on the light one;
+/// A light body and a heavy one far from it, connected by a joint and a stiff bushing, a torque on the light one;
 /// the model file begins with either.
 std::unique_ptr<Mechanism> pair_of_bodies(bool light_first, JointType between, bool chooses_roots) {
   MechanismBuilder b;
@@ -179,13 +180,13 @@ std::unique_ptr<Mechanism> pair_of_bodies(bool light_first, JointType between, b
     b.add_joint({.name = "j", .type = to_ground, .inboard = ground, .outboard = near});
     b.add_joint({.name = "k", .type = between, .inboard = near, .outboard = far});
   } else {
-    std::vector<double> place(degrees_of_freedom(to_ground), 0.0);
-    place[0] = 10;
+    std::vector<double> position(degrees_of_freedom(to_ground), 0.0);
+    position[0] = 10;
     b.add_joint({.name = "j",
                  .type = to_ground,
                  .inboard = ground,
                  .outboard = b.frame_of(heavy),
-                 .initial = std::move(place)});
+                 .initial = std::move(position)});
     b.add_joint({.name = "k", .type = between, .inboard = far, .outboard = near});
   }
   Matrix6 K = Matrix6::Zero();
@@ -198,7 +199,7 @@ std::unique_ptr<Mechanism> pair_of_bodies(bool light_first, JointType between, b
 }
 
 TEST_CASE("LightBodyAtTheRoot_StartsAsWhereTheHeavyOneIs") {
-  // The light body turns a thousand radians per second on the bushing: steps of 2 ms do not resolve it.
+  // The light body rotates at a thousand radians per second on the bushing: steps of 2 ms do not resolve it.
   for (const double dt : {1e-3, 2e-3}) {
     CAPTURE(dt);
     double energies[2] = {};

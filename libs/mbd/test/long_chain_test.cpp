@@ -15,7 +15,7 @@ constexpr int uncut = std::numeric_limits<int>::max();
 
 void step_to(Mechanism& mechanism, solver::State& state, double end, int steps) {
   REQUIRE(solver::initialise(mechanism, state,
-                             {.held = mechanism.given_coordinates(), .held_rates = mechanism.given_rates()})
+                             {.fixed = mechanism.given_coordinates(), .fixed_rates = mechanism.given_rates()})
               .solved());
   solver::GeneralizedAlpha integrator({.spectral_radius = 0.9});
   for (int i = 1; i <= steps; ++i) REQUIRE(integrator.step(mechanism, state, end * i / steps - state.t).solved());
@@ -31,17 +31,18 @@ TEST_CASE("LongChain_CutOrNot_MovesTheSameWay") {
     solver::State a = whole->initial_state(), b = parts->initial_state();
     step_to(*whole, a, 0.2, 400);
     step_to(*parts, b, 0.2, 400);
-    const Observation seen = parts->observe(b), expected = whole->observe(a);
-    CHECK(seen.constraint_drift < 1e-10);  // Newton's tolerance of constraints
-    for (std::size_t i = 0; i < seen.bodies.size(); ++i) {
+    const Observation observation = parts->observe(b), expected = whole->observe(a);
+    CHECK(observation.constraint_drift < 1e-10);  // Newton's tolerance of constraints
+    for (std::size_t i = 0; i < observation.bodies.size(); ++i) {
       // The same motion by other equations: a chain amplifies what Newton's 1e-8 leaves, from angles to forces.
-      CHECK((seen.bodies[i].X_WF.r - expected.bodies[i].X_WF.r).norm() < 1e-6);
-      CHECK((seen.bodies[i].v - expected.bodies[i].v).norm() < 1e-4);
+      CHECK((observation.bodies[i].X_WF.r - expected.bodies[i].X_WF.r).norm() < 1e-6);
+      CHECK((observation.bodies[i].v - expected.bodies[i].v).norm() < 1e-4);
     }
-    for (std::size_t j = 0; j < seen.joints.size(); ++j) {
+    for (std::size_t j = 0; j < observation.joints.size(); ++j) {
       // The same motion by other equations: a chain amplifies what Newton's 1e-8 leaves, from angles to forces.
-      CHECK(seen.joints[j].position[0] == doctest::Approx(expected.joints[j].position[0]).epsilon(1e-4));
-      CHECK((seen.joints[j].force - expected.joints[j].force).norm() < 1e-2 * (1 + expected.joints[j].force.norm()));
+      CHECK(observation.joints[j].position[0] == doctest::Approx(expected.joints[j].position[0]).epsilon(1e-4));
+      CHECK((observation.joints[j].force - expected.joints[j].force).norm() <
+            1e-2 * (1 + expected.joints[j].force.norm()));
     }
   }
 }
@@ -49,15 +50,15 @@ TEST_CASE("LongChain_CutOrNot_MovesTheSameWay") {
 TEST_CASE("LongChain_StartsWhereItsJointsSay") {
   const auto parts = test::chain(30, 12, false);
   const solver::State start = parts->initial_state();
-  const Observation seen = parts->observe(start);
-  CHECK(seen.constraint_drift < 1e-12);  // round-off of 30 joints
+  const Observation observation = parts->observe(start);
+  CHECK(observation.constraint_drift < 1e-12);  // round-off of 30 joints
   solver::State state = start;
-  REQUIRE(solver::initialise(*parts, state, {.held = parts->given_coordinates(), .held_rates = parts->given_rates()})
+  REQUIRE(solver::initialise(*parts, state, {.fixed = parts->given_coordinates(), .fixed_rates = parts->given_rates()})
               .solved());
   CHECK((state.q - start.q).norm() < 1e-12);  // round-off of 30 joints
   CHECK((state.v - start.v).norm() < 1e-10);  // round-off of rates over 30 joints
-  for (std::size_t j = 0; j < seen.joints.size(); ++j)
-    CHECK(seen.joints[j].position[0] == doctest::Approx(test::chain_angle(static_cast<int>(j))));
+  for (std::size_t j = 0; j < observation.joints.size(); ++j)
+    CHECK(observation.joints[j].position[0] == doctest::Approx(test::chain_angle(static_cast<int>(j))));
 }
 
 TEST_CASE("LongChain_TheMatrixGrowsInProportionToItsLength") {
@@ -89,9 +90,9 @@ TEST_CASE("Observation_IsOfItsOwnState_WhateverWasLookedAtBefore") {
   const auto used = test::chain(30, 12);
   solver::State start = used->initial_state();
   start.vdot.setLinSpaced(-1, 1);
-  solver::State place = start, rate = start, acceleration = start;
-  place.q[3] += 0.1, rate.v[3] += 0.1, acceleration.vdot[3] += 0.1;
-  for (const solver::State* other : {&place, &rate, &acceleration}) {
+  solver::State position = start, rate = start, acceleration = start;
+  position.q[3] += 0.1, rate.v[3] += 0.1, acceleration.vdot[3] += 0.1;
+  for (const solver::State* other : {&position, &rate, &acceleration}) {
     CHECK_FALSE(are_same(used->observe(*other), used->observe(start)));
     CHECK(are_same(used->observe(*other), test::chain(30, 12)->observe(*other)));
     CHECK(are_same(used->observe(start), test::chain(30, 12)->observe(start)));

@@ -19,7 +19,7 @@ namespace manufactured_beam_test {
 
 using test::ManufacturedBeam;
 // Gauss' rule of three points: of sixth order, far beyond that of the beam.
-const std::array<double, 3> places{0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
+const std::array<double, 3> abscissae{0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
 const std::array<double, 3> weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
 
 using Loads = Eigen::Matrix<double, 6, Eigen::Dynamic>;
@@ -32,9 +32,9 @@ class NodalLoads {
   NodalLoads(const ManufacturedBeam& exact, int elements) : exact_(exact), elements_(elements) {}
 
   const Loads& at(double t) {
-    const auto [place, is_new] = known_.try_emplace(t);
-    if (is_new) place->second = loads(t);
-    return place->second;
+    const auto [entry, is_new] = known_.try_emplace(t);
+    if (is_new) entry->second = loads(t);
+    return entry->second;
   }
   [[nodiscard]] const ManufacturedBeam& exact() const { return exact_; }
   [[nodiscard]] int elements() const { return elements_; }
@@ -46,10 +46,10 @@ class NodalLoads {
     loads.col(elements_) += ManufacturedBeam::six(exact_.wrench(exact_.length, t));
     const double size = exact_.length / elements_;
     for (int e = 0; e < elements_; ++e) {
-      for (std::size_t k = 0; k < places.size(); ++k) {
-        const Vector6 load = size * weights[k] * exact_.load((e + places[k]) * size, t);
-        loads.col(e) += (1 - places[k]) * load;
-        loads.col(e + 1) += places[k] * load;
+      for (std::size_t k = 0; k < abscissae.size(); ++k) {
+        const Vector6 load = size * weights[k] * exact_.load((e + abscissae[k]) * size, t);
+        loads.col(e) += (1 - abscissae[k]) * load;
+        loads.col(e + 1) += abscissae[k] * load;
       }
     }
     return loads;
@@ -90,7 +90,7 @@ Motion motion_of(const test::ManufacturedLine& line, double x, double t) {
           {omega(2, 1), omega(0, 2), omega(1, 0)}};
 }
 
-/// What a beam shows at the end beside what it should show.
+/// Returns the errors of the beam at the end.
 /// @param is_loose  its nodes are counted from ground, not from the first
 test::Errors errors_of(const std::shared_ptr<NodalLoads>& loads, int steps, bool is_loose) {
   const ManufacturedBeam& exact = loads->exact();
@@ -122,13 +122,13 @@ test::Errors errors_of(const std::shared_ptr<NodalLoads>& loads, int steps, bool
   const double size = exact.length / elements;
   for (int node = 0; node <= elements; ++node) {
     const double x = node * size;
-    const FrameMotion seen = m->frame_motion(state, ids.frames[static_cast<std::size_t>(node)]);
+    const FrameMotion observation = m->frame_motion(state, ids.frames[static_cast<std::size_t>(node)]);
     const Motion wanted = motion_of(exact.line, x, end);
-    const Eigen::Quaterniond turn(seen.X_WF.R * wanted.X.R.transpose());
-    errors.add("position [m]", (seen.X_WF.r - wanted.X.r).norm());
-    errors.add("rotation [rad]", rotation_log(turn).norm());
-    errors.add("velocity [m/s]", (seen.v - wanted.v).norm());
-    errors.add("angular velocity [rad/s]", (seen.omega - wanted.omega).norm());
+    const Eigen::Quaterniond rotation(observation.X_WF.R * wanted.X.R.transpose());
+    errors.add("position [m]", (observation.X_WF.r - wanted.X.r).norm());
+    errors.add("rotation [rad]", rotation_log(rotation).norm());
+    errors.add("velocity [m/s]", (observation.v - wanted.v).norm());
+    errors.add("angular velocity [rad/s]", (observation.omega - wanted.omega).norm());
   }
   const Observation all = m->observe(state);
   Eigen::Vector2d energy = Eigen::Vector2d::Zero();
@@ -138,16 +138,16 @@ test::Errors errors_of(const std::shared_ptr<NodalLoads>& loads, int steps, bool
                                .mass_per_length = exact.mass_per_length,
                                .inertia_per_length = test::vector(exact.inertia_per_length),
                                .damping = exact.damping});
-    const fem::BeamMotionResponse seen = element.section(segment.motion);
+    const fem::BeamMotionResponse observation = element.section(segment.motion);
     const Vector6 missing =
-        seen.elastic + seen.viscous - ManufacturedBeam::six(exact.section_forces((e + 0.5) * size, end));
+        observation.elastic + observation.viscous - ManufacturedBeam::six(exact.section_forces((e + 0.5) * size, end));
     errors.add("N [N]", missing.head<3>().norm());
     errors.add("M [N m]", missing.tail<3>().norm());
     energy += Eigen::Vector2d(segment.energy.kinetic, segment.energy.strain);
   }
   for (int k = 0; k < 20; ++k)
-    for (std::size_t i = 0; i < places.size(); ++i)
-      energy -= exact.length / 20 * weights[i] * exact.energies((k + places[i]) * exact.length / 20, end);
+    for (std::size_t i = 0; i < abscissae.size(); ++i)
+      energy -= exact.length / 20 * weights[i] * exact.energies((k + abscissae[i]) * exact.length / 20, end);
   errors.add("kinetic energy [J]", energy[0]);
   errors.add("strain energy [J]", energy[1]);
   return errors;

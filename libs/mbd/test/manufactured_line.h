@@ -10,7 +10,7 @@
 namespace hersey::mbd::test {
 
 /// A line and its sections whose motion is given: bent both ways, twisted, stretched and sheared by strains of some
-/// percent, turned and moved as a whole. At t = 0 it is straight along x, and does not begin to deform suddenly.
+/// percent, rotated and moved as a whole. At t = 0 it is straight along x, and does not begin to deform suddenly.
 struct ManufacturedLine {
   double bend = 0.7;    ///< amplitude of the deformations that differ along the line [-]
   double strain = 0.1;  ///< of stretch and shears that are the same all along [-]
@@ -26,8 +26,8 @@ struct ManufacturedLine {
   template <class T>
   [[nodiscard]] MatrixOf<T> axes(const T& t) const {
     using std::sin;
-    return turned_about<T>(2, 1.6 * t + 0.3 * sin(2.0 * t)) *
-           (turned_about<T>(0, -0.8 * t) * turned_about<T>(1, 0.5 * sin(1.5 * t)));
+    return rotated_about<T>(2, 1.6 * t + 0.3 * sin(2.0 * t)) *
+           (rotated_about<T>(0, -0.8 * t) * rotated_about<T>(1, 0.5 * sin(1.5 * t)));
   }
   /// Origin of the whole [m].
   template <class T>
@@ -40,8 +40,8 @@ struct ManufacturedLine {
   [[nodiscard]] MatrixOf<T> R(const T& x, const T& t) const {
     using std::cos, std::sin;
     const T A = bend * amplitude(t);
-    return axes(t) * (turned_about<T>(2, A * sin(1.5 * x + T(0.3))) *
-                      (turned_about<T>(1, 0.8 * A * cos(1.2 * x)) * turned_about<T>(0, A * (0.7 * x + 0.3 * x * x))));
+    return axes(t) * (rotated_about<T>(2, A * sin(1.5 * x + T(0.3))) *
+                      (rotated_about<T>(1, 0.8 * A * cos(1.2 * x)) * rotated_about<T>(0, A * (0.7 * x + 0.3 * x * x))));
   }
   /// The line: along the normals of the sections to the second order of the bend, and strained beside that [m].
   template <class T>
@@ -58,7 +58,7 @@ struct ManufacturedLine {
   }
 };
 
-/// What a beam needs to move along a given line, theory manual eq. (beams.9).
+/// Loads that a beam needs to move along a given line, theory manual eq. (beams.9).
 struct ManufacturedBeam {
   ManufacturedLine line;
   double length = 1;                                           // [m]

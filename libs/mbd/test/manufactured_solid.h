@@ -32,7 +32,7 @@ struct ManufacturedSolid {
     Each<Matrix3> Qa, Qa_rate, Qa_acc;
     Each<double> a, a_rate;
 
-    [[nodiscard]] Vector3 place(const Vector3& X, const Each<Vector3>& phi) const { return of(r, Q, Qa, X, phi); }
+    [[nodiscard]] Vector3 position(const Vector3& X, const Each<Vector3>& phi) const { return of(r, Q, Qa, X, phi); }
     [[nodiscard]] Vector3 velocity(const Vector3& X, const Each<Vector3>& phi) const {
       return of(r_rate, Q_rate, Qa_rate, X, phi);
     }
@@ -126,7 +126,7 @@ struct ManufacturedSolid {
     return now.Q * (matrix(stress<double>(now, gradients<double>({X[0], X[1], X[2]}))) * n);
   }
 
-  /// What a point of the body needs at any instant.
+  /// Loads that a point of the body needs at an instant.
   struct Point {
     Vector3 X;
     Each<Vector3> phi;

@@ -95,7 +95,7 @@ void add_loads(MechanismBuilder& b, ElasticId elastic, const Solid& exact, const
   }
 }
 
-/// What the block shows at the end beside what it should show.
+/// Returns the errors of the block at the end.
 template <class Solid>
 test::Errors errors_of(const Solid& exact, const Block& how) {
   const fem::ElasticBody body = fem::assemble(fem::box_mesh(how.type, size, how.cells), {exact.material});
@@ -129,14 +129,14 @@ test::Errors errors_of(const Solid& exact, const Block& how) {
   const FrameMotion root = m->frame_motion(state, ids.frames[0]);
   errors.add("rotation of the frame [rad]", rotation_log(Eigen::Quaterniond(root.X_WF.R * last.Q.transpose())).norm());
   errors.add("position of the frame [m]", (root.X_WF.r - last.r).norm());
-  const ElasticObservation seen = m->observe(state).elastics[0];
-  const Eigen::VectorXd u = solid->displacements(seen.motion, {});
-  Eigen::Vector2d energy(-seen.energy.kinetic, -seen.energy.strain);
+  const ElasticObservation observation = m->observe(state).elastics[0];
+  const Eigen::VectorXd u = solid->displacements(observation.motion, {});
+  Eigen::Vector2d energy(-observation.energy.kinetic, -observation.energy.strain);
   for (const auto& at : points) {
     Vector3 y = at.point.X;
     const int* nodes = body.mesh.nodes_of(*at.element);
     for (Index a = 0; a < at.N.size(); ++a) y += at.N[a] * u.segment<3>(3 * nodes[a]);
-    errors.add("position [m]", (root.X_WF * y - last.place(at.point.X, at.point.phi)).norm(), at.volume);
+    errors.add("position [m]", (root.X_WF * y - last.position(at.point.X, at.point.phi)).norm(), at.volume);
     energy += at.volume * exact.energies(last, at.point);
   }
   errors.add("kinetic energy [J]", energy[0]);
@@ -144,8 +144,8 @@ test::Errors errors_of(const Solid& exact, const Block& how) {
   return errors;
 }
 
-/// Turns evenly about a skew axis through its corner and deforms with the square of time, by strains of up to a tenth:
-/// steps of any length have this exactly, so that what is left is the elements' error.
+/// Rotates at a constant rate about a skew axis through its corner and deforms with the square of time, by strains of
+/// up to a tenth: steps of any length have this exactly, so that what is left is the elements' error.
 struct EvenMotion {
   double amplitude = 0.5;  ///< [1/s^2]
 
@@ -155,8 +155,8 @@ struct EvenMotion {
   }
   template <class T>
   [[nodiscard]] MatrixOf<T> axes(const T& t) const {
-    const MatrixOf<T> tilt = test::turned_about<T>(0, T(0.7)) * test::turned_about<T>(1, T(-0.4));
-    return tilt * (test::turned_about<T>(2, 3.0 * t) * test::transposed(tilt));
+    const MatrixOf<T> tilt = test::rotated_about<T>(0, T(0.7)) * test::rotated_about<T>(1, T(-0.4));
+    return tilt * (test::rotated_about<T>(2, 3.0 * t) * test::transposed(tilt));
   }
   template <class T>
   [[nodiscard]] std::array<T, 2> amplitudes(const T& t) const {
@@ -172,8 +172,8 @@ struct EvenMotion {
   }
 };
 
-/// Deforms evenly over the block, by strains of some tens of percent, while it turns and moves unevenly: elements have
-/// this exactly, so that what is left is the steps' error.
+/// Deforms evenly over the block, by strains of some tens of percent, while it rotates and moves unevenly: elements
+/// have this exactly, so that what is left is the steps' error.
 struct UniformMotion {
   template <class T>
   [[nodiscard]] VectorOf<T> origin(const T& t) const {
@@ -183,8 +183,8 @@ struct UniformMotion {
   template <class T>
   [[nodiscard]] MatrixOf<T> axes(const T& t) const {
     using std::sin;
-    return test::turned_about<T>(2, 2.0 * t + 0.3 * sin(4.0 * t)) *
-           (test::turned_about<T>(0, -0.8 * t) * test::turned_about<T>(1, 0.5 * sin(3.0 * t)));
+    return test::rotated_about<T>(2, 2.0 * t + 0.3 * sin(4.0 * t)) *
+           (test::rotated_about<T>(0, -0.8 * t) * test::rotated_about<T>(1, 0.5 * sin(3.0 * t)));
   }
   template <class T>
   [[nodiscard]] std::array<T, 2> amplitudes(const T& t) const {

@@ -32,11 +32,11 @@ Eigen::Matrix3Xd random_forces(unsigned seed, Index nodes) {
 
 /// Puts a load in the body's axes and one in ground's on a body.
 void load(ModalBody& body) {
-  body.add_load({"turning", LoadAxes::body, random_forces(1, body.data().nodes.cols())});
+  body.add_load({"rotating", LoadAxes::body, random_forces(1, body.data().nodes.cols())});
   body.add_load({"steady", LoadAxes::ground, random_forces(2, body.data().nodes.cols())});
 }
 
-/// A motion in which everything turns, moves and deforms a lot.
+/// A motion in which everything rotates, moves and deforms a lot.
 ElasticMotion wild_motion(const ModalBody& body) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -165,30 +165,30 @@ TEST_CASE("ModalBody_LoadsDoTheWorkOfTheirForcesAtTheirNodes") {
     wrench += force_transform(motion.frames[0].X_WF.inverse() * motion.frames[f].X_WF) * W;
   }
   const Matrix3 R = motion.frames[0].X_WF.R;
-  const auto places = [&](const ElasticMotion& at) {
+  const auto positions = [&](const ElasticMotion& at) {
     const VectorXd u = body.data().displacements * body.amplitudes(at);
     Eigen::Matrix3Xd y = body.data().nodes + Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
     return Eigen::Matrix3Xd((at.frames[0].X_WF.R * y).colwise() + at.frames[0].X_WF.r);
   };
   // The same from the nodes themselves, their velocities by differences.
-  const Eigen::Matrix3Xd y = places(motion),
-                         v = (places(later(motion, kStep)) - places(later(motion, -kStep))) / (2 * kStep);
+  const Eigen::Matrix3Xd y = positions(motion),
+                         v = (positions(later(motion, kStep)) - positions(later(motion, -kStep))) / (2 * kStep);
   const ElasticEnergy energy = body.energy(motion, Vector3::Zero());
   double sum = 0;
   Vector6 total = Vector6::Zero();
   for (int i = 0; i < 2; ++i) {
     Eigen::Matrix3Xd f = motion.loads[i] * random_forces(i == 0 ? 1 : 2, y.cols());
     if (i == 0) f = R * f;
-    const ElasticLoad& seen = energy.loads[static_cast<std::size_t>(i)];
+    const ElasticLoad& observation = energy.loads[static_cast<std::size_t>(i)];
     // Velocities by differences of step 1e-5.
-    CHECK(seen.power == doctest::Approx((f.array() * v.array()).sum()).epsilon(1e-7));
-    CHECK((seen.wrench.tail<3>() - f.rowwise().sum()).norm() < kNodes * seen.wrench.norm());
+    CHECK(observation.power == doctest::Approx((f.array() * v.array()).sum()).epsilon(1e-7));
+    CHECK((observation.wrench.tail<3>() - f.rowwise().sum()).norm() < kNodes * observation.wrench.norm());
     Vector3 torque = Vector3::Zero();
     for (Index a = 0; a < y.cols(); ++a) torque += (y.col(a) - motion.frames[0].X_WF.r).cross(Vector3(f.col(a)));
-    CHECK((seen.wrench.head<3>() - torque).norm() < kNodes * seen.wrench.norm());
-    sum += seen.power;
-    total.head<3>() += R.transpose() * seen.wrench.head<3>();
-    total.tail<3>() += R.transpose() * seen.wrench.tail<3>();
+    CHECK((observation.wrench.head<3>() - torque).norm() < kNodes * observation.wrench.norm());
+    sum += observation.power;
+    total.head<3>() += R.transpose() * observation.wrench.head<3>();
+    total.tail<3>() += R.transpose() * observation.wrench.tail<3>();
   }
   CHECK(power == doctest::Approx(sum).epsilon(kNodes));
   CHECK((wrench - total).norm() < kNodes * total.norm());

@@ -56,7 +56,7 @@ TEST_CASE("NodalBody_MovesAsTheModalBodyWithEveryVibration") {
     const Vector3 nodal = pushed(beam);
     beam.modes = 0;
     beam.nodal = false;
-    CHECK((pushed(beam) - modal).norm() > 1e-6);  // what the vibrations do is seen
+    CHECK((pushed(beam) - modal).norm() > 1e-6);  // the vibrations have an effect
     CHECK((nodal - modal).norm() < kNewton);
   }
 }
@@ -94,22 +94,22 @@ TEST_CASE("NodalBody_SagsLikeItsMesh") {
   const fem::ElasticBody body = beam.elastic();
   const fem::FrameSupports supports = fem::frame_supports(
       body.mesh, {{"root", beam.frame_at(0).r, body.mesh.node_sets.at("x0"), fem::Connection::average, {}}});
-  fem::ConstrainedStiffness held(body.K, body.m, supports.held, supports.C);
-  REQUIRE(held.factorise().solved());
-  const VectorXd u = held.solve(fem::gravity_load(body, g));
+  fem::ConstrainedStiffness constrained(body.K, body.m, supports.held, supports.C);
+  REQUIRE(constrained.factorise().solved());
+  const VectorXd u = constrained.solve(fem::gravity_load(body, g));
   Vector6 tip = fem::frame_motion(body.mesh, {"tip", beam.frame_at(1).r, body.mesh.node_sets.at("x1"), {}, {}}) * u;
   const Vector3 found = m->frame_motion(state, ids.frames[1]).X_WF.r - beam.frame_at(1).r;
-  // The body's axes turn as it sags: of second order.
+  // The body's axes rotate as it sags: of second order.
   CHECK((found - tip.tail<3>()).norm() < 1e-5 * tip.tail<3>().norm());
 }
 
-/// Frames that turn, move and deform the body as machines do: 20 rad/s, 10 m/s, strains of 1e-4.
+/// Frames that rotate, move and deform the body as machines do: 20 rad/s, 10 m/s, strains of 1e-4.
 ElasticMotion brisk_motion(const NodalBody& body) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const auto vector = [&](double turn, double shift) {
+  const auto vector = [&](double rotation, double shift) {
     Vector6 v;
-    for (Index i = 0; i < 6; ++i) v[i] = (i < 3 ? turn : shift) * uniform(random);
+    for (Index i = 0; i < 6; ++i) v[i] = (i < 3 ? rotation : shift) * uniform(random);
     return v;
   };
   ElasticMotion motion;
@@ -124,8 +124,8 @@ ElasticMotion brisk_motion(const NodalBody& body) {
   return motion;
 }
 
-/// Derivative of the settled forces by finite differences of places, velocities or accelerations.
-enum class Moved { place, velocity, acceleration };
+/// Derivative of the settled forces by finite differences of positions, velocities or accelerations.
+enum class Moved { position, velocity, acceleration };
 MatrixXd differences(NodalBody& body, const ElasticMotion& motion, Moved what, double unit) {
   const Index n = 6 * body.frame_count();
   MatrixXd derivative(n, n);
@@ -133,7 +133,7 @@ MatrixXd differences(NodalBody& body, const ElasticMotion& motion, Moved what, d
     const auto at = [&](double step) {
       ElasticMotion moved = motion;
       ElasticFrame& frame = moved.frames[static_cast<std::size_t>(i / 6)];
-      if (what == Moved::place) frame.X_WF = frame.X_WF * pose_exp(step * Vector6::Unit(i % 6));
+      if (what == Moved::position) frame.X_WF = frame.X_WF * pose_exp(step * Vector6::Unit(i % 6));
       if (what == Moved::velocity) frame.V[i % 6] += step;
       if (what == Moved::acceleration) frame.A[i % 6] += step;
       ElasticResponse response;
@@ -160,10 +160,10 @@ TEST_CASE("NodalBody_DerivativesOfItsCondensedForcesMatchFiniteDifferences") {
     return MatrixXd(K + motion.stage.c * C + motion.stage.m * M);
   };
   const MatrixXd exact =
-      whole(differences(*body, motion, Moved::place, 1e-9), differences(*body, motion, Moved::velocity, 1e-4),
+      whole(differences(*body, motion, Moved::position, 1e-9), differences(*body, motion, Moved::velocity, 1e-4),
             differences(*body, motion, Moved::acceleration, 1e-1));
   const MatrixXd J = whole(response.K, response.C, response.M);
-  // How much of a Newton increment is wrong, with and without the nodes' answer.
+  // Relative error of a Newton increment with and without the response of the nodes.
   const auto wrong = [&](const MatrixXd& tangent) {
     return (tangent.partialPivLu().solve(exact) - MatrixXd::Identity(12, 12)).eigenvalues().cwiseAbs().maxCoeff();
   };
@@ -176,7 +176,7 @@ TEST_CASE("NodalBody_DerivativesOfItsCondensedForcesMatchFiniteDifferences") {
   CHECK(without > 0.1);
 }
 
-/// Displacement of the middle of a cantilever's end under forces on the nodes there, turning about z.
+/// Displacement of the middle of a cantilever's end under forces on the nodes there, rotating about z.
 Vector3 bent(const test::Beam& beam, const Vector3& force, double omega = 0) {
   MechanismBuilder b;
   const std::shared_ptr<NodalBody> body = beam.all_nodes();
@@ -236,7 +236,7 @@ TEST_CASE("NodalBodyOfFiniteStrain_IsStiffenedBySpin") {
   const Vector3 force{0, 0, 5};
   beam.strain = Strain::finite;
   const double ratio = bent(beam, force, omega_0).z() / bent(beam, force).z();
-  MESSAGE("deflection turning over at rest ", ratio);
+  MESSAGE("deflection in rotation over that at rest ", ratio);
   CHECK(ratio == doctest::Approx(1 / (1 + 1.193)).epsilon(0.03));
   beam.strain = Strain::small;
   // Small strains know no stiffening: what is left is of second order.

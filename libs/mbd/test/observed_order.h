@@ -10,7 +10,7 @@
 
 namespace hersey::mbd::test {
 
-/// What each figure lacks: the root mean square of the errors that were counted, each with its weight.
+/// Error of each figure: the root mean square of the errors that were counted, each with its weight.
 class Errors {
  public:
   void add(const std::string& figure, double error, double weight = 1) {

@@ -91,14 +91,14 @@ Vector3 errors_at_one_second(bool closed, int steps, double spectral_radius) {
   const Vector3 up(-std::sin(angle), std::cos(angle), 0), along(std::cos(angle), std::sin(angle), 0);
   // Reaction of ground on the bob: m (a - g).
   const Vector3 force = L * (acceleration * along + rate * rate * up) + Vector3(0, g, 0);
-  const Observation seen = m->observe(state);
-  const FrameMotion& bob = seen.bodies[1];
+  const Observation observation = m->observe(state);
+  const FrameMotion& bob = observation.bodies[1];
   return {std::atan2(bob.X_WF.R(1, 0), bob.X_WF.R(0, 0)) - angle, bob.omega.z() - rate,
-          (seen.joints.back().force - force).norm()};
+          (observation.joints.back().force - force).norm()};
 }
 
 TEST_CASE("PositionsVelocitiesAndMultipliers_AreOfOrderTwo") {
-  // Two-sided: an order above 2.05 means the test left the asymptotic range. The start's transient has died out:
+  // Two-sided: an order above 2.05 means the test left the asymptotic range. The start's transient has decayed:
   // 0.6^400.
   for (bool closed : {false, true}) {
     CAPTURE(closed);
@@ -148,8 +148,8 @@ std::pair<double, double> energy_errors(bool closed, double spectral_radius) {
   const double E0 = start.kinetic_energy + start.potential_energy, swing = E0 + g * L;
   double early = 0, late = 0;
   test::run(*m, state, 100, 20000, spectral_radius, [&](const solver::State& s) {
-    const Observation seen = m->observe(s);
-    const double error = std::abs(seen.kinetic_energy + seen.potential_energy - E0) / swing;
+    const Observation observation = m->observe(s);
+    const double error = std::abs(observation.kinetic_energy + observation.potential_energy - E0) / swing;
     (s.t < 50 ? early : late) = std::max(s.t < 50 ? early : late, error);
   });
   MESSAGE("relative energy error ", early, ", then ", late);
@@ -170,22 +170,22 @@ TEST_CASE("EnergyOfLongRuns_LeaksLittleThroughMildDissipation") {
   CHECK(late < 1e-3);   // as said above
 }
 
-// What a step's energy is judged by is what is observed, of a mass without extent as of any other.
+// The energies used to check a step equal those observed, for point masses, too.
 TEST_CASE("EnergyViewOfAPendulum_IsWhatIsObserved") {
   for (const bool closed : {false, true}) {
     CAPTURE(closed);
     const auto m = pendulum(closed);
     solver::State state = test::start(*m);
     test::run(*m, state, 0.4, 40);
-    const Observation seen = m->observe(state);
+    const Observation observation = m->observe(state);
     EnergyView view;
     m->view_energy(state, false, view);
     double kinetic = 0;
     for (const double of_link : view.kinetic) kinetic += of_link;
-    CHECK(seen.kinetic_energy > 1);
+    CHECK(observation.kinetic_energy > 1);
     // The same products, summed otherwise: round-off.
-    CHECK(kinetic == doctest::Approx(seen.kinetic_energy).epsilon(1e-12));
-    CHECK(view.potential == doctest::Approx(seen.potential_energy).epsilon(1e-12));
+    CHECK(kinetic == doctest::Approx(observation.kinetic_energy).epsilon(1e-12));
+    CHECK(view.potential == doctest::Approx(observation.potential_energy).epsilon(1e-12));
   }
 }
 

@@ -56,7 +56,7 @@ TEST_CASE("DependentRows_LeaveAnIndependentSet") {
       0, 0, 0, 3;
   const Eigen::SparseMatrix<double, Eigen::RowMajor> sparse = G.sparseView();
   CHECK(dependent_rows(sparse, 1e-6) == std::vector<int>{2, 3});
-  // A row that barely differs waits for the ones that stand out: here the last takes the place of the third.
+  // A row that barely differs is taken after those that are clearly independent: here the last replaces the third.
   Eigen::MatrixXd near(3, 2);
   near << 1, 0, 1, 1e-5, 0, 1;
   const Eigen::SparseMatrix<double, Eigen::RowMajor> near_rows = near.sparseView();
@@ -121,10 +121,10 @@ TEST_CASE("ReactionsOfALadder_AreTheSmallest") {
   const auto ladder = test::four_bars(3, true);
   solver::State state = test::start(*ladder);
   test::run(*ladder, state, 0.1, 50);
-  const Observation seen = ladder->observe(state);
+  const Observation observation = ladder->observe(state);
   // Every rod of the ladder moves in its plane and nothing pushes it out: reactions of smallest norm have no part
   // there.
-  for (const JointObservation& joint : seen.joints) {
+  for (const JointObservation& joint : observation.joints) {
     // N, N m: nothing there, to Newton's tolerance.
     CHECK(std::abs(joint.force.z()) < 1e-8);
     CHECK(joint.torque.norm() < 1e-8);
@@ -135,8 +135,8 @@ TEST_CASE("ReactionsOfALadder_AreTheSmallest") {
   test::run(*plain, same, 0.1, 50);
   const Observation expected = plain->observe(same);
   // In the plane: two sets of equations.
-  for (std::size_t j = 0; j < seen.joints.size(); ++j)
-    CHECK(seen.joints[j].force.norm() == doctest::Approx(expected.joints[j].force.norm()).epsilon(1e-5));
+  for (std::size_t j = 0; j < observation.joints.size(); ++j)
+    CHECK(observation.joints[j].force.norm() == doctest::Approx(expected.joints[j].force.norm()).epsilon(1e-5));
 }
 
 TEST_CASE("TwoHinges_ShareTheDoorsWeight") {
@@ -154,12 +154,12 @@ TEST_CASE("TwoHinges_ShareTheDoorsWeight") {
   const auto m = b.finalise();
   CHECK(m->nlambda() == 0);  // all five rows of the second hinge
   const solver::State state = test::start(*m);
-  const Observation seen = m->observe(state);
-  const Vector3 lower = seen.joints[0].force, upper = seen.joints[1].force;
+  const Observation observation = m->observe(state);
+  const Vector3 lower = observation.joints[0].force, upper = observation.joints[1].force;
   CHECK(lower.z() == doctest::Approx(100));
   CHECK(upper.z() == doctest::Approx(100));
   CHECK(lower.x() == doctest::Approx(-upper.x()));
-  const double moments = seen.joints[0].torque.y() + seen.joints[1].torque.y();
+  const double moments = observation.joints[0].torque.y() + observation.joints[1].torque.y();
   // Balance about y at the lower hinge: 2 upper.x + moments = 0.5 * 200 (weight tips the door about +y).
   CHECK(2 * upper.x() + moments + 100 == doctest::Approx(0).epsilon(1e-9));  // round-off of small systems
   // Smallest F^2 + (T/L)^2 of forces (F, -F) and moments (T, T), L = 2 m, with 2 m F + 2 T = 100 N m:
@@ -212,15 +212,15 @@ TEST_CASE("ParallelogramOfThreeCranks_KeepsItsMotion") {
   CHECK(m->nv() - m->nlambda() == 1);
   solver::State state = test::start(*m);
   const double energy = [&] {
-    const Observation seen = m->observe(state);
-    return seen.kinetic_energy + seen.potential_energy;
+    const Observation observation = m->observe(state);
+    return observation.kinetic_energy + observation.potential_energy;
   }();
   test::run(*m, state, 0.2, 400, 0.9);
-  const Observation seen = m->observe(state);
-  CHECK(seen.kinetic_energy > 0.5);
+  const Observation observation = m->observe(state);
+  CHECK(observation.kinetic_energy > 0.5);
   // 400 steps, second order.
-  CHECK(seen.kinetic_energy + seen.potential_energy == doctest::Approx(energy).epsilon(1e-5));
-  CHECK(seen.constraint_drift < 1e-11);  // Newton's tolerance of constraints
+  CHECK(observation.kinetic_energy + observation.potential_energy == doctest::Approx(energy).epsilon(1e-5));
+  CHECK(observation.constraint_drift < 1e-11);  // Newton's tolerance of constraints
 }
 
 }  // namespace redundancy_test

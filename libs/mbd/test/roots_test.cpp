@@ -59,8 +59,8 @@ class Drawn {
     const JointType plane[] = {planar, planar, planar, revolute, prismatic, fixed};
     JointSpec joint{.name = "joint " + std::to_string(i), .type = in_plane_ ? plane[pick(6)] : in_space[pick(10)]};
     const auto frame = [&](BodyId body) {
-      const Vector3 turned = in_plane_ ? Vector3(0, 0, 3 * number()) : vector(1);
-      return b.add_frame({.name = "at " + joint.name, .body = body, .X_BF = test::pose(turned, vector(0.5))});
+      const Vector3 rotation = in_plane_ ? Vector3(0, 0, 3 * number()) : vector(1);
+      return b.add_frame({.name = "at " + joint.name, .body = body, .X_BF = test::pose(rotation, vector(0.5))});
     };
     if (in_plane_ && joint.type == prismatic) joint.axis = Vector3::UnitX();
     joint.inboard = frame(bodies[first + pick(i - first)]);
@@ -71,7 +71,7 @@ class Drawn {
       joint.initial.push_back(number());
       joint.initial_rate.push_back(2 * number());
     }
-    // Several turns are counted.
+    // Several revolutions are counted.
     if (joint.type == planar || joint.type == revolute) joint.initial.back() *= 20;
     if (pick(4) == 0) joint.initial.clear();
     if (pick(4) == 0) joint.initial_rate.clear();
@@ -84,16 +84,17 @@ class Drawn {
   bool in_plane_;
 };
 
-/// All that is to be seen of a machine, one number after the other.
-Eigen::VectorXd seen_of(Mechanism& m, const solver::State& state) {
-  const Observation seen = m.observe(state);
-  std::vector<double> all{seen.kinetic_energy, seen.potential_energy, seen.spring_energy, seen.damper_power};
+/// Returns all observed quantities of a machine in one vector.
+Eigen::VectorXd observation_of(Mechanism& m, const solver::State& state) {
+  const Observation observation = m.observe(state);
+  std::vector<double> all{observation.kinetic_energy, observation.potential_energy, observation.spring_energy,
+                          observation.damper_power};
   const auto add = [&](const auto& values) { all.insert(all.end(), values.data(), values.data() + values.size()); };
-  for (const FrameMotion& body : seen.bodies) {
+  for (const FrameMotion& body : observation.bodies) {
     add(body.X_WF.r), add(body.X_WF.R), add(body.v), add(body.omega);
     add(body.a), add(body.alpha);
   }
-  for (const JointObservation& joint : seen.joints) {
+  for (const JointObservation& joint : observation.joints) {
     add(joint.position), add(joint.rate);
     add(joint.force), add(joint.torque);
   }
@@ -111,18 +112,18 @@ TEST_CASE("OtherRootOfTheTree_GivesTheSameMotion") {
       if (tree.own_motions.empty()) continue;
       ++chosen;
       for (const OwnMotion& own : tree.own_motions)
-        if (!own.turns.empty()) ++of_planes;
+        if (!own.weights.empty()) ++of_planes;
       CHECK(by_inertia->nv() == as_declared->nv());
       solver::State a = test::start(*as_declared), b = test::start(*by_inertia);
-      const Eigen::VectorXd from = seen_of(*as_declared, a);
+      const Eigen::VectorXd from = observation_of(*as_declared, a);
       // Accelerations by matrices whose entries span four decades of mass and one of length.
-      CHECK((from - seen_of(*by_inertia, b)).lpNorm<Eigen::Infinity>() < 1e-9 * from.lpNorm<Eigen::Infinity>());
+      CHECK((from - observation_of(*by_inertia, b)).lpNorm<Eigen::Infinity>() < 1e-9 * from.lpNorm<Eigen::Infinity>());
     }
   CHECK(chosen > 30);
   CHECK(of_planes > 10);
 }
 
-TEST_CASE("OtherRootOfTheTree_GoesOnTheSameWay") {
+TEST_CASE("OtherRootOfTheTree_ContinuesTheSameMotion") {
   // Both follow one motion, each with the error of its own steps, which falls with their square.
   for (const bool in_plane : {false, true}) {
     int compared = 0;
@@ -138,14 +139,14 @@ TEST_CASE("OtherRootOfTheTree_GoesOnTheSameWay") {
           const auto m = Drawn(seed, in_plane).machine(chooses);
           solver::State state = test::start(*m);
           test::run(*m, state, 0.005, steps, 0.9);
-          const Observation seen = m->observe(state);
+          const Observation observation = m->observe(state);
           Eigen::VectorXd& end = ends[chooses ? 1 : 0];
           end.resize(0);
-          for (const FrameMotion& body : seen.bodies) {
+          for (const FrameMotion& body : observation.bodies) {
             end.conservativeResize(end.size() + 3);
             end.tail<3>() = body.X_WF.r;
           }
-          for (const JointObservation& joint : seen.joints) {
+          for (const JointObservation& joint : observation.joints) {
             end.conservativeResize(end.size() + joint.position.size());
             end.tail(joint.position.size()) = Eigen::VectorXd(joint.position);
           }
@@ -160,7 +161,7 @@ TEST_CASE("OtherRootOfTheTree_GoesOnTheSameWay") {
   }
 }
 
-// What is fixed to a body turns with it as if it were of one piece: the light one of two carries nothing.
+// Bodies fixed to each other count as one: the lighter of two such groups carries nothing.
 TEST_CASE("LightPieceThatIsFixedToAHeavyOne_IsNotTooLight") {
   for (const bool light_is_first : {true, false}) {
     CAPTURE(light_is_first);
@@ -180,7 +181,7 @@ TEST_CASE("LightPieceThatIsFixedToAHeavyOne_IsNotTooLight") {
 }
 
 TEST_CASE("FreeBody_KeepsItsEnergyWhereverItsOriginLies") {
-  // With coordinates at a point off the centre of mass the steps turned a tumbling bar's energy up by 6 % a second.
+  // With coordinates at a point off the centre of mass the energy of a tumbling bar increased by 6 % a second.
   for (const Vector3& origin : {Vector3(0, 0, 0), Vector3(0.06, 0, 0), Vector3(-0.02, 0.3, 0.1)})
     for (const bool has_joint : {true, false}) {
       CAPTURE(origin.transpose());

@@ -10,12 +10,12 @@
 
 namespace hersey::mbd::test {
 
-/// A consistent start, given coordinates held.
+/// Returns a consistent start with prescribed coordinates fixed.
 inline solver::State start(Mechanism& mechanism) {
   solver::State state = mechanism.initial_state();
   const solver::InitialiseSummary summary = solver::initialise(mechanism, state,
-                                                               {.held = mechanism.given_coordinates(),
-                                                                .held_rates = mechanism.given_rates(),
+                                                               {.fixed = mechanism.given_coordinates(),
+                                                                .fixed_rates = mechanism.given_rates(),
                                                                 .stiff = mechanism.elastic_coordinates()});
   INFO(summary.message);
   REQUIRE(summary.solved());

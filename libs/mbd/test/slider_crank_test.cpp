@@ -18,7 +18,7 @@ struct Model {
 
 /// In space revolute, cylindrical, spherical and prismatic leave one motion and no redundancy, dead centres included.
 /// `reverse_rod` declares the big end from rod to crank, so that the tree runs through it backwards. `crank_angle`
-/// tells the assembly where to look for the rod: along the guide.
+/// shows the assembly the branch of the rod: along the guide.
 Model slider_crank(const verification::SliderCrank& s, bool reverse_rod, double crank_angle = 0) {
   MechanismBuilder b;
   b.set_gravity({0, -s.g, 0});
@@ -80,24 +80,24 @@ TEST_CASE("SliderCrank_MeetsClosedFormKinematicsAndReactions") {
       const solver::InitialiseSummary summary = solver::initialise(*m.mechanism, state);
       INFO(summary.message);
       REQUIRE(summary.solved());
-      const Observation seen = m.mechanism->observe(state);
+      const Observation observation = m.mechanism->observe(state);
       const auto answer = exact.at(t);
-      const FrameMotion& slider = seen.bodies[m.slider.index];
+      const FrameMotion& slider = observation.bodies[m.slider.index];
       const double force = std::abs(exact.push), roundoff = 1e-9;
       CHECK(std::abs(slider.X_WF.r.x() - answer.slider) < roundoff * exact.L);
       CHECK(std::abs(slider.v.x() - answer.slider_v) < roundoff * exact.omega * exact.r);
       CHECK(std::abs(slider.a.x() - answer.slider_a) < roundoff * exact.omega * exact.omega * exact.r);
-      CHECK(std::abs(seen.drive_efforts[0] - answer.torque) < roundoff * force * exact.r);
-      const auto& joint = seen.joints;
+      CHECK(std::abs(observation.drive_efforts[0] - answer.torque) < roundoff * force * exact.r);
+      const auto& joint = observation.joints;
       CHECK((joint[m.main.index].force.head<2>() - answer.main).norm() < roundoff * force);
       CHECK(std::abs(joint[m.main.index].torque.z()) < roundoff * force * exact.r);  // the drive's torque is taken out
       CHECK((joint[m.guide.index].force - Vector3(0, answer.side, 0)).norm() < roundoff * force);
-      const double turn = reverse_rod ? -answer.beta : exact.omega * t;  // of the inboard axes
-      const Eigen::Vector2d big_end = Eigen::Rotation2Dd(-turn) * (reverse_rod ? -answer.big_end : answer.big_end);
+      const double angle = reverse_rod ? -answer.beta : exact.omega * t;  // of the inboard axes
+      const Eigen::Vector2d big_end = Eigen::Rotation2Dd(-angle) * (reverse_rod ? -answer.big_end : answer.big_end);
       CHECK((joint[m.big_end.index].force.head<2>() - big_end).norm() < roundoff * force);
       const Eigen::Vector2d small_end = Eigen::Rotation2Dd(answer.beta) * answer.small_end;
       CHECK((joint[m.small_end.index].force.head<2>() - small_end).norm() < roundoff * force);
-      // As said above: round-off of the solutions.
+      // Round-off of the solutions, as above.
       CHECK(joint[m.small_end.index].position[2] == doctest::Approx(answer.beta).epsilon(1e-9).scale(1));
       CHECK(joint[m.small_end.index].rate[2] == doctest::Approx(answer.beta_rate).epsilon(1e-9).scale(exact.omega));
     }
@@ -111,15 +111,15 @@ TEST_CASE("SliderCrank_IntegratedForACycleStaysOnTheClosedForm") {
   Model m = slider_crank(exact, false);
   solver::State state = test::start(*m.mechanism);
   double worst_position = 0, worst_torque = 0, largest_torque = 0;
-  const double turn = 2 * std::numbers::pi / exact.omega;
-  test::run(*m.mechanism, state, 2 * turn, 720, 0.8, [&](const solver::State& s) {
-    const Observation seen = m.mechanism->observe(s);
+  const double revolution = 2 * std::numbers::pi / exact.omega;
+  test::run(*m.mechanism, state, 2 * revolution, 720, 0.8, [&](const solver::State& s) {
+    const Observation observation = m.mechanism->observe(s);
     const auto answer = exact.at(s.t);
-    worst_position = std::max(worst_position, std::abs(seen.bodies[m.slider.index].X_WF.r.x() - answer.slider));
-    worst_torque = std::max(worst_torque, std::abs(seen.drive_efforts[0] - answer.torque));
+    worst_position = std::max(worst_position, std::abs(observation.bodies[m.slider.index].X_WF.r.x() - answer.slider));
+    worst_torque = std::max(worst_torque, std::abs(observation.drive_efforts[0] - answer.torque));
     largest_torque = std::max(largest_torque, std::abs(answer.torque));
   });
-  CHECK(worst_position < 1e-9 * exact.L);  // constraints are held to round-off
+  CHECK(worst_position < 1e-9 * exact.L);  // constraints are satisfied to round-off
   CHECK(worst_torque < 30 * std::pow(2 * std::numbers::pi / 360, 2) * largest_torque);
   MESSAGE("worst relative torque error ", worst_torque / largest_torque);
 }

@@ -167,7 +167,7 @@ inline ModalBodyData random_modal_data() {
   return data;
 }
 
-/// A soft, damped piece of a beam with turned section axes.
+/// A soft, damped piece of a beam with rotated section axes.
 inline std::shared_ptr<BeamSegment> random_segment(double length) {
   BeamSegmentData data;
   data.element = {.length = length, .stiffness = {50, 30, 20, 3, 5, 7}};

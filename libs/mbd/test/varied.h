@@ -86,9 +86,9 @@ VectorOf<T> axial(const MatrixOf<T>& A) {
   return 0.5 * VectorOf<T>{A[2][1] - A[1][2], A[0][2] - A[2][0], A[1][0] - A[0][1]};
 }
 
-/// Turned by `angle` about axis `k` of the frame.
+/// Returns the rotation by `angle` about axis `k` of the frame.
 template <class T>
-MatrixOf<T> turned_about(std::size_t k, const T& angle) {
+MatrixOf<T> rotated_about(std::size_t k, const T& angle) {
   using std::cos, std::sin;
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
   MatrixOf<T> R{};

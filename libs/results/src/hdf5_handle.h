@@ -57,7 +57,7 @@ class Hdf5Session {
 
  private:
   std::scoped_lock<std::recursive_mutex> lock_;
-  DoubtfulFile doubtful_;
+  UntrustedFile doubtful_;
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };

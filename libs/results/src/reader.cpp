@@ -74,7 +74,7 @@ struct Reader::Impl {
     const Seal seal = check_seal(path);
     if (seal == Seal::broken) fail("damaged: it has changed since it was written");
     is_sealed = seal == Seal::intact;
-    const DoubtfulFile untrusted_file(doubtful());
+    const UntrustedFile untrusted_file(doubtful());
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
     keep_metadata(access.get());
     file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));
@@ -207,7 +207,7 @@ Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
   const Hdf5Session session(impl_->doubtful());
   impl_->path = std::move(path);
   impl_->open();
-  const DoubtfulFile doubtful(impl_->doubtful());
+  const UntrustedFile doubtful(impl_->doubtful());
   if (text_attribute("/", "format") != "hersey-results") impl_->fail("HDF5, but not a results file of hersey");
   const double version = number_attribute("/", "format_version").value_or(0);
   if (version < 1 || version > newest_format)

@@ -67,7 +67,7 @@ Eigen::VectorXd after(const char* form, int steps) {
   solver::State state = m.initial_state();
   REQUIRE(
       solver::initialise(
-          m, state, {.held = m.given_coordinates(), .held_rates = m.given_rates(), .stiff = m.elastic_coordinates()})
+          m, state, {.fixed = m.given_coordinates(), .fixed_rates = m.given_rates(), .stiff = m.elastic_coordinates()})
           .solved());
   solver::GeneralizedAlpha integrator({.spectral_radius = model.simulation.spectral_radius});
   for (int i = 0; i < steps; ++i) {

@@ -6,8 +6,8 @@
 
 namespace hersey::solver {
 
-/// Orthonormal basis Z of the motions that the constraints allow at `state`, G Z = 0 with rows and columns of G scaled
-/// by what they compare; shape (nv, number of free motions). @cost O(nv^3)
+/// Returns an orthonormal basis Z of the motions that the constraints allow at `state`, G Z = 0 with rows and columns
+/// of G divided by their scales; shape (nv, number of free motions). @cost O(nv^3)
 [[nodiscard]] Eigen::MatrixXd free_directions(Equations& equations, const State& state);
 
 }  // namespace hersey::solver

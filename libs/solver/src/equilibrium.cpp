@@ -19,24 +19,24 @@ using Index = Equations::Index;
 
 constexpr double kLargestMove = 0.2;  // rad, or sizes of the system
 constexpr double kRoundOff = 1e-13;
-constexpr double kSolved = 1e-10;        // rad, or sizes of the system: increments that change nothing any more
+constexpr double kSolved = 1e-10;        // rad, or sizes of the system: increments that are negligible
 constexpr int kLongestPath = 20;         // in steps of Newton's method, times those allowed to a search
 constexpr double kSmallestShare = 1e-5;  // of the load that one step of following it may add
 constexpr double kNeutral = 1e-12;       // of the terms whose sum is a stiffness
 constexpr double kSteady = 1e-8;         // rad, or sizes of the system: ten times what Newton's tolerance leaves
-constexpr double kFixedShare = 1e-2;     // of the deformation may stand still in space while the rest turns
+constexpr double kFixedShare = 1e-2;  // largest share of the deformation that may be fixed in space in a steady motion
 
 class EquilibriumSearch {
  public:
   EquilibriumSearch(Equations& equations, const State& start, const EquilibriumOptions& options)
       : equations_(equations), options_(options), here_(start), reach_(equations.position_scales()) {
     walked_.setZero(reach_.size());
-    if (!options.turning) here_.v.setZero();
+    if (!options.steady_motion) here_.v.setZero();
     here_.vdot.setZero();
   }
 
   EquilibriumSummary run(State& state) {
-    // The first step goes about a tenth of the allowed way: the start's accelerations tell how far a mu would go.
+    // The first step is about a tenth of the allowed length, estimated from the accelerations at the start.
     const double pull = state.vdot.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
     mu_ = std::max(pull, 1e-6) / (0.1 * kLargestMove);
     keep_mass();
@@ -51,25 +51,25 @@ class EquilibriumSearch {
         const std::string why =
             fmt::format("no equilibrium in {} iterations; worst equation: {}, {:.3g} times its tolerance",
                         summary_.iterations, summary_.worst_row, worst_);
-        if (options_.turning || !follow_the_load(start, load)) return failure(why);
+        if (options_.steady_motion || !follow_the_load(start, load)) return failure(why);
         break;
       }
-      if (options_.turning) {
+      if (options_.steady_motion) {
         if (!advance_to_steady_motion())
           return failure("no steady motion near the start; worst equation: " + summary_.worst_row);
       } else {
         advance();
       }
     }
-    if (options_.turning) {
+    if (options_.steady_motion) {
       const State steady = here_;
       if (!stays_steady(steady)) return failure(summary_.message);
       here_ = steady;
     }
-    if (!options_.turning) polish();
+    if (!options_.steady_motion) polish();
     summary_.set_solved(true);
     state = here_;
-    if (!options_.turning) judge(state);
+    if (!options_.steady_motion) classify(state);
     return summary_;
   }
 
@@ -104,9 +104,9 @@ class EquilibriumSearch {
     (void)assemble(here_);
   }
 
-  /// Lets the forces that are out of balance at the start act little by little, so that Newton's method stays near the
-  /// path of equilibria: bodies soft in one way and stiff in another move far only along that path. Theory manual eq.
-  /// (integrator.26). False where it ends before the whole load.
+  /// Applies the forces that are out of balance at the start in steps, so that Newton's method stays near the path of
+  /// equilibria: bodies soft in one direction and stiff in another deform strongly only along that path. Theory manual
+  /// eq. (integrator.26). Returns false if it ends before the whole load.
   bool follow_the_load(const State& start, const VectorXd& load) {
     mu_ = 0;
     here_ = start;
@@ -114,7 +114,7 @@ class EquilibriumSearch {
     while (share < 1) {
       const State from = here_;
       const double next = std::min(share + step, 1.0);
-      held_back_ = (1 - next) * load;
+      withheld_load_ = (1 - next) * load;
       if (reach_balance()) {
         share = next;
         step *= 1.5;
@@ -124,12 +124,12 @@ class EquilibriumSearch {
       step /= 2;
       if (step < kSmallestShare || summary_.iterations > kLongestPath * options_.max_iterations) break;
     }
-    held_back_.resize(0);
+    withheld_load_.resize(0);
     (void)assemble(here_);
     return share == 1;
   }
 
-  /// Newton's method from a place near by, where it has been; false where that is not near enough.
+  /// Applies Newton's method from the previous equilibrium on the path; returns false if that is too far away.
   bool reach_balance() {
     constexpr int most = 12;
     (void)assemble(here_);
@@ -140,7 +140,7 @@ class EquilibriumSearch {
     return false;
   }
 
-  /// Moves by the whole increment, if it is no longer than `most`.
+  /// Moves by the full increment if its length does not exceed `most`.
   bool take_full_step(double most) {
     const Index nv = equations_.nv();
     if (increment_.head(nv).cwiseQuotient(reach_).lpNorm<Eigen::Infinity>() > most) return false;
@@ -151,8 +151,8 @@ class EquilibriumSearch {
     return assemble(here_);
   }
 
-  /// What is stiff in one way holds its rows to a tolerance that says little of what is soft in another: Newton's
-  /// method goes on until it changes nothing.
+  /// Continues Newton's method until its increments are negligible: the tolerance of rows with stiff motions bounds
+  /// soft motions poorly.
   void polish() {
     if (reach_.size() == 0) return;
     mu_ = 0;
@@ -169,8 +169,8 @@ class EquilibriumSearch {
     }
   }
 
-  /// One step of Newton's method, halved until it comes nearer. A steady motion costs no least energy: above a critical
-  /// speed the stiffness that centrifugal forces leave is indefinite.
+  /// Takes one step of Newton's method, halved until the residual decreases. A steady motion does not minimise an
+  /// energy: above a critical speed the stiffness including centrifugal forces is indefinite.
   bool advance_to_steady_motion() {
     mu_ = 0;
     if (!solve()) return false;
@@ -189,7 +189,7 @@ class EquilibriumSearch {
     return false;
   }
 
-  /// Whether the motion goes on as it is: a little later, solved again, it must have kept still but for its velocities.
+  /// True if the motion is steady: solved again a short time later, it must differ only by its velocities.
   bool stays_steady(const State& now) {
     const double fastest = now.v.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
     if (fastest == 0) return true;
@@ -200,15 +200,16 @@ class EquilibriumSearch {
     here_ = expected;
     const double deformed = walked_.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
     walked_.setZero(reach_.size());
-    if (!assemble(here_)) return true;  // outside of the domain: the state itself is what was asked for
+    if (!assemble(here_)) return true;  // outside the domain: only the state itself can be checked
     for (int i = 0; worst_ > 1 && i < 20; ++i)
       if (!advance_to_steady_motion()) break;
     const VectorXd moved = walked_.cwiseQuotient(reach_).cwiseAbs();
     Index farthest = 0;
     if (moved.maxCoeff(&farthest) < std::max(kSteady, kFixedShare * kLargestMove * deformed)) return true;
     summary_.message = fmt::format(
-        "no steady motion: {} does not keep still while the drives turn; what it turns in must be alike all around its "
-        "axis, with gravity along it, and the drives' speeds constant",
+        "no steady motion: {} does not keep still while the drives rotate; its surroundings must be the same all "
+        "around the "
+        "axis of rotation, gravity must act along this axis, and the speeds of the drives must be constant",
         equations_.name_of_row(farthest));
     return false;
   }
@@ -220,12 +221,12 @@ class EquilibriumSearch {
       worst_ = std::numeric_limits<double>::infinity();
       return false;
     }
-    if (held_back_.size() > 0) residual_.head(held_back_.size()) -= held_back_;
+    if (withheld_load_.size() > 0) residual_.head(withheld_load_.size()) -= withheld_load_;
     measure();
     return true;
   }
 
-  /// The mass matrix at the start, which measures how far a force moves what; in the pattern of the tangent.
+  /// Stores the mass matrix at the start, in the pattern of the tangent; it weights the increments.
   void keep_mass() {
     VectorXd residual, scale;
     equations_.assemble(here_, {.dt = 0, .k = 0, .c = 0, .m = 1, .dq = {}}, residual, scale, &mass_);
@@ -243,7 +244,7 @@ class EquilibriumSearch {
     return sum;
   }
 
-  /// Sum of the sizes of all terms whose sum is the stiffness along a motion: round-off is a share of it.
+  /// Returns the sum of the magnitudes of all terms of the stiffness along a motion; round-off is proportional to it.
   [[nodiscard]] double terms_along(const VectorXd& motion) const {
     double sum = 0;
     for (Index column = 0; column < motion.size(); ++column)
@@ -285,8 +286,9 @@ class EquilibriumSearch {
     return summary_;
   }
 
-  /// Stable if every free motion costs energy: the smallest eigenvalue of the stiffness against the mass.
-  void judge(const State& state) {
+  /// Determines the stability: an equilibrium is stable if every free motion increases the energy, that is, if the
+  /// smallest eigenvalue of the stiffness against the mass is positive.
+  void classify(const State& state) {
     const Linearisation linear = linearise(equations_, state, 0);
     if (linear.K.rows() == 0) return;
     const Eigen::MatrixXd K = 0.5 * (linear.K + linear.K.transpose());
@@ -304,7 +306,7 @@ class EquilibriumSearch {
           fmt::format("the equilibrium is unstable: the least push along {} leads away from it", summary_.softest);
     } else if (stiffness[0] <= small) {
       summary_.kind = EquilibriumKind::neutral;
-      summary_.message = fmt::format("the equilibrium is indifferent: nothing holds {} in place", summary_.softest);
+      summary_.message = fmt::format("the equilibrium is indifferent: no stiffness resists {}", summary_.softest);
     }
   }
 
@@ -312,8 +314,8 @@ class EquilibriumSearch {
   EquilibriumOptions options_;
   State here_;
   VectorXd reach_, residual_, scale_, increment_;
-  VectorXd held_back_;  ///< out-of-balance forces that do not act yet; empty: none
-  VectorXd walked_;     ///< by the steps towards a steady motion
+  VectorXd withheld_load_;  ///< out-of-balance forces that do not act yet; empty: none
+  VectorXd walked_;         ///< by the steps towards a steady motion
   Equations::SparseMatrix stiffness_, mass_, tangent_;
   SparseLu lu_;
   double mu_ = 0, worst_ = 0;

@@ -11,7 +11,7 @@ namespace {
 using Eigen::VectorXd;
 using Index = Equations::Index;
 
-// Of the terms that a row balances. The combination below magnifies what is left about a hundred times.
+// Tolerance relative to the terms that a row balances. The combination below amplifies residuals about a hundred times.
 constexpr double kSettledTolerance = 1e-10;
 constexpr int kSettlingIterations = 30, kSettlingHalvings = 8;
 
@@ -24,9 +24,10 @@ constexpr double kFloor = 1e-6;
 // w^2 (15 - 40 w + 45 w^2 - 24 w^3 + 5 w^4), theory manual eq. (integrator.9): the share of implicit Euler step k.
 constexpr std::array<double, 6> kShares{0, 15, -40, 45, -24, 5};
 
-/// Implicit Euler steps of the velocities alone (integrator.8). Inertia forces keep the velocities of the start: what
-/// nothing damps then has one acceleration in all steps and is left as it is, however light it is and whatever hangs on
-/// it; with velocities that grow from step to step, forces quadratic in them would be extrapolated by the shares.
+/// Implicit Euler steps of the velocities alone (integrator.8). Inertia forces keep the velocities of the start:
+/// undamped motions then have the same acceleration in all steps and remain unchanged, independent of the mass of the
+/// body and of the bodies that it carries; with velocities that grow from step to step, forces quadratic in them would
+/// be extrapolated by the shares.
 class VelocitySteps {
  public:
   VelocitySteps(Equations& equations, const State& start, double dt)
@@ -36,7 +37,7 @@ class VelocitySteps {
     equations.constraint_rates(start, velocity, bias_);
   }
 
-  /// Finds the acceleration with which a step of length `span` from velocity v ends; false where there is none.
+  /// Computes the acceleration at the end of a step of length `span` from velocity v; returns false if there is none.
   bool solve(const VectorXd& v, double span) {
     if (!evaluate(v, span)) return false;
     for (int iteration = 0; worst_ > kSettledTolerance; ++iteration) {
@@ -45,7 +46,7 @@ class VelocitySteps {
     return true;
   }
 
-  /// The next solution is sought from no acceleration.
+  /// Resets the initial guess of the acceleration to zero.
   void begin_at_rest(const State& start) {
     trial_.vdot.setZero();
     trial_.lambda = start.lambda;
@@ -92,7 +93,7 @@ class VelocitySteps {
   double worst_ = 0;
 };
 
-/// Whether damping changes some acceleration noticeably within the step.
+/// True if damping changes an acceleration noticeably within the step.
 bool differs(const VectorXd& damped, const VectorXd& undamped, const VectorXd& reach) {
   const VectorXd size = undamped.cwiseAbs().cwiseMax(damped.cwiseAbs()).cwiseQuotient(reach);
   const double least = kFloor * (size.size() > 0 ? size.maxCoeff() : 0);
@@ -106,7 +107,7 @@ bool differs(const VectorXd& damped, const VectorXd& undamped, const VectorXd& r
 std::optional<SettledStart> settle_fast_motions(Equations& equations, const State& state, double dt) {
   if (!equations.has_whole_tangent()) return std::nullopt;
   VelocitySteps steps(equations, state, dt);
-  // Without inertia a motion has no acceleration but the one it takes up here.
+  // A motion without inertia has only the acceleration computed here.
   const VectorXd instant = steps.solve(state.v, 0) ? steps.vdot() : state.vdot;
   if (!steps.solve(state.v, dt)) {
     // Force over mass carried through the step is as far off as the mass is light: Newton's way back through damping
@@ -116,7 +117,7 @@ std::optional<SettledStart> settle_fast_motions(Equations& equations, const Stat
   }
   if (!differs(steps.vdot(), instant, equations.position_scales())) return std::nullopt;
 
-  // What the equations at hand give for the instant of the start may differ from vdot where condensed unknowns follow.
+  // The acceleration that the equations give at the start may differ from vdot, because condensed unknowns respond.
   SettledStart settled{VectorXd::Zero(state.v.size()), VectorXd::Zero(state.v.size()), state.vdot - instant};
   VectorXd v = state.v, way = VectorXd::Zero(v.size());
   for (std::size_t k = 0; k < kShares.size(); ++k) {

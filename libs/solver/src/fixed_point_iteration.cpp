@@ -61,7 +61,7 @@ Eigen::VectorXd FixedPointIteration::aitken(const Eigen::VectorXd& x, const Eige
 
 void FixedPointIteration::remember(const Eigen::VectorXd& residual, const Eigen::VectorXd& image) {
   if (!has_last_) return;
-  // The difference of two nearly equal images tells of their solver's tolerance, not of the map.
+  // The difference of two nearly equal images shows the tolerance of their solver, not the map.
   if ((residual - last_residual_).norm() <= kept_.noise * image.norm()) return;
   residual_changes_.insert(residual_changes_.begin(), residual - last_residual_);
   image_changes_.insert(image_changes_.begin(), image - last_image_);

@@ -21,19 +21,19 @@ using Index = Equations::Index;
 /// Round-off of a constraint: positions are sums of a few lengths of the mechanism's size.
 constexpr double kConstraintRoundOff = 1e-13;
 
-/// Of the tolerance that iterations with old factors go down to, as Newton's own pass it by: what stays within it at
-/// every step adds up in the multipliers.
+/// Share of the tolerance required of iterations with old factors. Residuals of full Newton iterations lie far below
+/// the tolerance; residuals close to it in every step would accumulate in the multipliers.
 constexpr double kWithOldFactors = 0.01;
 
 /// A step that differs by more than this share from the one before is of another length; equal ones differ by
 /// round-off.
 constexpr double kOtherLength = 0.01;
 
-/// Of the residual before that an iteration with old factors may leave.
+/// Largest ratio of successive residuals for which old factors are kept.
 constexpr double kFastEnough = 0.05;
 
-/// Of the prediction's residual that a step chosen by its error may leave: the prediction is off by three times the
-/// error that is estimated, so that a third of a percent of this error stays.
+/// Share of the prediction's residual at which a step chosen by its error is solved: the error of the prediction is
+/// three times the estimated error, so that a third of a percent of the latter remains.
 constexpr double kOfPrediction = 1e-3;
 
 /// The largest residual left in this way, relative to the terms balanced.
@@ -53,7 +53,7 @@ struct GeneralizedAlpha::Workspace {
   // One step
   State trial;
   Stage stage;
-  VectorXd dq_before, lambda_before;  ///< where an increment starts from
+  VectorXd dq_before, lambda_before;  ///< values before an increment
   VectorXd a_n, dq, dq_predicted, v_predicted, vdot_predicted, increment, residual, scale, tolerance, rhs;
   Equations::SparseMatrix tangent;
   SparseLu lu;
@@ -65,13 +65,14 @@ struct GeneralizedAlpha::Workspace {
   double enough = 0;      ///< residuals of rows with which the step is solved, relative to their tolerances
   Index worst_index = 0;  ///< the row of the larger of both; -1: a condensed equation
   VectorXd error;         ///< estimate of the step's local error of position
-  SettledStart start;  ///< of the step: the state's own motion, or what is left of it when fast motions have died out
-  VectorXd v_start;    ///< velocity the step starts from
+  SettledStart
+      start;  ///< start of the step: the motion of the state, or what remains of it after fast motions have decayed
+  VectorXd v_start;         ///< velocity the step starts from
   std::string why_outside;  ///< why the last assembly was outside the domain, empty if inside
 
   void choose_start(Equations& equations, const State& state, double dt);
   void predict(double dt);
-  void place(Equations& equations, const State& state, const VectorXd& at);
+  void set_trial(Equations& equations, const State& state, const VectorXd& at);
   bool assemble(Equations& equations, const GeneralizedAlphaOptions& options, bool with_tangent = true);
   void measure(Equations& equations, const GeneralizedAlphaOptions& options);
   [[nodiscard]] double worst() const { return std::max(worst_row, condensed); }
@@ -86,7 +87,7 @@ struct GeneralizedAlpha::Workspace {
   bool move(Equations& equations, const State& state, const GeneralizedAlphaOptions& options, bool with_tangent);
   void return_to_constraints(Equations& equations);
   void end_on_constraints(Equations& equations);
-  VectorXd shed(const VectorXd& violation, VectorXd& motion);
+  VectorXd remove_violation(const VectorXd& violation, VectorXd& motion);
   void estimate_error();
   [[nodiscard]] std::string worst_name(const Equations& equations) const;
 };
@@ -120,15 +121,15 @@ void GeneralizedAlpha::Workspace::predict(double dt) {
   stage.m = (1 - alpha_m) / ((1 - alpha_f) * beta * dt * dt);
 }
 
-/// The trial state whose increment of position is `at`.
-void GeneralizedAlpha::Workspace::place(Equations& equations, const State& state, const VectorXd& at) {
+/// Sets the trial state with the increment of position `at`.
+void GeneralizedAlpha::Workspace::set_trial(Equations& equations, const State& state, const VectorXd& at) {
   stage.dq = at;
   equations.retract(state.q, at, trial.q);
   trial.v = v_predicted + stage.c * (at - dq_predicted);
   trial.vdot = vdot_predicted + stage.m * (at - dq_predicted);
 }
 
-/// Assembles at the trial state; false, with `why_outside`, outside the domain of the equations.
+/// Assembles at the trial state; returns false and sets `why_outside` outside the domain of the equations.
 bool GeneralizedAlpha::Workspace::assemble(Equations& equations, const GeneralizedAlphaOptions& options,
                                            bool with_tangent) {
   equations.assemble(trial, stage, residual, scale, with_tangent ? &tangent : nullptr);
@@ -185,7 +186,7 @@ bool GeneralizedAlpha::Workspace::factorise(Index nv) {
   return lu.factorise({tangent.valuePtr(), static_cast<std::size_t>(tangent.nonZeros())});
 }
 
-/// The Newton increment by the factors there are; false where it is not finite.
+/// Computes the Newton increment with the existing factors; returns false if it is not finite.
 bool GeneralizedAlpha::Workspace::solve_increment(Index nv) {
   const Stopwatch watch(linear_solve_time);
   const Index n = residual.size();
@@ -196,14 +197,14 @@ bool GeneralizedAlpha::Workspace::solve_increment(Index nv) {
   return increment.allFinite();
 }
 
-/// Places and assembles the predicted step, shortened until the equations accept it.
+/// Assembles at the predicted state; the step is shortened until the equations accept it.
 bool GeneralizedAlpha::Workspace::enter_domain(Equations& equations, const State& state,
                                                const GeneralizedAlphaOptions& options) {
   trial.t = state.t + stage.dt;
   trial.lambda = state.lambda;
   dq = dq_predicted;
   for (int halvings = 0;; ++halvings) {
-    place(equations, state, dq);
+    set_trial(equations, state, dq);
     if (assemble(equations, options)) return true;
     if (halvings >= options.max_halvings) return false;
     dq *= halvings + 1 < options.max_halvings ? 0.5 : 0.0;
@@ -220,16 +221,15 @@ bool GeneralizedAlpha::Workspace::move(Equations& equations, const State& state,
   for (int halvings = 0; halvings <= options.max_halvings; ++halvings, length *= 0.5) {
     dq = dq_before + length * increment.head(nv);
     trial.lambda = lambda_before + length * increment.tail(increment.size() - nv);
-    place(equations, state, dq);
+    set_trial(equations, state, dq);
     if (assemble(equations, options, with_tangent)) return true;
   }
   return false;
 }
 
-/// Takes from a motion what the constraints do not allow, by forces of the constraints alone, J [x; y] = [0;
-/// -violation].
+/// Removes the violation of the constraints from a motion by constraint forces alone, J [x; y] = [0; -violation].
 /// @return these forces
-VectorXd GeneralizedAlpha::Workspace::shed(const VectorXd& violation, VectorXd& motion) {
+VectorXd GeneralizedAlpha::Workspace::remove_violation(const VectorXd& violation, VectorXd& motion) {
   const Index nv = motion.size();
   rhs.setZero(tangent.rows());
   rhs.tail(violation.size()) = -violation;
@@ -238,29 +238,30 @@ VectorXd GeneralizedAlpha::Workspace::shed(const VectorXd& violation, VectorXd& 
   return rhs.tail(violation.size());
 }
 
-/// Puts velocities and accelerations onto the constraints (integrator.16).
+/// Projects velocities and accelerations onto the constraints (integrator.16).
 void GeneralizedAlpha::Workspace::return_to_constraints(Equations& equations) {
   VectorXd velocity, bias, phi, lengths;
   Equations::SparseMatrix G;
   equations.constraint_rates(trial, velocity, bias);
   equations.constraints(trial, phi, lengths, &G);
-  shed(velocity, trial.v);
-  trial.lambda += shed(G * trial.vdot + bias, trial.vdot);
-  shed(G * a + bias, a);
+  remove_violation(velocity, trial.v);
+  trial.lambda += remove_violation(G * trial.vdot + bias, trial.vdot);
+  remove_violation(G * a + bias, a);
 }
 
-/// The same for a step chosen by its error, (integrator.13): the constraints' own modes, (integrator.12), end with the
-/// step, so that its error depends on no length before. The algorithmic acceleration goes on from the state's as it
-/// would without constraints: what the next step does across them is of its own length's third power.
+/// Projects the end of a step chosen by its error onto the constraints, (integrator.13): the modes of the constraints,
+/// (integrator.12), end with the step, so that its error does not depend on previous lengths. The algorithmic
+/// acceleration goes on from the state's as it would without constraints: what the next step does across them is of its
+/// own length's third power.
 void GeneralizedAlpha::Workspace::end_on_constraints(Equations& equations) {
   VectorXd velocity, bias, phi, lengths;
   Equations::SparseMatrix G;
   equations.constraint_rates(trial, velocity, bias);
   equations.constraints(trial, phi, lengths, &G);
-  shed(velocity, trial.v);
-  trial.lambda += shed(G * trial.vdot + bias, trial.vdot);
+  remove_violation(velocity, trial.v);
+  trial.lambda += remove_violation(G * trial.vdot + bias, trial.vdot);
   const double ahead = 0.5 - parameters.gamma;  // the instant that `a` belongs to, in steps
-  shed(G * (a - trial.vdot - ahead * (trial.vdot - start.vdot)), a);
+  remove_violation(G * (a - trial.vdot - ahead * (trial.vdot - start.vdot)), a);
 }
 
 /// The step's local error of position, theory manual eq. (integrator.11): what the third derivative contributes beyond
@@ -293,9 +294,9 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   return step(equations, state, dt, {});
 }
 
-StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt, const StepJudge& judge) {
+StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt, const StepCheck& is_accurate) {
   HERSEY_REQUIRE(dt > 0, "time runs forward");
-  const bool is_chosen = judge && options_.chosen_by_error;
+  const bool is_chosen = is_accurate && options_.chosen_by_error;
   if (options_.spectral_radius == 1 && equations.nlambda() > 0 && !is_chosen)
     throw InputError({.position = {},
                       .path = "spectral_radius",
@@ -348,9 +349,9 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   }
 
   const bool has_factors_of_constraints = summary.iterations > 0 && equations.nlambda() > 0;
-  if (judge) {
+  if (is_accurate) {
     w.estimate_error();
-    if (!judge(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
+    if (!is_accurate(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
   }
   w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
   if (is_chosen && has_factors_of_constraints)

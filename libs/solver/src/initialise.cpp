@@ -19,14 +19,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Index = Equations::Index;
 
-/// How readily held components move where they have to, relative to the free ones. Small enough that the free ones do
-/// all that they can, large enough that what is left is solved beyond the tolerance of the constraints.
+/// Mobility of fixed components relative to free ones if the constraints cannot be satisfied otherwise. It is small
+/// enough that the free ones do as much as they can, and large enough that the remaining violation is solved below the
+/// tolerance of the constraints.
 constexpr double kReluctance = 1e-3;
 
 /// Sets the mobility of `components`.
 void weigh(const std::vector<Index>& components, double mobility, VectorXd& weight) {
   for (const Index k : components) {
-    HERSEY_REQUIRE(0 <= k && k < weight.size(), "a held component exists");
+    HERSEY_REQUIRE(0 <= k && k < weight.size(), "a fixed component exists");
     weight[k] = mobility;
   }
 }
@@ -58,16 +59,16 @@ std::vector<OpenConstraint> open_constraints(Equations& equations, const State& 
   return open;
 }
 
-/// Closes the constraints: with what is held at rest if that can be, otherwise from the closest configuration so found
-/// by the least change of what is held; at last with everything free. Each time what is stiff moves only if nothing
-/// else does it, and where the way there ends short, another is tried from a disturbed guess.
+/// Closes the constraints: with fixed components unchanged if possible, otherwise from the closest configuration found
+/// by the least change of fixed components, and at last with all components free. Stiff components move only if nothing
+/// else closes the constraints. If the iteration ends early, it is repeated from a disturbed guess.
 class Assembly {
  public:
   Assembly(Equations& equations, State& state, const InitialiseOptions& options, InitialiseSummary& summary)
       : equations_(equations), state_(state), options_(options), summary_(summary), guess_(state), closest_(state) {}
 
   void run() {
-    if (close_with_held_at_rest()) return;
+    if (close_with_fixed_at_rest()) return;
     summary_.conflict = open_constraints(equations_, closest_);
     const bool closed = attempt(closest_, mobility(kReluctance, 0)) || attempt(guess_, mobility(1, 0)) ||
                         attempt(disturbed(mobility(1, 0)), mobility(1, 0)) ||
@@ -76,10 +77,10 @@ class Assembly {
   }
 
  private:
-  [[nodiscard]] VectorXd mobility(double held, double stiff) const {
+  [[nodiscard]] VectorXd mobility(double mobility_of_fixed, double mobility_of_stiff) const {
     VectorXd weight = VectorXd::Ones(equations_.nv());
-    weigh(options_.held, held, weight);
-    weigh(options_.stiff, stiff, weight);
+    weigh(options_.fixed, mobility_of_fixed, weight);
+    weigh(options_.stiff, mobility_of_stiff, weight);
     return weight;
   }
 
@@ -89,12 +90,12 @@ class Assembly {
     return aside;
   }
 
-  bool close_with_held_at_rest() {
+  bool close_with_fixed_at_rest() {
     const VectorXd at_rest = mobility(0, 0);
     return attempt(guess_, at_rest) || attempt(disturbed(at_rest), at_rest);
   }
 
-  /// Leaves the state where it ends.
+  /// Iterates from `from`; the state is that at the end of the iteration.
   bool attempt(const State& from, const VectorXd& mobility) {
     state_ = from;
     const ClosureResult result = close_constraints(equations_, state_, mobility, options_);
@@ -126,12 +127,12 @@ class Assembly {
   State guess_, closest_;
 };
 
-/// Velocities that the constraints allow: with the smallest change of the free ones, in units of position_scales(), and
-/// of those given only where these cannot do it.
+/// Projects velocities onto the constraints with the smallest change of the free ones, in units of position_scales();
+/// fixed ones change only if this is not sufficient.
 void project_velocities(Equations& equations, State& state, const InitialiseOptions& options) {
   if (equations.nlambda() == 0) return;
   VectorXd weight = VectorXd::Ones(equations.nv());
-  weigh(options.held_rates, 1e-7, weight);
+  weigh(options.fixed_rates, 1e-7, weight);
   weigh(options.stiff, 1e-10, weight);
   weight = weight.cwiseProduct(equations.position_scales());
   VectorXd velocity, gamma, phi, row_scale;
@@ -144,17 +145,17 @@ void project_velocities(Equations& equations, State& state, const InitialiseOpti
   }
 }
 
-/// Says which constraints repeat others, looked at in the assembled state or, where there is none, away from special
-/// positions: at the closest configuration of a loop that cannot be closed rows always depend on each other.
+/// Reports redundant constraints in the assembled state or, if there is none, away from singular positions: at the
+/// closest configuration of a loop that cannot be closed, rows always depend on each other.
 bool report_redundancy(Equations& equations, const State& state, bool assembled, InitialiseSummary& summary) {
   VectorXd phi, scale;
   Equations::SparseMatrix G;
-  State place = state;
-  if (!assembled) disturb(equations, place, VectorXd::Ones(equations.nv()));
-  equations.constraints(place, phi, scale, &G);
+  State examined = state;
+  if (!assembled) disturb(equations, examined, VectorXd::Ones(equations.nv()));
+  equations.constraints(examined, phi, scale, &G);
   if (has_full_rank(G)) return false;
   RankAnalysis rank = analyse_rank(MatrixXd(G));
-  // Rows that repeat others but hold all the same are not what keeps a loop open.
+  // Redundant rows that are satisfied are not the cause of an open loop.
   if (!assembled) {
     equations.constraints(state, phi, scale, nullptr);
     const double least = 1e-9 * phi.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
@@ -236,8 +237,7 @@ InitialiseSummary initialise(Equations& equations, State& state, const Initialis
 
 namespace {
 
-/// Takes from the velocities what the constraints do not allow, by the impulses of the constraints alone
-/// (integrator.15).
+/// Projects the velocities onto the constraints by constraint impulses alone (integrator.15).
 bool shed_violations(Equations& equations, State& state, double dt) {
   if (equations.nlambda() == 0) return true;
   VectorXd h, velocity, gamma;

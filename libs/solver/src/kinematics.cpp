@@ -47,7 +47,7 @@ KinematicsSummary solve_kinematics(Equations& equations, State& state) {
                    fmt::format("t = {:.9g} s: the mechanism cannot follow its drives: {} stays open by {:.3g}", trial.t,
                                equations.name_of_row(nv + worst), phi[worst]));
   }
-  // At a dead point drives and constraints no longer prescribe the motion, and rates and forces grow without bound.
+  // At a dead point drives and constraints do not prescribe the motion; rates and forces grow without bound.
   summary.undetermined = free_coordinates(equations, trial);
   if (!summary.undetermined.empty())
     return failure(summary, KinematicsStatus::undetermined,

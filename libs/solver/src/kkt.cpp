@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 constexpr double kRankThreshold = 1e-10;
 // Inertia of a motion relative to those of the coordinates in it: below, it has none.
 constexpr double kNoInertia = 1e-12;
-// Elimination whose pivots stay above this has met no such motion.
+// If all pivots of an elimination exceed this, there is no such motion.
 constexpr double kSoundCondition = 1e-11;
 // Motions of more inertia than this have some, by an estimate that is right to a factor of a few.
 constexpr double kLeastInertia = 100 * kNoInertia;
@@ -66,7 +66,7 @@ class NullSpaceSolver {
       R_ = qr_.matrixR().topLeftCorner(constraints, constraints);
       Q = qr_.householderQ() * Q;
     }
-    held_ = Q.leftCols(constraints);
+    constrained_ = Q.leftCols(constraints);
     free_ = Q.rightCols(n - constraints);
     if (free_.cols() > 0) inertia_.compute(free_.transpose() * M_s_ * free_);
   }
@@ -92,11 +92,11 @@ class NullSpaceSolver {
 
   /// Motions without inertia get no acceleration.
   void solve(const VectorXd& a, const VectorXd& b, VectorXd& x, VectorXd& l) const {
-    const Index constraints = held_.cols();
+    const Index constraints = constrained_.cols();
     VectorXd y = VectorXd::Zero(s_.size());
     if (constraints > 0) {
       const VectorXd right = qr_.colsPermutation().transpose() * VectorXd(row_scale_.asDiagonal() * b);
-      y = held_ * R_.transpose().template triangularView<Eigen::Lower>().solve(right);
+      y = constrained_ * R_.transpose().template triangularView<Eigen::Lower>().solve(right);
     }
     const VectorXd a_s = s_.asDiagonal() * a;
     if (free_.cols() > 0) {
@@ -108,13 +108,13 @@ class NullSpaceSolver {
     x = s_.asDiagonal() * y;
     l = VectorXd::Zero(constraints);
     if (constraints == 0) return;
-    const VectorXd left = R_.template triangularView<Eigen::Upper>().solve(held_.transpose() * (a_s - M_s_ * y));
+    const VectorXd left = R_.template triangularView<Eigen::Upper>().solve(constrained_.transpose() * (a_s - M_s_ * y));
     l = row_scale_.asDiagonal() * VectorXd(qr_.colsPermutation() * left);
   }
 
  private:
   VectorXd s_, row_scale_;
-  MatrixXd M_s_, held_, free_, R_;
+  MatrixXd M_s_, constrained_, free_, R_;
   Eigen::ColPivHouseholderQR<MatrixXd> qr_;
   Eigen::SelfAdjointEigenSolver<MatrixXd> inertia_;
 };
@@ -138,8 +138,9 @@ class SparseKkt {
 
   [[nodiscard]] bool sound() const { return factorised_ && lu_.reciprocal_condition() > kSoundCondition; }
 
-  /// Whether every motion that the rows allow has inertia. The condition of a chain falls with its length, and says no
-  /// more then: the least inertia in the null space, 1/|A|, by a few powers of A: y -> x,  M x + G^T l = y,  G x = 0.
+  /// True if every motion that the rows allow has inertia. The condition estimate decreases with the length of a chain
+  /// and is then not conclusive; the criterion is the least inertia in the null space, 1/|A|, by a few powers of A: y
+  /// -> x,  M x + G^T l = y,  G x = 0.
   [[nodiscard]] bool all_motions_have_inertia(Index nv) const {
     if (!factorised_ || sound()) return factorised_;
     VectorXd y = VectorXd::Zero(scale_.size());
@@ -232,8 +233,8 @@ Equations::SparseMatrix bordered_identity(const Equations::SparseMatrix& G) {
 
 }  // namespace
 
-// Elimination is linear in the size of a chain, where the QR decomposition takes its square: that is for what
-// elimination is not sure of.
+// Elimination is linear in the length of a chain, the QR decomposition is quadratic: it is used only if elimination is
+// not conclusive.
 bool has_full_rank(const Equations::SparseMatrix& G) {
   if (G.rows() == 0) return true;
   if (G.rows() > G.cols()) return false;

@@ -24,8 +24,9 @@ struct AccelerationSolution {
 [[nodiscard]] AccelerationSolution solve_kkt(const Eigen::MatrixXd& M, const Eigen::MatrixXd& G,
                                              const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
 
-/// The same, sparse, for square S = [M G^T; G D], D diagonal with entries only in rows that are switched off. Falls
-/// back to the dense solution, @cost O(n^3), only where a motion may have no inertia: it is exact or names that motion.
+/// Solves the same equations, sparse, for square S = [M G^T; G D], D diagonal with entries only in rows that are
+/// switched off. Falls back to the dense solution, @cost O(n^3), only where a motion may have no inertia: it is exact
+/// or names that motion.
 [[nodiscard]] AccelerationSolution solve_kkt(const Equations::SparseMatrix& S, Eigen::Index nv,
                                              const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
 
@@ -36,14 +37,14 @@ struct AccelerationSolution {
 /// Puts the constraint Jacobian G, which a stage with k = 0 leaves out, into the lower left of S.
 void fill_jacobian(const Equations::SparseMatrix& G, Eigen::Index nv, Equations::SparseMatrix& S);
 
-/// Motions that the constraints allow and no inertia resists, a column each: S as in solve_kkt. @cost O(n^3)
+/// Returns the free motions without inertia, one per column; S as in solve_kkt. @cost O(n^3)
 [[nodiscard]] Eigen::MatrixXd massless_motions(const Equations::SparseMatrix& S, Eigen::Index nv);
 
-/// As solve_kkt, with accelerations of massless motions left at zero. @pre the forces along these vanish
+/// Solves like solve_kkt with zero accelerations of massless motions. @pre the forces along these vanish
 [[nodiscard]] AccelerationSolution solve_kkt_but_massless(const Equations::SparseMatrix& S, Eigen::Index nv,
                                                           const Eigen::VectorXd& h, const Eigen::VectorXd& gamma);
 
-/// Whether the rows of G are independent, by sparse QR: cheap; `analyse_rank` tells which are not.
+/// True if the rows of G are independent, by sparse QR: cheap; `analyse_rank` finds the dependent rows.
 [[nodiscard]] bool has_full_rank(const Equations::SparseMatrix& G);
 
 /// The smallest dx, in the weighted norm, with G dx = -residual, for G of full row rank.

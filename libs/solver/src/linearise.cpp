@@ -63,10 +63,11 @@ Linearisation linearise(Equations& equations, const State& state, double dt) {
 struct Root {
   std::complex<double> s;  ///< [1/s]
   Eigen::VectorXcd y;
-  double doubt = 0;  ///< of the real part [1/s]
+  double uncertainty = 0;  ///< uncertainty of the real part [1/s]
 };
 
-/// Roots near `shift`, by the inverse of what the fastest motions dominate: theory manual eq. (integrator.28).
+/// Returns the roots near `shift` by inversion of the stiffness, which the fastest motions dominate: theory manual eq.
+/// (integrator.28).
 std::vector<Root> roots_near(const Linearisation& linear, double shift) {
   const Index n = linear.M.rows();
   // Units in which no coordinate is large or small by inertia, times in units of 1/shift.
@@ -88,7 +89,7 @@ std::vector<Root> roots_near(const Linearisation& linear, double shift) {
   return roots;
 }
 
-/// What round-off of the stiffness makes of a motion that nothing holds [1/s].
+/// Returns the spurious eigenvalue of a motion without stiffness caused by round-off of the stiffness [1/s].
 double noise_of(const Linearisation& linear, const Eigen::VectorXcd& y) {
   const VectorXd size = y.cwiseAbs();
   const double inertia = std::abs((y.adjoint() * linear.M * y).value());
@@ -109,10 +110,10 @@ void refine_slow(const Linearisation& linear, double fastest, std::vector<Root>&
   std::vector<Root> near = roots_near(linear, shift);
   std::sort(near.begin(), near.end(), by_size);
   for (std::size_t i = 0; i < std::min(slow, near.size()); ++i) {
-    // A motion nothing holds is a double zero: round-off splits it into roots of eps.
+    // A motion without stiffness has a double zero eigenvalue, which round-off splits.
     const double noise = noise_of(linear, near[i].y), size = std::abs(near[i].s);
     if (size <= std::max(1e-6 * shift, noise)) near[i].s = 0;
-    near[i].doubt = std::max(1e-6 * size, noise * noise / size);
+    near[i].uncertainty = std::max(1e-6 * size, noise * noise / size);
     roots[i] = std::move(near[i]);
   }
 }
@@ -150,12 +151,12 @@ Modes find_modes(const Linearisation& linear) {
     roots.push_back({eigen.eigenvalues()[i] * omega, mass.matrixU().solve(z), 0});
   }
   const double fastest = eigen.eigenvalues().cwiseAbs().maxCoeff() * omega;
-  for (Root& root : roots) root.doubt = 1e-9 * fastest;
+  for (Root& root : roots) root.uncertainty = 1e-9 * fastest;
   refine_slow(linear, fastest, roots);
   for (const Root& root : roots) {
     if (root.s.imag() < 0) continue;
     found.modes.push_back(mode_of(root.s, root.y, linear.Z));
-    if (root.s.real() > root.doubt) found.stable = false;
+    if (root.s.real() > root.uncertainty) found.stable = false;
   }
   std::sort(found.modes.begin(), found.modes.end(),
             [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });

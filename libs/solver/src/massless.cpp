@@ -25,14 +25,14 @@ class MasslessBalance {
 
   MasslessSummary run(State& state) {
     MasslessSummary summary;
-    if (!evaluate()) return no_answer<MasslessSummary>(trouble_);
+    if (!evaluate()) return no_answer<MasslessSummary>(failure_);
     for (int iteration = 0; worst_ > kMasslessTolerance; ++iteration) {
       if (iteration == kMasslessIterations) return no_answer<MasslessSummary>(kNoBalance);
-      if (summary.undetermined = unheld(); !summary.undetermined.empty()) return loose(summary);
-      if (!advance()) return no_answer<MasslessSummary>(trouble_);
+      if (summary.undetermined = undamped(); !summary.undetermined.empty()) return loose(summary);
+      if (!advance()) return no_answer<MasslessSummary>(failure_);
     }
-    // Forces that happen to vanish hold nothing.
-    if (summary.undetermined = unheld(); !summary.undetermined.empty()) return loose(summary);
+    // A vanishing force does not imply damping.
+    if (summary.undetermined = undamped(); !summary.undetermined.empty()) return loose(summary);
     state.v = here_.v;
     summary.set_solved(true);
     return summary;
@@ -50,11 +50,11 @@ class MasslessBalance {
     Equations::SparseMatrix C;
     for (int i = 0;; ++i) {
       equations_.assemble(here_, {.dt = 0, .k = 0, .c = 1, .m = 0, .dq = {}}, residual, scale, &C);
-      trouble_ = equations_.domain_error();
-      if (trouble_.empty() && !residual.allFinite()) trouble_ = "the forces are not numbers";
-      if (trouble_.empty() && i == kMasslessIterations)
-        trouble_ = equations_.name_of_internal_residual() + " is not solved";
-      if (!trouble_.empty()) return false;
+      failure_ = equations_.domain_error();
+      if (failure_.empty() && !residual.allFinite()) failure_ = "the forces are not numbers";
+      if (failure_.empty() && i == kMasslessIterations)
+        failure_ = equations_.name_of_internal_residual() + " is not solved";
+      if (!failure_.empty()) return false;
       if (equations_.internal_residual() <= kMasslessTolerance) break;
     }
     const Index nv = equations_.nv();
@@ -73,7 +73,7 @@ class MasslessBalance {
   }
 
   /// Components of the motions that no damping resists.
-  [[nodiscard]] std::vector<Index> unheld() const {
+  [[nodiscard]] std::vector<Index> undamped() const {
     const VectorXd unit = units();
     Eigen::FullPivLU<MatrixXd> lu(MatrixXd(unit.asDiagonal() * damping_ * unit.asDiagonal()));
     lu.setThreshold(kNoDamping);
@@ -98,7 +98,7 @@ class MasslessBalance {
       if (worst_ <= kMasslessTolerance || (unit.cwiseProduct(force_)).norm() < unit.cwiseProduct(force).norm())
         return true;
     }
-    if (trouble_.empty()) trouble_ = kNoBalance;
+    if (failure_.empty()) failure_ = kNoBalance;
     return false;
   }
 
@@ -108,7 +108,7 @@ class MasslessBalance {
   VectorXd v_start_, y_, force_;
   MatrixXd damping_;
   double worst_ = 0;
-  std::string trouble_;
+  std::string failure_;
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ constexpr double kTolerance = 1e-9;  // of the terms that a row balances
 constexpr double kConstraintTolerance = 1e-12;
 constexpr int kMaxIterations = 40, kMaxHalvings = 14, kMaxInnerIterations = 60;
 
-/// Which positions and which accelerations are unknown. Constraints make as many components depend on the others as
+/// Selection of the unknown positions and accelerations. Constraints make as many components depend on the others as
 /// there are constraints: of these both are.
 struct Unknowns {
   std::vector<Index> dependent, positions, accelerations;
@@ -35,7 +35,7 @@ Unknowns choose_unknowns(Equations& equations, const State& state, const Initial
   const VectorXd scales = equations.position_scales();
   VectorXd preference = scales;
   std::vector<bool> elastic(static_cast<std::size_t>(nv), false), depends = elastic;
-  for (const std::vector<Index>* given : {&options.held, &options.held_rates})
+  for (const std::vector<Index>* given : {&options.fixed, &options.fixed_rates})
     for (const Index k : *given) preference[k] = std::min(preference[k], 1e-3 * scales[k]);
   for (const Index k : options.stiff) {
     preference[k] *= 1e-6;
@@ -71,12 +71,12 @@ class StaticDeformation {
 
   StaticDeformationSummary run(State& state) {
     equations_.begin_step(here_, 0);
-    if (!evaluate(here_)) return failure(trouble_);
+    if (!evaluate(here_)) return failure(failure_);
     while (worst_ > 1) {
       if (summary_.iterations++ == kMaxIterations) return failure(still_open());
       linearise();
       if (!factorise()) return failure("the deformation is not determined; worst equation: " + worst_row_);
-      if (!advance()) return failure(trouble_.empty() ? still_open() : trouble_);
+      if (!advance()) return failure(failure_.empty() ? still_open() : failure_);
     }
     summary_.set_solved(true);
     summary_.residual = worst_;
@@ -96,8 +96,8 @@ class StaticDeformation {
     return summary_;
   }
 
-  /// Velocities that the constraints allow here, the independent ones as they are; false, with `trouble_`, where they
-  /// do not determine them.
+  /// Projects the velocities onto the constraints, with the independent ones unchanged; returns false and sets
+  /// `failure_` if the constraints do not determine them.
   bool project_velocities(State& at) {
     const Index nlambda = equations_.nlambda();
     if (nlambda == 0) return true;
@@ -110,20 +110,20 @@ class StaticDeformation {
     const VectorXd change = by_dependent.partialPivLu().solve(-velocity);
     for (Index i = 0; i < nlambda; ++i) at.v[unknowns_.dependent[static_cast<std::size_t>(i)]] += change[i];
     if (change.allFinite()) return true;
-    trouble_ = "the constraints do not determine the velocities";
+    failure_ = "the constraints do not determine the velocities";
     return false;
   }
 
-  /// Assembles with what is condensed solved; false, with `trouble_`, outside the domain of the equations.
+  /// Assembles with condensed unknowns solved; returns false and sets `failure_` outside the domain of the equations.
   bool assemble(const State& at, const Stage& stage, SparseMatrix& tangent) {
     for (int i = 0; i < kMaxInnerIterations; ++i) {
       equations_.assemble(at, stage, residual_, scale_, &tangent);
-      trouble_ = equations_.domain_error();
-      if (trouble_.empty() && !residual_.allFinite()) trouble_ = "the forces are not numbers";
-      if (!trouble_.empty()) return false;
+      failure_ = equations_.domain_error();
+      if (failure_.empty() && !residual_.allFinite()) failure_ = "the forces are not numbers";
+      if (!failure_.empty()) return false;
       if (equations_.internal_residual() <= kTolerance) return true;
     }
-    trouble_ = equations_.name_of_internal_residual() + " is not solved";
+    failure_ = equations_.name_of_internal_residual() + " is not solved";
     return false;
   }
 
@@ -149,15 +149,16 @@ class StaticDeformation {
   void measure() {
     const Index nv = equations_.nv(), n = residual_.size();
     worst_ = 0;
-    const auto judge = [&](Index row, double residual, double tolerance) {
+    const auto measure_row = [&](Index row, double residual, double tolerance) {
       if (residual == 0) return;
       const double ratio = std::abs(residual) / tolerance;
       if (ratio <= worst_) return;
       worst_ = ratio;
       worst_row_ = equations_.name_of_row(row);
     };
-    for (Index i = 0; i < n; ++i) judge(i, residual_[i], (i < nv ? kTolerance : kConstraintTolerance) * scale_[i]);
-    for (Index i = 0; i < n - nv; ++i) judge(nv + i, acceleration_[i], kTolerance * acceleration_size_[i]);
+    for (Index i = 0; i < n; ++i)
+      measure_row(i, residual_[i], (i < nv ? kTolerance : kConstraintTolerance) * scale_[i]);
+    for (Index i = 0; i < n - nv; ++i) measure_row(nv + i, acceleration_[i], kTolerance * acceleration_size_[i]);
   }
 
   /// The matrix of theory manual eq. (integrator.23), columns [positions; accelerations; multipliers].
@@ -204,7 +205,7 @@ class StaticDeformation {
     return lu_.factorise({scaled.valuePtr(), static_cast<std::size_t>(scaled.nonZeros())});
   }
 
-  /// What Newton's method would change at the residuals as last evaluated.
+  /// Computes the Newton increment at the last residuals.
   [[nodiscard]] VectorXd increment() const {
     VectorXd x(matrix_.cols());
     x << -residual_, -acceleration_;
@@ -212,7 +213,7 @@ class StaticDeformation {
     return size_.asDiagonal() * x;
   }
 
-  /// Of the change of positions: accelerations and multipliers follow from these by linear equations.
+  /// Returns the norm of the change of positions; accelerations and multipliers follow from these by linear equations.
   [[nodiscard]] double length_of(const VectorXd& x) const {
     double sum = 0;
     for (std::size_t i = 0; i < unknowns_.positions.size(); ++i)
@@ -255,7 +256,7 @@ class StaticDeformation {
   SparseMatrix stiffness_, matrix_;
   SparseLu lu_;
   double worst_ = 0;
-  std::string worst_row_, trouble_;
+  std::string worst_row_, failure_;
   StaticDeformationSummary summary_;
 };
 

@@ -15,10 +15,10 @@ constexpr double kOrder = 3;              // of the local error
 constexpr double kReach = 8;              // steps over which an error's present change counts as an error
 constexpr double kLargestTrend = 2;       // by which a step's error factor may be thought to change to the next
 constexpr double kFinestCut = 64;         // an instant this many parts of a step away from its end is reached in parts
-constexpr double kRoundOffOfTime = 1e-9;  // of times
+constexpr double kRoundOffOfTime = 1e-9;  // relative round-off of times
 constexpr double kSmallestError = 1e-6;   // a step without error says nothing about the next
 
-/// A change that goes on as the one before it did: nothing where they are of opposite signs, as those of noise are.
+/// Returns a change that continues the previous one: zero if their signs are opposite, as those of noise are.
 double lasting(double before, double now) {
   if (before * now <= 0) return 0;
   return std::min(std::abs(now), kLargestTrend * std::abs(before));

@@ -20,7 +20,7 @@ namespace {
 // time. Set while the program is loaded: later threads may read it.
 [[maybe_unused]] const int orders_in_one_thread = setenv("SCOTCH_PTHREAD_NUMBER", "1", 0);
 
-// One pattern has one ordering, whatever was ordered before it: results are to be the same to the last bit.
+// The ordering of a pattern must not depend on previous orderings, so that results are identical to the last bit.
 void forget_earlier_orderings() {
   using Reset = void (*)();
   // Not by its header: MUMPS may have been built without SCOTCH.
@@ -35,11 +35,11 @@ constexpr int use_communicator_world = -987654;
 constexpr int most_retries = 3;
 constexpr double mebibyte = 1 << 20;
 constexpr double usable_share = 0.9;
-// A pivot below this share of the scaled matrix's norm counts as none. The smallest of a held body are four orders
-// larger.
+// A pivot below this share of the scaled matrix's norm counts as zero. The smallest pivots of a supported body are four
+// orders of magnitude larger.
 constexpr double null_pivot = 1e-13;
 
-std::mutex& turn() {
+std::mutex& mumps_mutex() {
   static std::mutex mutex;
   return mutex;
 }
@@ -74,7 +74,7 @@ struct SymmetricFactor::Impl {
     icntl(7) = 5;          // METIS, where MUMPS has it
     icntl(8) = 7;          // scaling of rows and columns: the same decisions in any units
     icntl(12) = 1;         // ordering by pattern alone
-    icntl(24) = 1;         // go on past null pivots, and list them
+    icntl(24) = 1;         // continue past null pivots and list them
     mumps.cntl[0] = 0.01;  // a pivot is at least this share of its column; null pivots are not looked for without
     mumps.cntl[2] = null_pivot;
   }
@@ -87,7 +87,7 @@ struct SymmetricFactor::Impl {
   [[nodiscard]] int infog(int i) const { return mumps.infog[i - 1]; }
 
   void call(int job) {
-    const std::scoped_lock lock(turn());
+    const std::scoped_lock lock(mumps_mutex());
     if (job == job_analyse) forget_earlier_orderings();
     mumps.job = job;
     dmumps_c(&mumps);

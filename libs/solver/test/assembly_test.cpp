@@ -8,8 +8,8 @@
 #include "hersey/solver/initialise.h"
 #include "several_coordinates.h"
 
-// Constraints are closed from a guess, theory manual eq. (integrator.21): what is held stays where it can, what cannot
-// be closed is told with the place where it comes closest.
+// Constraints are closed from a guess, theory manual eq. (integrator.21): fixed components are kept where possible, and
+// constraints that cannot be closed are reported with the closest configuration.
 namespace hersey::solver {
 namespace assembly_test {
 
@@ -31,10 +31,10 @@ test::SeveralCoordinates circle() {
   return e;
 }
 
-TEST_CASE("HeldCoordinates_StayWhereTheOthersCanClose") {
+TEST_CASE("FixedCoordinates_AreKeptIfTheOthersCanClose") {
   test::SeveralCoordinates e = circle();
   State state = e.at(Vector2d(0.6, 0.9));
-  const InitialiseSummary summary = initialise(e, state, {.held = {0}});
+  const InitialiseSummary summary = initialise(e, state, {.fixed = {0}});
   REQUIRE(summary.solved());
   CHECK(summary.conflict.empty());
   CHECK(state.q[0] == 0.6);
@@ -42,17 +42,17 @@ TEST_CASE("HeldCoordinates_StayWhereTheOthersCanClose") {
   CHECK(summary.residual <= asked);
 }
 
-TEST_CASE("HeldCoordinates_ThatConflict_MoveByTheLeast") {
+TEST_CASE("FixedCoordinates_ThatConflict_MoveByTheLeast") {
   test::SeveralCoordinates e = circle();
   for (const double far : {1.001, 2.0}) {  // a rounded value, and one for which all has to be let go
     CAPTURE(far);
     State state = e.at(far * Vector2d(0.6, 0.8));
-    const InitialiseSummary summary = initialise(e, state, {.held = {0, 1}});
+    const InitialiseSummary summary = initialise(e, state, {.fixed = {0, 1}});
     REQUIRE(summary.solved());
     REQUIRE(summary.conflict.size() == 1);
     CHECK(summary.conflict[0].name == "constraint 0");
     CHECK(summary.conflict[0].size == doctest::Approx(far * far - 1));  // what was open with both at rest
-    // To the nearest point of the circle; one that moves and one that is held would leave the line from its middle.
+    // To the nearest point of the circle; one free and one fixed component would leave the line from its centre.
     CHECK((state.q - Vector2d(0.6, 0.8)).norm() < 1e-9);
   }
 }
@@ -65,12 +65,12 @@ test::SeveralCoordinates saddle() {
   return e;
 }
 
-TEST_CASE("WhereTheWayOfTheHeldEnds_TheGuessAndItsNeighbourhoodAreTried") {
-  for (const double y : {0.8, 0.0}) {  // with x held y goes to 0, whence no way leads on; at 0 it begins there
+TEST_CASE("WhereTheSearchWithFixedCoordinatesEnds_TheGuessAndItsNeighbourhoodAreTried") {
+  for (const double y : {0.8, 0.0}) {  // with x fixed y goes to 0, where the iteration stops; at 0 it begins there
     CAPTURE(y);
     test::SeveralCoordinates e = saddle();
     State state = e.at(Vector2d(0, y));
-    const InitialiseSummary summary = initialise(e, state, {.held = {0}});
+    const InitialiseSummary summary = initialise(e, state, {.fixed = {0}});
     REQUIRE(summary.solved());
     REQUIRE(summary.conflict.size() == 1);
     CHECK(summary.conflict[0].size == doctest::Approx(1));
@@ -92,7 +92,7 @@ TEST_CASE("DeformationsMove_OnlyWhereNothingElseCloses") {
   CHECK(std::abs(e.phi(both.q, 0)[0]) < closed);
 }
 
-TEST_CASE("WhatCannotClose_IsToldWithItsConstraintsTheWidestFirst") {
+TEST_CASE("LoopThatCannotClose_IsReportedWithItsLargestConstraintFirst") {
   test::SeveralCoordinates e(Matrix2d::Identity(), 2);
   e.phi = [](const VectorXd& q, double) { return VectorXd(Vector2d(1 + q[0] * q[0], 3 + q[1] * q[1])); };
   e.G = [](const VectorXd& q, double) { return MatrixXd((2 * q).asDiagonal()); };
@@ -133,12 +133,12 @@ TEST_CASE("RowsThatRepeatOthers_AreBlamedWhereTheyDiffer") {
   CHECK(open.status == InitialiseStatus::cannot_assemble);
   REQUIRE(open.open.size() == 1);
   CHECK(open.open[0].name == "constraint 2");
-  // Named alike they are told once.
+  // Constraints of the same name are reported once.
   shift = 0.1, e.names = {"x", "y", "z", "joint", "joint", "other"};
   CHECK(initialise(e, state).redundant == std::vector<std::string>{"joint"});
 }
 
-TEST_CASE("Guess_WithoutNumbersOrOutOfIterations_IsToldNotFollowed") {
+TEST_CASE("Guess_WithoutNumbersOrOutOfIterations_IsReportedNotFollowed") {
   test::SeveralCoordinates e = circle();
   State state = e.at(Vector2d(40, 30));
   const InitialiseSummary few = initialise(e, state, {.max_iterations = 2});
@@ -146,10 +146,10 @@ TEST_CASE("Guess_WithoutNumbersOrOutOfIterations_IsToldNotFollowed") {
   CHECK(few.iterations <= 2 * 5);  // of each attempt
   CHECK(initialise(e, state).solved());
   const double no_number = std::numeric_limits<double>::quiet_NaN();
-  test::SeveralCoordinates broken = circle();
-  broken.phi = [=](const VectorXd&, double) { return one(no_number); };
-  state = broken.at(Vector2d(1, 0));
-  CHECK(initialise(broken, state).status == InitialiseStatus::cannot_assemble);
+  test::SeveralCoordinates invalid = circle();
+  invalid.phi = [=](const VectorXd&, double) { return one(no_number); };
+  state = invalid.at(Vector2d(1, 0));
+  CHECK(initialise(invalid, state).status == InitialiseStatus::cannot_assemble);
   CHECK(state.q == Vector2d(1, 0));
   // A root has an infinite slope at nothing: no increment is a number.
   test::SeveralCoordinates root(MatrixXd::Identity(1, 1), 1);
@@ -169,7 +169,7 @@ TEST_CASE("Closure_EndsAtRoundOff") {
   State state = e.at(one(0.1));
   CHECK(initialise(e, state, {.rtol = 1e-18}).solved());
   CHECK(std::abs(state.q[0] - std::asin(0.3)) < 1e-13);  // that much is put on the constraint, over its slope
-  // Of a steep wall the first increments overshoot.
+  // At a steep wall the first increments overshoot.
   test::SeveralCoordinates steep(MatrixXd::Identity(1, 1), 1);
   steep.phi = [](const VectorXd& q, double) { return one(std::atan(50 * q[0])); };
   steep.G = [](const VectorXd& q, double) { return MatrixXd(one(50 / (1 + 2500 * q[0] * q[0]))); };

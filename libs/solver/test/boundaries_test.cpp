@@ -9,7 +9,7 @@
 #include "hersey/solver/step_control.h"
 #include "hersey/solver/symmetric_factor.h"
 
-// What solvers do where there is nothing to do, nothing to be had, or nothing new to be learned.
+// Solvers without unknowns, without a solution, or without new information.
 namespace hersey::solver {
 namespace boundaries_test {
 
@@ -37,8 +37,8 @@ TEST_CASE("Gmres_OfWhatIsNoNumber_Ends") {
   const GmresSummary of_b = gmres.solve(copy, copy, Eigen::VectorXd::Constant(3, no_number), {.max_iterations = 20}, x);
   CHECK(!of_b.solved());
   CHECK(of_b.iterations == 0);
-  const auto broken = [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v, y[1] = no_number; };
-  const GmresSummary of_A = gmres.solve(broken, copy, Eigen::VectorXd::Ones(3), {.max_iterations = 20}, x);
+  const auto invalid = [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v, y[1] = no_number; };
+  const GmresSummary of_A = gmres.solve(invalid, copy, Eigen::VectorXd::Ones(3), {.max_iterations = 20}, x);
   CHECK(!of_A.solved());
   CHECK(of_A.iterations == 1);
 }

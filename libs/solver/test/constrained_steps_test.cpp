@@ -62,7 +62,7 @@ TEST_CASE("Pendulum_KeepsItsCircleAndItsEnergyToSecondOrder") {
   CHECK(std::log2(lost(200) / lost(400)) == doctest::Approx(2).epsilon(0.1));
 }
 
-// By the factors of the step's last iteration, which are those of a place a little off.
+// By the factors of the step's last iteration, which belong to a slightly different configuration.
 constexpr double what_is_left = 0.05;
 
 TEST_CASE("StepOfAnotherLength_EndsOnTheConstraintsWhereAskedTo") {
@@ -96,11 +96,11 @@ TEST_CASE("StepChosenByItsError_EndsOnTheConstraints") {
     State state = from_the_side(e);
     GeneralizedAlpha integrator({.spectral_radius = 0.8, .chosen_by_error = chosen});
     VectorXd error;
-    const StepJudge judge = [&](const State&, const VectorXd& estimate) {
+    const StepCheck check = [&](const State&, const VectorXd& estimate) {
       error = estimate;
       return true;
     };
-    for (int i = 0; i < 4; ++i) REQUIRE(integrator.step(e, state, 0.02, judge).solved());
+    for (int i = 0; i < 4; ++i) REQUIRE(integrator.step(e, state, 0.02, check).solved());
     CHECK(error.norm() > 0);
     const Vector2d off(off_the_rates(state), off_the_accelerations(state));
     if (chosen) CHECK((off.array() < what_is_left * left.array()).all());
@@ -148,9 +148,9 @@ TEST_CASE("StepThatDoesNotStand_IsSolvedAgainByTheEquationsItLeads") {
   other.stands_after = 1;
   other.changed = [&] { other.outside = [](const State&) { return std::string("gap closed"); }; };
   const State before = again;
-  const StepSummary told = same.step(other, again, 0.1);
-  CHECK(told.status == StepStatus::domain_error);
-  CHECK(told.message.find("gap closed") != std::string::npos);
+  const StepSummary summary = same.step(other, again, 0.1);
+  CHECK(summary.status == StepStatus::domain_error);
+  CHECK(summary.message.find("gap closed") != std::string::npos);
   CHECK(again.q == before.q);
 }
 
@@ -164,11 +164,11 @@ StepSummary attempt(Equations& e, State state, double dt, const GeneralizedAlpha
 }
 
 TEST_CASE("StepsThatLeadNowhere_EndWithTheirReason") {
-  test::OneCoordinate broken;
-  broken.force = [](double, double, double) { return std::numeric_limits<double>::quiet_NaN(); };
-  State rest = broken.at(0, 0);
+  test::OneCoordinate invalid;
+  invalid.force = [](double, double, double) { return std::numeric_limits<double>::quiet_NaN(); };
+  State rest = invalid.at(0, 0);
   rest.vdot.setZero();
-  const StepSummary no_number = attempt(broken, rest, 0.1);
+  const StepSummary no_number = attempt(invalid, rest, 0.1);
   CHECK(no_number.status == StepStatus::domain_error);
   CHECK(no_number.message.find("the residual is not a number") != std::string::npos);
   // Inside where it starts, outside wherever the increment goes.
@@ -181,7 +181,7 @@ TEST_CASE("StepsThatLeadNowhere_EndWithTheirReason") {
   light.mass = 1e-200;
   light.force = [](double, double, double) { return 1e200; };
   CHECK(attempt(light, rest, 0.1).status == StepStatus::singular);
-  // The place is looked at twice, first without its tangent: only the second finds it outside.
+  // The state is evaluated twice, first without its tangent: only the second evaluation finds it outside.
   int looks = 0;
   test::SeveralCoordinates fickle(MatrixXd::Identity(1, 1));
   fickle.force = [](const VectorXd& q, const VectorXd&, double) { return one(100 * std::pow(q[0], 3) - 50); };
@@ -217,7 +217,7 @@ TEST_CASE("LastIteration_IsMeasuredByTheToleranceItself") {
   CHECK(with_one_less > 2);  // each iteration divides the residual by more than twenty: 100 is one or two of them
 }
 
-// Of the rows that are off the worst is named, wherever it stands.
+// The row with the largest residual is named, irrespective of its index.
 TEST_CASE("WorstRow_IsNamedWhereverItStands") {
   for (const Eigen::Index worst : {0, 1}) {
     test::SeveralCoordinates e(Matrix2d::Identity());
@@ -241,7 +241,7 @@ TEST_CASE("Restart_TakesOffWhatConstraintsDoNotAllowAndNothingElse") {
   CHECK(off_the_accelerations(state) < round_off);
   CHECK(std::abs(state.lambda[0] - (4 + 0.8 * gravity)) < round_off);
   CHECK(state.q == Vector2d(0.6, -0.8));
-  // The heavier of two that share a velocity gives way the less.
+  // The heavier of two coordinates that share a velocity changes less.
   test::SeveralCoordinates pair(Vector2d(3, 1).asDiagonal(), 1);
   pair.G = [](const VectorXd&, double) { return MatrixXd(Vector2d(1, -1).transpose()); };
   State apart = pair.at(Vector2d(0, 0), Vector2d(0, 1));

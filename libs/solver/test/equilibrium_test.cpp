@@ -62,12 +62,12 @@ TEST_CASE("Equilibrium_ThatIsNotStable_SaysSo") {
   const EquilibriumSummary neutral = find_equilibrium(nothing, anywhere);
   REQUIRE(neutral.solved());
   CHECK(neutral.kind == EquilibriumKind::neutral);
-  CHECK(neutral.message.find("indifferent: nothing holds mass") != std::string::npos);
-  // Held by a constraint nothing is free to move: that is stable.
-  test::OneCoordinate held = with_force(3, 0);
-  held.copies_of_constraint = 1;
-  State at_rest = held.at(0, 0);
-  const EquilibriumSummary stable = find_equilibrium(held, at_rest);
+  CHECK(neutral.message.find("indifferent: no stiffness resists mass") != std::string::npos);
+  // With a constraint no motion is free: that is stable.
+  test::OneCoordinate constrained = with_force(3, 0);
+  constrained.copies_of_constraint = 1;
+  State at_rest = constrained.at(0, 0);
+  const EquilibriumSummary stable = find_equilibrium(constrained, at_rest);
   REQUIRE(stable.solved());
   CHECK(stable.kind == EquilibriumKind::stable);
   CHECK(stable.softest.empty());
@@ -104,7 +104,7 @@ TEST_CASE("Equilibrium_OfForcesBelowTheToleranceOfTheirRow_IsSolvedAsWell") {
   }
 }
 
-TEST_CASE("NoEquilibrium_IsToldAndLeavesTheStateAlone") {
+TEST_CASE("NoEquilibrium_IsReportedAndLeavesTheStateUnchanged") {
   test::OneCoordinate pushed = with_force(2, 0);
   State state = pushed.at(0.7, 0);
   const EquilibriumSummary none = find_equilibrium(pushed, state, {.max_iterations = 30});
@@ -116,12 +116,12 @@ TEST_CASE("NoEquilibrium_IsToldAndLeavesTheStateAlone") {
   test::OneCoordinate outside = with_force(0, 1);
   outside.lowest = 2;
   State closed = outside.at(1, 0);
-  const EquilibriumSummary told = find_equilibrium(outside, closed);
-  CHECK(!told.solved());
-  CHECK(told.message == "gap closed");
+  const EquilibriumSummary summary = find_equilibrium(outside, closed);
+  CHECK(!summary.solved());
+  CHECK(summary.message == "gap closed");
 }
 
-// Where the way to rest would lead out of the domain, shorter steps do not.
+// If a step towards equilibrium leaves the domain, shorter steps do not.
 TEST_CASE("Equilibrium_NearTheEndOfTheDomain_IsFoundFromInside") {
   test::OneCoordinate p;  // a gap: the force grows without bound as q falls to 0
   p.lowest = 0;
@@ -134,31 +134,31 @@ TEST_CASE("Equilibrium_NearTheEndOfTheDomain_IsFoundFromInside") {
 
 TEST_CASE("SteadyMotion_KeepsItsVelocityAndStandsStillInTheRest") {
   test::OneCoordinate rotor = with_force(0, 0);
-  State turning = rotor.at(0.2, 30);
-  const EquilibriumSummary found = find_equilibrium(rotor, turning, {.turning = true});
+  State rotating = rotor.at(0.2, 30);
+  const EquilibriumSummary found = find_equilibrium(rotor, rotating, {.steady_motion = true});
   REQUIRE(found.solved());
-  CHECK(turning.v[0] == 30);
-  CHECK(turning.q[0] == 0.2);
+  CHECK(rotating.v[0] == 30);
+  CHECK(rotating.q[0] == 0.2);
   // A spring lets it pass through its middle, not stay there.
   test::OneCoordinate spring = with_force(-2, 5);
   State passing = spring.at(0.1, 3);
-  const EquilibriumSummary passed = find_equilibrium(spring, passing, {.turning = true});
+  const EquilibriumSummary passed = find_equilibrium(spring, passing, {.steady_motion = true});
   CHECK(!passed.solved());
   CHECK(passed.message.find("no steady motion: mass does not keep still") == 0);
   CHECK(passing.q[0] == 0.1);
   test::OneCoordinate pushed = with_force(2, 0);
   State driven = pushed.at(0, 3);
-  const EquilibriumSummary none = find_equilibrium(pushed, driven, {.turning = true});
+  const EquilibriumSummary none = find_equilibrium(pushed, driven, {.steady_motion = true});
   CHECK(!none.solved());
   CHECK(none.message.find("no steady motion near the start") == 0);
-  // At rest, turning or not is the same.
+  // Without velocities both searches have the same result.
   State still = spring.at(0.1, 0);
-  REQUIRE(find_equilibrium(spring, still, {.turning = true}).solved());
+  REQUIRE(find_equilibrium(spring, still, {.steady_motion = true}).solved());
   CHECK(std::abs(still.q[0] - 0.4) < solved);
 }
 
-/// From q with accelerations of nothing, which tell the search nothing of how far forces push: its first step is a long
-/// one.
+/// From q with zero accelerations, from which the search cannot estimate the effect of the forces: its first step is a
+/// long one.
 State without_pull(const test::OneCoordinate& p, double q) {
   State state = p.at(q, 0);
   state.vdot.setZero();
@@ -243,12 +243,12 @@ TEST_CASE("Rest_IsSolvedFurtherThanItsRowsAsk") {
   CHECK(slow.q[0] == doctest::Approx(0.02 * std::pow(2.0 / 3, 8)).scale(0));  // eight iterations take a third each
 }
 
-TEST_CASE("ForcesThatAreNoNumbers_AreTold") {
-  test::OneCoordinate broken = with_force(std::numeric_limits<double>::quiet_NaN(), 1);
-  State state = broken.at(0.3, 0);
-  const EquilibriumSummary told = find_equilibrium(broken, state);
-  CHECK(!told.solved());
-  CHECK(told.message == "the forces at the start are not numbers");
+TEST_CASE("ForcesThatAreNoNumbers_AreReported") {
+  test::OneCoordinate invalid = with_force(std::numeric_limits<double>::quiet_NaN(), 1);
+  State state = invalid.at(0.3, 0);
+  const EquilibriumSummary summary = find_equilibrium(invalid, state);
+  CHECK(!summary.solved());
+  CHECK(summary.message == "the forces at the start are not numbers");
   CHECK(state.q[0] == 0.3);
 }
 
@@ -273,7 +273,7 @@ test::SeveralCoordinates weight_on_a_circle() {
   return e;
 }
 
-TEST_CASE("WeightOnACircle_IsHeldByWhatItsConstraintMakesOfItsForce") {
+TEST_CASE("WeightOnACircle_IsStabilisedByTheGeometricStiffness") {
   test::SeveralCoordinates e = weight_on_a_circle();
   State hanging = e.at(Vector2d(0.8, -0.6)), upright = e.at(Vector2d(0, 1));
   const EquilibriumSummary found = find_equilibrium(e, hanging);
@@ -282,15 +282,15 @@ TEST_CASE("WeightOnACircle_IsHeldByWhatItsConstraintMakesOfItsForce") {
   CHECK(std::abs(hanging.lambda[0] - 9.81) < 9.81 * solved);
   CHECK(found.kind == EquilibriumKind::stable);
   CHECK(found.softest == "coordinate 0");
-  // Nothing else than the multiplier's own stiffness tells this one from the other.
+  // Only the geometric stiffness of the multiplier distinguishes this one from the other.
   upright.lambda[0] = -9.81;
   const EquilibriumSummary above = find_equilibrium(e, upright);
   REQUIRE(above.solved());
   CHECK(above.kind == EquilibriumKind::unstable);
 }
 
-// A bead on a turning hoop keeps still where its weight and the centrifugal force balance, though at the lowest point
-// it does, too; v turns the hoop.
+/// A bead on a rotating hoop is at rest where its weight and the centrifugal force balance, and at the lowest point,
+/// too; v rotates the hoop.
 constexpr double kept = 1e-8;  // a steady motion is solved to its rows alone, to 1e-10 of forces of a few newtons
 
 TEST_CASE("SteadyMotion_IsFoundByShorterStepsWhereWholeOnesMiss") {
@@ -298,23 +298,23 @@ TEST_CASE("SteadyMotion_IsFoundByShorterStepsWhereWholeOnesMiss") {
   soft.force = [](double q, double, double) { return std::atan(50 * (q - 1)); };
   soft.force_dq = [](double q, double, double) { return 50 / (1 + 2500 * (q - 1) * (q - 1)); };
   State state = soft.at(1.06, 0);
-  REQUIRE(find_equilibrium(soft, state, {.turning = true}).solved());
+  REQUIRE(find_equilibrium(soft, state, {.steady_motion = true}).solved());
   CHECK(std::abs(state.q[0] - 1) < kept);
   test::OneCoordinate wall;
   wall.lowest = 0.09;
   wall.force = [](double q, double, double) { return 50 - 0.5 / (q * q); };
   wall.force_dq = [](double q, double, double) { return 1 / (q * q * q); };
   state = wall.at(0.2, 0);
-  REQUIRE(find_equilibrium(wall, state, {.turning = true}).solved());
+  REQUIRE(find_equilibrium(wall, state, {.steady_motion = true}).solved());
   CHECK(std::abs(state.q[0] - 0.1) < kept);
 }
 
-TEST_CASE("SteadyMotionThatIsNotReached_IsTold") {
+TEST_CASE("SteadyMotionThatIsNotReached_IsReported") {
   test::OneCoordinate pushed;
   pushed.force = [](double q, double, double) { return 1 + q * q; };
   pushed.force_dq = [](double q, double, double) { return 2 * q; };
   State state = pushed.at(0.9, 3);
-  const EquilibriumSummary none = find_equilibrium(pushed, state, {.turning = true});
+  const EquilibriumSummary none = find_equilibrium(pushed, state, {.steady_motion = true});
   CHECK(!none.solved());
   CHECK(none.message == "no steady motion near the start; worst equation: mass");
   CHECK(state.q[0] == 0.9);
@@ -322,18 +322,18 @@ TEST_CASE("SteadyMotionThatIsNotReached_IsTold") {
   flat.force = [](double q, double, double) { return std::pow(q, 9); };
   flat.force_dq = [](double q, double, double) { return 9 * std::pow(q, 8); };
   state = flat.at(1, 3);
-  const EquilibriumSummary slow = find_equilibrium(flat, state, {.max_iterations = 3, .turning = true});
+  const EquilibriumSummary slow = find_equilibrium(flat, state, {.max_iterations = 3, .steady_motion = true});
   CHECK(!slow.solved());
   CHECK(slow.message.find("no equilibrium in 3 iterations") == 0);
 }
 
 // Whether it stays steady is looked at a little later, by the same equations: where these have no answer then, that
 // alone says nothing; where their answer has moved on, it is none.
-TEST_CASE("SteadyMotion_IsJudgedALittleLater") {
+TEST_CASE("SteadyMotion_IsCheckedAShortTimeLater") {
   test::OneCoordinate rotor = with_force(0, 0);
   rotor.lowest = 0.1;
   State leaving = rotor.at(0.2, -30);
-  CHECK(find_equilibrium(rotor, leaving, {.turning = true}).solved());
+  CHECK(find_equilibrium(rotor, leaving, {.steady_motion = true}).solved());
   CHECK(leaving.q[0] == 0.2);
   // A balance that is passing by, and of which later nothing, or next to nothing, is to be had.
   for (const int power : {2, 9}) {
@@ -344,9 +344,9 @@ TEST_CASE("SteadyMotion_IsJudgedALittleLater") {
     };
     passing.force_dq = [=](double q, double, double t) { return t == 0 ? 1 : power * std::pow(q - 2, power - 1); };
     State state = passing.at(0, 3);
-    const EquilibriumSummary told = find_equilibrium(passing, state, {.turning = true});
-    CHECK(!told.solved());
-    CHECK(told.message.find("no steady motion: mass does not keep still") == 0);
+    const EquilibriumSummary summary = find_equilibrium(passing, state, {.steady_motion = true});
+    CHECK(!summary.solved());
+    CHECK(summary.message.find("no steady motion: mass does not keep still") == 0);
   }
 }
 

@@ -14,7 +14,7 @@
 namespace hersey::solver {
 namespace fast_motions_test {
 
-/// m v' = c (cos t - v): what a film does to a journal that a turning load drags along.
+/// m v' = c (cos t - v): a film acts like this on a journal under a rotating load.
 test::OneCoordinate dragged(double mass, double damping) {
   test::OneCoordinate e;
   e.mass = mass;
@@ -121,7 +121,7 @@ TEST_CASE("FastMotionThatCannotBeSettled_IsLeftAsItIs") {
 TEST_CASE("GivenRateOfALightMass_StandsAtTheStart") {
   test::OneCoordinate e = dragged(1e-9, 1);
   State s = e.at(0, 0.25);
-  REQUIRE(initialise(e, s, {.held_rates = {0}}).solved());
+  REQUIRE(initialise(e, s, {.fixed_rates = {0}}).solved());
   CHECK(s.v[0] == 0.25);
 }
 

@@ -105,7 +105,8 @@ TEST_CASE("FactorsThatServe_AreKept") {
   CHECK(condensing.tangents >= 20);
 }
 
-// A stop that hardens with the cube of its depth is no place for old factors: the step takes new ones and arrives.
+// At a stop that hardens with the cube of its depth old factors do not converge: the step computes new ones and
+// converges.
 TEST_CASE("FactorsThatDoNotServe_AreReplaced") {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return q < 0 ? 1e13 * q * q * q : 0.0; };
@@ -118,7 +119,7 @@ TEST_CASE("FactorsThatDoNotServe_AreReplaced") {
   CHECK(e.tangents >= 2);
 }
 
-TEST_CASE("ClosedGap_ShortensTheIncrementAndGoesOn") {
+TEST_CASE("ClosedGap_ShortensTheIncrementAndContinues") {
   // The predictor, and Newton's first increments, pass through the cushion; the step still has an answer on this side.
   test::OneCoordinate e = cushion();
   State s = e.at(0.1, -3);
@@ -177,7 +178,7 @@ TEST_CASE("FailedStep_LeavesTheStateAndSaysWhy") {
 }
 
 TEST_CASE("RejectedStep_CanBeRepeatedShorter") {
-  // What a run does after a failure: the same state with half the step gives what the half step alone gives.
+  // A run repeats a failed step with half its length: the result equals that of the half step alone.
   test::OneCoordinate e = oscillator(3), fresh = oscillator(3);
   GeneralizedAlpha integrator({.spectral_radius = 0.7}), other({.spectral_radius = 0.7});
   State s = e.at(1, 0), alone = s;

@@ -72,7 +72,7 @@ TEST_CASE("ClosedGapAtTheStart_IsADomainError") {
   CHECK(summary.message.find("gap closed") != std::string::npos);
 }
 
-TEST_CASE("WhatIsCondensedAtTheStart_IsSolvedOrTold") {
+TEST_CASE("CondensedUnknownsAtTheStart_AreSolvedOrReported") {
   test::SeveralCoordinates e(MatrixXd::Identity(1, 1));
   e.force = [](const VectorXd&, const VectorXd&, double) { return VectorXd(VectorXd::Constant(1, -3)); };
   e.unsolved = 40;
@@ -81,9 +81,9 @@ TEST_CASE("WhatIsCondensedAtTheStart_IsSolvedOrTold") {
   CHECK(s.vdot[0] == doctest::Approx(3));
   CHECK(e.assembled == 40);
   e.unsolved = 1000;
-  const InitialiseSummary told = initialise(e, s);
-  CHECK(told.status == InitialiseStatus::domain_error);
-  CHECK(told.message.find("what is condensed is not solved in 60 iterations") != std::string::npos);
+  const InitialiseSummary summary = initialise(e, s);
+  CHECK(summary.status == InitialiseStatus::domain_error);
+  CHECK(summary.message.find("what is condensed is not solved in 60 iterations") != std::string::npos);
 }
 
 TEST_CASE("RankAnalysis_OfIndependentRowsOrNone_NamesNone") {
@@ -96,7 +96,7 @@ TEST_CASE("RankAnalysis_OfIndependentRowsOrNone_NamesNone") {
   CHECK(zero.involved == std::vector<Eigen::Index>{1});  // a row that says nothing depends on no other
 }
 
-/// Whether the rows are independent, by elimination or by what it leaves to decide.
+/// Returns whether the rows are independent, by elimination or, if that is not conclusive, by QR.
 TEST_CASE("Rank_IsFullDownToRowsThatDifferByRoundOff") {
   const auto full = [](const MatrixXd& G) { return has_full_rank(G.sparseView(1, 0)); };
   for (const double apart : {1.0, 1e-4, 1e-7, 1e-9}) {
@@ -154,8 +154,9 @@ TEST_CASE("Kkt_SolvesBothEquationsWithInertiasFarApart") {
   CHECK((G * s.vdot + gamma).cwiseQuotient(motions).cwiseAbs().maxCoeff() < 1e-9);
 }
 
-/// `units` of three coordinates each, held by two rows that nearly depend on each other: elimination's smallest pivot
-/// is the square of `apart`. The free coordinates of the first two have `inertia` where they move against each other.
+/// `units` of three coordinates each, constrained by two rows that nearly depend on each other: elimination's smallest
+/// pivot is the square of `apart`. The free coordinates of the first two have `inertia` where they move against each
+/// other.
 Equations::SparseMatrix nearly_dependent_rows(int units, double apart, double inertia) {
   std::vector<Eigen::Triplet<double>> entries;
   const int nv = 3 * units;

@@ -9,7 +9,8 @@
 
 #include "several_coordinates.h"
 
-// A point mass on a circle, turned by a drive: what drives and constraints prescribe, and where they do not.
+// A point mass on a circle, rotated by a drive: motions that drives and constraints prescribe, and those that they do
+// not.
 namespace hersey::solver {
 namespace kinematics_test {
 
@@ -46,7 +47,7 @@ test::SeveralCoordinates crank(bool driven) {
   return e;
 }
 
-TEST_CASE("DrivenPoint_GoesAroundAsClosedFormsSay") {
+TEST_CASE("DrivenPoint_FollowsTheClosedForms") {
   test::SeveralCoordinates e = crank(true);
   State state = e.at(Vector2d(0.9, -0.2));
   for (const double t : {0.0, 0.1, 0.35, 0.7}) {
@@ -86,7 +87,7 @@ test::SeveralCoordinates pushed(double reach, double rate = 0) {
   e.phi = [=](const VectorXd& q, double) { return VectorXd(Vector2d(q.squaredNorm() - 1, q[0] - reach)); };
   e.G = [](const VectorXd& q, double) { return MatrixXd((Matrix2d() << 2 * q[0], 2 * q[1], 1, 0).finished()); };
   e.phi_t = [=](const VectorXd&, double) { return VectorXd(Vector2d(0, rate)); };
-  // As forces of bodies that turn do, these depend on velocities.
+  // These depend on velocities, as forces of rotating bodies do.
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd(Vector2d(0.1 * v[1], -0.1 * v[0])); };
   return e;
 }
@@ -103,10 +104,10 @@ void check_failure(test::SeveralCoordinates& e, const State& start, KinematicsSt
   CHECK(e.accepted == 0);
 }
 
-TEST_CASE("WhatCannotBeFollowed_IsToldWithItsPlace") {
+TEST_CASE("MotionThatCannotBeFollowed_IsReportedWithItsInstant") {
   test::SeveralCoordinates out_of_reach = pushed(1.3), at_the_end = pushed(1), jumping = pushed(0.6);
   check_failure(out_of_reach, out_of_reach.at(Vector2d(0.8, 0.6)), KinematicsStatus::cannot_close, "stays open");
-  // Where the drive has pushed the point as far as it goes, x says nothing of y any more.
+  // At the end of the range of the drive x does not determine y.
   check_failure(at_the_end, at_the_end.at(Vector2d(1, 0)), KinematicsStatus::undetermined,
                 "a dead point: drives and joints do not prescribe the motion of coordinate 1 here");
   // A root of time has no rate at zero.

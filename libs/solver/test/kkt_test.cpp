@@ -62,8 +62,7 @@ TEST_CASE("DependentRows_AreFoundInWhateverUnits") {
 TEST_CASE("SmallestIncrement_IsThatOfThePseudoInverse") {
   MatrixXd G = random(3, 7, 4);
   const VectorXd residual = random(3, 1, 5), weight = VectorXd::Ones(7) + 0.9 * random(7, 1, 6);
-  for (const double apart :
-       {1.0, 1e-7}) {  // elimination; rows so near to each other that it gives way to orthogonal ones
+  for (const double apart : {1.0, 1e-7}) {  // elimination; rows so nearly dependent that the QR decomposition is used
     CAPTURE(apart);
     G.row(2) = G.row(0) + apart * random(1, 7, 7);
     const MatrixXd scaled = G * weight.asDiagonal();
@@ -89,7 +88,7 @@ TEST_CASE("Accelerations_AreThoseOfTheWholeSystemInWhateverUnits") {
   }
 }
 
-// A coordinate without inertia moves where a constraint tells it to; where none does, it is named.
+// A coordinate without inertia moves as a constraint prescribes; without such a constraint it is named.
 TEST_CASE("CoordinateWithoutInertia_NeedsAConstraint") {
   MatrixXd M = VectorXd{{2.0, 0.0, 3.0}}.asDiagonal();
   const VectorXd h{{1.0, 0.0, 0.0}}, gamma{{0.5}};

@@ -15,7 +15,7 @@ namespace linearise_test {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 // Eigenvalues of well-scaled matrices of a few rows, relative.
 constexpr double of_eigenvalues = 1e4 * eps;
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double two_pi = 2 * std::numbers::pi;
 
 Linearisation of(const Eigen::MatrixXd& M, const Eigen::MatrixXd& C, const Eigen::MatrixXd& K) {
   Linearisation linear;
@@ -49,10 +49,10 @@ TEST_CASE("Linearisation_OfOneCoordinateIsItsMassDampingAndStiffness") {
   CHECK(outside.message == "gap closed");
 }
 
-TEST_CASE("Modes_WhereNothingCanMoveOrNothingHasInertia_AreTold") {
-  test::OneCoordinate held;
-  held.copies_of_constraint = 1;
-  const Modes none = find_modes(linearise(held, held.at(0, 0), 1e-3));
+TEST_CASE("Modes_WithoutFreeMotionsOrInertia_AreReported") {
+  test::OneCoordinate constrained;
+  constrained.copies_of_constraint = 1;
+  const Modes none = find_modes(linearise(constrained, constrained.at(0, 0), 1e-3));
   CHECK(!none.solved());
   CHECK(none.message.find("nothing that could vibrate") != std::string::npos);
   const Modes massless = find_modes(of(0, 1, 1));
@@ -66,8 +66,8 @@ TEST_CASE("Modes_OfTwoMassesAreThoseOfTheTextbook") {
   REQUIRE(found.solved());
   CHECK(found.stable);
   REQUIRE(found.modes.size() == 2);  // of each conjugate pair one
-  CHECK(found.modes[0].frequency == relative(5 / turn).epsilon(of_eigenvalues));
-  CHECK(found.modes[1].frequency == relative(5 * std::sqrt(3.0) / turn).epsilon(of_eigenvalues));
+  CHECK(found.modes[0].frequency == relative(5 / two_pi).epsilon(of_eigenvalues));
+  CHECK(found.modes[1].frequency == relative(5 * std::sqrt(3.0) / two_pi).epsilon(of_eigenvalues));
   CHECK(std::abs(found.modes[0].damping_ratio) < of_eigenvalues);
   // In step, and against each other; the largest entry is 1.
   CHECK(std::abs(found.modes[0].shape[0] / found.modes[0].shape[1] - 1.0) < of_eigenvalues);
@@ -80,9 +80,10 @@ TEST_CASE("DampedModes_HaveTheirRatioAndFrequencies") {
   const Modes found = find_modes(of(2, 2 * 2 * zeta * omega, 2 * omega * omega));
   REQUIRE(found.modes.size() == 1);
   CHECK(found.modes[0].damping_ratio == relative(zeta).epsilon(of_eigenvalues));
-  CHECK(found.modes[0].frequency == relative(omega / turn).epsilon(of_eigenvalues));
-  CHECK(found.modes[0].damped_frequency == relative(omega * std::sqrt(1 - zeta * zeta) / turn).epsilon(of_eigenvalues));
-  // Overdamped there are two roots, s = -1 and -4 1/s, which turn at nothing.
+  CHECK(found.modes[0].frequency == relative(omega / two_pi).epsilon(of_eigenvalues));
+  CHECK(found.modes[0].damped_frequency ==
+        relative(omega * std::sqrt(1 - zeta * zeta) / two_pi).epsilon(of_eigenvalues));
+  // The overdamped case has two real roots, s = -1 and -4 1/s.
   const Modes creeping = find_modes(of(1, 5, 4));
   REQUIRE(creeping.modes.size() == 2);
   CHECK(creeping.modes[0].s.real() == relative(-1).epsilon(of_eigenvalues));
@@ -110,10 +111,10 @@ TEST_CASE("SlowModes_KeepTheirFigures") {
   CHECK(found.stable);
   REQUIRE(found.modes.size() >= 3);
   CHECK(found.modes.front().frequency == 0);
-  CHECK(found.modes.back().frequency == relative(1e7 / turn).epsilon(of_eigenvalues));
+  CHECK(found.modes.back().frequency == relative(1e7 / two_pi).epsilon(of_eigenvalues));
   const Mode& slow = found.modes[found.modes.size() - 2];
   // By the inverse about 1e-5 of the fastest motion: (100/2)^2 times its round-off.
-  CHECK(slow.frequency == relative(2 / turn).epsilon(2500 * of_eigenvalues));
+  CHECK(slow.frequency == relative(2 / two_pi).epsilon(2500 * of_eigenvalues));
 }
 
 }  // namespace linearise_test

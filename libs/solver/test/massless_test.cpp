@@ -54,14 +54,14 @@ TEST_CASE("MasslessMotion_IsBalancedInsideTheDomain") {
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd::Constant(1, 50 + v[0]); };
   e.force_dv = [](const VectorXd&, const VectorXd&, double) { return MatrixXd::Ones(1, 1); };
   state.v[0] = 1e-3;  // no increment is short enough
-  const MasslessSummary told = balance(e, state);
-  CHECK(!told.solved());
-  CHECK(told.message == "backwards");
+  const MasslessSummary summary = balance(e, state);
+  CHECK(!summary.solved());
+  CHECK(summary.message == "backwards");
   CHECK(state.v[0] == 1e-3);
 }
 
-TEST_CASE("ForcesThatNoRateBalances_AreTold") {
-  const auto told = [](test::OneCoordinate& e, double v) {
+TEST_CASE("ForcesThatNoRateBalances_AreReported") {
+  const auto message_of = [](test::OneCoordinate& e, double v) {
     State state = e.at(0, v);
     state.vdot.setZero();
     const InitialiseSummary summary = initialise(e, state);
@@ -71,23 +71,23 @@ TEST_CASE("ForcesThatNoRateBalances_AreTold") {
   };
   const std::string none = "at the start, t = 0 s: no velocity balances the forces on motions without inertia";
   test::OneCoordinate least = damper([](double v) { return 1 + v * v; }, [](double v) { return 2 * v; });
-  CHECK(told(least, 0.9) == none);
+  CHECK(message_of(least, 0.9) == none);
   test::OneCoordinate flat =  // each iteration takes a ninth of what is left
       damper([](double v) { return std::pow(v, 9); }, [](double v) { return 9 * std::pow(v, 8); });
-  CHECK(told(flat, 100) == none);
+  CHECK(message_of(flat, 100) == none);
   // The forces at the start are numbers, those at the rate that would balance them are not.
-  test::OneCoordinate broken = damper(
+  test::OneCoordinate invalid = damper(
       [](double v) { return v > -1 ? 100 + v : std::numeric_limits<double>::quiet_NaN(); }, [](double) { return 1.0; });
-  CHECK(told(broken, 0) == "at the start, t = 0 s: the forces are not numbers");
+  CHECK(message_of(invalid, 0) == "at the start, t = 0 s: the forces are not numbers");
 }
 
 TEST_CASE("WhatIsCondensed_IsSolvedBeforeForcesAreBalanced") {
   test::OneCoordinate e = damper([](double v) { return 4 * v - 5; }, [](double) { return 4.0; });
   e.internal = 1e-3;
   State state = e.at(0, 0);
-  const MasslessSummary told = balance(e, state);
-  CHECK(!told.solved());
-  CHECK(told.message == "film of the fake is not solved");
+  const MasslessSummary summary = balance(e, state);
+  CHECK(!summary.solved());
+  CHECK(summary.message == "film of the fake is not solved");
   test::SeveralCoordinates slow(MatrixXd::Zero(1, 1));
   slow.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd(4 * v - VectorXd::Constant(1, 5)); };
   slow.force_dv = [](const VectorXd&, const VectorXd&, double) { return MatrixXd::Constant(1, 1, 4); };
@@ -99,7 +99,7 @@ TEST_CASE("WhatIsCondensed_IsSolvedBeforeForcesAreBalanced") {
 }
 
 TEST_CASE("MotionsThatNothingHolds_AreNamedAloneWhateverBalances") {
-  // Of three the second is damped; the third is pushed, the first not even that.
+  // Only the second of three motions is damped; the third is loaded, the first is not.
   test::SeveralCoordinates e(MatrixXd::Zero(3, 3));
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd(Vector3d(0, 2 * v[1] - 1, 0)); };
   e.force_dv = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector3d(0, 2, 0).asDiagonal()); };

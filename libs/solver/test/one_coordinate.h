@@ -18,7 +18,7 @@ class OneCoordinate final : public Equations {
   int copies_of_constraint = 0;  ///< rows q = 0
   double lowest = -1e300;        ///< q at and below this is outside the domain
   double internal = 0;           ///< internal residual reported
-  bool condenses = false;        ///< condensed unknowns told
+  bool condenses = false;        ///< condensed unknowns are reported
   int begun = 0, accepted = 0, assembled = 0, tangents = 0;
 
   [[nodiscard]] Index nq() const override { return 1; }

@@ -8,7 +8,7 @@
 #include "hersey/solver/generalized_alpha.h"
 #include "one_coordinate.h"
 
-// What is condensed is integrated like the coordinates of the system: by the same steps to the same numbers.
+// Condensed unknowns are integrated like the coordinates of the system, with the same steps and results.
 namespace hersey::solver {
 namespace second_order_history_test {
 
@@ -52,7 +52,7 @@ struct Condensed {
   }
 };
 
-TEST_CASE("CondensedUnknown_GoesAsACoordinateOfTheSystem") {
+TEST_CASE("CondensedUnknown_MovesLikeACoordinateOfTheSystem") {
   test::OneCoordinate e;
   e.force = [](double q, double, double t) { return force(q, t); };
   e.force_dq = [](double, double, double) { return omega * omega; };
@@ -107,7 +107,7 @@ TEST_CASE("FreshStep_StartsFromTheAccelerationThereIs") {
   CHECK((going_on.x.position() - expected).norm() > 1e-10);
 }
 
-TEST_CASE("RestoredHistory_GoesOnToTheSameBits") {
+TEST_CASE("RestoredHistory_ContinuesToTheSameBits") {
   Condensed saved, restored;
   saved.x.start(VectorXd::Constant(1, 0.01));
   saved.step(0.01), saved.step(0.004);

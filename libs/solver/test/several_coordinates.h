@@ -48,7 +48,7 @@ class SeveralCoordinates final : public Equations {
   void assemble(const State& s, const Stage& stage, Vector& residual, Vector& scale, SparseMatrix* tangent) override {
     ++assembled;
     if (unsolved > 0) --unsolved;
-    trouble_ = outside ? outside(s) : "";
+    failure_ = outside ? outside(s) : "";
     const Index n = nv();
     const Vector f = force ? force(s.q, s.v, s.t) : Vector::Zero(n);
     const Matrix jacobian = jacobian_at(s);
@@ -92,7 +92,7 @@ class SeveralCoordinates final : public Equations {
     changed();
     return false;
   }
-  [[nodiscard]] std::string domain_error() const override { return trouble_; }
+  [[nodiscard]] std::string domain_error() const override { return failure_; }
   [[nodiscard]] bool has_whole_tangent() const override { return whole_tangent; }
 
   /// At q and v, without accelerations and multipliers.
@@ -122,7 +122,7 @@ class SeveralCoordinates final : public Equations {
     tangent.makeCompressed();
   }
 
-  std::string trouble_;
+  std::string failure_;
 };
 
 }  // namespace hersey::solver::test

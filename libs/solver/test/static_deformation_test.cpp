@@ -85,9 +85,9 @@ TEST_CASE("HungBar_IsLengthenedByItsWeight") {
   e.phi = [=](const VectorXd& q, double) { return VectorXd(VectorXd::Constant(1, q[0] + psi * q[1])); };
   e.G = [=](const VectorXd&, double) { return MatrixXd((MatrixXd(1, 2) << 1, psi).finished()); };
   State state = e.at(Vector2d(0, 0));
-  for (const std::vector<Eigen::Index>& held : {std::vector<Eigen::Index>{}, std::vector<Eigen::Index>{0}}) {
+  for (const std::vector<Eigen::Index>& fixed : {std::vector<Eigen::Index>{}, std::vector<Eigen::Index>{0}}) {
     REQUIRE(initialise(e, state).solved());
-    REQUIRE(settle_deformations(e, state, {.held = held, .stiff = {1}}).solved());
+    REQUIRE(settle_deformations(e, state, {.fixed = fixed, .stiff = {1}}).solved());
     const double elongation = (psi * mass - moment) * gravity / stiffness;
     CHECK(std::abs(state.q[1] - elongation) < solved);
     CHECK(std::abs(state.q[0] + psi * elongation) < solved);
@@ -96,7 +96,7 @@ TEST_CASE("HungBar_IsLengthenedByItsWeight") {
   }
 }
 
-/// A mass on an elastic rod that turns about its other end, x^2 + y^2 = (1 + e)^2.
+/// A mass on an elastic rod that rotates about its other end, x^2 + y^2 = (1 + e)^2.
 test::SeveralCoordinates whirled_mass() {
   test::SeveralCoordinates e(Vector3d(mass, mass, 0.1).asDiagonal(), 1);
   e.force = [](const VectorXd& q, const VectorXd&, double) { return VectorXd(Vector3d(0, 0, stiffness * q[2])); };
@@ -135,8 +135,8 @@ TEST_CASE("WhirledRod_IsStretchedByWhatKeepsItsMassOnTheCircle") {
   CHECK(state.vdot[2] == 0);
 }
 
-/// What is asked of one deformation alone, held by `force`.
-test::OneCoordinate held_by(double (*force)(double), double (*slope)(double)) {
+/// One deformation alone under `force`.
+test::OneCoordinate supported_by(double (*force)(double), double (*slope)(double)) {
   test::OneCoordinate e;
   e.force = [=](double q, double, double) { return force(q); };
   e.force_dq = [=](double q, double, double) { return slope(q); };
@@ -145,13 +145,13 @@ test::OneCoordinate held_by(double (*force)(double), double (*slope)(double)) {
 
 TEST_CASE("StiffDeformation_IsSettledFromFarAwayAndInsideItsDomain") {
   test::OneCoordinate gap =
-      held_by([](double q) { return 50 - 0.5 / (q * q); }, [](double q) { return 1 / (q * q * q); });
+      supported_by([](double q) { return 50 - 0.5 / (q * q); }, [](double q) { return 1 / (q * q * q); });
   gap.lowest = 0;
   State state = gap.at(1, 0);  // Newton's method from here ends far on the other side of the wall
   REQUIRE(settle_deformations(gap, state, {.stiff = {0}}).solved());
   CHECK(std::abs(state.q[0] - 0.1) < solved);
-  test::OneCoordinate soft = held_by([](double q) { return std::atan(5 * (q - 1)); },
-                                     [](double q) { return 5 / (1 + 25 * (q - 1) * (q - 1)); });
+  test::OneCoordinate soft = supported_by([](double q) { return std::atan(5 * (q - 1)); },
+                                          [](double q) { return 5 / (1 + 25 * (q - 1) * (q - 1)); });
   State far = soft.at(2, 0);  // and from here runs away
   REQUIRE(settle_deformations(soft, far, {.stiff = {0}}).solved());
   CHECK(std::abs(far.q[0] - 1) < solved);
@@ -169,37 +169,37 @@ void check_failure(Equations& e, const State& start, Eigen::Index deformation, c
   CHECK(state.vdot == start.vdot);
 }
 
-TEST_CASE("DeformationThatNothingHolds_IsTold") {
-  test::OneCoordinate loose = held_by([](double) { return 2.0; }, [](double) { return 0.0; });
+TEST_CASE("DeformationWithoutStiffness_IsReported") {
+  test::OneCoordinate loose = supported_by([](double) { return 2.0; }, [](double) { return 0.0; });
   check_failure(loose, loose.at(1, 0), 0, "the deformation is not determined; worst equation: mass");
   // 1 + q^2 vanishes nowhere: the least that is left is at 0, to which no increment leads any more.
-  test::OneCoordinate pushed = held_by([](double q) { return 1 + q * q; }, [](double q) { return 2 * q; });
+  test::OneCoordinate pushed = supported_by([](double q) { return 1 + q * q; }, [](double q) { return 2 * q; });
   check_failure(pushed, pushed.at(0.9, 0), 0, "worst equation: mass");
   // Each iteration takes a ninth of what is left.
   test::OneCoordinate flat =
-      held_by([](double q) { return std::pow(q, 9); }, [](double q) { return 9 * std::pow(q, 8); });
+      supported_by([](double q) { return std::pow(q, 9); }, [](double q) { return 9 * std::pow(q, 8); });
   check_failure(flat, flat.at(100, 0), 0, "times its tolerance after 41 iterations");
-  test::OneCoordinate endless = held_by([](double) { return 1e200; }, [](double) { return 1e-200; });
+  test::OneCoordinate endless = supported_by([](double) { return 1e200; }, [](double) { return 1e-200; });
   check_failure(endless, endless.at(0, 0), 0, "worst equation: mass");
 }
 
-TEST_CASE("DeformationOutsideOfItsDomain_IsTold") {
-  test::OneCoordinate spring = held_by([](double q) { return 100 + q; }, [](double) { return 1.0; });
+TEST_CASE("DeformationOutsideItsDomain_IsReported") {
+  test::OneCoordinate spring = supported_by([](double q) { return 100 + q; }, [](double) { return 1.0; });
   spring.lowest = 1;
   check_failure(spring, spring.at(0.5, 0), 0, "gap closed");
   spring.lowest = -1e-3;  // nearer than any increment that is tried
   check_failure(spring, spring.at(0, 0), 0, "gap closed");
-  test::OneCoordinate broken =
-      held_by([](double) { return std::numeric_limits<double>::quiet_NaN(); }, [](double) { return 1.0; });
-  State still = broken.at(0.5, 0);
+  test::OneCoordinate invalid =
+      supported_by([](double) { return std::numeric_limits<double>::quiet_NaN(); }, [](double) { return 1.0; });
+  State still = invalid.at(0.5, 0);
   still.vdot.setZero();
-  check_failure(broken, still, 0, "the forces are not numbers");
-  test::OneCoordinate condensed = held_by([](double q) { return 100 + q; }, [](double) { return 1.0; });
+  check_failure(invalid, still, 0, "the forces are not numbers");
+  test::OneCoordinate condensed = supported_by([](double q) { return 100 + q; }, [](double) { return 1.0; });
   condensed.internal = 1e-3;
   check_failure(condensed, condensed.at(0, 0), 0, "film of the fake is not solved");
 }
 
-// What is condensed takes its own iterations: each place is looked at again until it is solved there.
+// Condensed unknowns need iterations of their own: each state is evaluated until they are solved.
 TEST_CASE("CondensedUnknowns_AreSolvedBeforeTheDeformationMoves") {
   test::SeveralCoordinates e = bar(50), slow = bar(50);
   State state = e.at(Vector2d(0, 0)), other = state;
@@ -211,7 +211,7 @@ TEST_CASE("CondensedUnknowns_AreSolvedBeforeTheDeformationMoves") {
 }
 
 // On the way, at e = 0.5, x says nothing of the constraint any more: its rate cannot follow there.
-TEST_CASE("PlaceWhereConstraintsDetermineNoRates_IsTold") {
+TEST_CASE("ConfigurationWhereConstraintsDetermineNoRates_IsReported") {
   test::SeveralCoordinates e(Vector2d(1, 1).asDiagonal(), 1);
   const auto slope = [](double q) { return q < 0.5 ? 1.0 : 0.0; };
   e.force = [](const VectorXd& q, const VectorXd&, double) { return VectorXd(Vector2d(0, q[1] - 10000)); };

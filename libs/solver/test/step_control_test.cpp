@@ -31,8 +31,8 @@ TEST_CASE("StepControl_HitsInstantsWithoutCrumbs") {
   CHECK(control.proposed(1) == doctest::Approx(0.25).epsilon(1e-15));
 }
 
-/// A local error (0.6 + cos t) dt^3 of a motion that goes through a hard place at t = 0 and back.
-TEST_CASE("StepControl_TakesTheSameStepsOutOfAHardPlaceAsIntoIt") {
+/// A local error (0.6 + cos t) dt^3 of a motion that passes an instant of large errors at t = 0 and returns.
+TEST_CASE("StepControl_TakesTheSameStepsBeforeAndAfterALargeError") {
   StepControl control({.smallest = 1e-9, .largest = 1}, 0.02);
   std::vector<double> middle, length;
   for (double t = -3; t < 2.5;) {
@@ -125,11 +125,11 @@ double estimate_over_truth(double rho, double dt, double& smallest) {
   for (int i = 0; i < 30; ++i) {
     const State before = s;
     Eigen::VectorXd error;
-    const StepJudge judge = [&](const State&, const Eigen::VectorXd& estimate) {
+    const StepCheck check = [&](const State&, const Eigen::VectorXd& estimate) {
       error = estimate;
       return true;
     };
-    REQUIRE(integrator.step(e, s, dt, judge).solved());
+    REQUIRE(integrator.step(e, s, dt, check).solved());
     // The exact motion through the state before the step.
     const double exact = before.q[0] * std::cos(3 * dt) + before.v[0] / 3 * std::sin(3 * dt);
     const double truth = exact - s.q[0];
@@ -176,7 +176,7 @@ struct Swing {
   double q = 0;
 };
 
-/// A pendulum swinging wide, in equal steps that are judged; `chosen` as those of error control are.
+/// A pendulum swinging wide, in equal steps that are checked; `chosen` as those of error control are.
 Swing swing(bool chosen, double dt) {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return 9 * std::sin(q); };

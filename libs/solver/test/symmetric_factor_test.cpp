@@ -102,7 +102,7 @@ TEST_CASE("SingularMatrix_IsReportedWithItsNullity") {
     CHECK(summary.message == "the matrix is singular: 1 of its 512 pivots vanish");
     Eigen::MatrixXd b = Eigen::MatrixXd::Ones(A.rows(), 1);
     CHECK_THROWS_AS(factor.solve(b), ContractError);
-    A.coeffRef(0, 0) += unit;  // held now
+    A.coeffRef(0, 0) += unit;  // no longer free
     CHECK(factor.factorise(A).solved());
   }
 }
@@ -144,9 +144,9 @@ Eigen::SparseMatrix<double> saddle(int n, int per) {
   return A;
 }
 
-// Pivots that have to wait for others take room that the pattern alone does not tell of: more of it is given, and where
+// Delayed pivots need memory that cannot be predicted from the pattern alone: more of it is given, and where
 // that is not enough, either, the factorisation says so.
-TEST_CASE("PivotsThatHaveToWait_AreGivenRoomOrTold") {
+TEST_CASE("DelayedPivots_GetMemoryOrAreReported") {
   for (const int per : {3, 6}) {
     CAPTURE(per);
     const Eigen::SparseMatrix<double> A = saddle(1000, per);

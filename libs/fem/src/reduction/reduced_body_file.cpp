@@ -205,7 +205,7 @@ ReducedBody read_reduced_body(const std::filesystem::path& path) {
     // Before HDF5 sees it: the library trusts what it reads of a file's structure.
     const Seal seal = check_seal(path);
     require_content(seal != Seal::broken, "has changed since it was written: its checksum is another");
-    const DoubtfulFile doubtful(seal == Seal::intact ? nullptr : path.c_str());
+    const UntrustedFile doubtful(seal == Seal::intact ? nullptr : path.c_str());
     return read_body(Hdf5File::open(path));
   } catch (const std::runtime_error& error) {
     throw InputError(

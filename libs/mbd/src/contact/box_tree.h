@@ -6,7 +6,7 @@
 
 namespace hersey::mbd {
 
-/// Tree of axis-aligned boxes around many small items, for searches that look at few of them.
+/// Tree of axis-aligned boxes around many small items, for searches that examine few of them.
 class BoxTree {
  public:
   using Box = Eigen::AlignedBox3d;
@@ -14,7 +14,8 @@ class BoxTree {
   /// @param items  the box around each item; not empty
   explicit BoxTree(const std::vector<Box>& items);
 
-  /// Calls see(item) for each item below boxes that `enter` says yes to; the item's own box is not asked about.
+  /// Calls see(item) for each item below boxes for which `enter` returns true; the box of the item itself is not
+  /// tested.
   template <class Enter, class See>
   void visit(Enter enter, See see) const {
     visit_below(0, enter, see);

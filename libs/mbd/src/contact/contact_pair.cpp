@@ -1,5 +1,5 @@
-// Which finder belongs to which pair of shapes.
-#include "contact/contact_spots.h"
+// Contact searches of all pairs of shapes.
+#include "contact/contact_points.h"
 
 namespace hersey::mbd {
 namespace {
@@ -21,8 +21,8 @@ std::vector<Sphere> corners_of(const Box& box) {
   return corners;
 }
 
-/// The finder with `first` looking for the surface of `second`; null if it is none that looks.
-std::unique_ptr<ContactSearch> finder_of(const ShapeGeometry& first, const ShapeGeometry& second, bool first_on_b) {
+/// Returns the search of contact points of `first` on the surface of `second`; null if there is none.
+std::unique_ptr<ContactSearch> search_of(const ShapeGeometry& first, const ShapeGeometry& second, bool first_on_b) {
   if (const auto* ball = as<Sphere>(first)) {
     if (const auto* mesh = as<MeshPointer>(second)) return ball_on_mesh(*ball, *mesh, first_on_b);
     return balls_on_solid({*ball}, second, first_on_b);
@@ -42,11 +42,11 @@ std::unique_ptr<ContactSearch> finder_of(const ShapeGeometry& first, const Shape
 
 }  // namespace
 
-std::unique_ptr<ContactSearch> make_spot_finder(const ShapeGeometry& a, const ShapeGeometry& b) {
+std::unique_ptr<ContactSearch> make_contact_search(const ShapeGeometry& a, const ShapeGeometry& b) {
   if (as<Capsule>(a) != nullptr && as<Capsule>(b) != nullptr)
     return capsule_on_capsule(std::get<Capsule>(a), std::get<Capsule>(b));
-  if (auto finder = finder_of(b, a, true)) return finder;
-  return finder_of(a, b, false);
+  if (auto search = search_of(b, a, true)) return search;
+  return search_of(a, b, false);
 }
 
 }  // namespace hersey::mbd

@@ -67,7 +67,7 @@ inline double value_of(const Dual& x) { return x.value; }
 template <class T>
 using Vec3 = Eigen::Matrix<T, 3, 1>;
 
-// Products written out: Eigen's own need to be told about mixed scalars.
+// Products are written out, because those of Eigen need traits for mixed scalars.
 template <class T>
 T dot(const Vec3<T>& a, const Vec3<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -95,12 +95,12 @@ template <class T>
 struct PoseOf {
   Vec3<T> x, y, z, r;  ///< B's axes and origin in A
 
-  [[nodiscard]] Vec3<T> turn(const Vec3<T>& v) const {
+  [[nodiscard]] Vec3<T> rotate(const Vec3<T>& v) const {
     return Vec3<T>(scaled(v[0], x) + scaled(v[1], y) + scaled(v[2], z));
   }
-  [[nodiscard]] Vec3<T> turn_back(const Vec3<T>& v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
-  [[nodiscard]] Vec3<T> place(const Vec3<T>& p) const { return Vec3<T>(turn(p) + r); }
-  [[nodiscard]] Vec3<T> place_back(const Vec3<T>& p) const { return turn_back(Vec3<T>(p - r)); }
+  [[nodiscard]] Vec3<T> inverse_rotate(const Vec3<T>& v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
+  [[nodiscard]] Vec3<T> transform(const Vec3<T>& p) const { return Vec3<T>(rotate(p) + r); }
+  [[nodiscard]] Vec3<T> inverse_transform(const Vec3<T>& p) const { return inverse_rotate(Vec3<T>(p - r)); }
 };
 
 }  // namespace hersey::mbd

@@ -40,8 +40,8 @@ class MeshSurface {
   /// @see Ericson (2005), Real-Time Collision Detection, Sec. 5.1.5.
   [[nodiscard]] NearestOnTriangle nearest_on(int triangle, const Vector3& p) const;
 
-  /// Whether `found`, the nearest point of `triangle` to p, is a local minimum of the distance over the surface: no
-  /// neighbour that shares its edge or corner comes nearer.
+  /// True if `found`, the nearest point of `triangle` to p, is a local minimum of the distance over the surface: no
+  /// neighbour that shares its edge or corner is nearer.
   [[nodiscard]] bool is_local_minimum(int triangle, const NearestOnTriangle& found, const Vector3& p) const;
 
  private:

@@ -17,7 +17,7 @@ struct SurfaceDistance {
   Vec3<T> normal;  ///< unit vector, outwards
 };
 
-/// From a point.
+/// Returns the distance from a point.
 template <class T>
 SurfaceDistance<T> distance_from(const Vec3<T>& from, const Vec3<T>& p) {
   const Vec3<T> r = p - from;
@@ -34,12 +34,12 @@ SurfaceDistance<T> distance_from(const HalfSpace& plane, const Vec3<T>& p) {
 
 template <class T>
 SurfaceDistance<T> distance_from(const Sphere& ball, const Vec3<T>& p) {
-  SurfaceDistance<T> seen = distance_from(constant<T>(ball.centre), p);
-  seen.distance -= T(ball.radius);
-  return seen;
+  SurfaceDistance<T> distance = distance_from(constant<T>(ball.centre), p);
+  distance.distance -= T(ball.radius);
+  return distance;
 }
 
-/// Place along the segment from a to b that is nearest to p, 0..1.
+/// Returns the parameter of the point of the segment from a to b that is nearest to p, 0..1.
 template <class T>
 T nearest_on_segment(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& p) {
   const Vec3<T> along = b - a;
@@ -52,9 +52,9 @@ template <class T>
 SurfaceDistance<T> distance_from(const Capsule& capsule, const Vec3<T>& p) {
   const Vec3<T> a = constant<T>(capsule.from), b = constant<T>(capsule.to);
   const Vec3<T> foot = a + scaled(nearest_on_segment(a, b, p), Vec3<T>(b - a));
-  SurfaceDistance<T> seen = distance_from(foot, p);
-  seen.distance -= T(capsule.radius);
-  return seen;
+  SurfaceDistance<T> distance = distance_from(foot, p);
+  distance.distance -= T(capsule.radius);
+  return distance;
 }
 
 template <class T>

@@ -13,7 +13,7 @@ using fem::BeamVector;
 // As in modal_body.cpp: the share of the force of a deformation as large as the body that counts as a magnitude.
 constexpr double kStiffnessShare = 1e-6;
 
-/// What moves of one frame: acceleration of its origin with gravity taken off, in its axes.
+/// Motion of one frame: acceleration of its origin with gravity taken off, in its axes.
 Vector3 origin_acceleration(const ElasticFrame& frame) {
   return frame.A.tail<3>() + frame.V.head<3>().cross(frame.V.tail<3>());
 }
@@ -115,12 +115,12 @@ ElasticEnergy BeamSegment::energy(const ElasticMotion& motion, const Vector3& gr
   e.strain = strained.energy;
   e.strain_rate = strained.energy_rate;
   e.dissipation = strained.dissipation;
-  Vector3 v[2], r[2], place = Vector3::Zero();
+  Vector3 v[2], r[2], middle = Vector3::Zero();
   for (int i = 0; i < 2; ++i) {
     const ElasticFrame& frame = motion.frames[static_cast<std::size_t>(i)];
     v[i] = frame.X_WF.R * frame.V.tail<3>();
     r[i] = frame.X_WF.r;
-    place += r[i] / 2;
+    middle += r[i] / 2;
     const Vector3 omega = frame.V.head<3>(), spin = inertia_ * omega;
     e.kinetic += 0.5 * omega.dot(spin);
     e.angular_momentum += frame.X_WF.R * spin;
@@ -131,7 +131,7 @@ ElasticEnergy BeamSegment::energy(const ElasticMotion& motion, const Vector3& gr
     e.momentum += p;
     e.angular_momentum += r[i].cross(p);
   }
-  e.potential = -mass() * gravity.dot(place);
+  e.potential = -mass() * gravity.dot(middle);
   e.gravity = gravity.dot(e.momentum);
   BeamVector V;
   V << motion.frames[0].V, motion.frames[1].V;

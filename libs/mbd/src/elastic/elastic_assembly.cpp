@@ -36,16 +36,17 @@ ElasticAssembly::ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree&
 }
 
 ElasticAssembly::Freedom ElasticAssembly::freedom_of(JointId joint, const Pose& rest, const Tree& tree) {
-  const JointPlace& place = tree.joints[static_cast<std::size_t>(joint.index)];
-  if (place.closure >= 0) return {};
+  const JointIndices& indices = tree.joints[static_cast<std::size_t>(joint.index)];
+  if (indices.closure >= 0) return {};
   const auto q_of = [&](std::size_t value) {
-    return tree.links[static_cast<std::size_t>(place.values[value].link)].first_q;
+    return tree.links[static_cast<std::size_t>(indices.values[value].link)].first_q;
   };
   // Reversed, the chain runs ball, z, y, x.
-  return {std::min(q_of(0), q_of(2)), q_of(3), place.reversed, rest.R};
+  return {std::min(q_of(0), q_of(2)), q_of(3), indices.reversed, rest.R};
 }
 
-/// Small as it is, a coordinate carries all its digits; a difference of poses has lost those of the body's size.
+/// A small coordinate has its full relative precision; a difference of poses has only the absolute precision of the
+/// body's size.
 std::optional<Vector6> ElasticAssembly::deformation(const Freedom& freedom, const Eigen::VectorXd& q) {
   if (freedom.q < 0) return std::nullopt;
   const Vector3 xyz = q.segment<3>(freedom.q), axis = q.segment<3>(freedom.ball + 1);
@@ -142,7 +143,7 @@ void ElasticAssembly::add(Assembly& assembly, const Vector3& gravity) {
     assembly.add_residual(own_v_ + i, response_.force[outer + i], response_.magnitude[outer + i]);
   if (assembly.tangent == nullptr) return;
   add_tangent(assembly);
-  add_turning(assembly);
+  add_rotation(assembly);
 }
 
 /// The tree's columns move frames alone, an increment of an own coordinate that alone.
@@ -163,9 +164,9 @@ void ElasticAssembly::add_tangent(Assembly& assembly) {
       assembly.add_tangent(columns_[static_cast<std::size_t>(r)], columns_[static_cast<std::size_t>(c)], block_(r, c));
 }
 
-/// The wrench turns with its frame, and the columns beyond the joint that moves turn along: what remains are the
-/// columns inboard of it.
-void ElasticAssembly::add_turning(Assembly& assembly) {
+/// Adds the change of the wrench as it rotates with its frame. Columns beyond the moving joint rotate with it, so that
+/// only the columns inboard of it contribute.
+void ElasticAssembly::add_rotation(Assembly& assembly) {
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     const Vector6 W = to_frame_[f].transpose() * wrench(f);
     for (int c = 0; c < tree_columns_; ++c) {

@@ -11,11 +11,11 @@
 
 namespace hersey::mbd {
 
-/// How the amplitudes of a body's shapes move with the columns of the tree and the body's own coordinates: virtually,
-/// and by one Newton increment (theory manual eq. (flexible-bodies.26)). The last amplitudes are the own coordinates;
-/// the others move with the tree's columns alone.
+/// Derivatives of the amplitudes of a body's shapes by the columns of the tree and by the body's own coordinates:
+/// virtually, and by one Newton increment (theory manual eq. (flexible-bodies.26)). The last amplitudes are the own
+/// coordinates; the others move with the tree's columns alone.
 struct ShapeColumns {
-  std::vector<int> columns;                    ///< of the tree, then of the own coordinates
+  std::vector<int> columns;                    ///< columns of the tree, then those of the own coordinates
   Eigen::MatrixXd virtual_value, value, rate;  ///< shape (shapes less own coordinates, columns of the tree)
   double own_value = 0, own_rate = 0;          ///< by which an increment of an own coordinate moves it
 
@@ -34,7 +34,7 @@ struct ShapeColumns {
     return change;
   }
 
-  /// What forces on the shapes do on each column, for `forces` of shape (shapes, any).
+  /// Returns the generalised forces on each column by forces on the shapes, for `forces` of shape (shapes, any).
   [[nodiscard]] Eigen::MatrixXd on_columns(const Eigen::Ref<const Eigen::MatrixXd>& forces) const {
     const Eigen::Index inner = value.rows(), own = shapes() - inner;
     Eigen::MatrixXd generalised(value.cols() + own, forces.cols());
@@ -44,29 +44,32 @@ struct ShapeColumns {
   }
 };
 
-/// An elastic body as the tree sees it: where its frames hang, which columns move them, where its own coordinates lie.
+/// Connection of an elastic body to the tree: the links of its frames, the columns that move them, the indices of its
+/// own coordinates.
 class ElasticAssembly {
  public:
-  /// @param own_q, own_v  places of the body's first own coordinate in q and v
+  /// @param own_q, own_v  indices of the body's first own coordinate in q and v
   ElasticAssembly(const MechanismSpec::Elastic& spec, const Tree& tree, int own_q, int own_v);
 
-  /// Reads the motion of the assembly's state; no force acts on the body's shapes yet. Comes before `add`.
+  /// Reads the motion of the assembly's state and clears the forces on the body's shapes. Must be called before `add`.
   void prepare(const Assembly& assembly, const solver::State& state);
-  /// The same for a motion of other velocities at the same positions; forces on the body's shapes stay.
+  /// Reads a motion of other velocities at the same positions; forces on the body's shapes are kept.
   void prepare_again(const Assembly& assembly, const solver::State& state);
 
   /// Adds the forces the body needs and their tangent (theory manual eq. (flexible-bodies.13)).
   void add(Assembly& assembly, const Vector3& gravity);
 
-  /// For forces that see the body deform: its amplitudes and what moves them, per column; see ShapeColumns.
+  /// Computes the amplitudes and their derivatives by the columns for forces that depend on the deformation; see
+  /// ShapeColumns.
   void find_shapes(const Assembly& assembly);
-  /// At the motion last read, for looking only.
+  /// Computes the amplitudes at the motion last read, for observation.
   void find_shapes();
   [[nodiscard]] const ShapeMotion& shapes() const { return shapes_; }
   [[nodiscard]] const ShapeColumns& shape_columns() const { return shape_columns_; }
   void add_shape_forces(const Eigen::Ref<const Eigen::VectorXd>& Q);
 
-  /// The motion of the frames and own coordinates; `accelerate`: accelerations too, which TreeMotion must hold.
+  /// Reads the motion of the frames and own coordinates; with `accelerate` also accelerations, which TreeMotion must
+  /// have computed.
   const ElasticMotion& read(const TreeMotion& motion, const solver::State& state, const solver::Stage& stage,
                             bool accelerate);
 
@@ -90,8 +93,8 @@ class ElasticAssembly {
  private:
   /// Coordinates of the free joint from frame 0 at rest to another frame.
   struct Freedom {
-    int q = -1;    ///< of its first translation; -1: the joint is not in the tree
-    int ball = 0;  ///< of its quaternion
+    int q = -1;    ///< index of its first translation; -1: the joint is not in the tree
+    int ball = 0;  ///< index of its quaternion
     bool reversed = false;
     Matrix3 R_rest;
   };
@@ -99,7 +102,7 @@ class ElasticAssembly {
   [[nodiscard]] static std::optional<Vector6> deformation(const Freedom& freedom, const Eigen::VectorXd& q);
   void fill_directions(const Assembly& assembly);
   void add_tangent(Assembly& assembly);
-  void add_turning(Assembly& assembly);
+  void add_rotation(Assembly& assembly);
 
   std::string name_;
   std::shared_ptr<ElasticBody> body_;
@@ -107,8 +110,8 @@ class ElasticAssembly {
   std::vector<std::shared_ptr<const ScalarFunction>> loads_;
   std::vector<Freedom> freedoms_;         ///< of all frames but the first; empty where none are known
   std::vector<int> columns_;              ///< tree columns that move any frame, then own coordinates
-  int tree_columns_ = 0;                  ///< how many of them are the tree's
-  std::vector<std::vector<char>> moves_;  ///< [frame][place in columns_]
+  int tree_columns_ = 0;                  ///< number of columns of the tree among them
+  std::vector<std::vector<char>> moves_;  ///< [frame][index in columns_]
   int own_q_ = 0, own_v_ = 0;
 
   ElasticMotion motion_;
@@ -116,7 +119,8 @@ class ElasticAssembly {
   ShapeMotion shapes_;
   ShapeColumns shape_columns_;
   std::vector<Matrix6> to_frame_;  ///< Ad(X_WF)^-1
-  /// Of the frames per column of the tree: velocity, and what an increment does to position, velocity, ...
+  /// Derivatives of the frames per column of the tree: velocity, and the change of position, velocity, ... by an
+  /// increment.
   Eigen::MatrixXd J_, X_, V_, A_;
   Eigen::MatrixXd product_, by_own_, block_;
 };

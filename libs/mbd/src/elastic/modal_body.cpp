@@ -72,7 +72,7 @@ ModalBodyData modal_data(const fem::ReducedBody& reduced, const RayleighDamping&
 
 ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::make_unique<Workspace>()) {
   const Index n = data_.shapes();
-  HERSEY_REQUIRE(data_.shapes_per_frame == 6 || data_.shapes_per_frame == 12, "one of the two measures of a turn");
+  HERSEY_REQUIRE(data_.shapes_per_frame == 6 || data_.shapes_per_frame == 12, "one of the two measures of rotation");
   HERSEY_REQUIRE(!data_.rest.empty() && coordinate_count() >= 0, "as many shapes per frame as there are for it");
   HERSEY_REQUIRE(data_.stiffness.cols() == n && data_.damping.rows() == n && data_.damping.cols() == n, "square");
   HERSEY_REQUIRE(data_.first_moment.cols() == n + 1, "first moments of positions and of every shape");
@@ -95,7 +95,8 @@ ModalBody::ModalBody(ModalBodyData data) : data_(std::move(data)), work_(std::ma
 
 ModalBody::~ModalBody() = default;
 
-/// Forces of a turn of 1 rad or a shift by twice the radius of gyration of every frame, all taken as positive.
+/// Returns the sum of the magnitudes of forces caused by a rotation of 1 rad or a shift by twice the radius of gyration
+/// of every frame.
 VectorXd ModalBody::stiffness_at_size() const {
   const Index per_frame = data_.shapes_per_frame, interfaces = per_frame * (frame_count() - 1);
   double square = 0;
@@ -158,11 +159,11 @@ void ModalBody::add_inertia(const ElasticFrame& base) {
   const auto amplitudes = data_.shapes();
   w.force.setZero(6 + amplitudes);
   w.magnitude.setZero(6 + amplitudes);
-  const Matrix3 turning = w.Gamma * w.Omega.transpose(), coriolis = 2 * w.Gamma_rate * omega_x.transpose();
-  const Vector3 moment = cross_moment(turning + coriolis + w.Gamma_acc);
+  const Matrix3 centrifugal = w.Gamma * w.Omega.transpose(), coriolis = 2 * w.Gamma_rate * omega_x.transpose();
+  const Vector3 moment = cross_moment(centrifugal + coriolis + w.Gamma_acc);
   w.force.head<3>() = w.S.cross(w.a_true) + moment;
   w.force.segment<3>(3) = data_.mass * w.a_true + w.Omega * w.S + 2 * omega.cross(w.S_rate) + w.S_acc;
-  w.magnitude.head<3>() = Vector3::Constant(w.S.norm() * w.a_true.norm()) + cross_moment(turning).cwiseAbs() +
+  w.magnitude.head<3>() = Vector3::Constant(w.S.norm() * w.a_true.norm()) + cross_moment(centrifugal).cwiseAbs() +
                           cross_moment(coriolis).cwiseAbs() + cross_moment(w.Gamma_acc).cwiseAbs();
   w.magnitude.segment<3>(3) = data_.mass * w.a_true.cwiseAbs() + (w.Omega * w.S).cwiseAbs() + w.S_acc.cwiseAbs();
   auto force = w.force.tail(amplitudes);
@@ -311,7 +312,7 @@ void ModalBody::reduce_to_frames(bool want_tangent, ElasticResponse& response) {
   }
 }
 
-/// What a step's round-off in velocity means in forces counts as a magnitude too; see inertia.cpp.
+/// Adds the force that corresponds to the round-off of velocities within a step to the magnitudes; see inertia.cpp.
 void ModalBody::add_momentum_share(const ElasticFrame& base, double dt) {
   if (dt == 0) return;
   Workspace& w = *work_;

@@ -11,7 +11,7 @@ using Eigen::Index;
 
 namespace {
 
-/// What a load's axes are in the body's: f_body = Q^T f.
+/// Returns Q, the body's axes in those of the load: f_body = Q^T f.
 Matrix3 axes_of(LoadAxes axes, const Pose& X_WB) { return axes == LoadAxes::ground ? X_WB.R : Matrix3::Identity(); }
 
 }  // namespace
@@ -57,12 +57,12 @@ void ModalBody::add_loads(const ElasticMotion& motion, bool want_tangent) {
     const Matrix3 Q = axes_of(load.axes, X_WB);
     for (std::size_t a = 1; a < load.moments.size(); ++a)
       w.K.col(5 + static_cast<Index>(a)).head<3>() -= value * cross_moment(load.moments[a] * Q);
-    if (load.axes == LoadAxes::ground) turn_load(load, value, Q);
+    if (load.axes == LoadAxes::ground) rotate_load(load, value, Q);
   }
 }
 
-/// A load whose axes stay behind when frame 0 turns.
-void ModalBody::turn_load(const ProjectedLoad& load, double value, const Matrix3& Q) {
+/// Adds the derivative of a load in ground axes by the rotation of frame 0.
+void ModalBody::rotate_load(const ProjectedLoad& load, double value, const Matrix3& Q) {
   Workspace& w = *work_;
   for (int k = 0; k < 3; ++k) {
     const Matrix3 dQ = Q * skew(Vector3::Unit(k));

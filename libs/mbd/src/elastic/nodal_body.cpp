@@ -23,14 +23,15 @@ constexpr int kSolvesAtRest = 30;    // the same of a body of finite strain in s
 constexpr double kBalanced = 1e-12;  // of the forces on the nodes: no further solution
 constexpr double kServes = 1e-4;     // the same: the matrix of a body of finite strain serves for this step
 
-// The share of the forces on all nodes, taken as positive, that counts as a magnitude of their sums: balances of frames
-// that see little of these forces still have their round-off.
+// Share of the sum of magnitudes of the forces on all nodes that counts as a magnitude of their sums: small resultants
+// on frames still have the round-off of these forces.
 constexpr double kNodalShare = 1e-4;
 
-// Square of the time within which nodes let go take up their acceleration [s^2]: no stiffness of a mesh acts so fast.
+// Square of the time step in which released nodes get their acceleration [s^2]: it is too short for the stiffness of a
+// mesh to act.
 constexpr double kInstant = 1e-24;
 
-constexpr Index kTurning = 3;  // the first of these columns of (flexible-bodies.19)
+constexpr Index kRotation = 3;  // the first of these columns of (flexible-bodies.19)
 
 Eigen::Map<const Matrix3Xd> nodes_of(const VectorXd& u) { return {u.data(), 3, u.size() / 3}; }
 
@@ -64,7 +65,7 @@ NodalBody::NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, con
   for (Index k = 0; k < 3; ++k) {
     for (Index i = 0; i < x_.cols(); ++i) columns_(3 * i + k, k) = nodal_mass_[i];
     for (Index p = 0; p < 3; ++p)
-      for (Index i = 0; i < x_.cols(); ++i) columns_(3 * i + k, kTurning + 3 * p + k) = moments(p, i);
+      for (Index i = 0; i < x_.cols(); ++i) columns_(3 * i + k, kRotation + 3 * p + k) = moments(p, i);
   }
   columns_.middleCols(kInertiaColumns, shapes) = fem::mass_times(body_.m, Psi());
   for (std::size_t p = 0; p < 3; ++p) {
@@ -131,7 +132,7 @@ void NodalBody::update_accelerations(const ElasticFrame& base) {
   fields_->acceleration = ((Omega * fields_->y + 2 * omega_x * fields_->y_rate + fields_->y_acc).colwise() + a).eval();
 }
 
-/// Sums over nodes in place of those over shapes, theory manual eq. (flexible-bodies.5).
+/// Sums over nodes instead of those over shapes, theory manual eq. (flexible-bodies.5).
 void NodalBody::gather(const ElasticMotion& motion, bool want_tangent) {
   ModalBody::gather(motion, want_tangent);
   update_fields();
@@ -165,7 +166,7 @@ void NodalBody::gather(const ElasticMotion& motion, bool want_tangent) {
   }
 }
 
-/// Of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.21).
+/// Returns the forces of the material on the nodes, theory manual eq. (flexible-bodies.16) or (flexible-bodies.21).
 VectorXd NodalBody::elastic_forces() {
   if (strain_ == Strain::small) return body_.K * (w_.position() + damping_.stiffness * w_.rate());
   const VectorXd rate = flat(fields_->y_rate);
@@ -184,8 +185,8 @@ void NodalBody::refresh_stiffness() {
   is_stale_ = false;
 }
 
-/// Nodes go along with frames that have moved since they were last looked at: without that the elements beside a frame
-/// would take up its whole motion. Frames that a step has only just predicted are those the nodes are predicted with.
+/// Moves the nodes with frames that have moved since the last evaluation; otherwise the elements next to a frame would
+/// deform by its whole motion. Directly after the prediction of a step nodes and frames are consistent.
 void NodalBody::follow_frames(const solver::Stage& stage) {
   const Index n = data().shapes();
   const VectorXd moved = work().q.tail(n) - followed_;
@@ -193,7 +194,7 @@ void NodalBody::follow_frames(const solver::Stage& stage) {
   const bool goes_along = !is_predicted_ && !is_let_go_ && !moved.isZero(0);
   is_predicted_ = false;
   if (!goes_along) return;
-  const NodalFactor* factor = factors_->of(stage, trouble_);
+  const NodalFactor* factor = factors_->of(stage, failure_);
   if (factor == nullptr) return;
   const VectorXd forces = columns_.rightCols(n) * ((stage.k + stage.c * damping_.stiffness) * moved) +
                           columns_.middleCols(kInertiaColumns, n) * ((stage.m + stage.c * damping_.mass) * moved);
@@ -225,12 +226,13 @@ double NodalBody::unbalance(const ElasticMotion& motion) {
   return size > 0 ? r_.norm() / size : 0;
 }
 
-/// Whether the nodes answer to this motion of the frames, or are only looked at where they are.
+/// True if the nodes are solved for this motion of the frames; false if they are only observed.
 bool NodalBody::follows(const ElasticMotion& motion) const {
   return at_rest_ || is_let_go_ || (motion.stage.dt > 0 && motion.stage.k != 0);
 }
 
-/// The stage of the nodes' own equations: of statics at rest, of accelerations alone where they are let go.
+/// Returns the stage of the nodes' equations: that of statics at rest, that of accelerations alone if the nodes are
+/// released.
 solver::Stage NodalBody::stage_of(const ElasticMotion& motion) const {
   if (at_rest_) return solver::Stage{};
   if (is_let_go_) return {.dt = 0, .k = kInstant, .c = 0, .m = 1, .dq = {}};
@@ -245,7 +247,7 @@ void NodalBody::settle(const ElasticMotion& motion) {
   ModalBody::gather(motion, false);
   if (moves) {
     iterate(motion, stage_of(motion));
-  } else if (strain_ == Strain::finite) {  // looked at, not moved
+  } else if (strain_ == Strain::finite) {  // observed, not solved
     update_fields();
     elastic_ = elastic_forces();
   }
@@ -256,14 +258,14 @@ void NodalBody::iterate(const ElasticMotion& motion, const solver::Stage& stage)
   const bool renews = strain_ == Strain::finite && at_rest_;
   const int most = renews ? kSolvesAtRest : kSolves;
   solver::Stage moved = stage;
-  if (is_let_go_) moved.k = 0;  // accelerated, but still in place
+  if (is_let_go_) moved.k = 0;  // accelerated, but not yet displaced
   if (strain_ == Strain::finite) follow_frames(stage);
   for (int solve = 0;; ++solve) {
     if (renews || (strain_ == Strain::finite && is_stale_)) refresh_stiffness();
     internal_residual_ = unbalance(motion);
-    const NodalFactor* factor = factors_->of(stage, trouble_);
+    const NodalFactor* factor = factors_->of(stage, failure_);
     if (factor == nullptr) return;
-    trouble_.clear();
+    failure_.clear();
     if (internal_residual_ <= kBalanced || solve == most) break;
     w_.move(moved, factors_->solve(*factor, -r_));
   }
@@ -294,14 +296,14 @@ void NodalBody::add_nodes(const ElasticMotion& motion, bool want_tangent) {
     w.force.head<3>() += torque_of_loads(loads_on_nodes(motion), w_.position());
     if (want_tangent)
       for (Index k = 0; k < 3; ++k)
-        w.K.col(k).head<3>() -= torque_of_loads(nodes_of(turned_loads(motion).col(k)), w_.position());
+        w.K.col(k).head<3>() -= torque_of_loads(nodes_of(rotated_loads(motion).col(k)), w_.position());
   }
   const VectorXd size = kNodalShare * sizes_;
   const Eigen::RowVectorXd each = nodes_of(size).colwise().norm();
   w.magnitude.head<3>().array() += each.dot(fields_->y.colwise().norm());
   w.magnitude.segment<3>(3).array() += each.sum();
   w.magnitude.tail(n) += Psi_size_.transpose() * size;
-  if (want_tangent && follows(motion) && trouble_.empty()) condense(motion);
+  if (want_tangent && follows(motion) && failure_.empty()) condense(motion);
 }
 
 void NodalBody::begin_step(const ElasticMotion&, double dt) {
@@ -335,7 +337,7 @@ VectorXd NodalBody::amplitudes(const ElasticMotion& motion) {
   return all;
 }
 
-/// Of each frame but the first the sine of its turn times the axis, and its displacement.
+/// Returns for each frame but the first the sine of its rotation angle times the axis, and its displacement.
 VectorXd NodalBody::frame_amplitudes() {
   const VectorXd q = work().q.segment(1, frame_shapes_);
   if (strain_ == Strain::small) return q;

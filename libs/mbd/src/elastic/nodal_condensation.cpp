@@ -1,5 +1,5 @@
-// How the answer of the nodes changes the derivatives of a nodal body's forces, theory manual eq. (flexible-bodies.18)
-// and (flexible-bodies.19).
+// Condensation of the nodes: their contribution to the derivatives of a nodal body's forces, theory manual eq.
+// (flexible-bodies.18) and (flexible-bodies.19).
 #include "elastic/modal_workspace.h"
 #include "elastic/nodal_factors.h"
 #include "elastic/nodal_fields.h"
@@ -11,12 +11,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// How the nodes' answer changes the derivatives. It is sought among the columns of X: onto (X^T S X)^-1 from, theory
-/// manual eq. (flexible-bodies.18) and (flexible-bodies.19).
+/// Adds the contribution of the nodes' response to the derivatives. The response is approximated by the columns of X:
+/// onto (X^T S X)^-1 from, theory manual eq. (flexible-bodies.18) and (flexible-bodies.19).
 void NodalBody::condense(const ElasticMotion& motion) {
   Workspace& w = work();
   const solver::Stage stage = stage_of(motion);
-  const NodalFactor& factor = *factors_->of(stage, trouble_);
+  const NodalFactor& factor = *factors_->of(stage, failure_);
   const ElasticFrame& base = motion.frames[0];
   const Matrix3 spin = 2 * skew(Vector3(base.V.head<3>()));
   MatrixXd S = factor.W;
@@ -40,7 +40,7 @@ void NodalBody::condense(const ElasticMotion& motion) {
   const MatrixXd answer =
       (scale.asDiagonal() * scaled.fullPivLu().solve(scale.asDiagonal() * onto.transpose())).transpose();
   add_forces_on_nodes(factor, base, by_y, by_rate, answer);
-  if (!loads_.empty()) w.K.leftCols<3>().noalias() -= answer * (factor.X.transpose() * turned_loads(motion));
+  if (!loads_.empty()) w.K.leftCols<3>().noalias() -= answer * (factor.X.transpose() * rotated_loads(motion));
 }
 
 /// Torque about frame 0 that the motion needs against `loads` on the nodes, for displacements of these, (3, columns).
@@ -53,45 +53,46 @@ MatrixXd NodalBody::torque_of_loads(const Eigen::Matrix3Xd& loads, const MatrixX
   return torque;
 }
 
-/// d forces that the nodes need against loads / d turn of frame 0, (3 nodes, 3): those in ground's axes stay behind.
-MatrixXd NodalBody::turned_loads(const ElasticMotion& motion) const {
+/// Returns the derivative of the load forces on the nodes by the rotation of frame 0, (3 nodes, 3); only loads in
+/// ground's axes contribute.
+MatrixXd NodalBody::rotated_loads(const ElasticMotion& motion) const {
   const Eigen::Matrix3Xd loads = loads_on_nodes(motion, LoadAxes::ground);
-  MatrixXd turned(3 * loads.cols(), 3);
+  MatrixXd rotated(3 * loads.cols(), 3);
   for (Index k = 0; k < 3; ++k) {
     const Eigen::Matrix3Xd column = skew(Vector3::Unit(k)) * loads;
-    turned.col(k) = Eigen::Map<const VectorXd>(column.data(), column.size());
+    rotated.col(k) = Eigen::Map<const VectorXd>(column.data(), column.size());
   }
-  return turned;
+  return rotated;
 }
 
-/// d forces on the nodes / d (accelerations, velocities, places) of [frame 0; amplitudes], taken by X^T, theory manual
-/// eq. (flexible-bodies.18); `answer` carries them on to the derivatives of the forces.
+/// Returns X^T times the derivatives of the forces on the nodes by (accelerations, velocities, positions) of [frame 0;
+/// amplitudes], theory manual eq. (flexible-bodies.18); `answer` carries them on to the derivatives of the forces.
 void NodalBody::add_forces_on_nodes(const NodalFactor& factor, const ElasticFrame& base, const Moments& by_y,
                                     const Moments& by_rate, const MatrixXd& answer) {
   Workspace& w = work();
   const Index n = data().shapes();
   const Matrix3 omega_x = skew(Vector3(base.V.head<3>()));
   MatrixXd from = MatrixXd::Zero(factor.W.rows(), 6 + n);
-  const auto turned = [&](const Matrix3& turn, const Moments& by) {
+  const auto rotated = [&](const Matrix3& rotation, const Moments& by) {
     VectorXd sum = VectorXd::Zero(from.rows());
-    for (Index r = 0; r < 3; ++r) sum += by[static_cast<std::size_t>(r)] * turn.row(r).transpose();
+    for (Index r = 0; r < 3; ++r) sum += by[static_cast<std::size_t>(r)] * rotation.row(r).transpose();
     return sum;
   };
-  const auto of_shapes = [&](const Matrix3& turn) {
+  const auto of_shapes = [&](const Matrix3& rotation) {
     MatrixXd sum = MatrixXd::Zero(from.rows(), n);
     for (Index r = 0; r < 3; ++r)
-      for (Index p = 0; p < 3; ++p) sum += turn(r, p) * factor.shapes[static_cast<std::size_t>(3 * r + p)];
+      for (Index p = 0; p < 3; ++p) sum += rotation(r, p) * factor.shapes[static_cast<std::size_t>(3 * r + p)];
     return sum;
   };
   const auto even = factor.W.leftCols<3>();
-  for (Index j = 0; j < 3; ++j) from.col(j) = turned(skew(Vector3(Vector3::Unit(j))), by_y);
+  for (Index j = 0; j < 3; ++j) from.col(j) = rotated(skew(Vector3(Vector3::Unit(j))), by_y);
   from.middleCols<3>(3) = even;
   from.rightCols(n) = factor.W.middleCols(kInertiaColumns, n);
   w.M.noalias() -= answer * from;
 
   for (Index j = 0; j < 3; ++j) {
     const Matrix3 unit = skew(Vector3(Vector3::Unit(j)));
-    from.col(j) = turned(unit * omega_x + omega_x * unit, by_y) + turned(2 * unit, by_rate);
+    from.col(j) = rotated(unit * omega_x + omega_x * unit, by_y) + rotated(2 * unit, by_rate);
   }
   from.leftCols<3>() -= even * skew(Vector3(base.V.tail<3>()));
   from.middleCols<3>(3) = even * omega_x;

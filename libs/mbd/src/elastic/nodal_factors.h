@@ -12,7 +12,7 @@
 
 namespace hersey::mbd {
 
-/// Columns of (flexible-bodies.19) before M Psi: 3 accelerations, 9 of turning.
+/// Columns of (flexible-bodies.19) before M Psi: 3 accelerations, 9 of rotation.
 inline constexpr Eigen::Index kInertiaColumns = 12;
 
 /// One factor, and what its answers X = (m M + c D + k K)^-1 E to columns E mean to the frames.
@@ -45,11 +45,11 @@ class NodalFactors {
   /// (m M + c D + k K)^-1 f.
   [[nodiscard]] Eigen::VectorXd solve(const NodalFactor& factor, const Eigen::VectorXd& f);
 
-  /// Takes from `f` what the frames bear: forces on held nodes, and those that the averages' constraints exert.
+  /// Removes from `f` the reactions of the frames: forces on fixed nodes and constraint forces of averaging frames.
   void leave_to_frames(Eigen::VectorXd& f) const;
 
-  /// Which step sizes there are factors for, where their matrix stays: a step takes the factor of one nearly as long,
-  /// so that the round-off of answers depends on those before. Restoring factorises them again.
+  /// Saves or restores the step sizes of the factors if their matrix is constant: a step uses the factor of a nearly
+  /// equal step size, so that the round-off of solutions depends on previous steps. Restoring factorises them again.
   void persist(Archive& archive);
 
   [[nodiscard]] long solves() const { return solves_; }
@@ -65,7 +65,7 @@ class NodalFactors {
   RayleighDamping damping_;
   const Eigen::MatrixXd &columns_, &shapes_;
   Eigen::MatrixXd bearing_;         ///< (C C^T)^-1
-  Eigen::SparseMatrix<double> K_;   ///< in place of the body's, where it was given another
+  Eigen::SparseMatrix<double> K_;   ///< stiffness that replaces that of the body, if set
   bool is_stale_ = false;           ///< K_ is newer than the factors
   std::list<NodalFactor> factors_;  ///< the last used first
   long solves_ = 0;

@@ -43,7 +43,8 @@ ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& 
   MatrixXd Psi = MatrixXd::Zero(body.size(), kPerFrame * further + films);
   for (Index i = 0; i < further; ++i) {
     const fem::InterfaceFrame& frame = reduced.frames[static_cast<std::size_t>(i) + 1];
-    HERSEY_REQUIRE(frame.connection == fem::Connection::rigid, "averages turn little against the first frame");
+    HERSEY_REQUIRE(frame.connection == fem::Connection::rigid,
+                   "averaging frames rotate little against the first frame");
     for (const int node : frame.nodes) {
       const Vector3 d = reduced.nodes[static_cast<std::size_t>(node)] - frame.origin;
       for (Index p = 0; p < 3; ++p) {
@@ -54,9 +55,9 @@ ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& 
   }
   if (further > 0) {
     const fem::FrameSupports supports = supports_of(body, reduced);
-    fem::ConstrainedStiffness held(body.K, body.m, supports.held, supports.C);
-    HERSEY_REQUIRE(held.factorise().solved(), "a reduction has held it");
-    Psi -= held.solve(MatrixXd(body.K * Psi));
+    fem::ConstrainedStiffness constrained(body.K, body.m, supports.held, supports.C);
+    HERSEY_REQUIRE(constrained.factorise().solved(), "the reduction has factorised this matrix");
+    Psi -= constrained.solve(MatrixXd(body.K * Psi));
   }
   Psi.rightCols(films) = data.displacements.rightCols(films);
   const Eigen::Matrix3Xd x = data.nodes;

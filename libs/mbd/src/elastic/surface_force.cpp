@@ -7,7 +7,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// What columns of the tree do to the pair in A's axes, a matrix column each.
+/// Derivatives of the relative motion of the pair by the columns of the tree in A's axes, one matrix column each.
 struct PairColumns {
   MatrixXd virtual_motion, position, velocity;  ///< (6, columns)
 };

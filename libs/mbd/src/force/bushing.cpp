@@ -72,7 +72,7 @@ void Bushing::evaluate(const RelativeMotion& motion, bool want_tangent, ForceRes
   const Vector6 x = deformation(motion.X_AB);
   const Vector3 phi = x.head<3>();
   const Vector3 omega = motion.V_AB_A.head<3>();
-  const RotationVector turn(phi);
+  const RotationVector rotation(phi);
   angle_ = phi.norm();
   // xdot = B V, and W = -B^T s with s = K x + D xdot.
   const Matrix6 B = rates_of(x);
@@ -83,14 +83,14 @@ void Bushing::evaluate(const RelativeMotion& motion, bool want_tangent, ForceRes
 
   // A twist moves x by B xi. d(xdot) = dB V: of the map in phi, and of omega x r in r.
   Matrix6 rate_by_x = Matrix6::Zero();
-  rate_by_x.topLeftCorner<3, 3>() = turn.derivative(-1, omega);
+  rate_by_x.topLeftCorner<3, 3>() = rotation.derivative(-1, omega);
   rate_by_x.bottomRightCorner<3, 3>() = skew(omega);
   const Matrix6 ds = K_ + D_ * rate_by_x;
   // d(B^T) s: of the map's transpose in phi, and of r x s_r in r.
-  Matrix6 turned = Matrix6::Zero();
-  turned.topLeftCorner<3, 3>() = turn.derivative(+1, s.head<3>());
-  turned.topRightCorner<3, 3>() = -skew(s.tail<3>());
-  response.dW_dX = -(B.transpose() * ds + turned) * B;
+  Matrix6 rotated = Matrix6::Zero();
+  rotated.topLeftCorner<3, 3>() = rotation.derivative(+1, s.head<3>());
+  rotated.topRightCorner<3, 3>() = -skew(s.tail<3>());
+  response.dW_dX = -(B.transpose() * ds + rotated) * B;
   response.dW_dV = -B.transpose() * D_ * B;
 }
 
@@ -107,8 +107,7 @@ double Bushing::lost_power(const RelativeMotion& motion) const {
 std::string Bushing::domain_error() const {
   constexpr double largest = 170.0 / 180 * std::numbers::pi;
   if (angle_ <= largest) return {};
-  return fmt::format("turned by {:.0f} deg; its rotation is defined below half a turn",
-                     angle_ * 180 / std::numbers::pi);
+  return fmt::format("rotated by {:.0f} deg; its rotation is defined below 180 deg", angle_ * 180 / std::numbers::pi);
 }
 
 }  // namespace hersey::mbd

@@ -45,7 +45,7 @@ CoordinateEffort JointFriction::evaluate(double, double, double rate) const {
   return {-coulomb_ * rate / s - viscous_ * rate, 0, -coulomb_ * transition_ * transition_ / (s * s * s) - viscous_};
 }
 
-/// Where the last step ended.
+/// State at the end of the last step.
 struct SpeedController::Memory {
   bool started = false;
   double t = 0, position = 0, integral = 0;

@@ -55,7 +55,7 @@ void Load::add(Assembly& assembly, const solver::State& state) {
 
   for (int col : path) {
     const Vector6& J_k = assembly.directions[col].J;
-    // Body axes turn with the body; in ground's axes only the point moves, by v + omega x r.
+    // Body axes rotate with the body; in ground's axes only the point moves, by v + omega x r.
     Vector6 dW;
     if (kind_ == LoadAxes::body) {
       dW = cross_force(J_k, W);

@@ -7,7 +7,7 @@
 
 namespace hersey::mbd {
 
-/// A load as the tree sees it.
+/// Connection of a load to the tree.
 class Load {
  public:
   /// @param body  the body the load's frame is fixed on

@@ -1,5 +1,5 @@
-// Forces between two bodies, which may see the bodies deform: theory manual, sections on two-body forces and on
-// surfaces that deform.
+// Forces between two bodies, which may depend on the deformation of the bodies: theory manual, sections on two-body
+// forces and on surfaces that deform.
 #include <algorithm>
 
 #include "elastic/surface_force.h"
@@ -26,15 +26,15 @@ void ForceResponse::set_zero(Index amplitudes) {
   dQ_dr.setZero(amplitudes, amplitudes);
 }
 
-void MechanismParts::place_surfaces() {
-  seen_deforming.assign(elastics.size(), 0);
-  const auto place = [&](const std::optional<ElasticId>& id) {
+void MechanismParts::find_deforming_surfaces() {
+  deforms_surface.assign(elastics.size(), 0);
+  const auto side_of = [&](const std::optional<ElasticId>& id) {
     if (!id) return -1;
-    seen_deforming[static_cast<std::size_t>(id->index)] = 1;
+    deforms_surface[static_cast<std::size_t>(id->index)] = 1;
     return id->index;
   };
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
-    sides.push_back({place(spec.forces[i].surfaces.a), place(spec.forces[i].surfaces.b)});
+    sides.push_back({side_of(spec.forces[i].surfaces.a), side_of(spec.forces[i].surfaces.b)});
     (spec.forces[i].force->is_costly() ? costly : cheap).push_back(i);
   }
 }
@@ -62,7 +62,7 @@ RelativeMotion MechanismParts::relative_motion(std::size_t force, double t) cons
 void MechanismParts::read_elastic_bodies(const solver::State& state) {
   for (std::size_t i = 0; i < elastics.size(); ++i) {
     elastics[i].read(motion, state, {}, true);
-    if (seen_deforming[i] != 0) elastics[i].find_shapes();
+    if (deforms_surface[i] != 0) elastics[i].find_shapes();
   }
 }
 
@@ -82,7 +82,7 @@ void MechanismParts::evaluate_two_body_forces(const Assembly& assembly, const so
   const bool want_tangent = assembly.tangent != nullptr;
   for (std::size_t i = 0; i < elastics.size(); ++i) {
     const Stopwatch one(timing.elastic[i]);
-    if (seen_deforming[i] != 0) elastics[i].find_shapes(assembly);
+    if (deforms_surface[i] != 0) elastics[i].find_shapes(assembly);
   }
   for (std::size_t i = 0; i < spec.forces.size(); ++i) {
     relatives[i] = relative_motion(i, state.t);

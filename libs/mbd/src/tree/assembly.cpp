@@ -3,10 +3,10 @@
 namespace hersey::mbd {
 namespace {
 
-// The share of forces of which a wrench is the rest, counted as a magnitude too: their sum has a round-off of 1e-15.
+// Share of the sum of force magnitudes that counts as a magnitude of their resultant, whose round-off is 1e-15 of it.
 constexpr double kSummedShare = 1e-6;
 
-/// Of a wrench about the ground's origin whose forces act about a point there.
+/// Returns the magnitude of a wrench about ground's origin whose forces act near a point.
 Vector6 sizes(const Vector6& W, double summed, const Vector3& at) {
   Vector6 size = W.cwiseAbs();
   size.head<3>().array() += kSummedShare * summed * at.norm();
@@ -25,16 +25,16 @@ void compute_directions(const Tree& tree, const TreeMotion& motion, const solver
     if (link.motion == Motion::ball && stage.dq.size() > 0) T = rotation_exp_tangent(stage.dq.segment<3>(link.first_v));
     for (int c = 0; c < link.columns; ++c) {
       const Vector6& J = motion.J(link.first_v + c);
-      Vector6 turned = J;
+      Vector6 rotated = J;
       if (link.columns == 3) {
-        turned.setZero();
-        for (int i = 0; i < 3; ++i) turned += T(i, c) * motion.J(link.first_v + i);
+        rotated.setZero();
+        for (int i = 0; i < 3; ++i) rotated += T(i, c) * motion.J(link.first_v + i);
       }
-      const Vector6 D = cross_motion(V_p, turned);
+      const Vector6 D = cross_motion(V_p, rotated);
       Direction& d = directions[link.first_v + c];
-      d.J = stage.k * turned;
+      d.J = stage.k * rotated;
       d.H = stage.k * D + stage.c * J;
-      d.E = stage.k * (-cross_motion(turned, A_p) - cross_motion(D, V_p)) + stage.c * cross_motion(V_c + V_p, J) +
+      d.E = stage.k * (-cross_motion(rotated, A_p) - cross_motion(D, V_p)) + stage.c * cross_motion(V_c + V_p, J) +
             stage.m * J;
     }
   }
@@ -58,7 +58,7 @@ void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& r
   const double c = assembly.stage.c;
   for (const SignedColumn& col : pair.columns) {
     // A column that moves b alone changes the relative pose by +J and the relative velocity by J x (V_b - V_p);
-    // one that moves a alone by the negative of both, and turns the wrench with a.
+    // one that moves a alone by the negative of both, and rotates the wrench with a.
     const Vector6& J_k = assembly.directions[col.column].J;
     const Link& link = assembly.tree.links[assembly.tree.columns[col.column].link];
     Vector6 dW = col.sign * (K * J_k);

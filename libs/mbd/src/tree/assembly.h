@@ -9,22 +9,22 @@
 
 namespace hersey::mbd {
 
-/// How an increment of one velocity component enters the equations at the stage being solved, per column k of the tree
-/// (theory manual eq. (mechanisms.10); what lies beyond turning with the column is that of (mechanisms.7) and
-/// (mechanisms.8)). With J~ the column turned by the increment so far (balls: J T(dq)) and p, c the
-/// parent and child side of its elementary joint:
+/// Effect of an increment of one velocity component on the motion at the stage being solved, per column k of the tree
+/// (theory manual eq. (mechanisms.10); the parts beyond the rotation with the column are those of (mechanisms.7) and
+/// (mechanisms.8)). J~ is the column rotated by the increment so far (balls: J T(dq)) and p, c the parent and child
+/// side of its elementary joint:
 struct Direction {
   Vector6 J = Vector6::Zero();  ///< k J~: displacement
-  Vector6 H = Vector6::Zero();  ///< k V_p x J~ + c J: velocity beyond turning with the column
-  Vector6 E = Vector6::Zero();  ///< acceleration beyond turning with the column
+  Vector6 H = Vector6::Zero();  ///< k V_p x J~ + c J: velocity beyond the rotation with the column
+  Vector6 E = Vector6::Zero();  ///< acceleration beyond the rotation with the column
 };
 
-/// Where one assembly writes: residual, scale and (perhaps) tangent, with the motion they are evaluated at.
+/// Output of one assembly: residual, scale and optionally tangent, with the motion at which they are evaluated.
 struct Assembly {
   const Tree& tree;
   const TreeMotion& motion;
   const solver::Stage& stage;
-  const std::vector<Direction>& directions;  ///< of this motion where there is a tangent
+  const std::vector<Direction>& directions;  ///< directions of this motion if there is a tangent
   Eigen::VectorXd& residual;
   Eigen::VectorXd& scale;
   solver::Equations::SparseMatrix* tangent;

@@ -9,7 +9,7 @@
 
 namespace hersey::mbd {
 
-/// A coupling as the tree sees it: the row  Phi = q_out - sum f_i(q_i) = 0  (theory manual eq. (mechanisms.19)).
+/// Connection of a coupling to the tree: the row  Phi = q_out - sum f_i(q_i) = 0  (theory manual eq. (mechanisms.19)).
 class Coupling {
  public:
   Coupling(const CouplingSpec& spec, const Tree& tree);

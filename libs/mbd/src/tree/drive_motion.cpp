@@ -105,7 +105,7 @@ void DriveMotion::anchor(double t) {
   anchor_position_ = position(t);
   anchor_rate_ = rate;
   anchor_time_ = t;
-  // What has been set once does not go back to counting from the start.
+  // An input that has been set once is not integrated from the start again.
   if (!counts_from_start()) constant_ = false;
 }
 

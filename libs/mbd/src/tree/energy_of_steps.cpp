@@ -1,5 +1,5 @@
-// What a judge of a step's energy sees, and the work between two such views: theory manual, integrator.29 to
-// integrator.31.
+// Energies and forces for the monitor of the energy of steps, and the work between two states: theory manual,
+// integrator.29 to integrator.31.
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -12,15 +12,15 @@ namespace hersey::mbd {
 namespace {
 
 /// The twist that takes B from one pose to another, at A's origin in A's axes: its rotation, and the shift of the point
-/// of B that lies half-way, so that a wrench that keeps does the work of its force and its torque.
+/// of B that lies half-way, so that a constant wrench does the work of its force and its torque.
 Vector6 twist_between(const Pose& from, const Pose& to) {
-  const Vector3 turn = rotation_log(Eigen::Quaterniond(to.R * from.R.transpose()));
+  const Vector3 rotation = rotation_log(Eigen::Quaterniond(to.R * from.R.transpose()));
   Vector6 xi;
-  xi << turn, (to.r - from.r) - turn.cross(0.5 * (from.r + to.r));
+  xi << rotation, (to.r - from.r) - rotation.cross(0.5 * (from.r + to.r));
   return xi;
 }
 
-/// Mean of two efforts over a way, in doubt by as much as the one differs from the other.
+/// Returns the work of the mean of two efforts over a displacement; its uncertainty follows from their difference.
 StepWork of_mean(double first, double last, double way) {
   return {0.5 * (first + last) * way, 0.5 * std::abs((last - first) * way)};
 }
@@ -28,11 +28,11 @@ StepWork of_mean(double first, double last, double way) {
 /// Simpson's rule over two and four parts of a step.
 struct Simpson {
   double two = 0, four = 0;
-  void add(int place, double value) {
+  void add(int point, double value) {
     constexpr double of_two[] = {1.0 / 6, 0, 4.0 / 6, 0, 1.0 / 6};
     constexpr double of_four[] = {1.0 / 12, 4.0 / 12, 2.0 / 12, 4.0 / 12, 1.0 / 12};
-    two += of_two[place] * value;
-    four += of_four[place] * value;
+    two += of_two[point] * value;
+    four += of_four[point] * value;
   }
   /// A force that jumps within the step leaves an error of at most twice what both rules differ by (integrator.31).
   [[nodiscard]] StepWork work() const { return {four, 2 * std::abs(four - two)}; }
@@ -118,13 +118,13 @@ void Mechanism::view_energy(const solver::State& state, bool is_trial, EnergyVie
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
     const RelativeMotion relative = is_trial ? m.relatives[i] : m.relative_motion(i, state.t);
     const TwoBodyForce& force = *m.spec.forces[i].force;
-    ForceView& seen = view.forces[i];
-    seen.stored = force.stored_energy(relative);
-    seen.lost = force.lost_power(relative);
-    seen.W = acting[i].W_B_A;
-    seen.Q = acting[i].Q;
-    seen.X_AB = relative.X_AB;
-    seen.s = relative.s;
+    ForceView& observed = view.forces[i];
+    observed.stored = force.stored_energy(relative);
+    observed.lost = force.lost_power(relative);
+    observed.W = acting[i].W_B_A;
+    observed.Q = acting[i].Q;
+    observed.X_AB = relative.X_AB;
+    observed.s = relative.s;
   }
 }
 
@@ -144,7 +144,8 @@ Eigen::VectorXd MechanismParts::way_between(const EnergyView& from, const Energy
   return way;
 }
 
-// At the ends what acted there; between them, on the way that is straight in the coordinates, what functions say.
+// At the ends the forces that acted there are used; between them functions are evaluated along a path that is straight
+// in the coordinates.
 void MechanismParts::work_of_functions(const EnergyView& from, const EnergyView& to, const Eigen::VectorXd& way,
                                        const Retract& retract, WorkBetween& work) {
   std::vector<Simpson> of_loads(loads.size()), of_functions(spec.coordinate_forces.size());
@@ -160,26 +161,26 @@ void MechanismParts::work_of_functions(const EnergyView& from, const EnergyView&
   between.v = way / dt;
   std::vector<Eigen::VectorXd> generalised;
   if (!loads.empty() && !aside) aside.emplace(tree, spec.gravity);
-  for (int place = 0; place <= 4; ++place) {
-    const bool is_end = place == 0 || place == 4;
-    const EnergyView& end = place == 0 ? from : to;
+  for (int point = 0; point <= 4; ++point) {
+    const bool is_end = point == 0 || point == 4;
+    const EnergyView& end = point == 0 ? from : to;
     if (!is_end) {
-      between.t = from.t + 0.25 * place * dt;
-      retract(from.q, 0.25 * place * way, between.q);
+      between.t = from.t + 0.25 * point * dt;
+      retract(from.q, 0.25 * point * way, between.q);
     }
     if (!is_end && !loads.empty()) {
       aside->update_positions(between);
       view_loads(*aside, between, generalised);
     }
     for (std::size_t i = 0; i < loads.size(); ++i)
-      of_loads[i].add(place, along(i, is_end ? end.load_generalised[i] : generalised[i]));
+      of_loads[i].add(point, along(i, is_end ? end.load_generalised[i] : generalised[i]));
     for (std::size_t i = 0; i < of_functions.size(); ++i) {
       const CoordinateForce& force = *spec.coordinate_forces[i].force;
       if (force.is_store()) continue;
       const int k = coordinate_force_columns[i];
       const double effort =
           is_end ? end.coordinate_efforts[i] : force.evaluate(between.t, between.q[q_of(k)], between.v[k]).value;
-      of_functions[i].add(place, effort * way[k]);
+      of_functions[i].add(point, effort * way[k]);
     }
   }
   for (const Simpson& load : of_loads) work.loads.push_back(load.work());
@@ -208,7 +209,7 @@ WorkBetween Mechanism::work_between(const EnergyView& from, const EnergyView& to
     if (first.s.size() > 0 && first.Q.size() == last.Q.size() && first.Q.size() == first.s.size()) {
       const StepWork of_shapes = of_mean(first.Q.dot(last.s - first.s), last.Q.dot(last.s - first.s), 1);
       of_force.value += of_shapes.value;
-      of_force.doubt += of_shapes.doubt;
+      of_force.uncertainty += of_shapes.uncertainty;
     }
     work.forces.push_back(of_force);
     // Velocities at both ends may be those of a vibration that the step does not follow: the damper has then done
@@ -219,9 +220,9 @@ WorkBetween Mechanism::work_between(const EnergyView& from, const EnergyView& to
   return work;
 }
 
-EnergyPlaces Mechanism::energy_places(const EnergyView& from, const EnergyView& to) const {
+LargestEnergyChanges Mechanism::largest_energy_changes(const EnergyView& from, const EnergyView& to) const {
   const MechanismParts& m = *parts_;
-  EnergyPlaces places;
+  LargestEnergyChanges largest;
   double most = 0;
   const auto offer = [&](std::string& best, double growth, const std::string& name) {
     if (!(growth > most)) return;
@@ -230,19 +231,19 @@ EnergyPlaces Mechanism::energy_places(const EnergyView& from, const EnergyView& 
   };
   for (std::size_t b = 1; b < m.spec.bodies.size(); ++b) {
     const auto link = static_cast<std::size_t>(m.tree.bodies[b].link);
-    offer(places.body, to.kinetic[link] - from.kinetic[link], "body " + m.spec.bodies[b].name);
+    offer(largest.body, to.kinetic[link] - from.kinetic[link], "body " + m.spec.bodies[b].name);
   }
   for (std::size_t i = 0; i < m.elastics.size(); ++i)
-    offer(places.body, to.strain[i] - from.strain[i] + to.elastic_kinetic[i] - from.elastic_kinetic[i],
+    offer(largest.body, to.strain[i] - from.strain[i] + to.elastic_kinetic[i] - from.elastic_kinetic[i],
           "body " + m.elastics[i].name());
   most = 0;
   for (std::size_t i = 0; i < m.spec.springs.size(); ++i)
-    offer(places.force, std::abs(to.springs[i] - from.springs[i]), "spring " + m.spec.springs[i].name);
+    offer(largest.force, std::abs(to.springs[i] - from.springs[i]), "spring " + m.spec.springs[i].name);
   for (std::size_t i = 0; i < m.spec.coordinate_forces.size(); ++i)
-    offer(places.force, std::abs(to.functions[i] - from.functions[i]), "spring " + m.spec.coordinate_forces[i].name);
+    offer(largest.force, std::abs(to.functions[i] - from.functions[i]), "spring " + m.spec.coordinate_forces[i].name);
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i)
-    offer(places.force, std::abs(to.forces[i].stored - from.forces[i].stored), "force " + m.spec.forces[i].name);
-  return places;
+    offer(largest.force, std::abs(to.forces[i].stored - from.forces[i].stored), "force " + m.spec.forces[i].name);
+  return largest;
 }
 
 }  // namespace hersey::mbd

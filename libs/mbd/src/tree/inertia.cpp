@@ -76,7 +76,7 @@ void InertiaTerms::add_tangent(Assembly& assembly) const {
     const Vector6& J_j = assembly.motion.J(j);
     const Direction& d_j = assembly.directions[j];
     const Vector6 IJ = I_[l] * J_j, BJ = B_[l].transpose() * J_j;
-    // What subtree l feels when component j moves it; the subtree's own wrench turns along.
+    // Change of the wrench of subtree l when component j moves it; the wrench of the subtree rotates with it.
     const Vector6 felt = I_[l] * d_j.E + B_[l] * d_j.H + cross_force(d_j.J, F_[l]);
     for (int k : tree.path[l]) {
       const Direction& d_k = assembly.directions[k];

@@ -18,7 +18,7 @@ std::vector<Coordinate> coordinates_of(const JointKind& kind) {
     Coordinate coordinate{.name = name.text,
                           .offset = offset,
                           .size = 0,
-                          .rotational = turns(step->motion),
+                          .rotational = is_rotational(step->motion),
                           .orientation = step->motion == Motion::ball};
     for (int k = 0; k < name.steps; ++k) coordinate.size += values_of((step++)->motion);
     offset += coordinate.size;
@@ -69,7 +69,7 @@ std::optional<Coordinate> find_coordinate(JointType type, std::string_view name)
 
 namespace {
 
-/// The smallest rotation that takes z to n: the identity for z itself, half a turn about x for -z.
+/// Returns the smallest rotation from z to n: the identity for z itself, 180 degrees about x for -z.
 Matrix3 rotation_from_z(const Vector3& n) {
   const double across = n.head<2>().squaredNorm();
   if (across == 0) return Vector3(1, n.z(), n.z()).asDiagonal();
@@ -110,18 +110,18 @@ Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> val
       if (step.motion == Motion::prismatic) X_IO = X_IO * Pose{Matrix3::Identity(), *value * along};
       if (step.motion == Motion::screw)
         X_IO = X_IO * Pose{Matrix3::Identity(), lead / (2 * std::numbers::pi) * *value * along};
-      if (turns(step.motion)) X_IO = X_IO * rotation(*value * along);
+      if (is_rotational(step.motion)) X_IO = X_IO * rotation(*value * along);
     }
     value += values_of(step.motion);
   }
   return X_IO;
 }
 
-bool turns_about_one_axis(JointType type) {
-  int turning = 0;
+bool rotates_about_one_axis(JointType type) {
+  int rotations = 0;
   for (const JointKind::Step& step : kind_of(type).chain)
-    if (turns(step.motion)) turning += values_of(step.motion);
-  return turning == 1;
+    if (is_rotational(step.motion)) rotations += values_of(step.motion);
+  return rotations == 1;
 }
 
 }  // namespace hersey::mbd

@@ -48,17 +48,17 @@ const std::vector<JointKind>& joint_kinds() {
        .coordinates = {{"rotation_1"}, {"rotation_2"}},
        .chain = {{revolute, t1}, {revolute, t2}},
        .rows = {{t1}, {t2}, {axis}, {t1, t2}}},
-      // Its constraint counts turns, which poses do not show.
+      // Its constraint counts revolutions, which poses do not contain.
       {.type = JointType::screw, .name = "screw", .coordinates = {{"rotation"}}, .chain = {{screw}}},
   };
   return kinds;
 }
 
 const JointKind& kind_of(JointType type) {
-  const auto place = static_cast<std::size_t>(type);
-  HERSEY_REQUIRE(place < joint_kinds().size() && joint_kinds()[place].type == type,
-                 "kinds of joints stand in their order");
-  return joint_kinds()[place];
+  const auto index = static_cast<std::size_t>(type);
+  HERSEY_REQUIRE(index < joint_kinds().size() && joint_kinds()[index].type == type,
+                 "kinds of joints are listed in the order of JointType");
+  return joint_kinds()[index];
 }
 
 }  // namespace hersey::mbd

@@ -19,18 +19,18 @@ enum class Along { t1, t2, axis, x, y, z };
 
 /// All that makes a joint type what it is: what else is known of one follows.
 struct JointKind {
-  /// Of some of the values, in the order of the chain.
+  /// Coordinate that consists of some of the values, in the order of the chain.
   struct Name {
     std::string_view text;
-    int steps = 1;  ///< of the chain that have it
+    int steps = 1;  ///< number of elementary joints of the chain that it comprises
   };
-  /// An elementary joint of the chain, from the inboard frame on. Those that shift come first, so that frames show how
-  /// far; of two that turn the axes are at right angles.
+  /// An elementary joint of the chain, from the inboard frame on. Prismatic ones come first, so that frames define
+  /// their displacement; the axes of two revolute ones are at right angles.
   struct Step {
     Motion motion;
     Along along = Along::axis;
   };
-  /// What holds a joint outside the tree (mechanisms.14): a position along a; with b the cosine between a of the
+  /// Constraint of a joint outside the tree (mechanisms.14): a position along a; with b the cosine between a of the
   /// inboard and b of the outboard frame.
   struct Row {
     Along a;
@@ -48,6 +48,8 @@ struct JointKind {
 
 /// Values that an elementary joint has.
 [[nodiscard]] constexpr int values_of(Motion motion) { return motion == Motion::ball ? 3 : 1; }
-[[nodiscard]] constexpr bool turns(Motion motion) { return motion != Motion::prismatic && motion != Motion::none; }
+[[nodiscard]] constexpr bool is_rotational(Motion motion) {
+  return motion != Motion::prismatic && motion != Motion::none;
+}
 
 }  // namespace hersey::mbd

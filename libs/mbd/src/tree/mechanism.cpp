@@ -33,15 +33,15 @@ MechanismParts::MechanismParts(MechanismSpec given)
   for (const CoordinateSpringSpec& spring : spec.springs) spring_columns.push_back(column_of(tree, spring.coordinate));
   for (const MechanismSpec::CoordinateForce& force : spec.coordinate_forces)
     coordinate_force_columns.push_back(column_of(tree, force.coordinate));
-  place_elastic_bodies();
-  place_surfaces();
+  add_elastic_bodies();
+  find_deforming_surfaces();
   release_redundant_rows();
   make_patterns();
   timing.force.assign(spec.forces.size(), 0);
   timing.elastic.assign(elastics.size(), 0);
 }
 
-void MechanismParts::place_elastic_bodies() {
+void MechanismParts::add_elastic_bodies() {
   nq = tree.nq;
   nv = tree.nv;
   for (const MechanismSpec::Elastic& elastic : spec.elastics) {
@@ -171,8 +171,8 @@ ForceResponse closure_response(const Closure& closure, const Pose& X_AB, const E
   return response;
 }
 
-/// Lengths that positional rows compare. What a cut brings together are places in ground, whose round-off is that of
-/// their distance from its origin.
+/// Scales of positional rows. A cut compares positions in ground, whose round-off is that of their distance from the
+/// origin.
 double MechanismParts::closure_length(const Closure& closure, const Pose& X_WA) const {
   return closure.first_row < 6 * static_cast<int>(tree.cuts.size()) ? std::max(tree.length, X_WA.r.norm())
                                                                     : tree.length;
@@ -247,7 +247,7 @@ void MechanismParts::floor_scales(Eigen::VectorXd& scale) const {
     largest = std::max(largest, scale[k]);
   }
   for (int k = tree.nv; k < nv; ++k) force = std::max(force, scale[k]);
-  // All rows of one unit may be next to nothing (forces through the only axis that turns): what is left is the
+  // All rows of one unit may be next to nothing (forces through the only axis of rotation): the remainder is the
   // round-off of the other unit's terms with the mechanism's arms.
   constexpr double round_off = 1e-6;
   torque = std::max(torque, round_off / fraction * force * tree.length);
@@ -308,7 +308,7 @@ void Mechanism::constraint_rates(const State& state, Eigen::VectorXd& velocity, 
     const Pair& pair = closure.pair;
     const RelativeMotion relative = m.motion.relative(pair);
     const Vector6 &V_a = m.motion.V(pair.a.link), &V_b = m.motion.V(pair.b.link);
-    // Theory manual eq. (mechanisms.16): the relative acceleration seen in A's axes.
+    // Theory manual eq. (mechanisms.16): the relative acceleration in A's axes.
     const Vector6 A_AB_A = motion_transform(m.motion.pose(pair.a).inverse()) *
                            (m.motion.A(pair.b.link) - m.motion.A(pair.a.link) - cross_motion(V_a, V_b - V_a));
     for (std::size_t i = 0; i < closure.rows.size(); ++i) {
@@ -356,12 +356,12 @@ void Mechanism::begin_step(const State& start, double dt) {
 bool Mechanism::is_step_consistent() {
   MechanismParts& m = *parts_;
   const Stopwatch all(m.timing.total), forces(m.timing.forces);
-  bool stands = true;
+  bool is_consistent = true;
   for (std::size_t i = 0; i < m.spec.forces.size(); ++i) {
     const Stopwatch one(m.timing.force[i]);
-    stands = m.spec.forces[i].force->is_step_consistent() && stands;
+    is_consistent = m.spec.forces[i].force->is_step_consistent() && is_consistent;
   }
-  return stands;
+  return is_consistent;
 }
 
 void Mechanism::accept_step(const State& end) {

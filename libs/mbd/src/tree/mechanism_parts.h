@@ -26,7 +26,7 @@ struct BoundDrive {
   DriveMotion motion;
 };
 
-/// What a Mechanism works with: its tree, the parts as the tree sees them, scratch.
+/// Data of a Mechanism: its tree, the connections of its parts to the tree, scratch memory.
 struct MechanismParts {
   using Index = solver::Equations::Index;
   using SparseMatrix = solver::Equations::SparseMatrix;
@@ -42,21 +42,21 @@ struct MechanismParts {
   std::vector<Coupling> couplings;
   std::vector<BoundDrive> drives;
   std::vector<ElasticAssembly> elastics;
-  int nq = 0, nv = 0;  ///< of the tree, then own coordinates of elastic bodies
+  int nq = 0, nv = 0;  ///< coordinates of the tree, then own coordinates of elastic bodies
   std::vector<int> spring_columns;
   std::vector<int> coordinate_force_columns;
-  SparseMatrix pattern;             ///< of the tangent, zeros
-  SparseMatrix constraint_pattern;  ///< of G, zeros
+  SparseMatrix pattern;             ///< pattern of the tangent with zero values
+  SparseMatrix constraint_pattern;  ///< pattern of G with zero values
 
-  /// The elastic bodies that a two-body force sees deform, by place among `elastics`; -1: none.
+  /// Indices in `elastics` of the bodies on whose deformation a two-body force depends; -1: none.
   struct Sides {
     int a = -1, b = -1;
   };
-  std::vector<Sides> sides;                ///< of each two-body force
+  std::vector<Sides> sides;                ///< elastic bodies of each two-body force
   std::vector<std::size_t> costly, cheap;  ///< two-body forces worth a thread each, and the others
-  std::vector<char> seen_deforming;        ///< of each elastic body: some force sees it deform
-  std::vector<RelativeMotion> relatives;   ///< of the two-body forces at the last assembly
-  std::vector<ForceResponse> responses;    ///< the same
+  std::vector<char> deforms_surface;       ///< for each elastic body: a force depends on its deformation
+  std::vector<RelativeMotion> relatives;   ///< relative motions of the two-body forces at the last assembly
+  std::vector<ForceResponse> responses;    ///< responses of the two-body forces at the last assembly
   MechanismTiming timing;
   std::vector<ForceResponse> accepted;  ///< at the last accepted step, wrenches and forces alone; empty before
 
@@ -79,13 +79,13 @@ struct MechanismParts {
 
   // Redundant constraints
   std::vector<Redundancy> redundancies;
-  std::optional<SharedReactions> shared_reactions;  ///< where there are any
-  std::string constraint_violation;  ///< which joint's dropped rows do not hold any more; empty as long as all do
+  std::optional<SharedReactions> shared_reactions;  ///< empty if no constraint is redundant
+  std::string constraint_violation;  ///< name of the joint whose omitted rows are violated; empty if there is none
   void release_redundant_rows();
   [[nodiscard]] double opening_of(const Closure& closure) const;
   void watch_dropped_rows();
 
-  void place_elastic_bodies();
+  void add_elastic_bodies();
   /// Calls visit(elastic) for each, and takes its time.
   template <class Visit>
   void for_each_elastic(Visit visit) {
@@ -101,9 +101,9 @@ struct MechanismParts {
     for (const ElasticAssembly& elastic : elastics) visit([&] { return "body " + elastic.name(); }, elastic.body());
   }
   void make_patterns();
-  void place_surfaces();
+  void find_deforming_surfaces();
   [[nodiscard]] RelativeMotion relative_motion(std::size_t force, double t) const;
-  /// Calls visit(row, column) for what the shapes of the bodies that force i sees deform add to its tangent.
+  /// Calls visit(row, column) for the entries of the tangent by the shapes on which force i depends.
   template <class Visit>
   void visit_surface_columns(std::size_t i, Visit visit) const;
   void read_elastic_bodies(const solver::State& state);
@@ -125,12 +125,12 @@ struct MechanismParts {
 
   // Observation
   [[nodiscard]] FrameMotion frame_motion(const Attachment& frame) const;
-  void observe_joint_coordinates(const solver::State& state, Observation& seen) const;
-  void observe_efforts(const solver::State& state, Observation& seen);
-  void observe_reactions(const solver::State& state, Observation& seen);
-  void observe_drift(const solver::State& state, Observation& seen) const;
-  void observe_energies(Observation& seen) const;
-  void observe_elastic_bodies(Observation& seen);
+  void observe_joint_coordinates(const solver::State& state, Observation& observation) const;
+  void observe_efforts(const solver::State& state, Observation& observation);
+  void observe_reactions(const solver::State& state, Observation& observation);
+  void observe_drift(const solver::State& state, Observation& observation) const;
+  void observe_energies(Observation& observation) const;
+  void observe_elastic_bodies(Observation& observation);
 
   // Energy of a step
   using Retract = std::function<void(const Eigen::VectorXd&, const Eigen::VectorXd&, Eigen::VectorXd&)>;
@@ -142,7 +142,7 @@ struct MechanismParts {
                          const Retract& retract, WorkBetween& work);
 };
 
-/// Of the rigid bodies fixed on a link, which is at X_WL and moves by V [J].
+/// Returns the kinetic energy of the rigid bodies fixed on a link with the pose X_WL and the velocity V [J].
 [[nodiscard]] double kinetic_energy_of(const Link& link, const Pose& X_WL, const Vector6& V);
 
 /// The wrench of a closure's multipliers in the form of a two-body force; its geometric stiffness where asked for.

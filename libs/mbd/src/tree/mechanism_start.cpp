@@ -1,4 +1,4 @@
-// Where a mechanism starts, and which of its constraints are redundant there and wherever it can go.
+// Initial state of a mechanism, and its constraints that are redundant in all configurations.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ std::vector<Mechanism::Index> MechanismParts::columns_where(Choose is_chosen) co
 
 namespace {
 
-/// Of a coordinate's values: of an orientation the angle between both.
+/// Returns the difference between two values of a coordinate; for an orientation the angle between them.
 double distance(const Coordinate& coordinate, bool is_rate, const std::vector<double>& a,
                 const std::vector<double>& b) {
   if (coordinate.orientation && !is_rate)
@@ -59,9 +59,9 @@ std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
   constexpr double round_off = 1e-10;
   MechanismParts& m = *parts_;
   m.motion.update(start);
-  Observation seen;
-  seen.joints.resize(m.spec.joints.size());
-  m.observe_joint_coordinates(start, seen);
+  Observation observation;
+  observation.joints.resize(m.spec.joints.size());
+  m.observe_joint_coordinates(start, observation);
   const double fastest = m.largest_rate(start);
   std::vector<ChangedStart> changes;
   for (std::size_t j = 0; j < m.spec.joints.size(); ++j) {
@@ -76,7 +76,7 @@ std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
         };
         ChangedStart change{{static_cast<int>(j)}, coordinate, is_rate, {}, {}, 0};
         change.given = part(is_rate ? joint.initial_rate : joint.initial);
-        change.found = part(is_rate ? seen.joints[j].rate : seen.joints[j].position);
+        change.found = part(is_rate ? observation.joints[j].rate : observation.joints[j].position);
         const double size = (coordinate.rotational ? 1.0 : m.tree.length) * (is_rate ? fastest : 1.0);
         change.share = size > 0 ? distance(coordinate, is_rate, change.given, change.found) / size : 0;
         if (change.share > round_off) changes.push_back(std::move(change));
@@ -85,7 +85,7 @@ std::vector<ChangedStart> Mechanism::changed_values(const State& start) {
   return changes;
 }
 
-/// Of the rates given and of those at `start`, lengths over the mechanism's size [1/s].
+/// Returns the largest rate of those given and those at `start`, lengths divided by the mechanism's size [1/s].
 double MechanismParts::largest_rate(const State& start) const {
   const State given = initial_state();
   double largest = 0;
@@ -151,7 +151,7 @@ double MechanismParts::opening_of(const Closure& closure) const {
   return worst;
 }
 
-/// A redundant row holds by itself; if it does not, the loop is not the one it was taken for.
+/// Checks the omitted rows: a redundant row is satisfied by the others; a violation means that it is not redundant.
 void MechanismParts::watch_dropped_rows() {
   constexpr double tolerance = 1e-5;
   for (const Redundancy& redundancy : redundancies) {

@@ -199,11 +199,11 @@ std::vector<int> dependent_rows(const RowMatrix& G, double tolerance) {
 }
 
 std::vector<int> redundant_rows(const Tree& tree, TreeMotion& motion, const solver::State& guess,
-                                const std::vector<Index>& held) {
+                                const std::vector<Index>& fixed) {
   if (tree.nclosure == 0) return {};
-  // What the user gave moves a thousand times less readily than the rest.
+  // Prescribed components have a thousandth of the mobility of the others.
   VectorXd weight = VectorXd::Ones(tree.nv);
-  for (Index k : held) weight[k] = 1e-3;
+  for (Index k : fixed) weight[k] = 1e-3;
   LoopCloser loops(tree, motion);
   std::mt19937 random(1);
   const auto moved_by = [&](double reach) {
@@ -214,7 +214,8 @@ std::vector<int> redundant_rows(const Tree& tree, TreeMotion& motion, const solv
   };
   solver::State state = guess;
   bool closed = loops.close(state, weight);
-  // From a rough guess the way may end short: others begin beside it, with what the user gave as it is.
+  // From a rough guess the iteration may end early; it is repeated from nearby guesses with prescribed values
+  // unchanged.
   constexpr int attempts = 12;
   for (int i = 0; i < attempts && !closed; ++i) {
     state = guess;

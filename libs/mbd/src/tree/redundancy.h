@@ -10,19 +10,19 @@
 namespace hersey::mbd {
 
 /// Rows of `G` that depend on those before them or on better conditioned ones, ascending. Rows are taken in three
-/// sweeps, those that stand out clearly first; a row whose independent part is below `tolerance`, or `tolerance` of its
+/// sweeps, clearly independent ones first; a row whose independent part is below `tolerance`, or `tolerance` of its
 /// largest entry, is dependent.
 ///
 /// Sparse elimination with the largest entry of each row as pivot: linear in the number of loops of a chain.
 /// @verified_by redundancy_test.cpp: DependentRows_LeaveAnIndependentSet
 [[nodiscard]] std::vector<int> dependent_rows(const Eigen::SparseMatrix<double, Eigen::RowMajor>& G, double tolerance);
 
-/// The closing joints' rows that say nothing new wherever the mechanism can go (theory manual, section "Redundant
-/// constraints"); empty where the loops cannot be assembled.
+/// Returns the closing joints' rows that are redundant in all configurations of the mechanism (theory manual, section
+/// "Redundant constraints"); empty where the loops cannot be assembled.
 /// @param guess   a state near which the loops close
-/// @param held    velocity components that assembly should leave alone
+/// @param fixed    velocity components that assembly should not change
 [[nodiscard]] std::vector<int> redundant_rows(const Tree& tree, TreeMotion& motion, const solver::State& guess,
-                                              const std::vector<Eigen::Index>& held);
+                                              const std::vector<Eigen::Index>& fixed);
 
 /// Takes these rows out of the closures (they stay known as Closure::dropped) and numbers the rest afresh.
 void drop_rows(Tree& tree, const std::vector<int>& rows);

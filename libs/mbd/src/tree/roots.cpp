@@ -12,13 +12,13 @@
 namespace hersey::mbd {
 namespace {
 
-/// What turns less than a tenth of what it would carry does not carry it.
+/// A body with less than a tenth of the moment of inertia of others does not carry them.
 constexpr double kFar = 10;
 
 /// Sine of the angle between axes that are parallel but for round-off.
 constexpr double kParallel = 1e-12;
 
-/// Of the mechanism's size: what round-off may put between two points.
+/// Distance of coincident points by round-off, relative to the mechanism's size.
 constexpr double kOffCentre = 1e-9;
 
 bool is_whole_motion(JointType type) { return type == JointType::free || type == JointType::planar; }
@@ -96,13 +96,13 @@ bool Roots::may_matter() const { return std::find(eligible_.begin(), eligible_.e
 void Roots::Weight::add(const Weight& other) {
   const double sum = mass + other.mass;
   const Vector3 at = sum > 0 ? Vector3((mass * centre + other.mass * other.centre) / sum) : other.centre;
-  turning = turning_about(at) + other.turning_about(at);
+  inertia = inertia_about(at) + other.inertia_about(at);
   mass = sum;
   centre = at;
 }
 
-double Roots::Weight::turning_about(const Vector3& point) const {
-  return turning + mass * (centre - point).squaredNorm();
+double Roots::Weight::inertia_about(const Vector3& point) const {
+  return inertia + mass * (centre - point).squaredNorm();
 }
 
 int Roots::fixed_root(int body) const {
@@ -147,7 +147,7 @@ std::vector<int> Roots::cluster(int first) const {
   return members;
 }
 
-/// Those of the cluster to which joints lead from `first` that keep the motions of joint `j`.
+/// Returns the bodies of the cluster that joints compatible with the motions of joint `j` connect to `first`.
 std::vector<int> Roots::candidates(std::optional<int> j, int first) const {
   std::vector<int> members{first};
   for (std::size_t i = 0; i < members.size(); ++i)
@@ -161,15 +161,16 @@ std::vector<int> Roots::candidates(std::optional<int> j, int first) const {
   return members;
 }
 
-/// How much harder `carried` turn about the body's centre than the body itself, with what is fixed to it.
+/// Returns the moment of inertia of `carried` about the body's centre over that of the body itself with all bodies
+/// fixed to it.
 double Roots::share_of(const std::vector<int>& carried, int body) const {
   const int whole = fixed_root(body);
-  double turning = 0;
+  double inertia = 0;
   for (const int b : carried)
-    if (fixed_root(b) != whole) turning += own_[b].turning_about(whole_[whole].centre);
-  if (turning == 0) return 0;
-  const double own = whole_[whole].turning;
-  return own > 0 ? turning / own : std::numeric_limits<double>::infinity();
+    if (fixed_root(b) != whole) inertia += own_[b].inertia_about(whole_[whole].centre);
+  if (inertia == 0) return 0;
+  const double own = whole_[whole].inertia;
+  return own > 0 ? inertia / own : std::numeric_limits<double>::infinity();
 }
 
 int Roots::carrier(std::optional<int> j, int first) const {
@@ -199,7 +200,7 @@ Vector3 Roots::centre(int body) const {
   return weight.mass > 0 ? weight.centre : poses_[body].r;
 }
 
-bool Roots::turns_off_centre(std::optional<int> j, int body) const {
+bool Roots::rotates_off_centre(std::optional<int> j, int body) const {
   if (!eligible_[body]) return false;
   Vector3 at = poses_[body].r;
   if (j) {

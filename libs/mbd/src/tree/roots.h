@@ -8,37 +8,38 @@
 
 namespace hersey::mbd {
 
-/// Which of the bodies that move together carries the others, by their inertias (theory manual, section "Light bodies
-/// carry nothing"). A joint that lets a body move as it likes, in space or in a plane, need not be in a path: the
-/// body beyond it may have a pose of its own, from which the joint's coordinates are read off.
+/// Chooses, by their inertias, which of the bodies that move together carries the others (theory manual, section "Light
+/// bodies carry nothing"). A joint that lets a body move as it likes, in space or in a plane, need not be in a path:
+/// the body beyond it may have a pose of its own, from which the joint's coordinates are read off.
 class Roots {
  public:
-  /// @param tree  as joints come in their order; where it starts tells how far bodies are from each other
+  /// @param tree  with joints in order of declaration; its initial configuration gives the distances of bodies
   Roots(const MechanismSpec& spec, const Tree& tree);
 
-  /// Whether any body of `spec` may be too light to carry others.
+  /// True if any body of `spec` may be too light to carry others.
   [[nodiscard]] bool may_matter() const;
 
-  /// Whether joint `j` may be left out of all paths.
+  /// True if joint `j` may be omitted from all paths.
   [[nodiscard]] bool may_leave(int j) const { return leavable_[static_cast<std::size_t>(j)]; }
 
   /// The body that carries all that comes with `first`, the first one beyond joint `j`; `first` unless that one is far
-  /// too light. No joint: nothing holds them.
+  /// too light. Without a joint the bodies are free.
   [[nodiscard]] int carrier(std::optional<int> j, int first) const;
 
-  /// Whether `body` turns far too lightly to carry what comes with `first` (mechanisms.28): coordinates counted from it
-  /// would be the outcome of two fast motions (mechanisms.27).
+  /// True if the moment of inertia of `body` is too small to carry the bodies that `first` brings along
+  /// (mechanisms.28): coordinates counted from it would be the outcome of two fast motions (mechanisms.27).
   [[nodiscard]] bool is_too_light(int body, int first) const;
 
-  /// Whether joint `other` (none: a body free in space) moves nothing out of the motions that joint `j` allows.
+  /// True if all motions of joint `other` (none: a body free in space) are motions that joint `j` allows.
   [[nodiscard]] bool keeps_motions(std::optional<int> other, int j) const;
 
-  /// Where the centre of mass of a body and of what is fixed to it is at the start, ground axes; of all that comes with
-  /// it where the body has no mass.
+  /// Returns the centre of mass at the start, ground axes, of a body and of the bodies fixed to it; that of all bodies
+  /// it brings along if it has no mass.
   [[nodiscard]] Vector3 centre(int body) const;
 
-  /// Whether joint `j` (none: nothing holds the body) lets `body` move freely in space about another point than that.
-  [[nodiscard]] bool turns_off_centre(std::optional<int> j, int body) const;
+  /// True if joint `j` (none: no joint connects the body) allows `body` to move freely in space, with coordinates about
+  /// another point than that centre.
+  [[nodiscard]] bool rotates_off_centre(std::optional<int> j, int body) const;
 
   /// Pose of a body at the start, and its velocity at ground's origin and in its axes.
   [[nodiscard]] const Pose& pose(int body) const { return poses_[static_cast<std::size_t>(body)]; }
@@ -49,10 +50,10 @@ class Roots {
  private:
   struct Weight {
     double mass = 0;
-    double turning = 0;                ///< half the trace of the inertia about the centre [kg m^2]
+    double inertia = 0;                ///< half the trace of the inertia about the centre [kg m^2]
     Vector3 centre = Vector3::Zero();  ///< at the start, ground axes [m]
     void add(const Weight& other);
-    [[nodiscard]] double turning_about(const Vector3& point) const;
+    [[nodiscard]] double inertia_about(const Vector3& point) const;
   };
 
   [[nodiscard]] int body_of(FrameId frame) const { return spec_.frames[frame.index].body.index; }
@@ -73,11 +74,11 @@ class Roots {
   std::vector<bool> rigid_;                ///< bodies of groups without elastic ones
   std::vector<bool> leavable_;             ///< joints
   std::vector<int> fixed_to_;              ///< links of fixed joints, see fixed_root
-  std::vector<Weight> own_;                ///< of each body
-  std::vector<Weight> whole_;              ///< of all bodies fixed to each other, at their fixed_root
+  std::vector<Weight> own_;                ///< inertia of each body
+  std::vector<Weight> whole_;              ///< inertia of all bodies fixed to each other, at their fixed_root
 };
 
-/// Which joints something reads, drives, springs or couples: their coordinates have to be in the tree.
+/// Returns the joints whose coordinates are read, driven, sprung or coupled and therefore have to be in the tree.
 [[nodiscard]] std::vector<bool> joints_in_use(const MechanismSpec& spec);
 
 }  // namespace hersey::mbd

@@ -26,12 +26,13 @@ Matrix6 shift_by(const Vector3& arm) {
 }
 
 /// Onto what does no work on any motion the joint allows.
-Matrix6 across_motions(const Tree& tree, const TreeMotion& motion, const JointPlace& place, const Vector3& p) {
-  const Index n = std::clamp(place.value_count, 0, 6);  // a compiler that does not know so warns of copies of any size
+Matrix6 across_motions(const Tree& tree, const TreeMotion& motion, const JointIndices& indices, const Vector3& p) {
+  const Index n =
+      std::clamp(indices.value_count, 0, 6);  // a compiler that does not know so warns of copies of any size
   if (n == 0) return Matrix6::Identity();
   Basis motions(6, n);
   for (Index i = 0; i < n; ++i) {
-    const ValuePlace& at = place.values[i];
+    const ValueIndex& at = indices.values[i];
     Vector6 J = motion.J(tree.links[at.link].first_v + at.component);
     J.tail<3>() += J.head<3>().cross(p);
     J.head<3>() *= tree.length;
@@ -139,7 +140,7 @@ void SharedReactions::lay_out_blocks() {
   lu_.analyse(normal_);
 }
 
-void SharedReactions::place(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion) {
+void SharedReactions::update_geometry(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion) {
   const auto shift_to = [&](int row, const Vector3& p) {
     if (row < 0) return Matrix6::Identity().eval();
     const Vector3& origin =
@@ -148,7 +149,7 @@ void SharedReactions::place(const MechanismSpec& spec, const Tree& tree, const T
   };
   for (Joint& joint : joints_) {
     const Vector3 p = motion.pose(tree.frames[spec.joints[joint.index].inboard.index]).r;
-    const JointPlace& where = tree.joints[joint.index];
+    const JointIndices& where = tree.joints[joint.index];
     const bool plain = where.value_count == 0 && where.closure >= 0;
     joint.P =
         plain ? of_closure(tree, tree.closures[where.closure], motion, p) : across_motions(tree, motion, where, p);
@@ -158,10 +159,10 @@ void SharedReactions::place(const MechanismSpec& spec, const Tree& tree, const T
 }
 
 void SharedReactions::add_block(const Joint& joint, int block, const Matrix6& value) {
-  const int place = joint.blocks[static_cast<std::size_t>(block)];
-  if (place < 0) return;
+  const int index = joint.blocks[static_cast<std::size_t>(block)];
+  if (index < 0) return;
   for (int j = 0; j < 6; ++j) {
-    double* const column = normal_.valuePtr() + starts_[static_cast<std::size_t>(place)][static_cast<std::size_t>(j)];
+    double* const column = normal_.valuePtr() + starts_[static_cast<std::size_t>(index)][static_cast<std::size_t>(j)];
     Eigen::Map<Vector6>(column) += value.col(j);
   }
 }
@@ -201,7 +202,7 @@ Vector6 SharedReactions::spread(const Joint& joint, const VectorXd& y) const {
 void SharedReactions::share(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion,
                             std::vector<Vector6>& wrenches) {
   constexpr int refinements = 4;  // of the shift
-  place(spec, tree, motion);
+  update_geometry(spec, tree, motion);
   if (!factorise()) return;
   // x of smallest norm with A x = A x0: x = A^T y, (A A^T) y = A x0.
   std::vector<Vector6> given(joints_.size()), least(joints_.size(), Vector6::Zero());
@@ -220,7 +221,7 @@ void SharedReactions::share(const MechanismSpec& spec, const Tree& tree, const T
     for (std::size_t i = 0; i < joints_.size(); ++i) least[i] += spread(joints_[i], y);
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    // What the joint cannot transmit (round-off of the solution) stays with it.
+    // The part that the joint cannot transmit (round-off of the solution) is not changed.
     Vector6 change = least[i] - given[i];
     change.head<3>() *= tree.length;
     wrenches[joints_[i].index] += about(-origin(joints_[i]), change);

@@ -25,11 +25,11 @@ class SharedReactions {
   ///                  possible set on entry, the one of smallest norm on return
   void share(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion, std::vector<Vector6>& wrenches);
 
-  /// How many joints take part.
+  /// Returns the number of joints among which reactions are shared.
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
 
  private:
-  /// A joint of the loops, and the places of its bodies among the equations; -1: ground.
+  /// Joint of the loops, and the indices of its bodies among the equations; -1: ground.
   struct Joint {
     int index = 0, inboard = -1, outboard = -1;
     std::array<int, 4> blocks{-1, -1, -1, -1};  ///< in `starts_`: (in, in), (out, out), (in, out), (out, in)
@@ -38,12 +38,12 @@ class SharedReactions {
   };
 
   void lay_out_blocks();
-  void place(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion);
+  void update_geometry(const MechanismSpec& spec, const Tree& tree, const TreeMotion& motion);
   void add_block(const Joint& joint, int block, const Matrix6& value);
   [[nodiscard]] bool factorise();
-  /// What the joints' wrenches W (scaled, about their inboard frames) do to the bodies.
+  /// Returns the resultants on the bodies of the joints' wrenches W (scaled, about their inboard frames).
   [[nodiscard]] Eigen::VectorXd sum(const std::vector<Vector6>& W) const;
-  /// The wrenches A^T y.
+  /// Returns the wrenches A^T y.
   [[nodiscard]] Vector6 spread(const Joint& joint, const Eigen::VectorXd& y) const;
 
   std::vector<Joint> joints_;

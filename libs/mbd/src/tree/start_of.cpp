@@ -25,7 +25,7 @@ void set_free_body(const Link& ball, const Pose& X_WB, const Vector6& V, solver:
 }
 
 /// Bodies beyond a cut start where the coordinates of the joints put them: the cuts are closed from the outset.
-void place_cut_bodies(const Tree& tree, solver::State& state) {
+void set_cut_bodies(const Tree& tree, solver::State& state) {
   TreeMotion at(tree, Vector3::Zero());
   for (const Cut& cut : tree.cuts) {
     const Pair& pair = tree.closures[tree.joints[cut.joint].closure].pair;
@@ -40,8 +40,8 @@ void place_cut_bodies(const Tree& tree, solver::State& state) {
   }
 }
 
-/// Nodes of loose beams start undeformed beside the first, and move as if they were fixed to it.
-void place_loosened_nodes(const MechanismSpec& spec, const Tree& tree, solver::State& state) {
+/// Nodes of loose beams start undeformed relative to the first, and move as if they were fixed to it.
+void set_loosened_nodes(const MechanismSpec& spec, const Tree& tree, solver::State& state) {
   TreeMotion at(tree, Vector3::Zero());
   for (const Loosened& node : tree.loosened) {
     const JointSpec& joint = spec.joints[node.joint];
@@ -53,13 +53,13 @@ void place_loosened_nodes(const MechanismSpec& spec, const Tree& tree, solver::S
 }
 
 /// Each coordinate as its joint is given it, zero where it is not.
-void place_joints(const MechanismSpec& spec, const Tree& tree, solver::State& state) {
+void set_joints(const MechanismSpec& spec, const Tree& tree, solver::State& state) {
   for (const Link& link : tree.links) {
     const JointSpec* joint = link.joint >= 0 ? &spec.joints[link.joint] : nullptr;
-    const bool placed = joint && !joint->initial.empty(), moving = joint && !joint->initial_rate.empty();
+    const bool has_initial = joint && !joint->initial.empty(), moving = joint && !joint->initial_rate.empty();
     if (link.motion == Motion::ball) {
       Eigen::Quaterniond R_IO = Eigen::Quaterniond::Identity();
-      if (placed) R_IO = rotation_exp(Vector3::Map(joint->initial.data() + link.value));
+      if (has_initial) R_IO = rotation_exp(Vector3::Map(joint->initial.data() + link.value));
       const Eigen::Quaterniond R = link.reversed ? R_IO.conjugate() : R_IO;
       state.q.segment<4>(link.first_q) << R.w(), R.x(), R.y(), R.z();
       if (!moving) continue;
@@ -67,7 +67,7 @@ void place_joints(const MechanismSpec& spec, const Tree& tree, solver::State& st
       const Vector3 omega = Vector3::Map(joint->initial_rate.data() + link.value);
       state.v.segment<3>(link.first_v) = link.reversed ? Vector3(-(R_IO * omega)) : omega;
     } else if (link.columns == 1) {
-      if (placed) state.q[link.first_q] = joint->initial[link.value];
+      if (has_initial) state.q[link.first_q] = joint->initial[link.value];
       if (moving) state.v[link.first_v] = joint->initial_rate[link.value];
     }
   }
@@ -80,11 +80,11 @@ solver::State start_of(const MechanismSpec& spec, const Tree& tree) {
   state.q.setZero(tree.nq);
   state.v.setZero(tree.nv);
   state.vdot.setZero(tree.nv);
-  place_joints(spec, tree, state);
+  set_joints(spec, tree, state);
   for (const OwnMotion& own : tree.own_motions)
     state.v.segment(tree.links[own.first_link].first_v, own.velocity.size()) = own.velocity;
-  if (!tree.cuts.empty()) place_cut_bodies(tree, state);
-  if (!tree.loosened.empty()) place_loosened_nodes(spec, tree, state);
+  if (!tree.cuts.empty()) set_cut_bodies(tree, state);
+  if (!tree.loosened.empty()) set_loosened_nodes(spec, tree, state);
   return state;
 }
 

@@ -18,14 +18,14 @@ struct Link {
   int parent = -1;
   Motion motion = Motion::none;
   Pose X_PF;
-  Vector3 axis = Vector3::UnitZ();  ///< of a revolute, prismatic or screw motion, in F
-  double travel = 0;                ///< of a screw [m/rad]
-  int first_q = 0;                  ///< place of its coordinate in q; a ball's quaternion (w, x, y, z)
+  Vector3 axis = Vector3::UnitZ();  ///< axis of a revolute, prismatic or screw motion, in F
+  double travel = 0;                ///< travel of a screw [m/rad]
+  int first_q = 0;                  ///< index of its coordinate in q; a ball's quaternion (w, x, y, z)
   int first_v = 0;                  ///< and in v
   int columns = 0;                  ///< 0 (ground), 1, or 3 (ball)
   int joint = -1;                   ///< the user's joint it is part of; -1: the automatic free joint of `body`
   int body = -1;                    ///< the body whose automatic free joint this is
-  int value = 0;                    ///< first place in the joint's list of values
+  int value = 0;                    ///< first index in the joint's list of values
   bool reversed = false;            ///< the tree runs through the joint from outboard to inboard
 
   // The rigid bodies fixed on this link together: mass, centre of mass and inertia about it, in the link's frame.
@@ -71,7 +71,7 @@ struct Closure {
 /// the cut (theory manual eq. (mechanisms.17)).
 struct Cut {
   int joint = 0;
-  int body = 0;           ///< the body beyond the joint, seen from where the path began
+  int body = 0;           ///< the body beyond the joint along the path
   bool reversed = false;  ///< it is the inboard one
 };
 
@@ -79,34 +79,35 @@ struct Cut {
 /// starts follows from it.
 struct Loosened {
   int joint = 0;
-  int body = 0;           ///< the node beyond the joint, seen from where the path began
+  int body = 0;           ///< the node beyond the joint along the path
   bool reversed = false;  ///< it is the inboard one
 };
 
-/// The motion of a body that hangs on no joint, for a light one would carry it (theory manual, section "Light bodies
-/// carry nothing"): a chain of its own from what carries it, all values zero at the start, in space or in a plane.
+/// Motion of a body that no joint carries, because the carrying body would be too light (theory manual, section "Light
+/// bodies carry nothing"): a chain of its own from what carries it, all values zero at the start, in space or in a
+/// plane.
 struct OwnMotion {
   int body = 0;
-  int joint = -1;  ///< the joint whose place it takes, which is in no path; -1: nothing holds the body
+  int joint = -1;  ///< the joint that it replaces, which is in no path; -1: no joint connects the body
   int first_link = 0;
   Eigen::VectorXd velocity;  ///< at the start
-  /// Of a planar joint: its rotation is turned + sum of weight times values of scalar links, whatever turns they count.
-  std::vector<std::pair<int, double>> turns;
-  double turned = 0;
+  /// Rotation of a planar joint: offset + sum of weight times values of scalar links, revolutions included.
+  std::vector<std::pair<int, double>> weights;
+  double offset = 0;
 };
 
-/// Where a value of a joint went: a component of a link's motion.
-struct ValuePlace {
+/// Link and component of a joint's value.
+struct ValueIndex {
   int link = 0, component = 0;
 };
 
-/// Where a user's joint went. In one piece, for whoever looks at thousands of joints in a row.
-struct JointPlace {
-  std::array<ValuePlace, 6> values;
+/// Indices of a joint of the specification in the tree, without heap memory for fast access to thousands of joints.
+struct JointIndices {
+  std::array<ValueIndex, 6> values;
   int value_count = 0;     ///< none of a plain closing joint
   int closure = -1;        ///< index of its constraints if it closes a loop
-  bool reversed = false;   ///< seen from ground along the joints it leads to its inboard body
-  int outboard_body = -1;  ///< for joints that close nothing: the body beyond, seen so; ids' index
+  bool reversed = false;   ///< the path from ground leads through it to its inboard body
+  int outboard_body = -1;  ///< for joints that close no loop: index of the body beyond along this path
 };
 
 /// Spanning tree of a mechanism: constant.
@@ -116,7 +117,7 @@ struct Tree {
   std::vector<Attachment> bodies;  ///< body frames
   std::vector<Attachment> frames;
   std::vector<Closure> closures;
-  std::vector<JointPlace> joints;
+  std::vector<JointIndices> joints;
   std::vector<int> body_order;         ///< bodies from ground outwards as joints lead, ground excluded
   std::vector<int> body_parent;        ///< the body each hangs on by its joint, -1 for ground
   std::vector<std::vector<int>> path;  ///< per link: columns that move it, from ground outwards
@@ -124,13 +125,13 @@ struct Tree {
   std::vector<Loosened> loosened;      ///< from the node where each beam is entered outwards
   std::vector<OwnMotion> own_motions;  ///< from ground outwards
   std::vector<int> enter, leave;       ///< per link: numbers of the links it carries, itself the first
-  std::vector<Pair> forces;            ///< of the two-body forces
+  std::vector<Pair> forces;            ///< frames of the two-body forces
   int nq = 0;
   int nv = 0;
   int nclosure = 0;   ///< constraint rows of all closures
   double length = 1;  ///< size of the mechanism [m]: scale of positional constraints
 
-  /// Whether column k moves link l.
+  /// True if column k moves link l.
   [[nodiscard]] bool moves(int k, int l) const {
     const int link = columns[k].link;
     return enter[link] <= enter[l] && enter[l] < leave[link];

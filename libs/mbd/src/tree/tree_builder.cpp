@@ -46,7 +46,7 @@ class TreeBuilder {
     tree_.body_parent.assign(n, -1);
     carried_by_.resize(n);
     tree_.joints.resize(spec.joints.size());
-    placed_.assign(n, false);
+    reached_.assign(n, false);
     used_.assign(spec.joints.size(), false);
     deforms_.assign(spec.joints.size(), false);
     for (const JointId j : spec.deforming) deforms_[j.index] = true;
@@ -60,18 +60,18 @@ class TreeBuilder {
   }
 
   Tree build() {
-    placed_[0] = true;
+    reached_[0] = true;
     grow_from(0);
     for (std::size_t b = 1; b < spec_.bodies.size(); ++b) {
-      if (placed_[b]) continue;
+      if (reached_[b]) continue;
       const int body = static_cast<int>(b), root = roots_ ? roots_->carrier(std::nullopt, body) : body;
-      if (root != body || (roots_ && roots_->turns_off_centre(std::nullopt, body)))
+      if (root != body || (roots_ && roots_->rotates_off_centre(std::nullopt, body)))
         add_own_motion(std::nullopt, 0, root);
       else
         add_free_body(body);
       grow_from(root);
     }
-    place_frames();
+    set_frames();
     // First of all constraints, each has coordinates of its own: none of them is ever found redundant.
     for (const Cut& cut : tree_.cuts) close(cut.joint);
     for (std::size_t j = 0; j < spec_.joints.size(); ++j)
@@ -104,18 +104,18 @@ class TreeBuilder {
       if (!spec_.joints[j].initial.empty()) cross(j, body, queue);
   }
 
-  /// Takes joint j into the tree if it leads from `body` to a body not yet placed.
+  /// Takes joint j into the tree if it leads from `body` to a body not yet reached.
   void cross(int j, int body, std::deque<int>& queue) {
     const JointSpec& joint = spec_.joints[j];
     const int inboard = body_of(joint.inboard), outboard = body_of(joint.outboard);
     if (used_[j] || (inboard != body && outboard != body)) return;
     const bool reversed = outboard == body;
     const int next = reversed ? inboard : outboard;
-    if (placed_[next]) return;
+    if (reached_[next]) return;
     used_[j] = true;
     if (roots_ && roots_->may_leave(j)) {
       const int root = roots_->carrier(j, next), base = base_of(j, body, next);
-      if (root != next || base != body || roots_->turns_off_centre(j, next)) {
+      if (root != next || base != body || roots_->rotates_off_centre(j, next)) {
         add_own_motion(j, base, root);
         absorb(root, queue);
         return;
@@ -125,20 +125,20 @@ class TreeBuilder {
       tree_.loosened.push_back({j, next, reversed});
       tree_.bodies[next] =
           add_chain(j, next, elements_of(JointType::free, Vector3::UnitZ()), false, Attachment{}, false);
-      place(next, 0);
+      reach(next, 0);
     } else if (is_cut(j, body)) {
       tree_.cuts.push_back({j, next, reversed});
       add_free_body(next);
     } else {
       add_joint(j, reversed);
-      place(next, body);
+      reach(next, body);
       carried_by_[next] = {body, j};
     }
     absorb(next, queue);
   }
 
-  /// The body that carries what joint j brings along with `next`: `body`, or inboard of it the first one that does not
-  /// turn far more lightly, as far as the joints between keep the motions of j.
+  /// The body that carries what joint j brings along with `next`: `body`, or inboard of it the first one whose moment
+  /// of inertia is not too small, as far as the joints between keep the motions of j.
   [[nodiscard]] int base_of(int j, int body, int next) const {
     while (body != 0 && roots_->is_too_light(body, next) && roots_->keeps_motions(carried_by_[body].joint, j))
       body = carried_by_[body].parent;
@@ -167,18 +167,18 @@ class TreeBuilder {
       own.velocity = (Vector6() << v, omega).finished();
     tree_.own_motions.push_back(std::move(own));
     tree_.bodies[root] = {end.link, X_WM.inverse() * roots_->pose(root)};
-    place(root, base);
+    reach(root, base);
     carried_by_[root] = {base, j};
   }
 
-  /// Whether the path from ground would grow too long beyond `body`. Deformations stay with their bodies.
+  /// True if the path from ground would become too long beyond `body`. Deformations are not cut from their bodies.
   [[nodiscard]] bool is_cut(int j, int body) const {
     const int more = degrees_of_freedom(spec_.joints[j].type);
     return !deforms_[j] && depth_[tree_.bodies[body].link] + more > spec_.longest_path;
   }
 
-  void place(int body, int parent) {
-    placed_[body] = true;
+  void reach(int body, int parent) {
+    reached_[body] = true;
     tree_.body_parent[body] = parent;
     tree_.body_order.push_back(body);
     add_inertia(body);
@@ -200,7 +200,7 @@ class TreeBuilder {
   Attachment add_chain(int joint, int body, std::vector<Element> elements, bool reversed, Attachment base,
                        bool has_values = true) {
     if (reversed) std::reverse(elements.begin(), elements.end());
-    JointPlace* const where = joint >= 0 && has_values ? &tree_.joints[joint] : nullptr;
+    JointIndices* const where = joint >= 0 && has_values ? &tree_.joints[joint] : nullptr;
     if (where) where->value_count = degrees_of_freedom(spec_.joints[joint].type);
     for (const Element& e : elements) {
       Link link;
@@ -225,7 +225,7 @@ class TreeBuilder {
 
   void add_free_body(int body) {
     tree_.bodies[body] = add_chain(-1, body, elements_of(JointType::free, Vector3::UnitZ()), false, Attachment{});
-    place(body, 0);
+    reach(body, 0);
   }
 
   /// Adds the body's inertia to its link's (parallel axes).
@@ -247,7 +247,7 @@ class TreeBuilder {
     link.com = com;
   }
 
-  void place_frames() {
+  void set_frames() {
     for (const FrameSpec& f : spec_.frames) {
       const Attachment& body = tree_.bodies[f.body.index];
       tree_.frames.push_back({body.link, body.X_LF * f.X_BF});
@@ -257,9 +257,9 @@ class TreeBuilder {
   /// A deformation has its initial values from the body, not from the user.
   [[nodiscard]] bool starts_as_given(int j) const { return spec_.joints[j].has_given() && !deforms_[j]; }
 
-  /// Joint j closes a loop, or a cut. If something reads its coordinates, they start as given, or count turns as those
-  /// of a cut do, it becomes a chain from its inboard frame to a massless link welded to its outboard frame, so that
-  /// the coordinates exist.
+  /// Joint j closes a loop, or a cut. If something reads its coordinates, they have initial values, or count
+  /// revolutions as those of a cut do, it becomes a chain from its inboard frame to a massless link welded to its
+  /// outboard frame, so that the coordinates exist.
   void close(int j) {
     const JointSpec& joint = spec_.joints[j];
     Closure closure;
@@ -304,7 +304,7 @@ class TreeBuilder {
     double length = 0;
     for (const Link& link : tree_.links) length = std::max(length, link.X_PF.r.norm());
     for (const Attachment& f : tree_.frames) length = std::max(length, f.X_LF.r.norm());
-    // Frames of a flexible body may stand where its axes do, and say nothing of its size.
+    // Frames of a flexible body may coincide with its axes and then do not define its size.
     for (const MechanismSpec::Elastic& elastic : spec_.elastics)
       length = std::max(length, elastic.body->centre().norm());
     if (length > 0) tree_.length = length;
@@ -335,7 +335,7 @@ class TreeBuilder {
       if (!tree_.moves(k, pair.a.link)) pair.columns.push_back({k, +1.0});
   }
 
-  /// What a body's path leads through last.
+  /// Last element of a body's path.
   struct Carried {
     int parent = 0;
     std::optional<int> joint;  ///< none: it moves freely
@@ -344,18 +344,18 @@ class TreeBuilder {
   const MechanismSpec& spec_;
   const Roots* roots_;
   Tree tree_;
-  std::vector<Carried> carried_by_;        ///< of each body
-  std::vector<bool> placed_;               ///< bodies
+  std::vector<Carried> carried_by_;        ///< carrier of each body
+  std::vector<bool> reached_;              ///< bodies
   std::vector<bool> used_;                 ///< joints in the tree
   std::vector<bool> read_;                 ///< joints whose coordinates something needs
   std::vector<bool> deforms_;              ///< joints inside elastic bodies
   std::vector<bool> loose_;                ///< joints of loose beams
   std::vector<std::vector<int>> at_body_;  ///< joints of each body, in order of declaration
-  std::vector<int> depth_{0};              ///< of each link: columns that move it
+  std::vector<int> depth_{0};              ///< number of columns that move each link
 };
 
-/// How the rotations of planar joints that are in no path follow from those of links: whatever full turns they count.
-void find_turns(const MechanismSpec& spec, Tree& tree) {
+/// Finds the rotations of planar joints that are in no path from those of links, full revolutions included.
+void find_rotations(const MechanismSpec& spec, Tree& tree) {
   const solver::State start = start_of(spec, tree);
   TreeMotion at(tree, Vector3::Zero());
   at.update_positions(start);
@@ -364,14 +364,14 @@ void find_turns(const MechanismSpec& spec, Tree& tree) {
     const JointSpec& joint = spec.joints[own.joint];
     const Attachment &inboard = tree.frames[joint.inboard.index], &outboard = tree.frames[joint.outboard.index];
     const Vector3 normal = at.pose(inboard).R * joint_axes(joint.axis).col(2);
-    own.turned = joint.initial.empty() ? 0 : joint.initial[2];
+    own.offset = joint.initial.empty() ? 0 : joint.initial[2];
     const auto add = [&](int to, int other, double sign) {
       for (const int k : tree.path[to]) {
         const int link = tree.columns[k].link;
         if (tree.moves(k, other) || tree.links[link].motion != Motion::revolute) continue;
         const double weight = at.J(k).head<3>().dot(normal) > 0 ? sign : -sign;
-        own.turns.emplace_back(link, weight);
-        own.turned -= weight * start.q[tree.links[link].first_q];
+        own.weights.emplace_back(link, weight);
+        own.offset -= weight * start.q[tree.links[link].first_q];
       }
     };
     add(outboard.link, inboard.link, 1);
@@ -379,7 +379,7 @@ void find_turns(const MechanismSpec& spec, Tree& tree) {
   }
 }
 
-/// Reactions are reckoned along the joints, whatever carries what.
+/// Reactions are summed along the joints, independent of the tree.
 void follow_joints_of(const Tree& as_declared, Tree& tree) {
   tree.body_order = as_declared.body_order;
   tree.body_parent = as_declared.body_parent;
@@ -399,7 +399,7 @@ Tree build_tree(const MechanismSpec& spec) {
   Tree tree = TreeBuilder(spec, &roots).build();
   if (tree.own_motions.empty()) return as_declared;
   follow_joints_of(as_declared, tree);
-  find_turns(spec, tree);
+  find_rotations(spec, tree);
   return tree;
 }
 

@@ -22,7 +22,7 @@ TreeMotion::TreeMotion(const Tree& tree, const Vector3& gravity)
   A_[0] << Vector3::Zero(), -gravity;
 }
 
-void TreeMotion::place(int l, const solver::State& state) {
+void TreeMotion::update_pose(int l, const solver::State& state) {
   const Link& link = tree_.links[l];
   const Pose X_WF = X_[link.parent] * link.X_PF;
   Pose& X_WM = X_[l];
@@ -78,14 +78,14 @@ void TreeMotion::update(const solver::State& state) {
 void TreeMotion::update(const solver::State& state, const std::vector<int>& links) {
   is_whole_ = false;
   for (const int l : links) {
-    place(l, state);
+    update_pose(l, state);
     move(l, state);
   }
 }
 
 void TreeMotion::update_positions(const solver::State& state) {
   is_whole_ = false;
-  for (int l = 1; l < static_cast<int>(tree_.links.size()); ++l) place(l, state);
+  for (int l = 1; l < static_cast<int>(tree_.links.size()); ++l) update_pose(l, state);
 }
 
 void TreeMotion::move(int l, const solver::State& state) {
@@ -103,7 +103,7 @@ void TreeMotion::update_accelerations(const solver::State& state, bool zero_vdot
   is_whole_ = false;
   for (std::size_t l = 1; l < tree_.links.size(); ++l) {
     const Link& link = tree_.links[l];
-    // Each column turns with its link: Jdot = V x J, and V x (V - V_parent) = -V x V_parent.
+    // Each column rotates with its link: Jdot = V x J, and V x (V - V_parent) = -V x V_parent.
     A_[l] = A_[link.parent] + cross_motion(V_[l], V_[l] - V_[link.parent]);
     if (zero_vdot) continue;
     for (int k = link.first_v; k < link.first_v + link.columns; ++k) A_[l] += J_[k] * state.vdot[k];

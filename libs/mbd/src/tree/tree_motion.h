@@ -36,11 +36,11 @@ class TreeMotion {
 
   [[nodiscard]] Pose pose(const Attachment& f) const { return X_[f.link] * f.X_LF; }
 
-  /// What a force between two frames sees; `t` and `dt` are left to the caller.
+  /// Returns the relative motion of two frames; the caller sets `t` and `dt`.
   [[nodiscard]] RelativeMotion relative(const Pair& pair) const;
 
  private:
-  void place(int l, const solver::State& state);
+  void update_pose(int l, const solver::State& state);
   void move(int l, const solver::State& state);
   [[nodiscard]] bool is_at(const solver::State& state) const;
 

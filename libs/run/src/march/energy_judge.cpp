@@ -129,7 +129,7 @@ bool EnergyJudge::allows(const solver::State& end) {
   double doubt = 0;
   const auto put_in = [&](const mbd::StepWork& one) {
     gain -= one.value;
-    doubt += one.doubt;
+    doubt += one.uncertainty;
     moved += std::abs(one.value);
   };
   for (const auto* list : {&work.drives, &work.loads, &work.functions, &work.pressures})
@@ -168,7 +168,7 @@ void EnergyJudge::accept() {
 bool EnergyJudge::has_lost_much() const { return lost_ > kMostOfRun * books_.available(); }
 
 std::string EnergyJudge::reason_of_loss() const {
-  const mbd::EnergyPlaces places = machine_.mechanism->energy_places(to_, from_);
+  const mbd::LargestEnergyChanges places = machine_.mechanism->largest_energy_changes(to_, from_);
   std::string text = fmt::format("{:.3g} J of the {:.3g} J at the start and put in since have gone nowhere", lost_,
                                  books_.available());
   if (!places.body.empty()) text += fmt::format(", of late in {}", places.body);
@@ -177,7 +177,7 @@ std::string EnergyJudge::reason_of_loss() const {
 }
 
 std::string EnergyJudge::reason() const {
-  const mbd::EnergyPlaces places = machine_.mechanism->energy_places(from_, to_);
+  const mbd::LargestEnergyChanges places = machine_.mechanism->largest_energy_changes(from_, to_);
   const double available = books_.available();
   std::string text = fmt::format("{:.3g} J come from nowhere", gain_);
   if (balance_ > 0) text += fmt::format(", beside {:.3g} J in the steps before", balance_);

@@ -107,12 +107,12 @@ class Run {
 
   bool come_to_rest() {
     solver::EquilibriumOptions options;
-    options.turning = model_.simulation.analysis == model::Analysis::modes &&
-                      model_.simulation.modes_about == model::ModesAbout::turning;
+    options.steady_motion = model_.simulation.analysis == model::Analysis::modes &&
+                            model_.simulation.modes_about == model::ModesAbout::turning;
     const solver::EquilibriumSummary rest = solver::find_equilibrium(machine_.mechanism(), machine_.state(), options);
     newton_iterations_ += rest.iterations;
     message_ = rest.message;
-    if (!rest.solved()) fail(options.turning ? rest.message : "static: " + rest.message);
+    if (!rest.solved()) fail(options.steady_motion ? rest.message : "static: " + rest.message);
     return rest.solved();
   }
 

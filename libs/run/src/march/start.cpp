@@ -130,7 +130,7 @@ void deform(const model::Model& model, model::Machine& machine, solver::Initiali
   const model::Simulation& plan = model.simulation;
   if (plan.analysis != model::Analysis::dynamics || plan.initial_deformation == InitialDeformation::none) return;
   if (plan.initial_deformation == InitialDeformation::internal) {
-    options.held.insert(options.held.end(), options.stiff.begin(), options.stiff.end());
+    options.fixed.insert(options.fixed.end(), options.stiff.begin(), options.stiff.end());
     options.stiff = machine.mechanism->internal_coordinates();
   }
   if (options.stiff.empty()) return;
@@ -149,8 +149,8 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   solver::State state = machine.mechanism->initial_state();
   state.t = model.simulation.start;
   solver::InitialiseOptions options;
-  options.held = machine.mechanism->given_coordinates();
-  options.held_rates = machine.mechanism->given_rates();
+  options.fixed = machine.mechanism->given_coordinates();
+  options.fixed_rates = machine.mechanism->given_rates();
   options.stiff = machine.mechanism->elastic_coordinates();
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
   if (!summary.solved()) throw InputError(faults_of(model, summary));

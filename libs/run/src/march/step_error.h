@@ -15,7 +15,7 @@ class StepError {
  public:
   StepError(const model::Model& model, model::Machine& machine);
 
-  /// @param error  increment of position, shape (nv): solver::StepJudge.
+  /// @param error  increment of position, shape (nv): solver::StepCheck.
   /// @returns all errors with their signs: of the coordinates, then of each journal along x and y of its shell.
   [[nodiscard]] const Eigen::VectorXd& measure(const solver::State& end, const Eigen::VectorXd& error);
 

@@ -55,7 +55,7 @@ class AxisCheck {
     const Vector3 axis = in_ground(force.a, Vector3::UnitZ());
     const double most = 2 * bearing::clearance(bearing.film) / bearing.film.L;  // the tilt by which the surfaces touch
     for (const mbd::JointSpec& joint : spec_.joints) {
-      if (!mbd::turns_about_one_axis(joint.type) || !joins(joint, shell, journal)) continue;
+      if (!mbd::rotates_about_one_axis(joint.type) || !joins(joint, shell, journal)) continue;
       const double angle = std::acos(std::min(1.0, std::abs(in_ground(joint.inboard, joint.axis).dot(axis))));
       if (angle > most) return warnings.push_back(across(bearing, joint.name, angle));
     }

@@ -14,15 +14,14 @@
 
 namespace hersey {
 
-/// What was stored does not fit what is to be restored: another program, another model.
+/// Stored data do not fit the objects to be restored, because they come from another program or another model.
 class ArchiveError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What objects keep from one step to the next, by name: numbers, exactly as they are, and texts.
-///
-/// Saving and restoring are one and the same function of each object, so that they cannot differ:
+/// Named store of the history that objects keep from one step to the next: numbers, bit for bit, and texts.
+/// Each object has one function that both saves and restores, so that the two cannot differ:
 ///
 /// @code
 ///   void Film::persist(Archive& archive) {
@@ -30,19 +29,18 @@ class ArchiveError : public std::runtime_error {
 ///     archive.io("iterations", iterations_);
 ///   }
 /// @endcode
-///
-/// Names are paths: a Group puts its name and a slash before those inside it.
+/// Names are paths: a Group prefixes the names inside it with its own name and a slash.
 /// @verified_by archive_test.cpp
 class Archive {
  public:
-  /// One array: its dimensions and its numbers, of matrices column by column. Integers beyond 2^53 do not fit.
+  /// An array: its dimensions and its numbers, stored column by column. Integers beyond 2^53 cannot be represented.
   struct Numbers {
     std::vector<std::uint64_t> shape;
     std::vector<double> values;
     friend bool operator==(const Numbers&, const Numbers&) = default;
   };
 
-  /// Everything stored.
+  /// All stored numbers and texts.
   struct Content {
     std::map<std::string, Numbers> numbers;
     std::map<std::string, std::string> texts;
@@ -51,15 +49,15 @@ class Archive {
   Archive() = default;                                                                  ///< saves
   explicit Archive(Content content) : restores_(true), content_(std::move(content)) {}  ///< restores
 
-  /// Whether values are set rather than stored.
+  /// True if io() sets values to the stored ones, false if it stores them.
   [[nodiscard]] bool restores() const { return restores_; }
-  /// What has been stored, or is to be restored.
+  /// Returns the content that has been stored, or that is being restored.
   [[nodiscard]] const Content& content() const { return content_; }
 
-  /// Prefixes all names until it ends.
+  /// Prefixes all names as long as the object exists.
   class Group {
    public:
-    /// Puts `name` before the names that follow; a '/' in it becomes '|'.
+    /// Prefixes the names that follow with `name`; a '/' in it is replaced by '|'.
     Group(Archive& archive, std::string_view name);
     Group(const Group&) = delete;
     Group& operator=(const Group&) = delete;
@@ -71,12 +69,12 @@ class Archive {
   };
 
   /// Stores `value` under `name`, or sets it to what is stored there.
-  /// @throws ArchiveError if nothing is stored there, or something of another shape.
+  /// @throws ArchiveError if nothing is stored there, or an array of another shape.
   void io(std::string_view name, double& value) { io_numbers(name, {}, &value, 1); }
   void io(std::string_view name, std::string& text);
   void io(std::string_view name, std::vector<double>& values);
 
-  /// Integers and enumerations, stored as a number; exact up to 2^53.
+  /// Stores or restores an integer or enumeration as a number; exact up to 2^53.
   template <class Integer>
   requires(std::integral<Integer> || std::is_enum_v<Integer>) void io(std::string_view name, Integer& value) {
     auto number = static_cast<double>(value);
@@ -84,7 +82,7 @@ class Archive {
     if (restores_) value = static_cast<Integer>(number);
   }
 
-  /// A list of them.
+  /// Stores or restores a list of integers.
   template <std::integral Integer>
   void io(std::string_view name, std::vector<Integer>& values) {
     std::vector<double> numbers(values.begin(), values.end());
@@ -94,7 +92,7 @@ class Archive {
     for (const double number : numbers) values.push_back(static_cast<Integer>(number));
   }
 
-  /// Matrices and vectors; sizes that are not fixed are stored and restored too.
+  /// Stores or restores a matrix or vector, including sizes that are not fixed at compile time.
   template <class Derived>
   void io(std::string_view name, Eigen::PlainObjectBase<Derived>& matrix) {
     if (restores_) {
@@ -108,7 +106,7 @@ class Archive {
                matrix.data(), static_cast<std::size_t>(matrix.size()));
   }
 
-  /// A value that may be missing, which is stored too.
+  /// Stores or restores an optional value and whether it is present.
   template <class Value>
   void io(std::string_view name, std::optional<Value>& value) {
     bool is_there = value.has_value();
@@ -119,7 +117,7 @@ class Archive {
     io("value", *value);
   }
 
-  /// A list, whose length is stored too; `element(archive, item)` stores or restores one item.
+  /// Stores or restores a list and its length; `element(archive, item)` stores or restores one item.
   template <class Value, class Function>
   void each(std::string_view name, std::vector<Value>& list, Function element) {
     std::size_t size = list.size();
@@ -132,7 +130,7 @@ class Archive {
     }
   }
 
-  /// While restoring: names that nobody has asked for yet.
+  /// Returns the names that have not been read yet while restoring.
   [[nodiscard]] std::vector<std::string> unread() const;
 
  private:

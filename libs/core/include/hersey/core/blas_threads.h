@@ -2,8 +2,8 @@
 
 namespace hersey {
 
-/// Keeps BLAS and OpenMP to one thread each: their sums depend on how many there are, and results of a run must not
-/// depend on the machine's processors. For programs to call before they compute.
+/// Limits BLAS and OpenMP to one thread each. The round-off of their sums depends on the number of threads, and results
+/// of a run must not depend on the machine's processors. Programs call it before they compute.
 void use_one_blas_thread();
 
 }  // namespace hersey

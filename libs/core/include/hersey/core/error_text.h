@@ -5,12 +5,12 @@
 
 namespace hersey {
 
-/// Whether an exception tells of a bug of the program, whatever the model is: a broken contract, or one of the standard
-/// library's own complaints. What is known to go wrong is told by runtime errors, and memory by std::bad_alloc.
+/// True if an exception indicates a bug of the program, independent of the model: a violated contract or an exception
+/// of the standard library. Expected failures are reported by runtime errors, exhausted memory by std::bad_alloc.
 [[nodiscard]] bool is_bug(const std::exception& error);
 
-/// What to tell a user of an exception. Of a bug no expressions of the source: one line that asks for a report, and a
-/// second one with the place, for those who read the report.
+/// Returns the message for the user. For a bug it contains no expressions of the source: its first line asks for a
+/// report, its second line gives the location in the source for the readers of the report.
 [[nodiscard]] std::string error_text(const std::exception& error);
 
 }  // namespace hersey

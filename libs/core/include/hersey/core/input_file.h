@@ -7,21 +7,22 @@
 
 namespace hersey {
 
-/// Text files of more are told, not read: a file with holes may have any size [bytes].
+/// Size of the largest text file that is read [bytes]; a larger one is reported as a fault. A sparse file may declare
+/// any size.
 inline constexpr std::uintmax_t kLargestTextFile = std::uintmax_t{1} << 31;
 
-/// What keeps a path from being read as a file, in words that follow "found: "; nothing where it can be read. Only
-/// files are: a pipe that nobody writes into would be waited for without end, and a device may never end.
-/// @param most [bytes]
+/// Returns why a path cannot be read as a file, in words that follow "found: "; nothing if it can be read. Only regular
+/// files are read: reading a pipe without a writer would block forever, and a device may never end.
+/// @param most  largest size accepted [bytes]
 [[nodiscard]] std::optional<std::string> unreadable(const std::filesystem::path& path,
                                                     std::uintmax_t most = UINTMAX_MAX);
 
-/// Content of a file that the user names, or why there is none.
+/// Content of a file named by the user, or the reason why it could not be read.
 struct InputFile {
   std::string content;
-  std::string fault;  ///< empty: it was read
+  std::string fault;  ///< why the file could not be read; empty if it was
 };
-/// The whole file as it stands; a file of more than `most` bytes is a fault.
+/// Reads the whole file; a file of more than `most` bytes is a fault.
 [[nodiscard]] InputFile read_input_file(const std::filesystem::path& path, std::uintmax_t most = kLargestTextFile);
 
 }  // namespace hersey

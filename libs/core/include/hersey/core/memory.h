@@ -2,8 +2,8 @@
 
 namespace hersey {
 
-/// Memory that this program may use [bytes]: the machine's, or what its control group is allowed if that is less.
-/// Constant while the program runs.
+/// Returns the memory that this program may use [bytes]: that of the machine, or the limit of its control group if that
+/// is less. Constant while the program runs.
 [[nodiscard]] double usable_memory();
 
 }  // namespace hersey

@@ -4,25 +4,26 @@
 
 namespace hersey {
 
-/// A real function of one or more real variables, with derivatives: the shape of every load, drive and table.
+/// Interface of a real function of one or more real variables with derivatives; loads, drives and tables are such
+/// functions.
 class ScalarFunction {
  public:
   virtual ~ScalarFunction() = default;
 
-  /// The value at `x`, one entry per variable.
+  /// Returns the value at `x`, one entry per variable.
   [[nodiscard]] virtual double value(std::span<const double> x) const = 0;
 
   /// Writes d value / d x_i into `gradient`, which has the length of `x`.
   virtual void gradient(std::span<const double> x, std::span<double> gradient) const = 0;
 
-  /// d^2 value / d x_0^2: a drive's acceleration.
+  /// Returns d^2 value / d x_0^2, the acceleration of a drive.
   [[nodiscard]] virtual double second_derivative(std::span<const double> x) const = 0;
 };
 
-/// The same value everywhere.
+/// Constant function.
 class ConstantFunction final : public ScalarFunction {
  public:
-  /// `value` at every x, of any number of variables.
+  /// Makes the function of any number of variables that equals `value` everywhere.
   explicit ConstantFunction(double value) : value_(value) {}
   [[nodiscard]] double value(std::span<const double>) const override { return value_; }
   void gradient(std::span<const double>, std::span<double> gradient) const override {

@@ -7,27 +7,28 @@
 
 namespace hersey {
 
-/// CRC-64 of bytes (ECMA-182, reflected, as in .xz): differs wherever up to 64 bits in a row do, so wherever one does.
-/// @param before the checksum of the bytes before, 0 at the beginning
+/// Returns the CRC-64 of bytes (ECMA-182, reflected, as in .xz). It detects every change within 64 successive bits,
+/// hence every change of a single bit.
+/// @param before  checksum of the preceding bytes, 0 at the beginning
 [[nodiscard]] std::uint64_t crc64(std::span<const char> bytes, std::uint64_t before = 0);
 
-/// A seal ends a file: a line of text with the length and the checksum of all bytes before it. HDF5 passes over what
-/// stands behind its own end, so that other programs read sealed files as they are; one that changes a file cuts the
-/// seal off.
+/// State of the seal of a file. A seal is the last line of a file: a text with the length and the checksum of all bytes
+/// before it. HDF5 ignores bytes behind its own end, so that other programs read sealed files unchanged; a program that
+/// modifies a file removes the seal.
 enum class Seal {
-  none,    ///< the file does not end in one
-  intact,  ///< every byte is as it was when the file was sealed
+  none,    ///< the file has no seal
+  intact,  ///< no byte has changed since the file was sealed
   broken,  ///< bytes have changed since, or are missing
 };
 
-/// The seal for a file of these bytes, to be written behind them.
+/// Returns the seal for a file of these bytes, to be written behind them.
 [[nodiscard]] std::string seal_of(std::span<const char> bytes);
 
-/// Seals a file that is complete.
+/// Appends the seal to a complete file.
 /// @throws std::runtime_error if it cannot be read or written
 void seal_file(const std::filesystem::path& path);
 
-/// @returns `none` for a file that cannot be read, too
+/// Returns the state of the seal of a file; `none` also if the file cannot be read.
 [[nodiscard]] Seal check_seal(const std::filesystem::path& path);
 
 }  // namespace hersey

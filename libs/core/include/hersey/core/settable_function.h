@@ -8,37 +8,37 @@
 
 namespace hersey {
 
-/// A function that can be held at a number from outside: an input of a simulation. Until it is set, and after release,
-/// it is the function that it was made with, bit for bit.
+/// A function whose value can be prescribed from outside: an input of a simulation. Until a value is set, and after its
+/// release, it returns the values of the original function bit for bit.
 class SettableFunction final : public ScalarFunction {
  public:
-  /// Stands for `given`, never null.
-  explicit SettableFunction(std::shared_ptr<const ScalarFunction> given) : interface_wrench_(std::move(given)) {}
+  /// @param original  must not be null
+  explicit SettableFunction(std::shared_ptr<const ScalarFunction> original) : original_(std::move(original)) {}
 
-  /// From now on this number, in SI, whatever the variables are.
-  void set(double value) { held_.emplace(value); }
-  /// From now on what was given.
-  void release() { held_.reset(); }
-  /// Whether it is held at a number.
-  [[nodiscard]] bool is_set() const { return held_.has_value(); }
+  /// Prescribes the value in SI units, independent of the variables, from now on.
+  void set(double value) { prescribed_.emplace(value); }
+  /// Returns to the original function from now on.
+  void release() { prescribed_.reset(); }
+  /// True if the value is prescribed.
+  [[nodiscard]] bool is_set() const { return prescribed_.has_value(); }
 
   [[nodiscard]] double value(std::span<const double> x) const override { return now().value(x); }
   void gradient(std::span<const double> x, std::span<double> gradient) const override { now().gradient(x, gradient); }
   [[nodiscard]] double second_derivative(std::span<const double> x) const override {
     return now().second_derivative(x);
   }
-  /// The function whose values it has now.
+  /// Returns the function whose values it has now: a constant or the original.
   [[nodiscard]] const ScalarFunction& now() const {
-    if (held_) return *held_;
-    return *interface_wrench_;
+    if (prescribed_) return *prescribed_;
+    return *original_;
   }
 
  private:
-  std::shared_ptr<const ScalarFunction> interface_wrench_;
-  std::optional<ConstantFunction> held_;
+  std::shared_ptr<const ScalarFunction> original_;
+  std::optional<ConstantFunction> prescribed_;
 };
 
-/// The function whose values `function` has now: itself, unless it can be set. Null where it is.
+/// Returns the function whose values `function` has now: itself unless it can be set. Returns null for null.
 [[nodiscard]] inline const ScalarFunction* now(const ScalarFunction* function) {
   const auto* settable = dynamic_cast<const SettableFunction*>(function);
   return settable == nullptr ? function : &settable->now();

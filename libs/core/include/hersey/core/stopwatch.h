@@ -4,10 +4,10 @@
 
 namespace hersey {
 
-/// Adds the time from its making to its end to a sum of seconds: wall time of the thread it lives in.
+/// Adds the wall time between its construction and its destruction to a sum of seconds.
 class Stopwatch {
  public:
-  /// Begins to count; `seconds` [s] outlives it.
+  /// Starts the measurement; `seconds` [s] must outlive the stopwatch.
   explicit Stopwatch(double& seconds) : seconds_(seconds), began_(Clock::now()) {}
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;

@@ -8,57 +8,57 @@
 
 namespace hersey {
 
-/// A table was asked for a value outside the range it covers.
+/// A table was evaluated outside its range.
 class TableRangeError : public std::range_error {
  public:
   using std::range_error::range_error;
 };
 
 enum class Interpolation {
-  linear,  ///< straight between points; the derivative jumps at the points, where the right-hand one is given
-  smooth,  ///< monotone cubic: no overshoot, continuous first derivative; the second jumps at the points
+  linear,  ///< piecewise linear; the derivative jumps at the points, where the right-hand one is returned
+  smooth,  ///< monotone piecewise cubic: no overshoot, continuous first derivative; the second derivative jumps at the
+           ///< points
 };
 
 /// A tabulated function of one variable, y(x) = scale * table(x).
-///
-/// Smooth tables are piecewise cubic Hermite with the slopes of Fritsch and Butland: they rise and fall only where the
-/// points do, and follow a smooth function to third order between the points (second order at extrema).
+/// Smooth tables are piecewise cubic Hermite polynomials with the slopes of Fritsch and Butland: they are monotone
+/// where the points are, and approximate a smooth function to third order between the points (second order at extrema).
 /// @see Fritsch and Butland (1984), SIAM J. Sci. Stat. Comput. 5, 300-304.
 /// @verified_by table_function_test.cpp
 class TableFunction final : public ScalarFunction {
  public:
   struct Options {
     Interpolation interpolation = Interpolation::linear;
-    double period = 0;  ///< > 0: the table repeats; 0: it does not
+    double period = 0;  ///< period of a periodic table, > 0; 0: not periodic
     double scale = 1;   ///< factor on every value
   };
 
   /// @param x  increasing, at least one value; for a periodic table x.back() - x.front() <= period. If it is the period
   ///           itself, the first and last value must agree.
-  /// @param y  as many values.
-  /// @throws ContractError where these rules are broken or a value is not finite.
+  /// @param y  values, as many as x.
+  /// @throws ContractError if these rules are violated or a value is not finite.
   TableFunction(std::vector<double> x, std::vector<double> y, const Options& options);
 
-  /// @throws TableRangeError outside the table's range, naming it. Cost O(log n).
+  /// @throws TableRangeError outside the table's range; its message states the range. Cost O(log n).
   [[nodiscard]] double value(std::span<const double> x) const override;
   void gradient(std::span<const double> x, std::span<double> gradient) const override;
   [[nodiscard]] double second_derivative(std::span<const double> x) const override;
 
-  /// Whether the table repeats.
+  /// True if the table is periodic.
   [[nodiscard]] bool is_periodic() const { return options_.period > 0; }
-  /// First point.
+  /// Returns the first point.
   [[nodiscard]] double lower() const { return x_.front(); }
-  /// Last point.
+  /// Returns the last point.
   [[nodiscard]] double upper() const { return x_.back(); }
 
-  /// Points strictly inside (lo, hi) at which the slope jumps, ascending; none of a smooth table.
+  /// Returns the points strictly inside (lo, hi) at which the slope jumps, ascending; a smooth table has none.
   [[nodiscard]] std::vector<double> kinks(double lo, double hi) const;
 
-  /// Whether every x in [lo, hi] has a value.
+  /// True if the table covers every x in [lo, hi].
   [[nodiscard]] bool covers(double lo, double hi) const;
 
  private:
-  /// One cubic y0 + s (m0 + s (c + s d)) with s the distance from the interval's left point.
+  /// Cubic y0 + s (m0 + s (c + s d)), where s is the distance from the left point of the interval.
   struct Piece {
     double s, y0, m0, c, d;
   };
@@ -68,7 +68,7 @@ class TableFunction final : public ScalarFunction {
   void find_slopes();
 
   std::vector<double> x_, y_;
-  std::vector<double> slope_;  ///< at the points; empty for linear tables
+  std::vector<double> slope_;  ///< slopes at the points; empty for linear tables
   Options options_;
 };
 

@@ -4,15 +4,14 @@
 
 namespace hersey {
 
-/// The database of units that this copy of the library reads with its first quantity, and never again: what happens to
-/// the file afterwards changes nothing. Without effect once it has been read, or where there is no such file.
-///
-/// Where none is given it is the one of the variable UDUNITS2_XML_PATH, and where that names no database, or is not
-/// set, the one that udunits2 was installed with. Nothing is ever put into the environment.
+/// Sets the database of units. This copy of the library reads the database once, with its first quantity; later changes
+/// of the file have no effect. The call has no effect after that, or if there is no such file. Without this call the
+/// database is that of the environment variable UDUNITS2_XML_PATH; if the variable is not set or names no database, it
+/// is the one installed with udunits2. The environment is never changed.
 /// @verified_by unit_database_test.cpp
 void use_unit_database(const std::filesystem::path& database);
 
-/// The file that is read: the one in use, or where none is yet the one that would be.
+/// Returns the database in use, or, before the first quantity, the one that would be read.
 [[nodiscard]] std::filesystem::path unit_database();
 
 }  // namespace hersey

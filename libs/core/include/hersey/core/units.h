@@ -5,42 +5,43 @@
 #include <string_view>
 #include <vector>
 
-/// Quantities with units at the door: the only place where units are converted. All functions may be called from
-/// several threads at once.
+/// Conversion of quantities with units to SI numbers. No other part of the program converts units. All functions may be
+/// called from several threads at once.
 namespace hersey {
 
-/// A text is not the quantity asked for. The three parts are those of a `Fault`.
+/// A text is not the expected quantity. The three parts are those of a `Fault`.
 class QuantityError : public std::runtime_error {
  public:
-  /// what() puts the three parts into one sentence.
+  /// what() combines the three parts into one sentence.
   QuantityError(std::string found_text, std::string expected_text, std::string suggestion_text = {});
   std::string found;           ///< "a pressure (kPa)"
   std::string expected;        ///< "a length, such as 45 mm"
   std::string suggestion;      ///< "did you mean 'mm'?"; may be empty
-  bool is_about_size = false;  ///< the unit is right, the number is beyond what any machine has
+  bool is_about_size = false;  ///< the unit is correct, but the number is larger than in any machine
 };
 
-/// What a unit measures, and how users write it.
+/// Physical dimension and how users write it.
 struct Dimension {
-  std::string si_unit;               ///< as the program names it, "m"
+  std::string si_unit;               ///< SI unit as the program names it, "m"
   std::string name;                  ///< with article, "a length"
   std::string example;               ///< "45 mm"
-  std::vector<std::string> spelled;  ///< usual units, for suggestions and the reference
-  double largest = 0;  ///< size in `si_unit` beyond which a value is a slip: far above any machine, far below overflow
+  std::vector<std::string> spelled;  ///< usual units, for suggestions and the reference manual
+  double largest = 0;  ///< magnitude in `si_unit` above which a value is taken for a mistake: far above that of any
+                       ///< machine, far below overflow
 };
 
-/// Size below which a value other than 0 is a slip, in the SI unit of any dimension: products and quotients of two such
-/// values still are numbers.
+/// Magnitude below which a value other than 0 is taken for a mistake, in the SI unit of any dimension: products and
+/// quotients of two such values are still representable.
 inline constexpr double smallest_quantity = 1e-100;
 
-/// Every dimension the program knows.
+/// Returns all dimensions that the program knows.
 [[nodiscard]] const std::vector<Dimension>& dimensions();
 
-/// The dimension with the SI unit `si_unit`, spelled as in `dimensions()`.
-/// @throws ContractError if there is none.
+/// Returns the dimension with the SI unit `si_unit`, spelled as in `dimensions()`.
+/// @throws ContractError if there is no such dimension.
 [[nodiscard]] const Dimension& dimension_of(std::string_view si_unit);
 
-/// A number and its unit, as written.
+/// Number and unit as written by the user.
 struct Quantity {
   double number = 0;
   std::string unit;  ///< empty for a bare number
@@ -50,36 +51,37 @@ struct Quantity {
 /// @throws QuantityError unless the text begins with a finite number.
 [[nodiscard]] Quantity split_quantity(std::string_view text);
 
-/// Reads "45 mm" in the unit `si_unit` of `dimensions()`; "1" asks for a bare number (percent is allowed).
-///
-/// A bare 0 is any quantity. An angle is told from a bare number: 3570 rpm and 10 deg/s are angular velocities, 10 Hz
-/// and 10 1/s are not; only torsional stiffness and damping may drop the radian (N.m for N.m/rad).
-/// @returns the value in `si_unit`, 0 or in size between `smallest_quantity` and Dimension::largest.
-/// @throws QuantityError telling what was found (an unknown unit, another dimension, no unit) and what is expected.
+/// Converts a text such as "45 mm" to the unit `si_unit` of `dimensions()`; "1" means a bare number (percent is
+/// allowed). A bare 0 is valid for any quantity. Angles are distinguished from bare numbers: 3570 rpm and 10 deg/s are
+/// angular velocities, 10 Hz and 10 1/s are not; the radian may be omitted only in torsional stiffness and damping (N.m
+/// for N.m/rad).
+/// @returns the value in `si_unit`, 0 or of a magnitude between `smallest_quantity` and Dimension::largest.
+/// @throws QuantityError stating what was found (an unknown unit, another dimension, no unit) and what is expected.
 [[nodiscard]] double parse_quantity(std::string_view text, std::string_view si_unit);
 
-/// Reads `count` numbers with one unit, "0 48 0 mm", or one each, "0 48 mm 1 cm"; none for zeros or si_unit "1".
+/// Reads `count` numbers with a common unit, "0 48 0 mm", or a unit each, "0 48 mm 1 cm"; zeros and numbers with
+/// si_unit "1" need no unit.
 [[nodiscard]] std::vector<double> parse_quantities(std::string_view text, std::string_view si_unit, int count);
 
-/// `number` in `unit`, converted to `si_unit`.
+/// Returns the number of `quantity` converted to `si_unit`.
 /// @throws QuantityError as parse_quantity.
 [[nodiscard]] double convert_to_si(const Quantity& quantity, std::string_view si_unit);
 
-/// `quantity` in `unit`, whatever both measure.
-/// @throws QuantityError unless both measure the same.
+/// Returns the number of `quantity` converted to `unit`.
+/// @throws QuantityError unless both have the same dimension.
 [[nodiscard]] double convert(const Quantity& quantity, const std::string& unit);
 
-/// Sum, product, quotient and power of quantities. A partner without unit leaves the other's unit as it is; otherwise
-/// sums are in the unit of the first, products, quotients and powers in the SI unit of their dimension (base units
-/// where `dimensions()` has none). A bare 0 adds to anything.
-/// @throws QuantityError where summands do not measure the same, units are unknown or begin elsewhere than at zero
-/// (degC), or a quantity with a unit is raised to no integer between -9 and 9.
+/// Returns the sum of two quantities. In sums, products, quotients and powers a bare number leaves the unit of the
+/// other quantity unchanged; otherwise a sum is in the unit of the first quantity, and a product, quotient or power is
+/// in the SI unit of its dimension (in base units if `dimensions()` has none). A bare 0 can be added to any quantity.
+/// @throws QuantityError if summands differ in dimension, a unit is unknown or has an offset (degC), or the exponent of
+/// a quantity with a unit is not an integer between -9 and 9.
 [[nodiscard]] Quantity sum(const Quantity& a, const Quantity& b);
-/// See sum().
+/// Returns the product of two quantities; see sum().
 [[nodiscard]] Quantity product(const Quantity& a, const Quantity& b);
-/// See sum().
+/// Returns the quotient of two quantities; see sum().
 [[nodiscard]] Quantity quotient(const Quantity& a, const Quantity& b);
-/// See sum().
+/// Returns a power of a quantity; see sum().
 [[nodiscard]] Quantity power(const Quantity& base, double exponent);
 
 }  // namespace hersey

@@ -2,18 +2,19 @@
 
 namespace hersey {
 
-/// The file that this thread reads by HDF5 and that nothing vouches for, for whoever is told of a crash: the library
-/// trusts what a file says of its structure. Null where there is none. Safe in signal handlers.
+/// Returns the path of the HDF5 file that this thread is reading and whose integrity is not verified; null if there is
+/// none. HDF5 trusts the structure that a file declares, so that a damaged file may crash the library; handlers of the
+/// crash name this file. Safe in signal handlers.
 [[nodiscard]] const char* untrusted_file();
 
-/// Names such a file as long as it lives.
-class DoubtfulFile {
+/// Marks a file as the untrusted one of this thread as long as the object exists.
+class UntrustedFile {
  public:
-  /// @param path  kept by the caller; null: nothing is doubtful, and what is named stays named
-  explicit DoubtfulFile(const char* path);
-  DoubtfulFile(const DoubtfulFile&) = delete;
-  DoubtfulFile& operator=(const DoubtfulFile&) = delete;
-  ~DoubtfulFile();
+  /// @param path  must outlive the object; null leaves the present mark unchanged
+  explicit UntrustedFile(const char* path);
+  UntrustedFile(const UntrustedFile&) = delete;
+  UntrustedFile& operator=(const UntrustedFile&) = delete;
+  ~UntrustedFile();
 
  private:
   const char* before_;

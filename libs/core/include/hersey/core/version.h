@@ -2,7 +2,7 @@
 
 namespace hersey {
 
-/// Version of the libraries, "major.minor.patch".
+/// Returns the version of the libraries, "major.minor.patch".
 [[nodiscard]] const char* version();
 
 }  // namespace hersey

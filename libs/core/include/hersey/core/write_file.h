@@ -6,10 +6,10 @@
 
 namespace hersey {
 
-/// Writes a file beside its place, under its name with ".new", and renames it when it is whole: whoever reads it finds
-/// all of the old one or all of the new one, whatever ends the program. Links are followed; devices and pipes are
-/// written as they are.
-/// @throws std::runtime_error telling why it could not be written; then the old one stays
+/// Replaces a file atomically: writes a file of the same name with ".new" appended and renames it when it is complete.
+/// Readers find either the complete old file or the complete new one, even if the program is interrupted. Links are
+/// followed; devices and pipes are written directly.
+/// @throws std::runtime_error stating why the file could not be written; the old file is then unchanged
 void write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
 
 }  // namespace hersey

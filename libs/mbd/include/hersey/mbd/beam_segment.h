@@ -5,11 +5,11 @@
 
 namespace hersey::mbd {
 
-/// A straight piece of a beam between two frames.
+/// Data of a straight beam element between two frames.
 struct BeamSegmentData {
-  fem::BeamElement element;                      ///< its frame in the axes both frames have at rest
+  fem::BeamElement element;                      ///< element frame in the axes that both frames have at rest
   double mass_per_length = 0;                    ///< [kg/m]
-  Vector3 inertia_per_length = Vector3::Zero();  ///< of the section about its own x, y and z [kg m]
+  Vector3 inertia_per_length = Vector3::Zero();  ///< inertia of the section about its own x, y and z [kg m]
   double damping = 0;                            ///< forces of strain rates over those of strains [s]
   double reach = 0;                              ///< size of the whole beam, whose round-off its positions carry [m]
 };
@@ -30,20 +30,20 @@ class BeamSegment final : public ElasticBody {
   void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) override;
   [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
 
-  /// Strains, and [N; M] in the axes of the middle section.
+  /// Returns the strains, and [N; M] in the axes of the middle section.
   [[nodiscard]] fem::BeamMotionResponse section(const ElasticMotion& motion) const;
   [[nodiscard]] const BeamSegmentData& data() const { return data_; }
 
  private:
-  /// Force and moment that inertia and weight need, [moment; force] at each frame in its axes.
+  /// Returns the inertia forces including the weight, [moment; force] at each frame in its axes.
   [[nodiscard]] fem::BeamVector inertia_force(const ElasticMotion& motion) const;
   [[nodiscard]] fem::BeamVector magnitude(const ElasticMotion& motion, const fem::BeamVector& inertia,
                                           const fem::BeamMotionResponse& strained) const;
   void differentiate_inertia(const ElasticMotion& motion, ElasticResponse& response) const;
 
   BeamSegmentData data_;
-  Matrix3 inertia_;            ///< of half the sections, in a frame's axes [kg m^2]
-  fem::BeamVector round_off_;  ///< what round-off of positions does to forces, over a share
+  Matrix3 inertia_;            ///< inertia of half of the sections in a frame's axes [kg m^2]
+  fem::BeamVector round_off_;  ///< magnitude of forces by the round-off of positions
 };
 
 }  // namespace hersey::mbd

@@ -5,10 +5,9 @@
 namespace hersey::mbd {
 
 /// An elastic connection of two frames in all six directions (theory manual eq. (mechanisms.24)).
-///
-/// The deformation is x = [phi; r]: the rotation vector that turns A into B and the origin of B from that of A, in A's
-/// axes. The wrench follows from the energy x^T K x / 2 and the dissipation xdot^T D xdot / 2, so that it is
-/// conservative and dissipative at any rotation below half a turn; a rotation of more than 170 degrees is a domain
+/// The deformation is x = [phi; r]: the rotation vector from A to B and the position of B's origin relative to A's, in
+/// A's axes. The wrench follows from the energy x^T K x / 2 and the dissipation xdot^T D xdot / 2, so that it is
+/// conservative and dissipative at any rotation below 180 degrees; a rotation of more than 170 degrees is a domain
 /// error.
 class Bushing final : public TwoBodyForce {
  public:
@@ -23,7 +22,7 @@ class Bushing final : public TwoBodyForce {
 
  private:
   Matrix6 K_, D_;
-  double angle_ = 0;  ///< at the last evaluation
+  double angle_ = 0;  ///< angle of rotation at the last evaluation
 };
 
 }  // namespace hersey::mbd

@@ -13,25 +13,25 @@ namespace hersey::mbd {
 
 struct ContactPointId;
 
-/// What a contact shows of itself, in frame A.
+/// Observation of a contact in frame A.
 struct ContactObservation {
-  double gap = 0;                      ///< smallest distance of both surfaces, negative where they overlap [m]
-  double normal_force = 0;             ///< sum over all spots [N]
+  double gap = 0;                      ///< smallest distance between both surfaces, negative where they overlap [m]
+  double normal_force = 0;             ///< sum over all contact points [N]
   Vector3 friction = Vector3::Zero();  ///< on B [N]
   Vector3 force = Vector3::Zero();     ///< on B, normal and friction force [N]
   Vector3 position = Vector3::Zero();  ///< centre of the normal forces; not a number without contact [m]
-  double damping_power = 0;            ///< taken by the damping [W], >= 0
-  double friction_power = 0;           ///< taken by friction [W], >= 0
-  int spots = 0;                       ///< number of spots that touch
+  double damping_power = 0;            ///< power dissipated by damping [W], >= 0
+  double friction_power = 0;           ///< power dissipated by friction [W], >= 0
+  int spots = 0;                       ///< number of contact points that touch
 };
 
-/// Contact between two shapes, each fixed on one body: a force between two frames. The second may be a mesh whose
-/// corners move with an elastic body: then each corner is a spot where it is now.
+/// Contact between two shapes, each fixed on one body: a force between two frames. The second shape may be a mesh whose
+/// corners move with an elastic body; then each corner is a contact point at its deformed position.
 ///
 /// Continuous in position and velocity, its derivatives exact and piecewise continuous; no state of its own. Where the
-/// shapes overlap by more than `deepest_share` of the smaller one, the law says nothing sensible and `domain_error`
-/// tells so. Only what `make_spot_finder` (src) knows of a pair is geometry: the law sees points, normals and material
-/// velocities, whatever carries them.
+/// shapes overlap by more than `deepest_share` of the smaller one, the law is not valid and `domain_error` reports it.
+/// Only `make_contact_search` (src) depends on the geometry of a pair: the law uses points, normals and material
+/// velocities alone.
 class Contact final : public TwoBodyForce {
  public:
   /// Largest penetration, as a share of the smaller shape's size (radius, or half its smallest extent).
@@ -40,9 +40,9 @@ class Contact final : public TwoBodyForce {
   /// @throws ContractError if the pair is not supported, the law has impossible numbers.
   Contact(const ShapeGeometry& a, const ShapeGeometry& b, const ContactLaw& law);
 
-  /// With corners of `b` that move with amplitudes of shapes, which come with the motion (theory manual eqs.
+  /// Contact with corners of `b` that move with amplitudes of shapes, which are part of the motion (theory manual eqs.
   /// (contact.4) and (contact.5)).
-  /// @param displacements  of the corners in B's axes for unit amplitudes, shape (3 corners, amplitudes)
+  /// @param displacements  displacements of the corners in B's axes for unit amplitudes, shape (3 corners, amplitudes)
   Contact(const ShapeGeometry& a, std::shared_ptr<const TriangleMesh> b, Eigen::MatrixXd displacements,
           const ContactLaw& law);
   ~Contact() override;
@@ -51,37 +51,37 @@ class Contact final : public TwoBodyForce {
   [[nodiscard]] double stored_energy(const RelativeMotion& motion) const override;
   [[nodiscard]] std::string domain_error() const override;
 
-  /// Where and how hard the surfaces touch at this motion.
+  /// Returns position and forces of the contact at this motion.
   [[nodiscard]] ContactObservation observe(const RelativeMotion& motion);
 
  private:
   struct Workspace;
-  struct Place;
-  [[nodiscard]] Place place_of(const RelativeMotion& motion, int corner) const;
+  struct MaterialMotion;
+  [[nodiscard]] MaterialMotion material_motion(const RelativeMotion& motion, int corner) const;
   [[nodiscard]] const std::vector<ContactPointId>& find(const RelativeMotion& motion) const;
   [[nodiscard]] double smallest_gap(const RelativeMotion& motion) const;
   void differentiate(const ContactPointId& id, const RelativeMotion& motion, ForceResponse& response) const;
-  void push_shapes(const Place& place, const Vector3& force, ForceResponse& response) const;
-  void differentiate_shapes(const Place& place, const Vector3& force, const Eigen::Matrix<double, 6, 12>& spot,
-                            ForceResponse& response) const;
+  void push_shapes(const MaterialMotion& material, const Vector3& force, ForceResponse& response) const;
+  void differentiate_shapes(const MaterialMotion& material, const Vector3& force,
+                            const Eigen::Matrix<double, 6, 12>& derivative, ForceResponse& response) const;
   ContactLaw law_;
-  Eigen::MatrixXd displacements_;  ///< of corners that deform; no rows: nothing deforms
+  Eigen::MatrixXd displacements_;  ///< displacements of corners that deform; no rows if the mesh is rigid
   double deepest_ = 0;             ///< largest penetration allowed [m]
-  double too_deep_ = 0;            ///< penetration beyond that at the last evaluation; 0: none
+  double too_deep_ = 0;            ///< penetration at the last evaluation if it exceeds `deepest_`; otherwise 0
   std::unique_ptr<Workspace> work_;
 };
 
-/// Whether a mesh whose corners deform may touch a shape: anything but a mesh.
+/// True if contact between a deforming mesh and this shape is supported: all shapes but meshes.
 [[nodiscard]] bool can_touch_deforming(const ShapeGeometry& shape);
 
-/// Whether contact between the two is supported: a sphere and anything; a half-space and anything but itself; two
+/// True if contact between the two is supported: a sphere and anything; a half-space and anything but itself; two
 /// capsules; a mesh and any of the others but a mesh.
 [[nodiscard]] bool can_touch(const ShapeGeometry& a, const ShapeGeometry& b);
 
-/// Whether the law of this pair gives a pressure, its stiffness being [Pa/m^exponent]: a mesh on anything but a sphere.
+/// True if the law of this pair gives a pressure, with a stiffness in [Pa/m^exponent]: a mesh on anything but a sphere.
 [[nodiscard]] bool touches_with_pressure(const ShapeGeometry& a, const ShapeGeometry& b);
 
-/// "sphere", "cylinder", ...
+/// Returns "sphere", "cylinder", ...
 [[nodiscard]] std::string name_of(const ShapeGeometry& shape);
 
 }  // namespace hersey::mbd

@@ -11,7 +11,8 @@ namespace hersey::mbd {
 /// position, continued from where the last step ended.
 class FunctionSpring final : public CoordinateForce {
  public:
-  /// @param function  of the stretch alone [N or N m], positive where it pulls back from a positive stretch
+  /// @param function  restoring force as a function of the stretch [N or N m], positive if it opposes a positive
+  /// stretch
   FunctionSpring(std::shared_ptr<const ScalarFunction> function, double free_position);
   [[nodiscard]] CoordinateEffort evaluate(double t, double position, double rate) const override;
   void accept_step(double t, double position, double rate) override;
@@ -22,7 +23,7 @@ class FunctionSpring final : public CoordinateForce {
  private:
   std::shared_ptr<const ScalarFunction> function_;
   double free_position_;
-  double reached_ = 0, energy_ = 0;  ///< stretch where the last step ended, and the energy there
+  double reached_ = 0, energy_ = 0;  ///< stretch at the end of the last step, and the energy there
 };
 
 /// Dry and viscous friction (theory manual eq. (mechanisms.25)): -(coulomb v / sqrt(v^2 + transition^2) + viscous v).
@@ -39,7 +40,7 @@ class JointFriction final : public CoordinateForce {
   double coulomb_, viscous_, transition_;
 };
 
-/// A controller that turns a coordinate towards a target speed (theory manual eq. (mechanisms.26)):
+/// A controller that drives a coordinate to a target speed (theory manual eq. (mechanisms.26)):
 ///
 ///     u = kp (target - rate) + I,    dI/dt = ki (target - rate),    cut off at -limit and +limit.
 ///

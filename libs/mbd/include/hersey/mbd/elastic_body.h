@@ -13,7 +13,7 @@
 
 namespace hersey::mbd {
 
-/// One frame of an elastic body as the mechanism moves it. Velocity and acceleration are in the frame's own axes at its
+/// Motion of one frame of an elastic body. Velocity and acceleration are in the frame's own axes at its
 /// own origin.
 struct ElasticFrame {
   Pose X_WF;
@@ -24,14 +24,15 @@ struct ElasticFrame {
   std::optional<Vector6> deformation = std::nullopt;
 };
 
-/// What an elastic body sees: its frames, and its own coordinates where it has any.
+/// Motion of an elastic body: its frames, and its own coordinates if it has any.
 struct ElasticMotion {
   double t = 0;         ///< time [s]
-  solver::Stage stage;  ///< of the step being solved; its dq is left empty
+  solver::Stage stage;  ///< stage of the step being solved; its dq is empty
   std::vector<ElasticFrame> frames;
   Eigen::VectorXd eta, eta_rate, eta_acceleration;  ///< own coordinates, shape (coordinate_count)
-  Eigen::VectorXd loads;                            ///< value of each load now, in the order they were added
-  /// Generalised forces that surfaces put on the amplitudes of shapes, and what they are sums of; empty: none.
+  Eigen::VectorXd loads;                            ///< present value of each load, in the order of addition
+  /// Generalised forces of surfaces on the amplitudes of shapes, and the magnitudes of the terms in their sums; empty
+  /// if there are none.
   Eigen::VectorXd shape_forces, shape_force_sizes;
 };
 
@@ -43,11 +44,12 @@ struct ShapeMotion {
   Eigen::MatrixXd rate_by_frames;  ///< d inner rate / d the same at fixed velocities
 };
 
-/// Forces on the nodes of a body's mesh that grow and shrink together: a pressure, a force spread over a surface.
+/// Forces on the nodes of a body's mesh that share one factor: a pressure, a force distributed over a surface.
 struct NodalLoad {
   std::string name;
-  LoadAxes axes = LoadAxes::body;  ///< of `forces`: ground's, or the body's, with which they turn
-  Eigen::Matrix3Xd forces;         ///< for a value of 1 (3, nodes)
+  LoadAxes axes =
+      LoadAxes::body;       ///< axes of `forces`: those of ground, or those of the body, with which the forces rotate
+  Eigen::Matrix3Xd forces;  ///< for a value of 1 (3, nodes)
 };
 
 /// Generalised forces [one wrench per frame; own coordinates] that the motion needs (inertia and gravity, elasticity,
@@ -55,45 +57,47 @@ struct NodalLoad {
 /// by a twist xi of each frame in its own axes, X -> X exp(xi^), at fixed V and A.
 struct ElasticResponse {
   Eigen::VectorXd force;      ///< shape (6 frames + coordinates)
-  Eigen::VectorXd magnitude;  ///< of the terms that add up to each entry
+  Eigen::VectorXd magnitude;  ///< magnitude of the terms that add up to each entry
   Eigen::MatrixXd K, C, M;    ///< d force / d (position, velocity, acceleration), square
 };
 
-/// What a nodal load does at one state.
+/// Power and wrench of a nodal load at one state.
 struct ElasticLoad {
   double power = 0;                  ///< [W], > 0 puts energy in
   Vector6 wrench = Vector6::Zero();  ///< [tau; f] about the origin of frame 0, ground axes [N m; N]
 };
 
-/// Energies and powers of an elastic body at one state; the powers add up: what the frames put in equals
-/// kinetic_rate + strain_rate + dissipation - gravity - those of its loads.
+/// Energies and powers of an elastic body at one state. The powers are balanced: the power of the wrenches on the
+/// frames equals kinetic_rate + strain_rate + dissipation - gravity - powers of its loads.
 struct ElasticEnergy {
   double kinetic = 0;                          ///< [J]
   double strain = 0;                           ///< [J]
-  double potential = 0;                        ///< of gravity, zero at ground's origin [J]
+  double potential = 0;                        ///< potential energy of gravity, zero at ground's origin [J]
   double kinetic_rate = 0;                     ///< [W]
   double strain_rate = 0;                      ///< [W]
   double dissipation = 0;                      ///< [W], >= 0
   double gravity = 0;                          ///< power of gravity [W]
   Vector3 momentum = Vector3::Zero();          ///< ground axes [kg m/s]
   Vector3 angular_momentum = Vector3::Zero();  ///< about ground's origin, ground axes [kg m^2/s]
-  std::vector<ElasticLoad> loads;              ///< in the order they were added
+  std::vector<ElasticLoad> loads;              ///< loads in the order of addition
 };
 
-/// A body that deforms and touches the rest of a mechanism through frames. Each frame is a massless rigid body of the
-/// mechanism, to which joints and forces attach as to any other; this couples them (theory manual, chapter
-/// flexible-bodies). Frame 0 carries the body's own axes; the others stand at `rest_pose` while it is not deformed.
+/// A deformable body that is connected to a mechanism through frames. Each frame is a massless rigid body of the
+/// mechanism, to which joints and forces attach as to any other; the elastic body couples them (theory manual, chapter
+/// flexible-bodies). Frame 0 defines the body's axes; the others have the pose `rest_pose` while the body is not
+/// deformed.
 class ElasticBody : public solver::Condensed<ElasticMotion> {
  public:
-  /// Frames through which it meets the rest, >= 1.
+  /// Returns the number of frames, >= 1.
   [[nodiscard]] virtual int frame_count() const = 0;
-  /// Coordinates the mechanism integrates for the body, beside those of its frames; each a length [m].
+  /// Returns the number of coordinates that the mechanism integrates for the body beside those of its frames; each is a
+  /// length [m].
   [[nodiscard]] virtual int coordinate_count() const = 0;
-  /// Pose of frame `i` in frame 0 while the body is not deformed.
+  /// Returns the pose of frame `i` in frame 0 of the undeformed body.
   [[nodiscard]] virtual Pose rest_pose(int i) const = 0;
-  /// Mass [kg].
+  /// Returns the mass [kg].
   [[nodiscard]] virtual double mass() const = 0;
-  /// Centre of mass of the undeformed body in frame 0 [m].
+  /// Returns the centre of mass of the undeformed body in frame 0 [m].
   [[nodiscard]] virtual Vector3 centre() const = 0;
 
   /// Adds a load; its value comes with ElasticMotion::loads. @pre the body has a mesh, and `load` a force for each of
@@ -103,16 +107,17 @@ class ElasticBody : public solver::Condensed<ElasticMotion> {
     HERSEY_REQUIRE(false, "bodies without a mesh take no nodal loads");
   }
 
-  /// How many shapes its surfaces move by; 0: none that a force may see deform.
+  /// Returns the number of shapes by which its surfaces deform; 0 if no force can depend on the deformation.
   [[nodiscard]] virtual int shape_count() const { return 0; }
-  /// Their amplitudes and, if `want_tangent`, derivatives of these.
+  /// Computes the amplitudes of the shapes and, if `want_tangent`, their derivatives.
   virtual void find_shapes(const ElasticMotion& motion, bool want_tangent, ShapeMotion& shapes) {
     (void)motion, (void)want_tangent, (void)shapes;
   }
 
-  /// Forces that `motion` needs and, if `want_tangent`, their derivatives, condensed unknowns included.
+  /// Computes the forces that `motion` needs and, if `want_tangent`, their derivatives, condensed unknowns included.
   virtual void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) = 0;
 
+  /// Returns the energies and powers.
   /// @param gravity  [m/s^2], ground axes
   [[nodiscard]] virtual ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) = 0;
 };

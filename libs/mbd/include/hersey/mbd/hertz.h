@@ -10,7 +10,7 @@ namespace hersey::mbd {
 /// Relative radii of curvature of two shapes where they touch in a point, the larger first (theory manual eq.
 /// (contact.9)): 1/R = 1/R_a + 1/R_b in both principal directions. Boxes, half-spaces and meshes count as flat,
 /// cylinders touch with their side, and a capsule on a half-space with its round ends.
-/// @returns nothing where they touch along a line or an area (a cylinder or box on a plane), in a direction that
+/// @returns nothing if they touch along a line or an area (a cylinder or box on a plane), in a direction that
 /// changes (two capsules), or where both are flat: there is no Hertz stiffness then.
 [[nodiscard]] std::optional<std::array<double, 2>> relative_radii(const ShapeGeometry& a, const ShapeGeometry& b);
 

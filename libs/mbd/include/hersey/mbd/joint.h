@@ -11,12 +11,12 @@
 
 namespace hersey::mbd {
 
-/// "revolute": as users write it.
+/// Returns the name of the type in model files, such as "revolute".
 [[nodiscard]] std::string_view name_of(JointType type);
-/// The type of that name; none for another name.
+/// Returns the type of that name; nothing for an unknown name.
 [[nodiscard]] std::optional<JointType> joint_type_of(std::string_view name);
 
-/// One named coordinate of a joint type, as users write it. Its values take `size` places in the joint's list of
+/// One named coordinate of a joint type, as users write it. Its values are `size` entries of the joint's list of
 /// values: 1 for a scalar, 3 for a position, and 3 for an orientation (given and reported as a rotation vector; its
 /// rate is the angular velocity of O relative to I in O's axes).
 struct Coordinate {
@@ -33,24 +33,25 @@ struct Coordinate {
 /// screw: rotation.
 [[nodiscard]] std::span<const Coordinate> coordinates_of(JointType type);
 
-/// What a coordinate's rate is called: rotation_rate; velocity of a position, angular_velocity of an orientation.
+/// Returns the name of a coordinate's rate: rotation_rate; velocity of a position, angular_velocity of an orientation.
 [[nodiscard]] std::string rate_name(const Coordinate& coordinate);
 
-/// Whether it lets its bodies turn against each other about its axis alone.
-[[nodiscard]] bool turns_about_one_axis(JointType type);
+/// True if the only relative rotation that the joint allows is that about its axis.
+[[nodiscard]] bool rotates_about_one_axis(JointType type);
 
-/// Number of values (and of degrees of freedom) of a joint type, 0..6.
+/// Returns the number of values (and of degrees of freedom) of a joint type, 0..6.
 [[nodiscard]] int degrees_of_freedom(JointType type);
 
-/// The coordinate called `name`; nothing if the type has none of that name.
+/// Returns the coordinate called `name`; nothing if the type has none of that name.
 [[nodiscard]] std::optional<Coordinate> find_coordinate(JointType type, std::string_view name);
 
-/// Axes that a joint about (or along, or normal to) the unit vector `axis` uses: columns t1, t2, axis, right-handed;
-/// the identity for z, cyclic permutations for x and y. A planar joint's x and y run along t1 and t2.
+/// Returns the axes that a joint about (or along, or normal to) the unit vector `axis` uses: columns t1, t2, axis,
+/// right-handed; the identity for z, cyclic permutations for x and y. A planar joint's x and y run along t1 and t2.
 [[nodiscard]] Matrix3 joint_axes(const Vector3& axis);
 
-/// The joint's motion: X_IO at the given values, shape (degrees_of_freedom).
-/// @param lead  travel of a screw per turn [m], right-handed where positive; no other type has one
+/// Returns the joint's pose X_IO at the given values, shape (degrees_of_freedom).
+/// @param lead  axial displacement of a screw per revolution [m], positive for a right-handed screw; ignored for other
+/// types
 [[nodiscard]] Pose joint_pose(JointType type, const Vector3& axis, std::span<const double> values, double lead = 0);
 
 }  // namespace hersey::mbd

@@ -2,7 +2,7 @@
 
 namespace hersey::mbd {
 
-/// Axes that the direction of a load is fixed in: ground's, or those of the body it acts on.
+/// Axes in which the direction of a load is constant: those of ground, or those of the body on which it acts.
 enum class LoadAxes { ground, body };
 
 }  // namespace hersey::mbd

@@ -46,56 +46,57 @@ class Mechanism final : public solver::Equations {
   [[nodiscard]] bool has_whole_tangent() const override;
   void persist(Archive& archive) override;
 
-  /// The state the joints' initial values describe, at t = 0; not yet consistent: see solver::initialise.
+  /// Returns the state given by the joints' initial values at t = 0; it is not yet consistent: see solver::initialise.
   [[nodiscard]] solver::State initial_state() const;
 
-  /// Velocity components whose initial position the user gave: InitialiseOptions::held.
+  /// Returns the velocity components whose initial position the user prescribed: InitialiseOptions::fixed.
   [[nodiscard]] std::vector<Index> given_coordinates() const;
 
-  /// Velocity components that the user gave a value at the start: InitialiseOptions::held_rates.
+  /// Returns the velocity components whose initial value the user prescribed: InitialiseOptions::fixed_rates.
   [[nodiscard]] std::vector<Index> given_rates() const;
 
-  /// Velocity components that deform elastic bodies: InitialiseOptions::stiff.
+  /// Returns the velocity components that deform elastic bodies: InitialiseOptions::stiff.
   [[nodiscard]] std::vector<Index> elastic_coordinates() const;
 
-  /// Those of them that move no frame.
+  /// Returns the velocity components that deform elastic bodies and move no frame.
   [[nodiscard]] std::vector<Index> internal_coordinates() const;
 
-  /// Everything about `state`. Two-body forces are those of the last accepted step, which must have ended in `state`.
+  /// Returns the observation of `state`. Two-body forces are those of the last accepted step, which must have ended in
+  /// `state`.
   [[nodiscard]] Observation observe(const solver::State& state);
 
-  /// What is stored at `state` and what acts there, into `view`.
-  /// @param is_trial  it is where the equations were assembled last, as the end of a step that is being judged; else
-  /// the
-  ///                  last accepted step must have ended there
+  /// Computes the energies and forces at `state`.
+  /// @param is_trial  true: `state` is the end of a step that is not yet accepted, at which the equations were
+  /// assembled last; false: the last accepted step ended in `state`
   void view_energy(const solver::State& state, bool is_trial, EnergyView& view);
 
-  /// What acted over the step from one view to the other, which has not been accepted yet (theory manual,
+  /// Returns the work over the step between two views; the step has not been accepted yet (theory manual,
   /// integrator.30).
   [[nodiscard]] WorkBetween work_between(const EnergyView& from, const EnergyView& to);
 
-  /// Where energy has gone between two views.
-  [[nodiscard]] EnergyPlaces energy_places(const EnergyView& from, const EnergyView& to) const;
+  /// Returns the parts with the largest changes of energy between two views.
+  [[nodiscard]] LargestEnergyChanges largest_energy_changes(const EnergyView& from, const EnergyView& to) const;
 
-  /// What the user gave for the start and `start` does not have, beyond round-off, in order of declaration.
+  /// Returns the initial values prescribed by the user from which `start` differs by more than round-off, in order of
+  /// declaration.
   [[nodiscard]] std::vector<ChangedStart> changed_values(const solver::State& start);
 
-  /// Motion of one frame.
+  /// Returns the motion of one frame.
   [[nodiscard]] FrameMotion frame_motion(const solver::State& state, FrameId frame);
 
-  /// What a two-body force sees at `state`, with dt = 0.
+  /// Returns the relative motion of a two-body force at `state`, with dt = 0.
   [[nodiscard]] RelativeMotion relative_motion(const solver::State& state, ForceId force);
 
-  /// What it was built from.
+  /// Returns the specification of the mechanism.
   [[nodiscard]] const MechanismSpec& spec() const;
 
-  /// Since it was made.
+  /// Returns computing times since construction.
   [[nodiscard]] const MechanismTiming& timing() const;
 
-  /// Closing joints some of whose constraints are redundant, in order of declaration.
+  /// Returns the closing joints with redundant constraints, in order of declaration.
   [[nodiscard]] const std::vector<Redundancy>& redundancies() const;
 
-  /// Joints that close a loop, in order of declaration.
+  /// Returns the joints that close a loop, in order of declaration.
   [[nodiscard]] std::vector<JointId> closing_joints() const;
 
  private:

@@ -24,7 +24,7 @@ class MechanismBuilder {
  public:
   MechanismBuilder();
 
-  /// Acceleration [m/s^2], ground axes; zero unless set.
+  /// Sets the acceleration of gravity [m/s^2], ground axes; zero by default.
   void set_gravity(const Vector3& gravity) { spec_.gravity = gravity; }
 
   /// Cuts chains of bodies wherever more than `longest` velocity components move one of them: the body beyond gets
@@ -38,52 +38,53 @@ class MechanismBuilder {
   /// deformations for coordinates (modes, equilibria, static starts) needs them counted from the first node.
   void loosen_beams() { spec_.loosens_beams = true; }
 
-  /// Lets no body carry others that turn ten times as hard or more, where joints leave a choice: what moves freely or
-  /// in a plane, closes no loop and is driven by nothing gets coordinates of its own, or is carried by another body of
-  /// those that move together. Joints show the same coordinates as ever.
+  /// Chooses the tree so that no body carries others of ten times its moment of inertia or more, as far as joints allow
+  /// a choice: bodies that move freely or in a plane, close no loop and are not driven get coordinates of their own, or
+  /// are carried by another body of their group. The observed coordinates of joints do not change.
   void choose_roots() { spec_.chooses_roots = true; }
-  /// The body that does not move.
+  /// Returns ground, the body that does not move.
   [[nodiscard]] static BodyId ground() { return {0}; }
   [[nodiscard]] FrameId frame_of(BodyId body) const;  ///< the body's own frame
 
-  /// A rigid body, with a frame of its own.
+  /// Adds a rigid body with a frame of its own.
   BodyId add_body(BodySpec body);
   /// @throws ContractError unless the body exists and the axes are a rotation
   FrameId add_frame(FrameSpec frame);
-  /// The axis is normalised. @throws ContractError for frames that do not exist, an axis of no length, or other than
-  /// one initial value or rate per degree of freedom
+  /// Adds a joint and normalises its axis. @throws ContractError for frames that do not exist, an axis of no length, or
+  /// other than one initial value or rate per degree of freedom
   JointId add_joint(JointSpec joint);
-  /// The force acts on b's body, its negative on a's; it sees frame b relative to frame a, and the shapes of elastic
-  /// bodies that carry these frames.
+  /// Adds a force that acts on b's body and with opposite sign on a's. It depends on the motion of frame b relative to
+  /// frame a and on the shapes of elastic bodies that carry these frames.
   ForceId add_force(std::string name, FrameId a, FrameId b, std::shared_ptr<TwoBodyForce> force,
                     const ForceSurfaces& surfaces = {});
-  /// Force or torque on a frame. @throws ContractError for a frame that does not exist or a term without magnitude
+  /// Adds a force or torque on a frame. @throws ContractError for a frame that does not exist or a term without
+  /// magnitude
   LoadId add_load(LoadSpec load);
-  /// A force or torque on a scalar joint coordinate, between the two bodies of the joint.
+  /// Adds a force or torque on a scalar joint coordinate, between the two bodies of the joint.
   CoordinateForceId add_coordinate_force(std::string name, CoordinateRef coordinate,
                                          std::shared_ptr<CoordinateForce> force);
-  /// A spring and damper on a scalar joint coordinate.
+  /// Adds a spring and damper on a scalar joint coordinate.
   SpringId add_spring(CoordinateSpringSpec spring);
   /// Prescribes a scalar joint coordinate. @throws ContractError for a drive without function
   DriveId add_drive(DriveSpec drive);
-  /// A relation between scalar joint coordinates. @throws ContractError for a term without function
+  /// Adds a relation between scalar joint coordinates. @throws ContractError for a term without function
   CouplingId add_coupling(CouplingSpec coupling);
 
-  /// A flexible body: its frames become massless bodies `name`, `name.frame_names[0]`, ..., at rest_pose of the first,
-  /// free to move against it, and `body` couples them. Joints and forces attach to them as to rigid bodies.
-  /// @param frame_names  of all frames but the first
+  /// Adds a flexible body: its frames become massless bodies `name`, `name.frame_names[0]`, ..., at rest_pose of the
+  /// first, free to move against it, and `body` couples them. Joints and forces attach to them as to rigid bodies.
+  /// @param frame_names  names of all frames but the first
   FlexibleBodyIds add_flexible_body(const std::string& name, const std::vector<std::string>& frame_names,
                                     std::shared_ptr<ElasticBody> body);
 
-  /// Forces on the nodes of a flexible body; `value` is a function of time.
+  /// Adds forces on the nodes of a flexible body; `value` is a function of time.
   void add_nodal_load(ElasticId elastic, const NodalLoad& load, std::shared_ptr<const ScalarFunction> value);
 
-  /// How many nodal loads a flexible body carries so far.
+  /// Returns the present number of nodal loads on a flexible body.
   [[nodiscard]] std::size_t nodal_loads(ElasticId elastic) const;
 
-  /// A beam: its nodes become massless bodies `name`, `name.node_names[0]`, ..., free to move against the first, and
-  /// each segment couples two that follow each other.
-  /// @param node_names  of all nodes but the first
+  /// Adds a beam: its nodes become massless bodies `name`, `name.node_names[0]`, ..., free to move against the first,
+  /// and each segment couples two that follow each other.
+  /// @param node_names  names of all nodes but the first
   BeamBodyIds add_beam_body(const std::string& name, const std::vector<std::string>& node_names,
                             std::vector<std::shared_ptr<ElasticBody>> segments);
 
@@ -92,7 +93,7 @@ class MechanismBuilder {
   [[nodiscard]] std::unique_ptr<Mechanism> finalise();
 
  private:
-  /// A massless body at `rest` of `base`, free to move against it.
+  /// Adds a massless body at the pose `rest` in `base`, free to move against it.
   BodyId add_free_frame(const std::string& name, BodyId base, const Pose& rest);
 
   MechanismSpec spec_;

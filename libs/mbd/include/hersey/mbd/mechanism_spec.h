@@ -14,10 +14,10 @@
 #include "hersey/mbd/load_axes.h"
 #include "hersey/mbd/two_body_force.h"
 
-/// The parts of a mechanism as they are given: bodies, frames, joints, forces, drives.
+/// Specification of a mechanism: bodies, frames, joints, forces, drives.
 namespace hersey::mbd {
 
-/// Index of a thing in the order it was added; a different type for each kind of thing.
+/// Index of an item in the order of addition; each kind of item has its own type.
 template <class Tag>
 struct Id {
   int index = -1;
@@ -54,19 +54,19 @@ struct JointSpec {
   JointType type = JointType::fixed;
   FrameId inboard;
   FrameId outboard;
-  Vector3 axis = Vector3::UnitZ();  ///< in the inboard frame; normalised here, length > 0
-  double lead = 0;                  ///< of a screw: travel per turn [m], right-handed where positive
+  Vector3 axis = Vector3::UnitZ();  ///< axis in the inboard frame; any length > 0
+  double lead = 0;  ///< axial displacement of a screw per revolution [m], positive for a right-handed screw
   std::vector<double>
       initial;  ///< values in the order of coordinates_of(type); empty: zero, and free to move in assembly
-  std::vector<double> initial_rate;  ///< the same for their rates
-  std::vector<bool> loose;           ///< per value: `initial` is a guess, free to move; empty: none is
-  std::vector<bool> loose_rate;      ///< the same for their rates
+  std::vector<double> initial_rate;  ///< rates likewise
+  std::vector<bool> loose;           ///< per value: `initial` is a guess and free to move; empty: no value is a guess
+  std::vector<bool> loose_rate;      ///< per value: `initial_rate` is a guess
 
-  /// Whether value `i` starts where `initial` says.
+  /// True if the initial value `i` is prescribed.
   [[nodiscard]] bool is_given(int i) const { return is_in(initial, loose, i); }
-  /// Whether its rate starts as `initial_rate` says.
+  /// True if the initial rate `i` is prescribed.
   [[nodiscard]] bool is_rate_given(int i) const { return is_in(initial_rate, loose_rate, i); }
-  /// Whether any value or rate does.
+  /// True if any initial value or rate is prescribed.
   [[nodiscard]] bool has_given() const {
     for (int i = 0; i < degrees_of_freedom(type); ++i)
       if (is_given(i) || is_rate_given(i)) return true;
@@ -79,7 +79,7 @@ struct JointSpec {
   }
 };
 
-/// A scalar joint coordinate: place `value` in the joint's list of values.
+/// A scalar joint coordinate: entry `value` of the joint's list of values.
 struct CoordinateRef {
   JointId joint;
   int value = 0;
@@ -122,29 +122,29 @@ struct DriveSpec {
   std::string name;
   CoordinateRef coordinate;
   Kind kind = Kind::position;
-  std::shared_ptr<const ScalarFunction> function;  ///< of time alone
+  std::shared_ptr<const ScalarFunction> function;  ///< function of time alone
   double ramp = 0;   ///< time over which the motion is blended in from rest, twice differentiable [s]
   double start = 0;  ///< when the ramp begins [s]
 };
 
-/// A relation between scalar joint coordinates that always holds: output = sum of f_i(input_i). Gear, rack, cam,
+/// Holonomic relation between scalar joint coordinates: output = sum of f_i(input_i). Gear, rack, cam,
 /// differential. It acts between the two bodies of each joint and does no work in all.
 struct CouplingSpec {
   struct Term {
     CoordinateRef input;
-    std::shared_ptr<const ScalarFunction> function;  ///< of the input alone, twice differentiable
+    std::shared_ptr<const ScalarFunction> function;  ///< function of the input alone, twice differentiable
   };
   std::string name;
   CoordinateRef output;
   std::vector<Term> terms;
 };
 
-/// The elastic bodies that a force between two bodies sees deform, beside the motion of its frames.
+/// Elastic bodies on whose deformation a force between two bodies depends, beside the motion of its frames.
 struct ForceSurfaces {
   std::optional<ElasticId> a, b;
 };
 
-/// Everything a mechanism is made of, as added.
+/// All parts of a mechanism in the order of addition.
 struct MechanismSpec {
   Vector3 gravity = Vector3::Zero();  ///< [m/s^2], ground axes
   std::vector<BodySpec> bodies;       ///< body 0 is ground
@@ -173,10 +173,10 @@ struct MechanismSpec {
 
   struct Elastic {
     std::string name;
-    std::vector<FrameId> frames;    ///< as the elastic body counts them, each on a body of its own
+    std::vector<FrameId> frames;    ///< frames in the order of the elastic body, each on a body of its own
     std::vector<JointId> freedoms;  ///< free joints from the first frame at rest_pose to each other; none of segments
     std::shared_ptr<ElasticBody> body;
-    std::vector<std::string> load_names;                       ///< of its loads, in the order they were added
+    std::vector<std::string> load_names;                       ///< names of its loads, in the order of addition
     std::vector<std::shared_ptr<const ScalarFunction>> loads;  ///< their values, functions of time
   };
   std::vector<Elastic> elastics;
@@ -186,19 +186,19 @@ struct MechanismSpec {
   bool chooses_roots = false;                          ///< see MechanismBuilder::choose_roots
 };
 
-/// Where a flexible body went in a mechanism.
+/// Ids of the parts of a flexible body in a mechanism.
 struct FlexibleBodyIds {
   ElasticId elastic;
-  std::vector<BodyId> bodies;   ///< of each frame; the first has the flexible body's name and axes
-  std::vector<FrameId> frames;  ///< their own frames
+  std::vector<BodyId> bodies;   ///< body of each frame; the first has the flexible body's name and axes
+  std::vector<FrameId> frames;  ///< own frames of `bodies`
 };
 
-/// Where a beam went in a mechanism.
+/// Ids of the parts of a beam in a mechanism.
 struct BeamBodyIds {
   std::vector<ElasticId> segments;
-  std::vector<JointId> freedoms;  ///< of each node but the first, against the first
-  std::vector<BodyId> bodies;     ///< of each node; the first has the beam's name and axes
-  std::vector<FrameId> frames;    ///< their own frames
+  std::vector<JointId> freedoms;  ///< joint of each node but the first, against the first
+  std::vector<BodyId> bodies;     ///< body of each node; the first has the beam's name and axes
+  std::vector<FrameId> frames;    ///< own frames of `bodies`
 };
 
 }  // namespace hersey::mbd

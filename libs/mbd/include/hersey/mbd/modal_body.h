@@ -14,27 +14,27 @@ namespace hersey::mbd {
 struct ModalWorkspace;
 
 /// A body reduced to shapes: a material point at x moves to x + sum over a of q_a Phi_a(x) in the body's own axes,
-/// which are those of frame 0. The first 6 (frames - 1) shapes are the static answers to a unit [rotation;
-/// displacement] of frames 1, 2, ... with the others held; further ones are motions with all frames held. None moves
-/// frame 0.
+/// which are those of frame 0. The first 6 (frames - 1) shapes are the static responses to a unit [rotation;
+/// displacement] of frames 1, 2, ... with the others fixed; further ones are motions with all frames fixed. No shape
+/// moves frame 0.
 struct ModalBodyData {
   double mass = 0;                ///< [kg]
-  std::vector<Pose> rest;         ///< of each frame in the body's axes; rest[0] is the identity
+  std::vector<Pose> rest;         ///< rest pose of each frame in the body's axes; rest[0] is the identity
   Eigen::Matrix3Xd first_moment;  ///< integral of rho Y_a, Y_0 = x and Y_a = Phi_a, shape (3, 1 + shapes)
   /// Integrals of rho Y_a,p Y_b,r, component by component: second_moment[3 p + r](a, b), shape (1 + shapes)^2.
   std::array<Eigen::MatrixXd, 9> second_moment;
-  /// Of the turn and displacement of each frame but the first: 6, or 12 with the matrix of the turn (theory manual eq.
-  /// (flexible-bodies.22)).
+  /// Number of shapes for rotation and displacement of each frame but the first: 6, or 12 with the rotation matrix
+  /// (theory manual eq. (flexible-bodies.22)).
   int shapes_per_frame = 6;
   Eigen::MatrixXd stiffness;      ///< shape (shapes, shapes)
-  Eigen::MatrixXd damping;        ///< the same
+  Eigen::MatrixXd damping;        ///< shape (shapes, shapes)
   Eigen::Matrix3Xd nodes;         ///< undeformed [m], shape (3, nodes)
-  Eigen::MatrixXd displacements;  ///< of the nodes for unit amplitudes, shape (3 nodes, shapes)
-  /// How many there are.
+  Eigen::MatrixXd displacements;  ///< displacements of the nodes for unit amplitudes, shape (3 nodes, shapes)
+  /// Returns the number of shapes.
   [[nodiscard]] Eigen::Index shapes() const { return stiffness.rows(); }
 };
 
-/// Nodes and shapes, and the first and second moments of their mass.
+/// Sets nodes and shapes, and the first and second moments of their mass.
 /// @param nodal_mass  symmetric, shape (nodes, nodes), the same in every direction: M = nodal_mass (x) I3
 /// @param x           nodes, shape (3, nodes)
 /// @param shapes      displacements, shape (3 nodes, shapes), node after node
@@ -48,9 +48,9 @@ struct RayleighDamping {
   double stiffness = 0;  ///< [s]
 };
 
-/// A reduced mesh whose axes ride on its first frame: the shapes that move that frame are left out, being rigid motions
-/// and those of the others. Internal shapes are scaled to a largest displacement of 1, so that their coordinates are
-/// lengths (theory manual eq. (flexible-bodies.14)).
+/// Returns the data of a reduced mesh whose axes are those of its first frame. Shapes that move that frame are omitted,
+/// since they are combinations of rigid motions and the other shapes. Internal shapes are scaled to a largest
+/// displacement of 1, so that their coordinates are lengths (theory manual eq. (flexible-bodies.14)).
 /// @param shapes  receives the displacements of all nodes in each shape, shape (3 nodes, shapes); may be null
 [[nodiscard]] ModalBodyData modal_data(const fem::ReducedBody& reduced, const RayleighDamping& damping,
                                        Eigen::MatrixXd* shapes = nullptr);
@@ -77,23 +77,23 @@ class ModalBody : public ElasticBody {
   void evaluate(const ElasticMotion& motion, bool want_tangent, ElasticResponse& response) override;
   [[nodiscard]] ElasticEnergy energy(const ElasticMotion& motion, const Vector3& gravity) override;
 
-  /// Amplitudes of all shapes, shape (shapes).
+  /// Returns the amplitudes of all shapes, shape (shapes).
   [[nodiscard]] virtual Eigen::VectorXd amplitudes(const ElasticMotion& motion);
-  /// Displacements of all nodes in the body's axes, shape (3 nodes), from `shapes` as modal_data gave them.
+  /// Returns the displacements of all nodes in the body's axes, shape (3 nodes), from the `shapes` of modal_data.
   [[nodiscard]] virtual Eigen::VectorXd displacements(const ElasticMotion& motion, const Eigen::MatrixXd& shapes);
   [[nodiscard]] const ModalBodyData& data() const { return data_; }
 
  protected:
   using Workspace = ModalWorkspace;
   [[nodiscard]] Workspace& work() { return *work_; }
-  /// Amplitudes and sums over shapes at a motion.
+  /// Computes amplitudes and sums over shapes at a motion.
   virtual void gather(const ElasticMotion& motion, bool want_tangent);
-  /// What a body has beside its shapes, added to forces and derivatives of [frame 0; amplitudes].
+  /// Adds the contribution of degrees of freedom beside the shapes to forces and derivatives of [frame 0; amplitudes].
   virtual void add_nodes(const ElasticMotion& motion, bool want_tangent) { (void)motion, (void)want_tangent; }
   void add_load_energies(const ElasticMotion& motion, ElasticEnergy& energy);
-  /// Magnitude of what poses with round-off leave of the elastic forces.
+  /// Returns the magnitude of elastic forces caused by the round-off of poses.
   [[nodiscard]] const Eigen::VectorXd& round_off() const { return round_off_; }
-  /// Of stiffness and damping on the amplitudes.
+  /// Adds forces of stiffness and damping on the amplitudes.
   virtual void add_elasticity(bool want_tangent);
 
  private:
@@ -111,7 +111,7 @@ class ModalBody : public ElasticBody {
   void add_momentum_share(const ElasticFrame& base, double dt);
   void add_loads(const ElasticMotion& motion, bool want_tangent);
   void project_load(const ProjectedLoad& load, const Pose& X_WB);
-  void turn_load(const ProjectedLoad& load, double value, const Matrix3& Q);
+  void rotate_load(const ProjectedLoad& load, double value, const Matrix3& Q);
   void reduce_to_frames(bool want_tangent, ElasticResponse& response);
 
   ModalBodyData data_;

@@ -19,10 +19,10 @@ class NodalFactors;
 struct NodalFactor;
 struct NodalFields;
 
-/// How displacements strain a body.
+/// Measure of strain.
 enum class Strain {
   small,  ///< linearly, in the body's axes
-  finite  ///< by Green and Lagrange
+  finite  ///< strain of Green and Lagrange
 };
 
 /// The flexible body of small strain and large motion with a displacement of every node: over the static shapes of its
@@ -37,23 +37,23 @@ enum class Strain {
 ///
 /// With Strain::finite the elastic forces are those of Green and Lagrange's strain (St. Venant and Kirchhoff): strains
 /// may be moderate, rotations against the body's axes large, and what is pulled gets stiffer. The static shapes of a
-/// frame then keep its nodes a rigid piece, however far it turns (flexible-bodies.22). The matrix is that of
-/// the state each step starts from, factorised anew for each.
-///
-/// At the start w is the static answer to the forces of inertia and weight of the start, at rest against the axes: as
-/// if the motion had gone on like this before. After `start_undeformed` it is zero and is let go there.
+/// frame then move its nodes rigidly at any rotation (flexible-bodies.22). The matrix is that of the state at the start
+/// of each step and is factorised in every step. At the start w is the static response to the inertia forces and the
+/// weight at the start, at rest relative to the body's axes, as if the motion had been steady before. After
+/// `start_undeformed` it is zero and is released.
 class NodalBody final : public ModalBody {
  public:
   /// @param body     the whole mesh
   /// @param reduced  of that mesh with the same frames and film modes; its vibrations serve to draw the body, not to
   ///                 move it
   /// @pre frames but the first are rigid where `strain` is finite
-  /// @throws InputError  telling the memory needed where the factor does not fit
+  /// @throws InputError  stating the memory needed if the factor does not fit
   NodalBody(fem::ElasticBody body, const fem::ReducedBody& reduced, const RayleighDamping& damping,
             Strain strain = Strain::small);
   ~NodalBody() override;
 
-  /// Instants (steps of length 0) until the first step is accepted see w = w' = 0, and w'' as the forces there make it.
+  /// Starts with w = w' = 0: until the first step is accepted, instants (steps of length 0) are evaluated there, with
+  /// w'' from the forces.
   void start_undeformed() { lets_go_ = true; }
 
   void add_load(const NodalLoad& load) override;
@@ -64,14 +64,14 @@ class NodalBody final : public ModalBody {
   [[nodiscard]] bool has_condensed_unknowns() const override { return true; }
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override { return "equations of the nodes"; }
-  [[nodiscard]] std::string domain_error() const override { return trouble_; }
+  [[nodiscard]] std::string domain_error() const override { return failure_; }
   void persist(Archive& archive) override;
 
-  /// Amplitudes of the frames' shapes, then of the vibrations as far as they describe w.
+  /// Returns the amplitudes of the frames' shapes, then those of the vibration modes by projection of w.
   [[nodiscard]] Eigen::VectorXd amplitudes(const ElasticMotion& motion) override;
   [[nodiscard]] Eigen::VectorXd displacements(const ElasticMotion& motion, const Eigen::MatrixXd& shapes) override;
 
-  /// Solutions with the factored matrix so far.
+  /// Returns the number of solutions with the factorised matrix so far.
   [[nodiscard]] long solves() const;
   [[nodiscard]] const fem::ElasticBody& mesh_body() const { return body_; }
 
@@ -81,11 +81,11 @@ class NodalBody final : public ModalBody {
   void add_elasticity(bool want_tangent) override;
 
  private:
-  /// Static shapes, (3 nodes, shapes).
+  /// Returns the static shapes, (3 nodes, shapes).
   [[nodiscard]] const Eigen::MatrixXd& Psi() const { return data().displacements; }
   [[nodiscard]] Eigen::Matrix3Xd loads_on_nodes(const ElasticMotion& motion,
                                                 std::optional<LoadAxes> axes = std::nullopt) const;
-  [[nodiscard]] Eigen::MatrixXd turned_loads(const ElasticMotion& motion) const;
+  [[nodiscard]] Eigen::MatrixXd rotated_loads(const ElasticMotion& motion) const;
   [[nodiscard]] static Eigen::MatrixXd torque_of_loads(const Eigen::Matrix3Xd& loads,
                                                        const Eigen::MatrixXd& displacements);
   [[nodiscard]] bool follows(const ElasticMotion& motion) const;
@@ -115,28 +115,28 @@ class NodalBody final : public ModalBody {
   Eigen::RowVectorXd nodal_mass_;  ///< sums of the rows of m
   Eigen::Index frame_shapes_ = 0;  ///< static shapes of the frames; those of films follow
   Eigen::MatrixXd Psi_size_;       ///< absolute values of Psi
-  Eigen::MatrixXd drawn_frames_;   ///< finite strains: static shapes of the frames, to draw with
-  Eigen::MatrixXd vibrations_;     ///< to draw with, largest displacement 1
+  Eigen::MatrixXd drawn_frames_;   ///< finite strains: static shapes of the frames for drawing
+  Eigen::MatrixXd vibrations_;     ///< vibration modes for drawing, largest displacement 1
   Eigen::VectorXd vibration_mass_;
   std::array<Eigen::MatrixXd, 3> m_Psi_;  ///< m times each component of Psi, (nodes, shapes)
-  /// Columns E of (flexible-bodies.19): 3 accelerations, 9 of turning, M Psi; with finite strain K(u) Psi as well.
+  /// Columns E of (flexible-bodies.19): 3 accelerations, 9 of rotation, M Psi; with finite strain K(u) Psi as well.
   Eigen::MatrixXd columns_;
   std::vector<NodalLoad> loads_;
   solver::SecondOrderHistory w_;
   std::unique_ptr<NodalFactors> factors_;
   std::unique_ptr<NodalFields> fields_;
-  fem::FiniteStrain finite_;             ///< at the last displacement looked at
+  fem::FiniteStrain finite_;             ///< at the last displacement evaluated
   Eigen::VectorXd elastic_;              ///< forces of the material there
   Eigen::MatrixXd stiffness_of_shapes_;  ///< Psi^T K(u) Psi, of the state the matrix is of
-  Eigen::VectorXd followed_;             ///< amplitudes that the nodes have followed
-  Eigen::VectorXd r_, sizes_;            ///< forces on the nodes that nothing balances, and sizes of the terms in them
+  Eigen::VectorXd followed_;             ///< amplitudes of the frames at the last motion of the nodes with them
+  Eigen::VectorXd r_, sizes_;            ///< residual forces on the nodes, and magnitudes of their terms
   bool at_rest_ = true;
-  bool lets_go_ = false;       ///< the motion is still to start, from w = 0
-  bool is_let_go_ = false;     ///< what is evaluated is the instant of that start
-  bool is_stale_ = true;       ///< finite strains: the matrix is not of this step, or serves it no longer
-  bool is_predicted_ = false;  ///< the step has just begun, with frames and nodes as they are predicted
+  bool lets_go_ = false;       ///< the motion has not started yet; it starts from w = 0
+  bool is_let_go_ = false;     ///< the present evaluation is at the instant of that start
+  bool is_stale_ = true;       ///< finite strains: the matrix is not that of this step, or does not converge any more
+  bool is_predicted_ = false;  ///< the step has just begun, with predicted frames and nodes
   double internal_residual_ = 0;
-  std::string trouble_;
+  std::string failure_;
 };
 
 }  // namespace hersey::mbd

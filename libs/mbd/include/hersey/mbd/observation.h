@@ -6,7 +6,7 @@
 #include "hersey/mbd/elastic_body.h"
 #include "hersey/mbd/mechanism_spec.h"
 
-/// What a mechanism shows of itself.
+/// Observations of a mechanism.
 namespace hersey::mbd {
 
 /// Motion of a frame relative to ground, in ground's axes.
@@ -21,43 +21,44 @@ struct FrameMotion {
 /// Values of a joint, one for each of its coordinates: none to six.
 using JointValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
 
-/// Coordinates of a joint and what it transmits.
+/// Coordinates of a joint and its reactions.
 struct JointObservation {
-  JointValues position;  ///< as in coordinates_of; of a closing joint in (-pi, pi]
+  JointValues position;  ///< values as in coordinates_of; angles of a closing joint lie in (-pi, pi]
   JointValues rate;
-  Vector3 force = Vector3::Zero();   ///< of the inboard on the outboard body, in the inboard frame's axes [N]
-  Vector3 torque = Vector3::Zero();  ///< the same about the inboard frame's origin [N m]; drives and springs excluded
+  Vector3 force = Vector3::Zero();  ///< force of the inboard on the outboard body, in the inboard frame's axes [N]
+  Vector3 torque =
+      Vector3::Zero();  ///< torque likewise, about the inboard frame's origin [N m]; drives and springs excluded
 };
 
-/// Constraints of a joint that closes a loop which follow from the rest of the mechanism wherever it can go. They are
-/// left out of the equations; reactions that they leave undetermined are the ones of smallest norm.
+/// Redundant constraints of a joint that closes a loop: in all configurations they follow from the rest of the
+/// mechanism. They are omitted from the equations; reactions that are then not determined are those of smallest norm.
 struct Redundancy {
   JointId joint;              ///< the closing joint
   std::vector<JointId> loop;  ///< the joints of its loop, itself last
-  int positions = 0;          ///< how many of its constraints on positions were left out
-  int orientations = 0;       ///< and on orientations
+  int positions = 0;          ///< number of omitted constraints on positions
+  int orientations = 0;       ///< number of omitted constraints on orientations
 };
 
-/// A value of a joint at the start that could not be the one given.
+/// Initial value of a joint that had to differ from the prescribed one.
 struct ChangedStart {
   JointId joint;
   Coordinate coordinate;
   bool is_rate = false;
   std::vector<double> given, found;  ///< SI
-  double share = 0;  ///< of the change: in rad or of the mechanism's size; of a rate, relative to the largest one
+  double share = 0;  ///< change [rad or relative to the mechanism's size]; for a rate relative to the largest rate
 };
 
-/// What an elastic body shows.
+/// Observation of an elastic body.
 struct ElasticObservation {
   ElasticEnergy energy;
-  std::vector<Vector6> wrenches;  ///< that the mechanism puts on each frame, at the frame, in its axes [N m; N]
+  std::vector<Vector6> wrenches;  ///< wrench of the mechanism on each frame, at the frame, in its axes [N m; N]
   ElasticMotion motion;
 };
 
-/// Everything known about a mechanism at one state. Indices are those of the ids.
+/// Observation of a mechanism at one state. Indices are those of the ids.
 struct Observation {
   double t = 0;
-  std::vector<FrameMotion> bodies;  ///< of each body's own frame
+  std::vector<FrameMotion> bodies;  ///< motion of each body's own frame
   std::vector<JointObservation> joints;
   std::vector<double> drive_efforts;             ///< force or torque each drive exerts on its coordinate [N; N m]
   std::vector<double> drive_powers;              ///< [W], > 0 puts energy in
@@ -66,22 +67,22 @@ struct Observation {
   std::vector<double> coordinate_force_efforts;  ///< [N; N m]
   std::vector<double> coordinate_force_powers;   ///< [W]
   std::vector<double> spring_powers;             ///< [W], stored and dissipated together
-  std::vector<Vector6> force_wrenches;           ///< of each two-body force on b, at a's origin, a's axes [N m; N]
-  std::vector<double> force_powers;              ///< of wrenches and of forces on shapes [W]
+  std::vector<Vector6> force_wrenches;  ///< wrench of each two-body force on b, at a's origin, a's axes [N m; N]
+  std::vector<double> force_powers;     ///< powers of wrenches and of forces on shapes [W]
   std::vector<ElasticObservation> elastics;
-  double kinetic_energy = 0;    ///< [J], of elastic bodies too
-  double potential_energy = 0;  ///< of gravity, zero at ground's origin [J]
+  double kinetic_energy = 0;    ///< [J], elastic bodies included
+  double potential_energy = 0;  ///< potential energy of gravity, zero at ground's origin [J]
   double spring_energy = 0;     ///< stored in springs on coordinates and in two-body forces [J]
   double damper_power = 0;      ///< lost in dampers on coordinates and in two-body forces, TwoBodyForce::lost_power [W]
   double constraint_drift = 0;  ///< largest violation, redundant rows included, relative to size or radian
 };
 
-/// Computing time since the mechanism was made, looking at it (`observe`) excluded [s].
+/// Computing time since construction of the mechanism, `observe` excluded [s].
 struct MechanismTiming {
-  double total = 0;             ///< of its equations: assembling them, beginning and accepting steps
-  double forces = 0;            ///< of that, until all two-body forces are known, costly ones side by side
-  std::vector<double> force;    ///< of each of them by itself, in the thread it has
-  std::vector<double> elastic;  ///< of the total, in each elastic body
+  double total = 0;             ///< time of the equations: assembling them, beginning and accepting steps
+  double forces = 0;            ///< part of `total` until all two-body forces are known, with costly ones in parallel
+  std::vector<double> force;    ///< time of each two-body force in its own thread
+  std::vector<double> elastic;  ///< part of `total` in each elastic body
 };
 
 }  // namespace hersey::mbd

@@ -10,7 +10,7 @@
 
 namespace hersey::mbd {
 
-// Shapes of bodies, in the body's frame [m]: what a picture shows and what may touch.
+// Shapes of bodies in the body's frame [m], for pictures and contact.
 
 struct Sphere {
   Vector3 centre = Vector3::Zero();
@@ -30,17 +30,17 @@ struct Capsule {
 };
 
 struct Box {
-  Pose X_BS;                       ///< of its centre and axes
+  Pose X_BS;                       ///< pose of its centre and axes
   Vector3 size = Vector3::Zero();  ///< whole edges, > 0
 };
 
-/// Everything on the side of a plane to which its normal does not point.
+/// All points on the side of a plane opposite to its normal.
 struct HalfSpace {
   Vector3 point = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();  ///< unit vector
 };
 
-/// A triangulated surface, closed or not; seen against their normals, corners turn clockwise.
+/// Triangulated surface, closed or open; seen along the normal of a triangle, its corners are ordered clockwise.
 struct TriangleMesh {
   std::vector<Vector3> corners;
   std::vector<std::array<int, 3>> triangles;  ///< indices of corners

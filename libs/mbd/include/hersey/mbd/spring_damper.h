@@ -18,7 +18,7 @@ class SpringDamper final : public TwoBodyForce {
   /// @param damping      [N s/m], >= 0
   /// @param free_length  [m], >= 0
   /// @param tension      further pull as a function of the length alone [N]; null for none. Its energy is its integral
-  ///                     from the length at the first step's start, which no singularity at length 0 spoils.
+  ///                     from the length at the first step's start, so that a singularity at length 0 has no effect.
   SpringDamper(double stiffness, double damping, double free_length,
                std::shared_ptr<const ScalarFunction> tension = nullptr);
 
@@ -36,7 +36,7 @@ class SpringDamper final : public TwoBodyForce {
   double stiffness_, damping_, free_length_;
   std::shared_ptr<const ScalarFunction> tension_;
   bool collapsed_ = false;
-  /// Where the last step ended, and what `tension_` held there; negative before the first.
+  /// Length at the end of the last step, and the energy of `tension_` there; negative before the first step.
   double reached_ = -1, energy_ = 0;
 };
 

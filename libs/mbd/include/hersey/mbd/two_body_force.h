@@ -7,8 +7,8 @@
 
 namespace hersey::mbd {
 
-/// What a force between two frames sees: frame B relative to frame A, in A; and how the bodies deform, where it sees
-/// that.
+/// Motion on which a force between two frames depends: that of frame B relative to frame A, in A, and the deformation
+/// of the bodies if the force depends on it.
 struct RelativeMotion {
   double t = 0;                      ///< time [s]
   double dt = 0;                     ///< length of the step being solved [s]; 0: steady or instantaneous
@@ -19,22 +19,23 @@ struct RelativeMotion {
 
 /// The wrench the force puts on B, at A's origin and in A's axes; on A acts its negative at the same point.
 /// Derivatives are with respect to a twist xi_A that moves B relative to A, dX_AB = xi^ X_AB at fixed V_AB_A, and to
-/// V_AB_A. A force that sees amplitudes s of shapes puts generalised forces Q on them, beside the wrench: it does the
-/// power W . V_AB_A + Q . s_rate (theory manual eq. (flexible-bodies.25)).
+/// V_AB_A. A force that depends on amplitudes s of shapes also exerts generalised forces Q on them: its power is W .
+/// V_AB_A + Q . s_rate (theory manual eq. (flexible-bodies.25)).
 struct ForceResponse {
   Vector6 W_B_A = Vector6::Zero();  ///< [tau; f] [N m; N]
   Matrix6 dW_dX = Matrix6::Zero();
   Matrix6 dW_dV = Matrix6::Zero();
 
-  /// Sum of the magnitudes of the forces that the wrench is the rest of, whose round-off it has [N]; 0: it is no rest.
+  /// Sum of the magnitudes of the forces whose resultant is the wrench; it scales the round-off of the wrench [N]; 0 if
+  /// the wrench is no such resultant.
   double summed = 0;
 
   Eigen::VectorXd Q;                                      ///< shape (amplitudes) [N m; N]
-  Eigen::Matrix<double, 6, Eigen::Dynamic> dW_ds, dW_dr;  ///< by amplitudes and by their rates
+  Eigen::Matrix<double, 6, Eigen::Dynamic> dW_ds, dW_dr;  ///< derivatives by amplitudes and by their rates
   Eigen::Matrix<double, Eigen::Dynamic, 6> dQ_dX, dQ_dV;
   Eigen::MatrixXd dQ_ds, dQ_dr;
 
-  /// All zero, for `amplitudes` of them.
+  /// Sets all entries to zero, for `amplitudes` amplitudes.
   void set_zero(Eigen::Index amplitudes);
 };
 
@@ -42,20 +43,21 @@ struct ForceResponse {
 /// Action equals reaction, moment included, by construction. It may keep unknowns of its own and condense them.
 class TwoBodyForce : public solver::Condensed<RelativeMotion> {
  public:
-  /// The wrench and, if `want_tangent`, its derivatives, condensed unknowns included.
+  /// Computes the wrench and, if `want_tangent`, its derivatives, condensed unknowns included.
   virtual void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) = 0;
 
-  /// Whether an evaluation takes long enough to have a thread of its own.
+  /// True if an evaluation is long enough for a thread of its own.
   [[nodiscard]] virtual bool is_costly() const { return false; }
 
-  /// Whether `evaluate` gives the derivatives of what it returns; a partitioned coupling does not.
+  /// True if `evaluate` computes the derivatives of the wrench; a partitioned coupling does not.
   [[nodiscard]] virtual bool has_tangent() const { return true; }
 
-  /// Energy stored [J]; 0 where the force stores none.
+  /// Returns the stored energy [J]; 0 if the force stores none.
   [[nodiscard]] virtual double stored_energy(const RelativeMotion&) const { return 0; }
 
-  /// Power taken from the bodies that `stored_energy` does not hold: dissipated, as a rule [W]. Not from the wrench:
-  /// the balance of energy compares both. 0 for a force that shows its losses itself (films, contacts).
+  /// Returns the power taken from the bodies that does not increase `stored_energy`, in general the dissipated power
+  /// [W]. It is not computed from the wrench, because the energy balance compares both. 0 for forces that report their
+  /// losses separately (films, contacts).
   [[nodiscard]] virtual double lost_power(const RelativeMotion&) const { return 0; }
 };
 

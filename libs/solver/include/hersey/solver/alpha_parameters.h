@@ -5,7 +5,7 @@ namespace hersey::solver {
 /// Parameters of generalized-alpha for the spectral radius `rho` of the highest frequencies, 0..1 (Chung and Hulbert
 /// 1993; theory manual eq. (integrator.4)).
 struct AlphaParameters {
-  /// For `rho` from 0 to 1.
+  /// @param rho  spectral radius at infinite frequency, 0..1
   explicit AlphaParameters(double rho = 0.8)
       : alpha_m((2 * rho - 1) / (rho + 1)),
         alpha_f(rho / (rho + 1)),

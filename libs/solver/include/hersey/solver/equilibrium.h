@@ -10,32 +10,32 @@ namespace hersey::solver {
 struct EquilibriumOptions {
   double rtol = 1e-10;       ///< out-of-balance force of every row, relative to the terms it balances
   int max_iterations = 500;  ///< Newton iterations
-  /// Steady motion instead of rest: the state keeps its velocities, of drives that turn at constant speed for example,
-  /// and everything else keeps still in its coordinates. Stability is not judged then: modes tell it.
-  bool turning = false;
+  /// Search for a steady motion instead of rest: the state keeps its velocities, for example those of drives of
+  /// constant speed, and all other coordinates are at rest. Stability is then not checked; the modes show it.
+  bool steady_motion = false;
 };
 
-/// Whether small motions about an equilibrium come back to it.
+/// Stability of an equilibrium: stable if small motions about it return to it.
 enum class EquilibriumKind { stable, neutral, unstable };
 
-/// Outcome of `find_equilibrium`. Unless it is solved the state is unchanged; a solved one that is not stable has a
-/// message that says so.
+/// Outcome of `find_equilibrium`. If it is not solved the state is unchanged. If it is solved but not stable, the
+/// message says so.
 struct [[nodiscard]] EquilibriumSummary : Outcome {
   int iterations = 0;
   double residual = 0;    ///< largest row residual relative to its tolerance
-  std::string worst_row;  ///< the row behind `residual`, by name
+  std::string worst_row;  ///< name of the row with `residual`
   EquilibriumKind kind = EquilibriumKind::stable;
-  std::string softest;  ///< coordinate that moves most in the motion of least stiffness, by name; empty if none is free
+  std::string
+      softest;  ///< name of the coordinate that moves most in the motion of least stiffness; empty if no motion is free
 };
 
-/// Rest under the forces at state.t: r(q, 0, 0, lambda) = 0 and Phi(q) = 0, from the consistent `state`.
-///
-/// Newton's method with a share of the mass matrix added to the stiffness, (K + mu M) dq + G^T lambda = -r: a large mu
-/// goes a small way the forces push, as overdamped motion would, mu = 0 is Newton's method. mu falls with the residual,
-/// and rises where a step overshoots; so the method slides down to a stable equilibrium, whatever loads are applied
-/// at once, and ends quadratically. Theory manual eq. (integrator.25). Where it does not arrive, as with very slender
-/// beams, the load is followed from none to all of it (integrator.26). With `turning` r(q, v, 0, lambda) = 0 by
-/// Newton's method, eq. (beams.8).
+/// Finds the static equilibrium under the forces at state.t, r(q, 0, 0, lambda) = 0 and Phi(q) = 0, starting from the
+/// consistent `state`. Newton's method with a multiple of the mass matrix added to the stiffness, (K + mu M) dq + G^T
+/// lambda = -r: a large mu gives a small step in the direction of the forces, as in overdamped motion; mu = 0 is
+/// Newton's method. mu decreases with the residual and increases if a step overshoots, so that the method descends to a
+/// stable equilibrium even under full loads and converges quadratically. Theory manual eq. (integrator.25). If it
+/// fails, as for very slender beams, the load is increased in steps (integrator.26). With `steady_motion` r(q, v, 0,
+/// lambda) = 0 is solved by Newton's method, eq. (beams.8).
 [[nodiscard]] EquilibriumSummary find_equilibrium(Equations& equations, State& state,
                                                   const EquilibriumOptions& options = {});
 

@@ -8,40 +8,42 @@
 
 namespace hersey::solver {
 
-/// How a fixed-point iteration corrects what it exchanges.
+/// Correction of the exchanged quantities in a fixed-point iteration.
 enum class Acceleration {
   constant,      ///< x + omega (F(x) - x), omega fixed
   aitken,        ///< omega from the last two residuals (Kuettler and Wall 2008)
   quasi_newton,  ///< least-squares fit of the interface Jacobian to the steps taken (IQN-ILS, Degroote et al. 2009)
 };
 
-/// What `quasi_newton` keeps of the steps taken.
+/// Differences of previous iterations that `quasi_newton` keeps.
 struct ChangesKept {
-  std::size_t most = 24;  ///< over the steps; twice the six components of a bearing's wrench for a pair of bearings
-  double noise = 1e-8;    ///< accuracy to be expected of an image, relative to its size: smaller changes are not kept
+  std::size_t most = 24;  ///< largest number kept over the steps; twice the six components of a bearing's wrench for a
+                          ///< pair of bearings
+  double noise = 1e-8;    ///< expected accuracy of an image relative to its magnitude; smaller changes are not kept
 };
 
-/// Fixed-point iteration x = F(x) with a memory (theory manual, (bearing.16)). One object per coupled system.
+/// Accelerated fixed-point iteration x = F(x) (theory manual, (bearing.16)). One object per coupled system.
 class FixedPointIteration {
  public:
-  /// @param relaxation  omega of the first correction, and of all of them in `constant`; in (0, 1].
+  /// @param relaxation  omega of the first correction, with `constant` of all corrections; in (0, 1].
   FixedPointIteration(Acceleration acceleration, double relaxation, ChangesKept kept = {});
 
-  /// A new time step begins: residuals of the last one are no longer neighbours, its differences still are.
+  /// Begins a new time step: the last residual is discarded, the differences of the previous step are kept.
   void begin_step();
 
-  /// Of a residual's part that no known change resembles, `quasi_newton` goes this share of the way from now on, at
-  /// first all of it: where F answers it with one many times as large, a small share keeps it small until it is known.
+  /// Sets the relaxation of the part of the residual that lies outside the span of the known changes, for
+  /// `quasi_newton`; initially 1. If F amplifies this part strongly, a small value keeps it small until its change is
+  /// known.
   void set_share_of_unknown(double share) { share_of_unknown_ = share; }
 
-  /// The next x after F(x) came out as `image`. All entries should be of comparable size.
+  /// Returns the next x; `image` is F(x). All entries should be of comparable magnitude.
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image);
 
-  /// Begins with the changes that a like system has shown, such as one on another grid, carried over by `transfer`.
+  /// Initialises the differences with those of a similar system, such as one on another grid, converted by `transfer`.
   void learn_from(const FixedPointIteration& other,
                   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& transfer);
 
-  /// What it remembers.
+  /// Saves or restores the history.
   void persist(Archive& archive);
 
  private:

@@ -28,7 +28,7 @@ class Gmres {
  public:
   using Operator = std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)>;
 
-  /// Solves from x = 0. Unsolved, x is the best answer so far.
+  /// Solves A x = b from x = 0. If not solved, x is the best approximation found.
   [[nodiscard]] GmresSummary solve(const Operator& A, const Operator& M, const Eigen::VectorXd& b,
                                    const GmresOptions& options, Eigen::VectorXd& x);
 

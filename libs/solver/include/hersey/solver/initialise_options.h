@@ -9,12 +9,13 @@ namespace hersey::solver {
 struct InitialiseOptions {
   double rtol = 1e-12;       ///< constraint residual relative to the lengths it compares
   int max_iterations = 100;  ///< iterations of the assembly, from each guess
-  /// Velocity components whose positions stay as they are if the constraints allow it: what the user prescribed. Where
-  /// they do not, these change as little as closes them.
-  std::vector<Equations::Index> held;
-  /// The same for velocities: a prescribed position says nothing about its rate.
-  std::vector<Equations::Index> held_rates;
-  /// Those that should move only if even freeing the held ones does not close the constraints: deformations.
+  /// Velocity components whose positions are kept if the constraints allow it: those prescribed by the user. Otherwise
+  /// they change as little as possible.
+  std::vector<Equations::Index> fixed;
+  /// Velocity components whose velocities are kept likewise; a prescribed position does not prescribe its rate.
+  std::vector<Equations::Index> fixed_rates;
+  /// Velocity components that move only if the constraints cannot be satisfied otherwise, not even with the fixed
+  /// components free: deformations.
   std::vector<Equations::Index> stiff;
 };
 

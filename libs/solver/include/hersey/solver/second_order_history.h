@@ -7,39 +7,39 @@
 
 namespace hersey::solver {
 
-/// Unknowns with second-order dynamics that a contributor condenses, integrated like those of the system: by the same
-/// generalized-alpha, with an algorithmic acceleration of their own (theory manual, chapter integrator).
+/// Time integration of condensed unknowns with second-order dynamics by the same generalized-alpha method as the
+/// system, with an algorithmic acceleration of their own (theory manual, chapter integrator).
 class SecondOrderHistory {
  public:
-  /// At rest in `x`, with no history.
+  /// Sets the unknowns to rest at `x` without history.
   void start(const Eigen::VectorXd& x);
 
-  /// A step begins (again): back to what was accepted.
+  /// Begins a step, possibly again: the unknowns return to the accepted state.
   void begin_step() { predicted_ = false; }
 
-  /// The step's predicted state, once: later calls in the same step do nothing.
+  /// Predicts the state at the end of the step; later calls in the same step have no effect.
   void predict(const Stage& stage);
 
-  /// Moves the unknowns by dx, as `stage` moves positions.
+  /// Moves the unknowns by the increment dx of position, and rates and accelerations according to `stage`.
   void move(const Stage& stage, const Eigen::VectorXd& dx);
 
-  /// The step is over: what is there stays.
+  /// Accepts the present state.
   void accept();
 
-  /// What was accepted; where a step is being solved, it begins again after restoring.
+  /// Saves or restores the accepted state; a step that is being solved begins again after restoring.
   void persist(Archive& archive);
 
-  /// Of the trial where a step is being solved, else of what was accepted.
+  /// Returns the unknowns of the trial state while a step is being solved, otherwise of the accepted state.
   [[nodiscard]] const Eigen::VectorXd& position() const { return x_; }
-  /// Its rate.
+  /// Returns the rates of position().
   [[nodiscard]] const Eigen::VectorXd& rate() const { return v_; }
-  /// Its acceleration.
+  /// Returns the accelerations of position().
   [[nodiscard]] const Eigen::VectorXd& acceleration() const { return vdot_; }
 
  private:
-  Eigen::VectorXd x_, v_, vdot_;                        // trial
-  Eigen::VectorXd x_start_, v_start_, vdot_start_, a_;  // accepted; a_ the algorithmic acceleration
-  Eigen::VectorXd a_start_;                             // the same, rescaled to this step's length
+  Eigen::VectorXd x_, v_, vdot_;                        // trial state
+  Eigen::VectorXd x_start_, v_start_, vdot_start_, a_;  // accepted state; a_ is the algorithmic acceleration
+  Eigen::VectorXd a_start_;                             // algorithmic acceleration rescaled to the length of this step
   Eigen::VectorXd x_predicted_;
   AlphaParameters parameters_;
   double dt_ = 0, last_dt_ = 0;

@@ -6,19 +6,20 @@
 
 namespace hersey::solver {
 
-/// Limits within which steps are chosen.
+/// Limits of the step length.
 struct StepControlOptions {
   double smallest = 1e-9;  ///< [s], > 0
   double largest = 1;      ///< [s], >= smallest
-  double unit = 0;         ///< > 0: steps are this over powers of 2, where each new step size costs a factorisation [s]
+  double unit = 0;  ///< > 0: step lengths are this value divided by powers of 2; for cases in which each new length
+                    ///< costs a factorisation [s]
 };
 
-/// Chooses step lengths from the errors of the steps before (theory manual eq. (integrator.14)).
-///
-/// Steps follow the motion without lag: the error is that of the step to come, told from the last two, so that on the
-/// way out of a hard place steps are those of the way in, and the errors of both cancel as those of equal steps do.
-/// What changes fast counts as an error too, which keeps the step where a third derivative passes through zero. Steps
-/// grow by at most a third at a time, since the constraints' own modes bear no fast growth.
+/// Chooses step lengths from the errors of previous steps (theory manual eq. (integrator.14)).
+/// Step lengths follow the motion without lag: they are chosen by the error of the next step, extrapolated from the
+/// last two. Steps before and after an instant of large errors are then equal, and their errors cancel as those of
+/// equal steps do. The rate of change of an error counts as an error, too, which keeps the step short where a third
+/// derivative passes through zero. Steps grow by at most a third at a time, since faster growth excites the modes of
+/// the constraints.
 /// @see Hairer, Lubich and Wanner (2006), Geometric Numerical Integration, ch. VIII.3: reversible step selection.
 /// @verified_by step_control_test.cpp
 class StepControl {
@@ -26,22 +27,23 @@ class StepControl {
   /// @pre 0 < smallest <= first <= largest, where first is clamped into the limits.
   StepControl(const StepControlOptions& options, double first);
 
-  /// The step to try when `remaining` is left to an instant that must be hit: equal parts where one step does not reach
-  /// it and two do, so that no crumb is left. With a unit the largest part of it that fits, wherever parts of it can
-  /// reach the instant.
+  /// Returns the next step to try if an instant that must be hit lies `remaining` ahead. If two steps but not one reach
+  /// the instant, they are equal, so that no short remainder is left. With a unit it is the largest part of the unit
+  /// that fits, provided that parts of it can reach the instant.
   [[nodiscard]] double proposed(double remaining) const;
 
-  /// The step taken had these errors relative to the tolerance, with their signs (within -1..1).
+  /// Reports an accepted step with its signed errors relative to the tolerance (within -1..1).
   void accepted(double dt, const Eigen::VectorXd& errors);
-  /// The step tried had this error (> 1). Returns false if no smaller step is allowed.
+  /// Reports a rejected step with its error relative to the tolerance (> 1). Returns false if no smaller step is
+  /// allowed.
   [[nodiscard]] bool rejected(double dt, double error);
-  /// The step tried had no solution. Returns false if no smaller step is allowed.
+  /// Reports a step without a solution. Returns false if no smaller step is allowed.
   [[nodiscard]] bool failed(double dt);
 
-  /// The step wanted next, without regard to instants to hit [s].
+  /// Returns the length of the next step [s], irrespective of instants to hit.
   [[nodiscard]] double dt() const { return dt_; }
 
-  /// The step wanted, and what it is told from.
+  /// Saves or restores the next step length and the history from which it is chosen.
   void persist(Archive& archive);
 
  private:
@@ -52,9 +54,9 @@ class StepControl {
 
   StepControlOptions options_;
   double dt_;
-  Eigen::VectorXd factors_;  ///< errors of the last step over its length cubed; empty where there is none
-  Eigen::VectorXd change_;   ///< of the factors over the last step
-  double factor_ = 0;        ///< their size, changes included
+  Eigen::VectorXd factors_;  ///< errors of the last step divided by its length cubed; empty if there is none
+  Eigen::VectorXd change_;   ///< change of `factors_` over the last step
+  double factor_ = 0;        ///< norm of `factors_`, changes included
   bool after_rejection_ = false;
 };
 

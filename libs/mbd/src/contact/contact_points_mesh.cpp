@@ -1,17 +1,18 @@
-// ContactPoints of triangulated surfaces: a ball on the mesh, and the mesh's corners on a solid.
+// Contact points of triangulated surfaces: a ball on the mesh, and the mesh's corners on a solid.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "contact/contact_spots.h"
+#include "contact/contact_points.h"
 #include "contact/mesh_surface.h"
 #include "contact/solid_distance.h"
 
 namespace hersey::mbd {
 namespace {
 
-// The ball touches each face, edge and corner whose distance from its centre is a local minimum: one spot on flat and
-// convex places, one per wall in a corner. Where faces meet at an edge the distance is continuous with its gradient.
+// The ball touches each face, edge and corner whose distance from its centre is a local minimum: one contact point on
+// flat and convex surfaces, one per wall in a corner. Where faces meet at an edge the distance is continuous with its
+// gradient.
 class BallOnMesh final : public ContactSearchOf<BallOnMesh> {
  public:
   BallOnMesh(const Sphere& ball, std::shared_ptr<const TriangleMesh> mesh, bool on_b)
@@ -22,17 +23,17 @@ class BallOnMesh final : public ContactSearchOf<BallOnMesh> {
     near_.clear();
     const double reach2 = ball_.radius * ball_.radius;
     surface_.triangles().visit([&](const BoxTree::Box& box) { return box.squaredExteriorDistance(centre) < reach2; },
-                               [&](int triangle) { look_at(triangle, centre); });
+                               [&](int triangle) { examine(triangle, centre); });
     const auto nearest = std::min_element(near_.begin(), near_.end(), [](const Near& x, const Near& y) {
       return x.nearest.distance < y.nearest.distance;
     });
     if (nearest == near_.end()) return;
-    if (nearest->is_behind) {  // the centre has passed the surface: too deep to be resolved, and told so by its gap
+    if (nearest->is_behind) {  // the centre has passed the surface: too deep to be resolved, which the gap shows
       found.push_back(id_of(*nearest));
       return;
     }
-    for (const Near& spot : near_)
-      if (!spot.is_behind) found.push_back(id_of(spot));
+    for (const Near& candidate : near_)
+      if (!candidate.is_behind) found.push_back(id_of(candidate));
   }
 
   double smallest_gap(const Pose& X_AB) override {
@@ -42,10 +43,11 @@ class BallOnMesh final : public ContactSearchOf<BallOnMesh> {
     surface_.triangles().visit(
         [&](const BoxTree::Box& box) { return box.squaredExteriorDistance(centre) < nearest * nearest; },
         [&](int triangle) {
-          const NearestOnTriangle seen = surface_.nearest_on(triangle, centre);
-          if (seen.distance >= nearest) return;
-          nearest = seen.distance;
-          is_behind = seen.feature == Feature::face && surface_.normal(triangle).dot(centre - seen.point) < 0;
+          const NearestOnTriangle on_triangle = surface_.nearest_on(triangle, centre);
+          if (on_triangle.distance >= nearest) return;
+          nearest = on_triangle.distance;
+          is_behind =
+              on_triangle.feature == Feature::face && surface_.normal(triangle).dot(centre - on_triangle.point) < 0;
         });
     return (is_behind ? -nearest : nearest) - ball_.radius;
   }
@@ -64,7 +66,7 @@ class BallOnMesh final : public ContactSearchOf<BallOnMesh> {
       const Vec3<T> normal = constant<T>(surface_.normal(id.index));
       return SurfaceDistance<T>{dot(normal, Vec3<T>(p - corner)), normal};
     };
-    return ball_spot(on_b_, ball_.centre, ball_.radius, 1, X, distance);
+    return ball_contact_point(on_b_, ball_.centre, ball_.radius, 1, X, distance);
   }
 
  private:
@@ -78,23 +80,25 @@ class BallOnMesh final : public ContactSearchOf<BallOnMesh> {
     return on_b_ ? X_AB * ball_.centre : X_AB.inverse() * ball_.centre;
   }
 
-  static ContactPointId id_of(const Near& spot) {
-    return {static_cast<int>(spot.nearest.feature), spot.triangle, spot.nearest.part};
+  static ContactPointId id_of(const Near& candidate) {
+    return {static_cast<int>(candidate.nearest.feature), candidate.triangle, candidate.nearest.part};
   }
 
-  void look_at(int triangle, const Vector3& centre) {
-    const NearestOnTriangle seen = surface_.nearest_on(triangle, centre);
-    if (seen.distance >= ball_.radius || !surface_.is_local_minimum(triangle, seen, centre)) return;
-    const Near spot{triangle, seen,
-                    seen.feature == Feature::face && surface_.normal(triangle).dot(centre - seen.point) < 0};
-    // Neighbours see the same edge or corner, to within what their distances' round-off leaves of the place.
+  void examine(int triangle, const Vector3& centre) {
+    const NearestOnTriangle on_triangle = surface_.nearest_on(triangle, centre);
+    if (on_triangle.distance >= ball_.radius || !surface_.is_local_minimum(triangle, on_triangle, centre)) return;
+    const Near candidate{
+        triangle, on_triangle,
+        on_triangle.feature == Feature::face && surface_.normal(triangle).dot(centre - on_triangle.point) < 0};
+    // Neighbours find the same edge or corner; its position agrees within the round-off of the distances.
     const double same = 10 * std::sqrt(MeshSurface::round_off) * ball_.radius;
     for (Near& other : near_) {
-      if ((other.nearest.point - seen.point).norm() > same) continue;
-      if (seen.feature < other.nearest.feature) other = spot;  // a face's normal does not depend on the place
+      if ((other.nearest.point - on_triangle.point).norm() > same) continue;
+      if (on_triangle.feature < other.nearest.feature)
+        other = candidate;  // the normal of a face does not depend on the position
       return;
     }
-    near_.push_back(spot);
+    near_.push_back(candidate);
   }
 
   Sphere ball_;
@@ -103,7 +107,7 @@ class BallOnMesh final : public ContactSearchOf<BallOnMesh> {
   std::vector<Near> near_;
 };
 
-// Each corner of the mesh stands for the area around it.
+// Each corner of the mesh represents the area around it.
 class CornersOnSolid final : public ContactSearchOf<CornersOnSolid> {
  public:
   CornersOnSolid(std::shared_ptr<const TriangleMesh> mesh, ShapeGeometry solid, bool on_b)
@@ -137,8 +141,8 @@ class CornersOnSolid final : public ContactSearchOf<CornersOnSolid> {
 
   template <class T>
   [[nodiscard]] ContactPoint<T> at(const ContactPointId& id, const PoseOf<T>& X) const {
-    return ball_spot(on_b_, surface_.mesh().corners[id.index], 0, surface_.corner_areas()[id.index], X,
-                     [&](const Vec3<T>& p) { return surface_distance(p); });
+    return ball_contact_point(on_b_, surface_.mesh().corners[id.index], 0, surface_.corner_areas()[id.index], X,
+                              [&](const Vec3<T>& p) { return surface_distance(p); });
   }
 
  private:

@@ -9,7 +9,7 @@
 
 namespace hersey::mbd {
 
-/// One place where two surfaces are close: all that the contact law needs to know of shapes. In frame A.
+/// Pair of nearest points of two surfaces: the geometry that the contact law needs, in frame A.
 template <class T>
 struct ContactPoint {
   T gap;             ///< along the normal, negative where they overlap [m]
@@ -18,14 +18,14 @@ struct ContactPoint {
   T weight;          ///< share of the law's force; the area [m^2] where the law gives a pressure
 };
 
-/// Names one spot of a pair of shapes; what the numbers mean is the finder's own affair.
+/// Identifies a contact point of a pair of shapes; the meaning of the numbers is defined by the search.
 struct ContactPointId {
   int kind = 0;
   int index = 0;
   int part = 0;
 };
 
-/// The geometry of a pair of shapes: finds spots that overlap, and gives each with its derivatives.
+/// Geometry of a pair of shapes: finds contact points that overlap and evaluates them with their derivatives.
 class ContactSearch {
  public:
   ContactSearch() = default;
@@ -33,15 +33,15 @@ class ContactSearch {
   ContactSearch& operator=(const ContactSearch&) = delete;
   virtual ~ContactSearch() = default;
 
-  /// Adds every spot with gap < 0. Allocates nothing once `found` and the finder's workspace have grown to their size.
+  /// Adds every contact point with gap < 0. Allocates nothing once `found` and the workspace have their final size.
   virtual void find(const Pose& X_AB, std::vector<ContactPointId>& found) = 0;
-  [[nodiscard]] virtual ContactPoint<double> spot(const ContactPointId& id, const PoseOf<double>& X_AB) const = 0;
-  [[nodiscard]] virtual ContactPoint<Dual> spot(const ContactPointId& id, const PoseOf<Dual>& X_AB) const = 0;
-  /// Every spot that there may be, where each of them has its own place: of corners that deform.
+  [[nodiscard]] virtual ContactPoint<double> point(const ContactPointId& id, const PoseOf<double>& X_AB) const = 0;
+  [[nodiscard]] virtual ContactPoint<Dual> point(const ContactPointId& id, const PoseOf<Dual>& X_AB) const = 0;
+  /// Adds every possible contact point, for deforming corners, each of which has its own position.
   virtual void find_all(std::vector<ContactPointId>& found) const { (void)found; }
-  /// Smallest gap of all spots [m], touching or not.
+  /// Returns the smallest gap of all contact points [m], touching or not.
   [[nodiscard]] virtual double smallest_gap(const Pose& X_AB) = 0;
-  /// Whether a spot's weight is an area.
+  /// True if the weight of a contact point is an area.
   [[nodiscard]] virtual bool weighs_area() const { return false; }
 };
 
@@ -49,37 +49,38 @@ class ContactSearch {
 template <class Derived>
 class ContactSearchOf : public ContactSearch {
  public:
-  [[nodiscard]] ContactPoint<double> spot(const ContactPointId& id, const PoseOf<double>& X_AB) const override {
+  [[nodiscard]] ContactPoint<double> point(const ContactPointId& id, const PoseOf<double>& X_AB) const override {
     return static_cast<const Derived&>(*this).template at<double>(id, X_AB);
   }
-  [[nodiscard]] ContactPoint<Dual> spot(const ContactPointId& id, const PoseOf<Dual>& X_AB) const override {
+  [[nodiscard]] ContactPoint<Dual> point(const ContactPointId& id, const PoseOf<Dual>& X_AB) const override {
     return static_cast<const Derived&>(*this).template at<Dual>(id, X_AB);
   }
 };
 
-/// A pose without derivatives.
+/// Returns a pose without derivatives.
 [[nodiscard]] inline PoseOf<double> plain_pose(const Pose& X) { return {X.R.col(0), X.R.col(1), X.R.col(2), X.r}; }
 
-/// The spot between a ball on one body and a surface on the other.
+/// Returns the contact point between a ball on one body and a surface on the other.
 /// @param on_b      the ball is on B, its surface's partner on A; else the other way round
-/// @param centre    of the ball, in its own body's frame
+/// @param centre    centre of the ball in the frame of its body
 /// @param distance  gives distance and normal of a point in the surface's frame
 template <class T, class Distance>
-ContactPoint<T> ball_spot(bool on_b, const Vector3& centre, double radius, double weight, const PoseOf<T>& X_AB,
-                          Distance distance) {
+ContactPoint<T> ball_contact_point(bool on_b, const Vector3& centre, double radius, double weight,
+                                   const PoseOf<T>& X_AB, Distance distance) {
   const Vec3<T> own = constant<T>(centre);
-  const auto seen = distance(on_b ? X_AB.place(own) : X_AB.place_back(own));
-  const T middle = T(0.5) * (seen.distance + T(radius));
+  const auto nearest = distance(on_b ? X_AB.transform(own) : X_AB.inverse_transform(own));
+  const T middle = T(0.5) * (nearest.distance + T(radius));
   if (on_b)
-    return {seen.distance - T(radius), seen.normal, Vec3<T>(X_AB.place(own) - scaled(middle, seen.normal)), T(weight)};
-  const Vec3<T> normal = -X_AB.turn(seen.normal);
-  return {seen.distance - T(radius), normal, Vec3<T>(own + scaled(middle, normal)), T(weight)};
+    return {nearest.distance - T(radius), nearest.normal, Vec3<T>(X_AB.transform(own) - scaled(middle, nearest.normal)),
+            T(weight)};
+  const Vec3<T> normal = -X_AB.rotate(nearest.normal);
+  return {nearest.distance - T(radius), normal, Vec3<T>(own + scaled(middle, normal)), T(weight)};
 }
 
-/// The finder for a pair of shapes; null if the pair is not supported.
-[[nodiscard]] std::unique_ptr<ContactSearch> make_spot_finder(const ShapeGeometry& a, const ShapeGeometry& b);
+/// Returns the search for a pair of shapes; null if the pair is not supported.
+[[nodiscard]] std::unique_ptr<ContactSearch> make_contact_search(const ShapeGeometry& a, const ShapeGeometry& b);
 
-// Those it chooses from. `on_b`: the first shape is on body B.
+// Searches of the supported pairs. `on_b`: the first shape is on body B.
 [[nodiscard]] std::unique_ptr<ContactSearch> balls_on_solid(std::vector<Sphere> balls, ShapeGeometry solid, bool on_b);
 [[nodiscard]] std::unique_ptr<ContactSearch> rims_on_plane(const Cylinder& cylinder, const HalfSpace& plane, bool on_b);
 [[nodiscard]] std::unique_ptr<ContactSearch> capsule_on_capsule(const Capsule& a, const Capsule& b);

@@ -1,9 +1,9 @@
-// ContactPoints of smooth shapes: balls (spheres, ends of capsules, corners of boxes) on solids, cylinders on planes,
+// Contact points of smooth shapes: balls (spheres, ends of capsules, corners of boxes) on solids, cylinders on planes,
 // capsules.
 #include <algorithm>
 #include <limits>
 
-#include "contact/contact_spots.h"
+#include "contact/contact_points.h"
 #include "contact/solid_distance.h"
 
 namespace hersey::mbd {
@@ -37,7 +37,7 @@ class BallsOnSolid final : public ContactSearchOf<BallsOnSolid> {
       if (const auto* cylinder = std::get_if<Cylinder>(&solid_)) return distance_from(*cylinder, p);
       return distance_from(std::get<Box>(solid_), p);
     };
-    return ball_spot(on_b_, ball.centre, ball.radius, 1, X, distance);
+    return ball_contact_point(on_b_, ball.centre, ball.radius, 1, X, distance);
   }
 
  private:
@@ -46,8 +46,9 @@ class BallsOnSolid final : public ContactSearchOf<BallsOnSolid> {
   bool on_b_;
 };
 
-// Each rim touches in its lowest point and the three a quarter turn on: the lowest alone carries a lying cylinder, all
-// four together a standing one, and the sum hardly depends on where on the rim they are (contact.3).
+// Each rim touches in its lowest point and the three at multiples of 90 degrees from it: the lowest alone carries a
+// lying cylinder, all four together a standing one, and the sum hardly depends on where on the rim they are
+// (contact.3).
 class RimsOnPlane final : public ContactSearchOf<RimsOnPlane> {
  public:
   RimsOnPlane(const Cylinder& cylinder, const HalfSpace& plane, bool on_b)
@@ -68,8 +69,9 @@ class RimsOnPlane final : public ContactSearchOf<RimsOnPlane> {
   template <class T>
   [[nodiscard]] ContactPoint<T> at(const ContactPointId& id, const PoseOf<T>& X) const {
     // All in the cylinder's own frame.
-    const Vec3<T> normal = on_b_ ? X.turn_back(constant<T>(plane_.normal)) : X.turn(constant<T>(plane_.normal));
-    const Vec3<T> on_plane = on_b_ ? X.place_back(constant<T>(plane_.point)) : X.place(constant<T>(plane_.point));
+    const Vec3<T> normal = on_b_ ? X.inverse_rotate(constant<T>(plane_.normal)) : X.rotate(constant<T>(plane_.normal));
+    const Vec3<T> on_plane =
+        on_b_ ? X.inverse_transform(constant<T>(plane_.point)) : X.transform(constant<T>(plane_.point));
     const Vec3<T> axis = constant<T>(axis_);
     const Vec3<T> down = scaled(dot(axis, normal), axis) - normal;
     const T tilt = value_of(dot(down, down)) > kUpright * kUpright ? length(down) : T(0.0);
@@ -79,7 +81,7 @@ class RimsOnPlane final : public ContactSearchOf<RimsOnPlane> {
     const Vec3<T> p = constant<T>(id.index == 0 ? cylinder_.from : cylinder_.to) + scaled(T(cylinder_.radius), e);
     const T gap = dot(normal, Vec3<T>(p - on_plane));
     const Vec3<T> middle = p - scaled(T(0.5) * gap, normal);
-    if (on_b_) return {gap, X.turn(normal), X.place(middle), T(1.0)};
+    if (on_b_) return {gap, X.rotate(normal), X.transform(middle), T(1.0)};
     return {gap, Vec3<T>(-normal), middle, T(1.0)};
   }
 
@@ -117,8 +119,8 @@ T clamped(const T& s) {
   return s < T(0.0) ? T(0.0) : s > T(1.0) ? T(1.0) : s;
 }
 
-// Crossed capsules touch in one spot; parallel ones in two, the ends of the length they share, with half the weight
-// each; between 1 and 4 degrees the one passes into the others.
+// Crossed capsules touch in one point, parallel ones in two, the ends of the length that they share, with half the
+// weight each; between 1 and 4 degrees the weights blend.
 class CapsuleOnCapsule final : public ContactSearchOf<CapsuleOnCapsule> {
  public:
   CapsuleOnCapsule(const Capsule& a, const Capsule& b) : a_(a), b_(b) {}
@@ -141,7 +143,7 @@ class CapsuleOnCapsule final : public ContactSearchOf<CapsuleOnCapsule> {
   template <class T>
   [[nodiscard]] ContactPoint<T> at(const ContactPointId& id, const PoseOf<T>& X) const {
     const Vec3<T> a = constant<T>(a_.from), along_a = constant<T>(a_.to - a_.from);
-    const Vec3<T> b = X.place(constant<T>(b_.from)), along_b = X.turn(constant<T>(b_.to - b_.from));
+    const Vec3<T> b = X.transform(constant<T>(b_.from)), along_b = X.rotate(constant<T>(b_.to - b_.from));
     const T aa = dot(along_a, along_a), bb = dot(along_b, along_b), ab = dot(along_a, along_b);
     const T sine2 = T(1.0) - ab * ab / (aa * bb);
     const T crossed = smooth_step(sine2, kParallel * kParallel, kCrossed * kCrossed);
@@ -165,9 +167,9 @@ class CapsuleOnCapsule final : public ContactSearchOf<CapsuleOnCapsule> {
 
   template <class T>
   [[nodiscard]] ContactPoint<T> between(const Vec3<T>& on_a, const Vec3<T>& on_b, const T& weight) const {
-    const SurfaceDistance<T> seen = distance_from(on_a, on_b);
-    const T gap = seen.distance - T(a_.radius + b_.radius);
-    return {gap, seen.normal, Vec3<T>(on_a + scaled(T(a_.radius) + T(0.5) * gap, seen.normal)), weight};
+    const SurfaceDistance<T> between_axes = distance_from(on_a, on_b);
+    const T gap = between_axes.distance - T(a_.radius + b_.radius);
+    return {gap, between_axes.normal, Vec3<T>(on_a + scaled(T(a_.radius) + T(0.5) * gap, between_axes.normal)), weight};
   }
 
   Capsule a_, b_;
