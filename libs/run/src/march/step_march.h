@@ -11,7 +11,7 @@
 #include "hersey/model/model.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/step_control.h"
-#include "march/energy_judge.h"
+#include "march/energy_monitor.h"
 #include "march/step_error.h"
 #include "march/target_instants.h"
 
@@ -56,7 +56,7 @@ class StepMarch {
   /// The step last taken; 0 before the first [s].
   [[nodiscard]] double last_dt() const { return last_dt_; }
   /// What it knows of the energy of the steps.
-  [[nodiscard]] const EnergyJudge& energy() const { return energy_; }
+  [[nodiscard]] const EnergyMonitor& energy() const { return energy_; }
   /// Tried in vain since the start of the run.
   [[nodiscard]] int rejected_steps() const { return rejected_; }
 
@@ -78,7 +78,7 @@ class StepMarch {
   model::Machine& machine_;
   solver::GeneralizedAlpha integrator_;
   StepError step_error_;
-  EnergyJudge energy_;
+  EnergyMonitor energy_;
   /// Neither films nor deformations, whose fast motions the error's estimate takes for errors.
   bool has_smooth_motion_;
   Eigen::VectorXd bounded_;    ///< a fixed step's estimated error, of no coordinate more than its way

@@ -18,8 +18,8 @@ struct StepRecord {
   double error = 0;                ///< estimated, over the tolerance; 0 with a fixed step
   double step_error = 0;           ///< the same, not over the tolerance; of fixed steps too
   int rejected_steps = 0;          ///< since the start of the run
-  double energy_available = 0;     ///< EnergyJudge::available [J]
-  double energy_from_nowhere = 0;  ///< EnergyJudge::gained [J]
+  double energy_available = 0;     ///< EnergyMonitor::available [J]
+  double energy_from_nowhere = 0;  ///< EnergyMonitor::gained [J]
   double constraint_drift = 0;     ///< largest violation of a constraint, relative to what it compares
   mbd::Observation mechanism;
   std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing

@@ -14,7 +14,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::run {
-namespace energy_judge_test {
+namespace energy_monitor_test {
 
 using Overrides = std::vector<std::string>;
 
@@ -313,5 +313,5 @@ TEST_CASE("ExplodingElasticBodies_EndAsFailedOrAreCut") {
   }
 }
 
-}  // namespace energy_judge_test
+}  // namespace energy_monitor_test
 }  // namespace hersey::run

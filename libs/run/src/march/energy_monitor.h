@@ -15,9 +15,9 @@ namespace hersey::run {
 /// Finds steps that gain energy from nowhere (theory manual, section "Energy that comes from nowhere"): what is stored
 /// in the machine grows by more than the forces that act have put in, beyond what the balance of one step is in doubt.
 /// Loss is the method's own damping and is let pass.
-class EnergyJudge {
+class EnergyMonitor {
  public:
-  EnergyJudge(const model::Model& model, model::Machine& machine);
+  EnergyMonitor(const model::Model& model, model::Machine& machine);
 
   /// The next step begins in `state`, to which no judged step has led: at the start of a run, and after impulses.
   void begin(const solver::State& state);
@@ -65,7 +65,7 @@ class EnergyJudge {
 
   [[nodiscard]] std::vector<double> stores(const mbd::EnergyView& view) const;
   void enter(const mbd::WorkBetween& work);
-  [[nodiscard]] double smallest_judged(const mbd::EnergyView& view) const;
+  [[nodiscard]] double smallest_monitored(const mbd::EnergyView& view) const;
 
   model::Machine& machine_;
   std::vector<char> is_film_;  ///< of the two-body forces: those that store nothing of their own

@@ -1,4 +1,4 @@
-#include "march/energy_judge.h"
+#include "march/energy_monitor.h"
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ double of_motion(const mbd::EnergyView& view) {
 
 }  // namespace
 
-double EnergyJudge::Books::available() const {
+double EnergyMonitor::Books::available() const {
   double sum = at_start + noise;
   for (const double most : most_in) sum += most;
   for (std::size_t i = 0; i < in_store.size(); ++i)
@@ -56,7 +56,7 @@ double EnergyJudge::Books::available() const {
   return sum;
 }
 
-EnergyJudge::EnergyJudge(const model::Model&, model::Machine& machine) : machine_(machine) {
+EnergyMonitor::EnergyMonitor(const model::Model&, model::Machine& machine) : machine_(machine) {
   knows_losses_ = machine.mechanism->spec().elastics.empty();
   for (const ForceKind kind : force_kinds(machine)) {
     is_film_.push_back(kind == ForceKind::bearing);
@@ -65,7 +65,7 @@ EnergyJudge::EnergyJudge(const model::Model&, model::Machine& machine) : machine
 }
 
 // Gravity first, counted from the start.
-std::vector<double> EnergyJudge::stores(const mbd::EnergyView& view) const {
+std::vector<double> EnergyMonitor::stores(const mbd::EnergyView& view) const {
   std::vector<double> held{view.potential - potential_at_start_};
   held.insert(held.end(), view.springs.begin(), view.springs.end());
   held.insert(held.end(), view.functions.begin(), view.functions.end());
@@ -73,7 +73,7 @@ std::vector<double> EnergyJudge::stores(const mbd::EnergyView& view) const {
   return held;
 }
 
-double EnergyJudge::smallest_judged(const mbd::EnergyView& view) const {
+double EnergyMonitor::smallest_monitored(const mbd::EnergyView& view) const {
   const mbd::MechanismSpec& spec = machine_.mechanism->spec();
   double weight = 0;
   for (const mbd::BodySpec& body : spec.bodies) weight += body.mass;
@@ -85,7 +85,7 @@ double EnergyJudge::smallest_judged(const mbd::EnergyView& view) const {
   return kStandstill * (held + sum_of_sizes(view.springs) + sum_of(view.strain));
 }
 
-void EnergyJudge::begin(const solver::State& state) {
+void EnergyMonitor::begin(const solver::State& state) {
   machine_.mechanism->view_energy(state, false, from_);
   has_refused_ = false;
   if (is_begun_) return;
@@ -93,10 +93,10 @@ void EnergyJudge::begin(const solver::State& state) {
   potential_at_start_ = from_.potential;
   books_.at_start = of_motion(from_);
   books_.in_store = books_.least_in = stores(from_);
-  books_.noise = smallest_judged(from_);
+  books_.noise = smallest_monitored(from_);
 }
 
-void EnergyJudge::enter(const mbd::WorkBetween& work) {
+void EnergyMonitor::enter(const mbd::WorkBetween& work) {
   std::vector<double> sources;
   for (const auto* list : {&work.drives, &work.loads, &work.functions, &work.pressures})
     for (const mbd::StepWork& one : *list) sources.push_back(one.value);
@@ -113,7 +113,7 @@ void EnergyJudge::enter(const mbd::WorkBetween& work) {
   for (std::size_t i = 0; i < held.size(); ++i) trial_.least_in[i] = std::min(trial_.least_in[i], held[i]);
 }
 
-bool EnergyJudge::allows(const solver::State& end) {
+bool EnergyMonitor::allows(const solver::State& end) {
   mbd::Mechanism& mechanism = *machine_.mechanism;
   mechanism.view_energy(end, true, to_);
   const mbd::WorkBetween work = mechanism.work_between(from_, to_);
@@ -152,22 +152,22 @@ bool EnergyJudge::allows(const solver::State& end) {
   return !has_refused_;
 }
 
-void EnergyJudge::follow(const solver::State& end) {
+void EnergyMonitor::follow(const solver::State& end) {
   (void)allows(end);
   gain_ = loss_ = 0;
   has_refused_ = false;
 }
 
-void EnergyJudge::accept() {
+void EnergyMonitor::accept() {
   std::swap(from_, to_);
   std::swap(books_, trial_);
   balance_ = std::max(-kTakenBack * books_.available(), balance_ + gain_);
   lost_ += loss_;
 }
 
-bool EnergyJudge::has_lost_much() const { return lost_ > kMostOfRun * books_.available(); }
+bool EnergyMonitor::has_lost_much() const { return lost_ > kMostOfRun * books_.available(); }
 
-std::string EnergyJudge::reason_of_loss() const {
+std::string EnergyMonitor::reason_of_loss() const {
   const mbd::EnergyPlaces places = machine_.mechanism->energy_places(to_, from_);
   std::string text = fmt::format("{:.3g} J of the {:.3g} J at the start and put in since have gone nowhere", lost_,
                                  books_.available());
@@ -176,7 +176,7 @@ std::string EnergyJudge::reason_of_loss() const {
   return text;
 }
 
-std::string EnergyJudge::reason() const {
+std::string EnergyMonitor::reason() const {
   const mbd::EnergyPlaces places = machine_.mechanism->energy_places(from_, to_);
   const double available = books_.available();
   std::string text = fmt::format("{:.3g} J come from nowhere", gain_);
@@ -187,7 +187,7 @@ std::string EnergyJudge::reason() const {
   return text;
 }
 
-void EnergyJudge::persist(Archive& archive) {
+void EnergyMonitor::persist(Archive& archive) {
   archive.io("is_begun", is_begun_), archive.io("balance", balance_), archive.io("lost", lost_),
       archive.io("potential", potential_at_start_);
   archive.io("at_start", books_.at_start), archive.io("noise", books_.noise);
