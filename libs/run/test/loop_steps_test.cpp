@@ -9,7 +9,7 @@
 #include "hersey/model/build.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "march/start.h"
-#include "march/step_march.h"
+#include "march/time_stepper.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
 
@@ -99,11 +99,11 @@ March march(const std::string& text, double radius, double tolerance) {
   model::Machine machine = model::build(model);
   March result;
   result.end = starting_state(model, machine);
-  StepMarch steps(model, machine);
+  TimeStepper steps(model, machine);
   steps.plan(result.end, machine.mechanism->observe(result.end));
   // Far more than any of these takes: a march that creeps ends, too.
   for (; !steps.is_at_end() && result.steps < 20000; ++result.steps) {
-    const MarchedStep step = steps.take(result.end);
+    const TimeStep step = steps.take(result.end);
     result.message = step.message;
     if (!step.solved()) return result;
     if (result.end.t < 0.1) continue;

@@ -49,7 +49,7 @@ void MachineRun::begin() {
 }
 
 Outcome MachineRun::step(double limit) {
-  const MarchedStep step = march_.take(state_, limit);
+  const TimeStep step = march_.take(state_, limit);
   if (!step.solved()) {
     // A journal that touches has been told so already.
     const bool is_advised = step.message.find("asperities") != std::string::npos;
@@ -65,7 +65,7 @@ Outcome MachineRun::step(double limit) {
   return {Ending::solved};
 }
 
-StepRecord MachineRun::observe(const MarchedStep& step) {
+StepRecord MachineRun::observe(const TimeStep& step) {
   StepRecord seen = observe_step(machine_, state_, kinds_);
   seen.dt = step.dt;
   seen.error = step.error;
@@ -78,7 +78,7 @@ StepRecord MachineRun::observe(const MarchedStep& step) {
   return seen;
 }
 
-void MachineRun::record(const MarchedStep& step) {
+void MachineRun::record(const TimeStep& step) {
   if (model_.thermal_walls == model::ThermalWalls::cycle_mean && record_.ends_cycle(state_.t)) settle_walls(machine_);
   const Stopwatch watch(work_.recording());
   record(observe(step));
@@ -138,7 +138,7 @@ void MachineRun::restore(Archive& archive) {
   if (!is_finite) throw ArchiveError("its state has a number that is not finite");
   for (const std::string& name : archive.unread())
     if (!is_identity(name)) throw ArchiveError("it holds '" + name + "', of which this program knows nothing");
-  MarchedStep last;
+  TimeStep last;
   last.dt = march_.last_dt();
   seen_ = observe(last);
 }

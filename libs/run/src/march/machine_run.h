@@ -15,7 +15,7 @@
 #include "hersey/solver/equations.h"
 #include "hersey/solver/linearise.h"
 #include "march/checkpoint.h"
-#include "march/step_march.h"
+#include "march/time_stepper.h"
 #include "record/power_balance.h"
 #include "record/run_record.h"
 #include "record/work_record.h"
@@ -42,7 +42,7 @@ class MachineRun {
   /// @pre begun, not at the end, state().t < limit
   [[nodiscard]] Outcome step(double limit = std::numeric_limits<double>::infinity());
 
-  /// What acts has jumped: StepMarch::take_jump.
+  /// What acts has jumped: TimeStepper::take_jump.
   void take_jump(bool moves) { march_.take_jump(state_, moves); }
   /// How close two instants are that count as one [s].
   [[nodiscard]] double slack() const { return march_.slack(); }
@@ -54,7 +54,7 @@ class MachineRun {
   [[nodiscard]] double last_dt() const { return march_.last_dt(); }
 
   /// Records the state as it is, of no step.
-  void record_here() { record(MarchedStep{}); }
+  void record_here() { record(TimeStep{}); }
   void write_modes(const solver::Modes& found) { record_.write_modes(state_, found); }
   /// What was recorded last, and the energies since the start.
   [[nodiscard]] const StepRecord& seen() const { return seen_; }
@@ -86,8 +86,8 @@ class MachineRun {
   };
 
   void restore_file(Archive::Content checkpoint);
-  [[nodiscard]] StepRecord observe(const MarchedStep& step);
-  void record(const MarchedStep& step);
+  [[nodiscard]] StepRecord observe(const TimeStep& step);
+  void record(const TimeStep& step);
   void record(StepRecord step);
   void report_progress(const StepRecord& step) const;
   [[nodiscard]] double elapsed() const;
@@ -99,7 +99,7 @@ class MachineRun {
   model::Machine machine_;
   solver::State state_;
   std::vector<ForceKind> kinds_;
-  StepMarch march_;
+  TimeStepper march_;
   WorkRecord work_;
   RunRecord record_;
   CheckpointSchedule checkpoints_;

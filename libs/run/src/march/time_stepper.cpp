@@ -1,4 +1,4 @@
-#include "march/step_march.h"
+#include "march/time_stepper.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +39,7 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
 
 }  // namespace
 
-StepMarch::StepMarch(const model::Model& model, model::Machine& machine)
+TimeStepper::TimeStepper(const model::Model& model, model::Machine& machine)
     : model_(model),
       machine_(machine),
       integrator_(integrator_options(model)),
@@ -47,7 +47,7 @@ StepMarch::StepMarch(const model::Model& model, model::Machine& machine)
       energy_(model, machine),
       has_smooth_motion_(model.bearings.empty() && machine.mechanism->elastic_coordinates().empty()) {}
 
-void StepMarch::plan(const solver::State& state, const mbd::Observation& start) {
+void TimeStepper::plan(const solver::State& state, const mbd::Observation& start) {
   energy_.begin(state);
   const auto& limits = model_.simulation.error_control;
   if (!limits || model_.simulation.analysis == model::Analysis::kinematics) {
@@ -64,17 +64,17 @@ void StepMarch::plan(const solver::State& state, const mbd::Observation& start) 
 
 // Bodies with a displacement of every node factorise a matrix for every step size: few of them then, parts of the
 // interval between the instants to hit.
-double StepMarch::unit_of_steps() const {
+double TimeStepper::unit_of_steps() const {
   const auto is_nodal = [](const model::Body& body) { return body.flexible && body.flexible->nodal; };
   if (std::none_of(model_.bodies.begin(), model_.bodies.end(), is_nodal)) return 0;
   return targets_.front() - model_.simulation.start;
 }
 
-double StepMarch::slack() const { return kOneInstant * model_.simulation.step; }
+double TimeStepper::slack() const { return kOneInstant * model_.simulation.step; }
 
 // The next target; or, where the limit comes first, that. Fixed steps on the way to or from an instant between the
 // targets are equal: a machine that others step by intervals of their own has steps of one length.
-double StepMarch::next_stop(const solver::State& state, double limit) {
+double TimeStepper::next_stop(const solver::State& state, double limit) {
   const double target = targets_[reached_];
   const bool passes_limit = limit < target - slack();
   if (control_ || (!passes_limit && !off_plan_) || std::isinf(limit)) return passes_limit ? limit : target;
@@ -83,12 +83,12 @@ double StepMarch::next_stop(const solver::State& state, double limit) {
   return count > 1 ? state.t + (end - state.t) / count : end;
 }
 
-void StepMarch::pass_targets(double t) {
+void TimeStepper::pass_targets(double t) {
   off_plan_ = true;
   for (; !is_at_end() && targets_[reached_] <= t + slack(); ++reached_) off_plan_ = targets_[reached_] < t - slack();
 }
 
-void StepMarch::take_jump(solver::State& state, bool moves) {
+void TimeStepper::take_jump(solver::State& state, bool moves) {
   if (moves)
     restart(state);
   else
@@ -97,14 +97,14 @@ void StepMarch::take_jump(solver::State& state, bool moves) {
   trial_ = std::numeric_limits<double>::infinity();
 }
 
-MarchedStep StepMarch::take(solver::State& state, double limit) {
+TimeStep TimeStepper::take(solver::State& state, double limit) {
   const model::Simulation& plan = model_.simulation;
   const double planned = targets_[reached_], target = next_stop(state, limit);
   if (at_bend_) start_afresh(state);
   at_bend_ = false;
-  MarchedStep step = plan.analysis == model::Analysis::kinematics ? follow_drives(state, target)
-                     : control_                                   ? take_controlled(state, target)
-                                                                  : take_fixed(state, target);
+  TimeStep step = plan.analysis == model::Analysis::kinematics ? follow_drives(state, target)
+                  : control_                                   ? take_controlled(state, target)
+                                                               : take_fixed(state, target);
   if (!step.solved()) return step;
   energy_.accept();
   last_dt_ = step.dt;
@@ -122,22 +122,22 @@ MarchedStep StepMarch::take(solver::State& state, double limit) {
 }
 
 // Beyond a kink of a drive's speed its acceleration is another one: the method's history would ring on it.
-void StepMarch::start_afresh(solver::State& state) {
+void TimeStepper::start_afresh(solver::State& state) {
   if (solver::solve_accelerations(*machine_.mechanism, state, last_dt_)) integrator_.reset();
   energy_.begin(state);
 }
 
 // Much shorter steps than the last would have to take back at once the velocities that it has left across the
 // constraints: the shorter, the harder. They begin from velocities that the constraints allow.
-void StepMarch::restart(solver::State& state) {
+void TimeStepper::restart(solver::State& state) {
   if (!solver::restart(*machine_.mechanism, state, last_dt_)) return;
   integrator_.reset();
   energy_.begin(state);
 }
 
 // Nothing integrated: the last step, gone on with, is where Newton's method begins.
-MarchedStep StepMarch::follow_drives(solver::State& state, double target) {
-  MarchedStep step;
+TimeStep TimeStepper::follow_drives(solver::State& state, double target) {
+  TimeStep step;
   step.dt = target - state.t;
   const Eigen::VectorXd guess = step.dt * state.v + 0.5 * step.dt * step.dt * state.vdot;
   solver::State next = state;
@@ -156,7 +156,7 @@ MarchedStep StepMarch::follow_drives(solver::State& state, double target) {
 }
 
 // No step is short enough where longer ones before it have left velocities that no motion of the machine has.
-std::string StepMarch::advice(const solver::StepSummary& solution) const {
+std::string TimeStepper::advice(const solver::StepSummary& solution) const {
   if (solution.status == solver::StepStatus::domain_error) return {};
   const model::Simulation& plan = model_.simulation;
   std::string text = fmt::format(
@@ -171,8 +171,8 @@ std::string StepMarch::advice(const solver::StepSummary& solution) const {
 
 // A step whose own estimate says that its end means nothing is no answer, though Newton's method has found it: such
 // steps lead a machine onto motions that it never leaves.
-MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
-  MarchedStep step;
+TimeStep TimeStepper::take_fixed(solver::State& state, double target) {
+  TimeStep step;
   int failures = 0;
   for (;;) {
     step.dt = std::min(trial_, target - state.t);
@@ -206,7 +206,7 @@ MarchedStep StepMarch::take_fixed(solver::State& state, double target) {
 }
 
 // Why a fixed step that has failed is not cut once more; empty where it is.
-std::string StepMarch::end_of_cutting(const MarchedStep& step) const {
+std::string TimeStepper::end_of_cutting(const TimeStep& step) const {
   const double planned = model_.simulation.step;
   const bool creeps = creeping_ > planned + slack();
   if (creeps && energy_.has_lost_much())
@@ -220,8 +220,8 @@ std::string StepMarch::end_of_cutting(const MarchedStep& step) const {
   return fmt::format("no convergence with a step of {:.2g} s: {}", step.dt, step.solution.message);
 }
 
-MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
-  MarchedStep step;
+TimeStep TimeStepper::take_controlled(solver::State& state, double target) {
+  TimeStep step;
   Eigen::VectorXd errors;
   const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
     errors = step_error_.measure(end, estimate) / model_.simulation.error_control->tolerance;
@@ -259,7 +259,7 @@ MarchedStep StepMarch::take_controlled(solver::State& state, double target) {
   }
 }
 
-void StepMarch::persist(Archive& archive) {
+void TimeStepper::persist(Archive& archive) {
   {
     const Archive::Group group(archive, "integrator");
     integrator_.persist(archive);

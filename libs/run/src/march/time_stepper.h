@@ -18,7 +18,7 @@
 namespace hersey::run {
 
 /// How one step of a run was found; where none could be taken, why, with its time.
-struct [[nodiscard]] MarchedStep : Outcome {
+struct [[nodiscard]] TimeStep : Outcome {
   double dt = 0;  ///< [s]
   solver::StepSummary solution;
   double error = 0;        ///< estimated, over the tolerance; 0 where it is not controlled
@@ -27,9 +27,9 @@ struct [[nodiscard]] MarchedStep : Outcome {
 
 /// Takes a machine step by step through the instants that its run has to hit: by a fixed step and its halves where
 /// Newton's method does not converge, by a controlled error, or from instant to instant with drives alone (kinematics).
-class StepMarch {
+class TimeStepper {
  public:
-  StepMarch(const model::Model& model, model::Machine& machine);
+  TimeStepper(const model::Model& model, model::Machine& machine);
 
   /// Chooses the instants, and the first step, from the state at the start of the run. Before the first step, and
   /// before restoring.
@@ -42,7 +42,7 @@ class StepMarch {
   /// fixed
   ///               steps are equal, at most as long as planned.
   /// @pre planned, not at the end; state.t < limit
-  [[nodiscard]] MarchedStep take(solver::State& state, double limit = std::numeric_limits<double>::infinity());
+  [[nodiscard]] TimeStep take(solver::State& state, double limit = std::numeric_limits<double>::infinity());
 
   /// How close two instants are that count as one [s].
   [[nodiscard]] double slack() const;
@@ -63,11 +63,11 @@ class StepMarch {
   void persist(Archive& archive);
 
  private:
-  [[nodiscard]] MarchedStep follow_drives(solver::State& state, double target);
-  [[nodiscard]] MarchedStep take_fixed(solver::State& state, double target);
-  [[nodiscard]] std::string end_of_cutting(const MarchedStep& step) const;
+  [[nodiscard]] TimeStep follow_drives(solver::State& state, double target);
+  [[nodiscard]] TimeStep take_fixed(solver::State& state, double target);
+  [[nodiscard]] std::string end_of_cutting(const TimeStep& step) const;
   [[nodiscard]] std::string advice(const solver::StepSummary& solution) const;
-  [[nodiscard]] MarchedStep take_controlled(solver::State& state, double target);
+  [[nodiscard]] TimeStep take_controlled(solver::State& state, double target);
   [[nodiscard]] double unit_of_steps() const;
   [[nodiscard]] double next_stop(const solver::State& state, double limit);
   void pass_targets(double t);
