@@ -8,7 +8,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/model/build.h"
 #include "hersey/run/simulate.h"
-#include "march/start.h"
+#include "time_stepping/start.h"
 #include "small_rig.h"
 
 namespace hersey::run {

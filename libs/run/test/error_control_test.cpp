@@ -12,7 +12,7 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
 #include "hersey/solver/generalized_alpha.h"
-#include "march/start.h"
+#include "time_stepping/start.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
 #include "source_dir.h"

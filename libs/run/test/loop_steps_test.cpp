@@ -8,8 +8,8 @@
 
 #include "hersey/model/build.h"
 #include "hersey/solver/generalized_alpha.h"
-#include "march/start.h"
-#include "march/time_stepper.h"
+#include "time_stepping/start.h"
+#include "time_stepping/time_stepper.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
 

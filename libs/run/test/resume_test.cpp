@@ -13,7 +13,7 @@
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/run/simulate.h"
-#include "march/checkpoint.h"
+#include "time_stepping/checkpoint.h"
 #include "small_bar.h"
 #include "small_rig.h"
 #include "temporary_directory.h"

@@ -1,4 +1,4 @@
-#include "march/start.h"
+#include "time_stepping/start.h"
 
 #include <doctest/doctest.h>
 

@@ -8,8 +8,8 @@
 
 #include "hersey/core/version.h"
 #include "hersey/run/assumptions.h"
-#include "march/redundancies.h"
-#include "march/start_changes.h"
+#include "time_stepping/redundancies.h"
+#include "time_stepping/start_changes.h"
 #include "record/film_surface_rows.h"
 
 namespace hersey::run {

@@ -11,7 +11,7 @@
 #include "hersey/model/model.h"
 #include "hersey/run/options.h"
 #include "hersey/run/summary.h"
-#include "march/settling.h"
+#include "time_stepping/settling.h"
 #include "record/deformed_meshes.h"
 #include "record/energy_balance.h"
 #include "record/extremes.h"

@@ -1,4 +1,4 @@
-#include "march/redundancies.h"
+#include "time_stepping/redundancies.h"
 
 #include <fmt/format.h>
 

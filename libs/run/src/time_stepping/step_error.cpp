@@ -1,4 +1,4 @@
-#include "march/step_error.h"
+#include "time_stepping/step_error.h"
 
 #include <algorithm>
 #include <cmath>

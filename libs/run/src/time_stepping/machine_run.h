@@ -14,11 +14,11 @@
 #include "hersey/run/summary.h"
 #include "hersey/solver/equations.h"
 #include "hersey/solver/linearise.h"
-#include "march/checkpoint.h"
-#include "march/time_stepper.h"
 #include "record/power_balance.h"
 #include "record/run_record.h"
 #include "record/work_record.h"
+#include "time_stepping/checkpoint.h"
+#include "time_stepping/time_stepper.h"
 
 namespace hersey::run {
 
@@ -33,7 +33,7 @@ class MachineRun {
   /// Chooses the steps and records the start; of a run that is gone on with it has been done. Before the first step.
   void begin();
 
-  [[nodiscard]] bool is_at_end() const { return march_.is_at_end() || record_.ends_run(); }
+  [[nodiscard]] bool is_at_end() const { return stepper_.is_at_end() || record_.ends_run(); }
   /// What to say of a run that ended in order; may be empty.
   [[nodiscard]] std::string ending() const { return record_.ending(state_.t); }
 
@@ -43,15 +43,15 @@ class MachineRun {
   [[nodiscard]] Outcome step(double limit = std::numeric_limits<double>::infinity());
 
   /// What acts has jumped: TimeStepper::take_jump.
-  void take_jump(bool moves) { march_.take_jump(state_, moves); }
+  void take_jump(bool moves) { stepper_.take_jump(state_, moves); }
   /// How close two instants are that count as one [s].
-  [[nodiscard]] double slack() const { return march_.slack(); }
+  [[nodiscard]] double slack() const { return stepper_.slack(); }
 
   [[nodiscard]] solver::State& state() { return state_; }
   [[nodiscard]] const solver::State& state() const { return state_; }
   [[nodiscard]] mbd::Mechanism& mechanism() { return *machine_.mechanism; }
   [[nodiscard]] model::Machine& machine() { return machine_; }
-  [[nodiscard]] double last_dt() const { return march_.last_dt(); }
+  [[nodiscard]] double last_dt() const { return stepper_.last_dt(); }
 
   /// Records the state as it is, of no step.
   void record_here() { record(TimeStep{}); }
@@ -99,7 +99,7 @@ class MachineRun {
   model::Machine machine_;
   solver::State state_;
   std::vector<ForceKind> kinds_;
-  TimeStepper march_;
+  TimeStepper stepper_;
   WorkRecord work_;
   RunRecord record_;
   CheckpointSchedule checkpoints_;

@@ -1,4 +1,4 @@
-#include "march/start.h"
+#include "time_stepping/start.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +13,7 @@
 #include "hersey/solver/initialise.h"
 #include "hersey/solver/kinematics.h"
 #include "hersey/solver/static_deformation.h"
-#include "march/start_changes.h"
+#include "time_stepping/start_changes.h"
 #include "record/facing_surfaces.h"
 
 namespace hersey::run {

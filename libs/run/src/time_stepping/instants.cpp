@@ -1,4 +1,4 @@
-#include "march/instants.h"
+#include "time_stepping/instants.h"
 
 #include <fmt/format.h>
 

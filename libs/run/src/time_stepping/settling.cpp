@@ -1,4 +1,4 @@
-#include "march/settling.h"
+#include "time_stepping/settling.h"
 
 #include <algorithm>
 

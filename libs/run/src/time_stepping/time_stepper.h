@@ -11,9 +11,9 @@
 #include "hersey/model/model.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/step_control.h"
-#include "march/energy_monitor.h"
-#include "march/step_error.h"
-#include "march/target_instants.h"
+#include "time_stepping/energy_monitor.h"
+#include "time_stepping/step_error.h"
+#include "time_stepping/target_instants.h"
 
 namespace hersey::run {
 

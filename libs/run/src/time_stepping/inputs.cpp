@@ -1,4 +1,4 @@
-#include "march/inputs.h"
+#include "time_stepping/inputs.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "march/start_changes.h"
+#include "time_stepping/start_changes.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "march/energy_monitor.h"
+#include "time_stepping/energy_monitor.h"
 
 #include <fmt/format.h>
 

@@ -13,8 +13,8 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/results/output_lock.h"
-#include "march/inputs.h"
-#include "march/machine_run.h"
+#include "time_stepping/inputs.h"
+#include "time_stepping/machine_run.h"
 #include "record/recorder.h"
 
 namespace hersey::run {

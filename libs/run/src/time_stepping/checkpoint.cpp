@@ -1,4 +1,4 @@
-#include "march/checkpoint.h"
+#include "time_stepping/checkpoint.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "march/time_stepper.h"
+#include "time_stepping/time_stepper.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "hersey/solver/initialise.h"
 #include "hersey/solver/kinematics.h"
-#include "march/instants.h"
+#include "time_stepping/instants.h"
 
 namespace hersey::run {
 namespace {

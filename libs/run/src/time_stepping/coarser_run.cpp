@@ -1,4 +1,4 @@
-#include "march/coarser_run.h"
+#include "time_stepping/coarser_run.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "march/machine_run.h"
+#include "time_stepping/machine_run.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/run/checkpoint.h"
-#include "march/start.h"
-#include "march/warm_bodies.h"
 #include "record/observe_step.h"
+#include "time_stepping/start.h"
+#include "time_stepping/warm_bodies.h"
 
 namespace hersey::run {
 namespace {
@@ -31,8 +31,8 @@ MachineRun::MachineRun(const model::Model& model, const Options& options, std::o
       machine_(model::build(model)),
       state_(starting_state(model, machine_)),
       kinds_(force_kinds(machine_)),
-      march_(model, machine_),
-      work_(model, machine_, march_.integrator()),
+      stepper_(model, machine_),
+      work_(model, machine_, stepper_.integrator()),
       record_(model, machine_, state_, options, checkpoint.has_value()),
       checkpoints_(model.simulation) {
   record_.declare_cost(work_.work());
@@ -42,14 +42,14 @@ MachineRun::MachineRun(const model::Model& model, const Options& options, std::o
 void MachineRun::begin() {
   if (!resumes_) {
     StepRecord start = observe({});
-    march_.plan(state_, start.mechanism);
+    stepper_.plan(state_, start.mechanism);
     record(std::move(start));
   }
   work_.begin();
 }
 
 Outcome MachineRun::step(double limit) {
-  const TimeStep step = march_.take(state_, limit);
+  const TimeStep step = stepper_.take(state_, limit);
   if (!step.solved()) {
     // A journal that touches has been told so already.
     const bool is_advised = step.message.find("asperities") != std::string::npos;
@@ -72,9 +72,9 @@ StepRecord MachineRun::observe(const TimeStep& step) {
   seen.step_error = step.local_error;
   seen.newton_iterations = step.solution.iterations;
   seen.newton_residual = step.solution.residual;
-  seen.rejected_steps = march_.rejected_steps();
-  seen.energy_available = march_.energy().available();
-  seen.energy_from_nowhere = march_.energy().gained();
+  seen.rejected_steps = stepper_.rejected_steps();
+  seen.energy_available = stepper_.energy().available();
+  seen.energy_from_nowhere = stepper_.energy().gained();
   return seen;
 }
 
@@ -103,7 +103,7 @@ void MachineRun::persist(Archive& archive) {
   }
   {
     const Archive::Group group(archive, "march");
-    march_.persist(archive);
+    stepper_.persist(archive);
   }
   if (machine_.network) {
     const Archive::Group group(archive, "thermal_network");
@@ -139,12 +139,12 @@ void MachineRun::restore(Archive& archive) {
   for (const std::string& name : archive.unread())
     if (!is_identity(name)) throw ArchiveError("it holds '" + name + "', of which this program knows nothing");
   TimeStep last;
-  last.dt = march_.last_dt();
+  last.dt = stepper_.last_dt();
   seen_ = observe(last);
 }
 
 void MachineRun::restore_file(Archive::Content checkpoint) {
-  march_.plan(state_, observe({}).mechanism);
+  stepper_.plan(state_, observe({}).mechanism);
   Archive archive(std::move(checkpoint));
   try {
     restore(archive);
@@ -188,7 +188,7 @@ Summary MachineRun::summary() const {
   Summary summary;
   summary.results = options_.results;
   summary.t_end = state_.t;
-  summary.rejected_steps = march_.rejected_steps();
+  summary.rejected_steps = stepper_.rejected_steps();
   record_.summarise(summary);
   const Cost spent = cost_ ? *cost_ : cost();
   summary.wall_time = spent.wall_time;

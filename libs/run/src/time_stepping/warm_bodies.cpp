@@ -1,4 +1,4 @@
-#include "march/warm_bodies.h"
+#include "time_stepping/warm_bodies.h"
 
 #include <vector>
 
