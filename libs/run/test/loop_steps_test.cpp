@@ -8,10 +8,10 @@
 
 #include "hersey/model/build.h"
 #include "hersey/solver/generalized_alpha.h"
-#include "time_stepping/start.h"
-#include "time_stepping/time_stepper.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
+#include "time_stepping/start.h"
+#include "time_stepping/time_stepper.h"
 
 namespace hersey::run {
 namespace loop_steps_test {
@@ -83,21 +83,21 @@ joints:
 simulation: {duration: 1 s, step: {tolerance: 1e-6, largest: 0.2 s}}
 )";
 
-struct March {
+struct Steps {
   bool completes = false;
   std::string message;
   int steps = 0, rejected = 0;
   int later = 0;  ///< steps behind a tenth of a second: the first is a guess, and they grow by 1.3 at a time
   double shortest = 1;
   solver::State end;
-  mbd::Observation seen;
+  mbd::Observation observation;
 };
 
-March march(const std::string& text, double radius, double tolerance) {
+Steps step_through(const std::string& text, double radius, double tolerance) {
   const model::Model model = rig(text, {"simulation.spectral_radius=" + std::to_string(radius),
                                         "simulation.step.tolerance=" + std::to_string(tolerance * 1e12) + "e-12"});
   model::Machine machine = model::build(model);
-  March result;
+  Steps result;
   result.end = starting_state(model, machine);
   TimeStepper steps(model, machine);
   steps.plan(result.end, machine.mechanism->observe(result.end));
@@ -112,32 +112,32 @@ March march(const std::string& text, double radius, double tolerance) {
   }
   result.completes = steps.is_at_end();
   result.rejected = steps.rejected_steps();
-  result.seen = machine.mechanism->observe(result.end);
+  result.observation = machine.mechanism->observe(result.end);
   return result;
 }
 
 /// Errors of angle, rate and force of the pendulum at t = 1 s.
-Vector3 pendulum_errors(const mbd::Observation& seen) {
+Vector3 pendulum_errors(const mbd::Observation& observation) {
   const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81 / 1.1)};
   const double angle = exact.angle(1), rate = exact.rate(1);
   const double turn = -exact.omega0 * exact.omega0 * std::sin(angle);
   const Vector3 up(-std::sin(angle), std::cos(angle), 0), along(std::cos(angle), std::sin(angle), 0);
   const Vector3 force = turn * along + rate * rate * up + Vector3(0, 9.81, 0);
-  return {std::abs(seen.joints[0].position[5] - angle), std::abs(seen.joints[0].rate[5] - rate),
-          (seen.joints[1].force - force).norm()};
+  return {std::abs(observation.joints[0].position[5] - angle), std::abs(observation.joints[0].rate[5] - rate),
+          (observation.joints[1].force - force).norm()};
 }
 
 // Once "the tolerance is exceeded with the smallest step", or no end, at 0.9 and above.
 TEST_CASE("ClosedLoops_CompleteAtEverySpectralRadius") {
   for (const std::string& text : {kHinges, kBricard, kPendulumOnAJoint}) {
     for (const double tolerance : {1e-4, 1e-7}) {
-      const March usual = march(text, 0.8, tolerance);
+      const Steps usual = step_through(text, 0.8, tolerance);
       REQUIRE(usual.completes);
       for (const double radius : {0.0, 0.5, 0.9, 0.95, 0.99, 1.0}) {
         CAPTURE(text.substr(text.find("joints"), 80));
         CAPTURE(radius);
         CAPTURE(tolerance);
-        const March one = march(text, radius, tolerance);
+        const Steps one = step_through(text, radius, tolerance);
         CAPTURE(one.message);
         CHECK(one.completes);
         // The error of a step, (integrator.11), has the factor 5/12 at 0, 0.102 at 0.8 and 1/12 at 1: steps go as its
@@ -157,7 +157,7 @@ TEST_CASE("StepsInLoops_GoAsTheThirdRootOfTheTolerance") {
   for (const std::string& text : {kHinges, kPendulumOnAJoint}) {
     for (const double radius : {0.8, 0.95, 1.0}) {
       CAPTURE(radius);
-      const March coarse = march(text, radius, 1e-6), fine = march(text, radius, 1e-9);
+      const Steps coarse = step_through(text, radius, 1e-6), fine = step_through(text, radius, 1e-9);
       // From both sides.
       CHECK(std::abs(std::log(static_cast<double>(fine.later) / coarse.later) / std::log(1e3) - 1.0 / 3) < 0.02);
     }
@@ -166,8 +166,8 @@ TEST_CASE("StepsInLoops_GoAsTheThirdRootOfTheTolerance") {
 
 TEST_CASE("ErrorsInLoops_FollowTheTolerance") {
   for (const double radius : {0.0, 0.8, 0.95, 1.0}) {
-    const Vector3 coarse = pendulum_errors(march(kPendulumOnAJoint, radius, 1e-6).seen);
-    const Vector3 fine = pendulum_errors(march(kPendulumOnAJoint, radius, 1e-9).seen);
+    const Vector3 coarse = pendulum_errors(step_through(kPendulumOnAJoint, radius, 1e-6).observation);
+    const Vector3 fine = pendulum_errors(step_through(kPendulumOnAJoint, radius, 1e-9).observation);
     for (int i = 0; i < 3; ++i) {
       CAPTURE(radius);
       CAPTURE(i);
@@ -207,24 +207,25 @@ TEST_CASE("RedundantLoop_TakesTheStepsOfTheLoopWithoutRedundancy") {
   // The same motion in the plane; what acts across it is zero.
   for (const double radius : {0.8, 0.95}) {
     CAPTURE(radius);
-    const March hinges = march(kHinges, radius, 1e-7);
-    const March free = march(four_bar("cylindrical", "spherical"), radius, 1e-7);
+    const Steps hinges = step_through(kHinges, radius, 1e-7);
+    const Steps free = step_through(four_bar("cylindrical", "spherical"), radius, 1e-7);
     REQUIRE(hinges.completes);
     REQUIRE(free.completes);
     CHECK(hinges.steps == free.steps);
     // Newton's tolerance of 1e-8, by far smaller than the steps' error.
-    CHECK((hinges.seen.joints[2].force - free.seen.joints[2].force).norm() < 1e-7 * hinges.seen.joints[2].force.norm());
+    CHECK((hinges.observation.joints[2].force - free.observation.joints[2].force).norm() <
+          1e-7 * hinges.observation.joints[2].force.norm());
   }
 }
 
 TEST_CASE("MirroredLoop_TakesTheSameSteps") {
   for (const double radius : {0.8, 0.95}) {
     CAPTURE(radius);
-    const March one = march(kHinges, radius, 1e-7);
-    const March mirrored = march(four_bar("revolute", "revolute, axis: z", -1), radius, 1e-7);
+    const Steps one = step_through(kHinges, radius, 1e-7);
+    const Steps mirrored = step_through(four_bar("revolute", "revolute, axis: z", -1), radius, 1e-7);
     REQUIRE(one.completes);
     CHECK(one.steps == mirrored.steps);
-    const Vector3 force = one.seen.joints[2].force, other = mirrored.seen.joints[2].force;
+    const Vector3 force = one.observation.joints[2].force, other = mirrored.observation.joints[2].force;
     // Round-off of positions over the square of the step, over accelerations: 1e-16 / 1e-6.
     CHECK((force - Vector3(-other.x(), other.y(), other.z())).norm() < 1e-8 * force.norm());
   }
@@ -237,11 +238,12 @@ TEST_CASE("BodiesInAnotherOrder_TakeTheSameSteps") {
   reordered.erase(first, second - first).insert(reordered.find("joints:"), rod);
   for (const double radius : {0.8, 0.95}) {
     CAPTURE(radius);
-    const March one = march(kBricard, radius, 1e-7), other = march(reordered, radius, 1e-7);
+    const Steps one = step_through(kBricard, radius, 1e-7), other = step_through(reordered, radius, 1e-7);
     REQUIRE(one.completes);
     CHECK(one.steps == other.steps);
     // Round-off of sums in another order.
-    CHECK((one.seen.joints[2].force - other.seen.joints[2].force).norm() < 1e-8 * one.seen.joints[2].force.norm());
+    CHECK((one.observation.joints[2].force - other.observation.joints[2].force).norm() <
+          1e-8 * one.observation.joints[2].force.norm());
   }
 }
 

@@ -66,11 +66,11 @@ EnergyMonitor::EnergyMonitor(const model::Model&, model::Machine& machine) : mac
 
 // Gravity first, counted from the start.
 std::vector<double> EnergyMonitor::stores(const mbd::EnergyView& view) const {
-  std::vector<double> held{view.potential - potential_at_start_};
-  held.insert(held.end(), view.springs.begin(), view.springs.end());
-  held.insert(held.end(), view.functions.begin(), view.functions.end());
-  for (const mbd::ForceView& force : view.forces) held.push_back(force.stored);
-  return held;
+  std::vector<double> stored{view.potential - potential_at_start_};
+  stored.insert(stored.end(), view.springs.begin(), view.springs.end());
+  stored.insert(stored.end(), view.functions.begin(), view.functions.end());
+  for (const mbd::ForceView& force : view.forces) stored.push_back(force.stored);
+  return stored;
 }
 
 double EnergyMonitor::smallest_monitored(const mbd::EnergyView& view) const {
@@ -80,9 +80,9 @@ double EnergyMonitor::smallest_monitored(const mbd::EnergyView& view) const {
   for (const mbd::MechanismSpec::Elastic& elastic : spec.elastics) weight += elastic.body->mass();
   const Eigen::VectorXd scales = machine_.mechanism->position_scales();
   const double length = scales.size() > 0 ? scales.maxCoeff() : 0;
-  double held = spec.gravity.norm() * weight * length;
-  for (const mbd::ForceView& force : view.forces) held += std::abs(force.stored);
-  return kStandstill * (held + sum_of_sizes(view.springs) + sum_of(view.strain));
+  double stored = spec.gravity.norm() * weight * length;
+  for (const mbd::ForceView& force : view.forces) stored += std::abs(force.stored);
+  return kStandstill * (stored + sum_of_sizes(view.springs) + sum_of(view.strain));
 }
 
 void EnergyMonitor::begin(const solver::State& state) {
@@ -109,8 +109,8 @@ void EnergyMonitor::enter(const mbd::WorkBetween& work) {
     trial_.put_in[i] += sources[i];
     trial_.most_in[i] = std::max(trial_.most_in[i], trial_.put_in[i]);
   }
-  const std::vector<double> held = stores(to_);
-  for (std::size_t i = 0; i < held.size(); ++i) trial_.least_in[i] = std::min(trial_.least_in[i], held[i]);
+  const std::vector<double> stored = stores(to_);
+  for (std::size_t i = 0; i < stored.size(); ++i) trial_.least_in[i] = std::min(trial_.least_in[i], stored[i]);
 }
 
 bool EnergyMonitor::allows(const solver::State& end) {
@@ -119,13 +119,13 @@ bool EnergyMonitor::allows(const solver::State& end) {
   const mbd::WorkBetween work = mechanism.work_between(from_, to_);
   enter(work);
   const std::vector<double> before = stores(from_), after = stores(to_);
-  double gain = of_motion(to_) - of_motion(from_), moved = std::abs(gain), held = of_motion(from_) + of_motion(to_);
+  double gain = of_motion(to_) - of_motion(from_), moved = std::abs(gain), stored = of_motion(from_) + of_motion(to_);
   for (std::size_t i = 0; i < before.size(); ++i) {
     gain += after[i] - before[i];
     moved += std::abs(after[i] - before[i]);
-    held += std::abs(before[i]) + std::abs(after[i]);
+    stored += std::abs(before[i]) + std::abs(after[i]);
   }
-  held += std::abs(from_.potential);
+  stored += std::abs(from_.potential);
   double doubt = 0;
   const auto put_in = [&](const mbd::StepWork& one) {
     gain -= one.value;
@@ -141,7 +141,7 @@ bool EnergyMonitor::allows(const solver::State& end) {
       gain += work.lost[i];
   }
   gain += work.lost_in_springs;
-  doubt += kUnsolved * moved + kRoundOffOfStores * held;
+  doubt += kUnsolved * moved + kRoundOffOfStores * stored;
   gain_ = gain - doubt;
   const bool begins = books_.available() <= kFromNothing * trial_.available();
   if (begins && gain_ <= trial_.available()) gain_ = std::min(gain_, 0.0);

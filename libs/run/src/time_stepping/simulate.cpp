@@ -14,6 +14,9 @@
 #include "hersey/results/writer.h"
 #include "hersey/solver/equilibrium.h"
 #include "hersey/solver/linearise.h"
+#include "record/bearing_axes.h"
+#include "record/facing_surfaces.h"
+#include "record/observe_step.h"
 #include "time_stepping/checkpoint.h"
 #include "time_stepping/coarser_run.h"
 #include "time_stepping/instants.h"
@@ -21,9 +24,6 @@
 #include "time_stepping/redundancies.h"
 #include "time_stepping/start.h"
 #include "time_stepping/start_changes.h"
-#include "record/bearing_axes.h"
-#include "record/facing_surfaces.h"
-#include "record/observe_step.h"
 
 namespace hersey::run {
 namespace {
@@ -69,13 +69,13 @@ class Run {
     switch (plan.analysis) {
       case Analysis::dynamics:
       case Analysis::kinematics:
-        return march();
+        return step_to_end();
       case Analysis::equilibrium:
         if (come_to_rest()) machine_.record_here();
         return;
       case Analysis::modes:
         if (plan.modes_about == model::ModesAbout::end) {
-          march();
+          step_to_end();
           if (status_ != Status::completed) return;
         } else {
           if (plan.modes_about != model::ModesAbout::start && !come_to_rest()) return;
@@ -85,7 +85,7 @@ class Run {
     }
   }
 
-  void march() {
+  void step_to_end() {
     machine_.begin();
     while (!machine_.is_at_end()) {
       if (const Outcome step = machine_.step(); !step.solved()) return fail(step.message);
@@ -184,7 +184,7 @@ Summary simulate_with_step_error(const model::Model& model, const Options& optio
   return summary;
 }
 
-Summary simulate_held(const model::Model& model, const Options& options);
+Summary simulate_locked(const model::Model& model, const Options& options);
 
 Summary resume_from(Archive::Content checkpoint, const model::Model& model, const Options& options) {
   std::string warning;
@@ -210,13 +210,13 @@ Summary resume(const model::Model& model, const Options& options) {
   Options anew = options;
   anew.overwrite = true;
   anew.resume = false;
-  summary = simulate_held(model, anew);
+  summary = simulate_locked(model, anew);
   summary.warning = "there was no checkpoint to go on from: the run began anew";
   return summary;
 }
 
 // The results file is this run's alone.
-Summary simulate_held(const model::Model& model, const Options& options) {
+Summary simulate_locked(const model::Model& model, const Options& options) {
   if (options.resume) return resume(model, options);
   // A checkpoint of results that are about to be replaced.
   if (options.overwrite || !std::filesystem::exists(options.results)) discard_checkpoint(options.results);
@@ -248,8 +248,8 @@ Summary simulate(const model::Model& model, const Options& options) {
                            "bodies and a simulation to run",
                            "'hersey bearing' solves bearings by themselves"});
   }
-  const results::OutputLock held(options.results);
-  return simulate_held(model, options);
+  const results::OutputLock lock(options.results);
+  return simulate_locked(model, options);
 }
 
 }  // namespace hersey::run

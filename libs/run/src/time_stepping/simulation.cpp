@@ -13,9 +13,9 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/results/output_lock.h"
+#include "record/recorder.h"
 #include "time_stepping/inputs.h"
 #include "time_stepping/machine_run.h"
-#include "record/recorder.h"
 
 namespace hersey::run {
 namespace {
@@ -43,7 +43,7 @@ struct Simulation::Impl {
   Impl(model::Model given, Options options_)
       : model(require_motion(std::move(given))),
         options(std::move(options_)),
-        held(std::in_place, options.results),
+        lock(std::in_place, options.results),
         inputs(model),
         run(model, options),
         snapshot(model, run.machine(), run.state(), Options{}) {
@@ -133,7 +133,7 @@ struct Simulation::Impl {
 
   model::Model model;
   Options options;
-  std::optional<results::OutputLock> held;  // the results file is this run's alone
+  std::optional<results::OutputLock> lock;  // the results file is this run's alone
   Inputs inputs;
   MachineRun run;
   Recorder snapshot;
@@ -246,7 +246,7 @@ Summary Simulation::finish() {
   const Summary found = summary();
   if (std::exchange(impl_->is_finished, true) || impl_->options.results.empty()) return found;
   const Outcome written = impl_->run.finish(found.status, found.message, nullptr);
-  impl_->held.reset();
+  impl_->lock.reset();
   if (!written.solved()) throw std::runtime_error(written.message);
   return summary();
 }

@@ -177,7 +177,7 @@ TimeStep TimeStepper::take_fixed(solver::State& state, double target) {
   for (;;) {
     step.dt = std::min(trial_, target - state.t);
     const bool may_be_cut = has_smooth_motion_ && step.dt > kShortest * model_.simulation.step;
-    const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
+    const auto check = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
       // Motions that films or stiffness end within a step: the estimate extrapolates what is not there.
       const Eigen::VectorXd way = 0.5 * step.dt * (state.v.cwiseAbs() + end.v.cwiseAbs());
       bounded_ = estimate.cwiseMin(way).cwiseMax(-way);
@@ -185,7 +185,7 @@ TimeStep TimeStepper::take_fixed(solver::State& state, double target) {
       return (!may_be_cut || step_error_.of_coordinates() <= kMeaningless) && energy_.allows(end);
     };
     energy_.begin_trial();
-    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
+    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, check);
     if (step.solution.solved()) {
       step.local_error = step_error_.largest();
       if (creeping_ == 0) energy_.count_loss_anew();
@@ -223,7 +223,7 @@ std::string TimeStepper::end_of_cutting(const TimeStep& step) const {
 TimeStep TimeStepper::take_controlled(solver::State& state, double target) {
   TimeStep step;
   Eigen::VectorXd errors;
-  const auto judge = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
+  const auto check = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
     errors = step_error_.measure(end, estimate) / model_.simulation.error_control->tolerance;
     step.error = step_error_.largest() / model_.simulation.error_control->tolerance;
     if (step.error > 1 || energy_.allows(end)) return step.error <= 1;
@@ -234,7 +234,7 @@ TimeStep TimeStepper::take_controlled(solver::State& state, double target) {
     const double remaining = target - state.t;
     step.dt = control_->proposed(remaining);
     energy_.begin_trial();
-    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, judge);
+    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, check);
     if (step.solution.solved()) {
       if (step.dt == remaining) state.t = target;  // exactly, not as a sum of steps
       step.local_error = step_error_.largest();
