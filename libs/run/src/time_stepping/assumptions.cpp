@@ -56,7 +56,7 @@ std::string supply(const film::FilmModel& film) {
 }
 
 /// What a feature is called. An outline without words here does not compile.
-struct WordsOfShape {
+struct ShapeDescription {
   bool is_fed;
   const char* operator()(const film::Rectangle& /*shape*/) const { return is_fed ? "groove" : "pocket"; }
   const char* operator()(const film::Ellipse& /*shape*/) const { return "hole"; }
@@ -65,14 +65,14 @@ struct WordsOfShape {
 std::string described(const film::SurfaceFeature& feature) {
   const std::string depth = feature.depth > 0 ? fmt::format(", {:.4g} um deep", 1e6 * feature.depth) : "";
   return fmt::format("{} in the {} at {:.4g} deg, z = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
-                     std::visit(WordsOfShape{feature.is_fed}, feature.shape),
+                     std::visit(ShapeDescription{feature.is_fed}, feature.shape),
                      feature.surface == film::Surface::shell ? "shell" : "journal",
                      feature.phi * 180 / std::numbers::pi, 1e3 * feature.z, feature.arc * 180 / std::numbers::pi,
                      1e3 * feature.length, depth, feature.is_fed ? "" : ", not fed");
 }
 
 /// What follows the viscosity mu0 in its description. A law without words here does not compile.
-struct WordsOfViscosity {
+struct ViscosityDescription {
   std::string operator()(const film::ConstantViscosity&) const { return ""; }
   std::string operator()(const film::Barus& law) const { return fmt::format(" exp({:.4g}/Pa p) (Barus)", law.alpha); }
   std::string operator()(const film::Roelands& law) const {
@@ -83,7 +83,7 @@ struct WordsOfViscosity {
   }
 };
 
-struct WordsOfDensity {
+struct DensityDescription {
   std::string operator()(const film::Incompressible&) const { return "incompressible"; }
   std::string operator()(const film::DowsonHigginson& law) const {
     return fmt::format("density rises by {:.4g}/Pa p/(1 + {:.4g}/Pa p) (Dowson-Higginson)", law.rise, law.saturation);
@@ -96,7 +96,7 @@ struct WordsOfDensity {
 double celsius(double T) { return T - film::zero_celsius; }
 
 /// How the viscosity falls with temperature. A law without words here does not compile.
-struct WordsOfTemperature {
+struct TemperatureLawDescription {
   std::string operator()(const film::FixedViscosity&) const { return "the same at every temperature"; }
   std::string operator()(const film::ExponentialViscosity& law) const {
     return fmt::format("{:.4g} mPa.s exp[-{:.4g}/K (T - {:.4g} degC)]", 1e3 * law.mu_ref, law.beta, celsius(law.T_ref));
@@ -125,7 +125,7 @@ std::string words_of_body(const std::optional<double>& T_start) {
          " and moves at the end of cycles only";
 }
 
-struct WordsOfShell {
+struct ShellDescription {
   std::string operator()(const film::InsulatedWall&) const { return "takes no heat"; }
   std::string operator()(const film::WallAtTemperature& wall) const {
     if (wall.around.size() == 0) return fmt::format("at {:.4g} degC", celsius(wall.T));
@@ -142,7 +142,7 @@ struct WordsOfShell {
   std::string operator()(const film::BodyWall& wall) const { return words_of_body(wall.T_start); }
 };
 
-struct WordsOfJournal {
+struct JournalDescription {
   std::string operator()(const film::InsulatedWall&) const { return "takes no heat"; }
   std::string operator()(const film::WallAtTemperature& wall) const {
     return fmt::format("at {:.4g} degC", celsius(wall.T));
@@ -192,13 +192,13 @@ std::string rubbing(const film::FilmModel& film, const film::ThermalModel& heat)
 /// What the film's temperature is; empty where nothing depends on one.
 std::string heat(const model::Bearing& bearing) {
   const film::Lubricant& oil = bearing.film.lubricant;
-  const std::string law = std::visit(WordsOfTemperature{}, oil.temperature_law);
+  const std::string law = std::visit(TemperatureLawDescription{}, oil.temperature_law);
   if (const auto* film = std::get_if<film::ThermalModel>(&bearing.heat)) {
     return fmt::format(
         "film in {} layers, viscosity {}, oil supplied at {:.4g} degC{}, {:.4g} J/kg/K, {:.4g} W/m/K; shell {}; "
         "journal {}; grooves carry over {:.3g} of the film's oil{}",
         film->layers, law, celsius(film->T_supply), other_supplies(bearing.film, *film), oil.specific_heat,
-        oil.conductivity, std::visit(WordsOfShell{}, film->shell), std::visit(WordsOfJournal{}, film->journal),
+        oil.conductivity, std::visit(ShellDescription{}, film->shell), std::visit(JournalDescription{}, film->journal),
         film->carry_over, nodes_of_oil(bearing.film, *film) + rubbing(bearing.film, *film));
   }
   if (const auto* one = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
@@ -212,7 +212,7 @@ std::string heat(const model::Bearing& bearing) {
 }
 
 /// How the viscosity falls with the shear rate. A law without words here does not compile.
-struct WordsOfShear {
+struct ShearThinningDescription {
   std::string operator()(const film::Newtonian&) const { return ""; }
   std::string operator()(const film::Cross& law) const {
     return fmt::format("Cross with exponent {:.4g} down to {:.4g} of the viscosity at rest", law.exponent, law.limit);
@@ -226,7 +226,7 @@ struct WordsOfShear {
 /// Empty where the oil does not thin by shear.
 std::string law_of_shear(const film::ShearThinning& thinning) {
   if (thinning.is_newtonian()) return "";
-  return fmt::format("{}, critical {}", std::visit(WordsOfShear{}, thinning.law),
+  return fmt::format("{}, critical {}", std::visit(ShearThinningDescription{}, thinning.law),
                      thinning.critical_stress > 0 ? fmt::format("stress {:.4g} kPa", 1e-3 * thinning.critical_stress)
                                                   : fmt::format("rate {:.4g}/s", thinning.critical_rate));
 }
@@ -245,8 +245,8 @@ std::string viscosity(const model::Bearing& bearing) {
   const film::Lubricant& oil = bearing.film.lubricant;
   const bool varies = !std::holds_alternative<std::monostate>(bearing.heat);
   return fmt::format("{:.4g} mPa.s{}{}, {}{}", 1e3 * oil.mu0, varies ? " as supplied" : "",
-                     std::visit(WordsOfViscosity{}, oil.viscosity_law), std::visit(WordsOfDensity{}, oil.density_law),
-                     varies ? "" : ", isothermal");
+                     std::visit(ViscosityDescription{}, oil.viscosity_law),
+                     std::visit(DensityDescription{}, oil.density_law), varies ? "" : ", isothermal");
 }
 
 std::string asperities(const film::Asperities& contact) {
@@ -290,15 +290,15 @@ std::string compliance(const model::Bearing& bearing) {
 }  // namespace
 
 Rows oil_assumptions(const film::Lubricant& oil) {
-  Rows rows{{"viscosity", std::visit(WordsOfTemperature{}, oil.temperature_law)}};
+  Rows rows{{"viscosity", std::visit(TemperatureLawDescription{}, oil.temperature_law)}};
   if (!film::depends_on_temperature(oil.temperature_law))
     rows.front().second = fmt::format("{:.4g} mPa.s, {}", 1e3 * oil.mu0, rows.front().second);
   if (!std::holds_alternative<film::ConstantViscosity>(oil.viscosity_law))
-    rows.emplace_back("pressure", "mu0" + std::visit(WordsOfViscosity{}, oil.viscosity_law));
+    rows.emplace_back("pressure", "mu0" + std::visit(ViscosityDescription{}, oil.viscosity_law));
   if (!oil.shear_thinning.is_newtonian()) rows.emplace_back("shear", law_of_shear(oil.shear_thinning));
   const std::string falls = oil.expansion > 0 ? fmt::format(" at 15 degC, falling by {:.3g}/K", oil.expansion) : "";
   rows.emplace_back("density", fmt::format("{:.4g} kg/m^3{}; {}", oil.expansion > 0 ? oil.rho15 : oil.density, falls,
-                                           std::visit(WordsOfDensity{}, oil.density_law)));
+                                           std::visit(DensityDescription{}, oil.density_law)));
   return rows;
 }
 
