@@ -18,7 +18,7 @@ namespace {
 using results::Array;
 using results::Reader;
 using run::QuantityInfo;
-using run::Told;
+using run::SummaryRow;
 
 constexpr double degrees = 180 / std::numbers::pi;
 
@@ -73,7 +73,7 @@ class Summary {
 
  private:
   void bearing_rows() {
-    using As = Told::As;
+    using As = SummaryRow::As;
     const std::vector<QuantityInfo> quantities = run::quantities_of("/bearings/<b>/");
     for (const std::string& bearing : reader_.children("/bearings")) {
       group_ = bearing;
@@ -90,30 +90,30 @@ class Summary {
   }
 
   /// The rows that the table of quantities makes of those told in one of these ways.
-  void tell(const std::vector<QuantityInfo>& quantities, std::initializer_list<Told::As> ways) {
+  void tell(const std::vector<QuantityInfo>& quantities, std::initializer_list<SummaryRow::As> ways) {
     for (const QuantityInfo& quantity : quantities)
-      for (const Told& told : quantity.told)
+      for (const SummaryRow& told : quantity.told)
         if (std::find(ways.begin(), ways.end(), told.as) != ways.end())
           for (const std::string& name : names_in_file(quantity.name))
             tell(filled_in(quantity.name, name), filled_in(told.name, name), told);
   }
 
-  void tell(const std::string& series, const std::string& name, const Told& told) {
+  void tell(const std::string& series, const std::string& name, const SummaryRow& told) {
     const double factor = si_of(told.unit).per_si;
     switch (told.as) {
-      case Told::As::smallest:
-        return extreme(name, series, smallest, factor, told.unit, told.has_place);
-      case Told::As::largest:
-        return extreme(name, series, largest, factor, told.unit, told.has_place);
-      case Told::As::largest_in_size:
-        return extreme(name, series, largest_size, factor, told.unit, told.has_place);
-      case Told::As::longest:
+      case SummaryRow::As::smallest:
+        return extreme(name, series, smallest, factor, told.unit, told.has_location);
+      case SummaryRow::As::largest:
+        return extreme(name, series, largest, factor, told.unit, told.has_location);
+      case SummaryRow::As::largest_in_size:
+        return extreme(name, series, largest_size, factor, told.unit, told.has_location);
+      case SummaryRow::As::longest:
         return longest(name, series, factor, told.unit);
-      case Told::As::mean:
+      case SummaryRow::As::mean:
         return mean(name, series, factor, told.unit);
-      case Told::As::integral:
+      case SummaryRow::As::integral:
         return total(name, series, factor, told.unit);
-      case Told::As::at_end:
+      case SummaryRow::As::at_end:
         return last(name, series, factor, told.unit);
     }
   }
@@ -137,7 +137,7 @@ class Summary {
     for (const QuantityInfo& quantity : run::quantities_of("/step_errors/<bearing>/")) {
       const auto error = reader_.number_attribute(group, quantity.name);
       if (!error || !std::isfinite(*error)) continue;
-      for (const Told& told : quantity.told)
+      for (const SummaryRow& told : quantity.told)
         add(told.name, si_of(told.unit).per_si * *error, told.unit, "estimated by a run with steps twice as long");
     }
   }
@@ -153,13 +153,13 @@ class Summary {
     const std::vector<double> contact = cycle("contact");
     const bool touches = !contact.empty() && contact.back() >= 1;  // [Pa]: else the tail of a distribution of heights
     for (const QuantityInfo& quantity : run::quantities_of("/bearings/<b>/cycles/fields/")) {
-      for (const Told& told : quantity.told) {
-        if (told.only == Told::Only::of_a_cycle && !is_cycle) continue;
-        if (told.only == Told::Only::with_contact && !touches) continue;
+      for (const SummaryRow& told : quantity.told) {
+        if (told.only == SummaryRow::Only::of_a_cycle && !is_cycle) continue;
+        if (told.only == SummaryRow::Only::with_contact && !touches) continue;
         const double factor = si_of(told.unit).per_si;
-        if (told.as == Told::As::largest)
+        if (told.as == SummaryRow::As::largest)
           largest_of_map(told.name + over, quantity.name, factor, told.unit);
-        else if (told.has_place)
+        else if (told.has_location)
           of_cycle(told.name + over, quantity.name, factor, told.unit);
         else
           last_of(told.name + over, quantity.name, factor, told.unit, when);
@@ -209,7 +209,7 @@ class Summary {
   }
 
   void thermal_rows() {
-    using As = Told::As;
+    using As = SummaryRow::As;
     if (!reader_.has("/thermal/heat_stored")) return;
     group_ = "thermal network";
     path_ = "/thermal/";
@@ -220,7 +220,7 @@ class Summary {
   }
 
   void contact_rows() {
-    using As = Told::As;
+    using As = SummaryRow::As;
     const std::vector<QuantityInfo> quantities = run::quantities_of("/contacts/<c>/");
     for (const std::string& contact : reader_.children("/contacts")) {
       group_ = "contact " + contact;
@@ -238,7 +238,7 @@ class Summary {
     mean_of_rows("mean Newton iterations per step", "solver/newton_iterations");
     newton_row();
     step_rows();
-    tell(run::quantities_of("/"), {Told::As::largest_in_size});
+    tell(run::quantities_of("/"), {SummaryRow::As::largest_in_size});
     relative_power_error();
     energy_rows();
     group_ = "computing";
@@ -331,7 +331,7 @@ class Summary {
       }
     }
     const std::vector<double> rejected = values("solver/rejected_steps"), drift = values("solver/constraint_drift");
-    tell(run::quantities_of("/"), {Told::As::largest});
+    tell(run::quantities_of("/"), {SummaryRow::As::largest});
     if (!rejected.empty() && rejected.back() > 0) add("rejected steps", rejected.back(), "");
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }

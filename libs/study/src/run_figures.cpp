@@ -20,7 +20,7 @@ namespace {
 using results::Array;
 using results::Reader;
 using run::QuantityInfo;
-using run::Told;
+using run::SummaryRow;
 
 constexpr std::array<const char*, 5> kWays{"min", "max", "mean", "rms", "end"};
 constexpr int kMostModes = 40;
@@ -49,35 +49,35 @@ const std::map<std::string, std::string>& short_names() {
   return names;
 }
 
-const char* suffix(Told::As as) {
+const char* suffix(SummaryRow::As as) {
   switch (as) {
-    case Told::As::smallest:
+    case SummaryRow::As::smallest:
       return ".min";
-    case Told::As::largest:
+    case SummaryRow::As::largest:
       return ".max";
-    case Told::As::largest_in_size:
+    case SummaryRow::As::largest_in_size:
       return ".peak";
-    case Told::As::longest:
+    case SummaryRow::As::longest:
       return ".longest";
-    case Told::As::mean:
+    case SummaryRow::As::mean:
       return ".mean";
-    case Told::As::integral:
+    case SummaryRow::As::integral:
       return ".integral";
-    case Told::As::at_end:
+    case SummaryRow::As::at_end:
       return ".end";
   }
   return "";
 }
 
 /// "/bearings/<b>/cycles/fields/" and "moft" as "bearings.<b>." and "cycle.moft".
-std::pair<std::string, std::string> name_of(const std::string& path, const QuantityInfo& quantity, Told::As as) {
+std::pair<std::string, std::string> name_of(const std::string& path, const QuantityInfo& quantity, SummaryRow::As as) {
   constexpr std::string_view of_cycles = "cycles/fields/";
   const bool is_cycle = path.ends_with(of_cycles);
   std::string group = is_cycle ? path.substr(1, path.size() - 1 - of_cycles.size()) : path.substr(1);
   std::replace(group.begin(), group.end(), '/', '.');
   std::string name = quantity.name;
   std::replace(name.begin(), name.end(), '/', '.');
-  name = is_cycle ? "cycle." + name + (as == Told::As::at_end ? "" : suffix(as)) : name + suffix(as);
+  name = is_cycle ? "cycle." + name + (as == SummaryRow::As::at_end ? "" : suffix(as)) : name + suffix(as);
   const auto found = short_names().find(name);
   return {group, found != short_names().end() && group.starts_with("bearings.") ? found->second : name};
 }
@@ -89,25 +89,25 @@ class Series {
     if (reader.has("/time")) time_ = reader.read("/time").values;
   }
 
-  [[nodiscard]] std::optional<double> value(const std::string& path, Told::As as) const {
+  [[nodiscard]] std::optional<double> value(const std::string& path, SummaryRow::As as) const {
     if (!reader_.has(path)) return std::nullopt;
     const Array array = reader_.read(path);
     if (array.values.empty()) return std::nullopt;
-    const std::vector<double> values = as == Told::As::longest ? lengths(array) : array.values;
+    const std::vector<double> values = as == SummaryRow::As::longest ? lengths(array) : array.values;
     switch (as) {
-      case Told::As::smallest:
+      case SummaryRow::As::smallest:
         return *std::min_element(values.begin(), values.end());
-      case Told::As::largest:
-      case Told::As::longest:
+      case SummaryRow::As::largest:
+      case SummaryRow::As::longest:
         return *std::max_element(values.begin(), values.end());
-      case Told::As::largest_in_size:
+      case SummaryRow::As::largest_in_size:
         return *std::max_element(values.begin(), values.end(),
                                  [](double a, double b) { return std::abs(a) < std::abs(b); });
-      case Told::As::mean:
+      case SummaryRow::As::mean:
         return integral(values) / duration();
-      case Told::As::integral:
+      case SummaryRow::As::integral:
         return integral(values);
-      case Told::As::at_end:
+      case SummaryRow::As::at_end:
         return values.back();
     }
     return std::nullopt;
@@ -165,7 +165,7 @@ void add_told(const Reader& reader, const Series& series, std::vector<RunFigure>
       const std::string path = without_names(group.path, thing);
       for (const QuantityInfo& quantity : group.quantities) {
         if (quantity.kind != QuantityInfo::Kind::series) continue;
-        for (const Told& told : quantity.told) {
+        for (const SummaryRow& told : quantity.told) {
           const std::string parent = path.size() > 1 ? path.substr(0, path.size() - 1) : path;
           for (const std::string& name : names_for(quantity.name, reader.children(parent))) {
             const std::optional<double> value = series.value(path + without_names(quantity.name, name), told.as);
@@ -264,7 +264,7 @@ std::vector<std::string> run_figure_keys() {
   for (const run::QuantityGroup& group : run::result_quantities())
     for (const QuantityInfo& quantity : group.quantities)
       if (quantity.kind == QuantityInfo::Kind::series)
-        for (const Told& told : quantity.told) {
+        for (const SummaryRow& told : quantity.told) {
           const auto [in, key] = name_of(group.path, quantity, told.as);
           keys.push_back(in + key);
         }

@@ -5,8 +5,8 @@
 namespace hersey::run {
 namespace {
 
-using As = Told::As;
-using Only = Told::Only;
+using As = SummaryRow::As;
+using Only = SummaryRow::Only;
 using CycleLine = Quantity<CycleRow, model::Bearing>;
 using CycleTable = QuantityTable<CycleRow, model::Bearing>;
 
@@ -25,7 +25,7 @@ auto mean_power(double BearingCycle::*energy) {
 
 /// Four lines: the value, when and where.
 void add_extreme(const std::string& name, const char* unit, const char* text, FilmExtreme BearingCycle::*extreme,
-                 const Told& told, CycleTable& table) {
+                 const SummaryRow& told, CycleTable& table) {
   const auto of = [extreme](double FilmExtreme::*member) {
     return [extreme, member](const CycleRow& row) { return row.cycle.*extreme.*member; };
   };
@@ -36,7 +36,7 @@ void add_extreme(const std::string& name, const char* unit, const char* text, Fi
 }
 
 CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::VectorXd BearingCycle::*values,
-                   const char* note = "", std::vector<Told> told = {}) {
+                   const char* note = "", std::vector<SummaryRow> told = {}) {
   return {name,
           unit,
           text,
@@ -115,7 +115,7 @@ const CycleTable& cycle_quantities() {
           {.only = of_hot_film,
            .told = {{As::at_end, "correction of wall temperatures", "K", false, Only::of_a_cycle}}}}});
     const auto told_of_map = [](const char* name, const char* unit) {
-      return std::vector<Told>{{As::largest, name, unit, true, Only::with_contact}};
+      return std::vector<SummaryRow>{{As::largest, name, unit, true, Only::with_contact}};
     };
     lines.insert(lines.end(),
                  {map_line("asperity_pressure_mean", "Pa", "contact pressure, mean over the cycle", &C::mean_contact,

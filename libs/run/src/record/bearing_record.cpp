@@ -13,7 +13,7 @@ namespace hersey::run {
 namespace {
 
 using Film = film::FilmObservables;
-using As = Told::As;
+using As = SummaryRow::As;
 
 /// Of what is seen of the bearing.
 template <class Member>

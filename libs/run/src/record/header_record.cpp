@@ -8,9 +8,9 @@
 
 #include "hersey/core/version.h"
 #include "hersey/run/assumptions.h"
+#include "record/film_surface_rows.h"
 #include "time_stepping/redundancies.h"
 #include "time_stepping/start_changes.h"
-#include "record/film_surface_rows.h"
 
 namespace hersey::run {
 namespace {
@@ -74,7 +74,7 @@ const char* const text_of_assumptions = "what decides the results: name, text";
 const std::vector<Attribute<StepErrors>>& step_error_attributes() {
   using E = StepErrors;
   const auto told = [](const char* name, const char* unit) {
-    return More<E>{.told = {{Told::As::at_end, std::string("error by the step: ") + name, unit}}};
+    return More<E>{.told = {{SummaryRow::As::at_end, std::string("error by the step: ") + name, unit}}};
   };
   static const std::vector<Attribute<E>> table{
       {"moft", "m", "size of the error of the smallest film thickness, estimated", &E::moft,

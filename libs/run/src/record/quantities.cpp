@@ -117,21 +117,21 @@ std::vector<QuantityInfo> quantities_of(std::string_view path) {
 
 namespace {
 
-const char* text_of(Told::As as) {
+const char* text_of(SummaryRow::As as) {
   switch (as) {
-    case Told::As::smallest:
+    case SummaryRow::As::smallest:
       return "smallest";
-    case Told::As::largest:
+    case SummaryRow::As::largest:
       return "largest";
-    case Told::As::largest_in_size:
+    case SummaryRow::As::largest_in_size:
       return "largest in size";
-    case Told::As::longest:
+    case SummaryRow::As::longest:
       return "longest";
-    case Told::As::mean:
+    case SummaryRow::As::mean:
       return "mean over time";
-    case Told::As::integral:
+    case SummaryRow::As::integral:
       return "integral over time";
-    case Told::As::at_end:
+    case SummaryRow::As::at_end:
       return "at the end";
   }
   HERSEY_REQUIRE(false, "every way of telling has its words");
@@ -170,7 +170,7 @@ nlohmann::ordered_json json_of(const QuantityInfo& quantity) {
                                {"text", quantity.text}};
   if (!quantity.symbol.empty()) entry["symbol"] = quantity.symbol;
   if (!quantity.note.empty()) entry["note"] = quantity.note;
-  for (const Told& told : quantity.told) entry["told"].push_back({{"name", told.name}, {"as", text_of(told.as)}});
+  for (const SummaryRow& told : quantity.told) entry["told"].push_back({{"name", told.name}, {"as", text_of(told.as)}});
   return entry;
 }
 

@@ -40,7 +40,7 @@ struct More {
   std::function<std::string(const Plan&)> unit = {};  ///< which, where there are several
   /// What stands for <...> in name and text: of a family one for each member.
   std::function<std::vector<std::string>(const Plan&)> each = {};
-  std::vector<Told> told = {};
+  std::vector<SummaryRow> told = {};
 };
 
 /// `text` with `name` in place of what stands in angle brackets.

@@ -10,7 +10,7 @@ namespace hersey::run {
 namespace {
 
 using Seen = film::NetworkObservables;
-using As = Told::As;
+using As = SummaryRow::As;
 
 /// Places of the bodies among the nodes; surroundings keep the temperature that the model gives them.
 std::vector<Eigen::Index> bodies(const model::Model& model) {

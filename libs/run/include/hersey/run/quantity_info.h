@@ -6,7 +6,7 @@
 namespace hersey::run {
 
 /// A row that the closing table makes of a quantity.
-struct Told {
+struct SummaryRow {
   enum class As {
     smallest,         ///< of all instants, with the instant
     largest,          ///< the same
@@ -22,9 +22,9 @@ struct Told {
     with_contact  ///< where surfaces have touched
   };
   As as = As::at_end;
-  std::string name;        ///< "minimum film thickness (MOFT)"; <...> is filled in as in QuantityInfo::name
-  std::string unit = {};   ///< that of the table, "µm"; empty for a pure number
-  bool has_place = false;  ///< the series <name>_phi and <name>_z tell where
+  std::string name;           ///< "minimum film thickness (MOFT)"; <...> is filled in as in QuantityInfo::name
+  std::string unit = {};      ///< that of the table, "µm"; empty for a pure number
+  bool has_location = false;  ///< the series <name>_phi and <name>_z tell where
   Only only = Only::always;
 };
 
@@ -39,7 +39,7 @@ struct QuantityInfo {
   std::string note = {};    ///< what else the documentation says: where it is there only for some, how it is meant
   Kind kind = Kind::series;
   std::vector<std::string> dimensions = {};  ///< names of what its columns are, beside x, y, z
-  std::vector<Told> told = {};
+  std::vector<SummaryRow> told = {};
 };
 
 /// All that a results file says of things of one kind.
