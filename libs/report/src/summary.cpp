@@ -73,16 +73,16 @@ class Summary {
 
  private:
   void bearing_rows() {
-    using As = SummaryRow::As;
+    using Statistic = SummaryRow::Statistic;
     const std::vector<QuantityInfo> quantities = run::quantities_of("/bearings/<b>/");
     for (const std::string& bearing : reader_.children("/bearings")) {
       group_ = bearing;
       path_ = "/bearings/" + bearing + "/";
-      tell(quantities, {As::smallest, As::largest, As::longest});
-      tell(quantities, {As::mean, As::integral});
-      tell(quantities, {As::at_end});
+      add_rows(quantities, {Statistic::smallest, Statistic::largest, Statistic::longest});
+      add_rows(quantities, {Statistic::mean, Statistic::integral});
+      add_rows(quantities, {Statistic::at_end});
       given_clearance();
-      tell(quantities, {As::largest_in_size});
+      add_rows(quantities, {Statistic::largest_in_size});
       film_energy_error();
       step_error_rows();
       cycle_rows();
@@ -90,31 +90,31 @@ class Summary {
   }
 
   /// The rows that the table of quantities makes of those told in one of these ways.
-  void tell(const std::vector<QuantityInfo>& quantities, std::initializer_list<SummaryRow::As> ways) {
+  void add_rows(const std::vector<QuantityInfo>& quantities, std::initializer_list<SummaryRow::Statistic> ways) {
     for (const QuantityInfo& quantity : quantities)
-      for (const SummaryRow& told : quantity.told)
-        if (std::find(ways.begin(), ways.end(), told.as) != ways.end())
+      for (const SummaryRow& summary_row : quantity.summary_rows)
+        if (std::find(ways.begin(), ways.end(), summary_row.statistic) != ways.end())
           for (const std::string& name : names_in_file(quantity.name))
-            tell(filled_in(quantity.name, name), filled_in(told.name, name), told);
+            add_rows(filled_in(quantity.name, name), filled_in(summary_row.name, name), summary_row);
   }
 
-  void tell(const std::string& series, const std::string& name, const SummaryRow& told) {
-    const double factor = si_of(told.unit).per_si;
-    switch (told.as) {
-      case SummaryRow::As::smallest:
-        return extreme(name, series, smallest, factor, told.unit, told.has_location);
-      case SummaryRow::As::largest:
-        return extreme(name, series, largest, factor, told.unit, told.has_location);
-      case SummaryRow::As::largest_in_size:
-        return extreme(name, series, largest_size, factor, told.unit, told.has_location);
-      case SummaryRow::As::longest:
-        return longest(name, series, factor, told.unit);
-      case SummaryRow::As::mean:
-        return mean(name, series, factor, told.unit);
-      case SummaryRow::As::integral:
-        return total(name, series, factor, told.unit);
-      case SummaryRow::As::at_end:
-        return last(name, series, factor, told.unit);
+  void add_rows(const std::string& series, const std::string& name, const SummaryRow& summary_row) {
+    const double factor = si_of(summary_row.unit).per_si;
+    switch (summary_row.statistic) {
+      case SummaryRow::Statistic::smallest:
+        return extreme(name, series, smallest, factor, summary_row.unit, summary_row.has_location);
+      case SummaryRow::Statistic::largest:
+        return extreme(name, series, largest, factor, summary_row.unit, summary_row.has_location);
+      case SummaryRow::Statistic::largest_in_size:
+        return extreme(name, series, largest_size, factor, summary_row.unit, summary_row.has_location);
+      case SummaryRow::Statistic::longest:
+        return longest(name, series, factor, summary_row.unit);
+      case SummaryRow::Statistic::mean:
+        return mean(name, series, factor, summary_row.unit);
+      case SummaryRow::Statistic::integral:
+        return total(name, series, factor, summary_row.unit);
+      case SummaryRow::Statistic::at_end:
+        return last(name, series, factor, summary_row.unit);
     }
   }
 
@@ -137,8 +137,9 @@ class Summary {
     for (const QuantityInfo& quantity : run::quantities_of("/step_errors/<bearing>/")) {
       const auto error = reader_.number_attribute(group, quantity.name);
       if (!error || !std::isfinite(*error)) continue;
-      for (const SummaryRow& told : quantity.told)
-        add(told.name, si_of(told.unit).per_si * *error, told.unit, "estimated by a run with steps twice as long");
+      for (const SummaryRow& summary_row : quantity.summary_rows)
+        add(summary_row.name, si_of(summary_row.unit).per_si * *error, summary_row.unit,
+            "estimated by a run with steps twice as long");
     }
   }
 
@@ -153,16 +154,16 @@ class Summary {
     const std::vector<double> contact = cycle("contact");
     const bool touches = !contact.empty() && contact.back() >= 1;  // [Pa]: else the tail of a distribution of heights
     for (const QuantityInfo& quantity : run::quantities_of("/bearings/<b>/cycles/fields/")) {
-      for (const SummaryRow& told : quantity.told) {
-        if (told.only == SummaryRow::Only::of_a_cycle && !is_cycle) continue;
-        if (told.only == SummaryRow::Only::with_contact && !touches) continue;
-        const double factor = si_of(told.unit).per_si;
-        if (told.as == SummaryRow::As::largest)
-          largest_of_map(told.name + over, quantity.name, factor, told.unit);
-        else if (told.has_location)
-          of_cycle(told.name + over, quantity.name, factor, told.unit);
+      for (const SummaryRow& summary_row : quantity.summary_rows) {
+        if (summary_row.only == SummaryRow::Only::of_a_cycle && !is_cycle) continue;
+        if (summary_row.only == SummaryRow::Only::with_contact && !touches) continue;
+        const double factor = si_of(summary_row.unit).per_si;
+        if (summary_row.statistic == SummaryRow::Statistic::largest)
+          largest_of_map(summary_row.name + over, quantity.name, factor, summary_row.unit);
+        else if (summary_row.has_location)
+          of_cycle(summary_row.name + over, quantity.name, factor, summary_row.unit);
         else
-          last_of(told.name + over, quantity.name, factor, told.unit, when);
+          last_of(summary_row.name + over, quantity.name, factor, summary_row.unit, when);
       }
     }
   }
@@ -209,24 +210,24 @@ class Summary {
   }
 
   void thermal_rows() {
-    using As = SummaryRow::As;
+    using Statistic = SummaryRow::Statistic;
     if (!reader_.has("/thermal/heat_stored")) return;
     group_ = "thermal network";
     path_ = "/thermal/";
-    tell(run::quantities_of(path_), {As::largest});
-    tell(run::quantities_of(path_), {As::mean});
-    tell(run::quantities_of(path_), {As::at_end});
-    tell(run::quantities_of(path_), {As::largest_in_size});
+    add_rows(run::quantities_of(path_), {Statistic::largest});
+    add_rows(run::quantities_of(path_), {Statistic::mean});
+    add_rows(run::quantities_of(path_), {Statistic::at_end});
+    add_rows(run::quantities_of(path_), {Statistic::largest_in_size});
   }
 
   void contact_rows() {
-    using As = SummaryRow::As;
+    using Statistic = SummaryRow::Statistic;
     const std::vector<QuantityInfo> quantities = run::quantities_of("/contacts/<c>/");
     for (const std::string& contact : reader_.children("/contacts")) {
       group_ = "contact " + contact;
       path_ = "/contacts/" + contact + "/";
-      tell(quantities, {As::smallest, As::largest, As::longest});
-      tell(quantities, {As::mean, As::integral});
+      add_rows(quantities, {Statistic::smallest, Statistic::largest, Statistic::longest});
+      add_rows(quantities, {Statistic::mean, Statistic::integral});
     }
   }
 
@@ -238,7 +239,7 @@ class Summary {
     mean_of_rows("mean Newton iterations per step", "solver/newton_iterations");
     newton_row();
     step_rows();
-    tell(run::quantities_of("/"), {SummaryRow::As::largest_in_size});
+    add_rows(run::quantities_of("/"), {SummaryRow::Statistic::largest_in_size});
     relative_power_error();
     energy_rows();
     group_ = "computing";
@@ -331,7 +332,7 @@ class Summary {
       }
     }
     const std::vector<double> rejected = values("solver/rejected_steps"), drift = values("solver/constraint_drift");
-    tell(run::quantities_of("/"), {SummaryRow::As::largest});
+    add_rows(run::quantities_of("/"), {SummaryRow::Statistic::largest});
     if (!rejected.empty() && rejected.back() > 0) add("rejected steps", rejected.back(), "");
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }

@@ -49,11 +49,11 @@ TEST_CASE("WhatIsTold_IsToldOnceOfEachThing") {
   for (const QuantityGroup& group : result_quantities()) {
     std::set<std::string> names;
     for (const QuantityInfo& quantity : group.quantities)
-      for (const SummaryRow& told : quantity.told) {
-        CAPTURE(told.name);
-        CHECK_FALSE(told.name.empty());
-        CHECK(names.insert(told.name).second);
-        if (!told.has_location || !quantity.dimensions.empty()) continue;
+      for (const SummaryRow& summary_row : quantity.summary_rows) {
+        CAPTURE(summary_row.name);
+        CHECK_FALSE(summary_row.name.empty());
+        CHECK(names.insert(summary_row.name).second);
+        if (!summary_row.has_location || !quantity.dimensions.empty()) continue;
         const auto is_there = [&](const std::string& name) {
           return std::any_of(group.quantities.begin(), group.quantities.end(),
                              [&](const QuantityInfo& other) { return other.name == name; });

@@ -49,35 +49,37 @@ const std::map<std::string, std::string>& short_names() {
   return names;
 }
 
-const char* suffix(SummaryRow::As as) {
-  switch (as) {
-    case SummaryRow::As::smallest:
+const char* suffix(SummaryRow::Statistic statistic) {
+  switch (statistic) {
+    case SummaryRow::Statistic::smallest:
       return ".min";
-    case SummaryRow::As::largest:
+    case SummaryRow::Statistic::largest:
       return ".max";
-    case SummaryRow::As::largest_in_size:
+    case SummaryRow::Statistic::largest_in_size:
       return ".peak";
-    case SummaryRow::As::longest:
+    case SummaryRow::Statistic::longest:
       return ".longest";
-    case SummaryRow::As::mean:
+    case SummaryRow::Statistic::mean:
       return ".mean";
-    case SummaryRow::As::integral:
+    case SummaryRow::Statistic::integral:
       return ".integral";
-    case SummaryRow::As::at_end:
+    case SummaryRow::Statistic::at_end:
       return ".end";
   }
   return "";
 }
 
 /// "/bearings/<b>/cycles/fields/" and "moft" as "bearings.<b>." and "cycle.moft".
-std::pair<std::string, std::string> name_of(const std::string& path, const QuantityInfo& quantity, SummaryRow::As as) {
+std::pair<std::string, std::string> name_of(const std::string& path, const QuantityInfo& quantity,
+                                            SummaryRow::Statistic statistic) {
   constexpr std::string_view of_cycles = "cycles/fields/";
   const bool is_cycle = path.ends_with(of_cycles);
   std::string group = is_cycle ? path.substr(1, path.size() - 1 - of_cycles.size()) : path.substr(1);
   std::replace(group.begin(), group.end(), '/', '.');
   std::string name = quantity.name;
   std::replace(name.begin(), name.end(), '/', '.');
-  name = is_cycle ? "cycle." + name + (as == SummaryRow::As::at_end ? "" : suffix(as)) : name + suffix(as);
+  name = is_cycle ? "cycle." + name + (statistic == SummaryRow::Statistic::at_end ? "" : suffix(statistic))
+                  : name + suffix(statistic);
   const auto found = short_names().find(name);
   return {group, found != short_names().end() && group.starts_with("bearings.") ? found->second : name};
 }
@@ -89,25 +91,25 @@ class Series {
     if (reader.has("/time")) time_ = reader.read("/time").values;
   }
 
-  [[nodiscard]] std::optional<double> value(const std::string& path, SummaryRow::As as) const {
+  [[nodiscard]] std::optional<double> value(const std::string& path, SummaryRow::Statistic statistic) const {
     if (!reader_.has(path)) return std::nullopt;
     const Array array = reader_.read(path);
     if (array.values.empty()) return std::nullopt;
-    const std::vector<double> values = as == SummaryRow::As::longest ? lengths(array) : array.values;
-    switch (as) {
-      case SummaryRow::As::smallest:
+    const std::vector<double> values = statistic == SummaryRow::Statistic::longest ? lengths(array) : array.values;
+    switch (statistic) {
+      case SummaryRow::Statistic::smallest:
         return *std::min_element(values.begin(), values.end());
-      case SummaryRow::As::largest:
-      case SummaryRow::As::longest:
+      case SummaryRow::Statistic::largest:
+      case SummaryRow::Statistic::longest:
         return *std::max_element(values.begin(), values.end());
-      case SummaryRow::As::largest_in_size:
+      case SummaryRow::Statistic::largest_in_size:
         return *std::max_element(values.begin(), values.end(),
                                  [](double a, double b) { return std::abs(a) < std::abs(b); });
-      case SummaryRow::As::mean:
+      case SummaryRow::Statistic::mean:
         return integral(values) / duration();
-      case SummaryRow::As::integral:
+      case SummaryRow::Statistic::integral:
         return integral(values);
-      case SummaryRow::As::at_end:
+      case SummaryRow::Statistic::at_end:
         return values.back();
     }
     return std::nullopt;
@@ -165,13 +167,15 @@ void add_told(const Reader& reader, const Series& series, std::vector<RunFigure>
       const std::string path = without_names(group.path, thing);
       for (const QuantityInfo& quantity : group.quantities) {
         if (quantity.kind != QuantityInfo::Kind::series) continue;
-        for (const SummaryRow& told : quantity.told) {
+        for (const SummaryRow& summary_row : quantity.summary_rows) {
           const std::string parent = path.size() > 1 ? path.substr(0, path.size() - 1) : path;
           for (const std::string& name : names_for(quantity.name, reader.children(parent))) {
-            const std::optional<double> value = series.value(path + without_names(quantity.name, name), told.as);
+            const std::optional<double> value =
+                series.value(path + without_names(quantity.name, name), summary_row.statistic);
             if (!value) continue;
-            const auto [in, key] = name_of(group.path, quantity, told.as);
-            figures.push_back({without_names(in, thing) + without_names(key, name), without_names(told.name, name),
+            const auto [in, key] = name_of(group.path, quantity, summary_row.statistic);
+            figures.push_back({without_names(in, thing) + without_names(key, name),
+                               without_names(summary_row.name, name),
                                reader.info(path + without_names(quantity.name, name)).unit, *value});
           }
         }
@@ -264,8 +268,8 @@ std::vector<std::string> run_figure_keys() {
   for (const run::QuantityGroup& group : run::result_quantities())
     for (const QuantityInfo& quantity : group.quantities)
       if (quantity.kind == QuantityInfo::Kind::series)
-        for (const SummaryRow& told : quantity.told) {
-          const auto [in, key] = name_of(group.path, quantity, told.as);
+        for (const SummaryRow& summary_row : quantity.summary_rows) {
+          const auto [in, key] = name_of(group.path, quantity, summary_row.statistic);
           keys.push_back(in + key);
         }
   return keys;

@@ -117,21 +117,21 @@ std::vector<QuantityInfo> quantities_of(std::string_view path) {
 
 namespace {
 
-const char* text_of(SummaryRow::As as) {
-  switch (as) {
-    case SummaryRow::As::smallest:
+const char* text_of(SummaryRow::Statistic statistic) {
+  switch (statistic) {
+    case SummaryRow::Statistic::smallest:
       return "smallest";
-    case SummaryRow::As::largest:
+    case SummaryRow::Statistic::largest:
       return "largest";
-    case SummaryRow::As::largest_in_size:
+    case SummaryRow::Statistic::largest_in_size:
       return "largest in size";
-    case SummaryRow::As::longest:
+    case SummaryRow::Statistic::longest:
       return "longest";
-    case SummaryRow::As::mean:
+    case SummaryRow::Statistic::mean:
       return "mean over time";
-    case SummaryRow::As::integral:
+    case SummaryRow::Statistic::integral:
       return "integral over time";
-    case SummaryRow::As::at_end:
+    case SummaryRow::Statistic::at_end:
       return "at the end";
   }
   HERSEY_REQUIRE(false, "every way of telling has its words");
@@ -170,7 +170,8 @@ nlohmann::ordered_json json_of(const QuantityInfo& quantity) {
                                {"text", quantity.text}};
   if (!quantity.symbol.empty()) entry["symbol"] = quantity.symbol;
   if (!quantity.note.empty()) entry["note"] = quantity.note;
-  for (const SummaryRow& told : quantity.told) entry["told"].push_back({{"name", told.name}, {"as", text_of(told.as)}});
+  for (const SummaryRow& summary_row : quantity.summary_rows)
+    entry["told"].push_back({{"name", summary_row.name}, {"as", text_of(summary_row.statistic)}});
   return entry;
 }
 

@@ -40,7 +40,7 @@ struct More {
   std::function<std::string(const Plan&)> unit = {};  ///< which, where there are several
   /// What stands for <...> in name and text: of a family one for each member.
   std::function<std::vector<std::string>(const Plan&)> each = {};
-  std::vector<SummaryRow> told = {};
+  std::vector<SummaryRow> summary_rows = {};
 };
 
 /// `text` with `name` in place of what stands in angle brackets.
@@ -98,7 +98,7 @@ class Quantity {
              .note = more_.note,
              .kind = QuantityInfo::Kind::series,
              .dimensions = is_numbered ? std::vector{name + "_column"} : more_.extent.dimensions,
-             .told = more_.told};
+             .summary_rows = more_.summary_rows};
   }
 
   [[nodiscard]] const QuantityInfo& info() const { return info_; }
@@ -180,13 +180,13 @@ class Attribute {
              .symbol = more_.symbol,
              .note = more_.note,
              .kind = QuantityInfo::Kind::attribute,
-             .told = more_.told};
+             .summary_rows = more_.summary_rows};
     write_ = [get = std::move(get)](const Plan& plan, [[maybe_unused]] std::size_t k, const std::string& object,
-                                    const std::string& as, results::Writer& writer) {
+                                    const std::string& statistic, results::Writer& writer) {
       if constexpr (std::is_invocable_v<Get, const Plan&, std::size_t>)
-        writer.attribute(object, as, std::invoke(get, plan, k));
+        writer.attribute(object, statistic, std::invoke(get, plan, k));
       else
-        writer.attribute(object, as, std::invoke(get, plan));
+        writer.attribute(object, statistic, std::invoke(get, plan));
     };
   }
 

@@ -7,7 +7,7 @@ namespace hersey::run {
 
 /// A row that the closing table makes of a quantity.
 struct SummaryRow {
-  enum class As {
+  enum class Statistic {
     smallest,         ///< of all instants, with the instant
     largest,          ///< the same
     largest_in_size,  ///< the same, with its sign
@@ -21,7 +21,7 @@ struct SummaryRow {
     of_a_cycle,   ///< where there was a whole one
     with_contact  ///< where surfaces have touched
   };
-  As as = As::at_end;
+  Statistic statistic = Statistic::at_end;
   std::string name;           ///< "minimum film thickness (MOFT)"; <...> is filled in as in QuantityInfo::name
   std::string unit = {};      ///< that of the table, "µm"; empty for a pure number
   bool has_location = false;  ///< the series <name>_phi and <name>_z tell where
@@ -39,7 +39,7 @@ struct QuantityInfo {
   std::string note = {};    ///< what else the documentation says: where it is there only for some, how it is meant
   Kind kind = Kind::series;
   std::vector<std::string> dimensions = {};  ///< names of what its columns are, beside x, y, z
-  std::vector<SummaryRow> told = {};
+  std::vector<SummaryRow> summary_rows = {};
 };
 
 /// All that a results file says of things of one kind.
