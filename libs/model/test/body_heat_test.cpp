@@ -217,9 +217,9 @@ TEST_CASE("JournalInABody_IsTheSameHoweverItIsTurned") {
                          "axis: {nodes: bore, connection: average, origin: 0 0 0 mm, rotation: {axis: z, angle: " +
                              std::to_string(angle) + " deg}}"),
                   "m.yaml");
-    const auto seen = journal_conduction(turned, turned.bearings[0]);
-    CHECK(seen->rise == doctest::Approx(conduction->rise).epsilon(1e-6));  // of its area's quadrature
-    CHECK((seen->shape_by_heat - conduction->shape_by_heat).cwiseAbs().maxCoeff() <
+    const auto after = journal_conduction(turned, turned.bearings[0]);
+    CHECK(after->rise == doctest::Approx(conduction->rise).epsilon(1e-6));  // of its area's quadrature
+    CHECK((after->shape_by_heat - conduction->shape_by_heat).cwiseAbs().maxCoeff() <
           1e-3 * conduction->shape_by_heat.maxCoeff());  // 24 flat faces seen by splines at other angles
   }
 }

@@ -8,8 +8,8 @@
 #include "hersey/core/input_error.h"
 #include "hersey/model/build.h"
 #include "hersey/run/simulate.h"
-#include "time_stepping/start.h"
 #include "small_rig.h"
+#include "time_stepping/start.h"
 
 namespace hersey::run {
 namespace assembly_test {
@@ -60,10 +60,12 @@ TEST_CASE("RoughGuess_IsAssembledWithTheGivenCoordinateHeld") {
     const model::Model model = rig(four_bar("0.6", angle));
     model::Machine machine = model::build(model);
     const solver::State state = starting_state(model, machine);
-    const mbd::Observation seen = machine.mechanism->observe(state);
+    const mbd::Observation observation = machine.mechanism->observe(state);
     // rtol of the start is 1e-12.
-    CHECK(seen.joints[0].position[0] == doctest::Approx(std::stod(angle) * std::numbers::pi / 180).epsilon(1e-12));
-    const Vector3 gap = seen.bodies[2].X_WF * Vector3(0.5, 0, 0) - seen.bodies[3].X_WF * Vector3(0.4, 0, 0);
+    CHECK(observation.joints[0].position[0] ==
+          doctest::Approx(std::stod(angle) * std::numbers::pi / 180).epsilon(1e-12));
+    const Vector3 gap =
+        observation.bodies[2].X_WF * Vector3(0.5, 0, 0) - observation.bodies[3].X_WF * Vector3(0.4, 0, 0);
     CHECK(gap.norm() < 1e-11);  // rtol of the start is 1e-12
   }
 }

@@ -12,11 +12,11 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
 #include "hersey/solver/generalized_alpha.h"
-#include "time_stepping/start.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
 #include "source_dir.h"
 #include "temporary_directory.h"
+#include "time_stepping/start.h"
 
 namespace hersey::run {
 namespace error_control_test {
@@ -106,14 +106,14 @@ Vector3 errors_of_a_pattern(int repetitions) {
     for (const double share : {1.0, 1.25, 1.5, 1.75, 2.0, 1.0, 1.25, 1.5, 1.25})
       REQUIRE(integrator.step(*machine.mechanism, state, share / (12.5 * repetitions), keep).solved());
   }
-  const mbd::Observation seen = machine.mechanism->observe(state);
+  const mbd::Observation observation = machine.mechanism->observe(state);
   const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81 / 1.1)};
   const double angle = exact.angle(1), rate = exact.rate(1);
   const double turn = -exact.omega0 * exact.omega0 * std::sin(angle);
   const Vector3 up(-std::sin(angle), std::cos(angle), 0), along(std::cos(angle), std::sin(angle), 0);
   const Vector3 force = turn * along + rate * rate * up + Vector3(0, 9.81, 0);
-  return {std::abs(seen.joints[0].position[5] - angle), std::abs(seen.joints[0].rate[5] - rate),
-          (seen.joints[1].force - force).norm()};
+  return {std::abs(observation.joints[0].position[5] - angle), std::abs(observation.joints[0].rate[5] - rate),
+          (observation.joints[1].force - force).norm()};
 }
 
 TEST_CASE("VaryingSteps_KeepOrderTwoOfMultipliersToo") {

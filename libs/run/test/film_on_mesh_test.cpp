@@ -158,11 +158,11 @@ TEST_CASE("DeformedMesh_MovesAsTheFilmSeesItsSurface") {
   // Displacements, and with them stresses, hold the answers to film pressure: most of what a bore does.
   const Run run;
   const results::Reader reader(run.results);
-  const std::vector<double> seen = reader.read("/bearings/main/fields/shell_displacement").values;
+  const std::vector<double> pressures = reader.read("/bearings/main/fields/shell_displacement").values;
   constexpr std::size_t nodes = 48 * 9;
-  REQUIRE(seen.size() >= nodes);
-  const auto last = seen.end() - static_cast<std::ptrdiff_t>(nodes);
-  const double most = *std::max_element(last, seen.end());
+  REQUIRE(pressures.size() >= nodes);
+  const auto last = pressures.end() - static_cast<std::ptrdiff_t>(nodes);
+  const double most = *std::max_element(last, pressures.end());
   const fem::Mesh ring = fem::read_mesh(run.folder / "ring.inp", 1e-3);
   const std::vector<double> u = field_of(files_in(run.folder / "r_ring").back(), "displacement");
   double radial = 0;

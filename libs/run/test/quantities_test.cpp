@@ -80,18 +80,18 @@ TEST_CASE("EveryFieldOfAFilm_IsAQuantityOfItsBearing") {
 struct Machine {
   int wheels = 0;
 };
-struct Seen {
+struct WheelState {
   double speed = 0;
-  std::vector<double> turns;
+  std::vector<double> revolutions;
 };
 
 TEST_CASE("TableOfQuantities_WritesAFileThatSaysWhatItSays") {
-  static const QuantityTable<Seen, Machine> table{
-      {"speed", "m/s", "of the machine", &Seen::speed},
+  static const QuantityTable<WheelState, Machine> table{
+      {"speed", "m/s", "of the machine", &WheelState::speed},
       {"turn_<wheel>",
        "rad",
        "of wheel <wheel>",
-       [](const Seen& seen, std::size_t k) { return seen.turns[k]; },
+       [](const WheelState& state, std::size_t k) { return state.revolutions[k]; },
        {.each =
             [](const Machine& machine) {
               std::vector<std::string> names;
@@ -101,15 +101,15 @@ TEST_CASE("TableOfQuantities_WritesAFileThatSaysWhatItSays") {
       {"turns",
        "rad",
        "of all wheels",
-       &Seen::turns,
+       &WheelState::revolutions,
        {.only = [](const Machine& machine) { return machine.wheels > 2; },
         .extent = {"wheels", [](const Machine& machine, std::size_t) { return std::vector{machine.wheels}; }}}},
-      {"place", "m", "of the machine", [](const Seen& seen) { return Vector3(seen.speed, 0, 0); }},
+      {"place", "m", "of the machine", [](const WheelState& state) { return Vector3(state.speed, 0, 0); }},
   };
   const TemporaryDirectory directory;
   const auto write = [&](const char* name, int wheels) {
     results::Writer writer(directory / name);
-    const QuantityRows<Seen, Machine> rows(table, "/machines/m/", Machine{wheels}, writer);
+    const QuantityRows<WheelState, Machine> rows(table, "/machines/m/", Machine{wheels}, writer);
     rows.append({3, {0.5, 1.5, 2.5}});
     rows.append({4, {0.25, 1.25, 2.25}});
     writer.finish(results::Status::completed);

@@ -43,15 +43,15 @@ joints:
 struct Started {
   explicit Started(const std::string& text) : model(rig(text)), machine(model::build(model)) {
     state = starting_state(model, machine);
-    seen = machine.mechanism->observe(state);
+    observation = machine.mechanism->observe(state);
   }
-  [[nodiscard]] double position(std::size_t joint) const { return seen.joints[joint].position[0]; }
-  [[nodiscard]] double rate(std::size_t joint) const { return seen.joints[joint].rate[0]; }
+  [[nodiscard]] double position(std::size_t joint) const { return observation.joints[joint].position[0]; }
+  [[nodiscard]] double rate(std::size_t joint) const { return observation.joints[joint].rate[0]; }
 
   model::Model model;
   model::Machine machine;
   solver::State state;
-  mbd::Observation seen;
+  mbd::Observation observation;
 };
 
 enum : std::size_t { kMain, kPin, kWrist, kBore };
@@ -186,7 +186,7 @@ joints:
   d: {type: revolute, between: [two.end, plate.right]}
 simulation: {duration: 1 ms, step: 1 ms}
 )");
-  const mbd::JointValues& plate = start.seen.joints[0].position;
+  const mbd::JointValues& plate = start.observation.joints[0].position;
   CHECK(plate[0] == doctest::Approx(0.3).epsilon(1e-12));                  // rtol of the start is 1e-12
   CHECK(plate[1] == doctest::Approx(std::sqrt(1 - 0.09)).epsilon(1e-10));  // rtol of the start is 1e-12, over a slope
 }

@@ -15,18 +15,19 @@ void persist_extreme(Archive& archive, const char* name, FilmExtreme& extreme) {
 
 }  // namespace
 
-void CycleSums::take(double t, const bearing::BearingObservation& seen, const film::FilmFields& fields) {
-  const film::FilmObservables& film = seen.film;
+void CycleSums::take(double t, const bearing::BearingObservation& observation, const film::FilmFields& fields) {
+  const film::FilmObservables& film = observation.film;
   Sample next{.power_film = film.power_film,
               .power_asperity = film.power_asperity,
               .sliding_speed = film.sliding_speed,
               .contact = fields.p_asperity,
               .moft = {film.h_min, t, film.h_min_phi, film.h_min_z},
               .pofp = {film.p_max, t, film.p_max_phi, film.p_max_z},
-              .walls = seen.walls,
+              .walls = observation.walls,
               .h = fields.thickness(),
               .p = fields.p};
-  if (seen.heat) next.hottest = {seen.heat->T_max, t, seen.heat->T_max_phi, seen.heat->T_max_z};
+  if (observation.heat)
+    next.hottest = {observation.heat->T_max, t, observation.heat->T_max_phi, observation.heat->T_max_z};
   if (is_begun_) integrate(t - cycle_.end, next);
   last_ = std::move(next);
   if (!is_begun_) begin(t);

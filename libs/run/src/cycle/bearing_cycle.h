@@ -37,7 +37,7 @@ class CycleSums {
   explicit CycleSums(const film::FilmModel& model) : model_(model) {}
 
   /// The bearing at time `t`; the first call begins the first cycle.
-  void take(double t, const bearing::BearingObservation& seen, const film::FilmFields& fields);
+  void take(double t, const bearing::BearingObservation& observation, const film::FilmFields& fields);
 
   /// The cycle that ends with the last state taken; the next one begins there.
   /// @pre a state was taken.

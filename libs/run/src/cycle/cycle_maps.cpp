@@ -147,8 +147,9 @@ CycleMaps::CycleMaps(const model::Model& model, const model::Machine& machine, r
   }
 }
 
-void CycleMaps::take(double t, const std::vector<bearing::BearingObservation>& seen) {
-  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].take(t, seen[i], machine_.bearings[i].bearing->fields());
+void CycleMaps::take(double t, const std::vector<bearing::BearingObservation>& observation) {
+  for (std::size_t i = 0; i < sums_.size(); ++i)
+    sums_[i].take(t, observation[i], machine_.bearings[i].bearing->fields());
 }
 
 std::vector<BearingCycle> CycleMaps::close() { return write(true); }

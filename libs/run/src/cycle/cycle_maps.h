@@ -21,7 +21,7 @@ class CycleMaps {
   CycleMaps(const model::Model& model, const model::Machine& machine, results::Writer& writer);
 
   /// All bearings at an accepted state.
-  void take(double t, const std::vector<bearing::BearingObservation>& seen);
+  void take(double t, const std::vector<bearing::BearingObservation>& observation);
 
   /// The cycle ends with the state last taken.
   /// @returns one entry per bearing.

@@ -68,7 +68,7 @@ Eigen::VectorXd node_positions(const BeamRow& row) {
   Eigen::VectorXd positions(3 * static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t k = 0; k < nodes.size(); ++k)
     positions.segment<3>(3 * static_cast<Eigen::Index>(k)) =
-        row.seen.bodies[static_cast<std::size_t>(nodes[k].index)].X_WF.r;
+        row.observation.bodies[static_cast<std::size_t>(nodes[k].index)].X_WF.r;
   return positions;
 }
 
@@ -81,7 +81,7 @@ auto sum_of_segments(double mbd::ElasticEnergy::*energy) {
   return [energy](const BeamRow& row) {
     double sum = 0;
     for (const mbd::ElasticId id : row.plan.built.ids.segments)
-      sum += row.seen.elastics[static_cast<std::size_t>(id.index)].energy.*energy;
+      sum += row.observation.elastics[static_cast<std::size_t>(id.index)].energy.*energy;
     return sum;
   };
 }
@@ -109,7 +109,7 @@ const QuantityTable<BeamRow, BeamPlan>& beam_quantities() {
       {"amplitudes",
        "SI",
        "per node: displacement [m] and change of its x-, y- and z-axis, seen from the first node",
-       [](const BeamRow& row) { return beam_amplitudes(row.plan.beam, row.plan.built, row.seen); },
+       [](const BeamRow& row) { return beam_amplitudes(row.plan.beam, row.plan.built, row.observation); },
        {.note = "of a beam", .extent = per_node(kPerNode)}},
       {"node_position",
        "m",
@@ -184,9 +184,10 @@ std::string group_of(const model::BuiltBeam& built) { return "/bodies/" + built.
 
 int beam_amplitude_count(const model::BuiltBeam& built) { return kPerNode * static_cast<int>(built.is_named.size()); }
 
-Eigen::VectorXd beam_amplitudes(const model::Beam& beam, const model::BuiltBeam& built, const mbd::Observation& seen) {
+Eigen::VectorXd beam_amplitudes(const model::Beam& beam, const model::BuiltBeam& built,
+                                const mbd::Observation& observation) {
   const auto pose = [&](std::size_t node) -> const Pose& {
-    return seen.bodies[static_cast<std::size_t>(built.ids.bodies[node].index)].X_WF;
+    return observation.bodies[static_cast<std::size_t>(built.ids.bodies[node].index)].X_WF;
   };
   const Pose X_0W = pose(0).inverse();
   Eigen::VectorXd amplitudes(beam_amplitude_count(built));
@@ -215,13 +216,13 @@ BeamRecord::BeamRecord(const model::Model& model, const model::Machine& machine,
   write_once(surface_constants(), group_of(built) + "shapes/surface/", plan_, writer);
 }
 
-void BeamRecord::append(const mbd::Observation& seen) const {
+void BeamRecord::append(const mbd::Observation& observation) const {
   const auto& segments = plan_.built.segments;
-  BeamRow row{plan_, seen, {}};
+  BeamRow row{plan_, observation, {}};
   row.sections.resize(6, static_cast<Eigen::Index>(segments.size()));
   for (std::size_t k = 0; k < segments.size(); ++k) {
     const auto elastic = static_cast<std::size_t>(plan_.built.ids.segments[k].index);
-    const fem::BeamMotionResponse section = segments[k]->section(seen.elastics[elastic].motion);
+    const fem::BeamMotionResponse section = segments[k]->section(observation.elastics[elastic].motion);
     row.sections.col(static_cast<Eigen::Index>(k)) = section.elastic + section.viscous;
   }
   rows_.append(row);

@@ -18,7 +18,7 @@ struct BeamPlan {
 /// A beam at an instant.
 struct BeamRow {
   const BeamPlan& plan;
-  const mbd::Observation& seen;
+  const mbd::Observation& observation;
   Eigen::Matrix<double, 6, Eigen::Dynamic> sections;  ///< force and moment in the middle of each element [N; N m]
 };
 
@@ -27,7 +27,7 @@ struct BeamRow {
 
 /// How far nodes and their axes have moved, seen from the first node, shape (beam_amplitude_count).
 [[nodiscard]] Eigen::VectorXd beam_amplitudes(const model::Beam& beam, const model::BuiltBeam& built,
-                                              const mbd::Observation& seen);
+                                              const mbd::Observation& observation);
 
 /// The beam of the model that `built` was made of.
 [[nodiscard]] const model::Beam& beam_of(const model::Model& model, const model::BuiltBeam& built);
@@ -38,7 +38,7 @@ class BeamRecord {
   /// @param model, machine  outlive this
   BeamRecord(const model::Model& model, const model::Machine& machine, const model::BuiltBeam& built,
              results::Writer& writer);
-  void append(const mbd::Observation& seen) const;
+  void append(const mbd::Observation& observation) const;
   /// Adds its quantities.
   static void describe(QuantityGroup& group);
   /// Adds what is said of its surface, a shape of the body.

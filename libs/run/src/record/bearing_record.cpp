@@ -18,36 +18,38 @@ using Statistic = SummaryRow::Statistic;
 /// Of what is seen of the bearing.
 template <class Member>
 auto of_bearing(Member member) {
-  return [member](const BearingRow& row) { return std::invoke(member, row.seen); };
+  return [member](const BearingRow& row) { return std::invoke(member, row.observation); };
 }
 
 /// Of where its journal is.
 template <class Member>
 auto of_position(Member member) {
-  return [member](const BearingRow& row) { return std::invoke(member, row.seen.position); };
+  return [member](const BearingRow& row) { return std::invoke(member, row.observation.position); };
 }
 
 /// Of its film.
 template <class Member>
 auto of_film(Member member) {
-  return [member](const BearingRow& row) { return std::invoke(member, row.seen.film); };
+  return [member](const BearingRow& row) { return std::invoke(member, row.observation.film); };
 }
 
 template <class Member>
 auto of_oil(Member member) {
-  return [member](const BearingRow& row) { return std::invoke(member, row.seen.oil); };
+  return [member](const BearingRow& row) { return std::invoke(member, row.observation.oil); };
 }
 
-Vector3 force_on_shell(const BearingRow& row) { return row.seen.wrench_on_shell.tail<3>(); }
-Vector3 moment_on_shell(const BearingRow& row) { return row.seen.wrench_on_shell.head<3>(); }
+Vector3 force_on_shell(const BearingRow& row) { return row.observation.wrench_on_shell.tail<3>(); }
+Vector3 moment_on_shell(const BearingRow& row) { return row.observation.wrench_on_shell.head<3>(); }
 
 // Attitude: from the load on the journal (the shell's film force turned round) to the line of centres, 0..pi.
 double attitude(const BearingRow& row) {
-  const Eigen::Vector2d load = force_on_shell(row).head<2>(), e = row.seen.position.e;
+  const Eigen::Vector2d load = force_on_shell(row).head<2>(), e = row.observation.position.e;
   return std::abs(std::atan2(load.x() * e.y() - load.y() * e.x(), load.dot(e)));
 }
 
-double power_error(const BearingRow& row) { return -row.seen.power_into_bodies - row.seen.film.power_taken(); }
+double power_error(const BearingRow& row) {
+  return -row.observation.power_into_bodies - row.observation.film.power_taken();
+}
 
 bool has_depth(const BearingPlan& plan) {
   const std::vector<film::SurfaceFeature>& features = plan.bearing.film.features;
@@ -67,7 +69,7 @@ std::vector<std::string> feature_names(const BearingPlan& plan) {
 }
 
 double flow_of_feature(const BearingRow& row, std::size_t k) {
-  return row.seen.film.flow_features[static_cast<Eigen::Index>(k)];
+  return row.observation.film.flow_features[static_cast<Eigen::Index>(k)];
 }
 
 bool has_heat(const BearingPlan& plan) { return std::holds_alternative<film::ThermalModel>(plan.bearing.heat); }
@@ -84,16 +86,16 @@ using Heat = film::HeatObservables;
 
 /// Of the film's heat, a temperature in degC.
 auto celsius(double Heat::*T) {
-  return [T](const BearingRow& row) { return *row.seen.heat.*T - film::zero_celsius; };
+  return [T](const BearingRow& row) { return *row.observation.heat.*T - film::zero_celsius; };
 }
 
 template <class Member>
 auto of_heat(Member member) {
-  return [member](const BearingRow& row) { return std::invoke(member, *row.seen.heat); };
+  return [member](const BearingRow& row) { return std::invoke(member, *row.observation.heat); };
 }
 
 auto of_heat_balance(double film::HeatBalance::*member) {
-  return [member](const BearingRow& row) { return row.seen.heat->balance.*member; };
+  return [member](const BearingRow& row) { return row.observation.heat->balance.*member; };
 }
 
 /// Line and features, in the order of HeatObservables::T_supplies.
@@ -104,7 +106,7 @@ std::vector<std::string> supply_names(const BearingPlan& plan) {
 }
 
 double supply_temperature(const BearingRow& row, std::size_t k) {
-  return row.seen.heat->T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+  return row.observation.heat->T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
 }
 
 /// A field with one column for each angle: index i n_z + j is angle i, height j.
@@ -374,7 +376,7 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       {"heat_balance_error",
        "1",
        "what is missing in the balance of heat, over its largest term",
-       [](const BearingRow& row) { return row.seen.heat->balance.error(); },
+       [](const BearingRow& row) { return row.observation.heat->balance.error(); },
        {.only = has_heat, .summary_rows = {{Statistic::largest_in_size, "worst error of the film's heat balance"}}}},
       {"film_iterations", "1", "film linearisations in the step",
        of_bearing(&bearing::BearingObservation::film_iterations)},

@@ -17,7 +17,7 @@ struct BearingPlan {
 
 /// A bearing at an instant.
 struct BearingRow {
-  const bearing::BearingObservation& seen;
+  const bearing::BearingObservation& observation;
   const film::FilmFields& fields;
   const film::Grid& grid;
 };
@@ -33,8 +33,8 @@ class BearingRecord {
  public:
   /// @param film  of the bearing; outlives this
   BearingRecord(const BearingPlan& plan, const bearing::FilmForce& film, results::Writer& writer);
-  void append(const bearing::BearingObservation& seen) const {
-    rows_.append({seen, film_.fields(), film_.model().grid});
+  void append(const bearing::BearingObservation& observation) const {
+    rows_.append({observation, film_.fields(), film_.model().grid});
   }
   void append_fields(double t) const { fields_.append({t, film_.fields()}); }
   /// Its group and that of its cycles.

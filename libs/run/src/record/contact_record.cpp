@@ -27,7 +27,7 @@ const QuantityTable<mbd::ContactObservation, model::Contact>& contact_quantities
       {"friction_force",
        "N",
        "size of the friction force",
-       [](const mbd::ContactObservation& seen) { return seen.friction.norm(); },
+       [](const mbd::ContactObservation& observation) { return observation.friction.norm(); },
        {.summary_rows =
             {{.statistic = SummaryRow::Statistic::largest, .name = "largest friction force", .unit = "N"}}}},
       {"gap",

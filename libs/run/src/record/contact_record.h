@@ -10,8 +10,8 @@ namespace hersey::run {
 class ContactRecord {
  public:
   ContactRecord(const model::Contact& contact, results::Writer& writer);
-  /// @param seen  in ground's axes
-  void append(const mbd::ContactObservation& seen) const { rows_.append(seen); }
+  /// @param observation  in ground's axes
+  void append(const mbd::ContactObservation& observation) const { rows_.append(observation); }
   [[nodiscard]] static QuantityGroup describe();
 
  private:

@@ -51,11 +51,12 @@ EffortRecord::EffortRecord(const mbd::MechanismSpec& spec, results::Writer& writ
     add(forces_, of_forces(), "/joint_forces/" + force.name + "/", force.coordinate);
 }
 
-void EffortRecord::append(const mbd::Observation& seen) const {
-  for (std::size_t i = 0; i < drives_.size(); ++i) drives_[i].append({seen.drive_efforts[i], seen.drive_powers[i]});
-  for (std::size_t i = 0; i < couplings_.size(); ++i) couplings_[i].append({seen.coupling_efforts[i], 0});
+void EffortRecord::append(const mbd::Observation& observation) const {
+  for (std::size_t i = 0; i < drives_.size(); ++i)
+    drives_[i].append({observation.drive_efforts[i], observation.drive_powers[i]});
+  for (std::size_t i = 0; i < couplings_.size(); ++i) couplings_[i].append({observation.coupling_efforts[i], 0});
   for (std::size_t i = 0; i < forces_.size(); ++i)
-    forces_[i].append({seen.coordinate_force_efforts[i], seen.coordinate_force_powers[i]});
+    forces_[i].append({observation.coordinate_force_efforts[i], observation.coordinate_force_powers[i]});
 }
 
 std::vector<QuantityGroup> EffortRecord::describe() {

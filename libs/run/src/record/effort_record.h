@@ -17,7 +17,7 @@ struct Effort {
 class EffortRecord {
  public:
   EffortRecord(const mbd::MechanismSpec& spec, results::Writer& writer);
-  void append(const mbd::Observation& seen) const;
+  void append(const mbd::Observation& observation) const;
   [[nodiscard]] static std::vector<QuantityGroup> describe();
 
  private:

@@ -4,7 +4,7 @@
 
 namespace hersey::run {
 
-EnergyBalance::Instant EnergyBalance::seen(const StepRecord& step) const {
+EnergyBalance::Instant EnergyBalance::instant_of(const StepRecord& step) const {
   const mbd::Observation& machine = step.mechanism;
   Instant now{.put_in = step.power.drives + step.power.loads, .dampers = machine.damper_power};
   // Sources among the forces on coordinates count as drives, stores as springs; what the others take is lost.
@@ -28,7 +28,7 @@ EnergyBalance::Instant EnergyBalance::seen(const StepRecord& step) const {
 }
 
 void EnergyBalance::take(const StepRecord& step) {
-  const Instant now = seen(step);
+  const Instant now = instant_of(step);
   if (!is_begun_) start_ = last_ = now, is_begun_ = true;
   const auto add = [&](double& sum, double Instant::*power) { sum += 0.5 * step.dt * (last_.*power + now.*power); };
   add(sums_.put_in, &Instant::put_in);

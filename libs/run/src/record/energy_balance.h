@@ -26,7 +26,7 @@ class EnergyBalance {
     double kinetic = 0, potential = 0, springs = 0, strain = 0;
     [[nodiscard]] double stored() const { return kinetic + potential + springs + strain; }
   };
-  [[nodiscard]] Instant seen(const StepRecord& step) const;
+  [[nodiscard]] Instant instant_of(const StepRecord& step) const;
 
   const mbd::MechanismSpec& spec_;
   EnergySummary sums_;

@@ -13,8 +13,8 @@ BearingExtremes::BearingExtremes(std::string name) {
   summary_.pofp = -std::numeric_limits<double>::infinity();
 }
 
-void BearingExtremes::take(double t, double dt, const bearing::BearingObservation& seen) {
-  const film::FilmObservables& film = seen.film;
+void BearingExtremes::take(double t, double dt, const bearing::BearingObservation& observation) {
+  const film::FilmObservables& film = observation.film;
   last_thickness_ = film.h_min;
   if (film.h_min < summary_.moft) {
     summary_.moft = film.h_min;
@@ -28,12 +28,13 @@ void BearingExtremes::take(double t, double dt, const bearing::BearingObservatio
     summary_.pofp_phi = film.p_max_phi;
     summary_.pofp_z = film.p_max_z;
   }
-  summary_.max_force = std::max(summary_.max_force, seen.wrench_on_shell.tail<3>().norm());
-  summary_.eccentricity_ratio = seen.position.ratio();
-  if (seen.heat) summary_.T_max = std::fmax(summary_.T_max, seen.heat->T_max);  // of nothing yet and a number, that
-  summary_.turned += dt * seen.position.speed, summary_.travelled += dt * std::abs(seen.position.speed);
+  summary_.max_force = std::max(summary_.max_force, observation.wrench_on_shell.tail<3>().norm());
+  summary_.eccentricity_ratio = observation.position.ratio();
+  if (observation.heat)
+    summary_.T_max = std::fmax(summary_.T_max, observation.heat->T_max);  // of nothing yet and a number, that
+  summary_.turned += dt * observation.position.speed, summary_.travelled += dt * std::abs(observation.position.speed);
   summary_.worst_mass_balance = std::max(summary_.worst_mass_balance, film.mass_balance_error);
-  const double put_in = -seen.power_into_bodies, taken = film.power_taken();
+  const double put_in = -observation.power_into_bodies, taken = film.power_taken();
   summary_.energy_put_in += 0.5 * dt * (last_put_in_ + put_in);
   summary_.energy_taken += 0.5 * dt * (last_taken_ + taken);
   last_put_in_ = put_in, last_taken_ = taken;

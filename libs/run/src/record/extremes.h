@@ -12,7 +12,7 @@ namespace hersey::run {
 class BearingExtremes {
  public:
   explicit BearingExtremes(std::string name);
-  void take(double t, double dt, const bearing::BearingObservation& seen);
+  void take(double t, double dt, const bearing::BearingObservation& observation);
   [[nodiscard]] BearingSummary summary() const;
   [[nodiscard]] const std::string& name() const { return summary_.name; }
   /// Smallest thickness at the step last taken; infinite before one is [m].

@@ -30,13 +30,13 @@ const QuantityTable<FlexibleRow, model::BuiltFlexible>& flexible_quantities() {
       {"strain_energy",
        "J",
        "strain energy",
-       [](const FlexibleRow& row) { return row.seen.energy.strain; },
+       [](const FlexibleRow& row) { return row.observation.energy.strain; },
        {.note = "of a flexible body; its further frames are bodies `<b>.<frame>`, and joints of the same name hold "
                 "their deformation"}},
       {"dissipation",
        "W",
        "power lost to the material's damping",
-       [](const FlexibleRow& row) { return row.seen.energy.dissipation; },
+       [](const FlexibleRow& row) { return row.observation.energy.dissipation; },
        {.note = "of a flexible body"}},
       {"amplitudes",
        "SI",
@@ -101,8 +101,8 @@ FlexibleRecord::FlexibleRecord(const model::BuiltFlexible& body, results::Writer
   write_once(flexible_attributes(), group_of(body), body, writer);
 }
 
-void FlexibleRecord::append(const mbd::Observation& seen) const {
-  const mbd::ElasticObservation& elastic = seen.elastics[static_cast<std::size_t>(body_.elastic.index)];
+void FlexibleRecord::append(const mbd::Observation& observation) const {
+  const mbd::ElasticObservation& elastic = observation.elastics[static_cast<std::size_t>(body_.elastic.index)];
   rows_.append({elastic, body_.body->amplitudes(elastic.motion)});
 }
 

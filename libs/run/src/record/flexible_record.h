@@ -7,7 +7,7 @@ namespace hersey::run {
 
 /// A flexible body at an instant.
 struct FlexibleRow {
-  const mbd::ElasticObservation& seen;
+  const mbd::ElasticObservation& observation;
   Eigen::VectorXd amplitudes;  ///< of its shapes
 };
 
@@ -16,7 +16,7 @@ class FlexibleRecord {
  public:
   /// @param body  outlives this
   FlexibleRecord(const model::BuiltFlexible& body, results::Writer& writer);
-  void append(const mbd::Observation& seen) const;
+  void append(const mbd::Observation& observation) const;
   /// Adds its quantities.
   static void describe(QuantityGroup& group);
 

@@ -26,8 +26,8 @@ std::string unit_of(const mbd::JointSpec& joint, const char* angle, const char* 
 
 template <class Member>
 auto values_of(Member member) {
-  return [member](const mbd::JointObservation& seen) {
-    const mbd::JointValues& values = std::invoke(member, seen);
+  return [member](const mbd::JointObservation& observation) {
+    const mbd::JointValues& values = std::invoke(member, observation);
     return std::span<const double>(values.data(), static_cast<std::size_t>(values.size()));
   };
 }

@@ -13,7 +13,7 @@ class JointRecord {
  public:
   /// @param other  of another joint, to share what is the same; null: there is none
   JointRecord(const mbd::JointSpec& joint, const JointRecord* other, results::Writer& writer);
-  void append(const mbd::JointObservation& seen) const { rows_.append(seen); }
+  void append(const mbd::JointObservation& observation) const { rows_.append(observation); }
   /// Adds its series.
   static void describe(QuantityGroup& group);
 

@@ -182,14 +182,14 @@ void ModeRecord::append(const solver::State& state, const solver::Modes& found) 
       const mbd::Observation here = seen_after(Eigen::VectorXd::Zero(mode.shape.size())), real = seen_after(step * re),
                              imaginary = seen_after(step * im);
       for (const model::BuiltFlexible& body : machine_.flexibles) {
-        const auto amplitudes = [&](const mbd::Observation& seen) -> Eigen::VectorXd {
-          return body.body->amplitudes(seen.elastics[static_cast<std::size_t>(body.elastic.index)].motion);
+        const auto amplitudes = [&](const mbd::Observation& observation) -> Eigen::VectorXd {
+          return body.body->amplitudes(observation.elastics[static_cast<std::size_t>(body.elastic.index)].motion);
         };
         row.flexibles.push_back(mode_in(amplitudes, here, real, imaginary, step));
       }
       for (const model::BuiltBeam& built : machine_.beams) {
-        const auto amplitudes = [&](const mbd::Observation& seen) {
-          return beam_amplitudes(beam_of(model_, built), built, seen);
+        const auto amplitudes = [&](const mbd::Observation& observation) {
+          return beam_amplitudes(beam_of(model_, built), built, observation);
         };
         row.beams.push_back(mode_in(amplitudes, here, real, imaginary, step));
       }

@@ -7,11 +7,11 @@ namespace hersey::run {
 namespace {
 
 // Seen from ground instead of the first body.
-mbd::ContactObservation in_ground(mbd::ContactObservation seen, const Pose& X_WA) {
-  seen.force = X_WA.R * seen.force;
-  seen.friction = X_WA.R * seen.friction;
-  seen.position = X_WA * seen.position;
-  return seen;
+mbd::ContactObservation in_ground(mbd::ContactObservation observation, const Pose& X_WA) {
+  observation.force = X_WA.R * observation.force;
+  observation.friction = X_WA.R * observation.friction;
+  observation.position = X_WA * observation.position;
+  return observation;
 }
 
 }  // namespace

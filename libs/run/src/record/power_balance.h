@@ -35,7 +35,7 @@ struct PowerBalance {
 enum class ForceKind { spring, contact, bearing };
 
 /// @param kinds  of each two-body force of the mechanism
-[[nodiscard]] PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observation& seen,
+[[nodiscard]] PowerBalance power_balance(const mbd::MechanismSpec& spec, const mbd::Observation& observation,
                                          const std::vector<ForceKind>& kinds);
 
 }  // namespace hersey::run

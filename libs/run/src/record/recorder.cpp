@@ -105,14 +105,14 @@ void Recorder::declare() {
 }
 
 void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
-  const mbd::Observation& seen = step.mechanism;
+  const mbd::Observation& observation = step.mechanism;
   system_->append({model_, step, energy});
-  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].append(seen.bodies[shown_bodies_[i]]);
-  for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i].append(seen.joints[shown_joints_[i]]);
-  efforts_->append(seen);
-  for (const FlexibleRecord& body : flexibles_) body.append(seen);
-  surface_loads_->append(seen);
-  for (const BeamRecord& beam : beams_) beam.append(seen);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].append(observation.bodies[shown_bodies_[i]]);
+  for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i].append(observation.joints[shown_joints_[i]]);
+  efforts_->append(observation);
+  for (const FlexibleRecord& body : flexibles_) body.append(observation);
+  surface_loads_->append(observation);
+  for (const BeamRecord& beam : beams_) beam.append(observation);
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].append(step.contacts[i]);
   for (std::size_t i = 0; i < bearings_.size(); ++i) bearings_[i].append(step.bearings[i]);
   if (thermal_) thermal_->append({model_, step.network});

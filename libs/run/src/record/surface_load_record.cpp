@@ -29,13 +29,13 @@ SurfaceLoadRecord::SurfaceLoadRecord(const model::Machine& machine, results::Wri
   }
 }
 
-void SurfaceLoadRecord::append(const mbd::Observation& seen) const {
+void SurfaceLoadRecord::append(const mbd::Observation& observation) const {
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     const model::BuiltSurfaceLoad& load = machine_.surface_loads[i];
     const auto elastic = static_cast<std::size_t>(machine_.flexibles[load.flexible].elastic.index);
     mbd::ElasticLoad sum;
     for (std::size_t k = 0; k < load.count; ++k) {
-      const mbd::ElasticLoad& part = seen.elastics[elastic].energy.loads[load.first + k];
+      const mbd::ElasticLoad& part = observation.elastics[elastic].energy.loads[load.first + k];
       sum.power += part.power;
       sum.wrench += part.wrench;
     }

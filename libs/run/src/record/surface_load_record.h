@@ -12,7 +12,7 @@ class SurfaceLoadRecord {
  public:
   /// @param machine  outlives this
   SurfaceLoadRecord(const model::Machine& machine, results::Writer& writer);
-  void append(const mbd::Observation& seen) const;
+  void append(const mbd::Observation& observation) const;
   [[nodiscard]] static QuantityGroup describe();
 
  private:

@@ -9,7 +9,7 @@
 namespace hersey::run {
 namespace {
 
-using Seen = film::NetworkObservables;
+using Observed = film::NetworkObservables;
 using Statistic = SummaryRow::Statistic;
 
 /// Places of the bodies among the nodes; surroundings keep the temperature that the model gives them.
@@ -30,7 +30,7 @@ std::vector<std::string> body_names(const model::Model& model) {
 
 template <class Member>
 auto of_network(Member member) {
-  return [member](const ThermalRow& row) { return std::invoke(member, row.seen); };
+  return [member](const ThermalRow& row) { return std::invoke(member, row.observation); };
 }
 
 const QuantityTable<ThermalRow, model::Model>& thermal_quantities() {
@@ -38,7 +38,9 @@ const QuantityTable<ThermalRow, model::Model>& thermal_quantities() {
       {"T_<body>",
        "degC",
        "temperature of this body",
-       [](const ThermalRow& row, std::size_t k) { return row.seen.T[bodies(row.model)[k]] - film::zero_celsius; },
+       [](const ThermalRow& row, std::size_t k) {
+         return row.observation.T[bodies(row.model)[k]] - film::zero_celsius;
+       },
        {.symbol = "T_i",
         .note = "a node of the model's `thermal`",
         .each = body_names,
@@ -47,18 +49,18 @@ const QuantityTable<ThermalRow, model::Model>& thermal_quantities() {
       {"heat_from_films_<body>",
        "W",
        "from films into this body, mean of the step",
-       [](const ThermalRow& row, std::size_t k) { return row.seen.heat[bodies(row.model)[k]]; },
+       [](const ThermalRow& row, std::size_t k) { return row.observation.heat[bodies(row.model)[k]]; },
        {.each = body_names, .summary_rows = {{Statistic::mean, "mean heat from films into <body>", "W"}}}},
       {"heat_to_surroundings",
        "W",
        "from bodies and films into nodes that are fixed",
-       of_network(&Seen::to_fixed),
+       of_network(&Observed::to_fixed),
        {.summary_rows = {{Statistic::mean, "mean heat into surroundings", "W"}}}},
-      {"heat_stored", "W", "rate of the heat in bodies", of_network(&Seen::stored)},
+      {"heat_stored", "W", "rate of the heat in bodies", of_network(&Observed::stored)},
       {"heat_balance_error",
        "1",
        "heat from films that is neither stored nor gone, over the largest of these",
-       of_network(&Seen::error),
+       of_network(&Observed::error),
        {.summary_rows = {{Statistic::largest_in_size, "worst error of the bodies' heat balance"}}}},
   };
   return table;

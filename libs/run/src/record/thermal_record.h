@@ -9,7 +9,7 @@ namespace hersey::run {
 /// The thermal network at an instant.
 struct ThermalRow {
   const model::Model& model;
-  const film::NetworkObservables& seen;
+  const film::NetworkObservables& observation;
 };
 
 /// The thermal network's bodies in the results file.

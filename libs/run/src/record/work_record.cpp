@@ -39,13 +39,13 @@ PerStep StepCounts::per_step() const {
   if (steps == 0) return figures;
   // The median is the mean of the two middle ones, which may be the same.
   const long long lower = (steps - 1) / 2, upper = steps / 2;
-  long long seen = 0;
+  long long counted = 0;
   double total = 0;
   for (std::size_t k = 0; k < times_.size(); ++k) {
     const auto count = static_cast<double>(k);
     for (const long long middle : {lower, upper})
-      if (seen <= middle && middle < seen + times_[k]) figures.median += 0.5 * count;
-    seen += times_[k];
+      if (counted <= middle && middle < counted + times_[k]) figures.median += 0.5 * count;
+    counted += times_[k];
     total += count * times_[k];
     if (times_[k] > 0) figures.most = static_cast<int>(k);
   }

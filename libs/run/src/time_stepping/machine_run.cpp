@@ -66,16 +66,16 @@ Outcome MachineRun::step(double limit) {
 }
 
 StepRecord MachineRun::observe(const TimeStep& step) {
-  StepRecord seen = observe_step(machine_, state_, kinds_);
-  seen.dt = step.dt;
-  seen.error = step.error;
-  seen.step_error = step.local_error;
-  seen.newton_iterations = step.solution.iterations;
-  seen.newton_residual = step.solution.residual;
-  seen.rejected_steps = stepper_.rejected_steps();
-  seen.energy_available = stepper_.energy().available();
-  seen.energy_from_nowhere = stepper_.energy().gained();
-  return seen;
+  StepRecord observed = observe_step(machine_, state_, kinds_);
+  observed.dt = step.dt;
+  observed.error = step.error;
+  observed.step_error = step.local_error;
+  observed.newton_iterations = step.solution.iterations;
+  observed.newton_residual = step.solution.residual;
+  observed.rejected_steps = stepper_.rejected_steps();
+  observed.energy_available = stepper_.energy().available();
+  observed.energy_from_nowhere = stepper_.energy().gained();
+  return observed;
 }
 
 void MachineRun::record(const TimeStep& step) {
@@ -85,10 +85,10 @@ void MachineRun::record(const TimeStep& step) {
 }
 
 void MachineRun::record(StepRecord step) {
-  seen_ = std::move(step);
-  work_.take(seen_);
-  record_.take(seen_);
-  report_progress(seen_);
+  last_step_ = std::move(step);
+  work_.take(last_step_);
+  record_.take(last_step_);
+  report_progress(last_step_);
 }
 
 void MachineRun::persist(Archive& archive) {
@@ -140,7 +140,7 @@ void MachineRun::restore(Archive& archive) {
     if (!is_identity(name)) throw ArchiveError("it holds '" + name + "', of which this program knows nothing");
   TimeStep last;
   last.dt = stepper_.last_dt();
-  seen_ = observe(last);
+  last_step_ = observe(last);
 }
 
 void MachineRun::restore_file(Archive::Content checkpoint) {

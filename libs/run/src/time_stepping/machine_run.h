@@ -57,7 +57,7 @@ class MachineRun {
   void record_here() { record(TimeStep{}); }
   void write_modes(const solver::Modes& found) { record_.write_modes(state_, found); }
   /// What was recorded last, and the energies since the start.
-  [[nodiscard]] const StepRecord& seen() const { return seen_; }
+  [[nodiscard]] const StepRecord& last_step() const { return last_step_; }
   [[nodiscard]] const EnergySummary& energy() const { return record_.energy(); }
 
   /// Writes a checkpoint beside the results where one is due, or in any case.
@@ -103,7 +103,7 @@ class MachineRun {
   WorkRecord work_;
   RunRecord record_;
   CheckpointSchedule checkpoints_;
-  StepRecord seen_;
+  StepRecord last_step_;
   bool resumes_ = false;
   std::optional<Cost> cost_;  // as the results were closed with it: the summary tells the same
   double before_ = 0;         // computing time before the run was resumed [s]

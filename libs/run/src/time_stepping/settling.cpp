@@ -24,8 +24,9 @@ double SettlingTest::change(const StepRecord& step) const {
 }
 
 void SettlingTest::persist(Archive& archive) {
-  archive.each("last", last_,
-               [](Archive& a, bearing::BearingObservation& seen) { a.io("relative", seen.position.relative); });
+  archive.each("last", last_, [](Archive& a, bearing::BearingObservation& observation) {
+    a.io("relative", observation.position.relative);
+  });
   archive.io("next", next_);
 }
 

@@ -104,17 +104,17 @@ struct Simulation::Impl {
 
   // What a step shows is not all kept from step to step: a restored state shows what was seen when it was saved.
   void persist_outputs(Archive& archive) {
-    std::vector<std::vector<double>> seen;
+    std::vector<std::vector<double>> values;
     if (!archive.restores())
-      for (std::size_t i = 0; i < rows.size(); ++i) seen.push_back(values_of(i));
-    archive.each("outputs", seen, [](Archive& a, std::vector<double>& values) { a.io("values", values); });
+      for (std::size_t i = 0; i < rows.size(); ++i) values.push_back(values_of(i));
+    archive.each("outputs", values, [](Archive& a, std::vector<double>& values) { a.io("values", values); });
     if (!archive.restores()) return;
-    if (seen.size() != rows.size()) throw ArchiveError("it has other outputs");
-    restored = std::move(seen);
+    if (values.size() != rows.size()) throw ArchiveError("it has other outputs");
+    restored = std::move(values);
   }
 
   void show() {
-    if (!is_shown) snapshot.write_row(run.seen(), run.energy());
+    if (!is_shown) snapshot.write_row(run.last_step(), run.energy());
     is_shown = true;
   }
 
