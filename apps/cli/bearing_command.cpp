@@ -231,8 +231,8 @@ int bearing_command(const BearingArguments& arguments) {
   print(arguments, solutions, sensitivities_of(arguments, options, solutions));
   bool all_solved = true;
   for (const study::BearingSolution& solution : solutions) {
-    for (const std::string& doubt : solution.doubts)
-      say("warning: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", doubt);
+    for (const std::string& warning : solution.warnings)
+      say("warning: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", warning);
     if (solution.solved()) continue;
     all_solved = false;
     say("hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.message);

@@ -297,7 +297,7 @@ nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<s
   if (!solution.solved()) return document;
   for (const auto& [name, text] : surface_remarks(solution)) document["surfaces"][name] = text;
   for (const auto& [name, text] : study::shear_remarks(solution)) document["conditions"][name] = text;
-  if (!solution.doubts.empty()) document["warnings"] = solution.doubts;
+  if (!solution.warnings.empty()) document["warnings"] = solution.warnings;
   document["linearisations"] = solution.summary.iterations;
   document["film_iterations"] = solution.summary.film_iterations;
   document["wall_time"] = solution.wall_time;

@@ -141,7 +141,7 @@ void tell(const std::string& label, const run::Summary& summary) {
   const std::string name = label.empty() ? "" : label + ": ";
   tell_doubts(name, summary.energy);
   for (const run::BearingSummary& bearing : summary.bearings)
-    for (const std::string& doubt : bearing.doubts) say("warning: {}bearing {}, {}\n", name, bearing.name, doubt);
+    for (const std::string& warning : bearing.warnings) say("warning: {}bearing {}, {}\n", name, bearing.name, warning);
   for (const run::BearingSummary& bearing : summary.bearings)
     if (label.empty() && !bearing.cavitated_shear.empty())
       say("bearing {}: {}\n", bearing.name, bearing.cavitated_shear);

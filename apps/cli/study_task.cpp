@@ -95,7 +95,7 @@ class Task {
       for (const study::BearingFigure& figure : study::figures_of(solution))
         add("bearings." + name + "." + figure.key, figure.words.empty() ? figure.value * figure.si : NAN, figure.name,
             figure.unit, figure.si_unit, figure.si);
-      if (!solution.doubts.empty()) reply["doubts"] = solution.doubts;
+      if (!solution.warnings.empty()) reply["doubts"] = solution.warnings;
       if (request.contains("slopes")) add_slopes(name, solution, request.at("slopes"), reply);
     }
   }

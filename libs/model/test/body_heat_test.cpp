@@ -197,11 +197,11 @@ TEST_CASE("JournalInABodyThatDoesNotTurn_IsDoubted") {
   const WrittenRing file;
   const Model model = read_text(with_shaft(), "m.yaml"), other = read_text(machine_text, "m.yaml");
   const Bearing& bearing = model.bearings[0];
-  CHECK(doubts_of_turning(bearing, 3, 3).empty());
-  CHECK(doubts_of_turning(bearing, -3, 3).empty());
-  CHECK(doubts_of_turning(other.bearings[0], 0, 0).empty());
-  CHECK(contains(doubts_of_turning(bearing, 0, 0).at(0), "does not turn in its shell"));
-  CHECK(contains(doubts_of_turning(bearing, -0.1, 2).at(0), "swings in its shell: 115 deg to and fro, 5.73 deg of it"));
+  CHECK(rotation_warnings(bearing, 3, 3).empty());
+  CHECK(rotation_warnings(bearing, -3, 3).empty());
+  CHECK(rotation_warnings(other.bearings[0], 0, 0).empty());
+  CHECK(contains(rotation_warnings(bearing, 0, 0).at(0), "does not turn in its shell"));
+  CHECK(contains(rotation_warnings(bearing, -0.1, 2).at(0), "swings in its shell: 115 deg to and fro, 5.73 deg of it"));
 }
 
 // A mesh turned about its own axis is the same journal.

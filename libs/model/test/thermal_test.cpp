@@ -97,9 +97,9 @@ TEST_CASE("TemperaturesBeyondWhatIsKnown_AreWarnedOf") {
       has(warned(table, "model: isothermal, temperature: 90 degC"), "90 degC is above 80 degC, the end of its table"));
   // What only the film tells.
   const OilValidity validity = read_bearing("grade: iso_vg_46", "model: film, supply_temperature: 50 degC").validity;
-  CHECK(doubts_of_film(validity, 273.15 + 150, 1e7).empty());
-  REQUIRE(doubts_of_film(validity, 273.15 + 230, 1e7).size() == 1);
-  CHECK(has(doubts_of_film(validity, 273.15 + 230, 1e7).front(), "flash point"));
+  CHECK(film_warnings(validity, 273.15 + 150, 1e7).empty());
+  REQUIRE(film_warnings(validity, 273.15 + 230, 1e7).size() == 1);
+  CHECK(has(film_warnings(validity, 273.15 + 230, 1e7).front(), "flash point"));
 }
 
 TEST_CASE("ShearThinning_IsRead") {

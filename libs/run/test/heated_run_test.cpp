@@ -223,20 +223,20 @@ TEST_CASE("JournalOfABody_SettlesOverCycles") {
 // Heat comes evenly to what turns: of a pin that swings that is doubted.
 TEST_CASE("JournalInABodyThatSwings_IsDoubted") {
   const Files files;
-  const auto doubts_of = [&files](const std::string& drive) {
+  const auto warnings_of = [&files](const std::string& drive) {
     const TemporaryDirectory folder;
     const Summary summary = simulate(files.model(with_shaft({"drives.motor=" + drive})), {.results = folder / "r.h5"});
     CAPTURE(summary.message);
     REQUIRE(summary.status == Status::completed);
     std::string text;
-    for (const std::string& doubt : summary.bearings.at(0).doubts) text += doubt + "\n";
+    for (const std::string& warning : summary.bearings.at(0).warnings) text += warning + "\n";
     return text;
   };
-  const std::string swings =
-      doubts_of("{joint: slide, coordinate: rotation, position: {expression: 0.02*(1 - cos(2*pi*1000*t)), unit: rad}}");
+  const std::string swings = warnings_of(
+      "{joint: slide, coordinate: rotation, position: {expression: 0.02*(1 - cos(2*pi*1000*t)), unit: rad}}");
   CHECK(swings.find("swings in its shell") != std::string::npos);
   CHECK(swings.find("is an estimate") != std::string::npos);
-  CHECK(doubts_of("{joint: slide, coordinate: rotation, speed: 3000 rpm}").find("its shell") == std::string::npos);
+  CHECK(warnings_of("{joint: slide, coordinate: rotation, speed: 3000 rpm}").find("its shell") == std::string::npos);
 }
 
 // A shaft that cycles warm until it fills its bore.

@@ -101,14 +101,14 @@ void require_way_out(const model::Model& model, const model::Bearing& bearing, c
                          "`hersey run` follows how they warm"});
 }
 
-std::vector<std::string> doubts_of(const model::Bearing& bearing, const bearing::SteadyState& state) {
+std::vector<std::string> warnings_of(const model::Bearing& bearing, const bearing::SteadyState& state) {
   double T = std::numeric_limits<double>::quiet_NaN();
   if (state.heat) T = state.heat->seen.T_max;
   if (state.effective) T = state.effective->T;
-  std::vector<std::string> doubts = model::doubts_of_film(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
-  for (std::string& doubt : model::doubts_of_surfaces(bearing, state.film.p_max, state.film.h_min))
-    doubts.push_back(std::move(doubt));
-  return doubts;
+  std::vector<std::string> warnings = model::film_warnings(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
+  for (std::string& warning : model::surface_warnings(bearing, state.film.p_max, state.film.h_min))
+    warnings.push_back(std::move(warning));
+  return warnings;
 }
 
 // Those of a solution nearby, if it has as many.
@@ -194,8 +194,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     solution.fail(fmt::format("bearing {}: {}", bearing.name, solution.summary.message));
     return;
   }
-  for (const std::string& doubt : doubts_of(bearing, solution.state))
-    solution.doubts.push_back("bearing " + bearing.name + ", " + doubt);
+  for (const std::string& warning : warnings_of(bearing, solution.state))
+    solution.warnings.push_back("bearing " + bearing.name + ", " + warning);
   steady.start_film = {}, steady.start_heat = {};
   // Those at the temperatures as they are, whose grid error stands beside those with temperatures that follow, too.
   solution.tangent = solution.state.coefficients;

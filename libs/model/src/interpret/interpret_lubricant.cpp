@@ -242,9 +242,10 @@ film::ShearThinning shear_thinning_of(Context& context, const Value& lubricant, 
 }  // namespace
 
 void warn_of_temperature(Context& context, const Value& T, const OilValidity& validity, const std::string& oil) {
-  const std::string doubt = doubt_at(validity, T.number);
-  if (doubt.empty()) return;
-  context.model.warnings.push_back({T.position, T.path, "oil '" + oil + "' where its viscosity is not known: " + doubt,
+  const std::string warning = temperature_warning(validity, T.number);
+  if (warning.empty()) return;
+  context.model.warnings.push_back({T.position, T.path,
+                                    "oil '" + oil + "' where its viscosity is not known: " + warning,
                                     "a temperature between these ends, or an oil known there", ""});
 }
 

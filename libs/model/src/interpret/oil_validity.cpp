@@ -52,7 +52,7 @@ OilValidity validity_of(const film::Lubricant& oil, const OilGrade* grade) {
   return validity;
 }
 
-std::string doubt_at(const OilValidity& validity, double T) {
+std::string temperature_warning(const OilValidity& validity, double T) {
   std::string beyond;
   const auto add = [&](const char* side, const OilValidity::End& end) {
     beyond += fmt::format("{} {} {:.4g} degC, {}", beyond.empty() ? "" : " and", side, celsius(end.T), end.what);
@@ -64,15 +64,16 @@ std::string doubt_at(const OilValidity& validity, double T) {
   return beyond.empty() ? "" : fmt::format("{:.4g} degC is{}", celsius(T), beyond);
 }
 
-std::vector<std::string> doubts_of_film(const OilValidity& validity, double T, double p) {
-  std::vector<std::string> doubts;
-  if (const std::string hot = doubt_at(validity, T); !hot.empty()) doubts.push_back("its hottest oil: " + hot);
+std::vector<std::string> film_warnings(const OilValidity& validity, double T, double p) {
+  std::vector<std::string> warnings;
+  if (const std::string hot = temperature_warning(validity, T); !hot.empty())
+    warnings.push_back("its hottest oil: " + hot);
   if (p > validity.p_high)
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("its largest pressure: {:.4g} MPa is above {:.4g} MPa, the end of the oil's table: "
                     "viscosities are extrapolated",
                     1e-6 * p, 1e-6 * validity.p_high));
-  return doubts;
+  return warnings;
 }
 
 }  // namespace hersey::model

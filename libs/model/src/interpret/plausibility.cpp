@@ -24,7 +24,7 @@ double roughness_of(const Bearing& bearing) {
   return has_summits ? bearing.film.asperities.sigma : bearing.film.roughness.composite_sigma();
 }
 
-std::string doubt_of_gap(const Bearing& bearing, double h_min) {
+std::string gap_warning(const Bearing& bearing, double h_min) {
   const double sigma = roughness_of(bearing);
   if (sigma == 0)
     return h_min < kLeastRoughness
@@ -41,7 +41,7 @@ std::string doubt_of_gap(const Bearing& bearing, double h_min) {
                                  : ", which `asperities` counts");
 }
 
-std::string doubt_of_pressure(const Bearing& bearing, double p_max) {
+std::string pressure_warning(const Bearing& bearing, double p_max) {
   if (p_max <= bearing.permissible_pressure.value_or(kUsualPressure)) return "";
   const std::string limit =
       bearing.permissible_pressure
@@ -55,16 +55,16 @@ std::string doubt_of_pressure(const Bearing& bearing, double p_max) {
 
 }  // namespace
 
-std::vector<std::string> doubts_of_surfaces(const Bearing& bearing, double p_max, double h_min) {
-  std::vector<std::string> doubts;
-  if (std::string doubt = doubt_of_pressure(bearing, p_max); !doubt.empty()) doubts.push_back(std::move(doubt));
+std::vector<std::string> surface_warnings(const Bearing& bearing, double p_max, double h_min) {
+  std::vector<std::string> warnings;
+  if (std::string warning = pressure_warning(bearing, p_max); !warning.empty()) warnings.push_back(std::move(warning));
   if (std::isfinite(h_min)) {
-    if (std::string doubt = doubt_of_gap(bearing, h_min); !doubt.empty()) doubts.push_back(std::move(doubt));
+    if (std::string warning = gap_warning(bearing, h_min); !warning.empty()) warnings.push_back(std::move(warning));
   }
-  return doubts;
+  return warnings;
 }
 
-std::vector<std::string> doubts_of_turning(const Bearing& bearing, double turned, double travelled) {
+std::vector<std::string> rotation_warnings(const Bearing& bearing, double turned, double travelled) {
   constexpr double round_off = 1e-9;  // rad
   if (!bearing.heated_journal || (travelled > round_off && std::abs(turned) > 0.5 * travelled)) return {};
   const double degrees = 180 / std::numbers::pi;

@@ -135,11 +135,11 @@ void RunRecord::summarise(Summary& summary) const {
   for (std::size_t i = 0; i < extremes_.size(); ++i) {
     BearingSummary bearing = extremes_[i].summary();
     const model::Bearing& plan = model_.bearings[i];
-    bearing.doubts = model::doubts_of_film(plan.validity, bearing.T_max, bearing.pofp - plan.film.p_cav);
-    for (std::string& doubt : model::doubts_of_surfaces(plan, bearing.pofp, bearing.moft))
-      bearing.doubts.push_back(std::move(doubt));
-    for (std::string& doubt : model::doubts_of_turning(plan, bearing.turned, bearing.travelled))
-      bearing.doubts.push_back(std::move(doubt));
+    bearing.warnings = model::film_warnings(plan.validity, bearing.T_max, bearing.pofp - plan.film.p_cav);
+    for (std::string& warning : model::surface_warnings(plan, bearing.pofp, bearing.moft))
+      bearing.warnings.push_back(std::move(warning));
+    for (std::string& warning : model::rotation_warnings(plan, bearing.turned, bearing.travelled))
+      bearing.warnings.push_back(std::move(warning));
     bearing.cavitated_shear = cavitated_shear(plan.film, bearing);
     summary.bearings.push_back(std::move(bearing));
   }

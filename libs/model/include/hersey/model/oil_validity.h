@@ -25,10 +25,10 @@ struct OilValidity {
 [[nodiscard]] OilValidity validity_of(const film::Lubricant& oil, const OilGrade* grade);
 
 /// What is to be said of oil at a temperature [K]; empty: nothing.
-[[nodiscard]] std::string doubt_at(const OilValidity& validity, double T);
+[[nodiscard]] std::string temperature_warning(const OilValidity& validity, double T);
 
 /// The same of a film with its hottest oil [K] (not a number: not known) and its largest pressure above the cavitation
 /// pressure [Pa].
-[[nodiscard]] std::vector<std::string> doubts_of_film(const OilValidity& validity, double T, double p);
+[[nodiscard]] std::vector<std::string> film_warnings(const OilValidity& validity, double T, double p);
 
 }  // namespace hersey::model

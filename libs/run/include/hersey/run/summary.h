@@ -43,10 +43,10 @@ struct BearingSummary {
   double energy_taken = 0;  ///< by shear, flow, friction, storage and oil, each an integral over the film [J]
   double energy_error = 0;  ///< their difference over what the film dissipates [-]
   double T_max = std::numeric_limits<double>::quiet_NaN();  ///< hottest oil of a film with temperatures [K]
-  double turned = 0, travelled = 0;  ///< by which the journal has turned in its shell, one way and to and fro [rad]
-  std::vector<std::string> doubts;   ///< where the film goes beyond what is known of its oil
-  std::string cavitated_shear;       ///< which it is, with what the other choice gives; empty: it makes no difference
-  StepErrors step_error;             ///< where Options::step_error asks for it
+  double turned = 0, travelled = 0;   ///< by which the journal has turned in its shell, one way and to and fro [rad]
+  std::vector<std::string> warnings;  ///< where the film goes beyond what is known of its oil
+  std::string cavitated_shear;        ///< which it is, with what the other choice gives; empty: it makes no difference
+  StepErrors step_error;              ///< where Options::step_error asks for it
 };
 
 /// Where the energy put into a machine has gone since the start of the run [J]. Each part is an integral of its own: of

@@ -33,9 +33,9 @@ struct [[nodiscard]] BearingSolution : Outcome {
   bearing::WhirlStability whirl;
   ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;  ///< those of `state`
   bearing::GridError grid_error;
-  std::vector<std::string> doubts;  ///< where the film goes beyond what is known of its oil
-  double wall_time = 0;             ///< grid error included [s]
-  bool from_neighbour = false;      ///< found from a neighbour's solution after a cold start had failed
+  std::vector<std::string> warnings;  ///< where the film goes beyond what is known of its oil
+  double wall_time = 0;               ///< grid error included [s]
+  bool from_neighbour = false;        ///< found from a neighbour's solution after a cold start had failed
 
   /// Whether its temperatures have been solved for.
   [[nodiscard]] bool has_temperatures() const { return state.heat || state.effective; }
