@@ -126,10 +126,10 @@ bool EnergyMonitor::allows(const solver::State& end) {
     stored += std::abs(before[i]) + std::abs(after[i]);
   }
   stored += std::abs(from_.potential);
-  double warning = 0;
+  double uncertainty = 0;
   const auto put_in = [&](const mbd::StepWork& one) {
     gain -= one.value;
-    warning += one.warning;
+    uncertainty += one.doubt;
     moved += std::abs(one.value);
   };
   for (const auto* list : {&work.drives, &work.loads, &work.functions, &work.pressures})
@@ -141,11 +141,11 @@ bool EnergyMonitor::allows(const solver::State& end) {
       gain += work.lost[i];
   }
   gain += work.lost_in_springs;
-  warning += kUnsolved * moved + kRoundOffOfStores * stored;
-  gain_ = gain - warning;
+  uncertainty += kUnsolved * moved + kRoundOffOfStores * stored;
+  gain_ = gain - uncertainty;
   const bool begins = books_.available() <= kFromNothing * trial_.available();
   if (begins && gain_ <= trial_.available()) gain_ = std::min(gain_, 0.0);
-  loss_ = knows_losses_ ? std::max(0.0, -gain - warning) : 0;
+  loss_ = knows_losses_ ? std::max(0.0, -gain - uncertainty) : 0;
   // Not a number: no energy at all.
   const double left = std::max(0.0, kMostOfRun * trial_.available() - std::max(0.0, balance_));
   has_refused_ = !(gain_ <= std::max(0.0, -balance_) + kMostOfStep * left);
