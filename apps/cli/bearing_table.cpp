@@ -260,8 +260,8 @@ std::string short_name(const std::string& path) {
 // A percentage of what is zero, of an angle or of an error tells nothing.
 bool has_percentage(const BearingFigure& figure) {
   const bool is_error = figure.key.find("error") != std::string::npos;
-  const bool is_place = figure.unit == "deg" || figure.key.ends_with("_z");
-  return figure.value != 0 && figure.words.empty() && !is_error && !is_place && figure.unit != "degC";
+  const bool is_position = figure.unit == "deg" || figure.key.ends_with("_z");
+  return figure.value != 0 && figure.words.empty() && !is_error && !is_position && figure.unit != "degC";
 }
 
 }  // namespace

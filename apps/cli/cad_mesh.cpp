@@ -121,7 +121,7 @@ bool is_cad_file(const std::filesystem::path& path) {
   return has_no_unit(path) || ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
 }
 
-std::string unit_told_in(const std::filesystem::path& path) {
+std::string unit_stated_in(const std::filesystem::path& path) {
   const InputFile file = read_input_file(path);
   // An entity of several types, in any order: ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) ).
   static const std::regex si(R"(SI_UNIT\s*\(\s*(\$|\.[A-Z]+\.)\s*,\s*\.METRE\.\s*\))");

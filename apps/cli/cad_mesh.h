@@ -23,7 +23,7 @@ struct CadOptions {
 [[nodiscard]] bool has_no_unit(const std::filesystem::path& path);
 
 /// What of a STEP file's own words is the unit of length, "millimetres"; empty where it does not say.
-[[nodiscard]] std::string unit_told_in(const std::filesystem::path& path);
+[[nodiscard]] std::string unit_stated_in(const std::filesystem::path& path);
 
 /// The solids of a CAD file as one mesh in metres, made by the program gmsh on PATH; solids that touch share their
 /// nodes. @returns nothing where the user has stopped it.

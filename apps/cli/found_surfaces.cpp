@@ -28,7 +28,9 @@ std::string in_mm(double length) {
   return fmt::format("{:.6g}", shown == 0 ? 0.0 : shown);
 }
 
-std::string place_in_mm(const Vector3& x) { return fmt::format("{} {} {}", in_mm(x.x()), in_mm(x.y()), in_mm(x.z())); }
+std::string position_in_mm(const Vector3& x) {
+  return fmt::format("{} {} {}", in_mm(x.x()), in_mm(x.y()), in_mm(x.z()));
+}
 
 /// "z", "-x" or "0.6 0.8 0".
 std::string direction_text(const Vector3& axis) {
@@ -108,11 +110,11 @@ std::string found_text(const std::vector<FoundSurface>& found) {
     const std::string area = fmt::format("{:.5g}", 1e6 * surface.area);
     if (is_plane)
       lines.push_back({surface.name, kind_of(surface), "", "", "", area, direction_text(surface.axis),
-                       place_in_mm(surface.centre), ""});
+                       position_in_mm(surface.centre), ""});
     else
       lines.push_back({surface.name, kind_of(surface), in_mm(2 * surface.radius), in_mm(surface.width),
                        fmt::format("{:.0f} deg", surface.arc / kDegree), area, direction_text(surface.axis),
-                       place_in_mm(surface.centre), use_of(surface)});
+                       position_in_mm(surface.centre), use_of(surface)});
   }
   std::string text = aligned(lines, 6);
   if (left_out > 0) text += fmt::format("  and {} smaller ones, which --json lists\n", left_out);
@@ -129,7 +131,7 @@ std::string model_lines(const std::vector<FoundSurface>& found, const std::strin
     const std::size_t number = is_bore ? ++bores : ++journals;
     const std::string key = key_of(surface, number);
     frames += fmt::format("      {}: {{nodes: {}, origin: {} mm{}, connection: average}}\n", key, surface.name,
-                          place_in_mm(surface.centre), rotation_to(surface.axis));
+                          position_in_mm(surface.centre), rotation_to(surface.axis));
     bearings +=
         fmt::format("  {0}: {{{1}: part.{0}, {1}_surface: {{faces: {2}}}, diameter: {3} mm, width: {4} mm}}\n", key,
                     is_bore ? "shell" : "journal", surface.name, in_mm(2 * surface.radius), in_mm(surface.width));

@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
   using namespace hersey;
   try {
     cli::open_standard_streams();
-    cli::tell_crashes_of_damaged_files();
+    cli::report_crashes_of_damaged_files();
     use_one_blas_thread();
     const int code = cli::dispatch(argc, argv);
     return cli::finish_standard_output() || code != cli::kOk ? code : static_cast<int>(cli::kFailed);

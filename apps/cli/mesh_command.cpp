@@ -186,9 +186,9 @@ std::filesystem::path output_of(const MeshArguments& arguments) {
 
 std::string cad_text(const MeshArguments& arguments, const CadOptions& options) {
   const bool is_brep = has_no_unit(arguments.file);
-  const std::string told = is_brep ? "" : unit_told_in(arguments.file);
+  const std::string stated = is_brep ? "" : unit_stated_in(arguments.file);
   std::string unit = "in the unit that it says";
-  if (!told.empty()) unit = "in " + told;
+  if (!stated.empty()) unit = "in " + stated;
   if (is_brep) unit = fmt::format("taken to be in {:.6g} mm (--length-unit)", 1e3 * options.length_unit);
   return fmt::format("meshed    by gmsh: {}, {}; elements of {:.6g} mm, order {}, {} or more around a turn\n",
                      arguments.file, unit, 1e3 * options.size, options.order, options.around);

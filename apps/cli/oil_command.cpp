@@ -206,13 +206,13 @@ nlohmann::json oil_json(const NamedOil& named, const Conditions& at, const std::
 constexpr int points_of_a_line = 121;
 
 /// Viscosity in mPa s over one variable, `at` places 0 to 1 of its way.
-template <class Place>
-report::CurveLine line(const NamedOil& named, std::string label, Place&& at) {
+template <class StateAt>
+report::CurveLine line(const NamedOil& named, std::string label, StateAt&& at) {
   report::CurveLine curve{std::move(label), {}, {}};
   for (int k = 0; k < points_of_a_line; ++k) {
-    const auto [x, place] = at(static_cast<double>(k) / (points_of_a_line - 1));
+    const auto [x, state] = at(static_cast<double>(k) / (points_of_a_line - 1));
     curve.x.push_back(x);
-    curve.y.push_back(1e3 * oil_at(named.oil, place.T, place.p, place.rate).mu);
+    curve.y.push_back(1e3 * oil_at(named.oil, state.T, state.p, state.rate).mu);
   }
   return curve;
 }

@@ -8,10 +8,10 @@ namespace hersey::cli {
 namespace {
 
 /// The place of a file, links followed, that need not be there yet.
-std::filesystem::path place_of(const std::filesystem::path& file) {
+std::filesystem::path canonical_path(const std::filesystem::path& file) {
   std::error_code error;
-  std::filesystem::path place = std::filesystem::weakly_canonical(file, error);
-  return error ? file : place;
+  std::filesystem::path path = std::filesystem::weakly_canonical(file, error);
+  return error ? file : path;
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void require_separate(const std::vector<OutputFile>& outputs, const std::vector<
       // By its number on the disk: hard links are one file at two places.
       if (std::filesystem::equivalent(path, input, missing)) refuse("read as '" + input.string() + "'");
     }
-    const auto [other, is_new] = written.try_emplace(place_of(path), option);
+    const auto [other, is_new] = written.try_emplace(canonical_path(path), option);
     if (!is_new) refuse("written by " + other->second + " too");
   }
   if (!faults.empty()) throw InputError(std::move(faults));

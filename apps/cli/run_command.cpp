@@ -120,7 +120,7 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
   return code;
 }
 
-void tell(const run::CycleProgress& cycle) {
+void report(const run::CycleProgress& cycle) {
   if (std::isfinite(cycle.change)) {
     say("cycle {}: {:.2g} % ({})\n", cycle.number, 100 * cycle.change, cycle.largest);
   } else {
@@ -129,7 +129,7 @@ void tell(const run::CycleProgress& cycle) {
 }
 
 // Where energy has come from nowhere or gone nowhere, the motion is that of no machine.
-void tell_doubts(const std::string& name, const run::EnergySummary& energy) {
+void report_energy_error(const std::string& name, const run::EnergySummary& energy) {
   constexpr double kMostUnexplained = 0.2;
   if (!(energy.error() > kMostUnexplained)) return;
   say("warning: {}{:.2g} J, {:.0f} % of the energy at the start and put in since, is neither stored nor lost anywhere: "
@@ -137,9 +137,9 @@ void tell_doubts(const std::string& name, const run::EnergySummary& energy) {
       name, energy.unexplained(), 100 * energy.error());
 }
 
-void tell(const std::string& label, const run::Summary& summary) {
+void report(const std::string& label, const run::Summary& summary) {
   const std::string name = label.empty() ? "" : label + ": ";
-  tell_doubts(name, summary.energy);
+  report_energy_error(name, summary.energy);
   for (const run::BearingSummary& bearing : summary.bearings)
     for (const std::string& warning : bearing.warnings) say("warning: {}bearing {}, {}\n", name, bearing.name, warning);
   for (const run::BearingSummary& bearing : summary.bearings)
@@ -171,7 +171,7 @@ std::string text_of(const run::PerStep& figures) {
 }
 
 // Where the time went, largest shares first, and what it took to bring films and bodies together.
-void tell_work(const run::Summary& summary) {
+void report_work(const run::Summary& summary) {
   const run::Work& work = summary.work;
   if (summary.steps == 0 || work.stepping <= 0) return;
   say("{:.3g} ms per step after {:.2f} s of start-up; Newton iterations per step: {}\n",
@@ -186,13 +186,13 @@ void tell_work(const run::Summary& summary) {
   }
   say("share of time: {}\n", shares);
   // Of many films those that took the most.
-  constexpr std::size_t kMostTold = 3;
+  constexpr std::size_t kMostReported = 3;
   std::vector<run::CouplingWork> couplings = work.couplings;
   std::stable_sort(couplings.begin(), couplings.end(), [](const run::CouplingWork& a, const run::CouplingWork& b) {
     return a.film_iterations.mean > b.film_iterations.mean;
   });
-  if (couplings.size() > kMostTold + 1)
-    couplings.resize(kMostTold);
+  if (couplings.size() > kMostReported + 1)
+    couplings.resize(kMostReported);
   else
     couplings = work.couplings;
   for (const run::CouplingWork& coupling : couplings) {
@@ -225,22 +225,22 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   };
   options.on_cycle = [&](const run::CycleProgress& cycle) {
     bar.clear();
-    tell(cycle);
+    report(cycle);
   };
   warn(run::check(model));
   make_folder(folder);
   const run::Summary summary = run::simulate(model, options);
   interrupt_is_heeded();
   bar.clear();
-  tell("", summary);
-  tell_work(summary);
+  report("", summary);
+  report_work(summary);
   return close(arguments, folder, {options.results}, {summary}, exit_code(summary.status));
 }
 
 /// What several runs of a study share is told with the first of them.
-void tell_once(const std::string& run, const std::vector<Fault>& warnings, std::set<std::string>& told) {
+void report_once(const std::string& run, const std::vector<Fault>& warnings, std::set<std::string>& reported) {
   for (const Fault& warning : warnings) {
-    if (const std::string text = warning.text(); told.insert(text).second) say("warning: {}: {}\n", run, text);
+    if (const std::string text = warning.text(); reported.insert(text).second) say("warning: {}: {}\n", run, text);
   }
 }
 
@@ -262,11 +262,11 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
 
   ProgressBar bar;
   std::size_t finished = 0;
-  std::set<std::string> told;
-  for (const Fault& warning : model.warnings) told.insert(warning.text());
+  std::set<std::string> reported;
+  for (const Fault& warning : model.warnings) reported.insert(warning.text());
   options.on_warnings = [&](std::size_t i, const std::vector<Fault>& warnings) {
     bar.clear();
-    tell_once(runs[i].label, warnings, told);
+    report_once(runs[i].label, warnings, reported);
   };
   options.on_progress = [&](std::size_t i, const run::Progress& progress) {
     note_step();
@@ -277,7 +277,7 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
     bar.clear();
     const std::string label = fmt::format("{}/{} {}", finished, runs.size(), runs[i].label);
     if (result.solved()) {
-      tell(label, result.summary);
+      report(label, result.summary);
     } else {
       say("hersey: {}: {}\n", label, result.message);
     }

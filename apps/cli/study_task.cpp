@@ -86,7 +86,8 @@ class Task {
   void add(const std::string& key, double in_si, const std::string& name, const std::string& unit,
            const std::string& si_unit, double size) {
     figures_[key] = std::isfinite(in_si) ? json(in_si) : json();
-    if (told_.insert(key).second) news_[key] = {{"name", name}, {"unit", unit}, {"si_unit", si_unit}, {"si", size}};
+    if (described_.insert(key).second)
+      news_[key] = {{"name", name}, {"unit", unit}, {"si_unit", si_unit}, {"si", size}};
   }
 
   void solve(const model::StudyRun& run, const json& request, json& reply) {
@@ -169,7 +170,7 @@ class Task {
   const StudyTaskArguments& arguments_;
   study::RunSolver solver_;
   std::vector<std::string> bearings_;
-  std::set<std::string> told_;
+  std::set<std::string> described_;
   json figures_ = json::object(), news_ = json::object();
 };
 
