@@ -38,8 +38,8 @@ struct Arguments {
 std::filesystem::path find_library() {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::string name = std::string(kModelIdentifier) + ".so";
-  for (const char* place : {".", "../lib/hersey"}) {
-    const std::filesystem::path candidate = folder / place / name;
+  for (const char* subfolder : {".", "../lib/hersey"}) {
+    const std::filesystem::path candidate = folder / subfolder / name;
     if (std::filesystem::exists(candidate)) return std::filesystem::canonical(candidate);
   }
   throw std::runtime_error(

@@ -123,10 +123,10 @@ void write_zip(const std::filesystem::path& path, const std::vector<std::pair<st
   }
   // Fast rather than small: most of it are libraries.
   const auto add = [&](const std::string& name, zip_source_t* source) {
-    const zip_int64_t place =
+    const zip_int64_t index =
         source == nullptr ? -1 : zip_file_add(archive.get(), name.c_str(), source, ZIP_FL_ENC_UTF_8);
     const bool is_added =
-        place >= 0 && zip_set_file_compression(archive.get(), static_cast<zip_uint64_t>(place), ZIP_CM_DEFLATE, 1) == 0;
+        index >= 0 && zip_set_file_compression(archive.get(), static_cast<zip_uint64_t>(index), ZIP_CM_DEFLATE, 1) == 0;
     if (!is_added) throw std::runtime_error(fmt::format("{}: {}", path.string(), zip_strerror(archive.get())));
   };
   for (const auto& [name, text] : texts) add(name, zip_source_buffer(archive.get(), text.data(), text.size(), 0));
