@@ -181,7 +181,7 @@ class Summary {
     if (all.empty() || t.size() != all.size()) return;
     std::string where = fmt::format("t = {:.4g} ms", t.back() * 1e3);
     if (const auto row = row_at(t.back())) where = instant(*row);
-    add(name, factor * all.back(), unit, where + place("cycles/fields/" + series, all.size() - 1));
+    add(name, factor * all.back(), unit, where + location("cycles/fields/" + series, all.size() - 1));
   }
 
   /// The largest value of the last cycle's map, and where.
@@ -405,19 +405,20 @@ class Summary {
     return row < crank_angle_.size() ? time + fmt::format(", crank {:.1f}°", crank_angle_[row] * degrees) : time;
   }
 
-  /// The most extreme finite value in the sense of `before`, with its instant and, if `placed`, its place on the film.
+  /// The most extreme finite value in the sense of `before`, with its instant and, if `has_location`, its place on the
+  /// film.
   template <class Before>
   void extreme(const std::string& name, const std::string& series, Before before, double factor,
-               const std::string& unit, bool placed) {
+               const std::string& unit, bool has_location) {
     const std::vector<double> all = values(series);
     std::optional<std::size_t> best;
     for (std::size_t k = 0; k < all.size(); ++k)
       if (std::isfinite(all[k]) && (!best || before(all[k], all[*best]))) best = k;
     if (!best) return;
-    add(name, all[*best] * factor, unit, instant(*best) + (placed ? place(series, *best) : ""));
+    add(name, all[*best] * factor, unit, instant(*best) + (has_location ? location(series, *best) : ""));
   }
 
-  std::string place(const std::string& series, std::size_t row) const {
+  std::string location(const std::string& series, std::size_t row) const {
     const std::vector<double> phi = values(series + "_phi"), z = values(series + "_z");
     std::string text;
     if (row < phi.size()) text += fmt::format(", φ = {:.1f}°", phi[row] * degrees);

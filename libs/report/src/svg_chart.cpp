@@ -70,7 +70,7 @@ std::string tick_text(double value) {
 }
 
 /// Places of labels beside the ends of lines, moved apart where they would cover each other.
-std::vector<double> label_places(std::vector<double> wanted) {
+std::vector<double> label_positions(std::vector<double> wanted) {
   std::vector<std::size_t> order(wanted.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return wanted[a] < wanted[b]; });
@@ -153,11 +153,11 @@ std::string svg_of(const CurveChart& chart) {
   svg += axes_of(chart, x, y);
   std::vector<double> ends;
   for (const CurveLine& line : chart.lines) ends.push_back(y.at(line.y.back()) + 4);
-  const std::vector<double> places = label_places(ends);
+  const std::vector<double> positions = label_positions(ends);
   for (std::size_t k = 0; k < chart.lines.size(); ++k) {
     svg += line_of(chart, chart.lines[k], k, x, y);
     svg += fmt::format("<text class=\"label c{}\" x=\"{}\" y=\"{:.1f}\">{}</text>", k % colours, width - right + 8,
-                       places[k], escaped(chart.lines[k].label));
+                       positions[k], escaped(chart.lines[k].label));
   }
   return svg + "</svg>";
 }

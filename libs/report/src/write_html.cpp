@@ -21,7 +21,7 @@ std::filesystem::path folder_of_fields(const std::filesystem::path& out) {
 }
 
 /// Writes all instants of the films of a run of which the page holds some only; tells the page where they are.
-json fields_beside(const results::Reader& reader, const json& run, std::size_t place, std::size_t budget,
+json fields_beside(const results::Reader& reader, const json& run, std::size_t index, std::size_t budget,
                    const std::filesystem::path& out) {
   json list = json::array();
   if (run["field_stride"] == 1) return list;
@@ -35,7 +35,7 @@ json fields_beside(const results::Reader& reader, const json& run, std::size_t p
     std::error_code exists_or_fails;  // writing tells
     std::filesystem::create_directory(folder_of_fields(out), exists_or_fails);
     const std::filesystem::path file =
-        folder_of_fields(out) / (std::to_string(place) + "_" + std::to_string(list.size()) + ".js");
+        folder_of_fields(out) / (std::to_string(index) + "_" + std::to_string(list.size()) + ".js");
     write_script("herseyFields", {{"run", run["name"]}, {"datasets", datasets}}, file);
     list.push_back({{"bearing", bearing},
                     {"file", (file.parent_path().filename() / file.filename()).generic_string()},

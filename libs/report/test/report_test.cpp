@@ -35,12 +35,12 @@ template <class Number>
 std::vector<Number> decode(const std::string& text) {
   const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
-  unsigned bits = 0, held = 0;
+  unsigned bits = 0, buffer = 0;
   for (const char c : text) {
     if (c == '=') break;
-    held = held << 6 | static_cast<unsigned>(alphabet.find(c));
+    buffer = buffer << 6 | static_cast<unsigned>(alphabet.find(c));
     bits += 6;
-    if (bits >= 8) bytes += static_cast<char>(held >> (bits -= 8) & 0xff);
+    if (bits >= 8) bytes += static_cast<char>(buffer >> (bits -= 8) & 0xff);
   }
   std::vector<Number> numbers(bytes.size() / sizeof(Number));
   std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));

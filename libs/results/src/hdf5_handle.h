@@ -46,8 +46,8 @@ class Handle {
 /// printed, for failures are told by exceptions, once.
 class Hdf5Session {
  public:
-  /// @param doubtful  the file that is read, if nothing vouches for it (hersey/core/untrusted_file.h)
-  explicit Hdf5Session(const char* doubtful = nullptr) : lock_(hdf5_lock()), doubtful_(doubtful) {
+  /// @param untrusted_path  the file that is read, if nothing vouches for it (hersey/core/untrusted_file.h)
+  explicit Hdf5Session(const char* untrusted_path = nullptr) : lock_(hdf5_lock()), untrusted_(untrusted_path) {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
@@ -57,7 +57,7 @@ class Hdf5Session {
 
  private:
   std::scoped_lock<std::recursive_mutex> lock_;
-  DoubtfulFile doubtful_;
+  DoubtfulFile untrusted_;
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };

@@ -113,7 +113,7 @@ herr_t set_eoa(H5FD_t* file, H5FD_mem_t, haddr_t address) {
 
 /// Finds room at the end of the file. A kill can cut a write where it crosses from one memory page to the next, and an
 /// index node cut in two is not readable: a piece of metadata that fits into a page is put into one.
-haddr_t place(H5FD_t* base, H5FD_mem_t type, hid_t, hsize_t size) {
+haddr_t allocate(H5FD_t* base, H5FD_mem_t type, hid_t, hsize_t size) {
   static const auto page = static_cast<haddr_t>(sysconf(_SC_PAGESIZE));
   ReservedFile& file = self(base);
   haddr_t address = file.eoa;
@@ -263,7 +263,7 @@ constexpr H5FD_class_t make_class() {
   driver.open = open_file;
   driver.close = close_file;
   driver.query = query;
-  driver.alloc = place;
+  driver.alloc = allocate;
   driver.get_eoa = get_eoa;
   driver.set_eoa = set_eoa;
   driver.get_eof = get_eof;

@@ -44,11 +44,11 @@ class WaitingRows {
     std::uint32_t first = 0, count = 0;
   };
   /// Where each row begins, sorted by series.
-  struct Places {
+  struct Positions {
     std::vector<std::uint32_t> rows;  // in numbers_
     std::vector<std::size_t> last;    // of each series in `rows`
   };
-  [[nodiscard]] Places places(const std::vector<std::size_t>& widths) const;
+  [[nodiscard]] Positions positions(const std::vector<std::size_t>& widths) const;
 
   std::vector<double> numbers_;
   std::size_t used_ = 0;  // of numbers_; what lies behind is open

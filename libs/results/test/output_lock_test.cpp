@@ -12,7 +12,7 @@ namespace hersey::results::output_lock_test {
 TEST_CASE("OutputLock_IsHeldByOneRunAndLeavesNothing") {
   const std::filesystem::path file = "locked.h5";
   {
-    const OutputLock held(file);
+    const OutputLock lock(file);
     CHECK_THROWS_WITH_AS(OutputLock{file}, doctest::Contains("locked.h5: another run (process "), FileBusy);
     CHECK_THROWS_AS(require_idle(file), FileBusy);
     CHECK_NOTHROW(OutputLock{"beside.h5"});  // another file of the folder
@@ -28,7 +28,7 @@ TEST_CASE("OutputLock_OfAKilledRunBlocksNobody") {
   REQUIRE(::pipe(told) == 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    const OutputLock held(file);
+    const OutputLock lock(file);
     [[maybe_unused]] const ssize_t one = ::write(told[1], "x", 1);
     ::pause();
   }
