@@ -113,10 +113,10 @@ TEST_CASE("HeldBeam_ShowsItsSectionForces") {
 // A strip of 1 m by 20 mm by 1 mm, E I = 1/3 N m^2, under a moment at its end of m times 2 pi E I/L: m whole circles.
 // Its stiffness along is 10^7 times the one across.
 TEST_CASE("StripUnderAnEndMoment_RollsUpToCircles") {
-  for (const double turns : {0.05, 0.5, 1.0, 2.0}) {
-    CAPTURE(turns);
+  for (const double revolutions : {0.05, 0.5, 1.0, 2.0}) {
+    CAPTURE(revolutions);
     const TemporaryDirectory folder;
-    const double angle = 2 * std::numbers::pi * turns;
+    const double angle = 2 * std::numbers::pi * revolutions;
     const results::Reader reader = run_in(folder, fmt::format(R"(hersey: 1
 gravity: 0 0 0 m/s^2
 bodies:

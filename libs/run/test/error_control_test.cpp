@@ -109,9 +109,9 @@ Vector3 errors_of_a_pattern(int repetitions) {
   const mbd::Observation observation = machine.mechanism->observe(state);
   const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81 / 1.1)};
   const double angle = exact.angle(1), rate = exact.rate(1);
-  const double turn = -exact.omega0 * exact.omega0 * std::sin(angle);
+  const double angular_acceleration = -exact.omega0 * exact.omega0 * std::sin(angle);
   const Vector3 up(-std::sin(angle), std::cos(angle), 0), along(std::cos(angle), std::sin(angle), 0);
-  const Vector3 force = turn * along + rate * rate * up + Vector3(0, 9.81, 0);
+  const Vector3 force = angular_acceleration * along + rate * rate * up + Vector3(0, 9.81, 0);
   return {std::abs(observation.joints[0].position[5] - angle), std::abs(observation.joints[0].rate[5] - rate),
           (observation.joints[1].force - force).norm()};
 }
@@ -140,13 +140,13 @@ simulation: {duration: 2 s, step: 1 ms, spectral_radius: 0.8}
 )");
   model::Machine machine = model::build(model);
   solver::State state = starting_state(model, machine);
-  const auto tell = [](const solver::State&, const Eigen::VectorXd&) { return true; };
-  for (const solver::StepJudge& judge : {solver::StepJudge(), solver::StepJudge(tell)}) {
+  const auto accept_all = [](const solver::State&, const Eigen::VectorXd&) { return true; };
+  for (const solver::StepJudge& check : {solver::StepJudge(), solver::StepJudge(accept_all)}) {
     solver::GeneralizedAlpha integrator(
         {.spectral_radius = 0.8, .rtol = 1e-9, .chosen_by_error = false, .returns_to_constraints = true});
     for (int i = 0; i < 100; ++i) {
       for (const double share : {1.0, 0.5, 0.125, 0.0625, 0.0625, 0.125, 0.25, 0.5})
-        REQUIRE(integrator.step(*machine.mechanism, state, 1e-3 * share, judge).solved());
+        REQUIRE(integrator.step(*machine.mechanism, state, 1e-3 * share, check).solved());
     }
     // rad/s: constraints, to round-off over the shortest step.
     CHECK(std::abs(machine.mechanism->observe(state).joints[0].rate[0] - 60) < 1e-8);
@@ -313,18 +313,18 @@ BearingSummary coarse_slider_crank(const std::string& step, bool step_error) {
 }
 
 TEST_CASE("StepError_IsThatOfAMuchFinerRunWithinAFactorOfThree") {
-  const BearingSummary truth = coarse_slider_crank("0.125 deg", false), told = coarse_slider_crank("0.5 deg", true);
+  const BearingSummary truth = coarse_slider_crank("0.125 deg", false), summary = coarse_slider_crank("0.5 deg", true);
   CHECK(std::isnan(truth.step_error.moft));
   const auto within_three = [](const std::string& name, double estimate, double error) {
     MESSAGE(name, ": estimated ", estimate, ", true ", error);
     CHECK(std::abs(estimate) < 3 * std::abs(error));
     CHECK(std::abs(estimate) > std::abs(error) / 3);
   };
-  within_three("MOFT", told.step_error.moft, told.moft - truth.moft);
-  within_three("POFP", told.step_error.pofp, told.pofp - truth.pofp);
+  within_three("MOFT", summary.step_error.moft, summary.moft - truth.moft);
+  within_three("POFP", summary.step_error.pofp, summary.pofp - truth.pofp);
   // The mean loss has all but converged.
-  CHECK(told.step_error.mean_power < 1e-3 * truth.mean_power);
-  CHECK(std::abs(told.mean_power - truth.mean_power) < 1e-3 * truth.mean_power);
+  CHECK(summary.step_error.mean_power < 1e-3 * truth.mean_power);
+  CHECK(std::abs(summary.mean_power - truth.mean_power) < 1e-3 * truth.mean_power);
 }
 
 }  // namespace error_control_test

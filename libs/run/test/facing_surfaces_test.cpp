@@ -143,12 +143,13 @@ TEST_CASE("MeshOfAnotherRadiusThanTheFilms_IsWarnedOfAndInTheAssumptions") {
   const Summary summary = simulate(model::read(machine.file), {.results = results});
   INFO(summary.message);
   REQUIRE(summary.status == Status::completed);
-  int told = 0;
+  int reported = 0;
   for (const auto& [name, text] : results::Reader(results).text_table("/assumptions")) {
-    if (name == "main: journal surface") told += contains(text, "10 um above") && contains(text, "LEAVES OUT") ? 1 : 0;
-    if (name == "main: shell surface") told += contains(text, "LEAVES OUT") ? 10 : 1;
+    if (name == "main: journal surface")
+      reported += contains(text, "10 um above") && contains(text, "LEAVES OUT") ? 1 : 0;
+    if (name == "main: shell surface") reported += contains(text, "LEAVES OUT") ? 10 : 1;
   }
-  CHECK(told == 2);
+  CHECK(reported == 2);
 }
 
 TEST_CASE("SurfacesApartAlongTheAxis_DoNotFaceEachOther") {

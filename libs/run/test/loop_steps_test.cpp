@@ -120,9 +120,9 @@ Steps step_through(const std::string& text, double radius, double tolerance) {
 Vector3 pendulum_errors(const mbd::Observation& observation) {
   const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81 / 1.1)};
   const double angle = exact.angle(1), rate = exact.rate(1);
-  const double turn = -exact.omega0 * exact.omega0 * std::sin(angle);
+  const double angular_acceleration = -exact.omega0 * exact.omega0 * std::sin(angle);
   const Vector3 up(-std::sin(angle), std::cos(angle), 0), along(std::cos(angle), std::sin(angle), 0);
-  const Vector3 force = turn * along + rate * rate * up + Vector3(0, 9.81, 0);
+  const Vector3 force = angular_acceleration * along + rate * rate * up + Vector3(0, 9.81, 0);
   return {std::abs(observation.joints[0].position[5] - angle), std::abs(observation.joints[0].rate[5] - rate),
           (observation.joints[1].force - force).norm()};
 }

@@ -101,10 +101,10 @@ TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
   const TemporaryDirectory scratch;
   const Summary summary = simulate(start.model, {.results = scratch / "run.h5"});
   REQUIRE(summary.status == Status::completed);
-  bool is_told = false;
-  for (const auto& [name, told] : results::Reader(summary.results).text_table("/assumptions"))
-    if (name == "start moved: joint bore, translation") is_told = told.find("594.72 mm given, 594.68") == 0;
-  CHECK(is_told);
+  bool is_reported = false;
+  for (const auto& [name, text] : results::Reader(summary.results).text_table("/assumptions"))
+    if (name == "start moved: joint bore, translation") is_reported = text.find("594.72 mm given, 594.68") == 0;
+  CHECK(is_reported);
 }
 
 TEST_CASE("ValuesThatFitTogether_AreNotTold") {

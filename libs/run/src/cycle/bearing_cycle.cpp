@@ -77,11 +77,11 @@ void CycleSums::compare(double t) {
   if (last_.pofp.value > cycle_.pofp.value) cycle_.pofp = last_.pofp;
   if (last_.hottest.value > cycle_.hottest.value) cycle_.hottest = last_.hottest;
   cycle_.walls = last_.walls;
-  Eigen::Index place = 0;
-  const double contact = last_.contact.maxCoeff(&place);
+  Eigen::Index node = 0;
+  const double contact = last_.contact.maxCoeff(&node);
   if (contact > cycle_.contact.value) {
     const film::Grid& grid = model_.grid;
-    const auto i = static_cast<int>(place) / grid.n_z, j = static_cast<int>(place) % grid.n_z;
+    const auto i = static_cast<int>(node) / grid.n_z, j = static_cast<int>(node) % grid.n_z;
     cycle_.contact = {contact, t, grid.phi(i), model_.L * grid.z_over_L(j)};
   }
   for (Eigen::Index k = 0; k < last_.p.size(); ++k) {

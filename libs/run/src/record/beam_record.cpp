@@ -17,8 +17,8 @@ struct BeamSurface {
 };
 
 void add_corner(BeamSurface& surface, const Vector3& node, int index, const Vector3& offset) {
-  const Vector3 place = node + offset;
-  surface.corners.insert(surface.corners.end(), place.data(), place.data() + 3);
+  const Vector3 corner = node + offset;
+  surface.corners.insert(surface.corners.end(), corner.data(), corner.data() + 3);
   surface.offset.insert(surface.offset.end(), offset.data(), offset.data() + 3);
   surface.node.push_back(index);
 }
@@ -50,7 +50,7 @@ BeamSurface surface_of(const model::Beam& beam) {
 }
 
 /// Whether a joint or force between bodies holds a node, beyond the beam itself.
-bool is_held(const mbd::MechanismSpec& spec, mbd::BodyId node) {
+bool is_fixed(const mbd::MechanismSpec& spec, mbd::BodyId node) {
   const auto on_node = [&](mbd::FrameId frame) {
     return spec.frames[static_cast<std::size_t>(frame.index)].body == node;
   };
@@ -137,9 +137,10 @@ const std::vector<Constant<BeamPlan>>& beam_constants() {
        "x, y, z of each node undeformed, body axes",
        "[3 nodes]",
        [](const BeamPlan& plan) {
-         std::vector<double> places;
-         for (const Vector3& node : plan.beam.nodes) places.insert(places.end(), node.data(), node.data() + 3);
-         return places;
+         std::vector<double> coordinates;
+         for (const Vector3& node : plan.beam.nodes)
+           coordinates.insert(coordinates.end(), node.data(), node.data() + 3);
+         return coordinates;
        },
        {},
        {.note = "of a beam"}},
@@ -174,7 +175,7 @@ const std::vector<Attribute<BeamPlan>>& surface_attributes() {
   static const std::vector<Attribute<BeamPlan>> table{
       {"shape", "", "`mesh`", [](const BeamPlan& /*plan*/) { return "mesh"; }},
       {"held_at_both_ends", "1", "1: a joint or force holds the last node of the beam",
-       [](const BeamPlan& plan) { return plan.is_held_at_both_ends ? 1 : 0; }}};
+       [](const BeamPlan& plan) { return plan.is_fixed_at_both_ends ? 1 : 0; }}};
   return table;
 }
 
@@ -208,7 +209,7 @@ const model::Beam& beam_of(const model::Model& model, const model::BuiltBeam& bu
 
 BeamRecord::BeamRecord(const model::Model& model, const model::Machine& machine, const model::BuiltBeam& built,
                        results::Writer& writer)
-    : plan_{beam_of(model, built), built, is_held(machine.mechanism->spec(), built.ids.bodies.back())},
+    : plan_{beam_of(model, built), built, is_fixed(machine.mechanism->spec(), built.ids.bodies.back())},
       rows_(beam_quantities(), group_of(built), plan_, writer) {
   write_once(beam_attributes(), group_of(built), plan_, writer);
   write_once(beam_constants(), group_of(built), plan_, writer);

@@ -12,7 +12,7 @@ namespace hersey::run {
 struct BeamPlan {
   const model::Beam& beam;
   const model::BuiltBeam& built;
-  bool is_held_at_both_ends = false;
+  bool is_fixed_at_both_ends = false;
 };
 
 /// A beam at an instant.

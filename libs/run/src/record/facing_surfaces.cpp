@@ -156,7 +156,7 @@ std::vector<Fault> offset_warnings(const model::Model& model) {
       const std::string path = "bearings." + bearing.name + (shell ? ".shell_surface" : ".journal_surface");
       warnings.push_back(
           {model.position_of(path), path, offset.text(),
-           fmt::format("a mesh of the bearing's size, to {:.0f} % of the clearance", 100 * SurfaceOffset::told_from),
+           fmt::format("a mesh of the bearing's size, to {:.0f} % of the clearance", 100 * SurfaceOffset::warned_from),
            "the film reckons with the bearing's radius and clearance; from the mesh come deformations alone"});
     }
   return warnings;

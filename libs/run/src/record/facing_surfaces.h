@@ -15,8 +15,8 @@ struct SurfaceOffset {
   double mean = 0;     ///< that of the mesh, mean over the area, less the nominal one [m]
   double share = 0;    ///< its size over the clearance
 
-  static constexpr double told_from = 0.1;  ///< share of the clearance from which on the user is warned
-  [[nodiscard]] bool is_large() const { return share > told_from; }
+  static constexpr double warned_from = 0.1;  ///< share of the clearance from which on the user is warned
+  [[nodiscard]] bool is_large() const { return share > warned_from; }
   [[nodiscard]] std::string text() const;  ///< "nodes at 22.4998 mm in the mean, 0.2 um below the bearing's 22.5 mm"
 };
 

@@ -248,7 +248,7 @@ void describe_link(QuantityGroup& group) {
   describe(force_constants(), "n", group);
 }
 
-void describe_joint_place(QuantityGroup& group) {
+void describe_joint_position(QuantityGroup& group) {
   describe(joint_attributes(), "n", group);
   describe(link_attributes(), "n", group);
   describe(joint_constants(), "n", group);

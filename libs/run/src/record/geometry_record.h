@@ -17,7 +17,7 @@ void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, c
 /// Adds the place of a force between two bodies, a bearing or a contact.
 void describe_link(QuantityGroup& group);
 /// The same of a joint, with its type.
-void describe_joint_place(QuantityGroup& group);
+void describe_joint_position(QuantityGroup& group);
 /// Adds mass and centre of a body.
 void describe_mass(QuantityGroup& group);
 [[nodiscard]] QuantityGroup describe_ground();

@@ -44,7 +44,7 @@ QuantityGroup shapes_of_bodies() {
 
 QuantityGroup joint_group() {
   QuantityGroup group{.path = "/joints/<j>/", .heading = "of a joint", .quantities = {}};
-  describe_joint_place(group);
+  describe_joint_position(group);
   JointRecord::describe(group);
   return group;
 }

@@ -244,14 +244,14 @@ class QuantityRows {
     if (entries_->empty()) return;
     block_.append([&](std::span<double> rows) {
       for (const Entry& entry : *entries_)
-        entry.quantity->fill_in(thing, entry.place, rows.subspan(entry.begin, entry.width));
+        entry.quantity->fill_in(thing, entry.index, rows.subspan(entry.begin, entry.width));
     });
   }
 
  private:
   struct Entry {
     const Quantity<Thing, Plan>* quantity;
-    std::size_t place;  ///< in a family
+    std::size_t index;  ///< in a family
     std::size_t begin, width;
     bool operator==(const Entry&) const = default;
   };

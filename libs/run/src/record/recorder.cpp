@@ -59,11 +59,11 @@ Hidden hidden_parts(const model::Machine& machine) {
   return hidden;
 }
 
-std::vector<std::size_t> places_of_shown(const std::vector<bool>& hidden) {
-  std::vector<std::size_t> places;
+std::vector<std::size_t> indices_of_shown(const std::vector<bool>& hidden) {
+  std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < hidden.size(); ++i)
-    if (!hidden[i]) places.push_back(i);
-  return places;
+    if (!hidden[i]) indices.push_back(i);
+  return indices;
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
 void Recorder::declare() {
   const mbd::MechanismSpec& spec = machine_.mechanism->spec();
   const Hidden hidden = hidden_parts(machine_);
-  shown_bodies_ = places_of_shown(hidden.bodies);
-  shown_joints_ = places_of_shown(hidden.joints);
+  shown_bodies_ = indices_of_shown(hidden.bodies);
+  shown_joints_ = indices_of_shown(hidden.joints);
   system_.emplace(model_, writer_);
   bodies_.reserve(shown_bodies_.size());
   joints_.reserve(shown_joints_.size());

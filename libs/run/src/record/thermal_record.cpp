@@ -14,11 +14,11 @@ using Statistic = SummaryRow::Statistic;
 
 /// Places of the bodies among the nodes; surroundings keep the temperature that the model gives them.
 std::vector<Eigen::Index> bodies(const model::Model& model) {
-  std::vector<Eigen::Index> places;
+  std::vector<Eigen::Index> indices;
   const std::vector<film::ThermalNode>& nodes = model.thermal.network.nodes;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (!nodes[k].is_fixed) places.push_back(static_cast<Eigen::Index>(k));
-  return places;
+    if (!nodes[k].is_fixed) indices.push_back(static_cast<Eigen::Index>(k));
+  return indices;
 }
 
 std::vector<std::string> body_names(const model::Model& model) {

@@ -28,9 +28,9 @@ std::string scheme_of(const model::Coupling& coupling) {
 }  // namespace
 
 void StepCounts::take(int count) {
-  const auto place = static_cast<std::size_t>(std::max(count, 0));
-  if (place >= times_.size()) times_.resize(place + 1, 0);
-  ++times_[place];
+  const auto index = static_cast<std::size_t>(std::max(count, 0));
+  if (index >= times_.size()) times_.resize(index + 1, 0);
+  ++times_[index];
 }
 
 PerStep StepCounts::per_step() const {

@@ -53,14 +53,14 @@ Outcome MachineRun::step(double limit) {
   if (!step.solved()) {
     // A journal that touches has been told so already.
     const bool is_advised = step.message.find("asperities") != std::string::npos;
-    if (const std::string why = thermal_trouble(machine_, true); !why.empty())
+    if (const std::string why = thermal_failure(machine_, true); !why.empty())
       return no_answer<Outcome>(
           fmt::format("t = {:.6g} s: {}; no step goes on from there: {}", state_.t, why, step.message));
     return no_answer<Outcome>(step.message + (is_advised ? "" : record_.thin_films()));
   }
   if (model_.thermal_walls == model::ThermalWalls::transient) warm_bodies(machine_, step.dt);
   record(step);
-  if (const std::string why = thermal_trouble(machine_); !why.empty())
+  if (const std::string why = thermal_failure(machine_); !why.empty())
     return no_answer<Outcome>(fmt::format("t = {:.6g} s: {}", state_.t, why));
   return {Ending::solved};
 }

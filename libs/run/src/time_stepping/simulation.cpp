@@ -51,7 +51,7 @@ struct Simulation::Impl {
     for (const results::LatestRow& row : snapshot.latest()) {
       // Fields and cycles have instants of their own.
       if (row.path.find("/fields/") != std::string::npos || row.path.find("/cycles/") != std::string::npos) continue;
-      places[dotted(row.path)] = rows.size();
+      index_of[dotted(row.path)] = rows.size();
       rows.push_back(static_cast<std::size_t>(&row - snapshot.latest().data()));
       outputs.push_back({dotted(row.path), row.unit, row.text, row.shape, row.components});
     }
@@ -96,10 +96,10 @@ struct Simulation::Impl {
     is_shown = false;
   }
 
-  [[nodiscard]] const std::vector<double>& values_of(std::size_t place) {
-    if (!restored.empty()) return restored.at(place);
+  [[nodiscard]] const std::vector<double>& values_of(std::size_t index) {
+    if (!restored.empty()) return restored.at(index);
     show();
-    return snapshot.latest()[rows.at(place)].values;
+    return snapshot.latest()[rows.at(index)].values;
   }
 
   // What a step shows is not all kept from step to step: a restored state shows what was seen when it was saved.
@@ -139,7 +139,7 @@ struct Simulation::Impl {
   Recorder snapshot;
   std::vector<OutputInfo> outputs;
   std::vector<std::size_t> rows;  // of outputs, places in the snapshot
-  std::map<std::string, std::size_t> places;
+  std::map<std::string, std::size_t> index_of;
   Jump jump = Jump::none;
   std::vector<std::vector<double>> restored;  // outputs at a state that was restored; empty behind a step
   bool is_shown = false, is_finished = false;
@@ -205,14 +205,14 @@ double Simulation::input(const std::string& name) const {
 const std::vector<OutputInfo>& Simulation::outputs() const { return impl_->outputs; }
 
 const std::vector<double>& Simulation::output(const std::string& name) const {
-  const auto found = impl_->places.find(name);
-  if (found != impl_->places.end()) return output(found->second);
+  const auto found = impl_->index_of.find(name);
+  if (found != impl_->index_of.end()) return output(found->second);
   std::vector<std::string> names;
   for (const OutputInfo& info : impl_->outputs) names.push_back(info.name);
   throw InputError(Fault{{}, "", "no output '" + name + "'", one_of(names), did_you_mean(name, names)});
 }
 
-const std::vector<double>& Simulation::output(std::size_t place) const { return impl_->values_of(place); }
+const std::vector<double>& Simulation::output(std::size_t index) const { return impl_->values_of(index); }
 
 Archive::Content Simulation::save() {
   Archive archive;

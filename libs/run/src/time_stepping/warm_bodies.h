@@ -17,6 +17,6 @@ void settle_walls(model::Machine& machine);
 
 /// What temperatures have done to a film that cannot go on from there: "bearing main: a seizure ..."; else empty.
 /// @param has_failed  the next step has found no end: a clearance that has all but closed is then why
-[[nodiscard]] std::string thermal_trouble(const model::Machine& machine, bool has_failed = false);
+[[nodiscard]] std::string thermal_failure(const model::Machine& machine, bool has_failed = false);
 
 }  // namespace hersey::run

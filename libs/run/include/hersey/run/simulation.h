@@ -78,7 +78,7 @@ class Simulation {
   /// At time(), row-major [SI]. @throws InputError naming the nearest output where there is none
   [[nodiscard]] const std::vector<double>& output(const std::string& name) const;
   /// By its place in outputs().
-  [[nodiscard]] const std::vector<double>& output(std::size_t place) const;
+  [[nodiscard]] const std::vector<double>& output(std::size_t index) const;
 
   /// State and inputs, in memory: going on from it gives the same bits. Of this model and version of the program.
   [[nodiscard]] Archive::Content save();
