@@ -141,8 +141,8 @@ bearing::SteadySummary solve_at(film::FilmModel& film, const bearing::OperatingP
 
 // Stiffness and damping with temperatures that follow the motion, where that is asked for; false where they are not
 // found.
-bool let_heat_follow(const model::Bearing& bearing, const BearingStudyOptions& options,
-                     const bearing::SteadyOptions& steady, BearingSolution& solution) {
+bool solve_heat(const model::Bearing& bearing, const BearingStudyOptions& options, const bearing::SteadyOptions& steady,
+                BearingSolution& solution) {
   if (options.thermal_coefficients == ThermalCoefficients::frozen || !solution.has_temperatures()) return true;
   require_coefficients(bearing, options.thermal_coefficients);
   bearing::SteadyOptions nearby = steady;
@@ -202,7 +202,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   const bearing::DynamicCoefficients frozen = bearing::phase_averaged_coefficients(
       solution.state, bearing::turned_films(solution.model, solution.state, steady));
   solution.state.coefficients = frozen;
-  if (!let_heat_follow(bearing, options, steady, solution)) return;
+  if (!solve_heat(bearing, options, steady, solution)) return;
   const double omega = std::abs(point.entraining_speed());
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
@@ -463,8 +463,8 @@ struct RunSolver::Impl {
   std::string path;
   std::vector<std::string> given;
   KnownBodies bodies;
-  std::map<std::string, std::optional<BearingSolution>> as_it_stands;  ///< by bearing; empty: has no solution
-  std::optional<model::ModelFile> file;                                ///< once it was readable
+  std::map<std::string, std::optional<BearingSolution>> unchanged;  ///< by bearing; empty: has no solution
+  std::optional<model::ModelFile> file;                             ///< once it was readable
 
   model::Model read(const std::vector<std::string>& overrides) {
     if (!file) file.emplace(path);
@@ -481,9 +481,9 @@ struct RunSolver::Impl {
   }
 
   const BearingSolution* start_of(const std::string& bearing) {
-    const auto known = as_it_stands.find(bearing);
-    if (known != as_it_stands.end()) return known->second ? &*known->second : nullptr;
-    std::optional<BearingSolution>& kept = as_it_stands[bearing];
+    const auto known = unchanged.find(bearing);
+    if (known != unchanged.end()) return known->second ? &*known->second : nullptr;
+    std::optional<BearingSolution>& kept = unchanged[bearing];
     try {
       kept = attempt(read(given), {given, "", "", {}}, bearing, nullptr);
       if (!kept->solved()) kept.reset();

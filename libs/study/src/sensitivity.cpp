@@ -147,11 +147,11 @@ class MeanCoefficients {
   [[nodiscard]] bool complete_beside(const bearing::BearingBeside& side, bearing::SteadyState& state) {
     std::vector<bearing::TurnedFilm> films = films_;
     for (std::size_t k = 0; k < films.size(); ++k) {
-      bearing::BearingBeside held = side;
-      held.model.grid = films[k].model.grid;
-      held.point.load.reset();
-      held.point.e = state.e;
-      std::optional<bearing::SteadyState> found = derivatives_[k].beside(held);
+      bearing::BearingBeside fixed_film = side;
+      fixed_film.model.grid = films[k].model.grid;
+      fixed_film.point.load.reset();
+      fixed_film.point.e = state.e;
+      std::optional<bearing::SteadyState> found = derivatives_[k].beside(fixed_film);
       if (!found) return false;
       films[k].state = std::move(*found);
     }

@@ -11,7 +11,7 @@
 
 // What must not matter: the side from which a place comes to a node, the sense of rotation, and nodes along the edges.
 namespace hersey::study {
-namespace places_and_edges_test {
+namespace positions_and_edges_test {
 
 const std::string hot_line = R"(hersey: 1
 parameters: {s: 3000 rpm, a: -90 deg, l: 90 deg, p: -60 deg, w: 0}
@@ -65,7 +65,7 @@ bearings:
 )";
 
 BearingSolution solved(const std::string& model, const std::vector<std::string>& overrides, bool grid_error = false) {
-  const std::string path = "places_and_edges_test.yaml";
+  const std::string path = "positions_and_edges_test.yaml";
   std::ofstream(path) << model;
   auto solutions = solve_bearings(path, {{overrides, "", "", {}}}, {.bearing = "", .grid_error = grid_error});
   std::filesystem::remove(path);
@@ -160,5 +160,5 @@ TEST_CASE("ColumnOnAnAbsoluteScale_IsThatOnAGaugeScale") {
   }
 }
 
-}  // namespace places_and_edges_test
+}  // namespace positions_and_edges_test
 }  // namespace hersey::study
