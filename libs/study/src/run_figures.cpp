@@ -158,7 +158,7 @@ std::vector<std::string> names_for(const std::string& pattern, const std::vector
   return found;
 }
 
-void add_told(const Reader& reader, const Series& series, std::vector<RunFigure>& figures) {
+void add_summary_rows(const Reader& reader, const Series& series, std::vector<RunFigure>& figures) {
   for (const run::QuantityGroup& group : run::result_quantities()) {
     const std::size_t open = group.path.find('<');
     const std::vector<std::string> things =
@@ -253,7 +253,7 @@ void add_wanted(const Reader& reader, const Series& series, const std::string& n
 std::vector<RunFigure> figures_of(const Reader& reader, const std::vector<std::string>& wanted) {
   const Series series(reader);
   std::vector<RunFigure> figures;
-  add_told(reader, series, figures);
+  add_summary_rows(reader, series, figures);
   add_modes(reader, figures);
   std::set<std::string> known;
   for (const RunFigure& figure : figures) known.insert(figure.key);

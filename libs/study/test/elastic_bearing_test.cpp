@@ -313,8 +313,8 @@ TEST_CASE("ElasticJournal_IsTheMeanOfATurnInARun") {
   const results::Reader reader(results);
   const auto mean = [&](const char* name) {
     const std::vector<double> values = reader.read(std::string("/bearings/main/") + name).values;
-    constexpr int turn = 40;  // steps
-    return std::accumulate(values.end() - turn, values.end(), 0.0) / turn;
+    constexpr int revolution = 40;  // steps
+    return std::accumulate(values.end() - revolution, values.end(), 0.0) / revolution;
   };
   // Ripple of functions and elements in the mean of a turn.
   CHECK(alone.numbers.eccentricity_ratio == doctest::Approx(mean("eccentricity_ratio")).epsilon(1e-3));

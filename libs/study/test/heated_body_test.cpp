@@ -128,9 +128,9 @@ TEST_CASE("RingThatExpands_OpensItsBearing_OrClosesItWhereItIsHeld") {
   CHECK(figure(free, "bore_distortion") < 0.2 * growth);
   CHECK(figure(free, "load") < 0.8 * figure(cold, "load"));
   CHECK(figure(free, "h_min") == doctest::Approx(43.5 + growth).epsilon(0.02));  // um; and a distortion of half of one
-  const BearingSolution held = solved({expands, "bodies.ring.flexible.heat.fixed=[outside]"});
-  CHECK(figure(held, "bore_growth") < -10);
-  CHECK(figure(held, "load") > 1.5 * figure(cold, "load"));
+  const BearingSolution supported = solved({expands, "bodies.ring.flexible.heat.fixed=[outside]"});
+  CHECK(figure(supported, "bore_growth") < -10);
+  CHECK(figure(supported, "load") > 1.5 * figure(cold, "load"));
   // At the reference temperature of its surroundings it is cold where no film warms it.
   const BearingSolution warm = solved({expands, "bodies.ring.flexible.heat.reference_temperature=40 degC"});
   CHECK(figure(warm, "bore_growth") ==
