@@ -201,8 +201,8 @@ TEST_CASE("FacesThatTouch_DoNotBelongToABodyOfFiniteStrain") {
   const std::string with_ball = edited(with_pad, "joints:\n", ball + contact + "joints:\n");
   const std::string nodal = edited(edited(with_ball, "modes: 0", "form: nodal"), ", connection: average", "");
   CHECK(faults_of(nodal) == "no fault");
-  const std::string told = faults_of(edited(nodal, "form: nodal", "form: nodal\n      strain: finite"));
-  CHECK(contains(told, "contacts.hit.between.1: faces that deform of a body of finite strain"));
+  const std::string faults_after = faults_of(edited(nodal, "form: nodal", "form: nodal\n      strain: finite"));
+  CHECK(contains(faults_after, "contacts.hit.between.1: faces that deform of a body of finite strain"));
 }
 
 TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {
@@ -254,15 +254,15 @@ TEST_CASE("SurfaceLoad_IsReadWithItsFaces") {
 
 TEST_CASE("SurfaceLoad_FaultsNameWhatIsThere") {
   const MeshFile file;
-  const auto told = [&](const std::string& from, const std::string& to) {
+  const auto faults_after = [&](const std::string& from, const std::string& to) {
     return faults_of(kMachine + edited(kPressure, from, to));
   };
-  CHECK(contains(told("faces: right", "faces: rihgt"), "forces.gas.faces: unknown surface or set 'rihgt'"));
-  CHECK(contains(told("faces: right", "faces: rihgt"), "did you mean 'right'"));
-  CHECK(contains(told("faces: right", "faces: edge"), "whose nodes make up no face"));
-  CHECK(contains(told("body: bar", "body: brr"), "forces.gas.body: unknown body 'brr'"));
-  CHECK(contains(told("pressure: 2 MPa", "pressure: 2 N"), "forces.gas.pressure"));
-  CHECK(contains(told("2 MPa", "{expression: \"clamp.rotation\", unit: MPa}"),
+  CHECK(contains(faults_after("faces: right", "faces: rihgt"), "forces.gas.faces: unknown surface or set 'rihgt'"));
+  CHECK(contains(faults_after("faces: right", "faces: rihgt"), "did you mean 'right'"));
+  CHECK(contains(faults_after("faces: right", "faces: edge"), "whose nodes make up no face"));
+  CHECK(contains(faults_after("body: bar", "body: brr"), "forces.gas.body: unknown body 'brr'"));
+  CHECK(contains(faults_after("pressure: 2 MPa", "pressure: 2 N"), "forces.gas.pressure"));
+  CHECK(contains(faults_after("2 MPa", "{expression: \"clamp.rotation\", unit: MPa}"),
                  "a load on a mesh that follows 'clamp.rotation'"));
   CHECK(contains(faults_of(edited(good_model, "forces:\n",
                                   "forces:\n  gas2: {type: pressure, body: rod, faces: a, "
@@ -298,13 +298,16 @@ TEST_CASE("ReducedBody_TakesThePlaceOfItsMesh") {
   CHECK((a.stiffness - b.stiffness).norm() < 1e-12 * b.stiffness.norm());
   CHECK(a.mass == doctest::Approx(b.mass).epsilon(1e-14));  // round-off of sums over the mesh
   CHECK(of_file.surface_loads.size() == 1);
-  const auto told = [&](const std::string& from, const std::string& to) { return faults_of(edited(text, from, to)); };
-  CHECK(contains(told("bar.root", "bar.rot"),
+  const auto faults_after = [&](const std::string& from, const std::string& to) {
+    return faults_of(edited(text, from, to));
+  };
+  CHECK(contains(faults_after("bar.root", "bar.rot"),
                  "unknown frame 'rot' of body 'bar'; did you mean 'root'? expected root or tip"));
-  CHECK(contains(told("bar.h5", "br.h5"), "bodies.bar.flexible.reduced"));
-  CHECK(contains(told("bar.h5\n", "bar.h5\n      modes: 3\n"), "`modes` of a reduced body"));
-  CHECK(contains(told("bar.h5\n", "bar.h5\n    frames: {tp: {}}\n"), "frame 'tp', which the reduced body has not"));
-  CHECK(contains(told("bar.h5\n", "bar.h5\n    frames: {tip: {nodes: right}}\n"),
+  CHECK(contains(faults_after("bar.h5", "br.h5"), "bodies.bar.flexible.reduced"));
+  CHECK(contains(faults_after("bar.h5\n", "bar.h5\n      modes: 3\n"), "`modes` of a reduced body"));
+  CHECK(contains(faults_after("bar.h5\n", "bar.h5\n    frames: {tp: {}}\n"),
+                 "frame 'tp', which the reduced body has not"));
+  CHECK(contains(faults_after("bar.h5\n", "bar.h5\n    frames: {tip: {nodes: right}}\n"),
                  "`nodes` of a frame of a reduced body"));
   std::filesystem::remove("flexible_test_bar.h5");
 }
@@ -334,12 +337,12 @@ TEST_CASE("OrthotropicMaterial_WithEqualConstantsIsTheIsotropicOne") {
   const Eigen::MatrixXd K = stiffness(edited(kMachine, isotropic, nine));
   // Round-off of nine constants, turned.
   CHECK((K - stiffness(edited(kMachine, "210 GPa", "208 GPa"))).norm() < 1e-9 * K.norm());
-  const auto told = [&](const std::string& from, const std::string& to) {
+  const auto faults_after = [&](const std::string& from, const std::string& to) {
     return faults_of(edited(kMachine, isotropic, edited(nine, from, to)));
   };
-  CHECK(contains(told("[0.3, ", "[1.2, "), "material.orthotropic: constants of no material"));
-  CHECK(contains(told("208 208 208", "208 -1 208"), "constants of no material"));
-  CHECK(contains(told("[0.3, 0.3, 0.3]", "[0.3, 0.3]"), "poisson_ratios"));
+  CHECK(contains(faults_after("[0.3, ", "[1.2, "), "material.orthotropic: constants of no material"));
+  CHECK(contains(faults_after("208 208 208", "208 -1 208"), "constants of no material"));
+  CHECK(contains(faults_after("[0.3, 0.3, 0.3]", "[0.3, 0.3]"), "poisson_ratios"));
   CHECK(contains(faults_of(edited(kMachine, "youngs_modulus: 210 GPa, ", "")), "material"));
 }
 

@@ -27,11 +27,11 @@ Bearing read_bearing(const std::string& oil, const std::string& thermal) {
   return read_text(with(oil, thermal), "m.yaml").bearings.at(0);
 }
 
-bool tells(const std::string& oil, const std::string& thermal, const std::string& what) {
-  const std::string told = faults_of(with(oil, thermal));
-  CAPTURE(told);
-  CHECK(told.find(what) != std::string::npos);
-  return told.find(what) != std::string::npos;
+bool reports(const std::string& oil, const std::string& thermal, const std::string& what) {
+  const std::string faults_after = faults_of(with(oil, thermal));
+  CAPTURE(faults_after);
+  CHECK(faults_after.find(what) != std::string::npos);
+  return faults_after.find(what) != std::string::npos;
 }
 
 TEST_CASE("Oils_HaveTheViscosityOfTheirTemperature") {
@@ -177,64 +177,65 @@ TEST_CASE("MaterialsThatRub_AreRead") {
   const auto& heat = std::get<film::ThermalModel>(bearing.heat);
   CHECK(heat.shell_surface.effusivity() == relative(std::sqrt(55 * 7300 * 230.0)).epsilon(digits));
   CHECK(heat.journal_surface.effusivity() == relative(std::sqrt(50 * 3.6e6)).epsilon(digits));  // steel
-  CHECK(tells("grade: iso_vg_46", with_materials(", conductivity: 55 W/m/K, specific_heat: 230 J/kg/K"),
-              "a `specific_heat` and no `density`"));
-  CHECK(tells("grade: iso_vg_46", with_materials(", density: 7300 kg/m^3, conductivity: 55 W/m/K"), "specific_heat"));
+  CHECK(reports("grade: iso_vg_46", with_materials(", conductivity: 55 W/m/K, specific_heat: 230 J/kg/K"),
+                "a `specific_heat` and no `density`"));
+  CHECK(reports("grade: iso_vg_46", with_materials(", density: 7300 kg/m^3, conductivity: 55 W/m/K"), "specific_heat"));
 }
 
 TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
-  CHECK(tells("grade: iso_vg_47, temperature: 50 degC", "", "did you mean 'iso_vg_46'"));
-  CHECK(tells("density: 850 kg/m^3", "", "a lubricant without a viscosity"));
-  CHECK(tells("grade: iso_vg_46", "", "viscosity falls with temperature, and no temperature"));
-  CHECK(tells("viscosity: {law: walther, nu40: 6 mm^2/s, nu100: 46 mm^2/s}, temperature: 50 degC", "",
-              "are both in the wrong order?"));
+  CHECK(reports("grade: iso_vg_47, temperature: 50 degC", "", "did you mean 'iso_vg_46'"));
+  CHECK(reports("density: 850 kg/m^3", "", "a lubricant without a viscosity"));
+  CHECK(reports("grade: iso_vg_46", "", "viscosity falls with temperature, and no temperature"));
+  CHECK(reports("viscosity: {law: walther, nu40: 6 mm^2/s, nu100: 46 mm^2/s}, temperature: 50 degC", "",
+                "are both in the wrong order?"));
   CHECK(
-      tells("viscosity: {law: table, temperatures: [40 degC, 60 degC], viscosities: [10 mPa.s, 12 mPa.s]}, "
-            "temperature: 50 degC",
-            "", "an oil that thickens as it is heated"));
+      reports("viscosity: {law: table, temperatures: [40 degC, 60 degC], viscosities: [10 mPa.s, 12 mPa.s]}, "
+              "temperature: 50 degC",
+              "", "an oil that thickens as it is heated"));
   CHECK(
-      tells("viscosity: {law: table, temperatures: [60 degC, 40 degC], viscosities: [10 mPa.s, 9 mPa.s]}, "
-            "temperature: 50 degC",
-            "", "temperatures that ascend"));
-  CHECK(tells("grade: iso_vg_46",
-              "model: film, supply_temperature: 50 degC, shell: {wall: ring, outer_diameter: 90 mm, "
-              "ambient: 20 degC}",
-              "a ring no larger than its bore"));
-  CHECK(tells("grade: iso_vg_46", "model: global", "nothing that takes the heat away"));
+      reports("viscosity: {law: table, temperatures: [60 degC, 40 degC], viscosities: [10 mPa.s, 9 mPa.s]}, "
+              "temperature: 50 degC",
+              "", "temperatures that ascend"));
+  CHECK(reports("grade: iso_vg_46",
+                "model: film, supply_temperature: 50 degC, shell: {wall: ring, outer_diameter: 90 mm, "
+                "ambient: 20 degC}",
+                "a ring no larger than its bore"));
+  CHECK(reports("grade: iso_vg_46", "model: global", "nothing that takes the heat away"));
   const auto tabled = [](const std::string& rows) {
     return "temperature: 50 degC, viscosity: {law: table, temperatures: [40 degC, 80 degC], " + rows + "}";
   };
-  CHECK(tells(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s]]"), "",
-              "a list of 2, one for each pressure"));
-  CHECK(tells(tabled("viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]"), "", "'pressures' of the table"));
-  CHECK(tells(tabled("pressures: [1 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]"), "",
-              "a first pressure that is not 0"));
-  CHECK(tells(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 20 mPa.s], [9 mPa.s, 20 mPa.s]]"), "",
-              "an oil that thins under pressure"));
-  CHECK(tells(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 95 mPa.s]]"), "",
-              "an oil that thickens as it is heated"));
-  CHECK(tells(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]") +
-                  ", pressure_viscosity: 1e-8 1/Pa",
-              "", "a second law of pressure"));
+  CHECK(reports(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s]]"), "",
+                "a list of 2, one for each pressure"));
+  CHECK(reports(tabled("viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]"), "", "'pressures' of the table"));
+  CHECK(reports(tabled("pressures: [1 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]"), "",
+                "a first pressure that is not 0"));
+  CHECK(reports(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 20 mPa.s], [9 mPa.s, 20 mPa.s]]"), "",
+                "an oil that thins under pressure"));
+  CHECK(reports(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 95 mPa.s]]"), "",
+                "an oil that thickens as it is heated"));
+  CHECK(reports(tabled("pressures: [0 MPa, 100 MPa], viscosities: [[30 mPa.s, 90 mPa.s], [9 mPa.s, 20 mPa.s]]") +
+                    ", pressure_viscosity: 1e-8 1/Pa",
+                "", "a second law of pressure"));
   const auto sheared = [](const std::string& law) { return "viscosity: 10 mPa.s, shear_thinning: {" + law + "}"; };
+  CHECK(reports(sheared("law: cross, exponent: 0.8"), "",
+                "none of the keys 'critical_shear_rate' and 'critical_stress'"));
   CHECK(
-      tells(sheared("law: cross, exponent: 0.8"), "", "none of the keys 'critical_shear_rate' and 'critical_stress'"));
-  CHECK(tells(sheared("law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_ratio: 0.5, limit_viscosity: 5 mPa.s"),
+      reports(sheared("law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_ratio: 0.5, limit_viscosity: 5 mPa.s"),
               "", "two limits of the same oil"));
-  CHECK(tells(sheared("law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 12 mPa.s"), "",
-              "a limit above the viscosity at rest, 10 mPa.s"));
-  CHECK(tells(sheared("law: cross, exponent: 2, critical_stress: 1 kPa, limit_ratio: 0.1"), "",
-              "an exponent of at most 1, or with this one a limit_ratio above 0.111"));
-  CHECK(
-      tells("grade: iso_vg_46, shear_thinning: {law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 5 "
-            "mPa.s}",
-            "model: isothermal, temperature: 50 degC", "a `temperature` of the lubricant, or a 'limit_ratio'"));
-  CHECK(tells(
+  CHECK(reports(sheared("law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 12 mPa.s"), "",
+                "a limit above the viscosity at rest, 10 mPa.s"));
+  CHECK(reports(sheared("law: cross, exponent: 2, critical_stress: 1 kPa, limit_ratio: 0.1"), "",
+                "an exponent of at most 1, or with this one a limit_ratio above 0.111"));
+  CHECK(reports(
+      "grade: iso_vg_46, shear_thinning: {law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 5 "
+      "mPa.s}",
+      "model: isothermal, temperature: 50 degC", "a `temperature` of the lubricant, or a 'limit_ratio'"));
+  CHECK(reports(
       "grade: iso_vg_46",
       "model: film, supply_temperature: 50 degC}\n    edge_pressure: closed\n    cavitation: {model: mass_conserving",
       "it has nowhere to go"));
-  CHECK(tells("grade: iso_vg_46", "model: film, supply_temperature: 50 degC}\n    cavitation: {model: reynolds",
-              "`carry_over: 0`"));
+  CHECK(reports("grade: iso_vg_46", "model: film, supply_temperature: 50 degC}\n    cavitation: {model: reynolds",
+                "`carry_over: 0`"));
 }
 
 std::string film_with(const std::string& supply, const std::string& more, const std::string& thermal) {
@@ -245,10 +246,10 @@ std::string film_with(const std::string& supply, const std::string& more, const 
 }
 
 bool has_fault(const std::string& text, const std::string& what) {
-  const std::string told = faults_of(text);
-  CAPTURE(told);
-  CHECK(told.find(what) != std::string::npos);
-  return told.find(what) != std::string::npos;
+  const std::string faults_after = faults_of(text);
+  CAPTURE(faults_after);
+  CHECK(faults_after.find(what) != std::string::npos);
+  return faults_after.find(what) != std::string::npos;
 }
 
 const std::string hot_film = "model: film, supply_temperature: 50 degC";

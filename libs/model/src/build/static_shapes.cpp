@@ -58,7 +58,7 @@ StaticShapes of_nodal_body(const Body& body, const DeformingSurface& surface, co
   const fem::ElasticBody mesh = assembled(body);
   const fem::StaticAnswers answers =
       fem::static_answers(mesh, interface_frames(body), *surface.surface, X.r, X.R.col(2));
-  if (!answers.solved()) throw cannot_be_held(body, answers.message);
+  if (!answers.solved()) throw insufficient_supports(body, answers.message);
   StaticShapes shapes;
   for (const Frame& each : body.frames) shapes.at.push_back(each.X_BF.r);
   const Index frames = answers.stiffness.rows() - 6;

@@ -32,7 +32,7 @@ std::string enumeration(const std::vector<std::string>& names) {
 }
 
 /// Where a value stands and how it is called: all that a check needs besides node and type.
-struct Place {
+struct Location {
   std::string path;
   SourcePosition key_position;
 };
@@ -45,12 +45,12 @@ class Checker {
   /// Where to note numbers without unit; null: nowhere.
   void note_bare_numbers(std::vector<BareNumber>* into) { bare_ = into; }
 
-  Value check(const Node& node, const Type& type, const Place& place) {
+  Value check(const Node& node, const Type& type, const Location& location) {
     Value value;
     value.type = &type;
     value.position = node.position;
-    value.key_position = place.key_position;
-    value.path = place.path;
+    value.key_position = location.key_position;
+    value.path = location.path;
     value.text_offset = node.text_offset;
     // Templates have been put in: what is left of them says nothing.
     if (node.reported || type.kind == Kind::part) {
@@ -347,13 +347,13 @@ class Checker {
     }
     for (const Key* key : keys) {
       const Node* child = node.find(key->name);
-      const Place place{joined(value.path, key->name), position_of(node, key->name, value)};
+      const Location location{joined(value.path, key->name), position_of(node, key->name, value)};
       if (child != nullptr) {
-        value.members.push_back({key->name, check(*child, *key->type, place)});
+        value.members.push_back({key->name, check(*child, *key->type, location)});
       } else if (key->required) {
         report_missing(value, key->name, key->type->expectation());
       } else if (key->default_text) {
-        value.members.push_back({key->name, default_value(*key, place)});
+        value.members.push_back({key->name, default_value(*key, location)});
       }
     }
   }
@@ -383,12 +383,12 @@ class Checker {
   }
 
   /// The value of a key that was left out; its faults, if any, would be ours.
-  Value default_value(const Key& key, const Place& place) {
+  Value default_value(const Key& key, const Location& location) {
     Node node = parse_yaml(*key.default_text, "", faults_).value_or(Node{});
     if (key.default_text->empty()) node = Node{.kind = Node::Kind::scalar};
-    move_to(node, place.key_position);
+    move_to(node, location.key_position);
     std::map<std::string, SourcePosition> ignored;
-    Value value = Checker(faults_, ignored).check(node, *key.type, place);
+    Value value = Checker(faults_, ignored).check(node, *key.type, location);
     value.given = false;
     return value;
   }

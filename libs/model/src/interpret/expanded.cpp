@@ -85,7 +85,7 @@ std::string expanded_text(const std::string& path, const std::vector<std::string
   std::vector<Fault> faults;
   const std::vector<Override> changes = parse_overrides(overrides, faults);
   std::optional<Node> root = parse_yaml(file_text(path), path, faults);
-  if (root) tell_uses(complete_tree(*root, changes, faults).uses, faults);
+  if (root) name_template_uses(complete_tree(*root, changes, faults).uses, faults);
   if (!faults.empty()) {
     tidy(faults);
     throw InputError(std::move(faults));

@@ -11,9 +11,9 @@ namespace {
 
 /// A fault of a file that `at` names: the file and the line in it become part of what was found.
 Fault at_value(const Value& at, const Fault& fault) {
-  std::string place = fault.position.file;
-  if (fault.position.line > 0) place += ":" + std::to_string(fault.position.line);
-  return {at.position, at.path, place.empty() ? fault.found : place + ": " + fault.found, fault.expected,
+  std::string location = fault.position.file;
+  if (fault.position.line > 0) location += ":" + std::to_string(fault.position.line);
+  return {at.position, at.path, location.empty() ? fault.found : location + ": " + fault.found, fault.expected,
           fault.suggestion};
 }
 

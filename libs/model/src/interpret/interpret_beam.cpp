@@ -12,7 +12,7 @@ namespace hersey::model {
 namespace {
 
 /// Places along the beam closer than this, over its length, are one.
-constexpr double kSamePlace = 1e-9;
+constexpr double kCoincident = 1e-9;
 
 /// Points and what lies between them.
 struct Axis {
@@ -49,9 +49,9 @@ class BeamReader {
     read_inertia(value, beam);
     const std::optional<Axis> axis = axis_of(value);
     if (!axis) return beam;
-    read_places(*axis, frames);
+    read_positions(*axis, frames);
     divide(*axis, integer_of(value, "elements"), beam);
-    for (Frame& frame : frames) frame.nodes = {node_at(places_[frame.name], *axis)};
+    for (Frame& frame : frames) frame.nodes = {node_at(positions_[frame.name], *axis)};
     orient(value, beam);
     return beam;
   }
@@ -143,7 +143,7 @@ class BeamReader {
     return axis;
   }
 
-  void read_places(const Axis& axis, const std::vector<Frame>& frames) {
+  void read_positions(const Axis& axis, const std::vector<Frame>& frames) {
     for (const Frame& frame : frames) {
       const Value& value = *body_.find("frames")->find(frame.name);
       if (const Value* origin = value.find("origin"); origin != nullptr)
@@ -156,20 +156,21 @@ class BeamReader {
         continue;
       }
       if (along->broken) continue;
-      const double place = along->text == "end" ? axis.length() : along->text == "start" ? 0 : along->number;
-      if (place > axis.length() * (1 + kSamePlace))
-        context_.fault(*along, fmt::format("a place {:g} mm along a beam of {:g} mm", 1e3 * place, 1e3 * axis.length()),
+      const double position = along->text == "end" ? axis.length() : along->text == "start" ? 0 : along->number;
+      if (position > axis.length() * (1 + kCoincident))
+        context_.fault(*along,
+                       fmt::format("a place {:g} mm along a beam of {:g} mm", 1e3 * position, 1e3 * axis.length()),
                        "a place on the beam", "for its last point write `along: end`");
-      places_[frame.name] = std::min(place, axis.length());
+      positions_[frame.name] = std::min(position, axis.length());
     }
   }
 
   /// Elements of about one length with ends on all points and frames.
   void divide(const Axis& axis, int elements, Beam& beam) {
     std::vector<double> ends = axis.distance;
-    for (const auto& [name, place] : places_) ends.push_back(place);
+    for (const auto& [name, position] : positions_) ends.push_back(position);
     std::sort(ends.begin(), ends.end());
-    const auto same = [&](double a, double b) { return b - a < kSamePlace * axis.length(); };
+    const auto same = [&](double a, double b) { return b - a < kCoincident * axis.length(); };
     ends.erase(std::unique(ends.begin(), ends.end(), same), ends.end());
     nodes_ = {0};
     for (std::size_t i = 1; i < ends.size(); ++i) {
@@ -177,19 +178,19 @@ class BeamReader {
       const int count = std::max(1, static_cast<int>(std::lround(elements * piece / axis.length())));
       for (int k = 1; k <= count; ++k) nodes_.push_back(ends[i - 1] + piece * k / count);
     }
-    for (const double place : nodes_) beam.nodes.push_back(point_at(axis, place) - axis.points.front());
+    for (const double position : nodes_) beam.nodes.push_back(point_at(axis, position) - axis.points.front());
   }
 
-  static Vector3 point_at(const Axis& axis, double place) {
+  static Vector3 point_at(const Axis& axis, double position) {
     std::size_t i = 1;
-    while (i + 1 < axis.points.size() && axis.distance[i] < place) ++i;
-    const double share = (place - axis.distance[i - 1]) / (axis.distance[i] - axis.distance[i - 1]);
+    while (i + 1 < axis.points.size() && axis.distance[i] < position) ++i;
+    const double share = (position - axis.distance[i - 1]) / (axis.distance[i] - axis.distance[i - 1]);
     return (1 - share) * axis.points[i - 1] + share * axis.points[i];
   }
 
-  [[nodiscard]] int node_at(double place, const Axis& axis) const {
+  [[nodiscard]] int node_at(double position, const Axis& axis) const {
     const auto near = std::find_if(nodes_.begin(), nodes_.end(), [&](double node) {
-      return std::abs(node - place) < 2 * kSamePlace * axis.length();
+      return std::abs(node - position) < 2 * kCoincident * axis.length();
     });
     return near == nodes_.end() ? 0 : static_cast<int>(near - nodes_.begin());
   }
@@ -214,8 +215,8 @@ class BeamReader {
 
   Context& context_;
   const Value& body_;
-  std::map<std::string, double> places_;  ///< of frames along the beam
-  std::vector<double> nodes_;             ///< their places along it
+  std::map<std::string, double> positions_;  ///< of frames along the beam
+  std::vector<double> nodes_;                ///< their places along it
 };
 
 /// Bodies that are no beams have no length along which a frame could sit.

@@ -348,12 +348,12 @@ const Value* given(const Value& parent, const std::string& key) {
 
 /// Of the undeformed surfaces.
 double smallest_gap(const film::FilmModel& film, const OperatingPoint& point, double epsilon) {
-  bearing::ParameterVector place = bearing::ParameterVector::Zero();
-  place[bearing::kEx] = epsilon * film.c * std::cos(point.eccentricity_angle);
-  place[bearing::kEy] = epsilon * film.c * std::sin(point.eccentricity_angle);
-  place[bearing::kTx] = std::tan(point.tilt_x), place[bearing::kTy] = std::tan(point.tilt_y);
-  place[bearing::kRotation] = point.journal_angle;
-  return bearing::smallest_gap(film, place);
+  bearing::ParameterVector position = bearing::ParameterVector::Zero();
+  position[bearing::kEx] = epsilon * film.c * std::cos(point.eccentricity_angle);
+  position[bearing::kEy] = epsilon * film.c * std::sin(point.eccentricity_angle);
+  position[bearing::kTx] = std::tan(point.tilt_x), position[bearing::kTy] = std::tan(point.tilt_y);
+  position[bearing::kRotation] = point.journal_angle;
+  return bearing::smallest_gap(film, position);
 }
 
 /// Mean pressure on the projected area that no solid bears, whatever the film does: the elastic modulus of diamond.

@@ -76,13 +76,13 @@ CoordinateCoupling coupling_of(Context& context, const std::string& name, const 
 }  // namespace
 
 void interpret_couplings(Context& context) {
-  std::map<std::string, std::string> held;  // joint.coordinate -> what holds it
+  std::map<std::string, std::string> prescribed_by;  // joint.coordinate -> what holds it
   for (const Drive& drive : context.model.drives)
-    held.try_emplace(drive.joint + "." + drive.coordinate, "drive '" + drive.name + "'");
+    prescribed_by.try_emplace(drive.joint + "." + drive.coordinate, "drive '" + drive.name + "'");
   for (const auto& [name, value] : section(context.root, "couplings")) {
     CoordinateCoupling coupling = coupling_of(context, name, value);
     const std::string output = coupling.output.joint + "." + coupling.output.coordinate;
-    const auto [first, is_new] = held.try_emplace(output, "coupling '" + name + "'");
+    const auto [first, is_new] = prescribed_by.try_emplace(output, "coupling '" + name + "'");
     if (!is_new && !coupling.output.joint.empty()) {
       context.fault_at_key(value, "a coupling of " + output + ", which " + first->second + " holds already",
                            "an output that nothing else holds", "couple the driven coordinate as the input instead");

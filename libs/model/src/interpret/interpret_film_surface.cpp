@@ -31,7 +31,7 @@ class FilmSurfaceReader {
     const std::optional<fem::FilmSurface> found =
         surface_of(*body, named, within != nullptr ? within->number : 0, choice);
     if (!found) return std::nullopt;
-    refuse_if_held(*body, *found, choice);
+    refuse_if_supported(*body, *found, choice);
     DeformingSurface surface;
     surface.surface = std::make_shared<const fem::FilmSurface>(*found);
     if (const Value* modes = value_.find("modes")) surface.modes = static_cast<int>(modes->number);
@@ -143,7 +143,7 @@ class FilmSurfaceReader {
   }
 
   /// Nodes that a rigid frame carries do not move against it: no pressure would deform the surface.
-  void refuse_if_held(const Body& body, const fem::FilmSurface& surface, const Value& at) {
+  void refuse_if_supported(const Body& body, const fem::FilmSurface& surface, const Value& at) {
     const fem::Mesh& mesh = *body.flexible->mesh;
     std::vector<const Frame*> holder(mesh.nodes.size(), nullptr);
     for (const Frame& frame : body.frames)

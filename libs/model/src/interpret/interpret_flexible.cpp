@@ -40,7 +40,7 @@ class FlexibleReader {
     if (!mesh) return flexible;
     refuse_ties(value, *mesh, flexible);
     flexible.materials = materials_of(value, *mesh);
-    place_frames(*mesh, frames);
+    locate_frames(*mesh, frames);
     refuse_averages(flexible, frames);
     read_load_surfaces(value, *mesh, flexible);
     if (const Value* heat = value.find("heat")) flexible.heat = body_heat_of(context_, *heat, *mesh);
@@ -246,7 +246,7 @@ class FlexibleReader {
     return m.poisson_ratio ? "density" : "Poisson's ratio";
   }
 
-  void place_frames(const fem::Mesh& mesh, std::vector<Frame>& frames) {
+  void locate_frames(const fem::Mesh& mesh, std::vector<Frame>& frames) {
     if (frames.empty())
       context_.fault_at_key(body_, "a flexible body without frames", "at least one frame on a set of its nodes",
                             "add `frames: {name: {nodes: set}}`");

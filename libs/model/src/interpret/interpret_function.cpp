@@ -182,7 +182,7 @@ class FunctionReader {
     const Value& table = *content.find("table");
     if (table.broken || table.members.empty()) return;
     const Value& source = table.members.front().value;
-    std::optional<Points> points = source.has("file") ? points_from_file(source) : points_in_place(source);
+    std::optional<Points> points = source.has("file") ? points_from_file(source) : inline_points(source);
     if (!points || !variable) return;
     const bool usable = convert_points(*points, source, content, unit_of(*variable)) && check_order(*points);
     const std::optional<double> period = argument_of(content, "period", unit_of(*variable));
@@ -210,7 +210,7 @@ class FunctionReader {
     return variable;
   }
 
-  std::optional<Points> points_in_place(const Value& source) {
+  std::optional<Points> inline_points(const Value& source) {
     const Value* list = source.find("points");
     const Value* x_unit = source.find("x_unit");
     const Value* y_unit = source.find("y_unit");
@@ -253,9 +253,9 @@ class FunctionReader {
 
   /// Turns points into SI: x by its unit, y by its unit times the scale. Reports units that do not fit.
   bool convert_points(Points& points, const Value& source, const Value& content, const std::string& x_si_unit) {
-    const Value& x_place = *source.find(source.has("x_unit") ? "x_unit" : "x");
-    const Value& y_place = *source.find(source.has("y_unit") ? "y_unit" : "y");
-    const std::optional<double> x_factor = unit_factor(context_, x_place, points.x_unit, x_si_unit);
+    const Value& x_source = *source.find(source.has("x_unit") ? "x_unit" : "x");
+    const Value& y_source = *source.find(source.has("y_unit") ? "y_unit" : "y");
+    const std::optional<double> x_factor = unit_factor(context_, x_source, points.x_unit, x_si_unit);
     const Value& scale_value = *content.find("scale");
     Quantity scale;
     try {
@@ -268,7 +268,7 @@ class FunctionReader {
     const std::string unit =
         has_y_unit && has_scale_unit ? "(" + points.y_unit + ").(" + scale.unit + ")" : points.y_unit + scale.unit;
     const std::optional<double> y_factor =
-        unit_factor(context_, has_scale_unit ? scale_value : y_place, unit, si_unit_);
+        unit_factor(context_, has_scale_unit ? scale_value : y_source, unit, si_unit_);
     if (!x_factor || !y_factor) return false;
     for (double& x : points.x) x *= *x_factor;
     for (double& y : points.y) y *= *y_factor * scale.number;

@@ -58,9 +58,9 @@ void require_separate_faces(Context& context) {
     for (const Bearer& bearer : bearers) {
       const Bearer* other = nullptr;
       for (const fem::ElementFace face : *bearer.faces) {
-        const auto [place, is_new] = bearer_of.try_emplace({face.element, face.face}, &bearer);
+        const auto [entry, is_new] = bearer_of.try_emplace({face.element, face.face}, &bearer);
         // Contacts on the very same faces share their answers.
-        if (!is_new && place->second->faces != bearer.faces) other = place->second;
+        if (!is_new && entry->second->faces != bearer.faces) other = entry->second;
       }
       if (other == nullptr) continue;
       context.fault(

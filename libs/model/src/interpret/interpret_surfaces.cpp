@@ -73,7 +73,7 @@ class SurfaceReader {
       if (value.broken) continue;
       film_.features.push_back(feature_of(value, name));
       read_feed(value, film_.features.back());
-      check_place(value, film_.features.back());
+      check_position(value, film_.features.back());
       check_overlap(value);
       warn_of_added_depths(value);
       check_line(value);
@@ -118,7 +118,7 @@ class SurfaceReader {
     return feature;
   }
 
-  void check_place(const Value& value, const film::SurfaceFeature& feature) {
+  void check_position(const Value& value, const film::SurfaceFeature& feature) {
     const double reach = std::abs(feature.z) + 0.5 * feature.length, round_off = 1e-9 * film_.L;
     if (film_.L > 0 && reach > 0.5 * film_.L + round_off) {
       context_.fault_at_key(value, fmt::format("it reaches {:.4g} mm from the middle of the bearing", 1e3 * reach),
@@ -160,7 +160,8 @@ class SurfaceReader {
     for (std::size_t k = 0; k < last && feature.is_fed; ++k) {
       const film::SurfaceFeature& other = film_.features[k];
       if (!other.is_fed || (has_pressure(k, feature.pressure) && has_pressure(last, other.pressure))) continue;
-      const std::string name = fmt::format("'{}' ({})", other.name, place_of(*section_value("features", other.name)));
+      const std::string name =
+          fmt::format("'{}' ({})", other.name, position_text(*section_value("features", other.name)));
       if (other.surface == feature.surface) {
         if (film::overlap(feature, other))
           context_.fault_at_key(value, "overlaps " + name + ", which has another pressure",
@@ -182,7 +183,7 @@ class SurfaceReader {
       context_.model.warnings.push_back(
           {value.key_position, value.path,
            fmt::format("overlaps '{}' ({}), and where both lie they are {:.4g} mm deep, the sum of both", other.name,
-                       place_of(*section_value("features", other.name)), 1e3 * (feature.depth + other.depth)),
+                       position_text(*section_value("features", other.name)), 1e3 * (feature.depth + other.depth)),
            "grooves and holes with room between them, or a depth of one of the two alone", ""});
     }
   }
@@ -195,7 +196,7 @@ class SurfaceReader {
     if (film_.supply.kind == film::SupplyKind::none || !feature.is_fed || has_pressure(last, film_.supply.pressure) ||
         supply->broken)
       return;
-    const std::string line = fmt::format("the supply line ({})", place_of(*supply));
+    const std::string line = fmt::format("the supply line ({})", position_text(*supply));
     const bool is_fixed = film_.supply.kind == film::SupplyKind::fixed_angle;
     if (!is_fixed || feature.surface == film::Surface::journal) {
       warn_at_key(value,
@@ -264,7 +265,7 @@ class SurfaceReader {
     return nullptr;
   }
 
-  [[nodiscard]] static std::string place_of(const Value& value) {
+  [[nodiscard]] static std::string position_text(const Value& value) {
     return fmt::format("{}:{}", value.key_position.file, value.key_position.line);
   }
 
@@ -301,27 +302,27 @@ class SurfaceReader {
     const Value* refine = grid->find("refine");
     if (refine == nullptr || context_.has_fault_in(grid->path) || film_.L <= 0 || film_.R <= 0) return;
     std::vector<film::Refinement> around, along;
-    for (const auto& [index, place] : refine->members) {
-      if (place.text == "angle") {
-        around.push_back({number_of(place, "angle"), number_of(place, "reach"), number_of(place, "factor")});
-      } else if (place.text == "edges") {
-        refine_edges(place, along);
+    for (const auto& [index, region] : refine->members) {
+      if (region.text == "angle") {
+        around.push_back({number_of(region, "angle"), number_of(region, "reach"), number_of(region, "factor")});
+      } else if (region.text == "edges") {
+        refine_edges(region, along);
       } else {
-        refine_features(place, around, along);
+        refine_features(region, around, along);
       }
     }
     film_.grid = film::graded_grid(film_.grid.n_phi, film_.grid.n_z, around, along);
   }
 
-  void refine_edges(const Value& place, std::vector<film::Refinement>& along) const {
-    const double reach = place.find("reach") != nullptr ? number_of(place, "reach") / film_.L : 0.125;
-    for (const double edge : {-0.5, 0.5}) along.push_back({edge, reach, number_of(place, "factor")});
+  void refine_edges(const Value& region, std::vector<film::Refinement>& along) const {
+    const double reach = region.find("reach") != nullptr ? number_of(region, "reach") / film_.L : 0.125;
+    for (const double edge : {-0.5, 0.5}) along.push_back({edge, reach, number_of(region, "factor")});
   }
 
-  void refine_features(const Value& place, std::vector<film::Refinement>& around,
+  void refine_features(const Value& region, std::vector<film::Refinement>& around,
                        std::vector<film::Refinement>& along) const {
-    const double given = place.find("reach") != nullptr ? number_of(place, "reach") : 0;
-    const double factor = number_of(place, "factor");
+    const double given = region.find("reach") != nullptr ? number_of(region, "reach") : 0;
+    const double factor = number_of(region, "factor");
     for (const film::SurfaceFeature& feature : film_.features) {
       for (const double side : {-0.5, 0.5}) {
         const double border = (feature.z + side * feature.length) / film_.L;

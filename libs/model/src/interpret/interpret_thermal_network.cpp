@@ -81,7 +81,8 @@ void check_thermal_network(Context& context) {
   for (const Bearing& bearing : context.model.bearings) {
     const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
     if (heat == nullptr) continue;
-    for (const auto& [place, node] : film::terminals_of(*heat).nodes()) is_met[static_cast<std::size_t>(node)] = true;
+    for (const auto& [terminal, node] : film::terminals_of(*heat).nodes())
+      is_met[static_cast<std::size_t>(node)] = true;
   }
   for (std::size_t k = 0; k < is_met.size(); ++k) {
     if (is_met[k]) continue;

@@ -43,7 +43,7 @@ std::optional<Around> from_file(Context& context, const Value& file) {
   return Around{std::move(*phi), std::move(*T)};
 }
 
-std::optional<Around> in_place(const Value& table) {
+std::optional<Around> inline_table(const Value& table) {
   const Value *angles = table.find("angles"), *temperatures = table.find("temperatures");
   if (angles == nullptr || temperatures == nullptr || angles->broken || temperatures->broken) return std::nullopt;
   Around around;
@@ -96,7 +96,7 @@ film::WallAtTemperature wall_at_temperature(Context& context, const Value& tempe
     return wall;
   }
   const std::optional<Around> table =
-      content.has("file") ? from_file(context, *content.find("file")) : in_place(content);
+      content.has("file") ? from_file(context, *content.find("file")) : inline_table(content);
   if (!table || !is_usable(context, temperature, *table)) return wall;
   wall.around.resize(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) wall.around[i] = value_at(*table, grid.phi(i));

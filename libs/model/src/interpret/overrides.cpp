@@ -54,19 +54,20 @@ void apply_along_path(Node& root, const Override& change, std::vector<Fault>& fa
   *node = change.value;
 }
 
-std::optional<Override> parse_override(const std::string& text, const SourcePosition& place,
+std::optional<Override> parse_override(const std::string& text, const SourcePosition& location,
                                        std::vector<Fault>& faults) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
-    faults.push_back({place, "", "'" + text + "'", "name=value, such as load=500N", ""});
+    faults.push_back({location, "", "'" + text + "'", "name=value, such as load=500N", ""});
     return std::nullopt;
   }
-  Override change{text.substr(0, equals), {}, place};
+  Override change{text.substr(0, equals), {}, location};
   std::vector<Fault> in_value;
-  change.value = parse_yaml(text.substr(equals + 1), place.file, in_value).value_or(Node{});
+  change.value = parse_yaml(text.substr(equals + 1), location.file, in_value).value_or(Node{});
   change.value.reported = !in_value.empty();
-  for (Fault& fault : in_value) faults.push_back({place, change.name, fault.found, fault.expected, fault.suggestion});
-  move_to(change.value, place);
+  for (Fault& fault : in_value)
+    faults.push_back({location, change.name, fault.found, fault.expected, fault.suggestion});
+  move_to(change.value, location);
   return change;
 }
 

@@ -109,7 +109,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_study(context);
   check_table_ranges(context);
   check_size(context);
-  tell_uses(complete.uses, faults);
+  name_template_uses(complete.uses, faults);
   return model;
 }
 
@@ -122,7 +122,7 @@ void tidy(std::vector<Fault>& faults) {
 namespace {
 
 /// To the faults of what an earlier version wrote in another way.
-void tell_of_conversion(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
+void suggest_conversion(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
   for (const Change& change : converted(text, file).changes) {
     for (Fault& fault : faults) {
       if (fault.position.line != change.position.line || fault.position.column != change.position.column) continue;
@@ -157,7 +157,7 @@ Model ModelFile::read(const std::vector<std::string>& overrides) const {
   if (content_->root) model = read_tree(*content_->root, content_->file, changes, faults);
   if (!faults.empty()) {
     tidy(faults);
-    if (content_->root) tell_of_conversion(content_->text, content_->file, faults);
+    if (content_->root) suggest_conversion(content_->text, content_->file, faults);
     throw InputError(std::move(faults));
   }
   model.resolved_text = resolved(content_->text, overrides);

@@ -20,7 +20,9 @@ constexpr std::size_t header_size = 84, facet_size = 50;
 
 constexpr double farthest = 1e15;  // in the file's unit: what lies beyond is no length of a body
 
-bool is_place(const Vector3& corner) { return corner.allFinite() && corner.lpNorm<Eigen::Infinity>() < farthest; }
+bool is_valid_position(const Vector3& corner) {
+  return corner.allFinite() && corner.lpNorm<Eigen::Infinity>() < farthest;
+}
 
 /// Gathers corners, each once.
 class MeshBuilder {
@@ -41,9 +43,9 @@ class MeshBuilder {
  private:
   int index_of(const Vector3& corner) {
     auto& known = result_.mesh.corners;
-    const auto [place, is_new] = indices_.try_emplace({corner.x(), corner.y(), corner.z()}, known.size());
+    const auto [entry, is_new] = indices_.try_emplace({corner.x(), corner.y(), corner.z()}, known.size());
     if (is_new) known.push_back(corner);
-    return static_cast<int>(place->second);
+    return static_cast<int>(entry->second);
   }
 
   StlResult result_;
@@ -76,7 +78,7 @@ StlResult parse_binary(const std::string& content) {
     std::array<Vector3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = {numbers[3 + 3 * k], numbers[4 + 3 * k], numbers[5 + 3 * k]};
     for (const Vector3& corner : corners) {
-      if (!is_place(corner)) return fault(fmt::format("facet {} has a corner that is nowhere", f + 1));
+      if (!is_valid_position(corner)) return fault(fmt::format("facet {} has a corner that is nowhere", f + 1));
     }
     builder.add(corners);
   }
@@ -131,13 +133,13 @@ class TextReader {
     std::string word(words_[0]);
     std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
     if (word == "vertex") return add_corner();
-    if (word == "outer" || word == "endloop") return turn_loop(word == "outer");
+    if (word == "outer" || word == "endloop") return switch_loop(word == "outer");
     if (word == "solid" || word == "endsolid") is_open_ = word == "solid";
     const bool is_between = is_open_ && (word == "facet" || word == "endfacet");
     if (in_loop_ || (!is_between && word != "solid" && word != "endsolid")) refuse("where STL has no such word");
   }
 
-  void turn_loop(bool begins) {
+  void switch_loop(bool begins) {
     if (begins == in_loop_ || !is_open_) return refuse("where STL has no such word");
     in_loop_ = begins;
     if (begins) {
@@ -159,7 +161,7 @@ class TextReader {
           std::from_chars(text.data(), text.data() + text.size(), r[static_cast<Eigen::Index>(k) - 1]);
       good = error == std::errc() && end == text.data() + text.size();
     }
-    if (!good || !is_place(r)) return refuse("is no corner of a triangle");
+    if (!good || !is_valid_position(r)) return refuse("is no corner of a triangle");
     corners_[corner_++] = r;
   }
 

@@ -85,7 +85,7 @@ std::vector<std::string> values_to_check(const StudyParameter& parameter) {
   return ends;
 }
 
-void tell_reach(std::vector<Fault>& faults, std::size_t from) {
+void explain_reach(std::vector<Fault>& faults, std::size_t from) {
   for (std::size_t i = from; i < faults.size(); ++i) {
     faults[i].found += fmt::format(", {:g} standard deviations off the mean,", Distribution::reach);
     if (faults[i].suggestion.empty()) faults[i].suggestion = "`truncated_normal` ends at `low` and `high`";
@@ -106,7 +106,7 @@ void check_values(const std::string& path, const std::vector<std::string>& overr
       move_to(changes.back().value, parameter.position);
       (void)read_tree(root, path, changes, faults);
     }
-    if (parameter.distribution && !parameter.distribution->is_bounded()) tell_reach(faults, before);
+    if (parameter.distribution && !parameter.distribution->is_bounded()) explain_reach(faults, before);
   }
   if (faults.empty()) return;
   tidy(faults);

@@ -73,13 +73,13 @@ PartExtent part_extent(const Node& node) {
 }  // namespace
 
 /// Where expansion stands: the key path, how deep, and in which templates.
-struct Templates::Place {
+struct Templates::Location {
   std::string path;
   std::size_t depth = 0;
   std::vector<std::string> within;
   std::string used;  // the use that put this in; empty outside of templates
 
-  [[nodiscard]] Place at(const std::string& key) const { return {sub_path(path, key), depth + 1, within, used}; }
+  [[nodiscard]] Location at(const std::string& key) const { return {sub_path(path, key), depth + 1, within, used}; }
 };
 
 Templates::Templates(Node root, const Scope& parameters, Substitution& substitution, std::vector<Fault>& faults)
@@ -120,29 +120,29 @@ std::vector<Fault> Templates::unused() const {
 void Templates::expand(Node& root) {
   if (root.kind != Node::Kind::mapping) return;
   for (Entry& entry : root.entries) {
-    if (!is_apart(entry.key) && entry.key != kUse) expand(entry.value, Place{}.at(entry.key));
+    if (!is_apart(entry.key) && entry.key != kUse) expand(entry.value, Location{}.at(entry.key));
   }
-  if (const std::optional<Node> use = take(root, kUse)) expand_uses(root, *use, Place{});
+  if (const std::optional<Node> use = take(root, kUse)) expand_uses(root, *use, Location{});
 }
 
-void Templates::expand(Node& node, const Place& place) {
-  for (std::size_t i = 0; i < node.items.size(); ++i) expand(node.items[i], place.at(std::to_string(i)));
+void Templates::expand(Node& node, const Location& location) {
+  for (std::size_t i = 0; i < node.items.size(); ++i) expand(node.items[i], location.at(std::to_string(i)));
   for (Entry& entry : node.entries) {
-    if (entry.key != kUse) expand(entry.value, place.at(entry.key));
+    if (entry.key != kUse) expand(entry.value, location.at(entry.key));
   }
-  if (const std::optional<Node> use = take(node, kUse)) expand_uses(node, *use, place);
+  if (const std::optional<Node> use = take(node, kUse)) expand_uses(node, *use, location);
 }
 
-void Templates::expand_uses(Node& node, const Node& use, const Place& place) {
+void Templates::expand_uses(Node& node, const Node& use, const Location& location) {
   const std::size_t faults_before = faults_.size();
-  expand_each(node, use, place);
+  expand_each(node, use, location);
   // What a template that cannot be put in would have given is not missed as well.
-  if (faults_.size() > faults_before && !place.path.empty()) node.reported = true;
+  if (faults_.size() > faults_before && !location.path.empty()) node.reported = true;
 }
 
 // Two templates beside each other may not give the same key; what is beside `use` goes before both.
-void Templates::expand_each(Node& node, const Node& use, const Place& place) {
-  if (use.kind != Node::Kind::sequence) return merge(node, instance(use, place));
+void Templates::expand_each(Node& node, const Node& use, const Location& location) {
+  if (use.kind != Node::Kind::sequence) return merge(node, instance(use, location));
   Node all{.kind = Node::Kind::mapping};
   const auto add = [&](const auto& self, Node& to, Node part, const std::string& path) -> void {
     for (Entry& entry : part.entries) {
@@ -158,17 +158,17 @@ void Templates::expand_each(Node& node, const Node& use, const Place& place) {
       }
     }
   };
-  for (const Node& item : use.items) add(add, all, instance(item, place), place.path);
+  for (const Node& item : use.items) add(add, all, instance(item, location), location.path);
   merge(node, std::move(all));
 }
 
-Templates::Template* Templates::find(const Node& name, const Place& place) {
+Templates::Template* Templates::find(const Node& name, const Location& location) {
   std::vector<std::string> names;
   for (Template& one : templates_) {
     if (name.kind == Node::Kind::scalar && one.name == name.text) return &one;
     names.push_back(one.name);
   }
-  const std::string path = sub_path(place.path, kUse);
+  const std::string path = sub_path(location.path, kUse);
   if (name.kind != Node::Kind::scalar) {
     report(name.position, path, description_of(name), "the name of a template");
   } else if (names.empty()) {
@@ -179,73 +179,74 @@ Templates::Template* Templates::find(const Node& name, const Place& place) {
   return nullptr;
 }
 
-Node Templates::instance(const Node& given_use, const Place& place) {
+Node Templates::instance(const Node& given_use, const Location& location) {
   const Node nothing{.kind = Node::Kind::mapping, .position = given_use.position};
   if (given_use.reported || is_over_limit_) return nothing;
   Node use = given_use;
   // Inside a template the arguments have been put in with everything of it.
-  substitution_.visit(use, sub_path(place.path, kUse), parameters_);
+  substitution_.visit(use, sub_path(location.path, kUse), parameters_);
   const bool is_name_alone = use.kind == Node::Kind::scalar;
   const Node* name = is_name_alone ? &use : use.find("template");
   if (name == nullptr) {
-    report(use.position, sub_path(place.path, kUse), description_of(use) + " without the key 'template'",
+    report(use.position, sub_path(location.path, kUse), description_of(use) + " without the key 'template'",
            "a template's name, {template: name, parameter: value, ...}, or a list of these");
     return nothing;
   }
   if (name->reported) return nothing;
-  Template* chosen = find(*name, place);
+  Template* chosen = find(*name, location);
   if (chosen == nullptr) return nothing;
   chosen->is_used = true;
   if (chosen->entry->value.kind != Node::Kind::mapping) return nothing;
-  if (std::find(place.within.begin(), place.within.end(), chosen->name) != place.within.end()) {
+  if (std::find(location.within.begin(), location.within.end(), chosen->name) != location.within.end()) {
     std::string chain;
-    for (const std::string& outer : place.within) chain += outer + " -> ";
-    report(use.position, sub_path(place.path, kUse), "a template that uses itself: " + chain + chosen->name,
+    for (const std::string& outer : location.within) chain += outer + " -> ";
+    report(use.position, sub_path(location.path, kUse), "a template that uses itself: " + chain + chosen->name,
            "templates of other templates");
     return nothing;
   }
   Node part = chosen->entry->value;
-  if (!is_within_limits(part, use, place)) return nothing;
+  if (!is_within_limits(part, use, location)) return nothing;
   Scope scope(&parameters_);
-  if (!take_arguments(use, *chosen, place, scope)) return nothing;
+  if (!take_arguments(use, *chosen, location, scope)) return nothing;
   (void)take(part, "parameters");
-  note_use(*chosen, use, place);
-  substitution_.visit(part, place.path, scope);
-  replace_keys(part, place, scope);
-  Place inside = place;
+  note_use(*chosen, use, location);
+  substitution_.visit(part, location.path, scope);
+  replace_keys(part, location, scope);
+  Location inside = location;
   inside.within.push_back(chosen->name);
   inside.used = uses_.back().text;
   expand(part, inside);
   return part;
 }
 
-void Templates::note_use(const Template& chosen, const Node& use, const Place& place) {
+void Templates::note_use(const Template& chosen, const Node& use, const Location& location) {
   Lines lines{chosen.entry->position.line, chosen.entry->position.line};
   widen(lines, chosen.entry->value);
   const SourcePosition& at = use.position;
   const std::string where = at.line > 0 ? " in line " + std::to_string(at.line) : " by " + at.file;
-  uses_.push_back({place.path, chosen.entry->position.file, lines.first, lines.last,
-                   "template " + chosen.name + ", used" + where + (place.used.empty() ? "" : " of " + place.used)});
+  uses_.push_back(
+      {location.path, chosen.entry->position.file, lines.first, lines.last,
+       "template " + chosen.name + ", used" + where + (location.used.empty() ? "" : " of " + location.used)});
 }
 
-bool Templates::is_within_limits(const Node& node, const Node& use, const Place& place) {
+bool Templates::is_within_limits(const Node& node, const Node& use, const Location& location) {
   const PartExtent extent = part_extent(node);
   nodes_ += extent.nodes;
   bytes_ += extent.bytes;
   const auto refuse = [&](const char* found, const char* expected) {
-    report(use.position, place.path, found, expected);
+    report(use.position, location.path, found, expected);
     is_over_limit_ = true;
     return false;
   };
   if (nodes_ > kMostNodes) return refuse("templates that repeat more than 100000 values", "at most 100000 values");
   if (bytes_ > kMostBytes) return refuse("templates that repeat more than 16 MB of text", "at most 16 MB");
-  if (place.depth + extent.depth > kDeepest || place.within.size() > kDeepest)
+  if (location.depth + extent.depth > kDeepest || location.within.size() > kDeepest)
     return refuse("templates within templates more than 64 deep", "at most 64 levels");
   return true;
 }
 
 // A template's parameters: those that the use gives, of the others their defaults, each of which may use those above.
-bool Templates::take_arguments(const Node& use, const Template& chosen, const Place& place, Scope& scope) {
+bool Templates::take_arguments(const Node& use, const Template& chosen, const Location& location, Scope& scope) {
   const std::size_t faults_before = faults_.size();
   const Node none{.kind = Node::Kind::mapping};
   const Node* declared = chosen.entry->value.find("parameters");
@@ -259,18 +260,19 @@ bool Templates::take_arguments(const Node& use, const Template& chosen, const Pl
   for (const Entry& parameter : declared->entries) names.push_back(parameter.key);
   for (const Entry& given : use.entries) {
     if (given.key == "template" || declared->find(given.key) != nullptr) continue;
-    report(given.position, sub_path(sub_path(place.path, kUse), given.key),
+    report(given.position, sub_path(sub_path(location.path, kUse), given.key),
            "unknown parameter '" + given.key + "' of template '" + chosen.name + "'",
            names.empty() ? "no parameters, as the template has none" : one_of(names), did_you_mean(given.key, names));
   }
-  for (const Entry& parameter : declared->entries) take_argument(parameter, use.find(parameter.key), use, place, scope);
+  for (const Entry& parameter : declared->entries)
+    take_argument(parameter, use.find(parameter.key), use, location, scope);
   return faults_.size() == faults_before;
 }
 
-bool Templates::take_argument(const Entry& parameter, const Node* given, const Node& use, const Place& place,
+bool Templates::take_argument(const Entry& parameter, const Node* given, const Node& use, const Location& location,
                               Scope& scope) {
   Node value = given != nullptr ? *given : parameter.value;
-  const std::string path = sub_path(sub_path(place.path, kUse), parameter.key);
+  const std::string path = sub_path(sub_path(location.path, kUse), parameter.key);
   scope.define(parameter.key, Node{.kind = Node::Kind::scalar, .reported = true});  // until it is known to be good
   if (value.kind == Node::Kind::null) {
     report(use.position, path, "missing parameter '" + parameter.key + "'", "a value: it has no default");
@@ -290,21 +292,21 @@ bool Templates::take_argument(const Entry& parameter, const Node* given, const N
   return true;
 }
 
-void Templates::replace_keys(Node& node, const Place& place, const Scope& scope) {
-  for (Node& item : node.items) replace_keys(item, place, scope);
+void Templates::replace_keys(Node& node, const Location& location, const Scope& scope) {
+  for (Node& item : node.items) replace_keys(item, location, scope);
   std::vector<std::string> keys;
   for (Entry& entry : node.entries) {
     const bool has_parameter = entry.key.find("${") != std::string::npos;
-    if (has_parameter) entry.key = substitution_.in_key(entry.key, entry.position, place.path, scope);
+    if (has_parameter) entry.key = substitution_.in_key(entry.key, entry.position, location.path, scope);
     const bool is_repeated = std::find(keys.begin(), keys.end(), entry.key) != keys.end();
     if (has_parameter && is_repeated)
-      report(entry.position, sub_path(place.path, entry.key), "duplicate key '" + entry.key + "'", "each key once");
+      report(entry.position, sub_path(location.path, entry.key), "duplicate key '" + entry.key + "'", "each key once");
     keys.push_back(entry.key);
-    replace_keys(entry.value, place, scope);
+    replace_keys(entry.value, location, scope);
   }
 }
 
-void tell_uses(const std::vector<TemplateUse>& uses, std::vector<Fault>& faults) {
+void name_template_uses(const std::vector<TemplateUse>& uses, std::vector<Fault>& faults) {
   for (Fault& fault : faults) {
     const SourcePosition& at = fault.position;
     const TemplateUse* best = nullptr;

@@ -16,7 +16,7 @@ struct TemplateUse {
 };
 
 /// Adds to faults that stand in templates by which use they came about.
-void tell_uses(const std::vector<TemplateUse>& uses, std::vector<Fault>& faults);
+void name_template_uses(const std::vector<TemplateUse>& uses, std::vector<Fault>& faults);
 
 /// Puts templates where they are used.
 ///
@@ -45,18 +45,19 @@ class Templates {
     const Entry* entry = nullptr;
     bool is_used = false;
   };
-  struct Place;
+  struct Location;
 
-  void expand(Node& node, const Place& place);
-  void expand_uses(Node& node, const Node& use, const Place& place);
-  void expand_each(Node& node, const Node& use, const Place& place);
-  Node instance(const Node& use, const Place& place);
-  Template* find(const Node& name, const Place& place);
-  bool take_arguments(const Node& use, const Template& chosen, const Place& place, Scope& scope);
-  bool take_argument(const Entry& parameter, const Node* given, const Node& use, const Place& place, Scope& scope);
-  void replace_keys(Node& node, const Place& place, const Scope& scope);
-  void note_use(const Template& chosen, const Node& use, const Place& place);
-  bool is_within_limits(const Node& node, const Node& use, const Place& place);
+  void expand(Node& node, const Location& location);
+  void expand_uses(Node& node, const Node& use, const Location& location);
+  void expand_each(Node& node, const Node& use, const Location& location);
+  Node instance(const Node& use, const Location& location);
+  Template* find(const Node& name, const Location& location);
+  bool take_arguments(const Node& use, const Template& chosen, const Location& location, Scope& scope);
+  bool take_argument(const Entry& parameter, const Node* given, const Node& use, const Location& location,
+                     Scope& scope);
+  void replace_keys(Node& node, const Location& location, const Scope& scope);
+  void note_use(const Template& chosen, const Node& use, const Location& location);
+  bool is_within_limits(const Node& node, const Node& use, const Location& location);
   void report(const SourcePosition& at, const std::string& path, std::string found, std::string expected,
               std::string suggestion = {});
 

@@ -74,7 +74,7 @@ std::string written_json(const std::string& text, const std::string& file, const
   const Node root = [&] {
     std::optional<Node> tree = parse_yaml(text, file, faults);
     if (!tree) return Node{};
-    tell_uses(complete_tree(*tree, changes, faults).uses, faults);
+    name_template_uses(complete_tree(*tree, changes, faults).uses, faults);
     return std::move(*tree);
   }();
   if (!faults.empty()) throw InputError(std::move(faults));

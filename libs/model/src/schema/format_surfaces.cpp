@@ -11,8 +11,8 @@ namespace hersey::model {
 
 TypePtr features_format() {
   const TypePtr extent = quantity("m", "5 mm", Range::positive());
-  const Range whole_turn{.low = 0, .high = 2 * std::numbers::pi + 1e-9, .low_open = true};
-  const TypePtr arc = quantity("rad", "20 deg", whole_turn);
+  const Range full_circle{.low = 0, .high = 2 * std::numbers::pi + 1e-9, .low_open = true};
+  const TypePtr arc = quantity("rad", "20 deg", full_circle);
   const std::vector<Key> common = {
       defaulted("on", choice(feature_surface_words), "shell", "The surface it is made in."),
       defaulted("angle", quantity("rad", "90 deg"), "0 deg",

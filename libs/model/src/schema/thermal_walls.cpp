@@ -13,7 +13,7 @@ std::optional<double> start_of(const Value& wall) {
 
 /// A shell's own temperature: one, or over the angle.
 TypePtr temperature_around() {
-  const TypePtr in_place = object(
+  const TypePtr inline_table = object(
       "temperatures over the angle",
       {
           required("angles", list("angles", quantity("rad", "90 deg"), 0),
@@ -26,7 +26,7 @@ TypePtr temperature_around() {
       {required("file", text("a file", "shell.csv"),
                 "CSV file beside the model file with the columns `angle` and `temperature`, units in brackets.")});
   return any_of("a temperature such as 60 degC, or a table over the angle",
-                {temperature("60 degC"), in_place, from_file});
+                {temperature("60 degC"), inline_table, from_file});
 }
 
 Variant node_wall() {
