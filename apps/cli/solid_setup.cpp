@@ -127,7 +127,7 @@ fem::ElasticBody solid_of(const SolidArguments& arguments, bool needs_mass) {
 }
 
 std::vector<int> fixed_dofs_of(const SolidArguments& arguments, const fem::Mesh& mesh) {
-  std::vector<int> dofs;
+  std::vector<int> fixed;
   for (const std::string& text : arguments.hold) {
     const std::size_t colon = mesh.node_sets.count(text) ? std::string::npos : text.rfind(':');
     std::array<bool, 3> axes = {true, true, true};
@@ -140,9 +140,9 @@ std::vector<int> fixed_dofs_of(const SolidArguments& arguments, const fem::Mesh&
     }
     const std::vector<int>& nodes = named(mesh.node_sets, text.substr(0, colon), "--hold", "set of nodes");
     const std::vector<int> dofs = fem::dofs_of(nodes, axes);
-    dofs.insert(dofs.end(), dofs.begin(), dofs.end());
+    fixed.insert(fixed.end(), dofs.begin(), dofs.end());
   }
-  return dofs;
+  return fixed;
 }
 
 Eigen::VectorXd loads_of(const SolidArguments& arguments, const fem::ElasticBody& body) {

@@ -105,7 +105,7 @@ class Contents {
  public:
   explicit Contents(const std::filesystem::path& path) : path_(path) {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such checkpoint");
-    if (const auto trouble = unreadable(path)) fail("it is " + *trouble);
+    if (const auto failure = unreadable(path)) fail("it is " + *failure);
     // Before HDF5 sees it: the library trusts what it reads of a file's structure.
     if (const Seal seal = check_seal(path); seal != Seal::intact)
       fail(seal == Seal::broken ? "damaged: it has changed since it was written" : "not a checkpoint, or cut short");

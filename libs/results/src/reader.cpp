@@ -69,7 +69,7 @@ struct Reader::Impl {
 
   void open() {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such file");
-    if (const auto trouble = unreadable(path)) fail("it is " + *trouble);
+    if (const auto failure = unreadable(path)) fail("it is " + *failure);
     // Before HDF5 sees it: the library trusts what it reads of a file's structure.
     const Seal seal = check_seal(path);
     if (seal == Seal::broken) fail("damaged: it has changed since it was written");
@@ -207,7 +207,7 @@ Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
   const Hdf5Session session(impl_->untrusted_path());
   impl_->path = std::move(path);
   impl_->open();
-  const DoubtfulFile untrusted_path(impl_->untrusted_path());
+  const DoubtfulFile untrusted_file(impl_->untrusted_path());
   if (text_attribute("/", "format") != "hersey-results") impl_->fail("HDF5, but not a results file of hersey");
   const double version = number_attribute("/", "format_version").value_or(0);
   if (version < 1 || version > newest_format)

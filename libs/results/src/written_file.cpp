@@ -80,11 +80,11 @@ void Writer::flush_if_due() {
 void Writer::finish(Status status, std::string_view message) {
   if (impl_->in_memory) return;
   if (!impl_->file.handle.valid()) return;
-  std::exception_ptr untold;
+  std::exception_ptr unreported;
   try {
     impl_->flow.settle();
   } catch (const WriteError&) {
-    untold = std::current_exception();
+    unreported = std::current_exception();
   }
   const Hdf5Session session;
   const bool failed_before = impl_->file.status.failed;
@@ -96,13 +96,13 @@ void Writer::finish(Status status, std::string_view message) {
       impl_->set_text(root.get(), "message", message);
       impl_->flow.flush();
     } catch (const WriteError&) {
-      untold = std::current_exception();
+      unreported = std::current_exception();
     }
   }
   impl_->flow.datasets().clear();
   impl_->parent.reset();
   impl_->file.close();
-  if (untold) std::rethrow_exception(untold);
+  if (unreported) std::rethrow_exception(unreported);
   if (failed_before) return;
   impl_->require(true, {});
   try {

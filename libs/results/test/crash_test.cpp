@@ -78,9 +78,9 @@ TEST_CASE("FlushedRows_SurviveSigkill") {
     for (int k = 0; k < 500; ++k) run.step();
     run.writer.flush();
     for (int k = 0; k < 300; ++k) run.step();
-    const bool told = write(ready[1], "x", 1) == 1;
+    const bool is_reported = write(ready[1], "x", 1) == 1;
     pause();
-    _exit(told ? 0 : 1);
+    _exit(is_reported ? 0 : 1);
   }
   char byte = 0;
   REQUIRE(read(ready[0], &byte, 1) == 1);

@@ -24,16 +24,16 @@ TEST_CASE("OutputLock_IsHeldByOneRunAndLeavesNothing") {
 
 TEST_CASE("OutputLock_OfAKilledRunBlocksNobody") {
   const std::filesystem::path file = "killed.h5";
-  int told[2]{};
-  REQUIRE(::pipe(told) == 0);
+  int ends[2]{};
+  REQUIRE(::pipe(ends) == 0);
   const pid_t child = ::fork();
   if (child == 0) {
     const OutputLock lock(file);
-    [[maybe_unused]] const ssize_t one = ::write(told[1], "x", 1);
+    [[maybe_unused]] const ssize_t one = ::write(ends[1], "x", 1);
     ::pause();
   }
   char ready = 0;
-  REQUIRE(::read(told[0], &ready, 1) == 1);
+  REQUIRE(::read(ends[0], &ready, 1) == 1);
   CHECK_THROWS_AS(OutputLock{file}, FileBusy);
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);

@@ -339,7 +339,7 @@ TEST_CASE("ABitThatFlipsInFinishedResults_IsToldOrHarmless") {
   std::ifstream file(scratch / "run.h5", std::ios::binary);
   const std::string good{std::istreambuf_iterator<char>(file), {}};
   const auto written = Reader(scratch / "run.h5").read("/time").values;
-  int told = 0, tried = 0;
+  int reported = 0, tried = 0;
   for (std::size_t bit = 1; bit < 8 * good.size(); bit += 499, ++tried) {
     std::string turned = good;
     turned[bit / 8] = static_cast<char>(turned[bit / 8] ^ (1 << (bit % 8)));
@@ -349,10 +349,10 @@ TEST_CASE("ABitThatFlipsInFinishedResults_IsToldOrHarmless") {
       const auto values = Reader(scratch / "turned.h5").read("/time").values;
       CHECK(values == written);
     } catch (const ReadError&) {
-      ++told;
+      ++reported;
     }
   }
-  CHECK(told >= tried - 1);  // one of them may be a bit of the seal
+  CHECK(reported >= tried - 1);  // one of them may be a bit of the seal
   // Behind its end nothing matters to HDF5, and a file without a seal is that of a run that was killed.
   std::ofstream(scratch / "killed.h5", std::ios::binary) << good.substr(0, good.size() - 10);
   CHECK(Reader(scratch / "killed.h5").read("/time").values.size() == 9);

@@ -116,15 +116,15 @@ const CycleTable& cycle_quantities() {
           [](const CycleRow& row) { return row.cycle.walls.largest; },
           {.only = of_hot_film,
            .summary_rows = {{Statistic::at_end, "correction of wall temperatures", "K", false, Only::of_a_cycle}}}}});
-    const auto told_of_map = [](const char* name, const char* unit) {
+    const auto with_largest_of_map = [](const char* name, const char* unit) {
       return std::vector<SummaryRow>{{Statistic::largest, name, unit, true, Only::with_contact}};
     };
     lines.insert(lines.end(),
                  {map_line("asperity_pressure_mean", "Pa", "contact pressure, mean over the cycle", &C::mean_contact,
-                           "", told_of_map("largest mean contact pressure", "MPa")),
+                           "", with_largest_of_map("largest mean contact pressure", "MPa")),
                   map_line("wear_load", "W/m^2", "contact pressure times sliding speed, mean over the cycle",
                            &C::wear_load, "times the friction coefficient it is the mean heat of contact",
-                           told_of_map("largest wear load", "W/mm²")),
+                           with_largest_of_map("largest wear load", "W/mm²")),
                   map_line("thickness_min", "m", "smallest film thickness in the cycle", &C::h_min, "MOFT map"),
                   map_line("thickness_min_time", "s", "when", &C::t_h_min),
                   map_line("pressure_max", "Pa", "largest film pressure in the cycle", &C::p_max, "POFP map"),

@@ -32,8 +32,8 @@ void settle_walls(model::Machine& machine) {
   }
   if (machine.network) machine.network->advance(0, films);
   for (std::size_t i = 0; i < films.size(); ++i) {
-    const Eigen::VectorXd& held = films[i].exchange.T;
-    warm[i]->settle_walls(machine.network ? machine.network->walls(films[i].at, held) : held);
+    const Eigen::VectorXd& T = films[i].exchange.T;
+    warm[i]->settle_walls(machine.network ? machine.network->walls(films[i].at, T) : T);
   }
 }
 
