@@ -9,7 +9,7 @@
 namespace hersey::run {
 namespace {
 
-using Observed = film::NetworkObservables;
+using Observables = film::NetworkObservables;
 using Statistic = SummaryRow::Statistic;
 
 /// Places of the bodies among the nodes; surroundings keep the temperature that the model gives them.
@@ -54,13 +54,13 @@ const QuantityTable<ThermalRow, model::Model>& thermal_quantities() {
       {"heat_to_surroundings",
        "W",
        "from bodies and films into nodes that are fixed",
-       of_network(&Observed::to_fixed),
+       of_network(&Observables::to_fixed),
        {.summary_rows = {{Statistic::mean, "mean heat into surroundings", "W"}}}},
-      {"heat_stored", "W", "rate of the heat in bodies", of_network(&Observed::stored)},
+      {"heat_stored", "W", "rate of the heat in bodies", of_network(&Observables::stored)},
       {"heat_balance_error",
        "1",
        "heat from films that is neither stored nor gone, over the largest of these",
-       of_network(&Observed::error),
+       of_network(&Observables::error),
        {.summary_rows = {{Statistic::largest_in_size, "worst error of the bodies' heat balance"}}}},
   };
   return table;
