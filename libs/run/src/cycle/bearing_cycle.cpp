@@ -49,7 +49,7 @@ BearingCycle CycleSums::close() {
   return closed;
 }
 
-// A cycle of no length yet, which has seen the last state.
+// Starts a cycle of zero length whose last state is known.
 void CycleSums::begin(double t) {
   const Eigen::Index n = last_.p.size();
   is_begun_ = true;

@@ -134,7 +134,7 @@ const CycleTable& cycle_quantities() {
   return table;
 }
 
-// A group called fields counts its rows by itself: cycles are no instants.
+// A group called fields counts its own rows, because cycles are not instants.
 const char* const group_of_cycles = "cycles/fields/";
 
 }  // namespace

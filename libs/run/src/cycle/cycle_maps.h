@@ -23,7 +23,7 @@ class CycleMaps {
   /// All bearings at an accepted state.
   void take(double t, const std::vector<bearing::BearingObservation>& observation);
 
-  /// The cycle ends with the state last taken.
+  /// Ends the cycle with the state last taken.
   /// @returns one entry per bearing.
   std::vector<BearingCycle> close();
 

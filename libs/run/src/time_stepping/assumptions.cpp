@@ -55,7 +55,7 @@ std::string supply(const film::FilmModel& film) {
   return {};
 }
 
-/// What a feature is called. An outline without words here does not compile.
+/// Name of a feature. The code does not compile for an outline that has no description here.
 struct ShapeDescription {
   bool is_fed;
   const char* operator()(const film::Rectangle& /*shape*/) const { return is_fed ? "groove" : "pocket"; }
@@ -71,7 +71,8 @@ std::string described(const film::SurfaceFeature& feature) {
                      1e3 * feature.length, depth, feature.is_fed ? "" : ", not fed");
 }
 
-/// What follows the viscosity mu0 in its description. A law without words here does not compile.
+/// Text that follows the viscosity mu0 in its description. The code does not compile for a law that has no description
+/// here.
 struct ViscosityDescription {
   std::string operator()(const film::ConstantViscosity&) const { return ""; }
   std::string operator()(const film::Barus& law) const { return fmt::format(" exp({:.4g}/Pa p) (Barus)", law.alpha); }
@@ -95,7 +96,7 @@ struct DensityDescription {
 
 double celsius(double T) { return T - film::zero_celsius; }
 
-/// How the viscosity falls with temperature. A law without words here does not compile.
+/// Decrease of the viscosity with temperature. The code does not compile for a law that has no description here.
 struct TemperatureLawDescription {
   std::string operator()(const film::FixedViscosity&) const { return "the same at every temperature"; }
   std::string operator()(const film::ExponentialViscosity& law) const {
@@ -181,7 +182,7 @@ std::string nodes_of_oil(const film::FilmModel& film, const film::ThermalModel& 
   return text;
 }
 
-/// Where the heat of asperities goes.
+/// Distribution of the heat of asperity friction.
 std::string rubbing(const film::FilmModel& film, const film::ThermalModel& heat) {
   if (film.asperities.model == film::AsperityModel::none) return {};
   const double shell = 100 * film::friction_share(heat.shell_surface, heat.journal_surface);
@@ -189,7 +190,7 @@ std::string rubbing(const film::FilmModel& film, const film::ThermalModel& heat)
                      shell, 100 - shell);
 }
 
-/// What the film's temperature is; empty where nothing depends on one.
+/// Source of the film's temperature; empty if nothing depends on it.
 std::string heat(const model::Bearing& bearing) {
   const film::Lubricant& oil = bearing.film.lubricant;
   const std::string law = std::visit(TemperatureLawDescription{}, oil.temperature_law);
@@ -211,7 +212,7 @@ std::string heat(const model::Bearing& bearing) {
   return film::depends_on_temperature(oil.temperature_law) ? "one temperature; " + law : "";
 }
 
-/// How the viscosity falls with the shear rate. A law without words here does not compile.
+/// Decrease of the viscosity with the shear rate. The code does not compile for a law that has no description here.
 struct ShearThinningDescription {
   std::string operator()(const film::Newtonian&) const { return ""; }
   std::string operator()(const film::Cross& law) const {
@@ -259,7 +260,7 @@ std::string asperities(const film::Asperities& contact) {
                      1e-6 * contact.elastic_factor * contact.composite_modulus, contact.mu_friction);
 }
 
-/// How the clearance follows the temperatures of its walls.
+/// Dependence of the clearance on the temperatures of its walls.
 std::string expansion(const model::Bearing& bearing) {
   if (!bearing.expansion) return "";
   const film::ThermalExpansion& walls = bearing.expansion->material;

@@ -114,7 +114,8 @@ void require_identity(const Archive::Content& stored, const model::Model& model,
 
 bool is_complete(const model::Model& model, const std::filesystem::path& results) {
   const results::Reader reader(results);
-  if (!reader.has("/model")) return false;  // killed before it was written: nothing that could be of another model
+  // The program was killed before the model was written, so there is nothing that could belong to another model.
+  if (!reader.has("/model")) return false;
   require_same_text(reader.text("/model"), model);
   return reader.text_attribute("/", "status") == results::to_string(results::Status::completed);
 }

@@ -10,14 +10,14 @@
 
 namespace hersey::run {
 
-/// Says when the next checkpoint is due: after simulated time or computing time, whichever comes first.
+/// Schedules checkpoints: after simulated time or computing time, whichever comes first.
 class CheckpointSchedule {
  public:
   explicit CheckpointSchedule(const model::Simulation& plan);
 
-  /// To be asked after every step. One is due after a long step, too: who stops the run amid the next does not wait for
-  /// its end.
-  /// @param t  [s]; a state in which a run can go on
+  /// True if a checkpoint is due; to be called after every step. One is due after a long step, too, so that a user who
+  /// stops the run during the next step does not wait for its end.
+  /// @param t  time of a state from which a run can continue [s]
   [[nodiscard]] bool is_due(double t);
   /// @param cost  time that it took [s]
   void written(double t, double cost);
@@ -30,26 +30,26 @@ class CheckpointSchedule {
   double cost_ = 0;
 };
 
-/// Stores what a run is of: program, model file with its overrides, contents of the files it names.
+/// Stores the identity of a run: program, model file with its overrides, contents of the files it names.
 void save_identity(Archive& archive, const model::Model& model);
 
-/// Whether a name in an archive is one of `save_identity`.
+/// True if a name in an archive is one of `save_identity`.
 [[nodiscard]] bool is_identity(const std::string& name);
 
 /// @throws InputError unless `before` is the text of the model, overrides noted
 void require_same_text(const std::string& before, const model::Model& model);
 
-/// Compares with what is stored, read from `file`.
-/// @param warning  receives a sentence where another version of the program wrote it
-/// @throws InputError telling what of the model differs
+/// Compares the model with the stored identity, read from `file`.
+/// @param warning  receives a sentence if another version of the program wrote it
+/// @throws InputError that names the difference of the model
 void require_identity(const Archive::Content& stored, const model::Model& model, const std::filesystem::path& file,
                       std::string& warning);
 
-/// Whether the run of these results has come to its end.
-/// @throws InputError where they are of another model; results::ReadError
+/// True if the run of these results is complete.
+/// @throws InputError if they belong to another model; results::ReadError
 [[nodiscard]] bool is_complete(const model::Model& model, const std::filesystem::path& results);
 
-/// Whether there are results, be they those of a killed run. A program killed while it makes the file leaves zeros.
+/// True if there are results, including those of a killed run. A program killed while it creates the file leaves zeros.
 [[nodiscard]] bool has_results(const std::filesystem::path& results);
 
 /// Removes the checkpoint of these results, if there is one.

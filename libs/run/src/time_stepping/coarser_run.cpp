@@ -17,7 +17,7 @@ model::Model with_longer_steps(model::Model model) {
     plan.error_control->tolerance *= kOrderOfLocalErrors;
     plan.error_control->largest *= kLonger;
   }
-  model.output.meshes_at.clear();  // files beside the results
+  model.output.meshes_at.clear();  // files besides the results
   return model;
 }
 

@@ -8,8 +8,8 @@ namespace hersey::run {
 /// The model with steps twice as long: of a controlled error the tolerance that gives them.
 [[nodiscard]] model::Model with_longer_steps(model::Model model);
 
-/// What the steps have done to the figures of one bearing, theory manual eq. (integrator.17).
-/// @param coarse  of the same bearing, in a run with steps twice as long
+/// Returns the errors that the steps cause in the figures of one bearing, theory manual eq. (integrator.17).
+/// @param coarse  summary of the same bearing, in a run with steps twice as long
 [[nodiscard]] StepErrors step_errors(const BearingSummary& fine, const BearingSummary& coarse);
 
 }  // namespace hersey::run

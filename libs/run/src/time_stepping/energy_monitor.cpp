@@ -12,28 +12,31 @@
 namespace hersey::run {
 namespace {
 
-/// Of the available energy: what a run may gain from nowhere before it ends as failed. Coarse steps of sound motions
-/// swing by some percent within a period, an explosion passes any share.
+/// Share of the available energy that a run may gain without a source before it ends as failed. The energy of coarse
+/// steps of sound motions swings by some percent within a period; an explosion exceeds any share.
 constexpr double kMostOfRun = 0.2;
 
-/// Of what is left of that: what one step may gain.
+/// Share of the remaining allowance that one step may gain.
 constexpr double kMostOfStep = 0.1;
 
-/// Of the available energy: losses that steps may take back. On a swing that steps follow badly the energy falls and
-/// rises again; whoever lets it fall and keeps it from rising takes it away.
+/// Share of the available energy that steps may regain after a loss. On a swing that steps follow badly the energy
+/// falls and rises again; a limit on gains without this allowance would remove energy.
 constexpr double kTakenBack = 0.1;
 
-/// Of the energy that a step moves: Newton's method leaves forces open by its tolerance (1e-8 of their terms).
+/// Share of the energy that a step moves: Newton's method leaves force residuals up to its tolerance (1e-8 of their
+/// terms).
 constexpr double kUnsolved = 1e-6;
 
-/// Of what is stored: round-off of differences of sums of many terms.
+/// Share of the stored energy: round-off of differences of sums of many terms.
 constexpr double kRoundOffOfStores = 1e-12;
 
-/// Of what a step puts in: where no more than that was there before it, the motion begins with it. What the method
-/// makes of a force that rises from nothing within one step is a share of that force's work, however short the step.
+/// Share of the energy put in by a step: if no more than that was available before the step, the motion begins with it.
+/// The method's error for a force that rises from zero within one step is a share of that force's work, however short
+/// the step.
 constexpr double kFromNothing = 1e-6;
 
-/// Of what preloads, weights and loads do over the size of the machine: what moves less than that stands still.
+/// Share of the energy of preloads, weights and loads over the size of the machine: a motion with less energy counts as
+/// standstill.
 constexpr double kStandstill = 1e-9;
 
 double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -64,7 +67,7 @@ EnergyMonitor::EnergyMonitor(const model::Model&, model::Machine& machine) : mac
   }
 }
 
-// Gravity first, counted from the start.
+// The first entry is the potential energy of gravity, relative to the start.
 std::vector<double> EnergyMonitor::stores(const mbd::EnergyView& view) const {
   std::vector<double> stored{view.potential - potential_at_start_};
   stored.insert(stored.end(), view.springs.begin(), view.springs.end());
@@ -146,7 +149,7 @@ bool EnergyMonitor::allows(const solver::State& end) {
   const bool begins = books_.available() <= kFromNothing * trial_.available();
   if (begins && gain_ <= trial_.available()) gain_ = std::min(gain_, 0.0);
   loss_ = knows_losses_ ? std::max(0.0, -gain - uncertainty) : 0;
-  // Not a number: no energy at all.
+  // The negated comparison also refuses an energy that is not a number.
   const double left = std::max(0.0, kMostOfRun * trial_.available() - std::max(0.0, balance_));
   has_refused_ = !(gain_ <= std::max(0.0, -balance_) + kMostOfStep * left);
   return !has_refused_;

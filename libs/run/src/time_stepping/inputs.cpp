@@ -22,7 +22,7 @@ std::string name_of(const std::string& path) {
   return path;
 }
 
-/// Whether something is a function of the crank as it turns at its constant speed, beside the machine.
+/// True if something is a function of the crank angle at its constant speed, independent of the machine's state.
 bool counts_on_crank(const model::Model& model) {
   if (model.simulation.cycle) return true;
   const auto counts = [](const model::Function& function) {

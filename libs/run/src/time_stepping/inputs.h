@@ -12,9 +12,9 @@
 
 namespace hersey::run {
 
-/// What a change of an input is to the integrator.
+/// Effect of a changed input on the integrator.
 enum class Jump {
-  none,      ///< acts through a film's own unknowns: found anew in every step
+  none,      ///< acts through a film's own unknowns, which are computed anew in every step
   of_force,  ///< accelerations jump
   of_speed,  ///< velocities do
 };
@@ -22,7 +22,7 @@ enum class Jump {
 /// The functions of a model that can be set from outside.
 class Inputs {
  public:
-  /// Puts a settable function into every place of `model` that is an input. Before it is built.
+  /// Replaces every input of `model` by a settable function. To be called before the model is built.
   explicit Inputs(model::Model& model);
 
   struct Input {
@@ -34,7 +34,7 @@ class Inputs {
   };
 
   [[nodiscard]] const std::vector<InputInfo>& infos() const { return infos_; }
-  /// @throws std::invalid_argument where there is none
+  /// @throws std::invalid_argument if there is none
   [[nodiscard]] Input& find(const std::string& name);
   [[nodiscard]] static double value_of(const Input& input, const model::Simulation& plan, double t);
 

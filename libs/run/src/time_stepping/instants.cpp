@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMostPeriods = 1e6;
 
-/// How the argument of a table moves during the run: value + rate (t - start).
+/// Argument of a table during the run: value + rate (t - start).
 struct UniformMotion {
   double value = 0, rate = 0;
 };

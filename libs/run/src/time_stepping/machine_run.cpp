@@ -51,7 +51,7 @@ void MachineRun::begin() {
 Outcome MachineRun::step(double limit) {
   const TimeStep step = stepper_.take(state_, limit);
   if (!step.solved()) {
-    // A journal that touches has been told so already.
+    // The message of a journal that touches names asperities already.
     const bool is_advised = step.message.find("asperities") != std::string::npos;
     if (const std::string why = thermal_failure(machine_, true); !why.empty())
       return no_answer<Outcome>(

@@ -22,29 +22,29 @@
 
 namespace hersey::run {
 
-/// A machine on its way through time: owns it, its state and its record. Whoever steps it, a whole run or a program
-/// that changes inputs between the steps, takes the same steps.
+/// Integrates a machine over time: owns the machine, its state and its record. A whole run and a program that changes
+/// inputs between the steps take the same steps.
 class MachineRun {
  public:
   /// @param model, options  outlive this; without options.results nothing is written
-  /// @param checkpoint  where an interrupted run goes on; none: from the start
+  /// @param checkpoint  state from which an interrupted run continues; none: the run starts at its beginning
   MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint = {});
 
-  /// Chooses the steps and records the start; of a run that is gone on with it has been done. Before the first step.
+  /// Chooses the steps and records the start; a resumed run has done so before. To be called before the first step.
   void begin();
 
   [[nodiscard]] bool is_at_end() const { return stepper_.is_at_end() || record_.ends_run(); }
-  /// What to say of a run that ended in order; may be empty.
+  /// Message of a run that ended normally; may be empty.
   [[nodiscard]] std::string ending() const { return record_.ending(state_.t); }
 
-  /// One accepted step, at most to `limit` [s].
-  /// @returns unsolved, why there is none, or why none can follow it
+  /// Takes one accepted step, at most to `limit` [s].
+  /// @returns unsolved, with the reason why there is no step, or why none can follow it
   /// @pre begun, not at the end, state().t < limit
   [[nodiscard]] Outcome step(double limit = std::numeric_limits<double>::infinity());
 
-  /// What acts has jumped: TimeStepper::take_jump.
+  /// Restarts the integrator after a jump of what acts on the machine: TimeStepper::take_jump.
   void take_jump(bool moves) { stepper_.take_jump(state_, moves); }
-  /// How close two instants are that count as one [s].
+  /// Distance below which two instants count as one [s].
   [[nodiscard]] double slack() const { return stepper_.slack(); }
 
   [[nodiscard]] solver::State& state() { return state_; }
@@ -53,29 +53,31 @@ class MachineRun {
   [[nodiscard]] model::Machine& machine() { return machine_; }
   [[nodiscard]] double last_dt() const { return stepper_.last_dt(); }
 
-  /// Records the state as it is, of no step.
+  /// Records the state without a step.
   void record_here() { record(TimeStep{}); }
   void write_modes(const solver::Modes& found) { record_.write_modes(state_, found); }
-  /// What was recorded last, and the energies since the start.
+  /// The last record, and the energies since the start.
   [[nodiscard]] const StepRecord& last_step() const { return last_step_; }
   [[nodiscard]] const EnergySummary& energy() const { return record_.energy(); }
 
-  /// Writes a checkpoint beside the results where one is due, or in any case.
+  /// Writes a checkpoint beside the results if one is due, or in any case.
   void write_checkpoint(bool in_any_case);
 
-  /// Closes the results. @returns unsolved, why that failed
-  /// @param coarse  summary of the run with steps twice as long; null where no step error is asked for
+  /// Closes the results.
+  /// @returns unsolved, with the reason, if that failed
+  /// @param coarse  summary of the run with steps twice as long; null if no step error is requested
   [[nodiscard]] Outcome finish(Status status, const std::string& message, const Summary* coarse);
 
-  /// Time of the row that was handed to the results last [s]; none since the run was begun or resumed.
+  /// Time of the row last passed to the results [s]; none since the run was begun or resumed.
   [[nodiscard]] std::optional<double> last_row() const { return record_.last_row(); }
 
   /// The figures of all steps so far.
   [[nodiscard]] Summary summary() const;
 
-  /// Everything that the rest of the run depends on.
+  /// Stores or restores everything on which the rest of the run depends.
   void persist(Archive& archive);
-  /// Goes on from what was stored. @throws ArchiveError where that is not of this machine and program
+  /// Continues from a stored state.
+  /// @throws ArchiveError if it belongs to another machine or program
   void restore(Archive& archive);
 
  private:
@@ -105,7 +107,7 @@ class MachineRun {
   CheckpointSchedule checkpoints_;
   StepRecord last_step_;
   bool resumes_ = false;
-  std::optional<Cost> cost_;  // as the results were closed with it: the summary tells the same
+  std::optional<Cost> cost_;  // the cost with which the results were closed; the summary reports the same
   double before_ = 0;         // computing time before the run was resumed [s]
 };
 

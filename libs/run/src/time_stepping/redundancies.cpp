@@ -31,7 +31,8 @@ std::string described(const mbd::Mechanism& mechanism, const mbd::Redundancy& re
       redundancy.orientations);
 }
 
-// Of many loops, which are alike as a rule; the assumptions in results and report have each.
+// Summarises many loops, which are usually alike, in one warning; the assumptions in results and report list each of
+// them.
 Fault summary_of(const model::Model& model, const mbd::Mechanism& mechanism) {
   const std::vector<mbd::Redundancy>& all = mechanism.redundancies();
   const std::string path = "joints." + name_of(mechanism, all.front().joint);

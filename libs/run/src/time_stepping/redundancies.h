@@ -10,10 +10,10 @@
 
 namespace hersey::run {
 
-/// Joints whose constraints are redundant, as assumptions: how many were left out of which loop; empty where none are.
+/// Joints with redundant constraints, as assumptions: the number left out and the loop; empty if there are none.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> redundancies(const mbd::Mechanism& mechanism);
 
-/// The same as warnings that point at the joints.
+/// Warnings about the same joints, with their location in the model file.
 [[nodiscard]] std::vector<Fault> redundancy_warnings(const model::Model& model, const mbd::Mechanism& mechanism);
 
 }  // namespace hersey::run

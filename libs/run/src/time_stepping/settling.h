@@ -9,7 +9,7 @@
 
 namespace hersey::run {
 
-/// Says whether every journal is where it was some time ago (model::Settle).
+/// Detects that every journal is at the position where it was some time ago (model::Settle).
 class SettlingTest {
  public:
   explicit SettlingTest(const model::Model& model) : model_(model) {}

@@ -28,14 +28,14 @@
 namespace hersey::run {
 namespace {
 
-// Read back: after a write error the file holds less than was handed to it.
+// The time is read back: after a write error the file contains less than was passed to it.
 double last_time(const std::filesystem::path& file) {
   const results::Reader reader(file);
   const std::size_t rows = reader.rows();
   return rows > 0 ? reader.read_rows("/time", rows - 1, 1).values.front() : 0;
 }
 
-// One run: the machine's march, or another analysis of it, to its end.
+// One run: time stepping or another analysis of the machine, to its end.
 class Run {
  public:
   Run(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint,
@@ -94,7 +94,7 @@ class Run {
     message_ = machine_.ending();
   }
 
-  // Whether the user ends the run here, where it can go on later: nothing of a step is pending.
+  // True if the user ends the run here, where it can be resumed: no part of a step is pending.
   bool is_stopped() {
     const bool stops = options_.stop && options_.stop->load();
     if (stops && options_.on_stopping) options_.on_stopping();
@@ -145,11 +145,11 @@ class Run {
   const Summary* coarse_;
   Status status_ = Status::completed;
   std::string message_;
-  int newton_iterations_ = 0;   // of finding rest
-  bool is_all_written_ = true;  // what was handed to the results file is in it
+  int newton_iterations_ = 0;   // iterations of the search for rest
+  bool is_all_written_ = true;  // true if all rows passed to the results file are in it
 };
 
-// What could not begin leaves nothing behind.
+// A run that could not begin leaves no file behind.
 Summary simulate_from(std::optional<Archive::Content> checkpoint, const model::Model& model, const Options& options,
                       const Summary* coarse = nullptr) {
   try {
@@ -161,7 +161,7 @@ Summary simulate_from(std::optional<Archive::Content> checkpoint, const model::M
   }
 }
 
-// The run that tells the error of the steps, of which only the summary is kept.
+// Runs the model with longer steps for the error estimate; only the summary is kept.
 Summary simulate_longer_steps(const model::Model& model, const Options& options) {
   Options coarse = options;
   coarse.step_error = false;
@@ -194,7 +194,8 @@ Summary resume_from(Archive::Content checkpoint, const model::Model& model, cons
   return summary;
 }
 
-// A checkpoint goes when its run is complete: while there is one, results that say so may have been cut off by a kill.
+// A checkpoint is removed when its run is complete: as long as there is one, results with the status `completed` may
+// have been cut off by a kill.
 Summary resume(const model::Model& model, const Options& options) {
   const bool begun = has_results(options.results);
   const std::filesystem::path file = checkpoint_file(options.results);
@@ -230,7 +231,7 @@ std::vector<Fault> check(const model::Model& model) {
   if (model.is_of_bearings_alone()) return {};
   model::Machine machine = model::build(model);
   const solver::State start = starting_state(model, machine);
-  // Refuses instants without end. A fixed step asks for none.
+  // Refuses an unlimited number of instants. A fixed step needs none.
   const mbd::Observation at_start = observe_step(machine, start, force_kinds(machine)).mechanism;
   if (model.simulation.error_control) (void)kinks(model, machine.mechanism->spec(), at_start);
   std::vector<Fault> warnings = start_warnings(model, *machine.mechanism, start);

@@ -57,7 +57,7 @@ struct Simulation::Impl {
     }
   }
 
-  // Steps are taken one by one; a limit that is passed is none.
+  // Takes steps one by one; a limit that is already passed is ignored.
   Advance take(double limit) {
     if (is_finished) return {{Advance::Status::ended, "the simulation is finished"}};
     if (!failure.empty()) return {{Advance::Status::failed, failure}};
@@ -102,7 +102,8 @@ struct Simulation::Impl {
     return snapshot.latest()[rows.at(index)].values;
   }
 
-  // What a step shows is not all kept from step to step: a restored state shows what was seen when it was saved.
+  // Outputs of a step are not all recomputed from the state: a restored state shows the outputs at the time it was
+  // saved.
   void persist_outputs(Archive& archive) {
     std::vector<std::vector<double>> values;
     if (!archive.restores())
@@ -138,7 +139,7 @@ struct Simulation::Impl {
   MachineRun run;
   Recorder snapshot;
   std::vector<OutputInfo> outputs;
-  std::vector<std::size_t> rows;  // of outputs, places in the snapshot
+  std::vector<std::size_t> rows;  // indices of the outputs in the snapshot
   std::map<std::string, std::size_t> index_of;
   Jump jump = Jump::none;
   std::vector<std::vector<double>> restored;  // outputs at a state that was restored; empty behind a step
@@ -156,7 +157,7 @@ Simulation::~Simulation() {
   try {
     (void)finish();
   } catch (const std::exception&) {
-    // The results are those of the last good flush; a destructor has no one to tell.
+    // The results are those of the last good flush; a destructor cannot report an error.
   }
 }
 

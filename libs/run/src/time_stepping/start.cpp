@@ -13,14 +13,14 @@
 #include "hersey/solver/initialise.h"
 #include "hersey/solver/kinematics.h"
 #include "hersey/solver/static_deformation.h"
-#include "time_stepping/start_changes.h"
 #include "record/facing_surfaces.h"
+#include "time_stepping/start_changes.h"
 
 namespace hersey::run {
 namespace {
 
-// The key path of what a message names first: "joint main, rotation" -> joints.main; "t = 0 s: bearing big_end: ..." ->
-// bearings.big_end.
+// Returns the key path of the first name in a message: "joint main, rotation" -> joints.main; "t = 0 s: bearing
+// big_end: ..." -> bearings.big_end.
 std::string path_of(const std::string& message) {
   const std::array<std::pair<const char*, const char*>, 6> sections{{{"joint ", "joints."},
                                                                      {"drive ", "drives."},
@@ -102,7 +102,7 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
 
 namespace {
 
-// A kinematic analysis has nothing that would move what drives do not hold.
+// In a kinematic analysis nothing moves the coordinates that no drive prescribes.
 void require_prescribed_motion(const model::Model& model, model::Machine& machine, const solver::State& start) {
   const std::vector<std::string> loose = solver::free_coordinates(*machine.mechanism, start);
   if (loose.empty()) return;
@@ -113,7 +113,7 @@ void require_prescribed_motion(const model::Model& model, model::Machine& machin
 }
 
 // At spectral radius 1 generalized-alpha damps nothing, and multipliers oscillate with growing amplitude. Steps chosen
-// by their error end on the constraints, so that no such oscillation lasts.
+// by their error end on the constraints, so that no such oscillation persists.
 void require_damped_multipliers(const model::Model& model, const mbd::Mechanism& mechanism) {
   if (model.simulation.analysis != model::Analysis::dynamics || mechanism.nlambda() == 0) return;
   if (model.simulation.spectral_radius < 1 || model.simulation.error_control) return;
@@ -123,7 +123,7 @@ void require_damped_multipliers(const model::Model& model, const mbd::Mechanism&
                          "`step: {tolerance}` do not"});
 }
 
-// Bodies that deform start as the forces hold them, where that is asked for.
+// Deformable bodies start in equilibrium with the forces on them, if this is requested.
 void deform(const model::Model& model, model::Machine& machine, solver::InitialiseOptions options,
             solver::State& state) {
   using model::InitialDeformation;

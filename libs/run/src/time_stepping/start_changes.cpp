@@ -88,7 +88,7 @@ void require_given_start(const model::Model& model, mbd::Mechanism& mechanism, c
   if (!keeps_start(model.simulation)) return;
   Changes changes = mechanism.changed_values(start);
   std::erase_if(changes, [](const mbd::ChangedStart& change) { return change.share <= kLargestStartShare; });
-  // Rates follow positions: where these do not fit, they are not the trouble.
+  // Rates follow positions: if positions do not fit, the rates are not the cause.
   const auto is_position = [](const mbd::ChangedStart& change) { return !change.is_rate; };
   if (std::any_of(changes.begin(), changes.end(), is_position)) std::erase_if(changes, std::not_fn(is_position));
   std::vector<Fault> faults;

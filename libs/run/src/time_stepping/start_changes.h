@@ -12,13 +12,14 @@
 
 namespace hersey::run {
 
-/// Whether the analysis starts from the values that `initial` gives; otherwise its search for rest begins there.
+/// True if the analysis starts from the values that `initial` gives; otherwise its search for rest begins there.
 [[nodiscard]] bool keeps_start(const model::Simulation& plan);
 
-/// Refuses a start that differs from what the model gives by more than the rounding of values written with three
-/// digits: 1e-3 rad, of the machine's size, or of its largest rate.
+/// Refuses a start that differs from the given values by more than the rounding of values written with three digits:
+/// 1e-3 rad, of the machine's size, or of its largest rate.
 /// @param summary  of the assembly that ended in `start`
-/// @throws InputError, a fault for each such value with the nearest one found, and which joints stay how far apart
+/// @throws InputError, a fault for each such value with the nearest value found, and the joints that stay open with
+///         their distances
 void require_given_start(const model::Model& model, mbd::Mechanism& mechanism, const solver::State& start,
                          const solver::InitialiseSummary& summary);
 

@@ -19,13 +19,13 @@ class StepError {
   /// @returns all errors with their signs: of the coordinates, then of each journal along x and y of its shell.
   [[nodiscard]] const Eigen::VectorXd& measure(const solver::State& end, const Eigen::VectorXd& error);
 
-  /// The largest of those last measured; of a journal the length of its error.
+  /// The largest of the errors last measured; for a journal, the length of its error vector.
   [[nodiscard]] double largest() const { return largest_; }
 
   /// The largest of the coordinates alone.
   [[nodiscard]] double of_coordinates() const { return of_coordinates_; }
 
-  /// What the largest is the error of, e.g. "joint guide, x" or "the journal in bearing big_end".
+  /// Name of the quantity with the largest error, e.g. "joint guide, x" or "the journal in bearing big_end".
   [[nodiscard]] std::string worst() const;
 
  private:

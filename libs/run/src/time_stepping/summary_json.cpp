@@ -53,7 +53,7 @@ nlohmann::json json_of(const EnergySummary& energy) {
           {"share_from_nowhere", energy.share_from_nowhere()}};
 }
 
-// What was not asked for is null.
+// Values that were not requested are null.
 nlohmann::json step_errors_of(const Summary& summary) {
   const auto number = [](double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); };
   nlohmann::json bearings = nlohmann::json::object();

@@ -7,7 +7,7 @@ namespace hersey::run {
 
 TargetInstants TargetInstants::equal(double start, double duration, double step) {
   TargetInstants instants;
-  // A last interval that is nothing but round-off is none.
+  // A last interval of the size of round-off is left out.
   instants.count_ = static_cast<std::size_t>(std::max(1.0, std::ceil(duration / step - 1e-9)));
   instants.start_ = start;
   instants.step_ = step;

@@ -6,7 +6,8 @@
 
 namespace hersey::run {
 
-/// The instants that steps have to hit, ascending [s]: a list, or equal intervals, which take no memory however many.
+/// The instants that steps have to hit, ascending [s]: a list, or equal intervals, which take no memory whatever their
+/// number.
 class TargetInstants {
  public:
   TargetInstants() = default;

@@ -14,11 +14,11 @@ namespace {
 
 constexpr double kMeaningless = 0.02;  // rad, or sizes of the machine, that one step may be off
 constexpr double kOneInstant = 1e-6;   // of the fixed step: instants that others reckon up
-constexpr double kOfTolerance = 0.1;   // of a step's error that what films leave unsolved may be
+constexpr double kOfTolerance = 0.1;   // share of a step's error that the films' residual may contribute
 constexpr double kLargestCondensed = 1e-6;
-constexpr double kOfHalvedStep = 8;     // the error over its tolerance that halves a step
+constexpr double kOfHalvedStep = 8;     // ratio of the error to its tolerance at which a step is halved
 constexpr double kCreeping = 1.0 / 16;  // of the fixed step: an impact asks for shorter ones, not a motion throughout
-constexpr double kShortest = 1.0 / 64;  // of the fixed step: shorter ones are taken whatever their error
+constexpr double kShortest = 1.0 / 64;  // share of the fixed step below which steps are accepted whatever their error
 
 solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
   solver::GeneralizedAlphaOptions options;
@@ -127,15 +127,15 @@ void TimeStepper::start_afresh(solver::State& state) {
   energy_.begin(state);
 }
 
-// Much shorter steps than the last would have to take back at once the velocities that it has left across the
-// constraints: the shorter, the harder. They begin from velocities that the constraints allow.
+// Steps much shorter than the last one would have to remove at once the velocities that it left across the constraints,
+// which is harder the shorter they are. They begin from velocities that the constraints allow.
 void TimeStepper::restart(solver::State& state) {
   if (!solver::restart(*machine_.mechanism, state, last_dt_)) return;
   integrator_.reset();
   energy_.begin(state);
 }
 
-// Nothing integrated: the last step, gone on with, is where Newton's method begins.
+// Nothing is integrated: Newton's method begins at the extrapolation of the last step.
 TimeStep TimeStepper::follow_drives(solver::State& state, double target) {
   TimeStep step;
   step.dt = target - state.t;
@@ -169,8 +169,8 @@ std::string TimeStepper::advice(const solver::StepSummary& solution) const {
   return text;
 }
 
-// A step whose own estimate says that its end means nothing is no answer, though Newton's method has found it: such
-// steps lead a machine onto motions that it never leaves.
+// A step whose own error estimate shows that its end is meaningless is not accepted, although Newton's method
+// converged: such steps lead a machine onto motions that it never leaves.
 TimeStep TimeStepper::take_fixed(solver::State& state, double target) {
   TimeStep step;
   int failures = 0;
@@ -178,7 +178,7 @@ TimeStep TimeStepper::take_fixed(solver::State& state, double target) {
     step.dt = std::min(trial_, target - state.t);
     const bool may_be_cut = has_smooth_motion_ && step.dt > kShortest * model_.simulation.step;
     const auto check = [&](const solver::State& end, const Eigen::VectorXd& estimate) {
-      // Motions that films or stiffness end within a step: the estimate extrapolates what is not there.
+      // Films or stiffness end some motions within a step, and the estimate extrapolates motions that no longer exist.
       const Eigen::VectorXd way = 0.5 * step.dt * (state.v.cwiseAbs() + end.v.cwiseAbs());
       bounded_ = estimate.cwiseMin(way).cwiseMax(-way);
       (void)step_error_.measure(end, bounded_);

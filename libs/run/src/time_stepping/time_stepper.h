@@ -17,16 +17,16 @@
 
 namespace hersey::run {
 
-/// How one step of a run was found; where none could be taken, why, with its time.
+/// Outcome of one step of a run; if none could be taken, the reason and the time.
 struct [[nodiscard]] TimeStep : Outcome {
   double dt = 0;  ///< [s]
   solver::StepSummary solution;
   double error = 0;        ///< estimated, over the tolerance; 0 where it is not controlled
-  double local_error = 0;  ///< estimated, StepError::largest; 0 where nothing is integrated
+  double local_error = 0;  ///< estimated, StepError::largest; 0 if nothing is integrated
 };
 
-/// Takes a machine step by step through the instants that its run has to hit: by a fixed step and its halves where
-/// Newton's method does not converge, by a controlled error, or from instant to instant with drives alone (kinematics).
+/// Steps a machine through the instants that its run has to hit: by a fixed step that is halved where Newton's method
+/// does not converge, by a controlled error, or from instant to instant with drives alone (kinematics).
 class TimeStepper {
  public:
   TimeStepper(const model::Model& model, model::Machine& machine);
@@ -37,25 +37,24 @@ class TimeStepper {
 
   [[nodiscard]] bool is_at_end() const { return reached_ == targets_.size(); }
 
-  /// Advances `state` by one accepted step; leaves it where it was when there is none.
-  /// @param limit  an instant beside the planned ones that steps do not pass [s]. Between two that are not planned
-  /// fixed
-  ///               steps are equal, at most as long as planned.
+  /// Advances `state` by one accepted step; leaves it unchanged if there is none.
+  /// @param limit  an instant besides the planned ones that steps do not pass [s]. Between two instants that are not
+  ///         planned, fixed steps are equal and at most as long as planned.
   /// @pre planned, not at the end; state.t < limit
   [[nodiscard]] TimeStep take(solver::State& state, double limit = std::numeric_limits<double>::infinity());
 
-  /// How close two instants are that count as one [s].
+  /// Distance below which two instants count as one [s].
   [[nodiscard]] double slack() const;
 
-  /// What acts on the machine has jumped. Its history ends here, and the next step begins with the accelerations that
-  /// follow from what acts now.
-  /// @param moves  prescribed velocities have jumped too: those of the machine follow, as by an impulse
+  /// Restarts the integrator after a jump of what acts on the machine. Its history ends here, and the next step begins
+  /// with the accelerations that follow from what acts now.
+  /// @param moves  prescribed velocities have jumped too: the machine's velocities follow, as by an impulse
   void take_jump(solver::State& state, bool moves);
 
   [[nodiscard]] const solver::GeneralizedAlpha& integrator() const { return integrator_; }
-  /// The step last taken; 0 before the first [s].
+  /// Length of the last step; 0 before the first [s].
   [[nodiscard]] double last_dt() const { return last_dt_; }
-  /// What it knows of the energy of the steps.
+  /// The monitor of the energy of the steps.
   [[nodiscard]] const EnergyMonitor& energy() const { return energy_; }
   /// Tried in vain since the start of the run.
   [[nodiscard]] int rejected_steps() const { return rejected_; }
@@ -85,11 +84,11 @@ class TimeStepper {
   std::vector<double> bends_;  ///< under error control
   TargetInstants targets_;
   std::optional<solver::StepControl> control_;              ///< under error control
-  std::size_t reached_ = 0;                                 ///< how many of the targets
+  std::size_t reached_ = 0;                                 ///< number of targets reached
   bool off_plan_ = false;                                   ///< the last step ended between the targets
   bool at_bend_ = false;                                    ///< the next step starts where a table bends
   double trial_ = std::numeric_limits<double>::infinity();  ///< longest fixed step to try after a failure [s]
-  double creeping_ = 0;  ///< time gone by in fixed steps much shorter than planned, without a longer one [s]
+  double creeping_ = 0;  ///< time covered by fixed steps much shorter than planned, without a longer one [s]
   double last_dt_ = 0;
   int rejected_ = 0;
 };

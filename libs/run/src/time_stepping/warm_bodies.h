@@ -6,17 +6,17 @@
 
 namespace hersey::run {
 
-/// After a step of length dt [s] has been accepted: the lumped bodies of the thermal network take up what all films
-/// give them over it, and the films' walls have their temperatures (theory manual, thermal.47). Nothing where there is
-/// no network.
+/// Advances, after an accepted step of length dt [s], the lumped bodies of the thermal network by the heat that all
+/// films gave them over it, and sets the films' walls to their temperatures (theory manual, thermal.47). Does nothing
+/// without a network.
 void warm_bodies(model::Machine& machine, double dt);
 
-/// After the last step of a cycle: walls that are held, bodies of the network among them, take the temperatures at
-/// which the cycle's mean heat would pass them by (theory manual, thermal.19).
+/// Sets, after the last step of a cycle, quasi-steady walls, bodies of the network among them, to the temperatures at
+/// which the cycle's mean heat would flow through them (theory manual, thermal.19).
 void settle_walls(model::Machine& machine);
 
-/// What temperatures have done to a film that cannot go on from there: "bearing main: a seizure ..."; else empty.
-/// @param has_failed  the next step has found no end: a clearance that has all but closed is then why
+/// Describes a thermal failure of a film that cannot continue: "bearing main: a seizure ..."; else empty.
+/// @param has_failed  the next step did not converge: an almost closed clearance is then the reason
 [[nodiscard]] std::string thermal_failure(const model::Machine& machine, bool has_failed = false);
 
 }  // namespace hersey::run

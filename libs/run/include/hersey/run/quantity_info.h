@@ -24,25 +24,26 @@ struct SummaryRow {
   Statistic statistic = Statistic::at_end;
   std::string name;           ///< "minimum film thickness (MOFT)"; <...> is filled in as in QuantityInfo::name
   std::string unit = {};      ///< that of the table, "µm"; empty for a pure number
-  bool has_location = false;  ///< the series <name>_phi and <name>_z tell where
+  bool has_location = false;  ///< the series <name>_phi and <name>_z give its location
   Only only = Only::always;
 };
 
-/// What there is to be said of a quantity wherever it is told: results file, closing table, report, documentation.
+/// Description of a quantity, common to results file, summary table, report and documentation.
 struct QuantityInfo {
   enum class Kind { series, constant, attribute };
   std::string name;         ///< below the group of its thing, "h_min"; <...> stands for a name
   std::string unit;         ///< SI, "1" for a pure number, several as "N|N.m"; empty for text
-  std::string text;         ///< what it is
+  std::string text;         ///< description
   std::string shape = {};   ///< "[n, 3]"; empty: one number or text
   std::string symbol = {};  ///< of the theory manual, where it has one
-  std::string note = {};    ///< what else the documentation says: where it is there only for some, how it is meant
+  std::string note = {};    ///< further remarks for the documentation: conditions under which the quantity exists, its
+                            ///< interpretation
   Kind kind = Kind::series;
-  std::vector<std::string> dimensions = {};  ///< names of what its columns are, beside x, y, z
+  std::vector<std::string> dimensions = {};  ///< names of its columns, besides x, y, z
   std::vector<SummaryRow> summary_rows = {};
 };
 
-/// All that a results file says of things of one kind.
+/// All quantities that a results file has of things of one kind.
 struct QuantityGroup {
   std::string path;     ///< of a thing's group, "/bearings/<b>/"
   std::string heading;  ///< what they are, "of a film"
