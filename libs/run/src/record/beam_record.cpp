@@ -49,7 +49,7 @@ BeamSurface surface_of(const model::Beam& beam) {
   return surface;
 }
 
-/// Whether a joint or force between bodies holds a node, beyond the beam itself.
+/// True if a joint or force between bodies supports a node, besides the beam itself.
 bool is_fixed(const mbd::MechanismSpec& spec, mbd::BodyId node) {
   const auto on_node = [&](mbd::FrameId frame) {
     return spec.frames[static_cast<std::size_t>(frame.index)].body == node;
@@ -86,7 +86,7 @@ auto sum_of_segments(double mbd::ElasticEnergy::*energy) {
   };
 }
 
-/// So many numbers for each node or element.
+/// Extent with a fixed number of values for each node or element.
 Extent<BeamPlan> per_node(int numbers) {
   return {fmt::format("{} nodes", numbers), [numbers](const BeamPlan& plan, std::size_t /*k*/) {
             return std::vector{numbers * static_cast<int>(plan.beam.nodes.size())};
@@ -148,7 +148,7 @@ const std::vector<Constant<BeamPlan>>& beam_constants() {
   return table;
 }
 
-/// Of its surface, a shape.
+/// Constants of the beam's surface, a shape.
 const std::vector<Constant<BeamPlan>>& surface_constants() {
   const auto of_surface = [](std::vector<double> BeamSurface::*member) {
     return [member](const BeamPlan& plan) { return surface_of(plan.beam).*member; };
@@ -170,7 +170,7 @@ const std::vector<Attribute<BeamPlan>>& beam_attributes() {
   return table;
 }
 
-/// Of its surface, a shape.
+/// Attributes of the beam's surface, a shape.
 const std::vector<Attribute<BeamPlan>>& surface_attributes() {
   static const std::vector<Attribute<BeamPlan>> table{
       {"shape", "", "`mesh`", [](const BeamPlan& /*plan*/) { return "mesh"; }},

@@ -8,7 +8,7 @@
 
 namespace hersey::run {
 
-/// A beam of the model and what it has become in the machine.
+/// A beam of the model and the parts that the machine has built from it.
 struct BeamPlan {
   const model::Beam& beam;
   const model::BuiltBeam& built;
@@ -25,14 +25,14 @@ struct BeamRow {
 /// Numbers in a beam's amplitudes.
 [[nodiscard]] int beam_amplitude_count(const model::BuiltBeam& built);
 
-/// How far nodes and their axes have moved, seen from the first node, shape (beam_amplitude_count).
+/// Displacements and rotations of the nodes, relative to the first node, shape (beam_amplitude_count).
 [[nodiscard]] Eigen::VectorXd beam_amplitudes(const model::Beam& beam, const model::BuiltBeam& built,
                                               const mbd::Observation& observation);
 
 /// The beam of the model that `built` was made of.
 [[nodiscard]] const model::Beam& beam_of(const model::Model& model, const model::BuiltBeam& built);
 
-/// One beam in the results file, beside the motion of its nodes with frames.
+/// One beam in the results file, besides the motion of its nodes with frames.
 class BeamRecord {
  public:
   /// @param model, machine  outlive this
@@ -41,7 +41,7 @@ class BeamRecord {
   void append(const mbd::Observation& observation) const;
   /// Adds its quantities.
   static void describe(QuantityGroup& group);
-  /// Adds what is said of its surface, a shape of the body.
+  /// Adds the quantities of its surface, a shape of the body.
   static void describe_surface(QuantityGroup& group);
 
  private:

@@ -15,7 +15,7 @@
 namespace hersey::run {
 namespace {
 
-// A journal may be tilted within its clearance, and may rock there; what turns it further is meant to turn it about
+// A journal may be tilted within its clearance, and may rock there; a larger rotation means that it rotates about
 // another axis.
 constexpr double kRocking = 10;        // times that tilt, which a start's velocity reaches within the run
 constexpr double kShareOfSpeed = 0.1;  // across the axis, of the velocity about it

@@ -9,9 +9,9 @@
 
 namespace hersey::run {
 
-/// Bearings whose journal is to turn about another axis than theirs, by a joint between journal and shell or by the
-/// velocities of the start: it would touch the shell at the edges within a part of a turn.
-/// @param start  the machine where the run begins
+/// Returns warnings for bearings whose journal rotates about another axis than theirs, by a joint between journal and
+/// shell or by the velocities of the start: it would touch the shell at the edges within a part of a revolution.
+/// @param start  the machine at the start of the run
 [[nodiscard]] std::vector<Fault> axis_warnings(const model::Model& model, const model::Machine& machine,
                                                const mbd::Observation& start);
 

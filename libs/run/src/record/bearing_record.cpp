@@ -15,19 +15,19 @@ namespace {
 using Film = film::FilmObservables;
 using Statistic = SummaryRow::Statistic;
 
-/// Of what is seen of the bearing.
+/// Member of the observation of the bearing.
 template <class Member>
 auto of_bearing(Member member) {
   return [member](const BearingRow& row) { return std::invoke(member, row.observation); };
 }
 
-/// Of where its journal is.
+/// Member of the position of its journal.
 template <class Member>
 auto of_position(Member member) {
   return [member](const BearingRow& row) { return std::invoke(member, row.observation.position); };
 }
 
-/// Of its film.
+/// Member of the observables of its film.
 template <class Member>
 auto of_film(Member member) {
   return [member](const BearingRow& row) { return std::invoke(member, row.observation.film); };
@@ -41,7 +41,7 @@ auto of_oil(Member member) {
 Vector3 force_on_shell(const BearingRow& row) { return row.observation.wrench_on_shell.tail<3>(); }
 Vector3 moment_on_shell(const BearingRow& row) { return row.observation.wrench_on_shell.head<3>(); }
 
-// Attitude: from the load on the journal (the shell's film force turned round) to the line of centres, 0..pi.
+// Attitude angle: from the load on the journal (the shell's film force reversed) to the line of centres, 0..pi.
 double attitude(const BearingRow& row) {
   const Eigen::Vector2d load = force_on_shell(row).head<2>(), e = row.observation.position.e;
   return std::abs(std::atan2(load.x() * e.y() - load.y() * e.x(), load.dot(e)));
@@ -84,7 +84,7 @@ bool expands(const BearingPlan& plan) { return plan.bearing.expansion.has_value(
 
 using Heat = film::HeatObservables;
 
-/// Of the film's heat, a temperature in degC.
+/// Temperature of the film's heat in degC.
 auto celsius(double Heat::*T) {
   return [T](const BearingRow& row) { return *row.observation.heat.*T - film::zero_celsius; };
 }
@@ -121,7 +121,7 @@ Eigen::VectorXd h_min_around(const BearingRow& row) {
 
 Eigen::VectorXd p_max_around(const BearingRow& row) { return by_angle(row.fields.p, row.grid).colwise().maxCoeff(); }
 
-/// The table of what is known of a bearing over time. What is told comes in this order, extremes first.
+/// The table of a bearing's quantities over time. The summary reports them in this order, extremes first.
 const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
   static const Extent<BearingPlan> around{
       "n_phi",
@@ -423,7 +423,7 @@ const QuantityTable<FilmInstant, BearingPlan>& film_field_quantities() {
   return table;
 }
 
-/// Where the nodes lie: the dimensions of all fields.
+/// Positions of the nodes: the dimensions of all fields.
 const std::vector<Constant<BearingPlan>>& film_nodes() {
   static const std::vector<Constant<BearingPlan>> table{
       {"fields/phi", "rad", "bearing angle of the nodes", "[n_phi]",
@@ -444,7 +444,7 @@ const std::vector<Constant<BearingPlan>>& film_nodes() {
   return table;
 }
 
-/// What decides the results of this bearing.
+/// Assumptions that decide the results of this bearing.
 std::vector<std::pair<std::string, std::string>> own_assumptions(const BearingPlan& plan) {
   std::vector<std::pair<std::string, std::string>> own;
   const std::string prefix = plan.bearing.name + ": ";
@@ -479,7 +479,7 @@ const std::vector<Attribute<BearingPlan>>& bearing_attributes() {
 
 std::string group_of(const model::Bearing& bearing) { return "/bearings/" + bearing.name + "/"; }
 
-/// What is written once comes first: series name the nodes as their dimensions.
+/// Constants are written first, because series name the nodes as their dimensions.
 const BearingPlan& written(const BearingPlan& plan, results::Writer& writer) {
   write_once(bearing_attributes(), group_of(plan.bearing), plan, writer);
   write_once(film_nodes(), group_of(plan.bearing), plan, writer);

@@ -8,7 +8,7 @@
 
 namespace hersey::run {
 
-/// What is known of a bearing before the first row.
+/// Data of a bearing that exist before the first row.
 struct BearingPlan {
   const model::Model& model;
   const model::Bearing& bearing;
@@ -37,7 +37,7 @@ class BearingRecord {
     rows_.append({observation, film_.fields(), film_.model().grid});
   }
   void append_fields(double t) const { fields_.append({t, film_.fields()}); }
-  /// Its group and that of its cycles.
+  /// The group of a bearing and that of its cycles.
   [[nodiscard]] static std::vector<QuantityGroup> describe();
 
  private:

@@ -10,7 +10,7 @@ namespace hersey::run {
 /// The motion of one body in the results file.
 class BodyRecord {
  public:
-  /// @param other  of another body, to share what is the same; null: there is none
+  /// @param other  record of another body, to share common parts; null: there is none
   BodyRecord(const std::string& name, const BodyRecord* other, results::Writer& writer);
   void append(const mbd::FrameMotion& motion) const { rows_.append(motion); }
   /// Adds its series.

@@ -7,13 +7,14 @@
 
 namespace hersey::run {
 
-/// What acts on one coordinate of a joint: a drive, a coupling, or friction, springs and control in a joint.
+/// Force or torque on one coordinate of a joint: of a drive, of a coupling, or of friction, springs and control in a
+/// joint.
 struct Effort {
   double value = 0;  ///< force or torque [N; N m]
   double power = 0;  ///< put into the machine [W]
 };
 
-/// All that acts on joint coordinates, in the results file.
+/// All forces and torques on joint coordinates, in the results file.
 class EffortRecord {
  public:
   EffortRecord(const mbd::MechanismSpec& spec, results::Writer& writer);

@@ -7,7 +7,8 @@ namespace hersey::run {
 EnergyBalance::Instant EnergyBalance::instant_of(const StepRecord& step) const {
   const mbd::Observation& machine = step.mechanism;
   Instant now{.put_in = step.power.drives + step.power.loads, .dampers = machine.damper_power};
-  // Sources among the forces on coordinates count as drives, stores as springs; what the others take is lost.
+  // Sources among the forces on coordinates count as drives, stores as springs; the energy that the others absorb is
+  // lost.
   for (std::size_t i = 0; i < machine.coordinate_force_powers.size(); ++i)
     if (const mbd::CoordinateForce& force = *spec_.coordinate_forces[i].force; !force.is_source() && !force.is_store())
       now.dampers -= machine.coordinate_force_powers[i];
@@ -39,7 +40,8 @@ void EnergyBalance::take(const StepRecord& step) {
   add(sums_.contacts, &Instant::contacts);
   add(sums_.dampers, &Instant::dampers);
   sums_.stored = now.stored() - start_.stored();
-  // What oil brings under pressure is put in, too; a step's judge sees of it what reaches the bodies.
+  // Energy that oil brings under pressure is put in, too; the energy monitor of the steps counts the part of it that
+  // reaches the bodies.
   brought_by_oil_ = std::max(brought_by_oil_, -sums_.oil);
   sums_.available = step.energy_available + brought_by_oil_;
   sums_.from_nowhere = step.energy_from_nowhere;

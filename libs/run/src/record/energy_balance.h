@@ -7,8 +7,8 @@
 
 namespace hersey::run {
 
-/// Where the energy put into a machine has gone since the start of a run, each part from an integral of its own (theory
-/// manual, bearing.6): none from the forces that the equations of motion know.
+/// Balance of the energy put into a machine since the start of a run. Each part is a separate integral (theory manual,
+/// bearing.6); none uses the forces of the equations of motion.
 class EnergyBalance {
  public:
   /// @param spec  of the machine's mechanism, which outlives this
@@ -20,7 +20,7 @@ class EnergyBalance {
   void persist(Archive& archive);
 
  private:
-  /// Powers of an instant [W] and what is stored in bodies and springs [J].
+  /// Powers of an instant [W] and energy stored in bodies and springs [J].
   struct Instant {
     double put_in = 0, films = 0, boundary_friction = 0, oil = 0, film_storage = 0, contacts = 0, dampers = 0;
     double kinetic = 0, potential = 0, springs = 0, strain = 0;
@@ -32,7 +32,7 @@ class EnergyBalance {
   EnergySummary sums_;
   Instant last_;
   Instant start_;
-  double brought_by_oil_ = 0;  ///< the most since the start [J]
+  double brought_by_oil_ = 0;  ///< largest value since the start [J]
   bool is_begun_ = false;
 };
 

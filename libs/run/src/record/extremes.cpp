@@ -31,7 +31,8 @@ void BearingExtremes::take(double t, double dt, const bearing::BearingObservatio
   summary_.max_force = std::max(summary_.max_force, observation.wrench_on_shell.tail<3>().norm());
   summary_.eccentricity_ratio = observation.position.ratio();
   if (observation.heat)
-    summary_.T_max = std::fmax(summary_.T_max, observation.heat->T_max);  // of nothing yet and a number, that
+    // Fmax ignores the initial value, which is not a number
+    summary_.T_max = std::fmax(summary_.T_max, observation.heat->T_max);
   summary_.turned += dt * observation.position.speed, summary_.travelled += dt * std::abs(observation.position.speed);
   summary_.worst_mass_balance = std::max(summary_.worst_mass_balance, film.mass_balance_error);
   const double put_in = -observation.power_into_bodies, taken = film.power_taken();

@@ -15,7 +15,7 @@ class BearingExtremes {
   void take(double t, double dt, const bearing::BearingObservation& observation);
   [[nodiscard]] BearingSummary summary() const;
   [[nodiscard]] const std::string& name() const { return summary_.name; }
-  /// Smallest thickness at the step last taken; infinite before one is [m].
+  /// Smallest thickness at the last step; infinite before the first one [m].
   [[nodiscard]] double last_thickness() const { return last_thickness_; }
   void persist(Archive& archive);
 

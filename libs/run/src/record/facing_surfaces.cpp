@@ -49,7 +49,7 @@ double interpolated(const Eigen::VectorXd& field, const film::FilmModel& film, d
   return (1 - a) * along(i) + a * along(next);
 }
 
-/// What the meshes leave between shell and journal, where it is least.
+/// Least clearance that the meshes leave between shell and journal.
 struct LeastClearance {
   double value = std::numeric_limits<double>::infinity();
   double phi = 0, z = 0;

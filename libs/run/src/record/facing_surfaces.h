@@ -9,7 +9,7 @@
 
 namespace hersey::run {
 
-/// How far the mesh of a bearing's surface lies off the radius that its film reckons with.
+/// Difference between the mesh of a bearing's surface and the radius that its film uses.
 struct SurfaceOffset {
   double nominal = 0;  ///< radius of the bearing's bore, or of its journal [m]
   double mean = 0;     ///< that of the mesh, mean over the area, less the nominal one [m]

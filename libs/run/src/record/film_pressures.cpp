@@ -39,7 +39,7 @@ FilmPressures::AtNodes FilmPressures::at_nodes(const StepRecord& step) const {
     // Both pressures act on the same share of the area.
     const VectorXd all = (fields.p.cwiseMax(0) + fields.p_asperity).cwiseMax(1e-300);
     const VectorXd of_contact = forces.cwiseProduct(fields.p_asperity.cwiseQuotient(all));
-    // A journal's mesh has turned beneath the film.
+    // A journal's mesh has rotated relative to the film.
     const Matrix3& R_AB = step.journal_motions[on.bearing].X_AB.R;
     const double turned = on.is_shell ? 0 : std::atan2(R_AB(1, 0), R_AB(0, 0));
     const VectorXd phi = on.phi.array() - turned;

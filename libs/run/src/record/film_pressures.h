@@ -11,13 +11,13 @@
 
 namespace hersey::run {
 
-/// What the films on a flexible body's mesh put on its nodes.
+/// Pressures of the films on the nodes of a flexible body's mesh.
 class FilmPressures {
  public:
   /// @param body  name of the flexible body
   FilmPressures(const model::Model& model, const model::Machine& machine, const std::string& body);
 
-  /// Whether there is any film on the mesh.
+  /// True if there is any film on the mesh.
   [[nodiscard]] bool has_any() const { return !surfaces_.empty(); }
 
   struct AtNodes {

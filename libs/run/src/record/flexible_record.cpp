@@ -8,7 +8,7 @@ namespace {
 int shape_count(const model::BuiltFlexible& body) { return static_cast<int>(body.shapes.cols()); }
 bool has_shapes(const model::BuiltFlexible& body) { return shape_count(body) > 0; }
 
-/// What a unit amplitude of each shape does to the corners of the body's skin, shape after shape.
+/// Displacements of the corners of the body's skin for a unit amplitude of each shape, shape after shape.
 std::vector<double> deformation_of_skin(const model::BuiltFlexible& body) {
   const fem::Skin skin = fem::skin(*body.mesh);
   std::vector<double> values;

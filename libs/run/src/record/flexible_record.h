@@ -11,7 +11,7 @@ struct FlexibleRow {
   Eigen::VectorXd amplitudes;  ///< of its shapes
 };
 
-/// One flexible body in the results file, beside its motion.
+/// One flexible body in the results file, besides its motion.
 class FlexibleRecord {
  public:
   /// @param body  outlives this

@@ -24,7 +24,7 @@ struct Parts<mbd::Sphere> {
   }
 };
 
-/// Of a cylinder or capsule.
+/// Constants of a cylinder or capsule.
 template <class Bar>
 [[nodiscard]] std::vector<Constant<Bar>> parts_of_bar() {
   return {{"from", "m", "centre of one end", "[3]", &Bar::from, Writer::xyz},
@@ -123,7 +123,7 @@ struct Link {
   const mbd::MechanismSpec& spec;
   mbd::FrameId inboard, outboard;
   Vector3 axis;                      ///< in the axes of the inboard body
-  Vector3 x_axis = Vector3::Zero();  ///< of the inboard frame, likewise
+  Vector3 x_axis = Vector3::Zero();  ///< x axis of the inboard frame
 };
 
 auto body_name(mbd::FrameId Link::*end) {
@@ -144,7 +144,7 @@ const std::vector<Attribute<Link>>& link_attributes() {
   return table;
 }
 
-/// @param axis  what the axis is
+/// @param axis  description of the axis
 std::vector<Constant<Link>> link_constants(const char* axis) {
   return {{"inboard_origin", "m", "place in the body inboard", "[3]", origin(&Link::inboard), Writer::xyz},
           {"outboard_origin", "m", "place in the body outboard", "[3]", origin(&Link::outboard), Writer::xyz},
@@ -195,7 +195,7 @@ const std::vector<Constant<MassPoint>>& body_constants() {
   return table;
 }
 
-/// Mass and centre, in its axes, of the elastic body called `name`, whose pieces may be many.
+/// Mass and centre, in its axes, of the elastic body called `name`, which may consist of many pieces.
 MassPoint mass_of_elastic(const mbd::MechanismSpec& spec, const std::string& name) {
   double mass = 0;
   Vector3 moment = Vector3::Zero(), origin = Vector3::Zero();  // a piece begins where the one before it ends

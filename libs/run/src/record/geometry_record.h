@@ -8,15 +8,15 @@
 
 namespace hersey::run {
 
-/// Writes what a picture of the machine needs beside its motion: shapes of bodies and of ground, where joints and
-/// bearings sit in their bodies, and what connects which bodies (layout: docs/results-file.md).
-/// @param hidden_joints  those of the mechanism that the file does not show
+/// Writes the data, besides the motion, that a picture of the machine needs: shapes of bodies and of ground, positions
+/// of joints and bearings in their bodies, and the bodies that each of them connects (layout: docs/results-file.md).
+/// @param hidden_joints  joints of the mechanism that the file does not show
 void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, const std::vector<bool>& hidden_joints,
                     results::Writer& writer);
 
-/// Adds the place of a force between two bodies, a bearing or a contact.
+/// Adds the position of a force between two bodies, a bearing or a contact.
 void describe_link(QuantityGroup& group);
-/// The same of a joint, with its type.
+/// Adds the position of a joint, with its type.
 void describe_joint_position(QuantityGroup& group);
 /// Adds mass and centre of a body.
 void describe_mass(QuantityGroup& group);

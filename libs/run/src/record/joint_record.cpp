@@ -19,7 +19,7 @@ std::vector<std::string> coordinate_names(const mbd::JointSpec& joint) {
 int degrees_of(const mbd::JointSpec& joint) { return mbd::degrees_of_freedom(joint.type); }
 bool has_degrees(const mbd::JointSpec& joint) { return degrees_of(joint) > 0; }
 
-/// Of values with the unit `angle` or `length`.
+/// Unit of values whose unit is `angle` or `length`.
 std::string unit_of(const mbd::JointSpec& joint, const char* angle, const char* length) {
   return degrees_of(joint) > 1 ? "SI" : is_rotational(joint, 0) ? angle : length;
 }

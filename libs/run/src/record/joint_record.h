@@ -5,13 +5,13 @@
 
 namespace hersey::run {
 
-/// Whether a value of the joint's coordinates is an angle.
+/// True if a value of the joint's coordinates is an angle.
 [[nodiscard]] bool is_rotational(const mbd::JointSpec& joint, int value);
 
 /// Coordinates and reactions of one joint in the results file.
 class JointRecord {
  public:
-  /// @param other  of another joint, to share what is the same; null: there is none
+  /// @param other  record of another joint, to share common parts; null: there is none
   JointRecord(const mbd::JointSpec& joint, const JointRecord* other, results::Writer& writer);
   void append(const mbd::JointObservation& observation) const { rows_.append(observation); }
   /// Adds its series.

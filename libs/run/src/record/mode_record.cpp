@@ -38,7 +38,7 @@ auto of_each(std::vector<Eigen::VectorXcd> ModeRow::*amplitudes, Part part) {
   return [amplitudes, part](const ModeRow& row, std::size_t k) { return part_of((row.*amplitudes)[k], part); };
 }
 
-// Modes are no instants: a group called fields counts its rows by itself.
+// A group called fields counts its own rows, because modes are not instants.
 const QuantityTable<ModeRow, Machine>& mode_quantities() {
   using M = solver::Mode;
   const auto of_mode = [](auto member) {
@@ -131,7 +131,7 @@ const std::vector<Attribute<solver::Modes>>& mode_findings() {
   return table;
 }
 
-/// Rotation and displacement of every body for small increments of the coordinates: what a velocity would give.
+/// Rotation and displacement of every body for small increments of the coordinates, computed like velocities.
 Eigen::VectorXd body_increments(const Machine& machine, const solver::State& state, const Eigen::VectorXd& shape) {
   solver::State moving = state;
   moving.v = shape;
@@ -152,7 +152,7 @@ Eigen::VectorXcd complex_of(const Eigen::VectorXd& real, const Eigen::VectorXd& 
 }
 
 /// The mode in the amplitudes of one body.
-/// @param amplitudes  of what is seen of the machine
+/// @param amplitudes  function of the observation of the machine
 template <class Amplitudes>
 Eigen::VectorXcd mode_in(const Amplitudes& amplitudes, const mbd::Observation& here, const mbd::Observation& real,
                          const mbd::Observation& imaginary, double step) {

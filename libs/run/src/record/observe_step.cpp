@@ -6,7 +6,7 @@
 namespace hersey::run {
 namespace {
 
-// Seen from ground instead of the first body.
+// Transforms an observation from the axes of the first body to those of ground.
 mbd::ContactObservation in_ground(mbd::ContactObservation observation, const Pose& X_WA) {
   observation.force = X_WA.R * observation.force;
   observation.friction = X_WA.R * observation.friction;

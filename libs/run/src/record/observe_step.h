@@ -9,11 +9,11 @@
 
 namespace hersey::run {
 
-/// What each two-body force of the machine is, for the power balance.
+/// Returns the kind of each two-body force of the machine, for the power balance.
 [[nodiscard]] std::vector<ForceKind> force_kinds(const model::Machine& machine);
 
-/// Everything a step shows in the state it ended in: motions, bearings, contacts, powers. How the step was found (its
-/// length, iterations, error) is left to the caller.
+/// Returns the observation of a step in the state at its end: motions, bearings, contacts, powers. The caller adds its
+/// length, iterations and error.
 [[nodiscard]] StepRecord observe_step(const model::Machine& machine, const solver::State& state,
                                       const std::vector<ForceKind>& kinds);
 

@@ -7,16 +7,17 @@
 
 namespace hersey::run {
 
-/// Where the power of the whole machine comes from and goes to at one instant [W] (theory manual eq. (mechanisms.22)).
+/// Sources and sinks of the power of the whole machine at one instant [W] (theory manual eq. (mechanisms.22)).
 struct PowerBalance {
-  double drives = 0;        ///< put in by drives
-  double loads = 0;         ///< put in by applied forces and torques
-  double gravity = 0;       ///< put in by gravity
-  double springs = 0;       ///< given to the bodies by springs and dampers
-  double contacts = 0;      ///< given to the bodies by contacts
-  double bearings = 0;      ///< given to the bodies by the films' forces; negative: the films take it
-  double films = 0;         ///< the same as the films' own integrals say: minus what they dissipate, store, carry out
-  double elastic = 0;       ///< given back by flexible bodies: minus the rate of their strain energy, minus damping
+  double drives = 0;    ///< put in by drives
+  double loads = 0;     ///< put in by applied forces and torques
+  double gravity = 0;   ///< put in by gravity
+  double springs = 0;   ///< given to the bodies by springs and dampers
+  double contacts = 0;  ///< given to the bodies by contacts
+  double bearings = 0;  ///< given to the bodies by the films' forces; negative: the films take it
+  double films = 0;    ///< the same from the films' own integrals: minus the power that they dissipate, store and carry
+                       ///< out
+  double elastic = 0;  ///< given back by flexible bodies: minus the rate of their strain energy, minus damping
   double kinetic_rate = 0;  ///< d(kinetic energy)/dt
   /// drives + loads + gravity + springs + contacts + bearings + elastic - kinetic_rate: the residual power of the
   /// equations of motion, zero but for the tolerance of the time step and the drift of the velocity constraints,
@@ -24,14 +25,14 @@ struct PowerBalance {
   [[nodiscard]] double error() const {
     return drives + loads + gravity + springs + contacts + bearings + elastic - kinetic_rate;
   }
-  /// The same with the films' own integrals in place of their forces' power: what a force that does not do the work of
-  /// its losses leaves unexplained.
+  /// The residual with the films' own integrals in place of their forces' power: a remainder means a force that does
+  /// not do the work of its losses.
   [[nodiscard]] double unexplained() const { return error() - bearings + films; }
-  /// The largest of the powers: what `error` is compared with.
+  /// The largest of the powers, the reference of `error`.
   [[nodiscard]] double largest() const;
 };
 
-/// What a two-body force of the mechanism is.
+/// Kind of a two-body force of the mechanism.
 enum class ForceKind { spring, contact, bearing };
 
 /// @param kinds  of each two-body force of the mechanism

@@ -60,7 +60,7 @@ bool has(const QuantityGroup& group, const std::string& name) {
                      [&](const QuantityInfo& quantity) { return quantity.name == name; });
 }
 
-/// Dimensions that stand in no table are the numbers of columns, which the writer adds.
+/// Dimensions that are not in a table are the numbers of columns, which the writer adds.
 void add_dimensions(QuantityGroup& group) {
   for (std::size_t i = 0; i < group.quantities.size(); ++i) {
     const std::vector<std::string> dimensions = group.quantities[i].dimensions;
@@ -191,7 +191,7 @@ std::string cell(const std::string& text) {
   return safe;
 }
 
-/// "m^3/s" as it is printed.
+/// Unit in the form that is printed, "m³/s" for "m^3/s".
 std::string printed(std::string unit) {
   for (const auto& [from, to] : {std::pair{"^2", "²"}, std::pair{"^3", "³"}})
     for (auto at = unit.find(from); at != std::string::npos; at = unit.find(from)) unit.replace(at, 2, to);

@@ -17,39 +17,40 @@
 #include "hersey/results/writer.h"
 #include "hersey/run/quantity_info.h"
 
-/// Tables of quantities. A `Thing` is what is seen of something in one row of the file; its `Plan` is what is known of
-/// it before the first row.
+/// Tables of quantities. A `Thing` is the observation of something in one row of the file; its `Plan` holds the data
+/// that exist before the first row.
 namespace hersey::run {
 
-/// Shape of a row that only the plan tells, and what its columns are.
+/// Shape of a row whose length depends on the plan, and the names of its columns.
 template <class Plan>
 struct Extent {
   std::string text = {};  ///< of the shape, "3 nodes" or "n_phi, n_z"
   /// @param k  of a family, which one
   std::function<std::vector<int>(const Plan&, std::size_t k)> shape = {};
-  std::vector<std::string> dimensions = {};  ///< seen from the thing's group, one for each number; empty: their numbers
+  std::vector<std::string> dimensions = {};  ///< path relative to the thing's group, one for each number; empty: the
+                                             ///< numbers themselves
 };
 
-/// What is said of some quantities only.
+/// Properties that only some quantities have.
 template <class Plan>
 struct More {
   std::string symbol = {}, note = {};
-  std::function<bool(const Plan&)> only = {};  ///< whether a thing has it; empty: each has
+  std::function<bool(const Plan&)> only = {};  ///< true if a thing has the quantity; empty: every thing has it
   Extent<Plan> extent = {};                    ///< of rows whose length their type leaves open
   results::Precision precision = results::Precision::float64;
   std::function<std::string(const Plan&)> unit = {};  ///< which, where there are several
-  /// What stands for <...> in name and text: of a family one for each member.
+  /// Replacements of <...> in name and text: for a family, one for each member.
   std::function<std::vector<std::string>(const Plan&)> each = {};
   std::vector<SummaryRow> summary_rows = {};
 };
 
-/// `text` with `name` in place of what stands in angle brackets.
+/// Returns `text` with `name` in place of the part in angle brackets.
 [[nodiscard]] std::string filled_in(const std::string& text, const std::string& name);
 
-/// Path of `name` seen from `group`, which ends with "/"; each "../" before it is a group up.
+/// Path of `name` relative to `group`, which ends with "/"; each "../" before it goes up one group.
 [[nodiscard]] std::string below(std::string group, std::string name);
 
-/// Numbers in a row of type T; 0 where only the plan tells.
+/// Number of values in a row of type T; 0 if it depends on the plan.
 template <class T>
 constexpr int columns_of() {
   if constexpr (std::is_arithmetic_v<T>)
@@ -64,7 +65,8 @@ constexpr int columns_of() {
 template <class Thing, class Plan>
 class Quantity {
  public:
-  /// @param get  from a thing, or of a family from thing and place: number, vector of fixed length, or any row
+  /// @param get  value from a thing, or for a family from thing and index: a number, a vector of fixed length, or any
+  ///         row
   template <class Get>
   Quantity(const std::string& name, const std::string& unit, const std::string& text, Get get, More<Plan> more = {})
       : more_(std::move(more)) {
@@ -128,7 +130,7 @@ class Quantity {
   QuantityInfo info_;
 };
 
-/// A line of a table: what is written once, before the first row, a dataset of numbers.
+/// A line of a table for a dataset of numbers that is written once, before the first row.
 template <class Plan>
 class Constant {
  public:
@@ -216,15 +218,15 @@ void write_once(const std::vector<Line>& table, const std::string& group, const 
 
 /// The series of one thing in the results file.
 ///
-/// Of thousands of things of one kind, all that a step walks through fits into what a processor holds close to itself:
-/// things with the same series share what tells them.
+/// With thousands of things of one kind, the data that every step walks through should fit into the processor's cache:
+/// things with the same series share their description.
 template <class Thing, class Plan>
 class QuantityRows {
  public:
-  /// Declares those that the thing has.
+  /// Declares the series that the thing has.
   /// @param table  outlives this
   /// @param group  of the thing, ends with "/"
-  /// @param other  of the same table, of a thing that may have the same series
+  /// @param other  rows of the same table for a thing that may have the same series
   QuantityRows(const QuantityTable<Thing, Plan>& table, const std::string& group, const Plan& plan,
                results::Writer& writer, const QuantityRows* other = nullptr) {
     std::vector<Entry> entries;
@@ -259,8 +261,8 @@ class QuantityRows {
   results::SeriesBlock block_;
 };
 
-/// Adds what is said of all lines of a table to `group`.
-/// @param rows  what its series grow with, "n": the first number of their shape
+/// Adds the descriptions of all lines of a table to `group`.
+/// @param rows  name of the growing dimension of its series, "n": the first number of their shape
 template <class Line>
 void describe(const std::vector<Line>& table, const std::string& rows, QuantityGroup& group) {
   for (const Line& line : table) {

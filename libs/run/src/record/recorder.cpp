@@ -19,7 +19,7 @@ std::filesystem::path unfinished_file(const std::filesystem::path& results) {
 
 namespace {
 
-/// Of a fixed step or an interval of output.
+/// Number of rows for a fixed step or an interval of output.
 std::size_t expected_rows(const model::Model& model) {
   const double interval =
       model.output.interval > 0 ? model.output.interval : model.simulation.step * model.output.every;
@@ -27,8 +27,8 @@ std::size_t expected_rows(const model::Model& model) {
   return rows < 1e9 ? static_cast<std::size_t>(std::max(rows, 0.0)) : 0;
 }
 
-/// The file to write. Results appear under their own name when all that is written before the first step is in them,
-/// so that whoever finds them finds the model; until then those that they replace stay.
+/// Returns the file to write. Results appear under their own name when everything that is written before the first step
+/// is in them, so that they always contain the model; until then the results that they replace remain.
 std::filesystem::path new_file(const Options& options, bool resumes) {
   if (!resumes && !options.overwrite && std::filesystem::exists(options.results))
     throw results::FileExists(options.results);

@@ -111,8 +111,8 @@ bool RunRecord::are_fields_due(double t, double slack) {
 
 namespace {
 
-/// Over how much of the gap the cavitated film is sheared, and what the other choice would give; empty where both give
-/// the same.
+/// States over how much of the gap the cavitated film is sheared, with the result of the other choice; empty if both
+/// give the same.
 std::string cavitated_shear(const film::FilmModel& film, const BearingSummary& bearing) {
   const double change = bearing.mean_power_other_shear - bearing.mean_power_film;
   if (!(bearing.mean_power_film > 0) || change == 0) return "";

@@ -10,7 +10,7 @@
 
 namespace hersey::run {
 
-/// Everything seen of an accepted step: what the summary, the settling test and the results file are made of.
+/// Complete observation of an accepted step: the basis of the summary, the settling test and the results file.
 struct StepRecord {
   double dt = 0;
   int newton_iterations = 0;
@@ -20,12 +20,12 @@ struct StepRecord {
   int rejected_steps = 0;          ///< since the start of the run
   double energy_available = 0;     ///< EnergyMonitor::available [J]
   double energy_from_nowhere = 0;  ///< EnergyMonitor::gained [J]
-  double constraint_drift = 0;     ///< largest violation of a constraint, relative to what it compares
+  double constraint_drift = 0;     ///< largest violation of a constraint, relative to the compared quantities
   mbd::Observation mechanism;
   std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
   std::vector<bearing::BearingObservation> bearings;
   std::vector<mbd::ContactObservation> contacts;  ///< in ground's axes
-  film::NetworkObservables network;               ///< of the thermal network; empty where there is none
+  film::NetworkObservables network;               ///< state of the thermal network; empty if there is none
   PowerBalance power;
 };
 

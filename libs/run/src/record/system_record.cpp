@@ -25,7 +25,7 @@ auto of_energy(Member member) {
   return [member](const SystemRow& row) { return std::invoke(member, row.energy); };
 }
 
-/// Of all films.
+/// Sum over all films.
 auto sum_over_films(double film::FilmObservables::*power) {
   return [power](const SystemRow& row) {
     double sum = 0;
@@ -156,7 +156,7 @@ QuantityGroup SystemRecord::describe() {
   return group;
 }
 
-// Cycles are no instants: a group called fields counts its rows by itself.
+// A group called fields counts its own rows, because cycles are not instants.
 const QuantityTable<CycleRecord::Row, model::Model>& CycleRecord::table() {
   static const QuantityTable<Row, model::Model> table{
       {"fields/time", "s", "end of the cycle", &Row::t},

@@ -25,7 +25,7 @@ class SystemRecord {
   QuantityRows<SystemRow, model::Model> rows_;
 };
 
-/// How cycles of the machine repeat each other, in the results file.
+/// Differences between successive cycles of the machine, in the results file.
 class CycleRecord {
  public:
   /// @pre the model has cycles

@@ -12,7 +12,7 @@ namespace {
 using Observables = film::NetworkObservables;
 using Statistic = SummaryRow::Statistic;
 
-/// Places of the bodies among the nodes; surroundings keep the temperature that the model gives them.
+/// Indices of the bodies among the nodes; surroundings keep the temperature that the model gives them.
 std::vector<Eigen::Index> bodies(const model::Model& model) {
   std::vector<Eigen::Index> indices;
   const std::vector<film::ThermalNode>& nodes = model.thermal.network.nodes;

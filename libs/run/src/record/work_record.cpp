@@ -97,7 +97,7 @@ double WorkRecord::start_up() const {
   return start_up_before_ + own;
 }
 
-// What no part accounts for comes last.
+// The last entry is the time that no part accounts for.
 std::vector<double> WorkRecord::stepping() const {
   std::vector<double> seconds = spent();
   seconds.push_back(0);

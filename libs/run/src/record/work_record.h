@@ -13,12 +13,12 @@
 
 namespace hersey::run {
 
-/// How often each number came up.
+/// Frequencies of a count per step.
 class StepCounts {
  public:
   void take(int count);
   [[nodiscard]] PerStep per_step() const;
-  /// Steps that took none.
+  /// Number of steps with a count of zero.
   [[nodiscard]] int without() const { return times_.empty() ? 0 : times_.front(); }
   void persist(Archive& archive, const char* name) { archive.io(name, times_); }
 
@@ -26,7 +26,7 @@ class StepCounts {
   std::vector<int> times_;  ///< entry k: steps that took k
 };
 
-/// Measures what the steps of a run cost.
+/// Measures the cost of the steps of a run.
 class WorkRecord {
  public:
   WorkRecord(const model::Model& model, const model::Machine& machine, const solver::GeneralizedAlpha& integrator);
@@ -60,7 +60,7 @@ class WorkRecord {
   std::vector<StepCounts> film_iterations_, exchanges_;
 };
 
-/// What the run has cost, in the results file: attributes, as computing times differ from run to run.
+/// Writes the cost of the run to the results file, as attributes, because computing times differ from run to run.
 /// @param wall_time  of the whole run [s]
 void write_work(const Work& work, double wall_time, int steps, results::Writer& writer);
 
