@@ -100,7 +100,7 @@ TEST_CASE("HeldBeam_ShowsItsSectionForces") {
   // q = 0.02 N/m; the middle of element k sees what hangs beyond its ends' share: q (L - x) and q (L - x)^2/2.
   for (std::size_t k = 0; k < 16; ++k) {
     const double x = (static_cast<double>(k) + 0.5) / 16;
-    // Sagging by 0.25 % turns the sections: of second order.
+    // Sagging by 0.25 % rotates the sections: an effect of second order.
     CHECK(std::abs(force[3 * k + 2]) == doctest::Approx(0.02 * (1 - x)).epsilon(1e-3));
     // The same, and the weight of half an element.
     CHECK(moment[3 * k + 1] == doctest::Approx(0.02 * (1 - x) * (1 - x) / 2).epsilon(1e-2).scale(1e-3));
@@ -131,7 +131,7 @@ forces: {{roll: {{type: torque, body: strip.tip, components: [0 N.m, 0 N.m, {:.1
 simulation: {{analysis: static}}
 )",
                                                               angle / 3));
-    // Stable until it has turned twice: out of the plane a moment of fixed direction then turns it over.
+    // Stable for two revolutions: then a moment of fixed direction turns it over, out of the plane.
     CHECK(reader.text_attribute("/", "message").value_or("").find("indifferent") == std::string::npos);
     const auto tip = reader.read("/bodies/strip.tip/position").values;
     // chords of 20 equal arcs: longer than the arc's own by (angle/20)^2/24 at the most

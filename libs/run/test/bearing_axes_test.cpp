@@ -12,7 +12,7 @@
 namespace hersey::run {
 namespace bearing_axes_test {
 
-/// The rig with a journal that a joint turns in a shell held by ground.
+/// The rig with a journal that a joint rotates in a shell fixed to ground.
 std::string constrained(const std::string& axis) {
   std::string text = rig_with("between: [ground, rod], initial: {x: 0 um}", "between: [ground, rod], axis: z");
   const auto replace = [&](const std::string& old, const std::string& replacement) {
@@ -47,7 +47,7 @@ TEST_CASE("JointAcrossItsBearing_IsWarnedOf") {
 }
 
 TEST_CASE("JournalThatTurnsAcrossItsBearing_IsWarnedOf") {
-  // No joint is between pin and rod; the pin's hinge on ground turns it about x.
+  // No joint connects pin and rod; the pin's hinge on ground rotates it about x.
   const std::vector<std::string> warnings =
       axis_warnings_of(rig_with("between: [ground, pin]", "between: [ground, pin], axis: x"));
   REQUIRE(warnings.size() == 1);

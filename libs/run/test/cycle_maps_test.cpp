@@ -84,7 +84,7 @@ TEST_CASE("WearLoad_TimesFrictionIsTheMeanLossInContact") {
   const double power = kFriction * surface_integral(results.cycle("wear_load"), 0.0225, 0.0156, 24, 5);
   // Sums over the same nodes: what means over time leave.
   CHECK(power == doctest::Approx(results.only("power_asperity")).epsilon(1e-6));
-  // The pin turns at a constant speed: wear load is mean contact pressure times speed, nearly; the rod hardly moves.
+  // The pin rotates at a constant speed: wear load is mean contact pressure times speed, nearly; the rod hardly moves.
   const double speed = 3000 * M_PI / 30 * 0.0225;
   const double mean = surface_integral(results.cycle("asperity_pressure_mean"), 0.0225, 0.0156, 24, 5);
   CHECK(power / kFriction == doctest::Approx(speed * mean).epsilon(0.01));

@@ -16,7 +16,7 @@ namespace cycles_test {
 
 std::string rig_of_cycles(const std::string& cycle) {
   std::string text = rig_with("  duration: \"${duration}\"\n", "  cycle: " + cycle + "\n");
-  // A load that turns round with the crank: the film never comes to rest.
+  // A load that rotates with the crank: the film never comes to rest.
   const std::string push = "components: [0 N, \"-${load}\", 0 N]";
   return text.replace(text.find(push), push.size(),
                       "direction: y, magnitude: {expression: \"-500*(1 + 0.5*sin(main.rotation))\", unit: N}");
@@ -123,7 +123,7 @@ TEST_CASE("WallsAtTheMeanOfACycle_TakeUpNoHeatInTheEnd") {
   const Rows rows = warm_rows("");  // a machine with cycles
   constexpr std::size_t per_cycle = 180;
   REQUIRE(rows.T_journal.size() == 9 * per_cycle + 1);
-  // Held from the first step of a cycle to its last.
+  // The temperature is constant from the first step of a cycle to its last.
   CHECK(rows.T_journal[1] == doctest::Approx(55).epsilon(1e-12));  // round-off of kelvins
   CHECK(rows.T_journal[per_cycle] == rows.T_journal[1]);
   CHECK(rows.T_journal[2 * per_cycle] == rows.T_journal[per_cycle + 1]);
@@ -132,7 +132,7 @@ TEST_CASE("WallsAtTheMeanOfACycle_TakeUpNoHeatInTheEnd") {
     const auto first = rows.heat_to_journal.begin() + static_cast<std::ptrdiff_t>(cycle * per_cycle) + 1;
     return std::accumulate(first, first + per_cycle, 0.0) / per_cycle;
   };
-  CHECK(std::abs(mean_heat(8)) < 0.02 * std::abs(mean_heat(0)));   // what the film itself has not settled to
+  CHECK(std::abs(mean_heat(8)) < 0.02 * std::abs(mean_heat(0)));   // residual of the film's own settling
   CHECK(rows.correction.back() < 0.05 * rows.correction.front());  // halved by each cycle, as bush and film settle
 }
 

@@ -27,7 +27,7 @@ std::filesystem::path example(const std::string& name) {
   return std::filesystem::path(source_dir()) / "examples" / name / "model.yaml";
 }
 
-/// The largest that kinetic, spring and strain energy together come to, and what there is at the start.
+/// The largest sum of kinetic, spring and strain energy, and its value at the start.
 struct Energies {
   double start = 0, most = 0;
 };
@@ -72,7 +72,7 @@ TEST_CASE("ExplodingSpring_EndsAsFailedInAnyUnits") {
   for (const auto& [kg, m, s] : {std::tuple{1e-6, 1e-3, 1e-3}, std::tuple{1e4, 30.0, 1.0}}) {
     const Summary other = run(whirling_mass(kg, m, s, linear_spring(kg, m, s)));
     CHECK(other.status == Status::failed);
-    // What is left of a planned step in round-off may be one more of its own: one of some 65, which loses 3 %.
+    // The round-off remainder of a planned step may become one more step: one of some 65, which loses 3 %.
     CHECK(std::abs(other.steps - si.steps) <= 1);
     CHECK(std::abs(other.rejected_steps - si.rejected_steps) <= 1);
     CHECK(other.energy.error() == doctest::Approx(si.energy.error()).epsilon(0.05));
@@ -123,8 +123,8 @@ TEST_CASE("Work_OfALoadThatIsASpringIsThatOfItsPotential") {
       "0 N, 0 N]}\n");
   const Summary load = run(text);
   CHECK(load.status == Status::completed);
-  CHECK(load.energy.available == doctest::Approx(6.25).epsilon(1e-3));  // put in at most what the spring held
-  // Of a step's end, the rule's round-off and the tolerance of the step are left: 1e-8 of its forces each.
+  CHECK(load.energy.available == doctest::Approx(6.25).epsilon(1e-3));  // put in at most the energy of the spring
+  // Errors of a step's end: the rule's round-off and the tolerance of the step, 1e-8 of its forces each.
   CHECK(load.energy.from_nowhere == doctest::Approx(spring.energy.from_nowhere).epsilon(1e-6));
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("EnergyThatIsPutIn_IsNotFromNowhere") {
                  force + "\n");
     return run(text);
   };
-  // A pendulum's swing pumped at twice its frequency, a preload let go, an unstable rest.
+  // A pendulum's swing pumped at twice its frequency, a released preload, an unstable rest.
   const Summary pumped = with(
       "{type: force, body: a, components: [{expression: \"-1000*(1 + 0.4*sin(63.2456*t))*g.translation\", unit: N}, 0 "
       "N, 0 N]}");
@@ -163,7 +163,7 @@ TEST_CASE("ImpactWithinAStep_PutsNothingIn") {
              S = reader.read("/energy/springs").values;
   const double start = T[0] + U[0] + S[0];
   for (std::size_t i = 0; i < T.size(); ++i)
-    CHECK(T[i] + U[i] + S[i] < start + 0.2 * summary.energy.available);  // what a run may gain
+    CHECK(T[i] + U[i] + S[i] < start + 0.2 * summary.energy.available);  // allowed gain of a run
 }
 
 // Two rods on steps of a tenth of a second and less.
@@ -176,7 +176,7 @@ TEST_CASE("DoublePendulum_GainsNothingOnCoarseSteps") {
     const results::Reader reader(folder / "r.h5");
     const auto T = reader.read("/energy/kinetic").values, U = reader.read("/energy/potential").values;
     for (std::size_t i = 0; i < T.size(); ++i) CHECK(T[i] + U[i] < T[0] + U[0] + 0.2 * summary.energy.available);
-    if (step == "20 ms") CHECK(summary.rejected_steps < 10);  // its swings of some percent are let pass
+    if (step == "20 ms") CHECK(summary.rejected_steps < 10);  // its swings of some percent are allowed
   }
 }
 
@@ -202,7 +202,7 @@ simulation: {duration: 0.02 s, step: 5 ms, spectral_radius: 0.9}
   CHECK((is_sound || summary.status == Status::failed));
 }
 
-// Nothing elastic or oily keeps a step from being judged: the exploding mass beside a film and at a beam's end.
+// Elastic bodies and films do not keep a step from being checked: the exploding mass beside a film and at a beam's end.
 TEST_CASE("FilmsAndBeams_DoNotHideAnExplosion") {
   const std::string mass = R"(
   m: {mass: 1 kg, inertia: {xx: 0.01 kg.m^2, yy: 0.01 kg.m^2, zz: 0.01 kg.m^2}}
@@ -248,7 +248,7 @@ bodies:
     const Summary summary = simulate(model::read_text(text, "m.yaml"), {.results = folder / "r.h5"});
     const Energies energies = energies_of(folder / "r.h5");
     CHECK(summary.rejected_steps > 0);
-    CHECK(energies.most < 1.2 * summary.energy.available);  // what a run may gain; 3e7 J where steps were not judged
+    CHECK(energies.most < 1.2 * summary.energy.available);  // allowed gain of a run; 3e7 J without the check of steps
   }
 }
 
@@ -277,7 +277,7 @@ joints:
 const std::string kModal = "modes: 4", kNodal = "form: nodal\n      strain: finite";
 
 TEST_CASE("TumblingElasticBodies_GainNothing") {
-  // Half a second of turns at .17 to .7 rad a step; counted from their first frame they gained a seventh.
+  // Half a second of revolutions at .17 to .7 rad a step; counted from their first frame they gained a seventh.
   for (const std::string& form : {kModal, kNodal})
     for (const std::string step : {"2.5 ms", "10 ms"}) {
       CAPTURE(form);
@@ -302,7 +302,7 @@ TEST_CASE("ExplodingElasticBodies_EndAsFailedOrAreCut") {
                energies);
     MESSAGE(summary.message);
     CHECK(summary.rejected_steps > 0);
-    CHECK(energies.most < 1.2 * summary.energy.available);  // what a run may gain
+    CHECK(energies.most < 1.2 * summary.energy.available);  // allowed gain of a run
     if (summary.status == Status::completed) {
       CHECK(summary.energy.share_from_nowhere() < 0.2);
     } else {

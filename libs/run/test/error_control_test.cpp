@@ -64,7 +64,8 @@ double pendulum_error(const Outcome& o) {
 }
 
 TEST_CASE("ErrorOfTheRun_FollowsTheTolerance") {
-  // The error of a step is held: steps go as its third root and the error of the run, of order 2, as tolerance^(2/3).
+  // The error of a step is controlled: steps vary as its third root and the error of the run, of order 2, as
+  // tolerance^(2/3).
   const double coarse = pendulum_error(outcome(kPendulum, {"simulation.step.tolerance=1e-5"}, "pivot"));
   const double fine = pendulum_error(outcome(kPendulum, {"simulation.step.tolerance=1e-8"}, "pivot"));
   const double exponent = std::log(coarse / fine) / std::log(1e3);
@@ -126,8 +127,8 @@ TEST_CASE("VaryingSteps_KeepOrderTwoOfMultipliersToo") {
   }
 }
 
-// What steps cut again and again leave across a constraint dies out; it once grew tenfold with every dozen of them,
-// until a shaft driven at 600 rpm turned at a million. Fixed steps are judged too, where their error is told.
+// Violations of a constraint that repeatedly halved steps leave decay; they once grew tenfold with every dozen of them,
+// until a shaft driven at 600 rpm rotated at a million. Fixed steps are checked too if their error is estimated.
 TEST_CASE("StepsCutAgainAndAgain_LeaveADrivenRateAlone") {
   const model::Model model = rig(R"(hersey: 1
 bodies:
@@ -227,7 +228,7 @@ TEST_CASE("DriveThatEndsItsRamp_ShowsNoRingingOfItsTorque") {
                             torque = reader.read("/drives/motor/force_or_torque").values;
   for (std::size_t i = 0; i < t.size(); ++i) {
     CAPTURE(t[i]);
-    // N m: constraints are held to round-off over the square of a step.
+    // N m: constraints are satisfied to round-off over the square of a step.
     CHECK(std::abs(torque[i] - (t[i] < 0.37 + 1e-9 ? 200 : 0)) < 1e-4);
   }
 }
@@ -264,7 +265,7 @@ TEST_CASE("ConstraintDrift_StaysBelowTheNewtonTolerance") {
   CHECK(drift.size() == reader.rows());
 }
 
-/// A spatial slider-crank whose crank runs through its hard places at up to 25 rad/s.
+/// A spatial slider-crank whose crank passes its near-singular positions at up to 25 rad/s.
 const std::string kSpatialCrank = R"(hersey: 1
 gravity: 0 0 -9.81 m/s^2
 bodies:

@@ -1,4 +1,4 @@
-// Bearings whose surfaces do not fit each other at the start: what is told.
+// Warnings and faults for bearings whose surfaces do not fit each other at the start.
 #include "record/facing_surfaces.h"
 
 #include <doctest/doctest.h>

@@ -71,7 +71,7 @@ simulation: {duration: 1.2 ms, step: 0.230877 ms}
   CHECK_MESSAGE(summary.status == Status::completed, summary.message);
 }
 
-// At its edges the film has the pressure outside: nothing parts smooth surfaces there, however soft they are.
+// At its edges the film has the pressure outside: nothing separates smooth surfaces there, however soft they are.
 TEST_CASE("HeavyJournalOnASoftLiner_IsToldToTouchAtItsEdges") {
   const Summary summary = run(R"(hersey: 1
 bodies:

@@ -128,7 +128,7 @@ TEST_CASE("ShellOfABody_SettlesOverCycles") {
     CHECK(again.read(std::string("/bearings/main/") + name).values == series(name));
 }
 
-/// With a hollow shaft in a body, cooled in its bore, in the place of the warm ring.
+/// A hollow shaft in a body, cooled in its bore, replaces the warm ring.
 const std::vector<std::string> warm_shaft = {
     "bodies.shaft={flexible: {mesh: shaft.inp, length_unit: 1 mm, modes: 0, material: {youngs_modulus: 210 GPa, "
     "poisson_ratio: 0.3, density: 7850 kg/m^3}, heat: {conductivity: 46 W/m/K, expansion: 12e-6 1/K, cooling: {bore: "
@@ -205,7 +205,7 @@ TEST_CASE("JournalOfABody_SettlesOverCycles") {
   CHECK(std::abs(growth.back() / growth[10] - 1) > 0.01);
   CHECK(std::abs(h.back() / h[10] - 1) > 1e-3);
   CHECK(*std::max_element(error.begin(), error.end()) < 1e-9);  // round-off of a step over its flow: the shape moves
-  // What bodies put in is what films take: growing walls included.
+  // Energy that bodies put in is absorbed by films, including growing walls.
   const std::vector<double> missing = series("power_error"), made = series("power_film");
   for (std::size_t k = 0; k < missing.size(); ++k)
     CHECK(std::abs(missing[k]) < 3e-4 * made[k]);  // motions of a step to first order; walls do a hundredth of it
@@ -220,7 +220,7 @@ TEST_CASE("JournalOfABody_SettlesOverCycles") {
     CHECK(again.read(std::string("/bearings/main/") + name).values == series(name));
 }
 
-// Heat comes evenly to what turns: of a pin that swings that is doubted.
+// Heat enters a rotating body evenly around; for a pin that swings this assumption gets a warning.
 TEST_CASE("JournalInABodyThatSwings_IsDoubted") {
   const Files files;
   const auto warnings_of = [&files](const std::string& drive) {

@@ -16,8 +16,8 @@
 namespace hersey::run {
 namespace loop_steps_test {
 
-/// A crank turned by a drive rocks a lever: hinges, three constraints of the loop redundant. `closing` is the last
-/// joint, `pin` that between crank and coupler, `side` -1 for the mirror image.
+/// A driven crank rocks a lever: hinges, three constraints of the loop redundant. `closing` is the last joint, `pin`
+/// that between crank and coupler, `side` -1 for the mirror image.
 std::string four_bar(const std::string& pin, const std::string& closing, int side = 1) {
   const std::string s = side < 0 ? "-" : "";
   const auto at = [&](const std::string& x) { return s + x + " 0 0 mm"; };
@@ -52,7 +52,8 @@ simulation: {duration: 0.5 s, step: {tolerance: 1e-6, largest: 0.2 s}}
 
 const std::string kHinges = four_bar("revolute", "revolute, axis: z");
 
-/// Six equal rods on six hinges, square to each other in turn: a loop with one freedom and one redundant constraint.
+/// Six equal rods on six hinges, each perpendicular to the one before: a loop with one freedom and one redundant
+/// constraint.
 const std::string kBricard = R"(hersey: 1
 gravity: 0 -9.81 0 m/s^2
 bodies:
@@ -101,7 +102,7 @@ Steps step_through(const std::string& text, double radius, double tolerance) {
   result.end = starting_state(model, machine);
   TimeStepper steps(model, machine);
   steps.plan(result.end, machine.mechanism->observe(result.end));
-  // Far more than any of these takes: a march that creeps ends, too.
+  // Far more steps than any of these takes: time stepping with ever shorter steps ends, too.
   for (; !steps.is_at_end() && result.steps < 20000; ++result.steps) {
     const TimeStep step = steps.take(result.end);
     result.message = step.message;
@@ -146,7 +147,7 @@ TEST_CASE("ClosedLoops_CompleteAtEverySpectralRadius") {
         CHECK(one.later > 0.85 * usual.later);
         // A few at the start, where the first step is a guess.
         CHECK(one.rejected <= 5);
-        // Neither motion has a hard place.
+        // Neither motion passes a near-singular position.
         CHECK(one.shortest > 0.05 / one.steps);
       }
     }
@@ -178,8 +179,8 @@ TEST_CASE("ErrorsInLoops_FollowTheTolerance") {
   }
 }
 
-// What a pattern of steps leaves across the constraints has no memory, so that any pattern will do: with the
-// constraints' own modes, one that alternates by 3 amplified them by more than 1 a step.
+// Constraint violations have no memory, so that any pattern of steps is allowed: with the constraints' own modes, one
+// that alternates by 3 amplified them by more than 1 a step.
 TEST_CASE("StepsOfAnyPattern_KeepOrderTwoInLoops") {
   const model::Model model = rig(kPendulumOnAJoint);
   const auto errors = [&](double radius, int repetitions) {

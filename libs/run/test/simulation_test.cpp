@@ -36,7 +36,7 @@ forces:
 simulation: {duration: 1 s, step: 10 ms}
 )";
 
-/// A wheel that a drive turns, and one that it drags along through a damper.
+/// A wheel rotated by a drive, and one that it drags along through a damper.
 const char* const kDrivenWheel = R"(hersey: 1
 bodies:
   wheel: {mass: 1 kg, inertia: {xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}}

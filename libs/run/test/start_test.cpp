@@ -22,7 +22,7 @@ namespace start_test {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Crank of 150 mm, rod of 500 mm, slider along x; `main`, `pin` and `bore` are what stands in these joints' braces.
+/// Crank of 150 mm, rod of 500 mm, slider along x; `main`, `pin` and `bore` are the contents of these joints' braces.
 std::string slider_crank(const std::string& main, const std::string& pin, const std::string& bore,
                          const std::string& more = "") {
   return R"(hersey: 1
@@ -56,7 +56,7 @@ struct Started {
 
 enum : std::size_t { kMain, kPin, kWrist, kBore };
 
-/// Where the slider stands at a crank angle, and how fast it goes per radian.
+/// Position of the slider at a crank angle, and its derivative by the angle.
 double slider(double angle) {
   const double s = 0.15 * std::sin(angle);
   return 0.15 * std::cos(angle) + std::sqrt(0.25 - s * s);
@@ -85,9 +85,9 @@ TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
   // rtol of the start is 1e-12.
   CHECK(start.position(kBore) == doctest::Approx(slider(start.position(kMain))).epsilon(1e-12));
   CHECK(start.rate(kMain) == doctest::Approx(10).epsilon(1e-12));
-  // Of all changes that close the loop the least, in rad and sizes of the machine: along the loop's own gradient.
+  // The least of all changes that close the loop, in rad and sizes of the machine: along the loop's own gradient.
   const double size = start.machine.mechanism->position_scales().maxCoeff(), g = slider_rate(45 * kDegree) / size;
-  // What is of second order in the misfit.
+  // Error of second order in the misfit.
   CHECK(shifted == doctest::Approx(-misfit / (1 + g * g)).epsilon(1e-3));
   CHECK(turned == doctest::Approx(misfit / size * g / (1 + g * g)).epsilon(1e-3));
 
