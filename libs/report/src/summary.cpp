@@ -47,7 +47,7 @@ SiUnit si_of(const std::string& unit) {
   return found == known.end() ? SiUnit{unit.c_str(), unit.c_str(), 1, 1} : *found;
 }
 
-/// `text` with `name` in place of what stands in angle brackets.
+/// Returns `text` with `name` in place of the part in angle brackets.
 std::string filled_in(const std::string& text, const std::string& name) {
   const std::size_t from = text.find('<');
   return from == std::string::npos ? text : text.substr(0, from) + name + text.substr(text.find('>', from) + 1);
@@ -89,7 +89,7 @@ class Summary {
     }
   }
 
-  /// The rows that the table of quantities makes of those told in one of these ways.
+  /// Adds the summary rows whose statistic is one of these.
   void add_rows(const std::vector<QuantityInfo>& quantities, std::initializer_list<SummaryRow::Statistic> ways) {
     for (const QuantityInfo& quantity : quantities)
       for (const SummaryRow& summary_row : quantity.summary_rows)
@@ -118,7 +118,7 @@ class Summary {
     }
   }
 
-  /// What stands in place of <...> in the names of this thing's series; one empty name where nothing does.
+  /// Replacements of <...> in the names of this thing's series; one empty name if there is no <...>.
   std::vector<std::string> names_in_file(const std::string& pattern) const {
     const std::size_t from = pattern.find('<');
     if (from == std::string::npos) return {""};
@@ -130,7 +130,7 @@ class Summary {
     return names;
   }
 
-  /// What the length of the steps has done to the figures, where the run was asked.
+  /// Adds the errors that the steps cause in the figures, if they were estimated.
   void step_error_rows() {
     const std::string group = "/step_errors/" + group_;
     if (!reader_.has(group)) return;
@@ -175,7 +175,7 @@ class Summary {
     if (const std::vector<double> all = cycle(series); !all.empty()) add(name, factor * all.back(), unit, when);
   }
 
-  /// An extreme of the last cycle, with its own instant and place.
+  /// An extreme of the last cycle, with its own instant and location.
   void of_cycle(const std::string& name, const std::string& series, double factor, const std::string& unit) {
     const std::vector<double> all = cycle(series), t = cycle(series + "_time");
     if (all.empty() || t.size() != all.size()) return;
@@ -202,7 +202,7 @@ class Summary {
     return static_cast<std::size_t>(found - time_.begin());
   }
 
-  /// Beside the one at temperature.
+  /// Adds the given clearance, in addition to the one at temperature.
   void given_clearance() {
     const auto cold = reader_.number_attribute("/bearings/" + group_, "radial_clearance");
     if (cold && (reader_.has(path_ + "clearance") || reader_.has(path_ + "clearance_of_bodies")))
@@ -251,7 +251,7 @@ class Summary {
     timing_rows();
   }
 
-  /// What the steps cost, part by part, and how films and bodies were brought together.
+  /// Adds the cost of the steps, part by part, and that of the coupling of films and bodies.
   void timing_rows() {
     const double stepping = reader_.number_attribute("/timing", "stepping").value_or(0);
     const double steps = reader_.number_attribute("/timing", "steps").value_or(0);
@@ -277,7 +277,7 @@ class Summary {
     }
   }
 
-  /// Of all steps where the file knows it, else of those stored.
+  /// Uses all steps if the file has their count, else the stored ones.
   void newton_row() {
     const std::string name = "median Newton iterations per step";
     const auto median = reader_.number_attribute("/timing", "newton_iterations_median");
@@ -337,7 +337,7 @@ class Summary {
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }
 
-  /// What the bodies put into a film by its forces, against what the film's integrals take.
+  /// Compares the energy that the bodies put into a film by its forces with the film's integrals.
   void film_energy_error() {
     const double lost = integral(values("power_film")) + integral(values("power_asperity"));
     const std::vector<double> error = values("power_error");
@@ -345,7 +345,7 @@ class Summary {
     add("unexplained energy of the film, share of what it dissipates", 100 * integral(error) / lost, "%");
   }
 
-  /// Where the energy put in has gone by the end, each part from an integral of its own.
+  /// Adds the energy balance at the end of the run; each part is a separate integral.
   void energy_rows() {
     const auto series = [&](const std::string& name) { return values("energy/since_start/" + name); };
     const std::vector<double> put_in = series("put_in"), unexplained = series("unexplained");
@@ -366,7 +366,7 @@ class Summary {
     add("energy in bodies and springs, more than at the start", stored.back(), "J");
     add("unexplained energy", unexplained.back(), "J");
     const std::vector<double> available = series("available"), from_nowhere = series("from_nowhere");
-    // Results of programs before 0.11 do not tell.
+    // Results of programs before 0.11 do not contain these energies.
     if (available.empty() || from_nowhere.empty() || !(available.back() > 0)) return;
     const double all = available.back();
     add("the same, share of the energy at the start and put in since", 100 * std::abs(unexplained.back()) / all, "%");
@@ -405,8 +405,8 @@ class Summary {
     return row < crank_angle_.size() ? time + fmt::format(", crank {:.1f}°", crank_angle_[row] * degrees) : time;
   }
 
-  /// The most extreme finite value in the sense of `before`, with its instant and, if `has_location`, its place on the
-  /// film.
+  /// Adds the most extreme finite value in the sense of `before`, with its instant and, if `has_location`, its location
+  /// on the film.
   template <class Before>
   void extreme(const std::string& name, const std::string& series, Before before, double factor,
                const std::string& unit, bool has_location) {
@@ -426,7 +426,7 @@ class Summary {
     return text;
   }
 
-  /// Of a vector with three components.
+  /// Adds the largest magnitude of a vector with three components.
   void longest(const std::string& name, const std::string& series, double factor, const std::string& unit) {
     const std::vector<double> force = values(series);
     double most = -1;

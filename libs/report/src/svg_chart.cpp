@@ -14,7 +14,7 @@ constexpr double width = 640, height = 380, left = 64, right = 118, top = 14, bo
 constexpr double line_height = 15;
 constexpr int colours = 6;
 
-/// An axis: values to places.
+/// An axis maps values to positions.
 class Axis {
  public:
   Axis(bool is_logarithmic, double from, double to) : is_logarithmic_(is_logarithmic), from_(from), to_(to) {}
@@ -69,7 +69,7 @@ std::string tick_text(double value) {
   return fmt::format("{:.4g}", value);
 }
 
-/// Places of labels beside the ends of lines, moved apart where they would cover each other.
+/// Positions of labels beside the ends of lines, moved apart where they would overlap.
 std::vector<double> label_positions(std::vector<double> wanted) {
   std::vector<std::size_t> order(wanted.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
@@ -109,7 +109,7 @@ std::string line_of(const CurveChart& chart, const CurveLine& line, std::size_t 
   for (std::size_t k = 0; k < line.x.size(); ++k)
     path += fmt::format("{}{:.1f} {:.1f}", k == 0 ? "M" : "L", x.at(line.x[k]), y.at(line.y[k]));
   std::string svg = fmt::format("<path class=\"line c{}\" d=\"{}\"/>", colour % colours, path);
-  // What the pointer is told: about ten places a line.
+  // Tooltips show about ten points of a line.
   const std::size_t every = std::max<std::size_t>(1, line.x.size() / 10);
   for (std::size_t k = 0; k < line.x.size(); k += every)
     svg += fmt::format(

@@ -52,7 +52,7 @@ bool GrowingDataset::add(std::span<const double> rows) {
   return true;
 }
 
-/// The chunk in which rows are written next, zeros behind those it has so far.
+/// Writes the chunk for the next rows, with zeros after the rows it has so far.
 bool GrowingDataset::write_chunk(std::span<const double> rows) {
   return size_ == NumberSize::eight_bytes ? write_chunk_of<double>(rows) : write_chunk_of<float>(rows);
 }

@@ -42,11 +42,11 @@ class Handle {
   hid_t id_ = H5I_INVALID_HID;
 };
 
-/// Opens a stretch of calls of HDF5: while it lives this thread alone uses the library, and no error stacks are
-/// printed, for failures are told by exceptions, once.
+/// Begins a sequence of HDF5 calls: during its lifetime this thread alone uses the library, and no error stacks are
+/// printed, because exceptions report failures.
 class Hdf5Session {
  public:
-  /// @param untrusted_path  the file that is read, if nothing vouches for it (hersey/core/untrusted_file.h)
+  /// @param untrusted_path  the file that is read, if no checksum covers it (hersey/core/untrusted_file.h)
   explicit Hdf5Session(const char* untrusted_path = nullptr) : lock_(hdf5_lock()), untrusted_(untrusted_path) {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -64,13 +64,13 @@ struct Reader::Impl {
 
   [[noreturn]] void fail(const std::string& reason) const { throw ReadError(path, reason); }
 
-  /// Its name where no checksum vouches for what HDF5 finds in it.
+  /// Path of the file if no checksum covers the structure that HDF5 reads.
   [[nodiscard]] const char* untrusted_path() const { return is_sealed || path.empty() ? nullptr : path.c_str(); }
 
   void open() {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such file");
     if (const auto failure = unreadable(path)) fail("it is " + *failure);
-    // Before HDF5 sees it: the library trusts what it reads of a file's structure.
+    // The seal is checked before HDF5 reads the file: the library trusts the structure that it finds.
     const Seal seal = check_seal(path);
     if (seal == Seal::broken) fail("damaged: it has changed since it was written");
     is_sealed = seal == Seal::intact;
@@ -134,7 +134,7 @@ struct Reader::Impl {
     return take(raw, memory.get(), space.get());
   }
 
-  /// Notes all groups and datasets below `group`, and how many rows are complete.
+  /// Lists all groups and datasets below `group`, and the number of complete rows.
   void survey(const std::string& group) {
     if (std::count(group.begin(), group.end(), '/') > deepest_group) fail("damaged: groups within groups without end");
     groups.push_back(group);
@@ -155,7 +155,7 @@ struct Reader::Impl {
     }
   }
 
-  /// Whether it is a link to a dimension scale that has another name, too.
+  /// True for a link to a dimension scale that has another name, too.
   [[nodiscard]] bool is_further_name(const std::string& name, hid_t object) const {
     H5O_info_t about{};
     if (H5Oget_info2(object, &about, H5O_INFO_BASIC) < 0 || about.rc < 2) return false;

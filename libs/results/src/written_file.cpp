@@ -53,7 +53,7 @@ Writer::~Writer() {
   try {
     finish(Status::failed, "ended by an error");
   } catch (const std::exception&) {
-    // The file is closed, in the state of its last good flush; a destructor has no one to tell.
+    // The file is closed, in the state of its last good flush; a destructor cannot report an error.
   }
 }
 
@@ -90,7 +90,7 @@ void Writer::finish(Status status, std::string_view message) {
   const bool failed_before = impl_->file.status.failed;
   if (!failed_before) {
     try {
-      impl_->flow.flush();  // whoever reads the status finds all the rest
+      impl_->flow.flush();  // a reader who finds the final status finds all data, too
       const Handle root(H5Oopen(impl_->file.handle.get(), "/", H5P_DEFAULT));
       impl_->set_text(root.get(), "status", to_string(status));
       impl_->set_text(root.get(), "message", message);

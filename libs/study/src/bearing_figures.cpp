@@ -31,15 +31,15 @@ constexpr Unit kFlow{"mm^3/s", "m^3/s", 1e-9}, kVolume{"mm^3", "m^3", 1e-9};
 
 using Solution = BearingSolution;
 
-/// What is said of some figures only.
+/// Properties that only some figures have.
 struct More {
   /// Estimated error of the grid; negative: none. Empty: the figure has none.
   std::function<double(const Solution&)> grid_error = {};
-  /// Whether a solution has the figure; empty: every one has.
+  /// True if a solution has the figure; empty: every one has it.
   std::function<bool(const Solution&)> only = {};
-  /// Said in place of a value that is no number.
+  /// Text in place of a value that is not a number.
   std::function<std::string(const Solution&)> words = {};
-  /// Of a family: what stands for <...> in key and name.
+  /// Replacements of <...> in key and name, for a family.
   std::function<std::vector<std::string>(const Solution&)> each = {};
   /// Of a family: the grid's error of each.
   std::function<double(const Solution&, std::size_t)> grid_error_of = {};
@@ -94,7 +94,7 @@ auto error_of(double bearing::GridError::*member) {
   return [member](const Solution& s) { return s.grid_error.*member; };
 }
 
-// What is zero by symmetry comes out as the round-off of its parts, which tells nothing.
+// A quantity that is zero by symmetry comes out as the round-off of its parts, which is meaningless.
 double without_round_off(double value, double parts) { return std::abs(value) < 1e-12 * parts ? 0.0 : value; }
 
 bool is_load_given(const Solution& s) { return s.state.point.load.has_value(); }
@@ -223,7 +223,8 @@ Group dimensionless() {
            {"hersey", "Hersey number mu N L D/W", kNone, numbers(&Number::hersey)}}};
 }
 
-/// The bearing's axes rest: power comes through the torques, and through the load where the journal gives way to it.
+/// The bearing's axes rest: power enters through the torques, and through the load where the journal's support deforms
+/// under it.
 double power_put_in(const Solution& s) {
   const film::FilmObservables& film = s.state.film;
   return -film.torque_journal * s.state.point.journal_speed - film.torque_shell * s.state.point.shell_speed +
@@ -287,8 +288,8 @@ std::vector<std::string> feature_names(const Solution& s) {
   return names;
 }
 
-/// Reynolds' condition lets oil vanish where the film breaks and appear where it forms again: what is missing there is
-/// no error of the solution.
+/// Reynolds' condition loses oil where the film ruptures and creates it where it reforms: this imbalance is not an
+/// error of the solution.
 bool conserves_oil(const Solution& s) { return !film::cavitation_law(s.model).loses_oil(); }
 
 Group oil() {
@@ -334,12 +335,12 @@ bool is_in_body(const Solution& s) { return s.state.heat && s.state.heat->T_body
 
 bool has_thermal_shape(const Solution& s) { return s.state.thermal_shape.size() > 0; }
 
-/// Of how far temperature puts the shell's surface out: its mean over the nodes, and the most it differs from it.
+/// Radial growth of the shell's surface by temperature: its mean over the nodes, and the largest deviation from it.
 double growth(const Solution& s) { return s.state.thermal_shape.mean(); }
 
 double distortion(const Solution& s) { return (s.state.thermal_shape.array() - growth(s)).abs().maxCoeff(); }
 
-/// Likewise the journal's.
+/// True if the journal's wall is a body.
 bool journal_is_in_body(const Solution& s) { return s.state.heat && s.state.heat->T_journal_body.size() > 0; }
 
 bool has_journal_shape(const Solution& s) { return s.state.journal_shape.size() > 0; }
@@ -549,7 +550,7 @@ Group stability() {
         {.words = if_stable("none: stable at every speed")}}}};
 }
 
-/// The table of all figures, in the order in which they are told.
+/// The table of all figures, in the order in which they are reported.
 const std::vector<Group>& table() {
   static const std::vector<Group> groups{operating_point(), film_figures(), deformation(), dimensionless(),
                                          friction(),        oil(),          heat(),        dynamics(),
@@ -557,7 +558,7 @@ const std::vector<Group>& table() {
   return groups;
 }
 
-/// `text` with `name` in place of what stands in angle brackets.
+/// Returns `text` with `name` in place of the part in angle brackets.
 std::string filled_in(const std::string& text, const std::string& name) {
   const std::size_t from = text.find('<'), to = text.find('>');
   return name.empty() || from == std::string::npos ? text : text.substr(0, from) + name + text.substr(to + 1);

@@ -32,8 +32,7 @@
 
 namespace hersey::study {
 
-// How surfaces give way and bodies conduct heat, of every mesh seen so far: it takes long, and most sweeps leave the
-// bodies as they are.
+// Compliance and heat conduction of every mesh used so far: they take long, and most sweeps leave the bodies unchanged.
 class KnownBodies {
  public:
   [[nodiscard]] std::shared_ptr<const bearing::SteadyElasticity> elasticity(const model::Model& model,
@@ -76,7 +75,8 @@ Eigen::Vector2d polar(double length, double angle) {
   return length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
-// A steady film whose oil stays in and whose walls are bodies that nothing cools has no temperature.
+// Requires a path for the heat: a steady film whose oil stays in and whose walls are bodies that nothing cools has no
+// temperature.
 void require_way_out(const model::Model& model, const model::Bearing& bearing, const film::ThermalModel& heat) {
   if (heat.oil.drain && !film::reaches_surroundings(model.thermal.network, heat.oil.drain->node))
     throw InputError(Fault{bearing.position, "bearings." + bearing.name + ".thermal.drains_to",
@@ -111,7 +111,7 @@ std::vector<std::string> warnings_of(const model::Bearing& bearing, const bearin
   return warnings;
 }
 
-// Those of a solution nearby, if it has as many.
+// Temperatures of a solution nearby, if it has as many.
 std::optional<film::HeatState> temperatures_of(const bearing::SteadyState& from, const film::FilmModel& film,
                                                const film::ThermalModel& thermal) {
   if (!from.heat) return std::nullopt;
@@ -139,7 +139,7 @@ bearing::SteadySummary solve_at(film::FilmModel& film, const bearing::OperatingP
                          ""});
 }
 
-// Stiffness and damping with temperatures that follow the motion, where that is asked for; false where they are not
+// Computes stiffness and damping with temperatures that follow the motion, if this is requested; false if they are not
 // found.
 bool solve_heat(const model::Bearing& bearing, const BearingStudyOptions& options, const bearing::SteadyOptions& steady,
                 BearingSolution& solution) {
@@ -161,7 +161,7 @@ bool solve_heat(const model::Bearing& bearing, const BearingStudyOptions& option
   return false;
 }
 
-// From `start` where there is one.
+// Solves from `start` if there is one.
 void solve_one(const model::Model& model, const BearingStudyOptions& options, const bearing::SteadyState* start,
                KnownBodies& bodies, BearingSolution& solution) {
   const auto began = std::chrono::steady_clock::now();
@@ -326,7 +326,7 @@ const model::Bearing& bearing_called(const model::Model& model, const std::strin
 
 namespace {
 
-// What surfaces that deform do not answer while everything else rests.
+// Refuses deforming surfaces in motions that their compliance at rest does not describe.
 void require_rest(const model::Bearing& bearing) {
   const model::OperatingPoint& point = *bearing.operating_point;
   const std::string path = "bearings." + bearing.name + ".operating_point.";
@@ -411,7 +411,7 @@ std::vector<BearingSolution> solve_bearings(const ModelReader& read, const std::
                                             const BearingStudyOptions& options) {
   std::vector<BearingSolution> solutions(runs.size());
   if (runs.empty()) return solutions;
-  // Faults of the model itself are told once, from here, before any thread is started.
+  // Faults of the model itself are reported once, from here, before any thread is started.
   const model::Model first = options.first != nullptr ? *options.first : read(runs.front().overrides);
   (void)operating_point_of(bearing_called(first, options.bearing));
   std::atomic<std::size_t> next{0};
@@ -488,7 +488,7 @@ struct RunSolver::Impl {
       kept = attempt(read(given), {given, "", "", {}}, bearing, nullptr);
       if (!kept->solved()) kept.reset();
     } catch (const std::exception&) {
-      kept.reset();  // the model as it stands has no answer: the run's own reason is told
+      kept.reset();  // the unchanged model has no solution: the run's own reason is reported
     }
     return kept ? &*kept : nullptr;
   }

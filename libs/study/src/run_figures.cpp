@@ -146,7 +146,7 @@ std::string without_names(const std::string& pattern, const std::string& name) {
   return from == std::string::npos ? pattern : pattern.substr(0, from) + name + pattern.substr(to + 1);
 }
 
-/// What may stand for <...> of `pattern` among `names`.
+/// Names among `names` that match <...> of `pattern`.
 std::vector<std::string> names_for(const std::string& pattern, const std::vector<std::string>& names) {
   const std::size_t from = pattern.find('<'), to = pattern.find('>');
   if (from == std::string::npos) return {""};
