@@ -32,7 +32,7 @@ std::string ending_of(const std::filesystem::path& path) {
   return ending;
 }
 
-/// A folder for what gmsh reads and writes, gone with this object.
+/// A temporary folder for the files of gmsh, removed with this object.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -76,7 +76,7 @@ std::string script_for(const std::string& part, const CadOptions& options, doubl
       part, size, options.around, options.around, options.order);
 }
 
-/// The last lines of what gmsh has printed; those that tell of errors alone where there are any.
+/// Returns the last lines of gmsh's output; only error messages if there are any.
 std::string messages_in(const std::filesystem::path& log) {
   std::ifstream file(log);
   std::deque<std::string> last, errors;

@@ -22,7 +22,7 @@ constexpr std::size_t kMostWithLines = 12;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// In millimetres to 0.1 um: what is finer comes of where a mesh has its nodes.
+/// In millimetres to 0.1 um: finer differences come from the positions of a mesh's nodes.
 std::string in_mm(double length) {
   const double shown = std::round(1e3 * length * 1e4) / 1e4;
   return fmt::format("{:.6g}", shown == 0 ? 0.0 : shown);
@@ -51,7 +51,7 @@ const char* use_of(const FoundSurface& surface) {
   return surface.use() == Use::journal ? "could be a journal" : "";
 }
 
-/// How a frame's z-axis, the bearing's, gets along the cylinder's.
+/// The rotation from a frame's z-axis, the bearing's, to the cylinder's.
 std::string rotation_to(const Vector3& axis) {
   const Vector3 about = Vector3::UnitZ().cross(axis);
   if (about.norm() < 1e-9) return "";
@@ -62,7 +62,8 @@ std::string rotation_to(const Vector3& axis) {
   return fmt::format(", rotation: {{axis: {} {} {}, angle: {:.7g} deg}}", unit.x(), unit.y(), unit.z(), angle);
 }
 
-/// A surface's own name where a key may be called so; names by place have numbers in them that read badly there.
+/// Returns a surface's own name if a key may be called so; names by position have numbers in them that are unsuitable
+/// there.
 std::string key_of(const FoundSurface& surface, std::size_t number) {
   const bool is_word = std::all_of(surface.name.begin(), surface.name.end(),
                                    [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });

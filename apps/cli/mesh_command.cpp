@@ -170,7 +170,7 @@ void refuse_cad_options(const MeshArguments& arguments) {
                   arguments.file + " has its elements already");
 }
 
-/// Where the mesh with its named surfaces goes: of a CAD file beside it, of a mesh nowhere unless asked for.
+/// Path of the mesh with its named surfaces: beside a CAD file; for a mesh, only on request.
 std::filesystem::path output_of(const MeshArguments& arguments) {
   std::filesystem::path output = arguments.output;
   if (output.empty() && is_cad_file(arguments.file))
@@ -212,7 +212,7 @@ void print_found(const Mesh& mesh, const std::vector<fem::FoundSurface>& found, 
   if (!lines.empty()) fmt::print("\n{}", lines);
 }
 
-/// A mesh, from whatever file, with what its reader has to say.
+/// A mesh read from a file, with the messages of its reader.
 struct Loaded {
   Mesh mesh;
   std::vector<Fault> warnings, material_faults;

@@ -115,7 +115,7 @@ bool depends_on_pressure(const film::Lubricant& oil) {
   return !std::holds_alternative<film::ConstantViscosity>(oil.viscosity_law);
 }
 
-/// Where the oil is looked at.
+/// Conditions at which the oil is evaluated.
 struct Conditions {
   std::vector<double> temperatures, pressures, shear_rates;  // [K, Pa, 1/s]
 };
@@ -139,7 +139,7 @@ Conditions conditions_of(const OilArguments& arguments, const NamedOil& named) {
   return at;
 }
 
-/// What the oil is in one place.
+/// Properties of the oil at one condition.
 struct OilAt {
   double T = 0, p = 0, rate = 0, mu = 0, density = 0;
   [[nodiscard]] double kinematic() const { return mu / density; }
@@ -205,7 +205,7 @@ nlohmann::json oil_json(const NamedOil& named, const Conditions& at, const std::
 
 constexpr int points_of_a_line = 121;
 
-/// Viscosity in mPa s over one variable, `at` places 0 to 1 of its way.
+/// Viscosity in mPa s over one variable; `at` maps 0 to 1 to its range.
 template <class StateAt>
 report::CurveLine line(const NamedOil& named, std::string label, StateAt&& at) {
   report::CurveLine curve{std::move(label), {}, {}};
@@ -217,7 +217,7 @@ report::CurveLine line(const NamedOil& named, std::string label, StateAt&& at) {
   return curve;
 }
 
-/// Up to six of the temperatures, evenly: as many as can be told apart.
+/// Up to six of the temperatures, evenly: as many curves as can be distinguished.
 std::vector<double> some_of(const std::vector<double>& all) {
   constexpr std::size_t most = 5;
   if (all.size() <= most) return all;

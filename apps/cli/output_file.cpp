@@ -7,7 +7,7 @@
 namespace hersey::cli {
 namespace {
 
-/// The place of a file, links followed, that need not be there yet.
+/// Canonical path of a file, links followed, that need not exist yet.
 std::filesystem::path canonical_path(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::path path = std::filesystem::weakly_canonical(file, error);
@@ -28,7 +28,7 @@ void require_separate(const std::vector<OutputFile>& outputs, const std::vector<
       faults.push_back({{"", 0, 0}, option, "'" + path.string() + "', which is " + other, "a file of its own", ""});
     };
     for (const std::filesystem::path& input : inputs) {
-      // By its number on the disk: hard links are one file at two places.
+      // Files are compared by their number on the disk: hard links are one file under two paths.
       if (std::filesystem::equivalent(path, input, missing)) refuse("read as '" + input.string() + "'");
     }
     const auto [other, is_new] = written.try_emplace(canonical_path(path), option);

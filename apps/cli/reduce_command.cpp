@@ -71,7 +71,7 @@ double constant(const char* option, const std::string& given, const std::optiona
   return *in_file;
 }
 
-// One material for each of the mesh file's; what the command line gives holds for all of them.
+// One material for each of the mesh file's; values from the command line hold for all of them.
 std::vector<fem::SolidMaterial> materials_of(const Mesh& mesh, const ReduceArguments& arguments) {
   std::vector<fem::MeshMaterial> in_file = mesh.materials;
   if (in_file.empty()) in_file.emplace_back();

@@ -38,12 +38,12 @@ std::filesystem::path output_folder(const RunArguments& arguments) {
 
 void refuse_existing(const Paths& files, bool force) {
   for (const std::filesystem::path& file : files) {
-    results::require_idle(file);  // one that is being written is not there to be replaced, nor to be gone on with
+    results::require_idle(file);  // a file that is being written can neither be replaced nor resumed
     if (!force && std::filesystem::exists(file)) throw results::FileExists(file);
   }
 }
 
-/// All that a run may write must be none of what the model reads.
+/// Refuses outputs of a run that are inputs of the model.
 void require_own_files(const model::Model& model, const std::filesystem::path& folder, const Paths& results) {
   std::vector<OutputFile> outputs{{"--output", folder / "report.html"}};
   for (const std::filesystem::path& file : results) {
@@ -83,7 +83,7 @@ int exit_code(const study::RunResult& result) {
   return kFailed;
 }
 
-// Of what has one in `runs`; the rows of `summary` name their own.
+// Units of the values in `runs`; the rows of `summary` name their own.
 nlohmann::json units_of_runs() {
   const nlohmann::json errors{
       {"moft", "m"}, {"pofp", "Pa"}, {"max_force", "N"}, {"mean_power", "W"}, {"mean_flow", "m^3/s"}};
@@ -128,7 +128,7 @@ void report(const run::CycleProgress& cycle) {
   }
 }
 
-// Where energy has come from nowhere or gone nowhere, the motion is that of no machine.
+// If energy is gained without a source or lost without a sink, the motion is not that of a physical machine.
 void report_energy_error(const std::string& name, const run::EnergySummary& energy) {
   constexpr double kMostUnexplained = 0.2;
   if (!(energy.error() > kMostUnexplained)) return;
@@ -155,7 +155,7 @@ void report(const std::string& label, const run::Summary& summary) {
   } else {
     const std::string rejected =
         summary.rejected_steps > 0 ? fmt::format(" ({} more rejected)", summary.rejected_steps) : "";
-    // Of a run of a study its cost in short; that of a single run follows at length.
+    // The cost of a run in a study is printed in short; that of a single run follows in detail.
     const std::string cost =
         !label.empty() && summary.steps > 0
             ? fmt::format(", {:.3g} ms per step, Newton iterations {:g} (median)",
@@ -170,7 +170,7 @@ std::string text_of(const run::PerStep& figures) {
   return fmt::format("median {:g}, mean {:.1f}, most {}", figures.median, figures.mean, figures.most);
 }
 
-// Where the time went, largest shares first, and what it took to bring films and bodies together.
+// Reports the shares of the computing time, largest first, and the work of coupling films and bodies.
 void report_work(const run::Summary& summary) {
   const run::Work& work = summary.work;
   if (summary.steps == 0 || work.stepping <= 0) return;
@@ -185,7 +185,7 @@ void report_work(const run::Summary& summary) {
     if (percent >= 0.1) shares += fmt::format("{}{} {:.1f} %", shares.empty() ? "" : ", ", part.name, percent);
   }
   say("share of time: {}\n", shares);
-  // Of many films those that took the most.
+  // Only the films with the most iterations are reported.
   constexpr std::size_t kMostReported = 3;
   std::vector<run::CouplingWork> couplings = work.couplings;
   std::stable_sort(couplings.begin(), couplings.end(), [](const run::CouplingWork& a, const run::CouplingWork& b) {
@@ -237,7 +237,7 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   return close(arguments, folder, {options.results}, {summary}, exit_code(summary.status));
 }
 
-/// What several runs of a study share is told with the first of them.
+/// Warnings that several runs of a study share are printed with the first of them.
 void report_once(const std::string& run, const std::vector<Fault>& warnings, std::set<std::string>& reported) {
   for (const Fault& warning : warnings) {
     if (const std::string text = warning.text(); reported.insert(text).second) say("warning: {}: {}\n", run, text);

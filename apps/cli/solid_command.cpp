@@ -22,7 +22,7 @@ namespace {
 
 constexpr double megapascal = 1e6, millimetre = 1e-3;
 
-/// What went wrong in the numbers, on stderr.
+/// Prints a numerical failure on stderr.
 int fail(const std::string& message) {
   say("hersey: {}\n", message);
   return kFailed;
@@ -66,7 +66,7 @@ void print_modes(const SolidArguments& arguments, const fem::ElasticBody& body, 
   fmt::print("{}", aligned(lines, 2));
 }
 
-/// What `stress` tells.
+/// Results of `stress`.
 struct StressResult {
   fem::StaticSolution solution;
   fem::Stress stress;

@@ -59,7 +59,7 @@ fem::SolidMaterial material_of(const SolidArguments& a, const fem::MeshMaterial&
   return fem::isotropic(material);
 }
 
-/// All that is missing at once, so that it is asked for once.
+/// All missing constants are reported at once.
 void require_constants(const SolidArguments& a, const std::vector<fem::MeshMaterial>& materials, bool needs_mass) {
   std::vector<Fault> faults;
   const auto need = [&](const char* option, const std::string& given, const char* expected, auto member) {

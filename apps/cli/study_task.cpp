@@ -33,7 +33,7 @@ namespace {
 
 using nlohmann::json;
 
-// One line at once: what is appended to a file by several tasks keeps its lines whole.
+// Writes one line at once: several tasks append to one file, and its lines must stay whole.
 void answer(const json& line) {
   const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   for (std::size_t done = 0; done < text.size();) {
@@ -44,7 +44,7 @@ void answer(const json& line) {
   }
 }
 
-/// Does runs and answers them; what figures are is told once, before the first that has them.
+/// Computes runs and writes their answers; the description of a figure is written once, before its first value.
 class Task {
  public:
   explicit Task(const StudyTaskArguments& arguments)
@@ -101,7 +101,7 @@ class Task {
     }
   }
 
-  // How the figures that are asked for follow the parameters: figure in SI over the parameter's own unit.
+  // Adds the derivatives of the requested figures by the parameters: figure in SI over the parameter's own unit.
   void add_slopes(const std::string& bearing, const study::BearingSolution& solution, const json& parameters,
                   json& reply) {
     if (!study::are_sensitivities_exact(solution)) {

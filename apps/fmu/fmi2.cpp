@@ -86,7 +86,7 @@ HERSEY_EXPORT const char* fmi2GetVersion() { return "2.0"; }
 HERSEY_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                                             const fmi2CallbackFunctions* callbacks, fmi2Boolean /*visible*/,
                                             fmi2Boolean logging) {
-  // Without a logger nobody is told anything.
+  // Without a logger no messages are sent.
   const fmi2CallbackFunctions given = callbacks != nullptr ? *callbacks : fmi2CallbackFunctions{};
   const std::string own_name = name != nullptr ? name : "";
   const auto log = [given, own_name](CallStatus outcome, const char* category, const std::string& message) {

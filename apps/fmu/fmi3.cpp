@@ -323,7 +323,7 @@ HERSEY_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi
     if (ends != nullptr) *ends = has_ended;
     if (is_early != nullptr) *is_early = false;
     if (last_successful_time != nullptr) *last_successful_time = reached;
-    // An end in order is no failure: the importer is asked to terminate.
+    // A normal end is not a failure: the importer is asked to terminate.
     return has_ended ? CallStatus::ok : outcome;
   });
 }

@@ -72,7 +72,8 @@ CallStatus Instance::set_up(double start_time, std::optional<double> stop_time) 
   return CallStatus::ok;
 }
 
-// The model with what the importer gave for its parameters; what it left is as in the file, to the last bit.
+// Builds the model with the parameters that the importer has set; all others keep the value of the file, to the last
+// bit.
 void Instance::build() {
   std::vector<std::string> overrides = variables_.overrides;
   for (std::size_t i = 0; i < variables_.list.size(); ++i) {

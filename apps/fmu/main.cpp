@@ -34,7 +34,7 @@ struct Arguments {
   bool force = false;
 };
 
-/// Beside the program where it was built, or where it was installed.
+/// Path of the library beside the program, where it was built or installed.
 std::filesystem::path find_library() {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::string name = std::string(kModelIdentifier) + ".so";
@@ -142,7 +142,7 @@ int exported(int argc, char** argv) {
   return export_fmu(arguments);
 }
 
-// What is said on the way out may not throw any more.
+// An error while exiting must not throw any more.
 void complain(const char* prefix, const std::string& text) {
   std::fputs(prefix, stderr);
   std::fputs(text.c_str(), stderr);
