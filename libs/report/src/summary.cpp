@@ -18,7 +18,7 @@ namespace {
 using results::Array;
 using results::Reader;
 using run::QuantityInfo;
-using run::SummaryRow;
+using run::SummaryEntry;
 
 constexpr double degrees = 180 / std::numbers::pi;
 
@@ -73,7 +73,7 @@ class Summary {
 
  private:
   void bearing_rows() {
-    using Statistic = SummaryRow::Statistic;
+    using Statistic = SummaryEntry::Statistic;
     const std::vector<QuantityInfo> quantities = run::quantities_of("/bearings/<b>/");
     for (const std::string& bearing : reader_.children("/bearings")) {
       group_ = bearing;
@@ -90,31 +90,31 @@ class Summary {
   }
 
   /// Adds the summary rows whose statistic is one of these.
-  void add_rows(const std::vector<QuantityInfo>& quantities, std::initializer_list<SummaryRow::Statistic> ways) {
+  void add_rows(const std::vector<QuantityInfo>& quantities, std::initializer_list<SummaryEntry::Statistic> ways) {
     for (const QuantityInfo& quantity : quantities)
-      for (const SummaryRow& summary_row : quantity.summary_rows)
-        if (std::find(ways.begin(), ways.end(), summary_row.statistic) != ways.end())
+      for (const SummaryEntry& summary_entry : quantity.summary_entries)
+        if (std::find(ways.begin(), ways.end(), summary_entry.statistic) != ways.end())
           for (const std::string& name : names_in_file(quantity.name))
-            add_rows(filled_in(quantity.name, name), filled_in(summary_row.name, name), summary_row);
+            add_rows(filled_in(quantity.name, name), filled_in(summary_entry.name, name), summary_entry);
   }
 
-  void add_rows(const std::string& series, const std::string& name, const SummaryRow& summary_row) {
-    const double factor = si_of(summary_row.unit).per_si;
-    switch (summary_row.statistic) {
-      case SummaryRow::Statistic::smallest:
-        return extreme(name, series, smallest, factor, summary_row.unit, summary_row.has_location);
-      case SummaryRow::Statistic::largest:
-        return extreme(name, series, largest, factor, summary_row.unit, summary_row.has_location);
-      case SummaryRow::Statistic::largest_in_size:
-        return extreme(name, series, largest_size, factor, summary_row.unit, summary_row.has_location);
-      case SummaryRow::Statistic::longest:
-        return longest(name, series, factor, summary_row.unit);
-      case SummaryRow::Statistic::mean:
-        return mean(name, series, factor, summary_row.unit);
-      case SummaryRow::Statistic::integral:
-        return total(name, series, factor, summary_row.unit);
-      case SummaryRow::Statistic::at_end:
-        return last(name, series, factor, summary_row.unit);
+  void add_rows(const std::string& series, const std::string& name, const SummaryEntry& summary_entry) {
+    const double factor = si_of(summary_entry.unit).per_si;
+    switch (summary_entry.statistic) {
+      case SummaryEntry::Statistic::smallest:
+        return extreme(name, series, smallest, factor, summary_entry.unit, summary_entry.has_location);
+      case SummaryEntry::Statistic::largest:
+        return extreme(name, series, largest, factor, summary_entry.unit, summary_entry.has_location);
+      case SummaryEntry::Statistic::largest_in_size:
+        return extreme(name, series, largest_size, factor, summary_entry.unit, summary_entry.has_location);
+      case SummaryEntry::Statistic::longest:
+        return longest(name, series, factor, summary_entry.unit);
+      case SummaryEntry::Statistic::mean:
+        return mean(name, series, factor, summary_entry.unit);
+      case SummaryEntry::Statistic::integral:
+        return total(name, series, factor, summary_entry.unit);
+      case SummaryEntry::Statistic::at_end:
+        return last(name, series, factor, summary_entry.unit);
     }
   }
 
@@ -137,8 +137,8 @@ class Summary {
     for (const QuantityInfo& quantity : run::quantities_of("/step_errors/<bearing>/")) {
       const auto error = reader_.number_attribute(group, quantity.name);
       if (!error || !std::isfinite(*error)) continue;
-      for (const SummaryRow& summary_row : quantity.summary_rows)
-        add(summary_row.name, si_of(summary_row.unit).per_si * *error, summary_row.unit,
+      for (const SummaryEntry& summary_entry : quantity.summary_entries)
+        add(summary_entry.name, si_of(summary_entry.unit).per_si * *error, summary_entry.unit,
             "estimated by a run with steps twice as long");
     }
   }
@@ -154,16 +154,16 @@ class Summary {
     const std::vector<double> contact = cycle("contact");
     const bool touches = !contact.empty() && contact.back() >= 1;  // [Pa]: else the tail of a distribution of heights
     for (const QuantityInfo& quantity : run::quantities_of("/bearings/<b>/cycles/fields/")) {
-      for (const SummaryRow& summary_row : quantity.summary_rows) {
-        if (summary_row.only == SummaryRow::Only::of_a_cycle && !is_cycle) continue;
-        if (summary_row.only == SummaryRow::Only::with_contact && !touches) continue;
-        const double factor = si_of(summary_row.unit).per_si;
-        if (summary_row.statistic == SummaryRow::Statistic::largest)
-          largest_of_map(summary_row.name + over, quantity.name, factor, summary_row.unit);
-        else if (summary_row.has_location)
-          of_cycle(summary_row.name + over, quantity.name, factor, summary_row.unit);
+      for (const SummaryEntry& summary_entry : quantity.summary_entries) {
+        if (summary_entry.only == SummaryEntry::Only::of_a_cycle && !is_cycle) continue;
+        if (summary_entry.only == SummaryEntry::Only::with_contact && !touches) continue;
+        const double factor = si_of(summary_entry.unit).per_si;
+        if (summary_entry.statistic == SummaryEntry::Statistic::largest)
+          largest_of_map(summary_entry.name + over, quantity.name, factor, summary_entry.unit);
+        else if (summary_entry.has_location)
+          of_cycle(summary_entry.name + over, quantity.name, factor, summary_entry.unit);
         else
-          last_of(summary_row.name + over, quantity.name, factor, summary_row.unit, when);
+          last_of(summary_entry.name + over, quantity.name, factor, summary_entry.unit, when);
       }
     }
   }
@@ -210,7 +210,7 @@ class Summary {
   }
 
   void thermal_rows() {
-    using Statistic = SummaryRow::Statistic;
+    using Statistic = SummaryEntry::Statistic;
     if (!reader_.has("/thermal/heat_stored")) return;
     group_ = "thermal network";
     path_ = "/thermal/";
@@ -221,7 +221,7 @@ class Summary {
   }
 
   void contact_rows() {
-    using Statistic = SummaryRow::Statistic;
+    using Statistic = SummaryEntry::Statistic;
     const std::vector<QuantityInfo> quantities = run::quantities_of("/contacts/<c>/");
     for (const std::string& contact : reader_.children("/contacts")) {
       group_ = "contact " + contact;
@@ -239,7 +239,7 @@ class Summary {
     mean_of_rows("mean Newton iterations per step", "solver/newton_iterations");
     newton_row();
     step_rows();
-    add_rows(run::quantities_of("/"), {SummaryRow::Statistic::largest_in_size});
+    add_rows(run::quantities_of("/"), {SummaryEntry::Statistic::largest_in_size});
     relative_power_error();
     energy_rows();
     group_ = "computing";
@@ -332,7 +332,7 @@ class Summary {
       }
     }
     const std::vector<double> rejected = values("solver/rejected_steps"), drift = values("solver/constraint_drift");
-    add_rows(run::quantities_of("/"), {SummaryRow::Statistic::largest});
+    add_rows(run::quantities_of("/"), {SummaryEntry::Statistic::largest});
     if (!rejected.empty() && rejected.back() > 0) add("rejected steps", rejected.back(), "");
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }

@@ -49,11 +49,11 @@ TEST_CASE("WhatIsTold_IsToldOnceOfEachThing") {
   for (const QuantityGroup& group : result_quantities()) {
     std::set<std::string> names;
     for (const QuantityInfo& quantity : group.quantities)
-      for (const SummaryRow& summary_row : quantity.summary_rows) {
-        CAPTURE(summary_row.name);
-        CHECK_FALSE(summary_row.name.empty());
-        CHECK(names.insert(summary_row.name).second);
-        if (!summary_row.has_location || !quantity.dimensions.empty()) continue;
+      for (const SummaryEntry& summary_entry : quantity.summary_entries) {
+        CAPTURE(summary_entry.name);
+        CHECK_FALSE(summary_entry.name.empty());
+        CHECK(names.insert(summary_entry.name).second);
+        if (!summary_entry.has_location || !quantity.dimensions.empty()) continue;
         const auto is_there = [&](const std::string& name) {
           return std::any_of(group.quantities.begin(), group.quantities.end(),
                              [&](const QuantityInfo& other) { return other.name == name; });

@@ -102,8 +102,8 @@ TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
   const Summary summary = simulate(start.model, {.results = scratch / "run.h5"});
   REQUIRE(summary.status == Status::completed);
   bool is_reported = false;
-  for (const auto& [name, text] : results::Reader(summary.results).text_table("/assumptions"))
-    if (name == "start moved: joint bore, translation") is_reported = text.find("594.72 mm given, 594.68") == 0;
+  for (const auto& [name, value] : results::Reader(summary.results).text_table("/assumptions"))
+    if (name == "start moved: joint bore, translation") is_reported = value.find("594.72 mm given, 594.68") == 0;
   CHECK(is_reported);
 }
 

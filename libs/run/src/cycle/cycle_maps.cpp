@@ -5,8 +5,8 @@
 namespace hersey::run {
 namespace {
 
-using Statistic = SummaryRow::Statistic;
-using Only = SummaryRow::Only;
+using Statistic = SummaryEntry::Statistic;
+using Only = SummaryEntry::Only;
 using CycleLine = Quantity<CycleRow, model::Bearing>;
 using CycleTable = QuantityTable<CycleRow, model::Bearing>;
 
@@ -25,18 +25,18 @@ auto mean_power(double BearingCycle::*energy) {
 
 /// Four lines: the value, when and where.
 void add_extreme(const std::string& name, const char* unit, const char* text, FilmExtreme BearingCycle::*extreme,
-                 const SummaryRow& summary_row, CycleTable& table) {
+                 const SummaryEntry& summary_entry, CycleTable& table) {
   const auto of = [extreme](double FilmExtreme::*member) {
     return [extreme, member](const CycleRow& row) { return row.cycle.*extreme.*member; };
   };
-  table.push_back({name, unit, text, of(&FilmExtreme::value), {.summary_rows = {summary_row}}});
+  table.push_back({name, unit, text, of(&FilmExtreme::value), {.summary_entries = {summary_entry}}});
   table.push_back({name + "_time", "s", "when", of(&FilmExtreme::t)});
   table.push_back({name + "_phi", "rad", "where: bearing angle", of(&FilmExtreme::phi)});
   table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z)});
 }
 
 CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::VectorXd BearingCycle::*values,
-                   const char* note = "", std::vector<SummaryRow> summary_rows = {}) {
+                   const char* note = "", std::vector<SummaryEntry> summary_entries = {}) {
   return {name,
           unit,
           text,
@@ -47,7 +47,7 @@ CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::
                         return std::vector{bearing.film.grid.n_phi, bearing.film.grid.n_z};
                       },
                       {"../../fields/phi", "../../fields/z"}},
-           .summary_rows = std::move(summary_rows)}};
+           .summary_entries = std::move(summary_entries)}};
 }
 
 const CycleTable& cycle_quantities() {
@@ -68,22 +68,22 @@ const CycleTable& cycle_quantities() {
           "J",
           "viscous dissipation in the film over the cycle",
           of_cycle(&C::energy_film),
-          {.summary_rows = {{Statistic::at_end, "energy lost in the film", "J"}}}},
+          {.summary_entries = {{Statistic::at_end, "energy lost in the film", "J"}}}},
          {"energy_asperity",
           "J",
           "boundary friction over the cycle",
           of_cycle(&C::energy_asperity),
-          {.summary_rows = {{Statistic::at_end, "energy lost in asperity contact", "J"}}}},
+          {.summary_entries = {{Statistic::at_end, "energy lost in asperity contact", "J"}}}},
          {"power_film",
           "W",
           "viscous dissipation, mean over the cycle",
           mean_power(&C::energy_film),
-          {.summary_rows = {{Statistic::at_end, "mean power loss in the film", "W", false, Only::of_a_cycle}}}},
+          {.summary_entries = {{Statistic::at_end, "mean power loss in the film", "W", false, Only::of_a_cycle}}}},
          {"power_asperity",
           "W",
           "boundary friction, mean over the cycle",
           mean_power(&C::energy_asperity),
-          {.summary_rows = {
+          {.summary_entries = {
                {Statistic::at_end, "mean power loss in asperity contact", "W", false, Only::of_a_cycle}}}}});
     add_extreme("contact", "Pa", "largest contact pressure of a node", &C::contact,
                 {Statistic::at_end, "largest contact pressure", "MPa", true, Only::with_contact}, lines);
@@ -98,7 +98,7 @@ const CycleTable& cycle_quantities() {
           [](const CycleRow& row) { return row.cycle.hottest.value - film::zero_celsius; },
           {.note = "this and the following: of films with `thermal: {model: film}`",
            .only = of_hot_film,
-           .summary_rows = {{Statistic::at_end, "hottest oil", "°C", true, Only::of_a_cycle}}}},
+           .summary_entries = {{Statistic::at_end, "hottest oil", "°C", true, Only::of_a_cycle}}}},
          {"T_max_time", "s", "when", [](const CycleRow& row) { return row.cycle.hottest.t; }, {.only = of_hot_film}},
          {"T_max_phi",
           "rad",
@@ -115,9 +115,10 @@ const CycleTable& cycle_quantities() {
           "by how much walls with the temperature of the cycle's mean heat were off",
           [](const CycleRow& row) { return row.cycle.walls.largest; },
           {.only = of_hot_film,
-           .summary_rows = {{Statistic::at_end, "correction of wall temperatures", "K", false, Only::of_a_cycle}}}}});
+           .summary_entries = {
+               {Statistic::at_end, "correction of wall temperatures", "K", false, Only::of_a_cycle}}}}});
     const auto with_largest_of_map = [](const char* name, const char* unit) {
-      return std::vector<SummaryRow>{{Statistic::largest, name, unit, true, Only::with_contact}};
+      return std::vector<SummaryEntry>{{Statistic::largest, name, unit, true, Only::with_contact}};
     };
     lines.insert(lines.end(),
                  {map_line("asperity_pressure_mean", "Pa", "contact pressure, mean over the cycle", &C::mean_contact,

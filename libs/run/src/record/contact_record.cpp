@@ -23,18 +23,20 @@ const QuantityTable<mbd::ContactObservation, model::Contact>& contact_quantities
        "N",
        "sum of the normal forces of all spots",
        &mbd::ContactObservation::normal_force,
-       {.summary_rows = {{.statistic = SummaryRow::Statistic::largest, .name = "largest normal force", .unit = "N"}}}},
+       {.summary_entries =
+            {{.statistic = SummaryEntry::Statistic::largest, .name = "largest normal force", .unit = "N"}}}},
       {"friction_force",
        "N",
        "size of the friction force",
        [](const mbd::ContactObservation& observation) { return observation.friction.norm(); },
-       {.summary_rows =
-            {{.statistic = SummaryRow::Statistic::largest, .name = "largest friction force", .unit = "N"}}}},
+       {.summary_entries =
+            {{.statistic = SummaryEntry::Statistic::largest, .name = "largest friction force", .unit = "N"}}}},
       {"gap",
        "m",
        "smallest distance of the shapes, negative where they overlap",
        &mbd::ContactObservation::gap,
-       {.summary_rows = {{.statistic = SummaryRow::Statistic::smallest, .name = "smallest distance", .unit = "µm"}}}},
+       {.summary_entries =
+            {{.statistic = SummaryEntry::Statistic::smallest, .name = "smallest distance", .unit = "µm"}}}},
       {"force", "N", "on the second shape's body, ground axes", &mbd::ContactObservation::force},
       {"position", "m", "centre of the normal forces in ground; not a number without contact",
        &mbd::ContactObservation::position},
@@ -42,14 +44,14 @@ const QuantityTable<mbd::ContactObservation, model::Contact>& contact_quantities
        "W",
        "taken by the contact's damping",
        &mbd::ContactObservation::damping_power,
-       {.summary_rows =
-            {{.statistic = SummaryRow::Statistic::integral, .name = "energy lost in damping", .unit = "mJ"}}}},
+       {.summary_entries =
+            {{.statistic = SummaryEntry::Statistic::integral, .name = "energy lost in damping", .unit = "mJ"}}}},
       {"friction_power",
        "W",
        "taken by friction",
        &mbd::ContactObservation::friction_power,
-       {.summary_rows =
-            {{.statistic = SummaryRow::Statistic::integral, .name = "energy lost in friction", .unit = "mJ"}}}},
+       {.summary_entries =
+            {{.statistic = SummaryEntry::Statistic::integral, .name = "energy lost in friction", .unit = "mJ"}}}},
       {"spots", "1", "number of spots that touch", &mbd::ContactObservation::spots},
   };
   return table;

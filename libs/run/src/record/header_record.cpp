@@ -73,18 +73,19 @@ const char* const text_of_assumptions = "what decides the results: name, text";
 
 const std::vector<Attribute<StepErrors>>& step_error_attributes() {
   using E = StepErrors;
-  const auto with_summary_row = [](const char* name, const char* unit) {
-    return More<E>{.summary_rows = {{SummaryRow::Statistic::at_end, std::string("error by the step: ") + name, unit}}};
+  const auto with_summary_entry = [](const char* name, const char* unit) {
+    return More<E>{
+        .summary_entries = {{SummaryEntry::Statistic::at_end, std::string("error by the step: ") + name, unit}}};
   };
   static const std::vector<Attribute<E>> table{
       {"moft", "m", "size of the error of the smallest film thickness, estimated", &E::moft,
-       with_summary_row("minimum film thickness (MOFT)", "µm")},
+       with_summary_entry("minimum film thickness (MOFT)", "µm")},
       {"pofp", "Pa", "the same of the peak film pressure", &E::pofp,
-       with_summary_row("peak film pressure (POFP)", "MPa")},
-      {"max_force", "N", "of the largest film force", &E::max_force, with_summary_row("largest film force", "N")},
-      {"mean_power", "W", "of the mean power loss", &E::mean_power, with_summary_row("mean power loss", "W")},
+       with_summary_entry("peak film pressure (POFP)", "MPa")},
+      {"max_force", "N", "of the largest film force", &E::max_force, with_summary_entry("largest film force", "N")},
+      {"mean_power", "W", "of the mean power loss", &E::mean_power, with_summary_entry("mean power loss", "W")},
       {"mean_flow", "m^3/s", "of the mean side flow, both sides", &E::mean_flow,
-       with_summary_row("mean side flow, both sides", "mm³/s")},
+       with_summary_entry("mean side flow, both sides", "mm³/s")},
   };
   return table;
 }

@@ -117,21 +117,21 @@ std::vector<QuantityInfo> quantities_of(std::string_view path) {
 
 namespace {
 
-const char* text_of(SummaryRow::Statistic statistic) {
+const char* text_of(SummaryEntry::Statistic statistic) {
   switch (statistic) {
-    case SummaryRow::Statistic::smallest:
+    case SummaryEntry::Statistic::smallest:
       return "smallest";
-    case SummaryRow::Statistic::largest:
+    case SummaryEntry::Statistic::largest:
       return "largest";
-    case SummaryRow::Statistic::largest_in_size:
+    case SummaryEntry::Statistic::largest_in_size:
       return "largest in size";
-    case SummaryRow::Statistic::longest:
+    case SummaryEntry::Statistic::longest:
       return "longest";
-    case SummaryRow::Statistic::mean:
+    case SummaryEntry::Statistic::mean:
       return "mean over time";
-    case SummaryRow::Statistic::integral:
+    case SummaryEntry::Statistic::integral:
       return "integral over time";
-    case SummaryRow::Statistic::at_end:
+    case SummaryEntry::Statistic::at_end:
       return "at the end";
   }
   HERSEY_REQUIRE(false, "every way of telling has its words");
@@ -170,8 +170,8 @@ nlohmann::ordered_json json_of(const QuantityInfo& quantity) {
                                {"text", quantity.text}};
   if (!quantity.symbol.empty()) entry["symbol"] = quantity.symbol;
   if (!quantity.note.empty()) entry["note"] = quantity.note;
-  for (const SummaryRow& summary_row : quantity.summary_rows)
-    entry["told"].push_back({{"name", summary_row.name}, {"as", text_of(summary_row.statistic)}});
+  for (const SummaryEntry& summary_entry : quantity.summary_entries)
+    entry["told"].push_back({{"name", summary_entry.name}, {"as", text_of(summary_entry.statistic)}});
   return entry;
 }
 

@@ -41,7 +41,7 @@ struct More {
   std::function<std::string(const Plan&)> unit = {};  ///< which, where there are several
   /// Replacements of <...> in name and text: for a family, one for each member.
   std::function<std::vector<std::string>(const Plan&)> each = {};
-  std::vector<SummaryRow> summary_rows = {};
+  std::vector<SummaryEntry> summary_entries = {};
 };
 
 /// Returns `text` with `name` in place of the part in angle brackets.
@@ -100,7 +100,7 @@ class Quantity {
              .note = more_.note,
              .kind = QuantityInfo::Kind::series,
              .dimensions = is_numbered ? std::vector{name + "_column"} : more_.extent.dimensions,
-             .summary_rows = more_.summary_rows};
+             .summary_entries = more_.summary_entries};
   }
 
   [[nodiscard]] const QuantityInfo& info() const { return info_; }
@@ -182,7 +182,7 @@ class Attribute {
              .symbol = more_.symbol,
              .note = more_.note,
              .kind = QuantityInfo::Kind::attribute,
-             .summary_rows = more_.summary_rows};
+             .summary_entries = more_.summary_entries};
     write_ = [get = std::move(get)](const Plan& plan, [[maybe_unused]] std::size_t k, const std::string& object,
                                     const std::string& statistic, results::Writer& writer) {
       if constexpr (std::is_invocable_v<Get, const Plan&, std::size_t>)

@@ -10,7 +10,7 @@ namespace hersey::run {
 namespace {
 
 using Observables = film::NetworkObservables;
-using Statistic = SummaryRow::Statistic;
+using Statistic = SummaryEntry::Statistic;
 
 /// Indices of the bodies among the nodes; surroundings keep the temperature that the model gives them.
 std::vector<Eigen::Index> bodies(const model::Model& model) {
@@ -44,24 +44,24 @@ const QuantityTable<ThermalRow, model::Model>& thermal_quantities() {
        {.symbol = "T_i",
         .note = "a node of the model's `thermal`",
         .each = body_names,
-        .summary_rows = {{Statistic::largest, "hottest <body>", "°C"},
-                         {Statistic::at_end, "temperature of <body> at the end", "°C"}}}},
+        .summary_entries = {{Statistic::largest, "hottest <body>", "°C"},
+                            {Statistic::at_end, "temperature of <body> at the end", "°C"}}}},
       {"heat_from_films_<body>",
        "W",
        "from films into this body, mean of the step",
        [](const ThermalRow& row, std::size_t k) { return row.observation.heat[bodies(row.model)[k]]; },
-       {.each = body_names, .summary_rows = {{Statistic::mean, "mean heat from films into <body>", "W"}}}},
+       {.each = body_names, .summary_entries = {{Statistic::mean, "mean heat from films into <body>", "W"}}}},
       {"heat_to_surroundings",
        "W",
        "from bodies and films into nodes that are fixed",
        of_network(&Observables::to_fixed),
-       {.summary_rows = {{Statistic::mean, "mean heat into surroundings", "W"}}}},
+       {.summary_entries = {{Statistic::mean, "mean heat into surroundings", "W"}}}},
       {"heat_stored", "W", "rate of the heat in bodies", of_network(&Observables::stored)},
       {"heat_balance_error",
        "1",
        "heat from films that is neither stored nor gone, over the largest of these",
        of_network(&Observables::error),
-       {.summary_rows = {{Statistic::largest_in_size, "worst error of the bodies' heat balance"}}}},
+       {.summary_entries = {{Statistic::largest_in_size, "worst error of the bodies' heat balance"}}}},
   };
   return table;
 }

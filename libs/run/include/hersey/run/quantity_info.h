@@ -5,25 +5,25 @@
 
 namespace hersey::run {
 
-/// A row that the closing table makes of a quantity.
-struct SummaryRow {
+/// An entry of the summary table made from a quantity.
+struct SummaryEntry {
   enum class Statistic {
-    smallest,         ///< of all instants, with the instant
-    largest,          ///< the same
-    largest_in_size,  ///< the same, with its sign
-    longest,          ///< of a vector
+    smallest,         ///< over all instants, with its instant
+    largest,          ///< over all instants, with its instant
+    largest_in_size,  ///< of largest magnitude, with its sign and instant
+    longest,          ///< largest magnitude of a vector
     mean,             ///< over time
     integral,         ///< over time
-    at_end            ///< of the run; of cycles: of the last one; of an attribute: it
+    at_end            ///< value at the end of the run; for cycles: of the last one; for an attribute: its value
   };
   enum class Only {
     always,
-    of_a_cycle,   ///< where there was a whole one
-    with_contact  ///< where surfaces have touched
+    of_a_cycle,   ///< only if there was a whole cycle
+    with_contact  ///< only if surfaces have touched
   };
   Statistic statistic = Statistic::at_end;
   std::string name;           ///< "minimum film thickness (MOFT)"; <...> is filled in as in QuantityInfo::name
-  std::string unit = {};      ///< that of the table, "µm"; empty for a pure number
+  std::string unit = {};      ///< unit in the table, "µm"; empty for a pure number
   bool has_location = false;  ///< the series <name>_phi and <name>_z give its location
   Only only = Only::always;
 };
@@ -40,13 +40,13 @@ struct QuantityInfo {
                             ///< interpretation
   Kind kind = Kind::series;
   std::vector<std::string> dimensions = {};  ///< names of its columns, besides x, y, z
-  std::vector<SummaryRow> summary_rows = {};
+  std::vector<SummaryEntry> summary_entries = {};
 };
 
 /// All quantities that a results file has of things of one kind.
 struct QuantityGroup {
   std::string path;     ///< of a thing's group, "/bearings/<b>/"
-  std::string heading;  ///< what they are, "of a film"
+  std::string heading;  ///< description of the things, "of a film"
   std::vector<QuantityInfo> quantities;
 };
 
