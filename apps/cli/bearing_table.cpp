@@ -114,7 +114,7 @@ std::vector<std::pair<std::string, std::string>> surface_remarks(const BearingSo
     if (!surface) return;
     const SurfaceFunctions& functions = surface->surface->functions;
     remarks.emplace_back(
-        name, fmt::format("deforms at rest with the mesh of {}, {} x {} functions; held at {}", surface->body,
+        name, fmt::format("deforms at rest with the mesh of {}, {} x {} functions; supported at {}", surface->body,
                           functions.around(), functions.along(), fmt::join(surface->held_at, ", ")));
   };
   add("shell", solution.elasticity->shell);

@@ -190,7 +190,7 @@ std::string cad_text(const MeshArguments& arguments, const CadOptions& options) 
   std::string unit = "in the unit that it says";
   if (!stated.empty()) unit = "in " + stated;
   if (is_brep) unit = fmt::format("taken to be in {:.6g} mm (--length-unit)", 1e3 * options.length_unit);
-  return fmt::format("meshed    by gmsh: {}, {}; elements of {:.6g} mm, order {}, {} or more around a turn\n",
+  return fmt::format("meshed    by gmsh: {}, {}; elements of {:.6g} mm, order {}, {} or more around a circle\n",
                      arguments.file, unit, 1e3 * options.size, options.order, options.around);
 }
 

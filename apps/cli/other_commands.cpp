@@ -57,7 +57,7 @@ void require_names(const ReportArguments& arguments) {
       throw InputError(Fault{{"--names", 0, 0},
                              "",
                              name->empty() ? "an empty name" : "'" + *name + "' twice",
-                             "names that tell the runs from each other",
+                             "names that distinguish the runs",
                              ""});
 }
 

@@ -164,7 +164,7 @@ void print(const fem::ElasticBody& body, const fem::ReducedBody& reduced, const 
   std::vector<std::string> frequencies;
   for (const double omega : reduced.internal_omega)
     frequencies.push_back(fmt::format("{:.5g}", omega / (2 * std::numbers::pi)));
-  fmt::print("modes     {} with all frames held [Hz]: {}\n", frequencies.size(), fmt::join(frequencies, ", "));
+  fmt::print("modes     {} with all frames fixed [Hz]: {}\n", frequencies.size(), fmt::join(frequencies, ", "));
   print_static_errors(reduced);
   fmt::print("reduced   {} coordinates: {}\n", reduced.size(), output.string());
 }

@@ -58,7 +58,7 @@ void print_modes(const SolidArguments& arguments, const fem::ElasticBody& body, 
   if (arguments.hold.empty())
     fmt::print("free      {} rigid motions\n\n", modes.rigid);
   else
-    fmt::print("held      at {}\n\n", fmt::join(arguments.hold, ", "));
+    fmt::print("supported at {}\n\n", fmt::join(arguments.hold, ", "));
   std::vector<std::vector<std::string>> lines = {{"mode", "frequency/Hz", ""}};
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k)
     lines.push_back({fmt::format("{}", k + 1), fmt::format("{:.5g}", modes.omega[k] / (2 * std::numbers::pi)),

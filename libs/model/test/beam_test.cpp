@@ -120,7 +120,7 @@ TEST_CASE("BeamAlongZ_NeedsNoUp") {
 TEST_CASE("Beam_FaultsNameWhatIsThere") {
   CHECK(contains(faults_with("[10 0 0 mm, 110 0 0 mm, 110 0 200 mm]", "[10 0 0 mm]"),
                  "m.yaml:6:15: bodies.shaft.beam.points: a beam with one point"));
-  CHECK(contains(faults_with("110 0 0 mm,", "10 0 0 mm,"), "the place of the point before it"));
+  CHECK(contains(faults_with("110 0 0 mm,", "10 0 0 mm,"), "the position of the point before it"));
   CHECK(contains(faults_with("bore: 10 mm", "bore: 20 mm"), "a bore of 20 mm"));
   CHECK(contains(faults_with("circle: {diameter", "circel: {diameter"), "circle"));
   CHECK(contains(faults_with("{circle: {diameter: 20 mm, bore: 10 mm}}",

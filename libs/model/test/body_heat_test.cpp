@@ -118,7 +118,7 @@ TEST_CASE("FaultsOfHeatInBodies_SayWhereAndWhatToDo") {
   const WrittenRing file;
   const std::string cooling = "cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}";
   const std::string nowhere = faults_after("        " + cooling + "\n", "");
-  CHECK(contains(nowhere, "bodies.ring.flexible.heat: a body whose heat has nowhere to go"));
+  CHECK(contains(nowhere, "bodies.ring.flexible.heat: a body whose heat has no path to the surroundings"));
   CHECK(contains(nowhere, "add `cooling:"));
   CHECK(contains(faults_after("{outside: {", "{outsid: {"), "unknown surface or set 'outsid'"));
   CHECK(contains(faults_after("{outside: {", "{outsid: {"), "did you mean 'outside'"));
@@ -202,7 +202,7 @@ TEST_CASE("JournalInABodyThatDoesNotTurn_IsDoubted") {
   CHECK(rotation_warnings(bearing, 3, 3).empty());
   CHECK(rotation_warnings(bearing, -3, 3).empty());
   CHECK(rotation_warnings(other.bearings[0], 0, 0).empty());
-  CHECK(contains(rotation_warnings(bearing, 0, 0).at(0), "does not turn in its shell"));
+  CHECK(contains(rotation_warnings(bearing, 0, 0).at(0), "does not rotate in its shell"));
   CHECK(contains(rotation_warnings(bearing, -0.1, 2).at(0), "swings in its shell: 115 deg to and fro, 5.73 deg of it"));
 }
 

@@ -193,7 +193,7 @@ TEST_CASE("ShapesThatCannotBe_AreReported") {
     return faults_after("  rod: {mass: 2 kg}\n", "  rod:\n    mass: 2 kg\n    shapes:\n      a: " + shape + "\n");
   };
   CHECK(faults("{shape: cylinder, from: 0 1 0 mm, to: 0 1 0 mm, diameter: 1 mm}") ==
-        "m.yaml:15:7: bodies.rod.shapes.a: both ends at the same place; expected two ends apart");
+        "m.yaml:15:7: bodies.rod.shapes.a: both ends at the same position; expected two ends apart");
   CHECK(faults("{shape: box, size: 1 0 1 mm}") ==
         "m.yaml:15:29: bodies.rod.shapes.a.size: an edge that is not > 0; expected three lengths > 0, such as 20 40 10 "
         "mm");

@@ -38,8 +38,8 @@ TEST_CASE("JointAcrossItsBearing_IsWarnedOf") {
   const std::vector<std::string> across = axis_warnings_of(constrained("x"));
   REQUIRE(across.size() == 1);
   CHECK(contains(across[0], "rig.yaml:10:"));
-  CHECK(
-      contains(across[0], "joints.main.axis: the joint turns the journal of bearing big_end about an axis 90 deg off"));
+  CHECK(contains(across[0],
+                 "joints.main.axis: the joint rotates the journal of bearing big_end about an axis 90 deg off"));
   CHECK(axis_warnings_of(constrained("z")).empty());
   CHECK(axis_warnings_of(constrained("0 0 -1")).empty());
   CHECK(axis_warnings_of(constrained("0 0.001 1")).empty());  // less than the clearance allows: 34 um on 15.6 mm

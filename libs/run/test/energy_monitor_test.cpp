@@ -65,7 +65,7 @@ TEST_CASE("ExplodingSpring_EndsAsFailedInAnyUnits") {
   REQUIRE(si.status == Status::failed);
   CHECK(si.t_end < 1);
   CHECK(si.message.find("t = 0.2") == 0);
-  CHECK(si.message.find("have gone nowhere, of late in body m, where force s acts") != std::string::npos);
+  CHECK(si.message.find("were lost without a sink, of late in body m, where force s acts") != std::string::npos);
   CHECK(si.message.find("give a shorter `simulation.step`") != std::string::npos);
   CHECK(si.energy.share_from_nowhere() < 0.2);
   CHECK(si.energy.available == doctest::Approx(5004.5).epsilon(1e-6));  // 4.5 J of motion, 5 kJ in the spring

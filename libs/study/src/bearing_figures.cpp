@@ -204,7 +204,7 @@ Group deformation() {
             [](const Solution& s) { return s.state.tilt.y(); },
             {.only = is_elastic}},
            {"shell_turn",
-            "turn of the bearing's axes under load",
+            "rotation of the bearing's axes under load",
             kDegree,
             [](const Solution& s) { return s.state.turn; },
             {.only = shell}}}};

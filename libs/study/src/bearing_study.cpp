@@ -79,10 +79,10 @@ Eigen::Vector2d polar(double length, double angle) {
 // temperature.
 void require_way_out(const model::Model& model, const model::Bearing& bearing, const film::ThermalModel& heat) {
   if (heat.oil.drain && !film::reaches_surroundings(model.thermal.network, heat.oil.drain->node))
-    throw InputError(Fault{bearing.position, "bearings." + bearing.name + ".thermal.drains_to",
-                           "oil that drains to '" + heat.oil.drain->name +
-                               "', whose heat reaches no surroundings: in a steady state it has nowhere to go",
-                           "a path from there to a node with a `fixed` temperature", ""});
+    throw InputError(Fault{
+        bearing.position, "bearings." + bearing.name + ".thermal.drains_to",
+        "oil that drains to '" + heat.oil.drain->name + "', whose heat reaches no surroundings: it has no steady state",
+        "a path from there to a node with a `fixed` temperature", ""});
   if (!has_node_walls(heat) || !film::is_closed(bearing.film)) return;
   const film::FilmTerminals at = film::terminals_of(heat);
   const auto leads_out = [&](const std::optional<std::size_t>& node) {
@@ -339,18 +339,18 @@ void require_rest(const model::Bearing& bearing) {
               rigid + (bearing.shell_surface ? "shell" : "journal") + "_surface=rigid` for rigid surfaces"});
   if (bearing.heated_shell && point.shell_speed != 0)
     throw InputError(Fault{point.position, path + "shell_speed",
-                           "a shell that turns, whose temperatures are those of a body",
-                           "0: the body rests under the film's heat, and the journal turns",
+                           "a rotating shell, whose temperatures are those of a body",
+                           "0: the body rests under the film's heat, and the journal rotates",
                            "another wall: `ring`, `given`, `insulated`"});
   if (bearing.heated_journal && point.journal_speed == 0)
     throw InputError(Fault{point.position, path + "journal_speed",
                            "a journal at rest, whose temperatures are those of a body",
-                           "a speed: heat comes to a body evenly around because it turns in its film",
+                           "a speed: heat enters a body evenly around because it rotates in its film",
                            "another wall: `free`, `given`, `insulated`, `node`; or let the shell rest and the journal "
                            "turn: the film knows no difference between its surfaces"});
   if (bearing.shell_surface && point.shell_speed != 0)
-    throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns and deforms",
-                           "0: the shell's body is held at rest, and the journal turns",
+    throw InputError(Fault{point.position, path + "shell_speed", "a shell that rotates and deforms",
+                           "0: the shell's body is fixed, and the journal rotates",
                            rigid + "shell_surface=rigid` for a rigid shell"});
   const auto travels = [](const film::SurfaceFeature& feature) {
     return feature.surface == film::Surface::shell && !feature.is_fed && feature.depth > 0 &&
@@ -358,7 +358,7 @@ void require_rest(const model::Bearing& bearing) {
   };
   const auto& features = bearing.film.features;
   if (point.shell_speed != 0 && std::any_of(features.begin(), features.end(), travels))
-    throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns with pockets that nothing feeds",
+    throw InputError(Fault{point.position, path + "shell_speed", "a rotating shell with pockets that nothing feeds",
                            "0, or pockets of the journal, whose oil travels with them",
                            "the film knows no difference between its surfaces: exchange journal and shell, speeds "
                            "and features"});

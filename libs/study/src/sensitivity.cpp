@@ -286,7 +286,7 @@ std::vector<Sensitivity> sensitivities(const std::string& text, const std::strin
       throw InputError(Fault{{"--sensitivity-to", 0, 0},
                              "",
                              "'" + key + "'",
-                             "a key path of the model at which a number stands, or a parameter as parameters.NAME",
+                             "a key path of the model whose value is a number, or a parameter as parameters.NAME",
                              ""});
     const SiUnit si = si_of(middle->unit);
     Sensitivity& found = all.emplace_back();

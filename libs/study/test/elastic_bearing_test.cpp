@@ -357,7 +357,7 @@ TEST_CASE("ElasticBearing_WhatItCannotAnswer_IsRefusedAtItsLine") {
   };
   const Fault turning = fault({point("shell_speed", 100, " rpm")});
   CHECK(turning.position.line > 0);
-  CHECK(turning.found == "a shell that turns and deforms");
+  CHECK(turning.found == "a shell that rotates and deforms");
   CHECK(turning.suggestion.find("bearings.main.shell_surface=rigid") != std::string::npos);
   const Fault squeezed = fault(with(at_position({0, -0.5 * c}), {point("radial_velocity", 1, " mm/s")}));
   CHECK(squeezed.found == "a velocity of the journal between surfaces that deform");

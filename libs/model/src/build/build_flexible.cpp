@@ -92,7 +92,7 @@ InputError insufficient_supports(const Body& body, const std::string& why) {
   return InputError({.position = body.flexible->position,
                      .path = "bodies." + body.name + ".flexible",
                      .found = why,
-                     .expected = "a mesh that can be held at its frames",
+                     .expected = "a mesh without rigid motion once its frames are fixed",
                      .suggestion = "see `hersey mesh` for its sets and its quality"});
 }
 

@@ -125,7 +125,7 @@ class BeamReader {
     const Value* points = value.find("points");
     if (points == nullptr || points->broken) return std::nullopt;
     if (points->members.size() < 2) {
-      context_.fault(*points, "a beam with one point", "at least two points", "add the place of its other end");
+      context_.fault(*points, "a beam with one point", "at least two points", "add the position of its other end");
       return std::nullopt;
     }
     Axis axis;
@@ -134,7 +134,7 @@ class BeamReader {
       const Vector3 point(item.numbers[0], item.numbers[1], item.numbers[2]);
       const double step = axis.points.empty() ? 0 : (point - axis.points.back()).norm();
       if (!axis.points.empty() && step == 0) {
-        context_.fault(item, "the place of the point before it", "a point elsewhere", "remove it");
+        context_.fault(item, "the position of the point before it", "a point elsewhere", "remove it");
         return std::nullopt;
       }
       axis.distance.push_back(axis.points.empty() ? 0 : axis.distance.back() + step);
@@ -159,8 +159,8 @@ class BeamReader {
       const double position = along->text == "end" ? axis.length() : along->text == "start" ? 0 : along->number;
       if (position > axis.length() * (1 + kCoincident))
         context_.fault(*along,
-                       fmt::format("a place {:g} mm along a beam of {:g} mm", 1e3 * position, 1e3 * axis.length()),
-                       "a place on the beam", "for its last point write `along: end`");
+                       fmt::format("a position {:g} mm along a beam of {:g} mm", 1e3 * position, 1e3 * axis.length()),
+                       "a position on the beam", "for its last point write `along: end`");
       positions_[frame.name] = std::min(position, axis.length());
     }
   }

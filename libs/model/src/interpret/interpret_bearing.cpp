@@ -66,7 +66,7 @@ class FilmReader {
     for (const film::SurfaceFeature& feature : film_.features) {
       if (feature.is_fed) return;
     }
-    context_.fault_at_key(*value_.find("edge_pressure"), "closed edges and no supply: no place has a given pressure",
+    context_.fault_at_key(*value_.find("edge_pressure"), "closed edges and no supply: the pressure is given nowhere",
                           "a 'supply', or a hole or groove with a pressure in 'features'");
   }
 
@@ -273,7 +273,7 @@ class FilmReader {
     if (length != nullptr && !length->broken && film_.R > 0 && length->number > kLongestColumn * film_.R)
       context_.fault(
           *length, fmt::format("{:.3g} m, {:.3g} times the bearing's radius", length->number, length->number / film_.R),
-          fmt::format("at most {:g} times the radius: columns stand for a lining or a housing", kLongestColumn));
+          fmt::format("at most {:g} times the radius: columns represent a lining or a housing", kLongestColumn));
     if (modulus) film_.compliance = (length != nullptr ? length->number : film_.R) / *modulus;
   }
 

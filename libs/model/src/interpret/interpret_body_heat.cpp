@@ -85,7 +85,7 @@ BodyHeat body_heat_of(Context& context, const Value& value, const fem::Mesh& mes
     heat.fixed.insert(heat.fixed.end(), nodes.begin(), nodes.end());
   }
   if (transfer == 0 && heat.surroundings.held.empty() && !context.has_fault_in(value.path))
-    context.fault_at_key(value, "a body whose heat has nowhere to go",
+    context.fault_at_key(value, "a body whose heat has no path to the surroundings",
                          "`cooling` of one of its surfaces, or `temperatures` of some nodes",
                          "add `cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}`");
   return heat;

@@ -158,7 +158,7 @@ class ContactReader {
     if (given == nullptr) {
       if (stiffness->find(pressure ? "force" : "pressure") == nullptr) return;  // neither: already reported
       context_.fault_at_key(*stiffness, std::string(pressure ? "a force" : "a pressure") + " for " + pair,
-                            pressure ? "`pressure`: each corner of the mesh stands for the area around it"
+                            pressure ? "`pressure`: each corner of the mesh represents the area around it"
                                      : "`force`: only a mesh on anything but a sphere is pressed by its area");
       return;
     }

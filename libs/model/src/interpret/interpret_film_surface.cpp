@@ -104,7 +104,7 @@ class FilmSurfaceReader {
     if (body->flexible->reduced) {
       context_.fault_at_key(
           value_, what_ + " on the reduced body '" + on_.body + "', whose file holds no answers to film pressure",
-          remedy_, "give the body its 'mesh' in place of 'reduced'");
+          remedy_, "give the body its 'mesh' instead of 'reduced'");
       return nullptr;
     }
     if (body->flexible->strain == mbd::Strain::finite) {

@@ -254,7 +254,7 @@ class FlexibleReader {
       const Value& value = *body_.find("frames")->find(frame.name);
       const Value* nodes = value.find("nodes");
       if (nodes == nullptr) {
-        context_.fault_at_key(value, "a frame of a flexible body without `nodes`", "the set of nodes it stands on",
+        context_.fault_at_key(value, "a frame of a flexible body without `nodes`", "the set of nodes it is attached to",
                               expected_set(mesh));
         continue;
       }

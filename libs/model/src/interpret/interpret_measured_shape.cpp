@@ -73,8 +73,8 @@ class ShapeTable {
   bool is_within(const std::vector<double>& angle, const std::vector<double>& z, double L) {
     const auto [first, last] = std::minmax_element(angle.begin(), angle.end());
     if (*last - *first >= turn * (1 - 1e-9)) {
-      (void)fault(static_cast<std::size_t>(last - angle.begin()), "angles over a whole turn or more",
-                  "angles within one turn; the first follows the last");
+      (void)fault(static_cast<std::size_t>(last - angle.begin()), "angles over 360 deg or more",
+                  "angles within 360 deg; the first follows the last");
       return false;
     }
     const auto [low, high] = std::minmax_element(z.begin(), z.end());

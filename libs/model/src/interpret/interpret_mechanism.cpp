@@ -134,7 +134,7 @@ void interpret_joints(Context& context) {
     if (joint.type == JointType::screw) {
       joint.lead = number_of(value, "lead");
       if (const Value* lead = value.find("lead"); lead != nullptr && !lead->broken && joint.lead == 0) {
-        context.fault(*lead, "a lead of 0", "a travel per turn", "a revolute joint has none");
+        context.fault(*lead, "a lead of 0", "a travel per revolution", "a revolute joint has none");
       }
     }
     joint.initial = initial_values(value, "initial");

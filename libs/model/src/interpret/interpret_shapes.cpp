@@ -19,7 +19,7 @@ class ShapeReader {
     if (value.text == "sphere") return mbd::Sphere{vector_of(value, "centre"), radius};
     if (value.text == "cylinder" || value.text == "capsule") {
       const Vector3 from = vector_of(value, "from"), to = vector_of(value, "to");
-      if (from == to) context_.fault_at_key(value, "both ends at the same place", "two ends apart");
+      if (from == to) context_.fault_at_key(value, "both ends at the same position", "two ends apart");
       if (value.text == "cylinder") return mbd::Cylinder{from, to, radius};
       return mbd::Capsule{from, to, radius};
     }

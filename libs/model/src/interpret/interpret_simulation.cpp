@@ -51,7 +51,7 @@ std::optional<Crank> crank_of(Context& context, const Value& simulation) {
   const Drive* drive = constant_drive(context.model, joint->name, "rotation");
   const double speed = drive != nullptr ? drive->motion.value->value({}) : 0;
   if (speed == 0) {
-    context.fault(*value, "joint '" + joint->name + "', which no drive turns at a constant speed",
+    context.fault(*value, "joint '" + joint->name + "', which no drive rotates at a constant speed",
                   "a joint with a drive such as {joint: " + joint->name + ", coordinate: rotation, speed: 3570 rpm}");
     return std::nullopt;
   }
@@ -65,7 +65,7 @@ double seconds_of(Context& context, const Value& value, const std::optional<Cran
   if (crank) return value.number / std::abs(crank->speed);
   const Value* simulation = context.root.find("simulation");
   if (simulation != nullptr && simulation->find("crank") != nullptr) return 0;  // a crank at fault has been reported
-  context.fault(value, "an angle", "a time, or a crank that turns angles into times",
+  context.fault(value, "an angle", "a time, or a crank that converts angles to times",
                 "add simulation.crank with the name of a driven revolute joint");
   return 0;
 }

@@ -153,7 +153,7 @@ class SurfaceReader {
   }
 
   /// Two fed features of one surface that overlap must have one pressure: no film lies between them. Those of two
-  /// surfaces may meet as the journal turns.
+  /// surfaces may meet as the journal rotates.
   void check_overlap(const Value& value) {
     const std::size_t last = film_.features.size() - 1;
     const film::SurfaceFeature& feature = film_.features[last];
@@ -167,7 +167,7 @@ class SurfaceReader {
           context_.fault_at_key(value, "overlaps " + name + ", which has another pressure",
                                 "the same constant pressure, or room between them");
       } else if (std::abs(feature.z - other.z) < 0.5 * (feature.length + other.length)) {
-        warn_at_key(value, "passes over " + name + ", which has another pressure, as the journal turns");
+        warn_at_key(value, "passes over " + name + ", which has another pressure, as the journal rotates");
       }
     }
   }

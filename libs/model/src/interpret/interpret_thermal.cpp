@@ -94,7 +94,7 @@ void check_walls(Context& context, const Value& thermal, const film::FilmModel& 
                      std::holds_alternative<film::WallAtTemperature>(heat.journal);
   if (!leaves && !takes)
     context.fault_at_key(
-        thermal, "closed edges, and walls that take no heat: it has nowhere to go",
+        thermal, "closed edges, and walls that conduct no heat: no heat can leave",
         "a shell or journal that is `given`, a `ring`, a `body` or a `node`, an open edge, or a supply "
         "that renews its oil (`carry_over` below 1)");
 }

@@ -68,7 +68,7 @@ bool is_usable(Context& context, const Value& at, const Around& table) {
     return false;
   }
   if (table.phi.back() - table.phi.front() >= turn - 1e-9) {
-    context.fault_at_key(at, "angles of a whole turn or more", "angles within one turn: the last leads to the first");
+    context.fault_at_key(at, "angles of 360 deg or more", "angles within 360 deg: the first follows the last");
     return false;
   }
   return true;

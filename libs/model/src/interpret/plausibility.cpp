@@ -47,7 +47,7 @@ std::string pressure_warning(const Bearing& bearing, double p_max) {
       bearing.permissible_pressure
           ? fmt::format("its permissible_pressure, {:.3g} MPa", 1e-6 * *bearing.permissible_pressure)
           : "what layers of bearings usually bear (of the order of 200 MPa in engines, far less of white metal; "
-            "`permissible_pressure` tells of this one)";
+            "`permissible_pressure` states that of this one)";
   return fmt::format("its peak pressure: {:.3g} MPa is above {}; {}", 1e-6 * p_max, limit,
                      deforms(bearing) ? "lower the load or give more width"
                                       : "elastic surfaces spread it (`shell_surface`, or `compliance`)");
@@ -71,9 +71,9 @@ std::vector<std::string> rotation_warnings(const Bearing& bearing, double turned
   const std::string how = travelled > round_off
                               ? fmt::format("swings in its shell: {:.3g} deg to and fro, {:.3g} deg of it one way",
                                             degrees * travelled, degrees * std::abs(turned))
-                              : std::string("does not turn in its shell");
+                              : std::string("does not rotate in its shell");
   return {"a journal whose temperatures are those of a body " + how +
-          ": that heat comes to it evenly around is an estimate"};
+          ": that heat enters it evenly around is an estimate"};
 }
 
 }  // namespace hersey::model

@@ -64,7 +64,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto target = anchors_.find(anchor);
     if (target == anchors_.end()) {  // an alias inside its own anchor
-      report(position(mark), "an alias of the value it stands in", "an alias of an earlier value");
+      report(position(mark), "an alias of the value that contains it", "an alias of an earlier value");
       add(Node{.position = position(mark), .reported = true}, 0);
       return;
     }

@@ -78,7 +78,8 @@ StlResult parse_binary(const std::string& content) {
     std::array<Vector3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = {numbers[3 + 3 * k], numbers[4 + 3 * k], numbers[5 + 3 * k]};
     for (const Vector3& corner : corners) {
-      if (!is_valid_position(corner)) return fault(fmt::format("facet {} has a corner that is nowhere", f + 1));
+      if (!is_valid_position(corner))
+        return fault(fmt::format("facet {} has a corner without a finite position", f + 1));
     }
     builder.add(corners);
   }

@@ -154,7 +154,7 @@ void Templates::expand_each(Node& node, const Node& use, const Location& locatio
       } else {
         report(entry.position, sub_path(path, entry.key),
                "a key that another use beside it has too (line " + std::to_string(there->position.line) + ")",
-               "each key from one template", "in keys, a parameter tells them apart: rod_${n}");
+               "each key from one template", "in keys, a parameter distinguishes them: rod_${n}");
       }
     }
   };

@@ -17,8 +17,9 @@ TypePtr root() {
               "or brackets, since YAML gives braces a meaning of its own."),
           optional("templates", named("a mapping from names to templates", template_format()),
                    "Parts of a model with `parameters` of their own, put in by `use`; see [templates](#templates)."),
-          optional("use", use_format(),
-                   "Puts templates into the mapping it stands in, this one or any below; see [templates](#templates)."),
+          optional(
+              "use", use_format(),
+              "Puts templates into the mapping that contains it, this one or any below; see [templates](#templates)."),
           defaulted("gravity", vector("m/s^2", "0 -9.81 0 m/s^2"), "0 0 0 m/s^2",
                     "Acceleration of free fall, ground axes."),
           optional("bodies", bodies_format(),

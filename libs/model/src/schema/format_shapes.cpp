@@ -29,7 +29,7 @@ TypePtr shapes_format() {
                    "a block",
                    {defaulted("centre", position, "0 0 0 m", "From the body's origin, body axes."),
                     required("size", vector("m", "20 40 10 mm"), "Its edges."),
-                    optional("rotation", rotation, "Turns the edges from the body's axes.", "none")}},
+                    optional("rotation", rotation, "Rotates the edges from the body's axes.", "none")}},
                   {"half_space",
                    "everything behind a plane",
                    {defaulted("point", position, "0 0 0 m", "A point of the plane."),

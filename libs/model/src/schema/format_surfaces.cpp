@@ -60,7 +60,7 @@ TypePtr shape_format() {
            "file", text("a file", "bore.csv"),
            "CSV file beside the model file with the columns `angle`, `z` and `opening`, units in brackets: by how "
            "much the gap is wider than that of the clearance at every combination of the angles, which lie "
-           "within one turn, and the heights.")}});
+           "within 360 deg, and the heights.")}});
   const Key on = defaulted("on", choice(profile_surface_words), "shell", "The surface that has it.");
   return list("a list of deviations from a cylinder",
               variant("a deviation from a cylinder", "profile", {on}, std::move(shapes)));
@@ -71,8 +71,8 @@ TypePtr grid_format() {
   const Key factor = defaulted("factor", number("3", {.low = 1, .high = 100}), "3",
                                "By how much cells are smaller there than far away, about.");
   const TypePtr refine = list(
-      "a list of places towards which cells get smaller",
-      variant("a place to refine", "towards", {factor},
+      "a list of regions towards which cells get smaller",
+      variant("a region to refine", "towards", {factor},
               {
                   {"edges",
                    "both edges of the bearing",

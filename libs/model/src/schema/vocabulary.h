@@ -47,7 +47,7 @@ template <typename T, std::size_t n>
 [[nodiscard]] T meaning_of(const Value& word, const Vocabulary<T, n>& words) {
   if (word.broken) return words.front().value;
   const auto found = std::find_if(words.begin(), words.end(), [&](const auto& one) { return one.word == word.text; });
-  HERSEY_REQUIRE(found != words.end(), "'" + word.text + "' is a word of the format, but stands for nothing");
+  HERSEY_REQUIRE(found != words.end(), "'" + word.text + "' is a word of the format, but has no meaning");
   return found->value;
 }
 

@@ -108,7 +108,7 @@ const QuantityTable<BeamRow, BeamPlan>& beam_quantities() {
        {.note = "of a beam"}},
       {"amplitudes",
        "SI",
-       "per node: displacement [m] and change of its x-, y- and z-axis, seen from the first node",
+       "per node: displacement [m] and change of its x-, y- and z-axis, relative to the first node",
        [](const BeamRow& row) { return beam_amplitudes(row.plan.beam, row.plan.built, row.observation); },
        {.note = "of a beam", .extent = per_node(kPerNode)}},
       {"node_position",

@@ -82,7 +82,7 @@ class AxisCheck {
   [[nodiscard]] Fault across(const model::Bearing& bearing, const std::string& joint, double angle) const {
     const std::string path = "joints." + joint + ".axis";
     return {model_.position_of(path), path,
-            fmt::format("the joint turns the journal of bearing {} about an axis {:.3g} deg off the bearing's",
+            fmt::format("the joint rotates the journal of bearing {} about an axis {:.3g} deg off the bearing's",
                         bearing.name, angle * 180 / std::numbers::pi),
             "the bearing's axis, which is z of its shell's frame",
             "give the joint that `axis`, or turn the bearing's frames: the journal would touch the shell"};

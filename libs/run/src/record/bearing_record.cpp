@@ -347,7 +347,7 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        {.only = has_heat, .summary_entries = {{Statistic::at_end, "temperature of the side flow at the end", "°C"}}}},
       {"T_supply_<name>",
        "degC",
-       "temperature of the stirred oil in this supply",
+       "temperature of the fully mixed oil in this supply",
        supply_temperature,
        {.note = "the line, or one hole or groove", .only = has_heat, .each = supply_names}},
       {"heat_dissipated",

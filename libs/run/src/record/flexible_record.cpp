@@ -41,7 +41,7 @@ const QuantityTable<FlexibleRow, model::BuiltFlexible>& flexible_quantities() {
       {"amplitudes",
        "SI",
        "of the shapes: [rotation; displacement] of each frame but the first against it, then vibrations with all "
-       "frames held [m]",
+       "frames fixed [m]",
        &FlexibleRow::amplitudes,
        {.note = "of a flexible body",
         .only = has_shapes,
@@ -64,7 +64,7 @@ const std::vector<Constant<model::BuiltFlexible>>& flexible_constants() {
         .only = [](const model::BuiltFlexible& body) { return has_shapes(body) && !body.mesh->elements.empty(); }}},
       {"held_frequencies",
        "Hz",
-       "of the vibrations with all frames held",
+       "of the vibrations with all frames fixed",
        "[modes]",
        &model::BuiltFlexible::frequencies,
        {},

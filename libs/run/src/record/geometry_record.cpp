@@ -146,8 +146,8 @@ const std::vector<Attribute<Link>>& link_attributes() {
 
 /// @param axis  description of the axis
 std::vector<Constant<Link>> link_constants(const char* axis) {
-  return {{"inboard_origin", "m", "place in the body inboard", "[3]", origin(&Link::inboard), Writer::xyz},
-          {"outboard_origin", "m", "place in the body outboard", "[3]", origin(&Link::outboard), Writer::xyz},
+  return {{"inboard_origin", "m", "position in the body inboard", "[3]", origin(&Link::inboard), Writer::xyz},
+          {"outboard_origin", "m", "position in the body outboard", "[3]", origin(&Link::outboard), Writer::xyz},
           {"axis", "1", axis, "[3]", &Link::axis, Writer::xyz}};
 }
 

@@ -115,8 +115,8 @@ std::vector<QuantityGroup> describe_header() {
   // The writer's own.
   add("format", "`hersey-results`", "", Kind::attribute);
   add("format_version", "1", "", Kind::attribute);
-  add("status", "how the run stands, see below", "", Kind::attribute);
-  add("message", "why it stands so", "", Kind::attribute);
+  add("status", "state of the run, see below", "", Kind::attribute);
+  add("message", "reason of this state", "", Kind::attribute);
   describe(header_attributes(), "n", root);
   add("model", text_of_model, "", Kind::constant, "text");
   add("assumptions", text_of_assumptions, "cavitation, edges, supply, clearance, grid, integrator", Kind::constant,

@@ -69,7 +69,7 @@ void add_dimensions(QuantityGroup& group) {
       const QuantityInfo& of = group.quantities[i];
       group.quantities.push_back({.name = name,
                                   .unit = "1",
-                                  .text = "places in its rows, counted from 0, or their names",
+                                  .text = "indices in its rows, counted from 0, or their names",
                                   .shape = "[...]",
                                   .note = "dimension of `" + of.name + "`",
                                   .kind = QuantityInfo::Kind::constant});

@@ -35,7 +35,7 @@ std::string surface(const film::SurfaceRoughness& roughness) {
 /// Which of the readings of roughness the run took: in flow and shear, in contact, or nowhere.
 std::string roughness(const film::FilmModel& film) {
   const film::Roughness& r = film.roughness;
-  if (r.composite_sigma() == 0) return "the oil sees smooth surfaces";
+  if (r.composite_sigma() == 0) return "the oil flows between smooth surfaces";
   const std::string both = "shell " + surface(r.shell) + ", journal " + surface(r.journal);
   if (!r.counts()) return both + "; not in the oil's flow";
   return both + fmt::format("; flow factors of Patir and Cheng on the distance of the mean planes, {:.4g} um together",
@@ -50,7 +50,7 @@ std::string supply(const film::FilmModel& film) {
       return fmt::format("line along the bearing at {:.4g} deg, {}", film.supply.phi * 180 / std::numbers::pi,
                          pressure(film.supply.pressure));
     case film::SupplyKind::widest_gap:
-      return "line along the bearing, held at the widest gap, " + pressure(film.supply.pressure);
+      return "line along the bearing, always at the widest gap, " + pressure(film.supply.pressure);
   }
   return {};
 }
@@ -361,14 +361,15 @@ std::pair<std::string, std::string> method(const model::Simulation& run) {
                                       "{:.4g} us; nothing integrated",
                                       1e6 * run.step)};
   if (run.analysis == Analysis::equilibrium)
-    return {"static equilibrium", "gravity and the loads at the start, drives held where they are then, no velocities"};
+    return {"static equilibrium",
+            "gravity and the loads at the start, drives locked at their positions then, no velocities"};
   if (run.analysis == Analysis::modes && run.modes_about == model::ModesAbout::start)
     return {"small motions", "linear about the state at the start"};
   if (run.analysis == Analysis::modes && run.modes_about == model::ModesAbout::equilibrium)
     return {"small motions", "linear about the static equilibrium"};
   if (run.analysis == Analysis::modes && run.modes_about == model::ModesAbout::turning)
     return {"small motions",
-            "linear about the steady motion at the drives' speeds, seen in the axes that turn with the drives"};
+            "linear about the steady motion at the drives' speeds, in axes that rotate with the drives"};
   const std::string then = run.analysis == Analysis::modes ? "; then linear about the end" : "";
   return {"time integration", integration(run) + then};
 }

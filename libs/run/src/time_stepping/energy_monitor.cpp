@@ -172,8 +172,8 @@ bool EnergyMonitor::has_lost_much() const { return lost_ > kMostOfRun * books_.a
 
 std::string EnergyMonitor::reason_of_loss() const {
   const mbd::EnergyPlaces places = machine_.mechanism->energy_places(to_, from_);
-  std::string text = fmt::format("{:.3g} J of the {:.3g} J at the start and put in since have gone nowhere", lost_,
-                                 books_.available());
+  std::string text = fmt::format("{:.3g} J of the {:.3g} J at the start and put in since were lost without a sink",
+                                 lost_, books_.available());
   if (!places.body.empty()) text += fmt::format(", of late in {}", places.body);
   if (!places.force.empty()) text += fmt::format(", where {} acts", places.force);
   return text;
@@ -182,7 +182,7 @@ std::string EnergyMonitor::reason_of_loss() const {
 std::string EnergyMonitor::reason() const {
   const mbd::EnergyPlaces places = machine_.mechanism->energy_places(from_, to_);
   const double available = books_.available();
-  std::string text = fmt::format("{:.3g} J come from nowhere", gain_);
+  std::string text = fmt::format("{:.3g} J were gained without a source", gain_);
   if (balance_ > 0) text += fmt::format(", beside {:.3g} J in the steps before", balance_);
   text += fmt::format("; the energy at the start and what was put in since are {:.3g} J", available);
   if (!places.body.empty()) text += fmt::format("; most of it is found in {}", places.body);
