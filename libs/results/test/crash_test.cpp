@@ -218,7 +218,7 @@ int write_until_full(const std::filesystem::path& path, bool writes_beside) {
   return 0;
 }
 
-TEST_CASE("FullDisk_IsToldAndKeepsFlushedRows") {
+TEST_CASE("FullDisk_IsReportedAndKeepsFlushedRows") {
   const TemporaryDirectory directory;
   bool writes_beside = false;
   SUBCASE("rows written when asked for") {}
