@@ -195,7 +195,7 @@ TEST_CASE("JournalInABody_IsReadAndItsConductionFound") {
   CHECK(wall_conduction(both, both.bearings[0])->T0[0] == doctest::Approx(313.15).epsilon(1e-9));  // as above
 }
 
-TEST_CASE("JournalInABodyThatDoesNotTurn_IsDoubted") {
+TEST_CASE("JournalInABodyThatDoesNotRotate_IsWarnedOf") {
   const WrittenRing file;
   const Model model = read_text(with_shaft(), "m.yaml"), other = read_text(machine_text, "m.yaml");
   const Bearing& bearing = model.bearings[0];

@@ -131,7 +131,7 @@ TEST_CASE("StlFiles_WithFacetsThatAreNoTriangles_AreFaults") {
   CHECK(loop("vertx 0 0 0\n") == "line 4: 'vertx 0 0 0' where STL has no such word");
 }
 
-TEST_CASE("StlTrianglesWithoutArea_AreLeftOut_AndThatIsTold") {
+TEST_CASE("StlTrianglesWithoutArea_AreLeftOut_AndThatIsReported") {
   const TemporaryDirectory folder;
   std::string content = tetrahedron;
   content.insert(content.find("endsolid"),

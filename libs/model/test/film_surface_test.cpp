@@ -115,7 +115,7 @@ TEST_CASE("DeformingSurface_FaultsSayWhereAndWhatToDo") {
                  "'connection: average'"));
 }
 
-TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsTold") {
+TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsReported") {
   const WrittenRing file;
   const std::string rigid = faults_after("shell_surface: " + surface, "journal_surface: {within: 0.1 mm}");
   CHECK(contains(rigid, "m.yaml:27:5: bearings.main.journal_surface: a deforming surface on rigid body 'shaft'"));
@@ -123,7 +123,7 @@ TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsTold") {
   CHECK(contains(faults_after("shell: ring.hub", "shell: ground"), "a deforming surface on rigid body 'ground'"));
 }
 
-TEST_CASE("DeformingSurface_OfABodyOfFiniteStrainIsTold") {
+TEST_CASE("DeformingSurface_OfABodyOfFiniteStrainIsReported") {
   const WrittenRing file;
   const std::string finite = faults_after("      modes: 2\n", "      form: nodal\n      strain: finite\n");
   CHECK(contains(finite, "shell_surface: a deforming surface on 'ring', a body of finite strain"));
@@ -131,7 +131,7 @@ TEST_CASE("DeformingSurface_OfABodyOfFiniteStrainIsTold") {
   CHECK_FALSE(contains(faults_after("      modes: 2\n", "      form: nodal\n"), "finite strain"));
 }
 
-TEST_CASE("DeformingSurface_OfAReducedBodyIsTold") {
+TEST_CASE("DeformingSurface_OfAReducedBodyIsReported") {
   const WrittenRing file;
   const Model model = read_text(machine_text, "m.yaml");
   const Body& ring = model.bodies[0];

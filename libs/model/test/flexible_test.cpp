@@ -173,7 +173,7 @@ TEST_CASE("AMeshUnfitForComputing_IsAFaultOfTheModel") {
   CHECK(contains(faults_of(kMachine), "2 parts that share no node"));
 }
 
-TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreTold") {
+TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreReported") {
   const std::string simulation = "{duration: 1 ms, step: 0.1 ms}";
   CHECK(contains(faults_with(simulation, "{analysis: kinematics, duration: 1 ms, step: 0.1 ms}"),
                  "a kinematic analysis with the flexible body 'bar'"));
@@ -205,7 +205,7 @@ TEST_CASE("FacesThatTouch_DoNotBelongToABodyOfFiniteStrain") {
   CHECK(contains(faults_after, "contacts.hit.between.1: faces that deform of a body of finite strain"));
 }
 
-TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {
+TEST_CASE("FlexibleBody_LeftLooseOrSharedIsReported") {
   CHECK(contains(faults_with("nodes: right", "nodes: left"), "on which frame 'root' stands too"));
   const MeshFile file;
   const auto on_edge = [](const std::string& connection) {
@@ -270,7 +270,7 @@ TEST_CASE("SurfaceLoad_FaultsNameWhatIsThere") {
                  "rigid body 'rod'"));
 }
 
-TEST_CASE("ReducedBody_TakesThePlaceOfItsMesh") {
+TEST_CASE("ReducedBody_ReplacesItsMesh") {
   const MeshFile file;
   const Model meshed = read_text(kMachine + kPressure, "m.yaml");
   const fem::SolidMaterial steel = fem::isotropic({.youngs_modulus = 2.1e11, .poisson_ratio = 0.3, .density = 7850});

@@ -31,7 +31,7 @@ std::string warnings(const Bearing& bearing, double p_max, double h_min) {
   return all;
 }
 
-TEST_CASE("PeakPressure_IsHeldAgainstWhatTheLiningBears") {
+TEST_CASE("PeakPressure_IsComparedWithThePermissibleOne") {
   const Bearing plain = bearing_with("cavitation: mass_conserving");
   CHECK(warnings(plain, 199e6, 1e-6).empty());
   CHECK(
@@ -47,7 +47,7 @@ TEST_CASE("PeakPressure_IsHeldAgainstWhatTheLiningBears") {
   CHECK(warnings(hard, 410e6, 1e-6).ends_with("permissible_pressure, 400 MPa; lower the load or give more width\n"));
 }
 
-TEST_CASE("SmallestFilm_IsHeldAgainstTheRoughness") {
+TEST_CASE("SmallestFilm_IsComparedWithTheRoughness") {
   const Bearing plain = bearing_with("cavitation: mass_conserving");
   CHECK(warnings(plain, 1e6, 0.11e-6).empty());
   CHECK(warnings(plain, 1e6, 0.09e-6).starts_with("its smallest film: 0.09 um is below the roughness of the finest"));

@@ -63,7 +63,7 @@ TEST_CASE("NumbersBeyondAnyMachine_AreReported") {
   CHECK(faults_after("500 N", "1e300 N").find("a force of at most 1e+18 N in size") != std::string::npos);
 }
 
-TEST_CASE("MaterialsBesideACompositeModulus_AreToldOrRefused") {
+TEST_CASE("MaterialsBesideACompositeModulus_AreReportedOrRefused") {
   const auto bearing_with = [](const std::string& modulus, const std::string& heat, const std::string& contact) {
     const std::string material = "{youngs_modulus: 210 GPa, poisson_ratio: 0.3" + heat + "}";
     return edited(good_model, "    lubricant: oil\n",

@@ -182,7 +182,7 @@ TEST_CASE("MaterialsThatRub_AreRead") {
   CHECK(reports("grade: iso_vg_46", with_materials(", density: 7300 kg/m^3, conductivity: 55 W/m/K"), "specific_heat"));
 }
 
-TEST_CASE("Mistakes_InOilsAndHeat_AreTold") {
+TEST_CASE("Mistakes_InOilsAndHeat_AreReported") {
   CHECK(reports("grade: iso_vg_47, temperature: 50 degC", "", "did you mean 'iso_vg_46'"));
   CHECK(reports("density: 850 kg/m^3", "", "a lubricant without a viscosity"));
   CHECK(reports("grade: iso_vg_46", "", "viscosity falls with temperature, and no temperature"));
@@ -359,7 +359,7 @@ TEST_CASE("OilAndSurroundings_AreNodesOfANetwork") {
   CHECK(has_fault(film_with("", network, hot_film + ", drains_to: rom"), "did you mean 'room'"));
 }
 
-TEST_CASE("Mistakes_InTheThermalNetwork_AreTold") {
+TEST_CASE("Mistakes_InTheThermalNetwork_AreReported") {
   const std::string wall = ", shell: {wall: node, node: ";
   CHECK(has_fault(film_with("", network, hot_film + wall + "blok}"), "did you mean 'block'"));
   CHECK(has_fault(film_with("", "", hot_film + wall + "block}"), "the model has no `thermal"));

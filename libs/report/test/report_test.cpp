@@ -187,7 +187,7 @@ TEST_CASE("Study_ShowsEveryRunWithItsParameters") {
   CHECK(page.data["runs"][0]["attributes"]["/"]["study_parameters"] == json({"load"}));
 }
 
-TEST_CASE("TroubleWithFiles_IsToldWithThePath") {
+TEST_CASE("FailuresOfFiles_AreReportedWithThePath") {
   using Paths = std::vector<std::filesystem::path>;
   const TemporaryDirectory directory;
   CHECK_THROWS_WITH_AS(write_html(Paths{directory / "none.h5"}, directory / "r.html"),

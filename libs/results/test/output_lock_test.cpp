@@ -9,7 +9,7 @@
 
 namespace hersey::results::output_lock_test {
 
-TEST_CASE("OutputLock_IsHeldByOneRunAndLeavesNothing") {
+TEST_CASE("OutputLock_BelongsToOneRunAndLeavesNothing") {
   const std::filesystem::path file = "locked.h5";
   {
     const OutputLock lock(file);

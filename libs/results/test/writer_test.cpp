@@ -145,7 +145,7 @@ TEST_CASE("ExistingFile_IsKeptUnlessOverwritten") {
   CHECK(Reader(path).text_attribute("/", "status") == "stopped");
 }
 
-TEST_CASE("UnwritablePlace_IsToldWithPathAndReason") {
+TEST_CASE("UnwritablePath_IsReportedWithItsReason") {
   CHECK_THROWS_WITH_AS(Writer{"/nonexistent/run.h5"}, doctest::Contains("No such file or directory"), WriteError);
   const TemporaryDirectory directory;  // a directory in the file's place is never removed, overwrite or not
   CHECK_THROWS_AS(Writer(directory / "", {.overwrite = true}), WriteError);
@@ -328,7 +328,7 @@ TEST_CASE("MissingOrWrongDataset_IsNamed") {
   CHECK_THROWS_WITH_AS((void)reader.text("/time"), doctest::Contains("does not hold text"), ReadError);
 }
 
-TEST_CASE("ABitThatFlipsInFinishedResults_IsToldOrHarmless") {
+TEST_CASE("ABitThatFlipsInFinishedResults_IsReportedOrHarmless") {
   const TemporaryDirectory scratch;
   {
     Writer writer(scratch / "run.h5");

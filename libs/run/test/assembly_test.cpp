@@ -53,7 +53,7 @@ TEST_CASE("LoopThatCannotClose_SaysWhichJointIsHowFarOff") {
   }
 }
 
-TEST_CASE("RoughGuess_IsAssembledWithTheGivenCoordinateHeld") {
+TEST_CASE("RoughGuess_IsAssembledWithTheGivenCoordinateFixed") {
   // From coupler and rocker both lying along x, whatever the crank's angle.
   for (const char* angle : {"0", "40", "90", "135", "150", "-120"}) {
     CAPTURE(std::string(angle));

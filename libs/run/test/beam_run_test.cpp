@@ -85,7 +85,7 @@ TEST_CASE("VerySlenderBlade_KeepsItsSlowModes") {
   CHECK(reader.number_attribute("/modes", "stable").value_or(0) == 1);
 }
 
-TEST_CASE("HeldBeam_ShowsItsSectionForces") {
+TEST_CASE("SupportedBeam_ShowsItsSectionForces") {
   const TemporaryDirectory folder;
   std::string text = edited(kBlade, "title:", "gravity: 0 0 -0.02 m/s^2\ntitle:");
   text = edited(text, "type: revolute, between: [ground, blade], axis: z", "type: fixed, between: [ground, blade]");

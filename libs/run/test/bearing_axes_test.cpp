@@ -46,7 +46,7 @@ TEST_CASE("JointAcrossItsBearing_IsWarnedOf") {
   CHECK(axis_warnings_of(constrained("0 0.02 1")).size() == 1);
 }
 
-TEST_CASE("JournalThatTurnsAcrossItsBearing_IsWarnedOf") {
+TEST_CASE("JournalThatRotatesAcrossItsBearing_IsWarnedOf") {
   // No joint connects pin and rod; the pin's hinge on ground rotates it about x.
   const std::vector<std::string> warnings =
       axis_warnings_of(rig_with("between: [ground, pin]", "between: [ground, pin], axis: x"));

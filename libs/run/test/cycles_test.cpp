@@ -83,7 +83,7 @@ TEST_CASE("AllCyclesAskedFor_AreRun") {
   CHECK(cycles.time.back() == doctest::Approx(0.75 * kRevolution));
 }
 
-TEST_CASE("CyclesThatDoNotConverge_AreTold") {
+TEST_CASE("CyclesThatDoNotConverge_AreReported") {
   const Cycles cycles = cycles_of(rig_of_cycles("{period: 90 deg, until_converged: 1e-9, most: 3}"));
   CHECK(cycles.summary.status == Status::completed);
   CHECK(cycles.summary.cycles == 3);

@@ -100,7 +100,7 @@ struct Machine {
 
 TEST_CASE("MeshesThatFit_AreNotWarnedOf") { CHECK(Machine(two_meshes).warnings().empty()); }
 
-TEST_CASE("ClearanceNegativeInPlaces_IsToldWithPlaceAndSize") {
+TEST_CASE("LocallyNegativeClearance_IsReportedWithLocationAndSize") {
   // The ring's nodes lie 50 um off the frame's axis, towards -x: the bore comes nearest at 0 deg.
   const Fault shell = Machine(edited(two_meshes, "average, origin: 0 0 0 mm", "average, origin: 0.05 0 0 mm")).fault();
   CAPTURE(shell.found);
@@ -160,7 +160,7 @@ TEST_CASE("SurfacesApartAlongTheAxis_DoNotFaceEachOther") {
   CHECK(contains(fault.suggestion, "shaft.pin"));
 }
 
-TEST_CASE("SurfacesThatLookTheWrongWay_AreTold") {
+TEST_CASE("SurfacesThatLookTheWrongWay_AreReported") {
   // A shaft as the shell, and the bore of a ring as the journal in it.
   const std::string swapped =
       edited(edited(two_meshes, "shell: ring.hub", "shell: shaft.pin"), "journal: shaft.pin", "journal: ring.hub");
@@ -199,7 +199,7 @@ TEST_CASE("AxesThatCross_DoNotFaceEachOther") {
   CHECK(contains(fault.suggestion, "turn the frame"));
 }
 
-TEST_CASE("JournalTouchingAtTheStart_IsToldWithPlace") {
+TEST_CASE("JournalTouchingAtTheStart_IsReportedWithLocation") {
   const Fault moved = fault_of(rig_with("initial: {x: 0 um}", "initial: {x: 40 um}"));
   CHECK(contains(moved.found, "the journal touches the shell (smallest undeformed gap -6 um at 180 deg"));
   const Fault tilted = fault_of(edited(

@@ -76,7 +76,7 @@ TEST_CASE("PointsOfDeformedMeshes_HaveMovedWithoutDeforming") {
   CHECK((x.col(nodes - 1) - mesh.nodes.back()).norm() > 1e-3);  // it has fallen
 }
 
-TEST_CASE("HeldBar_SagsUnderItsWeight") {
+TEST_CASE("SupportedBar_SagsUnderItsWeight") {
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);
   std::string text = kPendulum;
@@ -93,7 +93,7 @@ TEST_CASE("HeldBar_SagsUnderItsWeight") {
         doctest::Approx(q * q * std::pow(0.2, 5) / (40 * 1e9 * I)).epsilon(0.03));
 }
 
-TEST_CASE("BarUnderPressureAndForce_ShortensAndTellsTheirResultants") {
+TEST_CASE("BarUnderPressureAndForce_ShortensAndReportsTheirResultants") {
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);
   std::string text = kPendulum;

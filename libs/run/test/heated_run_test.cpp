@@ -221,7 +221,7 @@ TEST_CASE("JournalOfABody_SettlesOverCycles") {
 }
 
 // Heat enters a rotating body evenly around; for a pin that swings this assumption gets a warning.
-TEST_CASE("JournalInABodyThatSwings_IsDoubted") {
+TEST_CASE("JournalInABodyThatSwings_IsWarnedOf") {
   const Files files;
   const auto warnings_of = [&files](const std::string& drive) {
     const TemporaryDirectory folder;

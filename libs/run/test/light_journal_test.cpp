@@ -67,7 +67,7 @@ std::string floating(const std::string& edge, const std::string& supply, double 
 
 // The widest gap moves around the centre for very small motions, and a vanishing resultant is a sum with round-off:
 // steps were cut to nanoseconds for both, and the run ended there.
-TEST_CASE("JournalWithoutALoad_IsHeldByNoRoundOffAndNoSupply") {
+TEST_CASE("JournalWithoutALoad_IsStoppedByNoRoundOffAndNoSupply") {
   const TemporaryDirectory scratch;
   for (const char* edge : {"0", "0.3", "1"}) {
     for (const char* supply : {"0", "0.5", "1"}) {

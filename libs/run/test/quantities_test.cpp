@@ -45,7 +45,7 @@ TEST_CASE("EveryQuantity_IsDescribedWithItsUnit") {
   }
 }
 
-TEST_CASE("WhatIsTold_IsToldOnceOfEachThing") {
+TEST_CASE("SummaryEntries_AreUniqueForEachThing") {
   for (const QuantityGroup& group : result_quantities()) {
     std::set<std::string> names;
     for (const QuantityInfo& quantity : group.quantities)

@@ -323,7 +323,7 @@ TEST_CASE("ChangedMesh_IsRefused") {
   CHECK(refusal(model(), results).find("the content of bar.inp") != std::string::npos);
 }
 
-TEST_CASE("DamagedFiles_AreTold") {
+TEST_CASE("DamagedFiles_AreReported") {
   const TemporaryDirectory scratch;
   const std::filesystem::path results = scratch / "run.h5", checkpoint = checkpoint_file(results);
   REQUIRE(run_for(rig(), results, 5, false).status == Status::stopped);

@@ -75,7 +75,7 @@ Fault refusal(const std::string& text) {
   return {};
 }
 
-TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
+TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndReported") {
   // The slider belongs 594.686 mm from the shaft; 0.034 mm more are of rounding.
   const std::string text =
       slider_crank(", initial: {rotation: 45 deg, rotation_rate: 10 rad/s}", "", ", initial: {translation: 594.72 mm}");
@@ -107,7 +107,7 @@ TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
   CHECK(is_reported);
 }
 
-TEST_CASE("ValuesThatFitTogether_AreNotTold") {
+TEST_CASE("ValuesThatFitTogether_AreNotReported") {
   const Started start(slider_crank(", initial: {rotation: 45 deg, rotation_rate: 10 rad/s}", "", ""));
   CHECK(start.position(kMain) == 45 * kDegree);
   // rtol of the start is 1e-12.

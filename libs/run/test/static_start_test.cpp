@@ -42,7 +42,7 @@ double swing(const std::vector<double>& energy) {
   return largest / energy.front();
 }
 
-TEST_CASE("HeldBar_StartsAtRestUnderItsWeight") {
+TEST_CASE("SupportedBar_StartsAtRestUnderItsWeight") {
   const std::string in_equilibrium = pendulum("  clamp: {type: fixed, between: [ground, bar.root]}\n");
   CHECK(swing(strain_energy(in_equilibrium, "static")) < 1e-6);  // residual swing of a start in static equilibrium
   const std::vector<double> undeformed = strain_energy(in_equilibrium, "none");

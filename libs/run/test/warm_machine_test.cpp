@@ -239,7 +239,7 @@ TEST_CASE("WallsThatSettleOverCycles_DoNotSqueezeTheFilm") {
   CHECK(loads[1] == doctest::Approx(loads[0]).epsilon(0.1));  // of films whose clearances differ by percents
 }
 
-TEST_CASE("SeizureInARun_IsToldWithItsTime_AndKeepsTheResults") {
+TEST_CASE("SeizureInARun_IsReportedWithItsTime_AndKeepsTheResults") {
   const TemporaryDirectory scratch;
   std::string text = warm_rig(nodes + ", expansion: {shell: 0 1/K, journal: 80e-6 1/K}");
   text = edited(text, "heat_capacity: 1 J/K, temperature: 40 degC", "heat_capacity: 0.3 J/K, temperature: 21 degC");

@@ -51,7 +51,7 @@ TEST_CASE("MassBalance_OfReynoldsIsNoNumberButWords") {
   CHECK(conserving.words.empty());
 }
 
-TEST_CASE("Speeds_AreToldInRevolutionsPerMinute") {
+TEST_CASE("Speeds_AreReportedInRevolutionsPerMinute") {
   const BearingSolution turning = solved_with(
       {"bearings.main.operating_point.journal_speed=1500 rpm", "bearings.main.operating_point.shell_speed=-10 rad/s",
        "bearings.main.operating_point.load=none", "bearings.main.operating_point.eccentricity_ratio=0.3"});

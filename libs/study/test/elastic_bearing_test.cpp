@@ -285,7 +285,7 @@ const std::vector<std::string> hollow_shaft = {"bearings.main.shell_surface=rigi
                                                "joints.slide.between=[ground, shaft.pin]",
                                                "forces.push.body=shaft.pin"};
 
-TEST_CASE("ElasticJournal_IsHeldAtItsJoint_AndGivesWay") {
+TEST_CASE("ElasticJournal_IsSupportedAtItsJoint_AndDeforms") {
   const Rig rig;
   const BearingSolution solution = rig.solved(hollow_shaft);
   REQUIRE(solution.elasticity->journal);
@@ -299,7 +299,7 @@ TEST_CASE("ElasticJournal_IsHeldAtItsJoint_AndGivesWay") {
 }
 
 /// In a run the mesh turns through its deformation, whose functions and elements leave a ripple: the mean of a turn.
-TEST_CASE("ElasticJournal_IsTheMeanOfATurnInARun") {
+TEST_CASE("ElasticJournal_IsTheMeanOfARevolutionInARun") {
   const Rig rig;
   const std::vector<std::string> soft =
       with(hollow_shaft, {"bodies.shaft.flexible.form=modal", "bodies.shaft.flexible.material.youngs_modulus=60 GPa",
@@ -323,7 +323,7 @@ TEST_CASE("ElasticJournal_IsTheMeanOfATurnInARun") {
   CHECK(std::abs(rigid.numbers.eccentricity_ratio - alone.numbers.eccentricity_ratio) > 0.02);
 }
 
-TEST_CASE("ElasticBearing_IsHeldAtJoints_ThenAtOtherForces_ThenByItself") {
+TEST_CASE("ElasticBearing_IsSupportedAtJoints_ThenAtOtherForces_ThenByItself") {
   using Names = std::vector<std::string>;
   const auto held_at = [](const Rig& rig) { return rig.solved({}).elasticity->shell->held_at; };
   CHECK(held_at(Rig()) == Names{"foot"});

@@ -118,7 +118,7 @@ TEST_CASE("MeshedRing_IsThatOfAnIndependentProgram") {
 }
 
 // Free, the ring grows with its mean temperature; held at its outside it grows inwards.
-TEST_CASE("RingThatExpands_OpensItsBearing_OrClosesItWhereItIsHeld") {
+TEST_CASE("RingThatExpands_OpensItsBearing_OrClosesItWhereItIsSupported") {
   const Written files;
   const std::string expands = "bodies.ring.flexible.heat.expansion=12e-6 1/K";
   const BearingSolution cold = solved({}), free = solved({expands});
@@ -238,7 +238,7 @@ TEST_CASE("JournalInABodyAtRest_IsRefused") {
   CHECK(total.at(0).message.find("'total' of surfaces that deform") != std::string::npos);
 }
 
-TEST_CASE("ShellInABodyThatTurns_IsRefused") {
+TEST_CASE("ShellInABodyThatRotates_IsRefused") {
   const Written files;
   CHECK_THROWS_AS((void)solved({"bearings.main.operating_point.shell_speed=10 rad/s"}), InputError);
 }

@@ -134,7 +134,7 @@ TEST_CASE("FrictionBesideOpenEdges_IsOfSecondOrder") {
   }
 }
 
-TEST_CASE("HalfFilm_TellsTheFlowOfThePressureThatActs") {
+TEST_CASE("HalfFilm_ReportsTheFlowOfTheActingPressure") {
   const BearingSolution turning = solved(short_bearing, {"bearings.main.grid.axial=25"});
   CHECK(figure(turning, "mass_balance_error") < 1e-9);  // the solver leaves 1e-10
   // A short bearing's pressure pumps u c eps L/2 over each edge in all, the wedge of its positive half.
