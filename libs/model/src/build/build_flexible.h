@@ -32,8 +32,8 @@ void add_reduction(const Body& body, const std::vector<const DeformingSurface*>&
 /// Surfaces of bearings that lie on the mesh of `body`, in the order of the bearings, the shell's first.
 [[nodiscard]] std::vector<const DeformingSurface*> surfaces_on(const Model& model, const Body& body);
 
-/// A bearing's surface by shapes of its body, displacements `U` of the nodes (3 nodes, shapes), seen from the body's
-/// frame `frame` ("": its own axes).
+/// A bearing's surface by shapes of its body, displacements `U` of the nodes (3 nodes, shapes), in the axes of the
+/// body's frame `frame` ("": its own axes).
 [[nodiscard]] std::shared_ptr<const bearing::ElasticSurface> elastic_surface(const DeformingSurface& surface,
                                                                              const Body& body, const std::string& frame,
                                                                              const Eigen::MatrixXd& U);

@@ -20,7 +20,7 @@ Pose pose_of(const Body& body, const std::string& frame) {
   return {};
 }
 
-/// Forces on all frames and on the internal amplitudes of a modal body that turns at 1 rad/s.
+/// Forces on all frames and on the internal amplitudes of a modal body that rotates at 1 rad/s.
 VectorXd spin_forces(const mbd::ModalBodyData& data, const Vector3& centre, const Vector3& axis) {
   mbd::ModalBody body(data);
   mbd::ElasticMotion turning;

@@ -25,7 +25,7 @@ const Body& body_called(const Model& model, const std::string& name) {
   return *found;
 }
 
-/// Place of a frame among those of its body; the body's own axes ride on the first.
+/// Index of a frame among those of its body; the body's own axes move with the first.
 std::size_t frame_index(const Body& body, const std::string& frame) {
   const auto found =
       std::find_if(body.frames.begin(), body.frames.end(), [&](const Frame& f) { return f.name == frame; });
@@ -56,7 +56,7 @@ std::vector<std::size_t> frames_with_joints(const Model& model, const Body& body
   return attached.indices();
 }
 
-/// Of forces, and of bearings beside `bearing`; not its own frame, which they do not hold.
+/// Frames of forces, and of bearings besides `bearing`; not its own frame, which they do not support.
 std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& bearing, const Body& body,
                                             std::size_t own) {
   Attached attached(body);
@@ -72,14 +72,14 @@ std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& b
   return indices;
 }
 
-/// Where the body of a surface is held, as places among its frames.
+/// Supports of a surface's body, as indices of its frames.
 std::vector<std::size_t> holders(const Model& model, const Bearing& bearing, const Body& body, std::size_t own) {
   if (std::vector<std::size_t> joints = frames_with_joints(model, body); !joints.empty()) return joints;
   if (std::vector<std::size_t> forces = frames_with_forces(model, bearing, body, own); !forces.empty()) return forces;
   return {own};
 }
 
-/// A body by its shapes, held at some of its frames: displacements of its frames and loads on its amplitudes.
+/// A body by its shapes, supported at some of its frames: displacements of its frames and loads on its amplitudes.
 class SupportedBody {
  public:
   SupportedBody(StaticShapes shapes, const std::vector<std::size_t>& supports)

@@ -36,7 +36,7 @@ MatrixXd at_nodes(const SurfaceFunctions& functions, const film::FilmModel& film
   return psi;
 }
 
-/// What cools a body, less the faces that films lie on of what is cooled as the rest of it.
+/// Cooled faces of a body, without the faces of films in its remaining surface.
 fem::ThermalSurroundings surroundings_of(const Model& model, const Body& body) {
   fem::ThermalSurroundings surroundings = body.flexible->heat->surroundings;
   if (!body.flexible->heat->rest) return surroundings;
@@ -94,8 +94,7 @@ void add_wall(const Model& model, const Body& body, const fem::FilmSurface& film
   print.add(heat.material.conductivity), print.add(heat.material.expansion), print.add(heat.T_reference);
   for (const fem::CooledFaces& cooled : surroundings_of(model, body).cooled)
     print.add(cooled.faces), print.add(cooled.transfer), print.add(cooled.T_ambient);
-  for (const fem::HeldNodes& prescribed : heat.surroundings.held)
-    print.add(prescribed.nodes), print.add(prescribed.T);
+  for (const fem::HeldNodes& prescribed : heat.surroundings.held) print.add(prescribed.nodes), print.add(prescribed.T);
   print.add(heat.fixed);
   print.add(film.cylinder.X.R), print.add(film.cylinder.X.r), print.add(film.cylinder.R), print.add(film.cylinder.L);
   print.add(film.functions.around()), print.add(film.functions.along()), print.add(film.faces);

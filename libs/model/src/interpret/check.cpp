@@ -31,7 +31,7 @@ std::string enumeration(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Where a value stands and how it is called: all that a check needs besides node and type.
+/// Location and path of a value: all that a check needs besides node and type.
 struct Location {
   std::string path;
   SourcePosition key_position;
@@ -153,7 +153,7 @@ class Checker {
     } catch (const QuantityError& error) {
       if (bare_ != nullptr && is_bare(node))
         bare_->push_back({value.path, type.units.front(), parameter_of(node.origin)});
-      // The origin tells the user of ${load} where the text at fault stands.
+      // The origin names ${load} to the user at the location of the faulty text.
       const std::string from = node.origin.empty() ? "" : " (from " + node.origin + ")";
       const std::string hint = error.suggestion.empty() ? did_you_mean(node.text, names) : error.suggestion;
       const bool is_about_the_number =
@@ -269,7 +269,8 @@ class Checker {
     value.broken = value.members.front().value.broken;
   }
 
-  /// Of several mappings the one whose first key is there, else whose keys are nearest to those there.
+  /// Chooses, among several mappings, the one that has the first key, else the one whose keys are nearest to those
+  /// given.
   bool choose_by_first_key(const Node& node, const std::vector<std::size_t>& fitting, Value& value) {
     std::vector<std::string> first_keys;
     for (const std::size_t i : fitting) {
@@ -293,7 +294,7 @@ class Checker {
   void check_mapping(const Node& node, Value& value) {
     const Type& type = *value.type;
     if (type.kind == Kind::variant && node.kind == Node::Kind::scalar) return check_shorthand(node, value);
-    // A mapping whose keys are all commented out reads as nothing; its missing keys are told below.
+    // A mapping whose keys are all commented out reads as nothing; its missing keys are reported below.
     if (node.kind != Node::Kind::mapping && node.kind != Node::Kind::null) {
       std::string expected = type.title;
       if (is_mapping_kind(type.kind) && !expected.starts_with("a mapping")) expected += " {key: value, ...}";
@@ -307,7 +308,7 @@ class Checker {
     check_groups(node, value, keys);
   }
 
-  /// "compliance: rigid" stands for "compliance: {model: rigid}".
+  /// "compliance: rigid" is short for "compliance: {model: rigid}".
   void check_shorthand(const Node& node, Value& value) {
     Node mapping{.kind = Node::Kind::mapping, .position = node.position};
     mapping.entries.push_back({value.type->tag, node.position, node});
@@ -442,7 +443,7 @@ class Checker {
   std::vector<BareNumber>* bare_ = nullptr;
 };
 
-/// Whether the format has such a key, or leaves the names free.
+/// True if the format has such a key, or leaves the names free.
 bool may_have(const Type* type, const std::string& key) {
   if (type == nullptr || (type->kind != Kind::object && type->kind != Kind::variant)) return true;
   const std::vector<const Key*> keys = all_keys(*type);

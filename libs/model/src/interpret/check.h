@@ -33,7 +33,7 @@ struct Value {
   /// @pre the format has this key here, so that no misspelt one reads as absent
   [[nodiscard]] const Value* find(const std::string& key) const;
 
-  /// Whether there is such a member; of mappings that are told apart by their keys.
+  /// True if there is such a member; for mappings that are distinguished by their keys.
   [[nodiscard]] bool has(const std::string& key) const;
 };
 

@@ -117,7 +117,7 @@ class Converter {
   std::vector<std::size_t> lines_;  // where each begins
   std::set<std::string> keys_;
   std::map<std::size_t, Edit, std::greater<>>
-      edits_;  // by place, the last first: what is before an edit stays where it is
+      edits_;  // edits by location, the last first, so that locations before an edit stay valid
 };
 
 }  // namespace

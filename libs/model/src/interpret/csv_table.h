@@ -18,7 +18,7 @@ struct Column {
 struct CsvTable {
   std::string file;
   std::vector<Column> columns;
-  std::vector<int> lines;  ///< in which line of the file each row stands
+  std::vector<int> lines;  ///< line of the file for each row
 
   [[nodiscard]] const Column* find(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> names() const;

@@ -11,8 +11,8 @@
 
 namespace hersey::model {
 
-/// What turning checked values into the model needs everywhere. Broken values have been reported: they are read as
-/// zero or empty, so that the rest can still be checked; the model is used only where there are no faults.
+/// Common data for the interpretation of checked values. Broken values have been reported: they are read as zero or
+/// empty, so that the rest can still be checked; the model is used only if there are no faults.
 struct Context {
   const Value& root;
   Model& model;
@@ -20,13 +20,13 @@ struct Context {
 
   /// Reports a fault at a value.
   void fault(const Value& at, std::string found, std::string expected, std::string suggestion = {});
-  /// Whether a fault has been reported in `path` or below it: what follows from it need not be reported again.
+  /// True if a fault has been reported in `path` or below it: its consequences need not be reported again.
   [[nodiscard]] bool has_fault_in(const std::string& path) const;
   /// Reports a fault at the key that opens a value.
   void fault_at_key(const Value& at, std::string found, std::string expected, std::string suggestion = {});
-  /// Reports faults of a file that the value `at` names, with their places in that file.
+  /// Reports faults of a file that the value `at` names, with their locations in that file.
   void faults_in_file(const Value& at, const std::vector<Fault>& faults_of_file);
-  /// The same for what can be computed but is hardly meant: Model::warnings.
+  /// Reports warnings in the same way: Model::warnings.
   void warnings_in_file(const Value& at, const std::vector<Fault>& warnings_of_file);
 };
 
@@ -83,7 +83,7 @@ struct OwnTemperature {
   double T = 0;  ///< [K]
   std::optional<film::NetworkNode> node = {};
 };
-/// What `temperature_or_node` has read; nothing where the value is missing or broken.
+/// Result of `temperature_or_node`; nothing if the value is missing or broken.
 [[nodiscard]] std::optional<OwnTemperature> own_temperature(Context& context, const Value* value);
 
 /// Warns of a temperature beyond what is known of the oil called `oil`.
@@ -99,7 +99,7 @@ void read_surfaces(Context& context, const Value& value, Bearing& bearing);
 /// The surface in the table that `file` names, for a bearing of width L [m]; reports what is wrong with it.
 [[nodiscard]] std::optional<film::MeasuredShape> measured_shape_of(Context& context, const Value& file, double L);
 
-/// What a function depends on in a place where it is neither time nor joints: "length", in m.
+/// Argument of a function that is neither time nor a joint coordinate: "length", in m.
 struct Argument {
   std::string name, unit;
 };
@@ -138,7 +138,7 @@ void require_function_of_time(Context& context, const Function& function, const 
 /// cannot be, which is reported. @param bearing  all else of it has been read
 [[nodiscard]] std::shared_ptr<const fem::FilmSurface> heated_shell_of(Context& context, const Value& value,
                                                                       const Bearing& bearing);
-/// Likewise of the journal.
+/// The same for the journal.
 [[nodiscard]] std::shared_ptr<const fem::FilmSurface> heated_journal_of(Context& context, const Value& value,
                                                                         const Bearing& bearing);
 
@@ -148,8 +148,8 @@ void require_facing_surfaces(Context& context, const Value& value, const Bearing
 /// A pressure or force on the mesh of a flexible body.
 [[nodiscard]] SurfaceLoad surface_load_of(Context& context, const Value& value);
 
-/// The beam described by `beam` of `body`, none where there is no such key; places `frames` on its nodes too. Reports
-/// what is wrong with its axis, section and frames.
+/// Returns the beam described by `beam` of `body`, none if there is no such key, and attaches `frames` to its nodes.
+/// Reports faults of its axis, section and frames.
 [[nodiscard]] std::optional<Beam> beam_of(Context& context, const Value& body, std::vector<Frame>& frames);
 
 /// Shapes of `body` that are faces of its mesh; `flexible` is null where it is rigid.
@@ -174,7 +174,7 @@ void check_thermal_network(Context& context);
 /// Refuses faces of nodal bodies that carry several films or contacts. After contacts and bearings.
 void require_separate_faces(Context& context);
 void interpret_simulation(Context& context);
-/// What walls do over time. After bearings and simulation.
+/// Sets the motion of wall temperatures over time. To be called after bearings and simulation.
 void interpret_thermal_walls(Context& context);
 /// Reports supply pressures, and loads on meshes, that follow a joint other than the crank.
 void check_functions_of_crank(Context& context);
@@ -183,7 +183,7 @@ void interpret_study(Context& context);
 /// A file has all that a simulation needs, or it holds bearings alone; reports what is missing.
 void check_completeness(Context& context);
 
-/// Reports tables that do not cover the run, as far as that can be told before it: over time, and over driven joints.
+/// Reports tables that do not cover the run, as far as this is known before it: over time, and over driven joints.
 void check_table_ranges(Context& context);
 
 }  // namespace hersey::model

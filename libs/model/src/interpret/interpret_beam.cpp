@@ -11,7 +11,7 @@
 namespace hersey::model {
 namespace {
 
-/// Places along the beam closer than this, over its length, are one.
+/// Positions along the beam closer than this, over its length, coincide.
 constexpr double kCoincident = 1e-9;
 
 /// Points and what lies between them.
@@ -216,7 +216,7 @@ class BeamReader {
   Context& context_;
   const Value& body_;
   std::map<std::string, double> positions_;  ///< of frames along the beam
-  std::vector<double> nodes_;                ///< their places along it
+  std::vector<double> nodes_;                ///< their positions along it
 };
 
 /// Bodies that are no beams have no length along which a frame could sit.

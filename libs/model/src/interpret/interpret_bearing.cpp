@@ -102,7 +102,7 @@ class FilmReader {
                    "a thin gap: common are radial clearances of 0.0005 to 0.002 radii");
   }
 
-  /// What is far from any bearing is most often a wrong unit, or a diametral clearance given as the radial one.
+  /// A value far from that of any bearing is most often a wrong unit, or a diametral clearance given as the radial one.
   void warn_of_clearance(const Value& clearance) {
     constexpr double kSmallest = 2e-4, kLargest = 1e-2;
     const double psi = film_.c / film_.R;
@@ -368,7 +368,7 @@ void require_bearable(Context& context, const Value& load, const film::FilmModel
                 fmt::format("a load of at most {:.3g} N here: no solid bears 1e12 Pa", kHardest * area));
 }
 
-/// A tilted journal, or one beside a narrow place of the bore, may touch the shell at an edge although its middle is
+/// A tilted journal, or one beside a narrow region of the bore, may touch the shell at an edge although its middle is
 /// inside the bore.
 void check_room(Context& context, const std::string& bearing_path, const Value& value, const film::FilmModel& film,
                 const OperatingPoint& point) {

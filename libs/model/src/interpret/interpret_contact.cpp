@@ -186,7 +186,7 @@ class ContactReader {
           solids[i].poisson_ratio >= 0.5)
         return;
     }
-    if (!((*radii)[1] > 0)) return;  // a shape whose size could not be read, which is told there
+    if (!((*radii)[1] > 0)) return;  // a shape whose size could not be read; the fault is reported there
     contact_.is_hertz = true;
     contact_.law.exponent = 1.5;
     contact_.law.stiffness = mbd::hertz_stiffness(fem::composite_modulus(solids[0], solids[1]), *radii);

@@ -25,7 +25,7 @@ class FilmSurfaceReader {
     const Body* body = flexible_body();
     if (body == nullptr) return std::nullopt;
     const Value *named = value_.find("faces"), *within = value_.find("within");
-    if (named == nullptr && within == nullptr) return std::nullopt;  // told
+    if (named == nullptr && within == nullptr) return std::nullopt;  // reported already
     const Value& choice = named != nullptr ? *named : *within;
     if (choice.broken || !has_enough_functions()) return std::nullopt;
     const std::optional<fem::FilmSurface> found =
@@ -39,7 +39,7 @@ class FilmSurfaceReader {
     return surface;
   }
 
-  /// Of a wall that passes heat: where no faces are named, those near the cylinder.
+  /// The wall of a heat-conducting body: if no faces are named, those near the cylinder.
   std::shared_ptr<const fem::FilmSurface> read_wall() {
     is_wall_ = true;
     what_ = "a wall that conducts";
@@ -63,7 +63,7 @@ class FilmSurfaceReader {
     if (context_.has_fault_in(value_.path)) return std::nullopt;
     std::vector<fem::ElementFace> faces;
     if (named != nullptr) faces = faces_of(context_, *named, mesh);
-    if (named != nullptr && faces.empty()) return std::nullopt;  // told
+    if (named != nullptr && faces.empty()) return std::nullopt;  // reported already
     const double tolerance = named != nullptr ? near_radius * film_.R : within;
     if (named == nullptr) faces = fem::faces_on_cylinder(mesh, cylinder, tolerance);
     const fem::FilmSurfaceResult result =
@@ -92,7 +92,7 @@ class FilmSurfaceReader {
     const auto& bodies = context_.model.bodies;
     const auto body =
         std::find_if(bodies.begin(), bodies.end(), [&](const Body& candidate) { return candidate.name == on_.body; });
-    if (body == bodies.end() && on_.body != "ground") return nullptr;  // told
+    if (body == bodies.end() && on_.body != "ground") return nullptr;  // reported already
     if (body == bodies.end() || !body->flexible) {
       const bool is_beam = body != bodies.end() && body->beam;
       context_.fault_at_key(

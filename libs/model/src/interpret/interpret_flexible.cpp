@@ -181,7 +181,7 @@ class FlexibleReader {
                  density = number_of(given, "density");
     const Value* nine = given.find("orthotropic");
     if (nine == nullptr) {
-      if (!(E > 0 && nu > -1 && nu < 0.5)) return {};  // told already
+      if (!(E > 0 && nu > -1 && nu < 0.5)) return {};  // reported already
       return {fem::isotropic({E, nu, density})};
     }
     const Value* ratios = nine->find("poisson_ratios");
@@ -275,7 +275,7 @@ class FlexibleReader {
     }
   }
 
-  /// Reports nodes that another frame stands on already.
+  /// Reports nodes to which another frame is attached already.
   void claim(const fem::Mesh& mesh, const Frame& frame, const Value& at) {
     for (int n : frame.nodes) {
       const auto [owner, is_new] = owners_.try_emplace(n, frame.name);
@@ -298,10 +298,10 @@ class FlexibleReader {
   Context& context_;
   const Value& body_;
   std::vector<Fault> material_faults_;  ///< of the mesh file
-  std::map<int, std::string> owners_;   ///< frames by the nodes they stand on
+  std::map<int, std::string> owners_;   ///< frames by their nodes
 };
 
-/// Nodes stand for a mesh that a rigid body does not have.
+/// Nodes belong to a mesh, which a rigid body does not have.
 void refuse_nodes(Context& context, const Value& body) {
   for (const auto& [name, value] : section(body, "frames"))
     for (const char* key : {"nodes", "connection"})

@@ -194,7 +194,7 @@ std::vector<Key> bushing_keys() {
   };
 }
 
-/// The six rows under `key`, x, y, z first, turned to rotations first.
+/// The six rows under `key`, x, y, z first, reordered to rotations first.
 Matrix6 matrix_of(const Value& value, const std::string& key) {
   Matrix6 given = Matrix6::Zero();
   const Value* rows = value.find(key);

@@ -11,7 +11,7 @@
 namespace hersey::model {
 namespace {
 
-/// The points of a table with their units, in place or from a file.
+/// The points of a table with their units, inline or from a file.
 struct Points {
   std::vector<double> x, y;
   std::string x_unit, y_unit;
@@ -251,7 +251,7 @@ class FunctionReader {
     return column;
   }
 
-  /// Turns points into SI: x by its unit, y by its unit times the scale. Reports units that do not fit.
+  /// Converts points to SI: x by its unit, y by its unit times the scale. Reports units that do not fit.
   bool convert_points(Points& points, const Value& source, const Value& content, const std::string& x_si_unit) {
     const Value& x_source = *source.find(source.has("x_unit") ? "x_unit" : "x");
     const Value& y_source = *source.find(source.has("y_unit") ? "y_unit" : "y");

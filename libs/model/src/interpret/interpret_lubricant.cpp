@@ -97,7 +97,7 @@ film::DensityLaw density_law_of(const Context& context, const Value& lubricant) 
   return read_alternative(*law, density_laws());
 }
 
-/// Of oils of which nothing else is known [kg/m^3].
+/// Density of oils of which nothing else is known [kg/m^3].
 constexpr double usual_density = 850;
 
 const OilGrade* grade_of(const Value& lubricant) {
@@ -119,7 +119,7 @@ double expansion_of(const Value& lubricant) {
   return is_kinematic || grade_of(lubricant) != nullptr ? film::mineral_oil_expansion : 0;
 }
 
-/// As many viscosities as temperatures, and in each row as many as pressures.
+/// Requires as many viscosities as temperatures, and in each row as many as pressures.
 bool is_rectangular(Context& context, const Value& law) {
   const Value &T = *law.find("temperatures"), &mu = *law.find("viscosities"), *p = law.find("pressures");
   const std::size_t columns = p == nullptr ? 0 : p->members.size();
@@ -163,7 +163,7 @@ void check_table(Context& context, const Value& law) {
   for (std::size_t c = 0; c < columns; ++c) {
     const std::vector<double> at = column_of(law, c), last = c == 0 ? at : column_of(law, c - 1);
     for (std::size_t k = 0; k < at.size(); ++k) {
-      // The row is told by its viscosity: over pressures two may not be the same.
+      // A row is identified by its viscosity: over pressures two may not be the same.
       if (k > 0 && (at[k] > at[k - 1] || (columns > 1 && c == 0 && at[k] == at[k - 1])))
         return context.fault(mu.members[k].value, "an oil that thickens as it is heated", "viscosities that fall");
       if (at[k] < last[k])
@@ -172,7 +172,7 @@ void check_table(Context& context, const Value& law) {
   }
 }
 
-/// What makes no oil.
+/// Reports laws that no oil has.
 void check_temperature_law(Context& context, const Value& law) {
   if (law.text == "table") check_table(context, law);
   if (law.text == "walther" && number_of(law, "nu40") <= number_of(law, "nu100"))

@@ -68,7 +68,7 @@ class ShapeTable {
     return true;
   }
 
-  /// The angles lie within one turn; the heights reach both edges, or there is but one, which holds for the whole
+  /// The angles lie within 360 deg; the heights reach both edges, or there is only one, which holds for the whole
   /// width.
   bool is_within(const std::vector<double>& angle, const std::vector<double>& z, double L) {
     const auto [first, last] = std::minmax_element(angle.begin(), angle.end());

@@ -25,7 +25,7 @@ double initial_value(const Joint& joint, const std::string& coordinate) {
   return 0;
 }
 
-/// The drive that turns or shifts `coordinate` of `joint` at a constant speed; null if there is none.
+/// The drive that moves `coordinate` of `joint` at a constant speed; null if there is none.
 const Drive* constant_drive(const Model& model, const std::string& joint, const std::string& coordinate) {
   for (const Drive& drive : model.drives) {
     const bool drives_it = drive.joint == joint && drive.coordinate == coordinate;
@@ -118,7 +118,7 @@ void check_table_range(Context& context, const Function& function) {
 
 namespace {
 
-/// Whether an analysis goes through time.
+/// True if an analysis has a duration.
 bool needs_duration(const Simulation& simulation) {
   return simulation.analysis == Analysis::dynamics || simulation.analysis == Analysis::kinematics ||
          (simulation.analysis == Analysis::modes && simulation.modes_about == ModesAbout::end);

@@ -49,7 +49,7 @@ class DistributionReader {
   }
 
  private:
-  // Further off, what lies between the ends is no share of the normal distribution that a double can tell.
+  // Further off, the share of the normal distribution between the ends is too small for a double.
   void require_some_of_it(const Distribution& d) {
     const double reach = 8 * d.standard_deviation;
     require(d.low <= d.mean + reach, "low", "a value at most 8 standard deviations above the mean");

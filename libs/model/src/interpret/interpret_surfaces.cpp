@@ -15,10 +15,10 @@
 namespace hersey::model {
 namespace {
 
-// Positions of a turning journal in which its shape is held against that of the bore.
+// Positions of a rotating journal at which its shape is compared with that of the bore.
 constexpr int angles_tried = 72;
 
-/// Places of a grid's nodes as fractional indices.
+/// Fractional indices of positions among a grid's nodes.
 double index_of_angle(const film::Grid& grid, double phi) {
   const double whole = std::floor(phi / turn), within = phi - turn * whole;
   int i = 0;
@@ -207,7 +207,7 @@ class SurfaceReader {
     }
   }
 
-  /// Where places of different pressures touch, the flow between them has no limit as the grid is refined.
+  /// If regions of different pressures touch, the flow between them has no limit as the grid is refined.
   void warn_at_key(const Value& value, std::string found) {
     context_.model.warnings.push_back({value.key_position, value.path, std::move(found),
                                        "the same constant pressure, or that they never meet",

@@ -61,8 +61,8 @@ bearing::GlobalHeat global_heat(Context& context, const Value& thermal) {
   return heat;
 }
 
-/// Whether oil takes heat away between closed edges: a supply renews what comes to it, or oil passes from one feed to
-/// another of lower pressure.
+/// True if oil removes heat between closed edges: a supply renews the oil that enters it, or oil passes from one feed
+/// to another of lower pressure.
 bool oil_is_renewed(const film::FilmModel& film, const film::ThermalModel& heat) {
   std::vector<double> pressures;
   if (film.supply.kind != film::SupplyKind::none) pressures.push_back(film.supply.pressure);
@@ -140,7 +140,7 @@ void warn_of_unused_temperatures(Context& context, const Value& bearing) {
   for (const auto& [name, feature] : section(bearing, "features")) warn(feature);
 }
 
-/// What walls need beside their own keys: tables over the angle, nodes of the network.
+/// Completes the data of walls besides their own keys: tables over the angle, nodes of the network.
 void complete_walls(Context& context, const Value& thermal, const film::Grid& grid, film::ThermalModel& heat) {
   const Value &shell = *thermal.find("shell"), &journal = *thermal.find("journal");
   if (std::holds_alternative<film::WallAtTemperature>(heat.shell))
@@ -153,7 +153,7 @@ void complete_walls(Context& context, const Value& thermal, const film::Grid& gr
   if (ambient) ring->T_ambient = ambient->T, ring->surroundings = ambient->node;
 }
 
-/// Of the shell or the journal, by which the heat of asperities is shared; steel where nothing is said.
+/// Material of the shell or the journal, by which the heat of asperities is shared; steel by default.
 film::SurfaceMaterial surface_of(Context& context, const Value& bearing, const char* wall) {
   const Value* materials = bearing.find("materials");
   const Value* material = materials != nullptr && !materials->broken ? materials->find(wall) : nullptr;

@@ -9,7 +9,7 @@
 namespace hersey::model {
 namespace {
 
-/// Place of the node called `name`; reports one that is not there.
+/// Index of the node called `name`; reports a missing one.
 std::optional<std::size_t> node_called(Context& context, const Value& name) {
   if (name.broken) return std::nullopt;
   const std::vector<film::ThermalNode>& nodes = context.model.thermal.network.nodes;
@@ -74,7 +74,7 @@ void interpret_thermal_network(Context& context) {
 }
 
 void check_thermal_network(Context& context) {
-  if (!context.faults.empty()) return;  // names may stand for nothing
+  if (!context.faults.empty()) return;  // names may be undefined
   const film::ThermalNetworkModel& network = context.model.thermal.network;
   std::vector<bool> is_met(network.nodes.size(), false);
   for (const film::ThermalPath& path : network.paths) is_met[path.a] = is_met[path.b] = true;

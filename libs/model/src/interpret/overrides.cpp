@@ -83,7 +83,7 @@ bool goes_before_templates(const Node& root, const std::string& name) {
          std::find(keys.begin(), keys.end(), "use") != keys.end();
 }
 
-// The overrides of the variant that `choice` names; those that are no overrides are told with the study.
+// The overrides of the variant that `choice` names; invalid ones are reported with the study.
 std::vector<Override> overrides_of_variant(const Node& variants, const Override& choice, std::vector<Fault>& faults) {
   std::vector<Override> overrides;
   const Node* chosen = variants.find(choice.value.text);

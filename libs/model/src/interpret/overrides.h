@@ -20,11 +20,11 @@ struct Override {
 /// The override by which a study's variant is chosen: --set variant=rigid.
 inline constexpr const char* kVariant = "variant";
 
-/// Whether `name` is a parameter of the model `root`.
+/// True if `name` is a parameter of the model `root`.
 [[nodiscard]] bool is_parameter(const Node& root, const std::string& name);
 
-/// Puts the overrides' values in their places: in `parameters` where the name is one, else along the key path, whose
-/// missing mappings are made. `top_keys` are the keys a path may begin with.
+/// Applies the overrides' values: in `parameters` if the name is one, else along the key path, whose missing mappings
+/// are made. `top_keys` are the keys with which a path may begin.
 void apply_overrides(Node& root, const std::vector<Override>& overrides, const std::vector<std::string>& top_keys,
                      std::vector<Fault>& faults);
 

@@ -11,7 +11,7 @@ namespace {
 // Peak film pressures that the layers of highly loaded engine bearings are designed for are of this order; soft ones
 // (white metal) yield far below it.
 constexpr double kUsualPressure = 200e6;
-// Of finely ground journals and bored shells that have run in; for bearings whose roughness is not given.
+// Roughness of finely ground journals and bored shells that have run in; for bearings whose roughness is not given.
 constexpr double kLeastRoughness = 0.1e-6;
 
 bool deforms(const Bearing& bearing) {

@@ -12,7 +12,7 @@ namespace hersey::model {
 /// The keys of the model's top level.
 [[nodiscard]] std::vector<std::string> top_level_keys();
 
-/// What putting everything into a tree has left to say.
+/// A tree with everything applied, and the template uses in it.
 struct CompleteTree {
   std::vector<Fault> warnings;  ///< templates that nothing uses
   std::vector<TemplateUse> uses;

@@ -43,7 +43,8 @@ Extent extent_of(const Node& node) {
   return extent;
 }
 
-/// Builds the tree from the parser's events, which, unlike yaml-cpp's own nodes, keep duplicate keys and their places.
+/// Builds the tree from the parser's events, which, unlike yaml-cpp's own nodes, keep duplicate keys and their
+/// locations.
 class TreeBuilder final : public YAML::EventHandler {
  public:
   TreeBuilder(std::string file, const std::string& text, std::vector<Fault>& faults)
@@ -113,7 +114,7 @@ class TreeBuilder final : public YAML::EventHandler {
     faults_.push_back({at, "", std::move(found), std::move(expected), ""});
   }
 
-  /// What an anchor keeps and what an alias repeats is a copy.
+  /// Counts the copies that anchors keep and aliases repeat.
   void count_repeated(const Node& node, const SourcePosition& at) {
     const Extent extent = extent_of(node);
     repeated_nodes_ += extent.nodes;

@@ -10,14 +10,14 @@ namespace hersey::model {
 
 struct Entry;
 
-/// A YAML document as plain data: text, structure and where each piece stands. No types are guessed.
+/// A YAML document as plain data: text, structure and the location of each piece. No types are guessed.
 struct Node {
   enum class Kind { null, scalar, sequence, mapping };
   Kind kind = Kind::null;
   SourcePosition position = {};
   std::string text = {};       ///< of a scalar, after `${parameter}` substitution
-  std::string formula = {};    ///< the same with every parameter in parentheses; empty where none stands beside others
-  bool is_pasted = false;      ///< no operator stands around the parameters: `text` may be read as it is
+  std::string formula = {};    ///< the same with every parameter in parentheses; empty if there is no text besides them
+  bool is_pasted = false;      ///< no operator is beside the parameters: `text` may be read as it is
   int text_offset = 0;         ///< columns from `position` to the first letter of `text`; -1 where they do not map
   std::string origin = {};     ///< where a substituted text comes from, "parameter load, model.yaml:5:9"; or empty
   bool reported = false;       ///< a fault has been reported: nothing more to say about it

@@ -9,7 +9,7 @@ namespace hersey::model {
 
 struct StlResult {
   mbd::TriangleMesh mesh;  ///< corners that coincide are one
-  std::string fault;       ///< what is wrong with the file, with the line of a text; empty: nothing
+  std::string fault;       ///< fault of the file, with the line of a text; empty: none
   std::size_t flat = 0;    ///< triangles without area, which are left out of the mesh
   std::size_t facets = 0;  ///< of the file
 };

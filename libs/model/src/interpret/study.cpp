@@ -29,7 +29,7 @@ StudyValue value_of(const StudyParameter& parameter, const std::string& text) {
     value.number = convert(split_quantity(text), unit);
     value.unit = unit;
   } catch (const QuantityError&) {
-    // A word, such as the name of a cavitation model: it labels its run and has no place on an axis.
+    // A word, such as the name of a cavitation model: it labels its run and has no position on an axis.
     value.number = 0;
   }
   return value;
@@ -133,7 +133,7 @@ std::vector<StudyRun> expand_parameters(const std::string& path, const std::vect
 
 namespace {
 
-/// Tells which parameters of a study still change its model where options have set something: `--load` over a study of
+/// Finds the parameters of a study that still change its model after options have set values: `--load` over a study of
 /// loads leaves one bearing, not seven equal ones.
 class Varying {
  public:
@@ -142,7 +142,7 @@ class Varying {
     root_ = parse_yaml(file_text(path), path, faults_).value_or(Node{});
   }
 
-  /// Whether an option has set all that the parameter stands for: its values make a difference only without options.
+  /// True if an option has set everything that the parameter sets: its values make a difference only without options.
   [[nodiscard]] bool is_set_by_option(const StudyParameter& parameter) {
     return !overrides_.empty() && !changes_model(parameter, overrides_) && changes_model(parameter, {});
   }
@@ -176,7 +176,7 @@ class Varying {
   Node root_;
 };
 
-/// Those that no option has set, by their own name or by setting what they stand for.
+/// Parameters that no option has set, by their own name or by setting the keys they set.
 std::vector<StudyParameter> varied_by(const Study& study, const std::string& path,
                                       const std::vector<std::string>& overrides) {
   Varying varying(path, overrides);

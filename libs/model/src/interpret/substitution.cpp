@@ -59,13 +59,13 @@ class Pieces {
   int parameters_ = 0;
 };
 
-// A parameter derived from others stands for its value.
+// A parameter derived from others is replaced by its value.
 void work_out(Node& value) {
   try {
     const Quantity result = evaluate_formula(value.formula);
     value.formula = fmt::format("{}{}{}", result.number, result.unit.empty() ? "" : " ", result.unit);
   } catch (const QuantityError&) {
-    // A word, an expression of time, a vector; or a fault, which is told where it is used.
+    // A word, an expression of time, a vector; or a fault, which is reported where it is used.
   }
 }
 
@@ -112,8 +112,8 @@ std::string Substitution::in_key(const std::string& key, const SourcePosition& p
   return node.text;
 }
 
-// As text every parameter is pasted in place; as formula it stands in parentheses, so that signs and operators around
-// it mean what they mean in arithmetic. Which of both counts depends on what the key expects.
+// As text every parameter is pasted as it is; as formula it is put in parentheses, so that signs and operators around
+// it keep their meaning in arithmetic. The type that the key expects decides between them.
 void Substitution::substitute(Node& node, const std::string& path, const Scope& scope) {
   const std::string given = node.text;
   if (node.reported || given.find("${") == std::string::npos) return;

@@ -15,7 +15,7 @@ class Scope {
   /// @param outer  where a name is looked for that is not here; null for none. Has to outlive the scope.
   explicit Scope(const Scope* outer = nullptr) : outer_(outer) {}
 
-  /// Adds a parameter; one derived from others stands for its value.
+  /// Adds a parameter; one derived from others is replaced by its value.
   void define(const std::string& name, Node value);
 
   /// The parameter called `name`; null if there is none.

@@ -8,7 +8,7 @@
 namespace hersey::model {
 namespace {
 
-// As of aliases: templates that use each other several times would fill any memory.
+// The limits are those of aliases: templates that use each other several times would fill any memory.
 constexpr std::size_t kMostNodes = 100'000;
 constexpr std::size_t kMostBytes = 16'000'000;
 constexpr std::size_t kDeepest = 64;
@@ -72,7 +72,7 @@ PartExtent part_extent(const Node& node) {
 
 }  // namespace
 
-/// Where expansion stands: the key path, how deep, and in which templates.
+/// Location of the expansion: the key path, its depth, and the enclosing templates.
 struct Templates::Location {
   std::string path;
   std::size_t depth = 0;
@@ -136,7 +136,7 @@ void Templates::expand(Node& node, const Location& location) {
 void Templates::expand_uses(Node& node, const Node& use, const Location& location) {
   const std::size_t faults_before = faults_.size();
   expand_each(node, use, location);
-  // What a template that cannot be put in would have given is not missed as well.
+  // Keys of a template that could not be expanded are not reported as missing, too.
   if (faults_.size() > faults_before && !location.path.empty()) node.reported = true;
 }
 

@@ -8,14 +8,14 @@
 
 namespace hersey::model {
 
-/// Where a template was put in, for what is told of faults in it.
+/// Use of a template, for messages about faults in it.
 struct TemplateUse {
   std::string path, file;  ///< of the mapping that uses it; of the template
   int first_line = 0, last_line = 0;
   std::string text;  ///< "template main_bearing, used in line 57"
 };
 
-/// Adds to faults that stand in templates by which use they came about.
+/// Adds to faults inside templates the use that caused them.
 void name_template_uses(const std::vector<TemplateUse>& uses, std::vector<Fault>& faults);
 
 /// Puts templates where they are used.

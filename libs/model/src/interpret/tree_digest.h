@@ -8,13 +8,13 @@
 
 namespace hersey::model {
 
-/// A digest of texts and trees (FNV-1a, 64 bits): two that are equal, in the same order, have one digest. It tells
-/// whether a file has changed and guards against nobody.
+/// A digest of texts and trees (FNV-1a, 64 bits): two that are equal, in the same order, have one digest. It detects
+/// whether a file has changed; it is not cryptographic.
 class Digest {
  public:
   /// Adds a text and its end.
   void add(std::string_view text);
-  /// Adds structure and texts of a tree; where they stand in their file does not count.
+  /// Adds structure and texts of a tree, without their locations in the file.
   void add(const Node& node);
   /// Sixteen hexadecimal digits.
   [[nodiscard]] std::string text() const;

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A quantity worked out of parameters stands as its value, which reads without them: "-500 N" for "-(500 N)".
+/// A quantity computed from parameters is written as its value, which reads without them: "-500 N" for "-(500 N)".
 std::string worked_out(const Node& node) {
   if (node.formula.find('(') != std::string::npos) {
     try {
@@ -57,7 +57,7 @@ const Node* item_called(const Node& node, const std::string& key) {
   return index < node.items.size() ? &node.items[index] : nullptr;
 }
 
-// Nothing stands at `path`: as far as it goes there is `node`, which has no `key`.
+// Reports that there is no value at `path`: the last existing node is `node`, which has no `key`.
 [[noreturn]] void refuse(const Node& node, const std::string& path, const std::string& key) {
   std::vector<std::string> keys;
   for (const Entry& entry : node.entries) keys.push_back(entry.key);
