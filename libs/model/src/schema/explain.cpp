@@ -15,7 +15,7 @@ using Kind = Type::Kind;
 
 constexpr std::size_t kWidth = 100;
 
-/// A place of the format that a key path leads to.
+/// A location in the format to which a key path leads.
 struct KeyLocation {
   std::string path;  ///< with <name> where names are free
   const Type* type = nullptr;
@@ -122,7 +122,7 @@ std::vector<KeyLocation> find_locations(const std::string& path) {
   return locations;
 }
 
-/// Text in lines of `kWidth`, each begun with `indent` blanks; the first one stands behind `first`.
+/// Text in lines of `kWidth`, each indented by `indent` blanks; the first one follows `first`.
 std::string wrapped(const std::string& first, const std::string& text, std::size_t indent) {
   std::string lines, line = first;
   line.resize(std::max(line.size(), indent), ' ');
@@ -163,7 +163,7 @@ void add_words(const Type& type, std::string& text) {
   for (const Word& word : type.words) text += wrapped("      " + word.text, word.description, widest + 8);
 }
 
-/// What a value is: its words, and its usual units.
+/// Adds the allowed words of a value, and its usual units.
 void add_details(const Type& type, std::string& text) {
   add_words(type, text);
   for (const std::string& unit : type.units) {

@@ -44,7 +44,7 @@ Key between_format() {
                   "second.");
 }
 
-/// What the values of a joint's coordinates, or their rates, look like: of one number and of three.
+/// Format of the values of a joint's coordinates, or of their rates: for one number and for three.
 struct ValueFormat {
   std::string unit, example, three, text;
 };
@@ -98,11 +98,11 @@ Key guess_key(mbd::JointType type) {
       "a loop can close. Not kept.");
 }
 
-/// What the model file says of a joint type; its coordinates follow from the type.
+/// Format of a joint type in the model file; its coordinates follow from the type.
 struct JointFormat {
   mbd::JointType type;
   std::string text;
-  std::string axis = {};  ///< what its axis is; empty: it has none
+  std::string axis = {};  ///< description of its axis; empty: it has none
   std::vector<Key> more = {};
 };
 

@@ -6,7 +6,7 @@
 #include "schema/profile_shapes.h"
 #include "schema/thermal_walls.h"
 
-// What the two surfaces of a bearing are like, and the grid between them.
+// Format of the two surfaces of a bearing and of the grid between them.
 namespace hersey::model {
 
 TypePtr features_format() {

@@ -14,13 +14,13 @@ inline constexpr Vocabulary<fem::Connection, 2> connection_words{{
      "with the elements around"},
 }};
 
-/// Whether every node moves.
+/// Form of a body: true if every node moves.
 inline constexpr Vocabulary<bool, 2> form_words{{
     {false, "modal", "it moves in static shapes of its frames and vibrations"},
     {true, "nodal", "every node moves; `modes` then only draw it in the report"},
 }};
 
-/// Whether parts of a mesh that nothing joins are meant.
+/// Treatment of parts of a mesh that are not connected.
 inline constexpr Vocabulary<fem::Parts, 2> parts_words{{
     {fem::Parts::one, "one", "the mesh hangs together by shared nodes or ties; anything else is a mistake"},
     {fem::Parts::apart, "apart", "frames hold each part: a rigid one joins the parts it is attached to"},
