@@ -157,7 +157,7 @@ std::optional<fem::Mesh> mesh_of_cad(const std::filesystem::path& path, const Ca
   const ScratchFolder folder;
   const std::string part = "part" + ending_of(path);
   std::filesystem::create_symlink(std::filesystem::absolute(path), folder / part);
-  // gmsh turns what has a unit into millimetres.
+  // gmsh converts lengths with a unit to millimetres.
   const double unit = has_no_unit(path) ? options.length_unit : kMillimetre;
   write_file(folder / "part.geo", {script_for(part, options, unit)});
   const std::filesystem::path log = folder / "log";

@@ -218,7 +218,7 @@ struct Loaded {
   std::vector<Fault> warnings, material_faults;
 };
 
-// Beams have no faces to name, and Gmsh's format tells them from marks by the absence of solids.
+// Beams have no faces to name, and Gmsh's format distinguishes them from marks by the absence of solids.
 void write_named(Mesh mesh, const std::vector<fem::FoundSurface>& found, const std::filesystem::path& output,
                  std::vector<Fault>& warnings) {
   for (const fem::Element& element : mesh.elements)

@@ -3,7 +3,7 @@
 #include "hersey/model/build.h"
 #include "model_text.h"
 
-// Beams in the model file: what is read, how they are divided, and what is told about wrong ones.
+// Beams in the model file: their values, their division, and the faults reported for wrong ones.
 namespace hersey::model {
 namespace beam_test {
 

@@ -7,7 +7,7 @@
 #include "model_text.h"
 #include "ring_file.h"
 
-// Bodies that conduct heat, bearings whose shell is in one, and what is told about wrong ones.
+// Bodies that conduct heat, bearings whose shell is in one, and the faults reported for wrong ones.
 namespace hersey::model {
 namespace body_heat_test {
 
@@ -206,7 +206,7 @@ TEST_CASE("JournalInABodyThatDoesNotRotate_IsWarnedOf") {
   CHECK(contains(rotation_warnings(bearing, -0.1, 2).at(0), "swings in its shell: 115 deg to and fro, 5.73 deg of it"));
 }
 
-// A mesh turned about its own axis is the same journal.
+// A mesh rotated about its own axis is the same journal.
 TEST_CASE("JournalInABody_IsTheSameHoweverItIsTurned") {
   const WrittenRing file;
   const std::string text = with_shaft();
@@ -222,7 +222,7 @@ TEST_CASE("JournalInABody_IsTheSameHoweverItIsTurned") {
     const auto after = journal_conduction(turned, turned.bearings[0]);
     CHECK(after->rise == doctest::Approx(conduction->rise).epsilon(1e-6));  // of its area's quadrature
     CHECK((after->shape_by_heat - conduction->shape_by_heat).cwiseAbs().maxCoeff() <
-          1e-3 * conduction->shape_by_heat.maxCoeff());  // 24 flat faces seen by splines at other angles
+          1e-3 * conduction->shape_by_heat.maxCoeff());  // 24 flat faces interpolated by splines at other angles
   }
 }
 

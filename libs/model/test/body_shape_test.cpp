@@ -33,7 +33,7 @@ TEST_CASE("Shapes_AreRead") {
   CHECK(std::get<mbd::Cylinder>(shape(model, 1).geometry).to.y() == doctest::Approx(0.14));
   CHECK(std::get<mbd::Capsule>(shape(model, 2).geometry).from.y() == doctest::Approx(1e-3));
   const auto& block = std::get<mbd::Box>(shape(model, 3).geometry);
-  CHECK((block.X_BS.R.col(0) - Vector3::UnitY()).norm() < 1e-12);  // round-off of a turn
+  CHECK((block.X_BS.R.col(0) - Vector3::UnitY()).norm() < 1e-12);  // round-off of a rotation
   CHECK(std::get<mbd::HalfSpace>(shape(model, 4).geometry).normal == Vector3::UnitZ());
 }
 

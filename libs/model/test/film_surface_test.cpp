@@ -7,7 +7,7 @@
 #include "model_text.h"
 #include "ring_file.h"
 
-// Bearings whose surfaces deform with the mesh of a body: what is read, and what is told about wrong ones.
+// Bearings whose surfaces deform with the mesh of a body: their values, and the faults reported for wrong ones.
 namespace hersey::model {
 namespace film_surface_test {
 

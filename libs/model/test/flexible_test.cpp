@@ -10,7 +10,7 @@
 #include "hersey/model/build.h"
 #include "model_text.h"
 
-// Flexible bodies in the model file: what is read, and what is told about wrong ones.
+// Flexible bodies in the model file: their values, and the faults reported for wrong ones.
 namespace hersey::model {
 namespace flexible_test {
 
@@ -214,7 +214,7 @@ TEST_CASE("FlexibleBody_LeftLooseOrSharedIsReported") {
                "    frames:\n      root: {nodes: edge, connection: " + connection + "}"),
         "m.yaml");
   };
-  CHECK(build(on_edge("average")).flexibles.size() == 1);  // turns with the elements around
+  CHECK(build(on_edge("average")).flexibles.size() == 1);  // rotates with the elements around
   const Model model = on_edge("rigid");
   try {
     (void)build(model);
@@ -335,7 +335,7 @@ TEST_CASE("OrthotropicMaterial_WithEqualConstantsIsTheIsotropicOne") {
     return build(read_text(text, "m.yaml")).flexibles[0].body->data().stiffness;
   };
   const Eigen::MatrixXd K = stiffness(edited(kMachine, isotropic, nine));
-  // Round-off of nine constants, turned.
+  // Round-off of nine rotated constants.
   CHECK((K - stiffness(edited(kMachine, "210 GPa", "208 GPa"))).norm() < 1e-9 * K.norm());
   const auto faults_after = [&](const std::string& from, const std::string& to) {
     return faults_of(edited(kMachine, isotropic, edited(nine, from, to)));

@@ -127,8 +127,8 @@ TEST_CASE("TableFromFile_IsConvertedAndScaled") {
   REQUIRE(force.variables.size() == 1);
   CHECK(force.variables[0].joint == "main");
   CHECK_FALSE(force.domain.has_value());  // periodic: covers everything
-  // 90 degrees into the first half: a quarter of the way from 1 to 11 bar, on 1 cm^2.
-  // Round-off of units and of whole turns.
+  // 90 degrees into the first half: a quarter of the way from 1 to 11 bar, on 1 cm^2. Round-off of units and of whole
+  // revolutions.
   CHECK(force.value->value(std::array{pi / 2}) == doctest::Approx(35).epsilon(1e-13));
   CHECK(force.value->value(std::array{pi / 2 + 4 * pi}) == doctest::Approx(35).epsilon(1e-13));
   CHECK(force.value->value(std::array{3 * pi}) == doctest::Approx(60).epsilon(1e-13));  // on the way back to 1 bar
@@ -195,7 +195,7 @@ TEST_CASE("ShiftedTable_BeginsLater") {
 }
 
 TEST_CASE("TableThatDoesNotCoverTheRun_IsReportedBeforeIt") {
-  // The run lasts two turns at 3000 rpm: 40 ms, 720 degrees.
+  // The run lasts two revolutions at 3000 rpm: 40 ms, 720 degrees.
   CHECK(faults_of(with_force("{table: {x_unit: ms, y_unit: N, points: [[0, 1], [40, 1]]}}")) == "no fault");
   CHECK(
       faults_of(with_force("{table: {x_unit: ms, y_unit: N, points: [[0, 1], [30, 1]]}}")) ==

@@ -74,7 +74,7 @@ std::string groove(const std::string& name, const std::string& more) {
   return "      " + name + ": {shape: axial_groove, arc: 30 deg, length: 5 mm, " + more + "}\n";
 }
 
-// Places at two pressures that touch: what flows between them has no limit as the grid is refined.
+// Regions at two pressures that touch: the flow between them has no limit as the grid is refined.
 TEST_CASE("SupplyLineThroughAGroove_OfAnotherPressureIsAFault") {
   const auto faults = [](const std::string& line, const std::string& more) {
     return faults_of(with_feeds(line + "    features:\n" + groove("feed", more)));

@@ -95,7 +95,7 @@ TEST_CASE("TemperaturesBeyondWhatIsKnown_AreWarnedOf") {
       "viscosity: {law: table, temperatures: [40 degC, 80 degC], viscosities: [30 mPa.s, 9 mPa.s]}";
   CHECK(
       has(warned(table, "model: isothermal, temperature: 90 degC"), "90 degC is above 80 degC, the end of its table"));
-  // What only the film tells.
+  // Faults that only the film reports.
   const OilValidity validity = read_bearing("grade: iso_vg_46", "model: film, supply_temperature: 50 degC").validity;
   CHECK(film_warnings(validity, 273.15 + 150, 1e7).empty());
   REQUIRE(film_warnings(validity, 273.15 + 230, 1e7).size() == 1);
@@ -267,7 +267,7 @@ TEST_CASE("Supplies_HaveTemperaturesOfTheirOwn") {
   CHECK(heat.T_features[0] == relative(308.15).epsilon(digits));
   CHECK(heat.T_features[1] == heat.T_supply);
   CHECK(model.warnings.empty());
-  // Told where nothing asks for them, and of a pocket that holds the film's own oil.
+  // Reported for supplies that need none, and for a pocket that holds the film's own oil.
   const Model isothermal = read_text(film_with(", temperature: 40 degC", features, "model: isothermal"), "m.yaml");
   REQUIRE(isothermal.warnings.size() == 2);
   CHECK(isothermal.warnings[0].text().find("does not ask for") != std::string::npos);

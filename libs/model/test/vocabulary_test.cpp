@@ -26,7 +26,7 @@ TEST_CASE("Words_OfTheFormatAreReadAsWhatTheyStandFor") {
   for (const auto& one : analysis_words)
     CHECK(meaning_of(checked(*type, std::string(one.word)), analysis_words) == one.value);
   CHECK(meaning_of(checked(*type, "statics"), analysis_words) ==
-        Analysis::dynamics);  // told as a fault; the first stands in
+        Analysis::dynamics);  // reported as a fault; the first word replaces it
 }
 
 TEST_CASE("Words_ThatStandForNothingAreAMistakeInTheCode") {

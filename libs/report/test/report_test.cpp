@@ -162,7 +162,7 @@ TEST_CASE("Fields_TakeTwoBytesANumber") {
   const auto low = decode<float>(pressure["low"]), step = decode<float>(pressure["step"]);
   REQUIRE(codes.size() == 11 * 12);
   REQUIRE(low.size() == 11);
-  // Every instant's pressure is uniform: told exactly, in the page's single precision.
+  // Every instant's pressure is uniform: stored exactly, in the page's single precision.
   for (std::size_t k = 0; k < 11; ++k)
     CHECK(low[k] + step[k] * codes[12 * k] == static_cast<float>(run.p_max(static_cast<int>(k))));
 }

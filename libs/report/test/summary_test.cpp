@@ -137,7 +137,7 @@ TEST_CASE("WholeRunWithoutContact_HasItsEnergiesOnly") {
 }
 
 TEST_CASE("MedianOfIterations_LeavesOutTheStart") {
-  // 2, then ten steps of 4 and 2 in turn.
+  // 2, then ten steps of 4 and 2 alternately.
   CHECK(find(summary_of({}), "median Newton iterations per step").value == 3);
 }
 

@@ -24,8 +24,8 @@ inline std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The content damaged in one of two ways. Bytes changed: the input names places and new bytes in turn, four bytes
-/// each. Or cut short, where the first byte is odd: at the place that the next three name.
+/// The content damaged in one of two ways. Bytes changed: the input names offsets and new bytes alternately, four bytes
+/// each. Or cut short, if the first byte is odd: at the offset that the next three name.
 inline std::string damaged(std::string content, const std::uint8_t* data, std::size_t size) {
   const auto offset_at = [&](std::size_t at) {
     return (data[at] | std::size_t{data[at + 1]} << 8 | std::size_t{data[at + 2]} << 16) % content.size();

@@ -26,7 +26,7 @@ struct OpenFile {
   void sync();
   /// Gives it another name, in one piece. @param replace  a file of that name; else @throws FileExists, WriteError
   void rename(const std::filesystem::path& to, bool replace);
-  /// Closes the file, whether or not an error occurred: `status` tells which.
+  /// Closes the file, whether or not an error occurred: `status` states which.
   void close();
 };
 

@@ -147,7 +147,7 @@ TEST_CASE("ExistingFile_IsKeptUnlessOverwritten") {
 
 TEST_CASE("UnwritablePath_IsReportedWithItsReason") {
   CHECK_THROWS_WITH_AS(Writer{"/nonexistent/run.h5"}, doctest::Contains("No such file or directory"), WriteError);
-  const TemporaryDirectory directory;  // a directory in the file's place is never removed, overwrite or not
+  const TemporaryDirectory directory;  // a directory under the file's name is never removed, overwrite or not
   CHECK_THROWS_AS(Writer(directory / "", {.overwrite = true}), WriteError);
 }
 

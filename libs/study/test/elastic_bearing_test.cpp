@@ -66,7 +66,7 @@ bearings:
 simulation: {duration: 150 ms, step: 1 ms, spectral_radius: 0.6, settle: {tolerance: 1e-8, over: 10 ms}}
 )";
 
-/// The same ring, all around alike: held where its outside is.
+/// The same rotationally symmetric ring: supported at its outside.
 const std::vector<std::string> round = {"bodies.ring.frames.foot.nodes=outside",
                                         "bodies.ring.frames.foot.connection=average"};
 
@@ -207,7 +207,7 @@ TEST_CASE("ElasticBearing_StiffnessMatchesDifferencesOfTheForce") {
   check_stiffness(Rig(), {}, c * Eigen::Vector2d(0.2, -0.75));
 }
 
-/// A bearing all around alike, seen from axes that turn with its journal around the shell at Omega, is a steady one
+/// A rotationally symmetric bearing, in axes that rotate with its journal around the shell at Omega, is a steady one
 /// whose oil is dragged by omega - 2 Omega: b (z x e) = -2 dF/d omega (bearing.30), the motion of the deformation
 /// included.
 TEST_CASE("ElasticBearing_DampingIsThatOfAFlowSeenFromTurningAxes") {
@@ -298,7 +298,8 @@ TEST_CASE("ElasticJournal_IsSupportedAtItsJoint_AndDeforms") {
   CHECK((stiff.state.e - rigid.state.e).norm() < 1e-6 * c);  // 1e7 times as stiff: it gives way by that much less
 }
 
-/// In a run the mesh turns through its deformation, whose functions and elements leave a ripple: the mean of a turn.
+/// In a run the mesh rotates through its deformation, whose functions and elements leave a ripple: the mean of a
+/// revolution.
 TEST_CASE("ElasticJournal_IsTheMeanOfARevolutionInARun") {
   const Rig rig;
   const std::vector<std::string> soft =
@@ -316,7 +317,7 @@ TEST_CASE("ElasticJournal_IsTheMeanOfARevolutionInARun") {
     constexpr int revolution = 40;  // steps
     return std::accumulate(values.end() - revolution, values.end(), 0.0) / revolution;
   };
-  // Ripple of functions and elements in the mean of a turn.
+  // Ripple of functions and elements in the mean of a revolution.
   CHECK(alone.numbers.eccentricity_ratio == doctest::Approx(mean("eccentricity_ratio")).epsilon(1e-3));
   CHECK(alone.state.film.torque_journal == doctest::Approx(mean("torque_journal")).epsilon(1e-3));
   const BearingSolution rigid = rig.solved({"bearings.main.shell_surface=rigid"});

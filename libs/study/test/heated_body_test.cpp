@@ -117,7 +117,7 @@ TEST_CASE("MeshedRing_IsThatOfAnIndependentProgram") {
   CHECK_FALSE(has_growth);
 }
 
-// Free, the ring grows with its mean temperature; held at its outside it grows inwards.
+// Free, the ring grows with its mean temperature; supported at its outside it grows inwards.
 TEST_CASE("RingThatExpands_OpensItsBearing_OrClosesItWhereItIsSupported") {
   const Written files;
   const std::string expands = "bodies.ring.flexible.heat.expansion=12e-6 1/K";

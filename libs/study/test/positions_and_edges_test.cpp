@@ -9,7 +9,8 @@
 
 #include "hersey/study/bearing_study.h"
 
-// What must not matter: the side from which a place comes to a node, the sense of rotation, and nodes along the edges.
+// Results must not depend on the side from which a position reaches a node, on the sense of rotation, or on nodes along
+// the edges.
 namespace hersey::study {
 namespace positions_and_edges_test {
 
