@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "interpret/stl_file.h"
+#include "interpret/files/stl_file.h"
 #include "model_text.h"
 #include "temporary_directory.h"
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "interpret/interpret.h"
-#include "interpret/source_tree.h"
+#include "interpret/context/interpret.h"
+#include "interpret/tree/source_tree.h"
 #include "schema/film_vocabulary.h"
 #include "schema/machine_vocabulary.h"
 #include "schema/oil_laws.h"

@@ -9,7 +9,7 @@
 #include "hersey/model/build.h"
 #include "hersey/run/simulate.h"
 #include "small_rig.h"
-#include "time_stepping/start.h"
+#include "start/start.h"
 
 namespace hersey::run {
 namespace assembly_test {

@@ -1,4 +1,4 @@
-#include "record/bearing_axes.h"
+#include "start/bearing_axes.h"
 
 #include <doctest/doctest.h>
 

@@ -15,8 +15,8 @@
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
 #include "source_dir.h"
+#include "start/start.h"
 #include "temporary_directory.h"
-#include "time_stepping/start.h"
 
 namespace hersey::run {
 namespace error_control_test {

@@ -1,5 +1,5 @@
 // Warnings and faults for bearings whose surfaces do not fit each other at the start.
-#include "record/facing_surfaces.h"
+#include "start/facing_surfaces.h"
 
 #include <doctest/doctest.h>
 

@@ -10,7 +10,7 @@
 #include "hersey/solver/generalized_alpha.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
-#include "time_stepping/start.h"
+#include "start/start.h"
 #include "time_stepping/time_stepper.h"
 
 namespace hersey::run {

@@ -9,8 +9,8 @@
 
 #include "hersey/results/reader.h"
 #include "hersey/run/film_fields.h"
-#include "record/quantity.h"
 #include "source_dir.h"
+#include "table/quantity.h"
 #include "temporary_directory.h"
 
 namespace hersey::run {

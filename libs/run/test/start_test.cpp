@@ -1,4 +1,4 @@
-#include "time_stepping/start.h"
+#include "start/start.h"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
-#include "record/work_record.h"
+#include "series/work_record.h"
 #include "small_rig.h"
 #include "temporary_directory.h"
 

@@ -1,6 +1,6 @@
 #include "schema/oil_laws.h"
 
-#include "interpret/interpret.h"
+#include "interpret/context/interpret.h"
 
 namespace hersey::model {
 namespace {

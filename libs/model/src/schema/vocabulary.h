@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hersey/core/contract.h"
-#include "interpret/check.h"
+#include "interpret/check/check.h"
 #include "schema/schema_type.h"
 
 namespace hersey::model {

@@ -5,7 +5,7 @@
 #include "cycle/bearing_cycle.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
-#include "record/quantity.h"
+#include "table/quantity.h"
 
 namespace hersey::run {
 

@@ -7,7 +7,7 @@
 #include "hersey/fem/vtu_file.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
-#include "record/film_pressures.h"
+#include "observation/film_pressures.h"
 
 namespace hersey::run {
 

@@ -8,9 +8,9 @@
 
 #include "hersey/core/version.h"
 #include "hersey/run/assumptions.h"
-#include "record/film_surface_rows.h"
-#include "time_stepping/redundancies.h"
-#include "time_stepping/start_changes.h"
+#include "start/film_surface_rows.h"
+#include "start/redundancies.h"
+#include "start/start_changes.h"
 
 namespace hersey::run {
 namespace {

@@ -5,7 +5,7 @@
 #include "hersey/model/build.h"
 #include "hersey/run/options.h"
 #include "hersey/run/summary.h"
-#include "record/quantity.h"
+#include "table/quantity.h"
 
 namespace hersey::run {
 

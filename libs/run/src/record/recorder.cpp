@@ -5,9 +5,9 @@
 
 #include "hersey/core/task_pool.h"
 #include "hersey/results/reader.h"
-#include "record/geometry_record.h"
 #include "record/header_record.h"
-#include "record/work_record.h"
+#include "series/geometry_record.h"
+#include "series/work_record.h"
 
 namespace hersey::run {
 

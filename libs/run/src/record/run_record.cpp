@@ -8,7 +8,7 @@
 #include "hersey/bearing/clearance.h"
 #include "hersey/film/cavitated_shear.h"
 #include "hersey/model/plausibility.h"
-#include "time_stepping/coarser_run.h"
+#include "record/coarser_run.h"
 
 namespace hersey::run {
 

@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "cycle/cycle_convergence.h"
+#include "cycle/settling.h"
 #include "hersey/core/archive.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/run/options.h"
 #include "hersey/run/summary.h"
+#include "observation/energy_balance.h"
+#include "observation/extremes.h"
 #include "record/deformed_meshes.h"
-#include "record/energy_balance.h"
-#include "record/extremes.h"
 #include "record/recorder.h"
-#include "time_stepping/settling.h"
 
 namespace hersey::run {
 

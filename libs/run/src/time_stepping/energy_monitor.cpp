@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <numeric>
 
-#include "record/observe_step.h"
+#include "observation/observe_step.h"
 
 namespace hersey::run {
 namespace {

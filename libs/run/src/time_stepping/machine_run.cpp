@@ -10,8 +10,8 @@
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/run/checkpoint.h"
-#include "record/observe_step.h"
-#include "time_stepping/start.h"
+#include "observation/observe_step.h"
+#include "start/start.h"
 #include "time_stepping/warm_bodies.h"
 
 namespace hersey::run {

@@ -14,9 +14,9 @@
 #include "hersey/run/summary.h"
 #include "hersey/solver/equations.h"
 #include "hersey/solver/linearise.h"
-#include "record/power_balance.h"
+#include "observation/power_balance.h"
 #include "record/run_record.h"
-#include "record/work_record.h"
+#include "series/work_record.h"
 #include "time_stepping/checkpoint.h"
 #include "time_stepping/time_stepper.h"
 

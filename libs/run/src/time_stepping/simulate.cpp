@@ -14,16 +14,16 @@
 #include "hersey/results/writer.h"
 #include "hersey/solver/equilibrium.h"
 #include "hersey/solver/linearise.h"
-#include "record/bearing_axes.h"
-#include "record/facing_surfaces.h"
-#include "record/observe_step.h"
+#include "observation/observe_step.h"
+#include "record/coarser_run.h"
+#include "start/bearing_axes.h"
+#include "start/facing_surfaces.h"
+#include "start/redundancies.h"
+#include "start/start.h"
+#include "start/start_changes.h"
 #include "time_stepping/checkpoint.h"
-#include "time_stepping/coarser_run.h"
 #include "time_stepping/instants.h"
 #include "time_stepping/machine_run.h"
-#include "time_stepping/redundancies.h"
-#include "time_stepping/start.h"
-#include "time_stepping/start_changes.h"
 
 namespace hersey::run {
 namespace {
