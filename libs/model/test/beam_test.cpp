@@ -128,7 +128,7 @@ TEST_CASE("Beam_FaultsNameWhatIsThere") {
                  "bodies.shaft.beam.section"));
   CHECK(contains(faults_with("up: y", "up: x"), "bodies.shaft.beam.up: a beam that runs along the section's z-axis"));
   CHECK(contains(faults_with("130 mm", "400 mm"),
-                 "bodies.shaft.frames.disc.along: a place 400 mm along a beam of 300 mm"));
+                 "bodies.shaft.frames.disc.along: a position 400 mm along a beam of 300 mm"));
   CHECK(contains(faults_with("130 mm", "ende"), "bodies.shaft.frames.disc.along"));
   CHECK(contains(faults_with("{along: end}", "{}"), "a frame of a beam without `along`"));
   CHECK(contains(faults_with("{along: end}", "{along: end, origin: 1 0 0 mm}"), "`origin` of a frame on a beam"));

@@ -294,7 +294,7 @@ TEST_CASE("ShellsTemperature_OverTheAngle_IsRead") {
   };
   CHECK(refused("angles: [45 deg, 135 deg], temperatures: [50 degC]", "1 temperatures at 2 angles"));
   CHECK(refused("angles: [145 deg, 135 deg], temperatures: [50 degC, 60 degC]", "angles that ascend"));
-  CHECK(refused("angles: [0 deg, 360 deg], temperatures: [50 degC, 50 degC]", "a whole turn"));
+  CHECK(refused("angles: [0 deg, 360 deg], temperatures: [50 degC, 50 degC]", "360 deg or more"));
 }
 
 TEST_CASE("Clearance_GrowsWithItsWalls") {

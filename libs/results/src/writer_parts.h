@@ -178,7 +178,7 @@ struct Writer::Impl {
     if (asked.empty() && count == 2) return letters("/xy", "xy");
     if (asked.empty() && count == 4) return letters("/wxyz", "wxyz");
     const std::string scale = asked.empty() ? name + "_column" : absolute(asked);
-    return numbers(scale, count, "place, counted from 0");
+    return numbers(scale, count, "index, counted from 0");
   }
 
   std::string letters(const std::string& name, std::string_view axes) {

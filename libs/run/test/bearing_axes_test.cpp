@@ -52,7 +52,7 @@ TEST_CASE("JournalThatRotatesAcrossItsBearing_IsWarnedOf") {
       axis_warnings_of(rig_with("between: [ground, pin]", "between: [ground, pin], axis: x"));
   REQUIRE(warnings.size() == 1);
   CHECK(contains(warnings[0],
-                 "bearings.big_end: at the start the journal turns across the bearing's axis, with 314 rad/s"));
+                 "bearings.big_end: at the start the journal rotates across the bearing's axis, with 314 rad/s"));
   CHECK(axis_warnings_of(kSmallRig).empty());
 }
 

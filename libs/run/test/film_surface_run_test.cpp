@@ -165,8 +165,8 @@ Beginning begin_with(const std::string& initial_deformation, const std::string& 
 TEST_CASE("DeformingShell_StartsAsItsFilmHoldsIt") {
   const Beginning undeformed = begin_with("none", "modal"), deformed = begin_with("internal", "modal"),
                   of_nodes = begin_with("internal", "nodal");
-  MESSAGE("first change: let go " << undeformed.change << " m, held " << deformed.change << " m, of nodes "
-                                  << of_nodes.change);
+  MESSAGE("first change: undeformed " << undeformed.change << " m, deformed " << deformed.change << " m, of nodes "
+                                      << of_nodes.change);
   CHECK(undeformed.strain == 0);
   CHECK(deformed.strain > 0);
   CHECK(of_nodes.strain == doctest::Approx(deformed.strain).epsilon(0.01));

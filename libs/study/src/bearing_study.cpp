@@ -347,7 +347,7 @@ void require_rest(const model::Bearing& bearing) {
                            "a journal at rest, whose temperatures are those of a body",
                            "a speed: heat enters a body evenly around because it rotates in its film",
                            "another wall: `free`, `given`, `insulated`, `node`; or let the shell rest and the journal "
-                           "turn: the film knows no difference between its surfaces"});
+                           "rotate: the film knows no difference between its surfaces"});
   if (bearing.shell_surface && point.shell_speed != 0)
     throw InputError(Fault{point.position, path + "shell_speed", "a shell that rotates and deforms",
                            "0: the shell's body is fixed, and the journal rotates",

@@ -85,16 +85,16 @@ class AxisCheck {
             fmt::format("the joint rotates the journal of bearing {} about an axis {:.3g} deg off the bearing's",
                         bearing.name, angle * 180 / std::numbers::pi),
             "the bearing's axis, which is z of its shell's frame",
-            "give the joint that `axis`, or turn the bearing's frames: the journal would touch the shell"};
+            "give the joint that `axis`, or rotate the bearing's frames: the journal would touch the shell"};
   }
 
   [[nodiscard]] Fault turning_across(const model::Bearing& bearing, double speed, double touches_after) const {
     const std::string path = "bearings." + bearing.name;
     return {model_.position_of(path), path,
-            fmt::format("at the start the journal turns across the bearing's axis, with {:.3g} rad/s; so its edges "
+            fmt::format("at the start the journal rotates across the bearing's axis, with {:.3g} rad/s; so its edges "
                         "touch the shell within {:.2g} s",
                         speed, touches_after),
-            "a journal that turns about the bearing's axis, z of its shell's frame",
+            "a journal that rotates about the bearing's axis, z of its shell's frame",
             "check the `axis` of the joints, the bearing's frames and the initial rates"};
   }
 
