@@ -152,7 +152,7 @@ TEST_CASE("DeformingSurface_OfAReducedBodyIsReported") {
   CAPTURE(faults);
   CHECK(
       contains(faults, "a deforming surface on the reduced body 'ring', whose file holds no answers to film pressure"));
-  CHECK(contains(faults, "'mesh' in place of 'reduced'"));
+  CHECK(contains(faults, "'mesh' instead of 'reduced'"));
   CHECK(faults_of(edited(text, surface, "rigid")) == "no fault");
   std::filesystem::remove("film_surface_test_ring.h5");
 }

@@ -233,7 +233,7 @@ TEST_CASE("Mistakes_InOilsAndHeat_AreReported") {
   CHECK(reports(
       "grade: iso_vg_46",
       "model: film, supply_temperature: 50 degC}\n    edge_pressure: closed\n    cavitation: {model: mass_conserving",
-      "it has nowhere to go"));
+      "no heat can leave"));
   CHECK(reports("grade: iso_vg_46", "model: film, supply_temperature: 50 degC}\n    cavitation: {model: reynolds",
                 "`carry_over: 0`"));
 }
