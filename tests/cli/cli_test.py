@@ -662,7 +662,7 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
         run = hersey("bearing", flexible, *point, "--json", "--fields", fields, "--report", page)
         self.assertEqual(run.returncode, OK, run.stderr)
         solution = json.loads(run.stdout)["solutions"][0]
-        self.assertIn("held at small_end", solution["surfaces"]["shell"])
+        self.assertIn("supported at small_end", solution["surfaces"]["shell"])
         largest = solution["figures"]["deformation_shell"]["value"]
         with open(fields, encoding="utf-8") as file:
             self.assertTrue(file.readline().endswith(", shell displacement [um]\n"))
