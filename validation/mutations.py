@@ -152,7 +152,7 @@ FAULTS = [
     Fault("model: diametral clearance is taken for radial", "model/src/interpret/interpret_bearing.cpp",
           'number_of(value_, "diametral_clearance") / 2', 'number_of(value_, "diametral_clearance")'),
     # -- run, results, study
-    Fault("run: a checkpoint forgets the last step's length", "run/src/march/step_march.cpp",
+    Fault("run: a checkpoint forgets the last step's length", "run/src/march/time_stepper.cpp",
           'archive.io("length", last_dt_), archive.io("rejected", rejected_);', 'archive.io("rejected", rejected_);'),
     Fault("run: energy of a cycle", "run/src/cycle/bearing_cycle.cpp",
           "cycle_.energy_film += 0.5 * dt * (last_.power_film + next.power_film);",

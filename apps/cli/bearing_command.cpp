@@ -24,7 +24,7 @@
 namespace hersey::cli {
 namespace {
 
-// Names for what is varied most, and the key paths of the bearing at hand that they stand for.
+// Short names of the parameters that are varied most, with the key paths of the present bearing.
 class ShortNames {
  public:
   ShortNames(const model::Model& model, const model::Bearing& bearing) : model_(model) {
@@ -60,13 +60,13 @@ class ShortNames {
   std::vector<std::pair<std::string, std::string>> paths_;
 };
 
-// What is to be solved, from the command line and the file.
+// Operating points to be solved, from the command line and the file.
 struct Plan {
   std::vector<std::string> overrides;
   std::vector<model::StudyParameter> sweeps;
 };
 
-// A load on the command line takes the place of a position in the file, and the other way round.
+// A load on the command line replaces a position in the file, and vice versa.
 void replace_other(const ShortNames& names, const model::Bearing& bearing, Plan& plan) {
   if (!bearing.operating_point) return;
   const auto is_set = [&](const std::string& name) {
@@ -116,7 +116,7 @@ std::vector<model::StudyRun> runs_of(const BearingArguments& arguments, const Pl
                                           ? model::expand_study(arguments.model, plan.overrides)
                                           : model::expand_parameters(arguments.model, plan.overrides, plan.sweeps);
   if (runs.empty()) runs.push_back({plan.overrides, "", "", {}});
-  // The last part of a key path says enough in a table.
+  // The last part of a key path suffices in a table.
   for (model::StudyRun& run : runs) {
     run.label.clear();
     for (const model::StudyValue& value : run.values) {
@@ -231,8 +231,8 @@ int bearing_command(const BearingArguments& arguments) {
   print(arguments, solutions, sensitivities_of(arguments, options, solutions));
   bool all_solved = true;
   for (const study::BearingSolution& solution : solutions) {
-    for (const std::string& doubt : solution.doubts)
-      say("warning: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", doubt);
+    for (const std::string& warning : solution.warnings)
+      say("warning: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", warning);
     if (solution.solved()) continue;
     all_solved = false;
     say("hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.message);

@@ -8,7 +8,8 @@
 
 namespace hersey::cli {
 
-/// What the report shows of `solutions`. @throws InputError as the model does.
+/// Contents of the report of `solutions`.
+/// @throws InputError as the model does.
 [[nodiscard]] report::BearingPage bearing_page(const BearingArguments& arguments,
                                                const std::vector<study::BearingSolution>& solutions);
 

@@ -57,7 +57,7 @@ std::string pressures_of(const film::FilmModel& film) {
   return film.pressures == film::PressureScale::absolute ? text + " (absolute)" : text;
 }
 
-// How the roughness of both surfaces was read, where there is any.
+// Describes the roughness of both surfaces, if there is any.
 std::string roughness_of(const film::Roughness& roughness) {
   if (!roughness.counts()) return "";
   const auto surface = [](const film::SurfaceRoughness& s) {
@@ -114,7 +114,7 @@ std::vector<std::pair<std::string, std::string>> surface_remarks(const BearingSo
     if (!surface) return;
     const SurfaceFunctions& functions = surface->surface->functions;
     remarks.emplace_back(
-        name, fmt::format("deforms at rest with the mesh of {}, {} x {} functions; held at {}", surface->body,
+        name, fmt::format("deforms at rest with the mesh of {}, {} x {} functions; supported at {}", surface->body,
                           functions.around(), functions.along(), fmt::join(surface->held_at, ", ")));
   };
   add("shell", solution.elasticity->shell);
@@ -171,7 +171,7 @@ std::string bearing_comparison_text(const std::vector<BearingSolution>& solution
 }
 
 std::string bearing_csv(const std::vector<BearingSolution>& solutions) {
-  // Some figures are of some solutions only: a column is there if one of them has it, and empty where it has none.
+  // Some figures belong to some solutions only: a column exists if one of them has it, and is empty where it has none.
   std::vector<std::string> columns;
   std::vector<std::map<std::string, double>> figures;
   for (const BearingSolution& solution : solutions) {
@@ -248,7 +248,8 @@ nlohmann::json sensitivity_json(const BearingSolution& solution, const study::Se
   return document;
 }
 
-// The last two parts of a key path tell parameters apart: "main.width", "operating_point.load" is "load".
+// Returns the last two parts of a key path, which distinguish parameters: "main.width", "operating_point.load" is
+// "load".
 std::string short_name(const std::string& path) {
   const std::size_t dot = path.find_last_of('.');
   const std::string last = path.substr(dot + 1);
@@ -257,11 +258,11 @@ std::string short_name(const std::string& path) {
   return path.substr(before + 1);
 }
 
-// A percentage of what is zero, of an angle or of an error tells nothing.
+// A percentage of zero, of an angle or of an error is meaningless.
 bool has_percentage(const BearingFigure& figure) {
   const bool is_error = figure.key.find("error") != std::string::npos;
-  const bool is_place = figure.unit == "deg" || figure.key.ends_with("_z");
-  return figure.value != 0 && figure.words.empty() && !is_error && !is_place && figure.unit != "degC";
+  const bool is_position = figure.unit == "deg" || figure.key.ends_with("_z");
+  return figure.value != 0 && figure.words.empty() && !is_error && !is_position && figure.unit != "degC";
 }
 
 }  // namespace
@@ -297,7 +298,7 @@ nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<s
   if (!solution.solved()) return document;
   for (const auto& [name, text] : surface_remarks(solution)) document["surfaces"][name] = text;
   for (const auto& [name, text] : study::shear_remarks(solution)) document["conditions"][name] = text;
-  if (!solution.doubts.empty()) document["warnings"] = solution.doubts;
+  if (!solution.warnings.empty()) document["warnings"] = solution.warnings;
   document["linearisations"] = solution.summary.iterations;
   document["film_iterations"] = solution.summary.film_iterations;
   document["wall_time"] = solution.wall_time;

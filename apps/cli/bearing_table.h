@@ -10,14 +10,13 @@
 
 namespace hersey::cli {
 
-/// Whether any rigid rotor is stable on the film, where its mass decides nothing; else empty.
+/// States whether any rigid rotor is stable on the film, if its mass does not matter; else empty.
 [[nodiscard]] std::string whirl_remark(const study::BearingSolution& solution);
 
-/// Of a film whose temperatures have been solved for: whether they follow the motion in stiffness and damping; else
-/// empty.
+/// States, for a film with computed temperatures, whether they follow the motion in stiffness and damping; else empty.
 [[nodiscard]] std::string heat_remark(const study::BearingSolution& solution);
 
-/// What is said of each surface that deforms: its name, "shell", and how its body is held.
+/// Describes each surface that deforms: its name, "shell", and the supports of its body.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> surface_remarks(const study::BearingSolution& solution);
 
 /// Every figure of one solution, one a line, with the error of the grid.
@@ -32,7 +31,7 @@ namespace hersey::cli {
 /// The fields of one solution at the nodes, comma-separated.
 [[nodiscard]] std::string bearing_fields_csv(const study::BearingSolution& solution);
 
-/// @param sensitivities  of this solution; empty: none asked for
+/// @param sensitivities  of this solution; empty: none requested
 [[nodiscard]] nlohmann::json bearing_json(const study::BearingSolution& solution,
                                           const std::vector<study::Sensitivity>& sensitivities = {});
 

@@ -32,7 +32,7 @@ std::string ending_of(const std::filesystem::path& path) {
   return ending;
 }
 
-/// A folder for what gmsh reads and writes, gone with this object.
+/// A temporary folder for the files of gmsh, removed with this object.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -76,7 +76,7 @@ std::string script_for(const std::string& part, const CadOptions& options, doubl
       part, size, options.around, options.around, options.order);
 }
 
-/// The last lines of what gmsh has printed; those that tell of errors alone where there are any.
+/// Returns the last lines of gmsh's output; only error messages if there are any.
 std::string messages_in(const std::filesystem::path& log) {
   std::ifstream file(log);
   std::deque<std::string> last, errors;
@@ -121,7 +121,7 @@ bool is_cad_file(const std::filesystem::path& path) {
   return has_no_unit(path) || ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs";
 }
 
-std::string unit_told_in(const std::filesystem::path& path) {
+std::string unit_stated_in(const std::filesystem::path& path) {
   const InputFile file = read_input_file(path);
   // An entity of several types, in any order: ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) ).
   static const std::regex si(R"(SI_UNIT\s*\(\s*(\$|\.[A-Z]+\.)\s*,\s*\.METRE\.\s*\))");
@@ -157,7 +157,7 @@ std::optional<fem::Mesh> mesh_of_cad(const std::filesystem::path& path, const Ca
   const ScratchFolder folder;
   const std::string part = "part" + ending_of(path);
   std::filesystem::create_symlink(std::filesystem::absolute(path), folder / part);
-  // gmsh turns what has a unit into millimetres.
+  // gmsh converts lengths with a unit to millimetres.
   const double unit = has_no_unit(path) ? options.length_unit : kMillimetre;
   write_file(folder / "part.geo", {script_for(part, options, unit)});
   const std::filesystem::path log = folder / "log";

@@ -40,15 +40,16 @@ struct CheckArguments {
   std::string model;
   std::vector<std::string> overrides;
   bool json = false;
-  bool expanded = false;  ///< print the model with templates and parameters put in, and check nothing else
+  bool expanded = false;  ///< print the model with templates and parameters applied, and check nothing else
 };
 
-/// `hersey check`: everything that can be found wrong without simulating. @returns an ExitCode.
+/// `hersey check`: finds every fault that can be found without simulating.
+/// @returns an ExitCode.
 [[nodiscard]] int check_command(const CheckArguments& arguments);
 
 struct ReportArguments {
   std::vector<std::filesystem::path> results;
-  std::filesystem::path output;    ///< empty: report.html beside the first results file
+  std::filesystem::path output;    ///< empty: report.html in the folder of the first results file
   std::vector<std::string> names;  ///< of the runs; empty: by their files and folders
   bool json = false;
   bool all = false;  ///< print every figure, however many
@@ -73,7 +74,8 @@ struct BearingArguments {
   int threads = 0;                              ///< 0: one per processor
 };
 
-/// `hersey bearing`: equilibrium or load of one bearing by itself, once or over sweeps. @returns an ExitCode.
+/// `hersey bearing`: equilibrium or load of a single bearing, once or over sweeps.
+/// @returns an ExitCode.
 [[nodiscard]] int bearing_command(const BearingArguments& arguments);
 
 struct MeshArguments {
@@ -83,18 +85,19 @@ struct MeshArguments {
   std::string part;                  ///< of an Abaqus file with several
   std::string parts = "one";         ///< or apart
   std::filesystem::path vtu;         ///< file to write for ParaView; empty: none
-  std::filesystem::path output;      ///< mesh to write; empty: of a CAD file beside it, else none
+  std::filesystem::path output;      ///< mesh to write; empty: beside a CAD file, else none
   std::string size;                  ///< of elements made of a CAD file
   int order = 2;                     ///< of these
-  int around = 16;                   ///< how many of them around a turn, at least
+  int around = 16;                   ///< least number of elements around a full circle
   std::string time_limit = "30min";  ///< of gmsh
   bool force = false;
   bool json = false;
 };
 
-/// `hersey mesh`: what a mesh file holds, how good its elements are, its planes and cylinders; of a CAD file makes the
-/// mesh first. @returns an ExitCode; kWrongInput for a mesh that is unfit for computing. @throws InputError;
-/// std::runtime_error where gmsh makes no mesh or it cannot be written.
+/// `hersey mesh`: describes a mesh file, the quality of its elements, its planes and cylinders; for a CAD file it makes
+/// the mesh first.
+/// @returns an ExitCode; kWrongInput for a mesh that is unfit for computing.
+/// @throws InputError; std::runtime_error if gmsh makes no mesh or it cannot be written.
 [[nodiscard]] int mesh_command(const MeshArguments& arguments);
 
 struct ReduceArguments {
@@ -110,7 +113,7 @@ struct ReduceArguments {
   std::string highest;             ///< frequency; empty: none
   std::vector<std::string> loads;  ///< surfaces that carry load
   int harmonics = 4;               ///< of the pressures around a bore
-  std::string static_error;        ///< share or percent; empty: told alone
+  std::string static_error;        ///< share or percent; empty: printed only
   std::filesystem::path output;
   bool force = false;
 };
@@ -118,7 +121,7 @@ struct ReduceArguments {
 /// `hersey reduce`: an elastic body in few coordinates, from a mesh, as a file. @returns an ExitCode.
 /// @throws InputError; std::runtime_error where the body cannot be reduced or the file not be written.
 [[nodiscard]] int reduce_command(const ReduceArguments& arguments);
-/// A body of one mesh by itself; what the mesh file says of its material may be left empty.
+/// A body of a single mesh; constants that the mesh file gives may be left empty.
 struct SolidArguments {
   std::string file;
   std::string length_unit = "m";
@@ -138,7 +141,9 @@ struct SolidArguments {
   bool json = false;
 };
 
-/// `hersey modes`: natural frequencies and shapes, free or held. @returns an ExitCode. @throws InputError.
+/// `hersey modes`: natural frequencies and shapes, free or supported.
+/// @returns an ExitCode.
+/// @throws InputError.
 [[nodiscard]] int modes_command(const SolidArguments& arguments);
 
 /// `hersey stress`: displacements and stresses under pressures, gravity and temperature. @returns an ExitCode. @throws
@@ -161,11 +166,11 @@ struct OilArguments {
 /// @returns an ExitCode. @throws InputError, results::WriteError.
 [[nodiscard]] int oil_command(const OilArguments& arguments);
 
-/// Tells what the model computes but hardly means, one a line on stderr.
+/// Prints warnings about a model that can be computed but is implausible, one a line on stderr.
 void warn(const std::vector<Fault>& warnings);
 
 struct InitArguments {
-  std::string model;  ///< which; empty: tells which there are
+  std::string model;  ///< name of the model; empty: the available ones are listed
   std::string name;   ///< of the file to write; empty: as the model
 };
 
@@ -179,12 +184,15 @@ struct ConvertArguments {
   bool in_place = false;
 };
 
-/// `hersey convert`: a model file of an earlier version as this one reads it. @returns an ExitCode. @throws InputError
-/// with what is wrong in what was written; std::runtime_error where it cannot be.
+/// `hersey convert`: converts a model file of an earlier version.
+/// @returns an ExitCode.
+/// @throws InputError with the faults of the written file; std::runtime_error if it cannot be written.
 [[nodiscard]] int convert_command(const ConvertArguments& arguments);
 
-/// `hersey explain`: prints what a key of the model file is, from the format itself. @param path  empty: the sections
-/// @returns an ExitCode. @throws InputError.
+/// `hersey explain`: prints the description of a key of the model file, from the format itself.
+/// @param path  empty: the sections
+/// @returns an ExitCode.
+/// @throws InputError.
 [[nodiscard]] int explain_command(const std::string& path);
 
 /// `hersey schema`: the model file's format, or that of results files. @returns an ExitCode.

@@ -23,7 +23,7 @@ int convert_command(const ConvertArguments& arguments) {
     write_file(arguments.output, {conversion.text});
   else if (!arguments.in_place)
     fmt::print("{}", conversion.text);
-  (void)model::read_text(conversion.text, file);  // tells what else is wrong
+  (void)model::read_text(conversion.text, file);  // reports the other faults
   return kOk;
 }
 

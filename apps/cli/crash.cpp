@@ -28,7 +28,7 @@ extern "C" void on_crash(int signal) {
 
 }  // namespace
 
-void tell_crashes_of_damaged_files() {
+void report_crashes_of_damaged_files() {
   static std::array<char, 65536> stack;  // the crash may be a stack that is full
   stack_t other{};
   other.ss_sp = stack.data();

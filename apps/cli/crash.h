@@ -2,8 +2,8 @@
 
 namespace hersey::cli {
 
-/// From now on a crash inside HDF5 while it reads a file without a checksum is told as what it is, a damaged file, with
-/// the exit code of wrong input. Other crashes stay crashes.
-void tell_crashes_of_damaged_files();
+/// Installs a handler that reports a crash inside HDF5, while it reads a file without a checksum, as a damaged file,
+/// with the exit code of wrong input. Other crashes stay crashes.
+void report_crashes_of_damaged_files();
 
 }  // namespace hersey::cli

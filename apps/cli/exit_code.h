@@ -2,7 +2,7 @@
 
 namespace hersey::cli {
 
-/// What the program returns to its caller; listed in `hersey --help`.
+/// Exit codes of the program; listed in `hersey --help`.
 enum ExitCode : int {
   kOk = 0,
   kFailed = 1,         ///< the simulation or its results file failed; what was written stays readable

@@ -10,7 +10,7 @@ namespace {
 void add_oil(CLI::App& app, Commands& commands) {
   const auto oil = std::make_shared<OilArguments>();
   CLI::App* command =
-      app.add_subcommand("oil", "Tell viscosity and density of an oil over temperature, pressure and shear rate");
+      app.add_subcommand("oil", "Print viscosity and density of an oil over temperature, pressure and shear rate");
   command
       ->add_option("oil", oil->oil,
                    "A grade such as iso_vg_46 or sae_5w30, or a model file, of several lubricants with the name of one")
@@ -58,7 +58,8 @@ void add_convert(CLI::App& app, Commands& commands) {
 
 void add_init(CLI::App& app, Commands& commands) {
   const auto init = std::make_shared<InitArguments>();
-  CLI::App* command = app.add_subcommand("init", "Write a commented model to begin with; alone: tell which there are");
+  CLI::App* command =
+      app.add_subcommand("init", "Write a commented model to begin with; alone: list the available ones");
   command->add_option("TEMPLATE", init->model, "bearing, rotor, big_end, engine, turbocharger or flexible_rod");
   command->add_option("NAME", init->name, "Name of the file to write (default: as the template)");
   commands.push_back({command, [init] { return init_command(*init); }});

@@ -22,13 +22,15 @@ constexpr std::size_t kMostWithLines = 12;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// In millimetres to 0.1 um: what is finer comes of where a mesh has its nodes.
+/// In millimetres to 0.1 um: finer differences come from the positions of a mesh's nodes.
 std::string in_mm(double length) {
   const double shown = std::round(1e3 * length * 1e4) / 1e4;
   return fmt::format("{:.6g}", shown == 0 ? 0.0 : shown);
 }
 
-std::string place_in_mm(const Vector3& x) { return fmt::format("{} {} {}", in_mm(x.x()), in_mm(x.y()), in_mm(x.z())); }
+std::string position_in_mm(const Vector3& x) {
+  return fmt::format("{} {} {}", in_mm(x.x()), in_mm(x.y()), in_mm(x.z()));
+}
 
 /// "z", "-x" or "0.6 0.8 0".
 std::string direction_text(const Vector3& axis) {
@@ -49,7 +51,7 @@ const char* use_of(const FoundSurface& surface) {
   return surface.use() == Use::journal ? "could be a journal" : "";
 }
 
-/// How a frame's z-axis, the bearing's, gets along the cylinder's.
+/// The rotation from a frame's z-axis, the bearing's, to the cylinder's.
 std::string rotation_to(const Vector3& axis) {
   const Vector3 about = Vector3::UnitZ().cross(axis);
   if (about.norm() < 1e-9) return "";
@@ -60,7 +62,8 @@ std::string rotation_to(const Vector3& axis) {
   return fmt::format(", rotation: {{axis: {} {} {}, angle: {:.7g} deg}}", unit.x(), unit.y(), unit.z(), angle);
 }
 
-/// A surface's own name where a key may be called so; names by place have numbers in them that read badly there.
+/// Returns a surface's own name if a key may be called so; names by position have numbers in them that are unsuitable
+/// there.
 std::string key_of(const FoundSurface& surface, std::size_t number) {
   const bool is_word = std::all_of(surface.name.begin(), surface.name.end(),
                                    [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
@@ -108,11 +111,11 @@ std::string found_text(const std::vector<FoundSurface>& found) {
     const std::string area = fmt::format("{:.5g}", 1e6 * surface.area);
     if (is_plane)
       lines.push_back({surface.name, kind_of(surface), "", "", "", area, direction_text(surface.axis),
-                       place_in_mm(surface.centre), ""});
+                       position_in_mm(surface.centre), ""});
     else
       lines.push_back({surface.name, kind_of(surface), in_mm(2 * surface.radius), in_mm(surface.width),
                        fmt::format("{:.0f} deg", surface.arc / kDegree), area, direction_text(surface.axis),
-                       place_in_mm(surface.centre), use_of(surface)});
+                       position_in_mm(surface.centre), use_of(surface)});
   }
   std::string text = aligned(lines, 6);
   if (left_out > 0) text += fmt::format("  and {} smaller ones, which --json lists\n", left_out);
@@ -129,7 +132,7 @@ std::string model_lines(const std::vector<FoundSurface>& found, const std::strin
     const std::size_t number = is_bore ? ++bores : ++journals;
     const std::string key = key_of(surface, number);
     frames += fmt::format("      {}: {{nodes: {}, origin: {} mm{}, connection: average}}\n", key, surface.name,
-                          place_in_mm(surface.centre), rotation_to(surface.axis));
+                          position_in_mm(surface.centre), rotation_to(surface.axis));
     bearings +=
         fmt::format("  {0}: {{{1}: part.{0}, {1}_surface: {{faces: {2}}}, diameter: {3} mm, width: {4} mm}}\n", key,
                     is_bore ? "shell" : "journal", surface.name, in_mm(2 * surface.radius), in_mm(surface.width));

@@ -15,7 +15,7 @@
 namespace hersey::cli {
 namespace {
 
-/// What follows "title: ".
+/// Text after "title: ".
 std::string title_of(std::string_view text) {
   constexpr std::string_view key = "\ntitle: ";
   const std::size_t at = text.find(key) + key.size();

@@ -17,7 +17,7 @@ namespace {
 // around it, which passes it on [ns].
 constexpr std::int64_t kTogether = 300'000'000;
 
-// How long computing may go on without looking at the flag [us].
+// longest time without a check of the flag [us]
 constexpr suseconds_t kPatience = 500'000;
 constexpr time_t kPatienceSeconds = 1;
 

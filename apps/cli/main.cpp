@@ -50,7 +50,7 @@ constexpr const char* kFooter =
     "  2    wrong usage or input, or results exist already (see --force); nothing was written\n"
     "  130  stopped by Ctrl-C; results up to then are complete and the report shows them\n";
 
-// What is wrong with the first word, if it is no command: "unknown command 'rnu': did you mean 'run'?".
+// Returns the message for a first word that is not a command: "unknown command 'rnu': did you mean 'run'?".
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string given = argc > 1 ? argv[1] : "";
   if (given.empty() || given.starts_with('-')) return {};
@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
   using namespace hersey;
   try {
     cli::open_standard_streams();
-    cli::tell_crashes_of_damaged_files();
+    cli::report_crashes_of_damaged_files();
     use_one_blas_thread();
     const int code = cli::dispatch(argc, argv);
     return cli::finish_standard_output() || code != cli::kOk ? code : static_cast<int>(cli::kFailed);

@@ -170,7 +170,7 @@ void refuse_cad_options(const MeshArguments& arguments) {
                   arguments.file + " has its elements already");
 }
 
-/// Where the mesh with its named surfaces goes: of a CAD file beside it, of a mesh nowhere unless asked for.
+/// Path of the mesh with its named surfaces: beside a CAD file; for a mesh, only on request.
 std::filesystem::path output_of(const MeshArguments& arguments) {
   std::filesystem::path output = arguments.output;
   if (output.empty() && is_cad_file(arguments.file))
@@ -186,11 +186,11 @@ std::filesystem::path output_of(const MeshArguments& arguments) {
 
 std::string cad_text(const MeshArguments& arguments, const CadOptions& options) {
   const bool is_brep = has_no_unit(arguments.file);
-  const std::string told = is_brep ? "" : unit_told_in(arguments.file);
+  const std::string stated = is_brep ? "" : unit_stated_in(arguments.file);
   std::string unit = "in the unit that it says";
-  if (!told.empty()) unit = "in " + told;
+  if (!stated.empty()) unit = "in " + stated;
   if (is_brep) unit = fmt::format("taken to be in {:.6g} mm (--length-unit)", 1e3 * options.length_unit);
-  return fmt::format("meshed    by gmsh: {}, {}; elements of {:.6g} mm, order {}, {} or more around a turn\n",
+  return fmt::format("meshed    by gmsh: {}, {}; elements of {:.6g} mm, order {}, {} or more around a circle\n",
                      arguments.file, unit, 1e3 * options.size, options.order, options.around);
 }
 
@@ -212,13 +212,13 @@ void print_found(const Mesh& mesh, const std::vector<fem::FoundSurface>& found, 
   if (!lines.empty()) fmt::print("\n{}", lines);
 }
 
-/// A mesh, from whatever file, with what its reader has to say.
+/// A mesh read from a file, with the messages of its reader.
 struct Loaded {
   Mesh mesh;
   std::vector<Fault> warnings, material_faults;
 };
 
-// Beams have no faces to name, and Gmsh's format tells them from marks by the absence of solids.
+// Beams have no faces to name, and Gmsh's format distinguishes them from marks by the absence of solids.
 void write_named(Mesh mesh, const std::vector<fem::FoundSurface>& found, const std::filesystem::path& output,
                  std::vector<Fault>& warnings) {
   for (const fem::Element& element : mesh.elements)

@@ -17,7 +17,7 @@ void add_parts(CLI::App* command, std::string& part, std::string& parts) {
 void add_mesh(CLI::App& app, Commands& commands) {
   const auto mesh = std::make_shared<MeshArguments>();
   CLI::App* command = app.add_subcommand(
-      "mesh", "Tell what a mesh holds, how good it is, its planes and possible bores; of a CAD file make it first");
+      "mesh", "Print the contents and quality of a mesh, its planes and possible bores; mesh a CAD file first");
   command
       ->add_option(
           "FILE", mesh->file,
@@ -32,7 +32,7 @@ void add_mesh(CLI::App& app, Commands& commands) {
   command->add_option("--order", mesh->order, "Of these elements, 1 or 2 (default: 2)")
       ->type_name("1|2")
       ->check(CLI::IsMember({1, 2}).description(""));
-  command->add_option("--around", mesh->around, "How many of them a full turn has at least (default: 16)")
+  command->add_option("--around", mesh->around, "How many of them a full circle has at least (default: 16)")
       ->check(CLI::Range(4, 1000));
   command->add_option("--time-limit", mesh->time_limit, "How long gmsh may take (default: 30min)")->type_name("10min");
   command
@@ -70,13 +70,14 @@ void add_reduce(CLI::App& app, Commands& commands) {
   command->add_option("--stiffness", reduce->stiffness, "Stiffness matrix of another program instead (.mtx, SI)")
       ->type_name("FILE");
   command->add_option("--mass", reduce->mass, "Mass matrix of another program (.mtx, SI)")->type_name("FILE");
-  command->add_option("--modes", reduce->modes, "Modes with all frames held, at most (default: 20)")
+  command->add_option("--modes", reduce->modes, "Modes with all frames fixed, at most (default: 20)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--highest", reduce->highest, "Modes up to this frequency only")->type_name("5000Hz");
   repeatable(
       command
-          ->add_option("--load", reduce->loads,
-                       "Surface or node set that carries load: tells how well the modes meet its static displacement")
+          ->add_option(
+              "--load", reduce->loads,
+              "Surface or node set that carries load: prints how well the modes reproduce its static displacement")
           ->type_name("SET"));
   command
       ->add_option("--harmonics", reduce->harmonics,
@@ -115,7 +116,7 @@ CLI::App* add_solid_command(CLI::App& app, const char* name, const char* descrip
 void add_modes(CLI::App& app, Commands& commands) {
   const auto solid = std::make_shared<SolidArguments>();
   CLI::App* command =
-      add_solid_command(app, "modes", "Natural frequencies and shapes of an elastic body, free or held", *solid);
+      add_solid_command(app, "modes", "Natural frequencies and shapes of an elastic body, free or supported", *solid);
   command->add_option("--count", solid->count, "How many modes, rigid ones included (default: 10)")
       ->check(CLI::Range(1, 1000));
   commands.push_back({command, [solid] { return modes_command(*solid); }});

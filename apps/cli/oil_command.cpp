@@ -115,7 +115,7 @@ bool depends_on_pressure(const film::Lubricant& oil) {
   return !std::holds_alternative<film::ConstantViscosity>(oil.viscosity_law);
 }
 
-/// Where the oil is looked at.
+/// Conditions at which the oil is evaluated.
 struct Conditions {
   std::vector<double> temperatures, pressures, shear_rates;  // [K, Pa, 1/s]
 };
@@ -139,7 +139,7 @@ Conditions conditions_of(const OilArguments& arguments, const NamedOil& named) {
   return at;
 }
 
-/// What the oil is in one place.
+/// Properties of the oil at one condition.
 struct OilAt {
   double T = 0, p = 0, rate = 0, mu = 0, density = 0;
   [[nodiscard]] double kinematic() const { return mu / density; }
@@ -181,14 +181,14 @@ std::vector<std::vector<std::string>> oil_table(const NamedOil& named, const Con
   return lines;
 }
 
-nlohmann::json oil_json(const NamedOil& named, const Conditions& at, const std::vector<std::string>& doubts) {
+nlohmann::json oil_json(const NamedOil& named, const Conditions& at, const std::vector<std::string>& warnings) {
   nlohmann::json document{{"name", named.name},
                           {"source", named.source},
                           {"laws", nlohmann::json::object()},
                           {"rows", nlohmann::json::array()}};
   for (const auto& [name, text] : run::oil_assumptions(named.oil)) document["laws"][name] = text;
   if (!named.points.empty()) document["points"] = named.points;
-  if (!doubts.empty()) document["warnings"] = doubts;
+  if (!warnings.empty()) document["warnings"] = warnings;
   for (const double T : at.temperatures)
     for (const double p : at.pressures)
       for (const double rate : at.shear_rates) {
@@ -205,19 +205,19 @@ nlohmann::json oil_json(const NamedOil& named, const Conditions& at, const std::
 
 constexpr int points_of_a_line = 121;
 
-/// Viscosity in mPa s over one variable, `at` places 0 to 1 of its way.
-template <class Place>
-report::CurveLine line(const NamedOil& named, std::string label, Place&& at) {
+/// Viscosity in mPa s over one variable; `at` maps 0 to 1 to its range.
+template <class StateAt>
+report::CurveLine line(const NamedOil& named, std::string label, StateAt&& at) {
   report::CurveLine curve{std::move(label), {}, {}};
   for (int k = 0; k < points_of_a_line; ++k) {
-    const auto [x, place] = at(static_cast<double>(k) / (points_of_a_line - 1));
+    const auto [x, state] = at(static_cast<double>(k) / (points_of_a_line - 1));
     curve.x.push_back(x);
-    curve.y.push_back(1e3 * oil_at(named.oil, place.T, place.p, place.rate).mu);
+    curve.y.push_back(1e3 * oil_at(named.oil, state.T, state.p, state.rate).mu);
   }
   return curve;
 }
 
-/// Up to six of the temperatures, evenly: as many as can be told apart.
+/// Up to six of the temperatures, evenly: as many curves as can be distinguished.
 std::vector<double> some_of(const std::vector<double>& all) {
   constexpr std::size_t most = 5;
   if (all.size() <= most) return all;
@@ -285,15 +285,16 @@ report::CurvePage oil_page(const NamedOil& named, const Conditions& at) {
   return page;
 }
 
-std::vector<std::string> oil_doubts(const NamedOil& named, const Conditions& at) {
-  std::vector<std::string> doubts;
+std::vector<std::string> oil_warnings(const NamedOil& named, const Conditions& at) {
+  std::vector<std::string> warnings;
   for (const double T : at.temperatures)
-    if (std::string doubt = model::doubt_at(named.validity, T); !doubt.empty()) doubts.push_back(std::move(doubt));
+    if (std::string warning = model::temperature_warning(named.validity, T); !warning.empty())
+      warnings.push_back(std::move(warning));
   for (const double p : at.pressures)
     if (p > named.validity.p_high)
-      doubts.push_back(fmt::format("{} is above {}, the end of its table: viscosities are extrapolated",
-                                   pressure_text(p), pressure_text(named.validity.p_high)));
-  return doubts;
+      warnings.push_back(fmt::format("{} is above {}, the end of its table: viscosities are extrapolated",
+                                     pressure_text(p), pressure_text(named.validity.p_high)));
+  return warnings;
 }
 
 std::string oil_text(const NamedOil& named, const Conditions& at) {
@@ -310,13 +311,13 @@ int oil_command(const OilArguments& arguments) {
   const NamedOil named = oil_of(arguments);
   require_separate({{"--report", arguments.report}}, named.files);
   const Conditions at = conditions_of(arguments, named);
-  const std::vector<std::string> doubts = oil_doubts(named, at);
+  const std::vector<std::string> warnings = oil_warnings(named, at);
   if (arguments.json) {
-    fmt::print("{}\n", oil_json(named, at, doubts).dump(2));
+    fmt::print("{}\n", oil_json(named, at, warnings).dump(2));
   } else {
     fmt::print("{}", oil_text(named, at));
   }
-  for (const std::string& doubt : doubts) say("warning: {}: {}\n", named.name, doubt);
+  for (const std::string& warning : warnings) say("warning: {}: {}\n", named.name, warning);
   if (arguments.report.empty()) return kOk;
   report::write_html(oil_page(named, at), arguments.report);
   if (!arguments.json) fmt::print("report: {}\n", arguments.report.string());

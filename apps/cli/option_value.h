@@ -12,7 +12,7 @@ namespace hersey::cli {
 /// Metres in the unit given to --length-unit: "mm" is one millimetre, "25.4 mm" an inch. @throws InputError
 [[nodiscard]] double length_unit(const std::string& text);
 
-/// What --parts says: one or apart.
+/// Value of --parts: one or apart.
 [[nodiscard]] inline fem::Parts parts_of(const std::string& text) {
   return text == "apart" ? fem::Parts::apart : fem::Parts::one;
 }

@@ -26,14 +26,14 @@ std::string contents(const model::Model& model, std::size_t runs) {
                      runs == 1 ? "run" : "runs");
 }
 
-/// Of the model and of its start.
+/// Warnings of the model and of its start.
 std::vector<Fault> warnings_of(const model::Model& model) {
   std::vector<Fault> warnings = model.warnings;
   for (Fault& warning : run::check(model)) warnings.push_back(std::move(warning));
   return warnings;
 }
 
-/// Runs of a study share most of what there is to say.
+/// Adds warnings that are new: runs of a study share most of them.
 void add_new(const std::vector<Fault>& more, std::vector<Fault>& warnings) {
   for (const Fault& warning : more) {
     const bool known = std::any_of(warnings.begin(), warnings.end(),
@@ -57,11 +57,11 @@ void require_names(const ReportArguments& arguments) {
       throw InputError(Fault{{"--names", 0, 0},
                              "",
                              name->empty() ? "an empty name" : "'" + *name + "' twice",
-                             "names that tell the runs from each other",
+                             "names that distinguish the runs",
                              ""});
 }
 
-/// Those of a study that writes them out; of any other its parameters are checked.
+/// Runs of a study that lists them; for any other study its parameters are checked.
 std::vector<model::StudyRun> runs_of(const model::Model& model, const CheckArguments& arguments) {
   if (!model.study || model.study->is_written_out()) return model::expand_study(arguments.model, arguments.overrides);
   (void)model::check_study(arguments.model, arguments.overrides);

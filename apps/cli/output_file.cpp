@@ -7,11 +7,11 @@
 namespace hersey::cli {
 namespace {
 
-/// The place of a file, links followed, that need not be there yet.
-std::filesystem::path place_of(const std::filesystem::path& file) {
+/// Canonical path of a file, links followed, that need not exist yet.
+std::filesystem::path canonical_path(const std::filesystem::path& file) {
   std::error_code error;
-  std::filesystem::path place = std::filesystem::weakly_canonical(file, error);
-  return error ? file : place;
+  std::filesystem::path path = std::filesystem::weakly_canonical(file, error);
+  return error ? file : path;
 }
 
 }  // namespace
@@ -28,10 +28,10 @@ void require_separate(const std::vector<OutputFile>& outputs, const std::vector<
       faults.push_back({{"", 0, 0}, option, "'" + path.string() + "', which is " + other, "a file of its own", ""});
     };
     for (const std::filesystem::path& input : inputs) {
-      // By its number on the disk: hard links are one file at two places.
+      // Files are compared by their number on the disk: hard links are one file under two paths.
       if (std::filesystem::equivalent(path, input, missing)) refuse("read as '" + input.string() + "'");
     }
-    const auto [other, is_new] = written.try_emplace(place_of(path), option);
+    const auto [other, is_new] = written.try_emplace(canonical_path(path), option);
     if (!is_new) refuse("written by " + other->second + " too");
   }
   if (!faults.empty()) throw InputError(std::move(faults));

@@ -14,8 +14,8 @@ struct OutputFile {
   std::filesystem::path path;  ///< empty: it is not asked for
 };
 
-/// Refuses to write over what is read, under whatever name: by another way, a symbolic or a hard link; or to write two
-/// things into one file.
+/// Refuses to overwrite an input file, under whatever name (another path, a symbolic or a hard link), or to write two
+/// outputs into one file.
 /// @throws InputError naming option and file.
 void require_separate(const std::vector<OutputFile>& outputs, const std::vector<std::filesystem::path>& inputs);
 

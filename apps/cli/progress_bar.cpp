@@ -28,7 +28,7 @@ std::string remaining(double share, double elapsed) {
   return fmt::format("{:02d}:{:02d}", seconds / 60, seconds % 60);
 }
 
-// The most wanted first: a narrow terminal shows as many as leave room for the bar.
+// The most important first: a narrow terminal shows as many as leave room for the bar.
 std::vector<std::string> figures(const run::Progress& progress, double share) {
   std::vector<std::string> texts{fmt::format("{:3.0f} %", 100 * share), "left " + remaining(share, progress.elapsed),
                                  fmt::format("t {:.5g} s", progress.t)};

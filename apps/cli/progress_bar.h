@@ -8,8 +8,8 @@
 
 namespace hersey::cli {
 
-/// One line on stderr that tells how far a run has come: share, time, step, Newton iterations, smallest film so far and
-/// the time left. On a terminal it is redrawn in place; otherwise a line is printed every ten seconds.
+/// One line on stderr with the progress of a run: share, time, step, Newton iterations, smallest film so far and the
+/// time left. On a terminal it is redrawn in the same line; otherwise a line is printed every ten seconds.
 class ProgressBar {
  public:
   ProgressBar();

@@ -71,7 +71,7 @@ double constant(const char* option, const std::string& given, const std::optiona
   return *in_file;
 }
 
-// One material for each of the mesh file's; what the command line gives holds for all of them.
+// One material for each of the mesh file's; values from the command line hold for all of them.
 std::vector<fem::SolidMaterial> materials_of(const Mesh& mesh, const ReduceArguments& arguments) {
   std::vector<fem::MeshMaterial> in_file = mesh.materials;
   if (in_file.empty()) in_file.emplace_back();
@@ -164,7 +164,7 @@ void print(const fem::ElasticBody& body, const fem::ReducedBody& reduced, const 
   std::vector<std::string> frequencies;
   for (const double omega : reduced.internal_omega)
     frequencies.push_back(fmt::format("{:.5g}", omega / (2 * std::numbers::pi)));
-  fmt::print("modes     {} with all frames held [Hz]: {}\n", frequencies.size(), fmt::join(frequencies, ", "));
+  fmt::print("modes     {} with all frames fixed [Hz]: {}\n", frequencies.size(), fmt::join(frequencies, ", "));
   print_static_errors(reduced);
   fmt::print("reduced   {} coordinates: {}\n", reduced.size(), output.string());
 }

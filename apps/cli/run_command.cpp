@@ -38,12 +38,12 @@ std::filesystem::path output_folder(const RunArguments& arguments) {
 
 void refuse_existing(const Paths& files, bool force) {
   for (const std::filesystem::path& file : files) {
-    results::require_idle(file);  // one that is being written is not there to be replaced, nor to be gone on with
+    results::require_idle(file);  // a file that is being written can neither be replaced nor resumed
     if (!force && std::filesystem::exists(file)) throw results::FileExists(file);
   }
 }
 
-/// All that a run may write must be none of what the model reads.
+/// Refuses outputs of a run that are inputs of the model.
 void require_own_files(const model::Model& model, const std::filesystem::path& folder, const Paths& results) {
   std::vector<OutputFile> outputs{{"--output", folder / "report.html"}};
   for (const std::filesystem::path& file : results) {
@@ -83,7 +83,7 @@ int exit_code(const study::RunResult& result) {
   return kFailed;
 }
 
-// Of what has one in `runs`; the rows of `summary` name their own.
+// Units of the values in `runs`; the rows of `summary` name their own.
 nlohmann::json units_of_runs() {
   const nlohmann::json errors{
       {"moft", "m"}, {"pofp", "Pa"}, {"max_force", "N"}, {"mean_power", "W"}, {"mean_flow", "m^3/s"}};
@@ -120,7 +120,7 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
   return code;
 }
 
-void tell(const run::CycleProgress& cycle) {
+void report(const run::CycleProgress& cycle) {
   if (std::isfinite(cycle.change)) {
     say("cycle {}: {:.2g} % ({})\n", cycle.number, 100 * cycle.change, cycle.largest);
   } else {
@@ -128,8 +128,8 @@ void tell(const run::CycleProgress& cycle) {
   }
 }
 
-// Where energy has come from nowhere or gone nowhere, the motion is that of no machine.
-void tell_doubts(const std::string& name, const run::EnergySummary& energy) {
+// If energy is gained without a source or lost without a sink, the motion is not that of a physical machine.
+void report_energy_error(const std::string& name, const run::EnergySummary& energy) {
   constexpr double kMostUnexplained = 0.2;
   if (!(energy.error() > kMostUnexplained)) return;
   say("warning: {}{:.2g} J, {:.0f} % of the energy at the start and put in since, is neither stored nor lost anywhere: "
@@ -137,11 +137,11 @@ void tell_doubts(const std::string& name, const run::EnergySummary& energy) {
       name, energy.unexplained(), 100 * energy.error());
 }
 
-void tell(const std::string& label, const run::Summary& summary) {
+void report(const std::string& label, const run::Summary& summary) {
   const std::string name = label.empty() ? "" : label + ": ";
-  tell_doubts(name, summary.energy);
+  report_energy_error(name, summary.energy);
   for (const run::BearingSummary& bearing : summary.bearings)
-    for (const std::string& doubt : bearing.doubts) say("warning: {}bearing {}, {}\n", name, bearing.name, doubt);
+    for (const std::string& warning : bearing.warnings) say("warning: {}bearing {}, {}\n", name, bearing.name, warning);
   for (const run::BearingSummary& bearing : summary.bearings)
     if (label.empty() && !bearing.cavitated_shear.empty())
       say("bearing {}: {}\n", bearing.name, bearing.cavitated_shear);
@@ -155,7 +155,7 @@ void tell(const std::string& label, const run::Summary& summary) {
   } else {
     const std::string rejected =
         summary.rejected_steps > 0 ? fmt::format(" ({} more rejected)", summary.rejected_steps) : "";
-    // Of a run of a study its cost in short; that of a single run follows at length.
+    // The cost of a run in a study is printed in short; that of a single run follows in detail.
     const std::string cost =
         !label.empty() && summary.steps > 0
             ? fmt::format(", {:.3g} ms per step, Newton iterations {:g} (median)",
@@ -170,8 +170,8 @@ std::string text_of(const run::PerStep& figures) {
   return fmt::format("median {:g}, mean {:.1f}, most {}", figures.median, figures.mean, figures.most);
 }
 
-// Where the time went, largest shares first, and what it took to bring films and bodies together.
-void tell_work(const run::Summary& summary) {
+// Reports the shares of the computing time, largest first, and the work of coupling films and bodies.
+void report_work(const run::Summary& summary) {
   const run::Work& work = summary.work;
   if (summary.steps == 0 || work.stepping <= 0) return;
   say("{:.3g} ms per step after {:.2f} s of start-up; Newton iterations per step: {}\n",
@@ -185,14 +185,14 @@ void tell_work(const run::Summary& summary) {
     if (percent >= 0.1) shares += fmt::format("{}{} {:.1f} %", shares.empty() ? "" : ", ", part.name, percent);
   }
   say("share of time: {}\n", shares);
-  // Of many films those that took the most.
-  constexpr std::size_t kMostTold = 3;
+  // Only the films with the most iterations are reported.
+  constexpr std::size_t kMostReported = 3;
   std::vector<run::CouplingWork> couplings = work.couplings;
   std::stable_sort(couplings.begin(), couplings.end(), [](const run::CouplingWork& a, const run::CouplingWork& b) {
     return a.film_iterations.mean > b.film_iterations.mean;
   });
-  if (couplings.size() > kMostTold + 1)
-    couplings.resize(kMostTold);
+  if (couplings.size() > kMostReported + 1)
+    couplings.resize(kMostReported);
   else
     couplings = work.couplings;
   for (const run::CouplingWork& coupling : couplings) {
@@ -225,22 +225,22 @@ int run_one(const RunArguments& arguments, const std::filesystem::path& folder) 
   };
   options.on_cycle = [&](const run::CycleProgress& cycle) {
     bar.clear();
-    tell(cycle);
+    report(cycle);
   };
   warn(run::check(model));
   make_folder(folder);
   const run::Summary summary = run::simulate(model, options);
   interrupt_is_heeded();
   bar.clear();
-  tell("", summary);
-  tell_work(summary);
+  report("", summary);
+  report_work(summary);
   return close(arguments, folder, {options.results}, {summary}, exit_code(summary.status));
 }
 
-/// What several runs of a study share is told with the first of them.
-void tell_once(const std::string& run, const std::vector<Fault>& warnings, std::set<std::string>& told) {
+/// Warnings that several runs of a study share are printed with the first of them.
+void report_once(const std::string& run, const std::vector<Fault>& warnings, std::set<std::string>& reported) {
   for (const Fault& warning : warnings) {
-    if (const std::string text = warning.text(); told.insert(text).second) say("warning: {}: {}\n", run, text);
+    if (const std::string text = warning.text(); reported.insert(text).second) say("warning: {}: {}\n", run, text);
   }
 }
 
@@ -262,11 +262,11 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
 
   ProgressBar bar;
   std::size_t finished = 0;
-  std::set<std::string> told;
-  for (const Fault& warning : model.warnings) told.insert(warning.text());
+  std::set<std::string> reported;
+  for (const Fault& warning : model.warnings) reported.insert(warning.text());
   options.on_warnings = [&](std::size_t i, const std::vector<Fault>& warnings) {
     bar.clear();
-    tell_once(runs[i].label, warnings, told);
+    report_once(runs[i].label, warnings, reported);
   };
   options.on_progress = [&](std::size_t i, const run::Progress& progress) {
     note_step();
@@ -277,7 +277,7 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
     bar.clear();
     const std::string label = fmt::format("{}/{} {}", finished, runs.size(), runs[i].label);
     if (result.solved()) {
-      tell(label, result.summary);
+      report(label, result.summary);
     } else {
       say("hersey: {}: {}\n", label, result.message);
     }

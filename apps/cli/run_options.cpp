@@ -110,11 +110,12 @@ void add_bearing(CLI::App& app, Commands& commands) {
   command->add_flag("--json", bearing->json, "Print every figure as JSON");
   command->add_flag("--no-grid-error", bearing->no_grid_error, "Leave out the estimate of the grid's error");
   command->add_flag("--sensitivity", bearing->sensitivity,
-                    "Tell how every figure follows load, speed, size, clearance, viscosity and supplies");
-  repeatable(command
-                 ->add_option("--sensitivity-to", bearing->sensitivity_to,
-                              "Tell how every figure follows a key of the file: bearings.main.asperities.roughness")
-                 ->type_name("KEY"));
+                    "Print the derivatives of every figure by load, speed, size, clearance, viscosity and supplies");
+  repeatable(
+      command
+          ->add_option("--sensitivity-to", bearing->sensitivity_to,
+                       "Print the derivatives of every figure by a key of the file: bearings.main.asperities.roughness")
+          ->type_name("KEY"));
   command
       ->add_option("--thermal-coefficients", bearing->thermal_coefficients,
                    "Stiffness and damping with temperatures as they are (frozen, the default) or as they follow the "

@@ -13,7 +13,7 @@ using report::SummaryRow;
 using Lines = std::vector<std::vector<std::string>>;
 
 constexpr std::size_t kScreen = 40;        // lines of the whole table that may stay as they are
-constexpr std::size_t kMostBearings = 10;  // told line by line
+constexpr std::size_t kMostBearings = 10;  // reported line by line
 constexpr std::size_t kMostOthers = 10;
 
 /// A figure of bearings of which the smallest or the largest is the worst.
@@ -71,7 +71,7 @@ std::string worst_text(const std::vector<SummaryRow>& rows) {
   Lines lines;
   for (const FigureKind& kind : kKinds) {
     const SummaryRow* row = worst(rows, kind);
-    // A loss in contact that no bearing has is none to tell.
+    // A contact loss that no bearing has is not reported.
     if (row == nullptr || (row->value == 0 && !kind.is_least_worst)) continue;
     lines.push_back({kind.name, figure_text(row->value), row->unit, row->group, row->where});
   }

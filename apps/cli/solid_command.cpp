@@ -22,7 +22,7 @@ namespace {
 
 constexpr double megapascal = 1e6, millimetre = 1e-3;
 
-/// What went wrong in the numbers, on stderr.
+/// Prints a numerical failure on stderr.
 int fail(const std::string& message) {
   say("hersey: {}\n", message);
   return kFailed;
@@ -58,7 +58,7 @@ void print_modes(const SolidArguments& arguments, const fem::ElasticBody& body, 
   if (arguments.hold.empty())
     fmt::print("free      {} rigid motions\n\n", modes.rigid);
   else
-    fmt::print("held      at {}\n\n", fmt::join(arguments.hold, ", "));
+    fmt::print("supported at {}\n\n", fmt::join(arguments.hold, ", "));
   std::vector<std::vector<std::string>> lines = {{"mode", "frequency/Hz", ""}};
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k)
     lines.push_back({fmt::format("{}", k + 1), fmt::format("{:.5g}", modes.omega[k] / (2 * std::numbers::pi)),
@@ -66,7 +66,7 @@ void print_modes(const SolidArguments& arguments, const fem::ElasticBody& body, 
   fmt::print("{}", aligned(lines, 2));
 }
 
-/// What `stress` tells.
+/// Results of `stress`.
 struct StressResult {
   fem::StaticSolution solution;
   fem::Stress stress;
@@ -120,7 +120,8 @@ nlohmann::json json_of(const fem::ElasticBody& body, const SolidHeat& heat) {
 int modes_command(const SolidArguments& arguments) {
   require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
   const fem::ElasticBody body = solid_of(arguments, true);
-  const fem::Vibration modes = fem::natural_modes(body, held_of(arguments, body.mesh), {.count = arguments.count});
+  const fem::Vibration modes =
+      fem::natural_modes(body, fixed_dofs_of(arguments, body.mesh), {.count = arguments.count});
   if (!modes.solved()) return fail(modes.message);
   if (!arguments.vtu.empty()) write_modes(arguments, body, modes);
   if (!arguments.json) {
@@ -147,7 +148,7 @@ int stress_command(const SolidArguments& arguments) {
   Eigen::VectorXd f = loads_of(arguments, body);
   if (result.heat) f += fem::expansion_load(body, result.heat->materials, result.heat->rise);
   std::vector<fem::Support> supports;
-  for (const int dof : held_of(arguments, body.mesh)) supports.push_back({dof, 0});
+  for (const int dof : fixed_dofs_of(arguments, body.mesh)) supports.push_back({dof, 0});
   result.solution = fem::solve_static(body, supports, f);
   if (!result.solution.held)
     throw InputError(Fault{{"", 0, 0}, "--hold", result.solution.message, "sets that leave no motion free", ""});

@@ -23,8 +23,9 @@ struct SolidHeat {
   std::vector<Leaving> leaving;
 };
 
-/// The temperatures that --temperature, --cooling and --heat make by steady conduction; none where no option speaks of
-/// heat. @throws InputError: constants that are missing, unknown surfaces, heat that has nowhere to go
+/// Returns the temperatures that --temperature, --cooling and --heat cause by steady conduction; none if no option
+/// concerns heat.
+/// @throws InputError: constants that are missing, unknown surfaces, heat without a path to the surroundings
 [[nodiscard]] std::optional<SolidHeat> heat_of(const SolidArguments& arguments, const fem::ElasticBody& body);
 
 }  // namespace hersey::cli

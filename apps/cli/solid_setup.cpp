@@ -59,7 +59,7 @@ fem::SolidMaterial material_of(const SolidArguments& a, const fem::MeshMaterial&
   return fem::isotropic(material);
 }
 
-/// All that is missing at once, so that it is asked for once.
+/// All missing constants are reported at once.
 void require_constants(const SolidArguments& a, const std::vector<fem::MeshMaterial>& materials, bool needs_mass) {
   std::vector<Fault> faults;
   const auto need = [&](const char* option, const std::string& given, const char* expected, auto member) {
@@ -126,8 +126,8 @@ fem::ElasticBody solid_of(const SolidArguments& arguments, bool needs_mass) {
   return fem::assemble(std::move(mesh), std::move(materials));
 }
 
-std::vector<int> held_of(const SolidArguments& arguments, const fem::Mesh& mesh) {
-  std::vector<int> held;
+std::vector<int> fixed_dofs_of(const SolidArguments& arguments, const fem::Mesh& mesh) {
+  std::vector<int> fixed;
   for (const std::string& text : arguments.hold) {
     const std::size_t colon = mesh.node_sets.count(text) ? std::string::npos : text.rfind(':');
     std::array<bool, 3> axes = {true, true, true};
@@ -140,9 +140,9 @@ std::vector<int> held_of(const SolidArguments& arguments, const fem::Mesh& mesh)
     }
     const std::vector<int>& nodes = named(mesh.node_sets, text.substr(0, colon), "--hold", "set of nodes");
     const std::vector<int> dofs = fem::dofs_of(nodes, axes);
-    held.insert(held.end(), dofs.begin(), dofs.end());
+    fixed.insert(fixed.end(), dofs.begin(), dofs.end());
   }
-  return held;
+  return fixed;
 }
 
 Eigen::VectorXd loads_of(const SolidArguments& arguments, const fem::ElasticBody& body) {

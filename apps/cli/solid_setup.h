@@ -14,7 +14,7 @@ namespace hersey::cli {
 [[nodiscard]] fem::ElasticBody solid_of(const SolidArguments& arguments, bool needs_mass);
 
 /// Degrees of freedom that --hold names. @throws InputError naming an unknown set or axis
-[[nodiscard]] std::vector<int> held_of(const SolidArguments& arguments, const fem::Mesh& mesh);
+[[nodiscard]] std::vector<int> fixed_dofs_of(const SolidArguments& arguments, const fem::Mesh& mesh);
 
 /// Nodal forces (3 n) of --pressure and --gravity. @throws InputError: an unknown surface, a value that is none, no
 /// load at all

@@ -8,13 +8,13 @@
 
 namespace hersey::cli {
 
-/// Opens those of the descriptors 0, 1 and 2 on nothing that the caller has closed. Else the next file opened would get
-/// one of them, and what is printed would go into it. Call it before anything is opened.
-/// @throws std::system_error where there is no /dev/null.
+/// Opens closed standard descriptors (0, 1, 2) on /dev/null. Otherwise the next file opened would get one of them, and
+/// printed text would go into it. To be called before any file is opened.
+/// @throws std::system_error if there is no /dev/null
 void open_standard_streams();
 
-/// Prints a message for the user on standard error. Where nobody can read it (a pipe whose reader has gone, a terminal
-/// that is closed, a full disk) it is lost, and work goes on.
+/// Prints a message for the user on standard error. If it cannot be read (a pipe whose reader has ended, a closed
+/// terminal, a full disk) it is lost, and the program continues.
 template <class... T>
 void say(fmt::format_string<T...> format, T&&... arguments) {
   try {
@@ -24,8 +24,8 @@ void say(fmt::format_string<T...> format, T&&... arguments) {
   }
 }
 
-/// Puts the rest of standard output out. @returns false, and says so, if it was lost to anything but a reader that has
-/// seen enough.
+/// Flushes standard output.
+/// @returns false, with a message, if it was lost for any reason but a reader that has ended
 [[nodiscard]] bool finish_standard_output();
 
 }  // namespace hersey::cli

@@ -37,7 +37,7 @@ struct StudyTaskArguments {
   std::string model;
   std::vector<std::string> overrides;  ///< of all runs
   std::string analysis = "steady";     ///< or simulation
-  std::vector<std::string> outputs;    ///< figures wanted beside those that are always told
+  std::vector<std::string> outputs;    ///< figures requested besides those that are always reported
   bool end_with_parent = false;
 };
 

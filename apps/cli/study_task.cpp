@@ -33,7 +33,7 @@ namespace {
 
 using nlohmann::json;
 
-// One line at once: what is appended to a file by several tasks keeps its lines whole.
+// Writes one line at once: several tasks append to one file, and its lines must stay whole.
 void answer(const json& line) {
   const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   for (std::size_t done = 0; done < text.size();) {
@@ -44,7 +44,7 @@ void answer(const json& line) {
   }
 }
 
-/// Does runs and answers them; what figures are is told once, before the first that has them.
+/// Computes runs and writes their answers; the description of a figure is written once, before its first value.
 class Task {
  public:
   explicit Task(const StudyTaskArguments& arguments)
@@ -86,7 +86,8 @@ class Task {
   void add(const std::string& key, double in_si, const std::string& name, const std::string& unit,
            const std::string& si_unit, double size) {
     figures_[key] = std::isfinite(in_si) ? json(in_si) : json();
-    if (told_.insert(key).second) news_[key] = {{"name", name}, {"unit", unit}, {"si_unit", si_unit}, {"si", size}};
+    if (described_.insert(key).second)
+      news_[key] = {{"name", name}, {"unit", unit}, {"si_unit", si_unit}, {"si", size}};
   }
 
   void solve(const model::StudyRun& run, const json& request, json& reply) {
@@ -95,12 +96,12 @@ class Task {
       for (const study::BearingFigure& figure : study::figures_of(solution))
         add("bearings." + name + "." + figure.key, figure.words.empty() ? figure.value * figure.si : NAN, figure.name,
             figure.unit, figure.si_unit, figure.si);
-      if (!solution.doubts.empty()) reply["doubts"] = solution.doubts;
+      if (!solution.warnings.empty()) reply["doubts"] = solution.warnings;
       if (request.contains("slopes")) add_slopes(name, solution, request.at("slopes"), reply);
     }
   }
 
-  // How the figures that are asked for follow the parameters: figure in SI over the parameter's own unit.
+  // Adds the derivatives of the requested figures by the parameters: figure in SI over the parameter's own unit.
   void add_slopes(const std::string& bearing, const study::BearingSolution& solution, const json& parameters,
                   json& reply) {
     if (!study::are_sensitivities_exact(solution)) {
@@ -169,7 +170,7 @@ class Task {
   const StudyTaskArguments& arguments_;
   study::RunSolver solver_;
   std::vector<std::string> bearings_;
-  std::set<std::string> told_;
+  std::set<std::string> described_;
   json figures_ = json::object(), news_ = json::object();
 };
 

@@ -40,7 +40,7 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines, std::siz
   return text;
 }
 
-// What the closing table calls a group of rows (report::SummaryRow::group).
+// Name of a group of rows in the summary table (report::SummaryRow::group).
 std::string heading_of(const SummaryRow& row) {
   if (row.group == "run") return row.run;
   if (row.group == "modes") return "small motions";

@@ -15,10 +15,10 @@ inline constexpr const char* kModelIdentifier = "hersey_fmu";
 [[nodiscard]] std::string description_xml(const model::Model& model, const Variables& variables, int version);
 
 /// Exponents of kg, m, s, A, K, mol, cd, rad in an SI unit, "N.m.s/rad".
-/// @returns false where the text is none
+/// @returns false if the text is not a unit
 bool exponents_of(const std::string& unit, int (&exponents)[8]);
 
-/// documentation/index.html: what the model is, its variables, and how time goes in it.
+/// Returns documentation/index.html: the model, its variables, and the treatment of time.
 [[nodiscard]] std::string documentation_html(const model::Model& model, const Variables& variables, int version);
 
 }  // namespace hersey::fmu

@@ -24,7 +24,7 @@ struct Component {
 };
 
 struct State {
-  std::unique_ptr<InstanceState> held;
+  std::unique_ptr<InstanceState> state;
   std::vector<unsigned char> bytes;  ///< serialised when its size was asked for
 };
 
@@ -86,12 +86,12 @@ HERSEY_EXPORT const char* fmi2GetVersion() { return "2.0"; }
 HERSEY_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                                             const fmi2CallbackFunctions* callbacks, fmi2Boolean /*visible*/,
                                             fmi2Boolean logging) {
-  // Without a logger nobody is told anything.
-  const fmi2CallbackFunctions told = callbacks != nullptr ? *callbacks : fmi2CallbackFunctions{};
+  // Without a logger no messages are sent.
+  const fmi2CallbackFunctions given = callbacks != nullptr ? *callbacks : fmi2CallbackFunctions{};
   const std::string own_name = name != nullptr ? name : "";
-  const auto log = [told, own_name](CallStatus outcome, const char* category, const std::string& message) {
-    if (told.logger == nullptr) return;
-    told.logger(told.componentEnvironment, own_name.c_str(), status_of(outcome), category, escaped(message).c_str());
+  const auto log = [given, own_name](CallStatus outcome, const char* category, const std::string& message) {
+    if (given.logger == nullptr) return;
+    given.logger(given.componentEnvironment, own_name.c_str(), status_of(outcome), category, escaped(message).c_str());
   };
   try {
     if (own_name.empty()) throw std::runtime_error("an instance without a name");
@@ -184,7 +184,7 @@ HERSEY_EXPORT fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* 
     if (outcome != CallStatus::ok) return outcome;
     if (*state == nullptr) *state = new State;
     auto& kept = *static_cast<State*>(*state);
-    kept.held = std::move(saved);
+    kept.state = std::move(saved);
     kept.bytes.clear();
     return CallStatus::ok;
   });
@@ -192,7 +192,7 @@ HERSEY_EXPORT fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate* 
 HERSEY_EXPORT fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state) {
   return with(component, [&](Component& one) {
     if (state == nullptr) return one.instance->error("no state to restore");
-    return one.instance->restore(*static_cast<State*>(state)->held);
+    return one.instance->restore(*static_cast<State*>(state)->state);
   });
 }
 HERSEY_EXPORT fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate* state) {
@@ -206,7 +206,7 @@ HERSEY_EXPORT fmi2Status fmi2SerializedFMUstateSize(fmi2Component component, fmi
   return with(component, [&](Component& one) {
     if (state == nullptr || size == nullptr) return one.instance->error("no state to serialise");
     auto& kept = *static_cast<State*>(state);
-    if (kept.bytes.empty()) kept.bytes = hersey::fmu::to_bytes(*kept.held);
+    if (kept.bytes.empty()) kept.bytes = hersey::fmu::to_bytes(*kept.state);
     *size = kept.bytes.size();
     return CallStatus::ok;
   });
@@ -225,11 +225,11 @@ HERSEY_EXPORT fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const 
                                                  fmi2FMUstate* state) {
   return with(component, [&](Component& one) {
     if (bytes == nullptr || state == nullptr) return one.instance->error("no bytes of a serialised state");
-    auto held =
+    auto state =
         std::make_unique<InstanceState>(hersey::fmu::from_bytes(reinterpret_cast<const unsigned char*>(bytes), size));
     if (*state == nullptr) *state = new State;
     auto& kept = *static_cast<State*>(*state);
-    kept.held = std::move(held);
+    kept.state = std::move(state);
     kept.bytes.clear();
     return CallStatus::ok;
   });

@@ -18,7 +18,7 @@ using hersey::fmu::InstanceState;
 namespace {
 
 struct State {
-  std::unique_ptr<InstanceState> held;
+  std::unique_ptr<InstanceState> state;
   std::vector<unsigned char> bytes;  ///< serialised when its size was asked for
 };
 
@@ -91,14 +91,14 @@ HERSEY_EXPORT fmi3Instance fmi3InstantiateCoSimulation(
   try {
     if (name == nullptr || *name == '\0') throw std::runtime_error("an instance without a name");
     if (token == nullptr) throw std::runtime_error("an instance without an instantiation token");
-    const auto tell = [environment, log](CallStatus outcome, const char* category, const std::string& message) {
+    const auto report = [environment, log](CallStatus outcome, const char* category, const std::string& message) {
       if (log != nullptr) log(environment, status_of(outcome), category, message.c_str());
     };
     // A path; FMI 2, and importers that have grown up with it, name a URI.
     const std::string folder = resources != nullptr ? resources : "";
     auto instance = std::make_unique<Instance>(
         name, token, folder.starts_with("file:") ? hersey::fmu::path_of_uri(folder) : std::filesystem::path(folder),
-        tell);
+        report);
     instance->set_logging(logging);
     return instance.release();
   } catch (const std::exception& failure) {
@@ -262,7 +262,7 @@ HERSEY_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* st
     if (outcome != CallStatus::ok) return outcome;
     if (*state == nullptr) *state = new State;
     auto& kept = *static_cast<State*>(*state);
-    kept.held = std::move(saved);
+    kept.state = std::move(saved);
     kept.bytes.clear();
     return CallStatus::ok;
   });
@@ -270,7 +270,7 @@ HERSEY_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* st
 HERSEY_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
   return with(instance, [&](Instance& one) {
     if (state == nullptr) return one.error("no state to restore");
-    return one.restore(*static_cast<State*>(state)->held);
+    return one.restore(*static_cast<State*>(state)->state);
   });
 }
 HERSEY_EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
@@ -284,7 +284,7 @@ HERSEY_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3F
   return with(instance, [&](Instance& one) {
     if (state == nullptr || size == nullptr) return one.error("no state to serialise");
     auto& kept = *static_cast<State*>(state);
-    if (kept.bytes.empty()) kept.bytes = hersey::fmu::to_bytes(*kept.held);
+    if (kept.bytes.empty()) kept.bytes = hersey::fmu::to_bytes(*kept.state);
     *size = kept.bytes.size();
     return CallStatus::ok;
   });
@@ -303,10 +303,10 @@ HERSEY_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fm
                                                  fmi3FMUState* state) {
   return with(instance, [&](Instance& one) {
     if (bytes == nullptr || state == nullptr) return one.error("no bytes of a serialised state");
-    auto held = std::make_unique<InstanceState>(hersey::fmu::from_bytes(bytes, size));
+    auto state = std::make_unique<InstanceState>(hersey::fmu::from_bytes(bytes, size));
     if (*state == nullptr) *state = new State;
     auto& kept = *static_cast<State*>(*state);
-    kept.held = std::move(held);
+    kept.state = std::move(state);
     kept.bytes.clear();
     return CallStatus::ok;
   });
@@ -323,7 +323,7 @@ HERSEY_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi
     if (ends != nullptr) *ends = has_ended;
     if (is_early != nullptr) *is_early = false;
     if (last_successful_time != nullptr) *last_successful_time = reached;
-    // An end in order is no failure: the importer is asked to terminate.
+    // A normal end is not a failure: the importer is asked to terminate.
     return has_ended ? CallStatus::ok : outcome;
   });
 }

@@ -52,8 +52,8 @@ CallStatus Instance::guarded(const std::function<CallStatus()>& action) {
 }
 
 void Instance::say(CallStatus outcome, const char* category, const std::string& message) const {
-  const bool is_always_told = outcome == CallStatus::error || outcome == CallStatus::discard;
-  if (log_ && (is_logging_ || is_always_told)) log_(outcome, category, message);
+  const bool is_always_logged = outcome == CallStatus::error || outcome == CallStatus::discard;
+  if (log_ && (is_logging_ || is_always_logged)) log_(outcome, category, message);
 }
 
 CallStatus Instance::error(const std::string& message) {
@@ -72,7 +72,8 @@ CallStatus Instance::set_up(double start_time, std::optional<double> stop_time) 
   return CallStatus::ok;
 }
 
-// The model with what the importer gave for its parameters; what it left is as in the file, to the last bit.
+// Builds the model with the parameters that the importer has set; all others keep the value of the file, to the last
+// bit.
 void Instance::build() {
   std::vector<std::string> overrides = variables_.overrides;
   for (std::size_t i = 0; i < variables_.list.size(); ++i) {
@@ -89,14 +90,14 @@ void Instance::build() {
   time_ = plan.start;
   simulation_.reset();
   simulation_ = std::make_unique<run::Simulation>(std::move(model));
-  std::map<std::string, std::size_t> places;
-  for (std::size_t i = 0; i < simulation_->outputs().size(); ++i) places[simulation_->outputs()[i].name] = i;
+  std::map<std::string, std::size_t> index_of;
+  for (std::size_t i = 0; i < simulation_->outputs().size(); ++i) index_of[simulation_->outputs()[i].name] = i;
   outputs_.assign(variables_.list.size(), 0);
   for (std::size_t i = 0; i < variables_.list.size(); ++i) {
     const Variable& one = variables_.list[i];
     if (one.kind == Variable::Kind::output) {
-      const auto found = places.find(one.source);
-      if (found == places.end()) throw std::runtime_error("with these parameters the model has no " + one.source);
+      const auto found = index_of.find(one.source);
+      if (found == index_of.end()) throw std::runtime_error("with these parameters the model has no " + one.source);
       outputs_[i] = found->second;
     }
     if (one.kind == Variable::Kind::input && is_set_[i]) simulation_->set(one.source, values_[i]);

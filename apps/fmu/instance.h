@@ -13,10 +13,10 @@
 
 namespace hersey::fmu {
 
-/// What an instance of an FMU is allowed to do.
+/// State of an instance of an FMU, which decides the allowed calls.
 enum class Phase { instantiated, initialisation, stepping, terminated, failed };
 
-/// How a call of the interface ended. `discard`: a step that ended early, in order.
+/// Outcome of a call of the interface. `discard`: a step that ended early, without an error.
 enum class CallStatus { ok, warning, discard, error };
 
 /// Everything an instance is in: parameters, inputs and, once there is one, the state of the simulation.
@@ -35,14 +35,14 @@ struct InstanceState {
 [[nodiscard]] std::vector<unsigned char> to_bytes(const InstanceState& state);
 [[nodiscard]] InstanceState from_bytes(const unsigned char* bytes, std::size_t size);
 
-/// One instance of an FMU, whichever version of the standard it is called by. Instances share nothing. No function
-/// throws: what is wrong is told through `log`.
+/// One instance of an FMU, for either version of the standard. Instances share nothing. No function throws: errors are
+/// reported through `log`.
 class Instance {
  public:
   using Log = std::function<void(CallStatus, const char* category, const std::string& message)>;
 
-  /// Reads all that the FMU holds: its folder is needed later only where parameters change a model that names files.
-  /// @throws std::exception where its resources are damaged, or the token is of another FMU
+  /// Reads all resources of the FMU: its folder is needed later only if parameters change a model that names files.
+  /// @throws std::exception if its resources are damaged, or the token belongs to another FMU
   Instance(std::string name, const std::string& token, std::filesystem::path resources, Log log);
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -54,7 +54,8 @@ class Instance {
   [[nodiscard]] CallStatus exit_initialisation();
   [[nodiscard]] CallStatus get(const unsigned* references, std::size_t count, double* values);
   [[nodiscard]] CallStatus set(const unsigned* references, std::size_t count, const double* values);
-  /// From `time`, `length` on. @param reached  the time that has been come to
+  /// Advances from `time` by `length`.
+  /// @param reached  time at the end of the step
   [[nodiscard]] CallStatus step(double time, double length, double& reached, bool& ends);
   [[nodiscard]] CallStatus terminate();
   [[nodiscard]] CallStatus reset();
@@ -62,7 +63,7 @@ class Instance {
   [[nodiscard]] CallStatus save(std::unique_ptr<InstanceState>& state);
   [[nodiscard]] CallStatus restore(const InstanceState& state);
 
-  /// Tells an error and returns it.
+  /// Reports an error and returns its status.
   CallStatus error(const std::string& message);
   void set_logging(bool is_on) { is_logging_ = is_on; }
 
@@ -88,7 +89,7 @@ class Instance {
   bool is_set_up_ = false;
   std::optional<double> stop_time_;
   std::unique_ptr<run::Simulation> simulation_;
-  std::vector<std::size_t> outputs_;  // places in the simulation's list, by value reference
+  std::vector<std::size_t> outputs_;  // indices in the simulation's list, by value reference
 };
 
 }  // namespace hersey::fmu

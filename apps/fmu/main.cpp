@@ -34,12 +34,12 @@ struct Arguments {
   bool force = false;
 };
 
-/// Beside the program where it was built, or where it was installed.
+/// Path of the library beside the program, where it was built or installed.
 std::filesystem::path find_library() {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::string name = std::string(kModelIdentifier) + ".so";
-  for (const char* place : {".", "../lib/hersey"}) {
-    const std::filesystem::path candidate = folder / place / name;
+  for (const char* subfolder : {".", "../lib/hersey"}) {
+    const std::filesystem::path candidate = folder / subfolder / name;
     if (std::filesystem::exists(candidate)) return std::filesystem::canonical(candidate);
   }
   throw std::runtime_error(
@@ -142,7 +142,7 @@ int exported(int argc, char** argv) {
   return export_fmu(arguments);
 }
 
-// What is said on the way out may not throw any more.
+// An error while exiting must not throw any more.
 void complain(const char* prefix, const std::string& text) {
   std::fputs(prefix, stderr);
   std::fputs(text.c_str(), stderr);

@@ -55,7 +55,7 @@ PackedModel pack(const model::Model& model, const std::string& text, const std::
         throw InputError(Fault{{model.file, 0, 0},
                                "",
                                "the file '" + name + "', whose name is put together from parameters",
-                               "files whose names stand in the model as they are, or that lie below it",
+                               "files whose names are plain values of the model, or that lie below it",
                                "write the name out"});
     }
     packed.files.push_back({folder / name, "resources/" + inside});
@@ -67,7 +67,8 @@ std::vector<PackedFile> libraries_of(const std::filesystem::path& library) {
   std::string quoted = library.string();
   replace_all(quoted, "'", "'\\''");
   const std::unique_ptr<FILE, int (*)(FILE*)> listing(::popen(("ldd '" + quoted + "'").c_str(), "r"), ::pclose);
-  if (listing == nullptr) throw std::runtime_error("ldd, which tells what a library needs, cannot be called");
+  if (listing == nullptr)
+    throw std::runtime_error("ldd, which lists the libraries that a library needs, cannot be called");
   std::vector<PackedFile> found;
   std::array<char, 4096> line{};
   while (std::fgets(line.data(), line.size(), listing.get()) != nullptr) {
@@ -82,7 +83,7 @@ std::vector<PackedFile> libraries_of(const std::filesystem::path& library) {
       throw std::runtime_error(fmt::format("{} needs {}, which is not installed", library.string(), name));
     found.push_back({path, name});
   }
-  if (found.empty()) throw std::runtime_error("what " + library.string() + " needs cannot be told");
+  if (found.empty()) throw std::runtime_error("what " + library.string() + " needs cannot be found");
   return found;
 }
 
@@ -123,10 +124,10 @@ void write_zip(const std::filesystem::path& path, const std::vector<std::pair<st
   }
   // Fast rather than small: most of it are libraries.
   const auto add = [&](const std::string& name, zip_source_t* source) {
-    const zip_int64_t place =
+    const zip_int64_t index =
         source == nullptr ? -1 : zip_file_add(archive.get(), name.c_str(), source, ZIP_FL_ENC_UTF_8);
     const bool is_added =
-        place >= 0 && zip_set_file_compression(archive.get(), static_cast<zip_uint64_t>(place), ZIP_CM_DEFLATE, 1) == 0;
+        index >= 0 && zip_set_file_compression(archive.get(), static_cast<zip_uint64_t>(index), ZIP_CM_DEFLATE, 1) == 0;
     if (!is_added) throw std::runtime_error(fmt::format("{}: {}", path.string(), zip_strerror(archive.get())));
   };
   for (const auto& [name, text] : texts) add(name, zip_source_buffer(archive.get(), text.data(), text.size(), 0));

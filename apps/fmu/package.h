@@ -14,7 +14,7 @@ struct PackedFile {
   std::string name;  ///< in the archive
 };
 
-/// A model as it lies in an FMU: its text, overrides and the files it names, below resources/.
+/// A model packed in an FMU: its text, overrides and the files it names, below resources/.
 struct PackedModel {
   std::string text;
   std::vector<std::string> overrides;
@@ -26,11 +26,12 @@ struct PackedModel {
 [[nodiscard]] PackedModel pack(const model::Model& model, const std::string& text,
                                const std::vector<std::string>& overrides);
 
-/// The shared libraries that `library` needs beside those of every Linux, with the names it knows them by.
-/// @throws std::runtime_error where one of them is missing
+/// Returns the shared libraries that `library` needs besides those of every Linux, with the names by which it finds
+/// them.
+/// @throws std::runtime_error if one of them is missing
 [[nodiscard]] std::vector<PackedFile> libraries_of(const std::filesystem::path& library);
 
-/// What Debian's packages of these files say about their licences, for the folder documentation/licenses; nothing where
+/// Returns the licence texts of Debian's packages of these files, for the folder documentation/licenses; nothing if
 /// files come from elsewhere.
 [[nodiscard]] std::vector<PackedFile> licences_of(const std::vector<PackedFile>& files);
 

@@ -8,14 +8,14 @@
 
 namespace hersey::fmu {
 
-/// A number of an FMU that its importer reads or sets. Its value reference is its place in the list, counted from 1;
+/// A variable of an FMU that its importer reads or sets. Its value reference is its index in the list, counted from 1;
 /// 0 is time.
 struct Variable {
   enum class Kind { parameter, input, output };
   Kind kind = Kind::output;
   std::string name;        ///< structured, "bearings.big_end.force.x"
   std::string unit;        ///< SI
-  std::string text;        ///< what it is
+  std::string text;        ///< description
   std::string source;      ///< key path of the model file, name of an input or of an output
   std::size_t column = 0;  ///< of an output's row
   double start = 0;        ///< of a parameter or input [SI]

@@ -144,7 +144,7 @@ void bind_bearing(py::module_& core) {
   py::class_<BearingSolution>(core, "BearingSolution")
       .def_property_readonly("error", [](const BearingSolution& s) { return s.message; })
       .def_property_readonly("label", [](const BearingSolution& s) { return s.run.label; })
-      .def_property_readonly("warnings", [](const BearingSolution& s) { return s.doubts; })
+      .def_property_readonly("warnings", [](const BearingSolution& s) { return s.warnings; })
       .def_property_readonly("linearisations", [](const BearingSolution& s) { return s.summary.iterations; })
       .def_property_readonly("wall_time", [](const BearingSolution& s) { return s.wall_time; })
       .def_property_readonly("eccentricity", [](const BearingSolution& s) { return s.state.e; })

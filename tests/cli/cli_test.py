@@ -637,7 +637,7 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
         ended = hersey("bearing", ALONE, "--shell-speed", "100rpm", "--set",
                        "bearings.main.features={pad: {shape: pocket, on: shell, angle: 0 deg, arc: 30 deg, length: 5 mm, depth: 10 um}}")
         self.assertEqual(ended.returncode, WRONG_INPUT, ended.stdout + ended.stderr)
-        self.assertIn("a shell that turns with pockets that nothing feeds", ended.stderr)
+        self.assertIn("a rotating shell with pockets that nothing feeds", ended.stderr)
         self.assertIn("exchange journal and shell", ended.stderr)
 
     def test_bearing_prints_the_error_of_the_grid(self):
@@ -662,7 +662,7 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
         run = hersey("bearing", flexible, *point, "--json", "--fields", fields, "--report", page)
         self.assertEqual(run.returncode, OK, run.stderr)
         solution = json.loads(run.stdout)["solutions"][0]
-        self.assertIn("held at small_end", solution["surfaces"]["shell"])
+        self.assertIn("supported at small_end", solution["surfaces"]["shell"])
         largest = solution["figures"]["deformation_shell"]["value"]
         with open(fields, encoding="utf-8") as file:
             self.assertTrue(file.readline().endswith(", shell displacement [um]\n"))
@@ -671,7 +671,7 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
             self.assertIn("shell_displacement", file.read())
         turning = hersey("bearing", flexible, *point, "--shell-speed", "10rpm")
         self.assertEqual(turning.returncode, WRONG_INPUT)
-        self.assertIn("a shell that turns and deforms", turning.stderr)
+        self.assertIn("a shell that rotates and deforms", turning.stderr)
 
     def test_bearing_in_a_body_that_conducts_heat(self):
         pedestal = os.path.join(HERE, "../../examples/hot_pedestal/model.yaml")

@@ -310,7 +310,7 @@ class Defects(unittest.TestCase):
         done = hersey("bearing", os.path.join(HERE, "closed_insulated.yaml"), "--set",
                       "bearings.main.thermal.carry_over=1")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("nowhere to go", done.stderr)
+        self.assertIn("no heat can leave", done.stderr)
 
     def test_heat_of_a_long_closed_film_comes_together_on_every_grid(self):
         loads = {}

@@ -18,7 +18,7 @@ namespace boundaries_test {
 
 using Trouble = FilmDomain::Trouble;
 
-TEST_CASE("WordsOfADomain_NameWhatIsWrongAndWhere") {
+TEST_CASE("TextOfADomain_NamesTheFaultAndItsPosition") {
   FilmModel m;
   const int node = m.grid.index(15, 12);  // a quarter around, on the edge
   CHECK(text(m, {}).empty());

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "../src/interpret/csv_table.h"
+#include "../src/interpret/files/csv_table.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<hersey::Fault> faults;

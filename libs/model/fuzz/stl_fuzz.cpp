@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "../src/interpret/stl_file.h"
+#include "../src/interpret/files/stl_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const hersey::model::StlResult result = hersey::model::parse_stl({data, data + size});

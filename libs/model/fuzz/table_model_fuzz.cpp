@@ -1,5 +1,5 @@
-// libFuzzer target: whatever a table file holds, a model that takes a load and a measured bore from it is read, or its
-// faults are told.
+// libFuzzer target: whatever a table file contains, a model that takes a load and a measured bore from it is read, or
+// its faults are reported.
 // seeds: libs/model/fuzz/seeds/table.csv
 // longest: 4096
 #include <unistd.h>

@@ -3,7 +3,7 @@
 #include "hersey/model/build.h"
 #include "model_text.h"
 
-// Beams in the model file: what is read, how they are divided, and what is told about wrong ones.
+// Beams in the model file: their values, their division, and the faults reported for wrong ones.
 namespace hersey::model {
 namespace beam_test {
 
@@ -120,7 +120,7 @@ TEST_CASE("BeamAlongZ_NeedsNoUp") {
 TEST_CASE("Beam_FaultsNameWhatIsThere") {
   CHECK(contains(faults_with("[10 0 0 mm, 110 0 0 mm, 110 0 200 mm]", "[10 0 0 mm]"),
                  "m.yaml:6:15: bodies.shaft.beam.points: a beam with one point"));
-  CHECK(contains(faults_with("110 0 0 mm,", "10 0 0 mm,"), "the place of the point before it"));
+  CHECK(contains(faults_with("110 0 0 mm,", "10 0 0 mm,"), "the position of the point before it"));
   CHECK(contains(faults_with("bore: 10 mm", "bore: 20 mm"), "a bore of 20 mm"));
   CHECK(contains(faults_with("circle: {diameter", "circel: {diameter"), "circle"));
   CHECK(contains(faults_with("{circle: {diameter: 20 mm, bore: 10 mm}}",
@@ -128,7 +128,7 @@ TEST_CASE("Beam_FaultsNameWhatIsThere") {
                  "bodies.shaft.beam.section"));
   CHECK(contains(faults_with("up: y", "up: x"), "bodies.shaft.beam.up: a beam that runs along the section's z-axis"));
   CHECK(contains(faults_with("130 mm", "400 mm"),
-                 "bodies.shaft.frames.disc.along: a place 400 mm along a beam of 300 mm"));
+                 "bodies.shaft.frames.disc.along: a position 400 mm along a beam of 300 mm"));
   CHECK(contains(faults_with("130 mm", "ende"), "bodies.shaft.frames.disc.along"));
   CHECK(contains(faults_with("{along: end}", "{}"), "a frame of a beam without `along`"));
   CHECK(contains(faults_with("{along: end}", "{along: end, origin: 1 0 0 mm}"), "`origin` of a frame on a beam"));

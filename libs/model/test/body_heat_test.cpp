@@ -7,7 +7,7 @@
 #include "model_text.h"
 #include "ring_file.h"
 
-// Bodies that conduct heat, bearings whose shell is in one, and what is told about wrong ones.
+// Bodies that conduct heat, bearings whose shell is in one, and the faults reported for wrong ones.
 namespace hersey::model {
 namespace body_heat_test {
 
@@ -59,7 +59,9 @@ struct WrittenRing {
   WrittenRing& operator=(const WrittenRing&) = delete;
 };
 
-std::string told(const std::string& from, const std::string& to) { return faults_of(edited(machine_text, from, to)); }
+std::string faults_after(const std::string& from, const std::string& to) {
+  return faults_of(edited(machine_text, from, to));
+}
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -106,37 +108,37 @@ TEST_CASE("RestOfABody_IsItsSurfaceWithoutFilmsAndWhatIsNamed") {
   constexpr double round_off = 1e-10;  // of two factorisations
   CHECK((conduction_of(named)->rise - conduction_of(rest)->rise).cwiseAbs().maxCoeff() <
         round_off * conduction_of(named)->rise.maxCoeff());
-  const Model held = read_text(
+  const Model prescribed = read_text(
       edited(machine_text, "cooling: {outside:", "temperatures: {ends: 50 degC}\n        cooling: {rest:"), "m.yaml");
-  const BodyHeat& heat = *held.bodies[0].flexible->heat;
+  const BodyHeat& heat = *prescribed.bodies[0].flexible->heat;
   CHECK(heat.surroundings.cooled.at(*heat.rest).faces.size() == 2 * 24 * 3);  // bore and outside; the film's go later
 }
 
 TEST_CASE("FaultsOfHeatInBodies_SayWhereAndWhatToDo") {
   const WrittenRing file;
   const std::string cooling = "cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}";
-  const std::string nowhere = told("        " + cooling + "\n", "");
-  CHECK(contains(nowhere, "bodies.ring.flexible.heat: a body whose heat has nowhere to go"));
+  const std::string nowhere = faults_after("        " + cooling + "\n", "");
+  CHECK(contains(nowhere, "bodies.ring.flexible.heat: a body whose heat has no path to the surroundings"));
   CHECK(contains(nowhere, "add `cooling:"));
-  CHECK(contains(told("{outside: {", "{outsid: {"), "unknown surface or set 'outsid'"));
-  CHECK(contains(told("{outside: {", "{outsid: {"), "did you mean 'outside'"));
-  CHECK(contains(told("{outside: {", "{bore: {"), "a film on faces of 'ring' that `cooling` names too"));
-  const std::string silent =
-      told("      heat:\n        conductivity: 46 W/m/K\n        expansion: 12e-6 1/K\n        " + cooling + "\n", "");
+  CHECK(contains(faults_after("{outside: {", "{outsid: {"), "unknown surface or set 'outsid'"));
+  CHECK(contains(faults_after("{outside: {", "{outsid: {"), "did you mean 'outside'"));
+  CHECK(contains(faults_after("{outside: {", "{bore: {"), "a film on faces of 'ring' that `cooling` names too"));
+  const std::string silent = faults_after(
+      "      heat:\n        conductivity: 46 W/m/K\n        expansion: 12e-6 1/K\n        " + cooling + "\n", "");
   CHECK(
       contains(silent, "bearings.main.thermal.shell: a wall in body 'ring', which does not say how it conducts heat"));
   CHECK(contains(silent, "add `heat: {conductivity"));
-  CHECK(contains(told("shell: ring.hub", "shell: ground"), "a wall that conducts on rigid body 'ground'"));
-  CHECK(contains(told("diameter: 45 mm", "diameter: 40 mm"), "no face of the mesh on the film's surface"));
-  CHECK(contains(told("{wall: body,", "{wall: body, faces: bre,"), "unknown surface or set 'bre'"));
+  CHECK(contains(faults_after("shell: ring.hub", "shell: ground"), "a wall that conducts on rigid body 'ground'"));
+  CHECK(contains(faults_after("diameter: 45 mm", "diameter: 40 mm"), "no face of the mesh on the film's surface"));
+  CHECK(contains(faults_after("{wall: body,", "{wall: body, faces: bre,"), "unknown surface or set 'bre'"));
   CHECK(faults_of(edited(machine_text, "{wall: body,", "{wall: body, faces: bore,")) == "no fault");
-  CHECK(contains(told("conductivity: 46 W/m/K", "conductivity: 0 W/m/K"), "conductivity"));
-  CHECK(contains(told(cooling, cooling + "\n        fixed: [fot]"), "did you mean 'foot'"));
+  CHECK(contains(faults_after("conductivity: 46 W/m/K", "conductivity: 0 W/m/K"), "conductivity"));
+  CHECK(contains(faults_after(cooling, cooling + "\n        fixed: [fot]"), "did you mean 'foot'"));
   CHECK(faults_of(edited(machine_text, cooling, "temperatures: {outside: 40 degC}")) == "no fault");
   const std::string shell = "shell: {wall: body,";
-  CHECK(contains(told(shell, "expansion: {shell: 12e-6 1/K, journal: 12e-6 1/K}, " + shell),
+  CHECK(contains(faults_after(shell, "expansion: {shell: 12e-6 1/K, journal: 12e-6 1/K}, " + shell),
                  "a shell that grows by its body's mesh and by a coefficient as well"));
-  CHECK(told(shell, "expansion: {shell: 0 1/K, journal: 12e-6 1/K}, " + shell) == "no fault");
+  CHECK(faults_after(shell, "expansion: {shell: 0 1/K, journal: 12e-6 1/K}, " + shell) == "no fault");
 }
 
 /// The same with a shaft whose mesh conducts too, cooled in its bore.
@@ -193,18 +195,18 @@ TEST_CASE("JournalInABody_IsReadAndItsConductionFound") {
   CHECK(wall_conduction(both, both.bearings[0])->T0[0] == doctest::Approx(313.15).epsilon(1e-9));  // as above
 }
 
-TEST_CASE("JournalInABodyThatDoesNotTurn_IsDoubted") {
+TEST_CASE("JournalInABodyThatDoesNotRotate_IsWarnedOf") {
   const WrittenRing file;
   const Model model = read_text(with_shaft(), "m.yaml"), other = read_text(machine_text, "m.yaml");
   const Bearing& bearing = model.bearings[0];
-  CHECK(doubts_of_turning(bearing, 3, 3).empty());
-  CHECK(doubts_of_turning(bearing, -3, 3).empty());
-  CHECK(doubts_of_turning(other.bearings[0], 0, 0).empty());
-  CHECK(contains(doubts_of_turning(bearing, 0, 0).at(0), "does not turn in its shell"));
-  CHECK(contains(doubts_of_turning(bearing, -0.1, 2).at(0), "swings in its shell: 115 deg to and fro, 5.73 deg of it"));
+  CHECK(rotation_warnings(bearing, 3, 3).empty());
+  CHECK(rotation_warnings(bearing, -3, 3).empty());
+  CHECK(rotation_warnings(other.bearings[0], 0, 0).empty());
+  CHECK(contains(rotation_warnings(bearing, 0, 0).at(0), "does not rotate in its shell"));
+  CHECK(contains(rotation_warnings(bearing, -0.1, 2).at(0), "swings in its shell: 115 deg to and fro, 5.73 deg of it"));
 }
 
-// A mesh turned about its own axis is the same journal.
+// A mesh rotated about its own axis is the same journal.
 TEST_CASE("JournalInABody_IsTheSameHoweverItIsTurned") {
   const WrittenRing file;
   const std::string text = with_shaft();
@@ -217,17 +219,17 @@ TEST_CASE("JournalInABody_IsTheSameHoweverItIsTurned") {
                          "axis: {nodes: bore, connection: average, origin: 0 0 0 mm, rotation: {axis: z, angle: " +
                              std::to_string(angle) + " deg}}"),
                   "m.yaml");
-    const auto seen = journal_conduction(turned, turned.bearings[0]);
-    CHECK(seen->rise == doctest::Approx(conduction->rise).epsilon(1e-6));  // of its area's quadrature
-    CHECK((seen->shape_by_heat - conduction->shape_by_heat).cwiseAbs().maxCoeff() <
-          1e-3 * conduction->shape_by_heat.maxCoeff());  // 24 flat faces seen by splines at other angles
+    const auto after = journal_conduction(turned, turned.bearings[0]);
+    CHECK(after->rise == doctest::Approx(conduction->rise).epsilon(1e-6));  // of its area's quadrature
+    CHECK((after->shape_by_heat - conduction->shape_by_heat).cwiseAbs().maxCoeff() <
+          1e-3 * conduction->shape_by_heat.maxCoeff());  // 24 flat faces interpolated by splines at other angles
   }
 }
 
 TEST_CASE("FaultsOfJournalsInBodies_SayWhereAndWhatToDo") {
   const WrittenRing file;
   const std::string text = with_shaft();
-  const auto told_of = [&text](const std::string& from, const std::string& to) {
+  const auto shared_faults_after = [&text](const std::string& from, const std::string& to) {
     return faults_of(edited(text, from, to));
   };
   const std::string heat = R"(      heat:
@@ -235,23 +237,24 @@ TEST_CASE("FaultsOfJournalsInBodies_SayWhereAndWhatToDo") {
         expansion: 12e-6 1/K
         cooling: {bore: {heat_transfer: 300 W/m^2/K, ambient: 60 degC}}
 )";
-  const std::string silent = told_of(heat, "");
+  const std::string silent = shared_faults_after(heat, "");
   CHECK(contains(silent,
                  "bearings.main.thermal.journal: a wall in body 'shaft', which does not say how it conducts heat"));
   CHECK(contains(silent, "add `heat: {conductivity"));
-  CHECK(contains(told_of("cooling: {bore:", "cooling: {outside:"),
+  CHECK(contains(shared_faults_after("cooling: {bore:", "cooling: {outside:"),
                  "a film on faces of 'shaft' that `cooling` names too"));
-  const std::string rigid = told("shell: {wall: body,", "journal: {wall: body,");
+  const std::string rigid = faults_after("shell: {wall: body,", "journal: {wall: body,");
   CHECK(contains(rigid, "a wall that conducts on rigid body 'shaft'"));
   CHECK(contains(rigid, "or another wall to the journal"));
-  CHECK(contains(told_of("diameter: 45 mm", "diameter: 40 mm"), "no face of the mesh on the film's surface"));
-  CHECK(contains(told_of("{wall: body,", "{wall: body, faces: bore,"), "a radius of 10 mm"));
-  CHECK(contains(told_of("{wall: body,", "{wall: body, faces: pin,"), "unknown surface or set 'pin'"));
+  CHECK(
+      contains(shared_faults_after("diameter: 45 mm", "diameter: 40 mm"), "no face of the mesh on the film's surface"));
+  CHECK(contains(shared_faults_after("{wall: body,", "{wall: body, faces: bore,"), "a radius of 10 mm"));
+  CHECK(contains(shared_faults_after("{wall: body,", "{wall: body, faces: pin,"), "unknown surface or set 'pin'"));
   CHECK(faults_of(edited(text, "{wall: body,", "{wall: body, faces: outside,")) == "no fault");
   const std::string journal = "journal: {wall: body,";
-  CHECK(contains(told_of(journal, "expansion: {shell: 12e-6 1/K, journal: 12e-6 1/K}, " + journal),
+  CHECK(contains(shared_faults_after(journal, "expansion: {shell: 12e-6 1/K, journal: 12e-6 1/K}, " + journal),
                  "a journal that grows by its body's mesh and by a coefficient as well"));
-  CHECK(told_of(journal, "expansion: {shell: 12e-6 1/K, journal: 0 1/K}, " + journal) == "no fault");
+  CHECK(shared_faults_after(journal, "expansion: {shell: 12e-6 1/K, journal: 0 1/K}, " + journal) == "no fault");
 }
 
 }  // namespace body_heat_test

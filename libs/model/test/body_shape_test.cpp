@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "interpret/stl_file.h"
+#include "interpret/files/stl_file.h"
 #include "model_text.h"
 #include "temporary_directory.h"
 
@@ -33,7 +33,7 @@ TEST_CASE("Shapes_AreRead") {
   CHECK(std::get<mbd::Cylinder>(shape(model, 1).geometry).to.y() == doctest::Approx(0.14));
   CHECK(std::get<mbd::Capsule>(shape(model, 2).geometry).from.y() == doctest::Approx(1e-3));
   const auto& block = std::get<mbd::Box>(shape(model, 3).geometry);
-  CHECK((block.X_BS.R.col(0) - Vector3::UnitY()).norm() < 1e-12);  // round-off of a turn
+  CHECK((block.X_BS.R.col(0) - Vector3::UnitY()).norm() < 1e-12);  // round-off of a rotation
   CHECK(std::get<mbd::HalfSpace>(shape(model, 4).geometry).normal == Vector3::UnitZ());
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("StlFiles_WithFacetsThatAreNoTriangles_AreFaults") {
   CHECK(loop("vertx 0 0 0\n") == "line 4: 'vertx 0 0 0' where STL has no such word");
 }
 
-TEST_CASE("StlTrianglesWithoutArea_AreLeftOut_AndThatIsTold") {
+TEST_CASE("StlTrianglesWithoutArea_AreLeftOut_AndThatIsReported") {
   const TemporaryDirectory folder;
   std::string content = tetrahedron;
   content.insert(content.find("endsolid"),
@@ -193,7 +193,7 @@ TEST_CASE("ShapesThatCannotBe_AreReported") {
     return faults_after("  rod: {mass: 2 kg}\n", "  rod:\n    mass: 2 kg\n    shapes:\n      a: " + shape + "\n");
   };
   CHECK(faults("{shape: cylinder, from: 0 1 0 mm, to: 0 1 0 mm, diameter: 1 mm}") ==
-        "m.yaml:15:7: bodies.rod.shapes.a: both ends at the same place; expected two ends apart");
+        "m.yaml:15:7: bodies.rod.shapes.a: both ends at the same position; expected two ends apart");
   CHECK(faults("{shape: box, size: 1 0 1 mm}") ==
         "m.yaml:15:29: bodies.rod.shapes.a.size: an edge that is not > 0; expected three lengths > 0, such as 20 40 10 "
         "mm");

@@ -6,7 +6,7 @@
 #include "hersey/model/build.h"
 #include "model_text.h"
 
-// Contacts in the model file: what is read, and what is told about wrong ones.
+// Contacts in the model file: their values, and the faults reported for wrong ones.
 namespace hersey::model {
 namespace contact_test {
 

@@ -7,7 +7,7 @@
 #include "model_text.h"
 #include "ring_file.h"
 
-// Bearings whose surfaces deform with the mesh of a body: what is read, and what is told about wrong ones.
+// Bearings whose surfaces deform with the mesh of a body: their values, and the faults reported for wrong ones.
 namespace hersey::model {
 namespace film_surface_test {
 
@@ -49,7 +49,9 @@ struct WrittenRing {
   WrittenRing& operator=(const WrittenRing&) = delete;
 };
 
-std::string told(const std::string& from, const std::string& to) { return faults_of(edited(machine_text, from, to)); }
+std::string faults_after(const std::string& from, const std::string& to) {
+  return faults_of(edited(machine_text, from, to));
+}
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -88,11 +90,11 @@ TEST_CASE("DeformingSurface_ByNameWithDefaults") {
 
 TEST_CASE("DeformingSurface_FaultsSayWhereAndWhatToDo") {
   const WrittenRing file;
-  const std::string wide = told("width: 15.6 mm", "width: 20 mm");
+  const std::string wide = faults_after("width: 15.6 mm", "width: 20 mm");
   CHECK(contains(wide, "m.yaml:27:29: bearings.main.shell_surface.within: a surface that covers only 7"));
   CHECK(contains(wide, "there is none all around"));
   CHECK(contains(wide, "make the bearing's width that of the surface"));
-  const std::string small = told("diameter: 45 mm", "diameter: 44 mm");
+  const std::string small = faults_after("diameter: 45 mm", "diameter: 44 mm");
   CHECK(contains(small, "no face of the mesh on the film's surface"));
   CHECK(contains(small, "the nearest nodes have a radius of 22.5 mm"));
   CHECK(contains(small, "about the z-axis of ring.hub"));
@@ -102,34 +104,34 @@ TEST_CASE("DeformingSurface_FaultsSayWhereAndWhatToDo") {
   const std::string on_outside = edited(machine_text, surface, "{faces: outside}");
   CHECK(contains(faults_of(edited(on_outside, "diameter: 45 mm", "diameter: 60 mm")), "looks away from the axis"));
   CHECK(contains(faults_of(on_outside), "nodes at a radius of 30 mm, 7.5 mm off the film's 22.5 mm"));
-  CHECK(contains(told(surface, "{faces: bre}"), "unknown surface or set 'bre'"));
-  CHECK(contains(told(surface, "{faces: bore, within: 1 mm}"), "'faces' and 'within' together"));
-  CHECK(contains(told(surface, "{modes: 3}"), "faces"));
-  CHECK(contains(told("[16, 3]", "[3, 3]"), "fewer than 4 functions around"));
-  CHECK(contains(told(surface, "stiff"), "rigid"));
-  CHECK(contains(told("nodes: outside, connection: average", "nodes: bore, connection: rigid"),
+  CHECK(contains(faults_after(surface, "{faces: bre}"), "unknown surface or set 'bre'"));
+  CHECK(contains(faults_after(surface, "{faces: bore, within: 1 mm}"), "'faces' and 'within' together"));
+  CHECK(contains(faults_after(surface, "{modes: 3}"), "faces"));
+  CHECK(contains(faults_after("[16, 3]", "[3, 3]"), "fewer than 4 functions around"));
+  CHECK(contains(faults_after(surface, "stiff"), "rigid"));
+  CHECK(contains(faults_after("nodes: outside, connection: average", "nodes: bore, connection: rigid"),
                  "a surface whose nodes all belong to the rigid frame 'hub'"));
-  CHECK(
-      contains(told("nodes: outside, connection: average", "nodes: bore, connection: rigid"), "'connection: average'"));
+  CHECK(contains(faults_after("nodes: outside, connection: average", "nodes: bore, connection: rigid"),
+                 "'connection: average'"));
 }
 
-TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsTold") {
+TEST_CASE("DeformingSurface_OnABodyWithoutAMeshIsReported") {
   const WrittenRing file;
-  const std::string rigid = told("shell_surface: " + surface, "journal_surface: {within: 0.1 mm}");
+  const std::string rigid = faults_after("shell_surface: " + surface, "journal_surface: {within: 0.1 mm}");
   CHECK(contains(rigid, "m.yaml:27:5: bearings.main.journal_surface: a deforming surface on rigid body 'shaft'"));
   CHECK(contains(rigid, "leave 'journal_surface' out"));
-  CHECK(contains(told("shell: ring.hub", "shell: ground"), "a deforming surface on rigid body 'ground'"));
+  CHECK(contains(faults_after("shell: ring.hub", "shell: ground"), "a deforming surface on rigid body 'ground'"));
 }
 
-TEST_CASE("DeformingSurface_OfABodyOfFiniteStrainIsTold") {
+TEST_CASE("DeformingSurface_OfABodyOfFiniteStrainIsReported") {
   const WrittenRing file;
-  const std::string finite = told("      modes: 2\n", "      form: nodal\n      strain: finite\n");
+  const std::string finite = faults_after("      modes: 2\n", "      form: nodal\n      strain: finite\n");
   CHECK(contains(finite, "shell_surface: a deforming surface on 'ring', a body of finite strain"));
   CHECK(contains(finite, "`rigid`, or a body of `strain: small`"));
-  CHECK_FALSE(contains(told("      modes: 2\n", "      form: nodal\n"), "finite strain"));
+  CHECK_FALSE(contains(faults_after("      modes: 2\n", "      form: nodal\n"), "finite strain"));
 }
 
-TEST_CASE("DeformingSurface_OfAReducedBodyIsTold") {
+TEST_CASE("DeformingSurface_OfAReducedBodyIsReported") {
   const WrittenRing file;
   const Model model = read_text(machine_text, "m.yaml");
   const Body& ring = model.bodies[0];
@@ -150,7 +152,7 @@ TEST_CASE("DeformingSurface_OfAReducedBodyIsTold") {
   CAPTURE(faults);
   CHECK(
       contains(faults, "a deforming surface on the reduced body 'ring', whose file holds no answers to film pressure"));
-  CHECK(contains(faults, "'mesh' in place of 'reduced'"));
+  CHECK(contains(faults, "'mesh' instead of 'reduced'"));
   CHECK(faults_of(edited(text, surface, "rigid")) == "no fault");
   std::filesystem::remove("film_surface_test_ring.h5");
 }

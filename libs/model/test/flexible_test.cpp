@@ -10,7 +10,7 @@
 #include "hersey/model/build.h"
 #include "model_text.h"
 
-// Flexible bodies in the model file: what is read, and what is told about wrong ones.
+// Flexible bodies in the model file: their values, and the faults reported for wrong ones.
 namespace hersey::model {
 namespace flexible_test {
 
@@ -173,7 +173,7 @@ TEST_CASE("AMeshUnfitForComputing_IsAFaultOfTheModel") {
   CHECK(contains(faults_of(kMachine), "2 parts that share no node"));
 }
 
-TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreTold") {
+TEST_CASE("FlexibleBody_AnalysesItCannotHaveAreReported") {
   const std::string simulation = "{duration: 1 ms, step: 0.1 ms}";
   CHECK(contains(faults_with(simulation, "{analysis: kinematics, duration: 1 ms, step: 0.1 ms}"),
                  "a kinematic analysis with the flexible body 'bar'"));
@@ -201,11 +201,11 @@ TEST_CASE("FacesThatTouch_DoNotBelongToABodyOfFiniteStrain") {
   const std::string with_ball = edited(with_pad, "joints:\n", ball + contact + "joints:\n");
   const std::string nodal = edited(edited(with_ball, "modes: 0", "form: nodal"), ", connection: average", "");
   CHECK(faults_of(nodal) == "no fault");
-  const std::string told = faults_of(edited(nodal, "form: nodal", "form: nodal\n      strain: finite"));
-  CHECK(contains(told, "contacts.hit.between.1: faces that deform of a body of finite strain"));
+  const std::string faults_after = faults_of(edited(nodal, "form: nodal", "form: nodal\n      strain: finite"));
+  CHECK(contains(faults_after, "contacts.hit.between.1: faces that deform of a body of finite strain"));
 }
 
-TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {
+TEST_CASE("FlexibleBody_LeftLooseOrSharedIsReported") {
   CHECK(contains(faults_with("nodes: right", "nodes: left"), "on which frame 'root' stands too"));
   const MeshFile file;
   const auto on_edge = [](const std::string& connection) {
@@ -214,7 +214,7 @@ TEST_CASE("FlexibleBody_LeftLooseOrSharedIsTold") {
                "    frames:\n      root: {nodes: edge, connection: " + connection + "}"),
         "m.yaml");
   };
-  CHECK(build(on_edge("average")).flexibles.size() == 1);  // turns with the elements around
+  CHECK(build(on_edge("average")).flexibles.size() == 1);  // rotates with the elements around
   const Model model = on_edge("rigid");
   try {
     (void)build(model);
@@ -254,15 +254,15 @@ TEST_CASE("SurfaceLoad_IsReadWithItsFaces") {
 
 TEST_CASE("SurfaceLoad_FaultsNameWhatIsThere") {
   const MeshFile file;
-  const auto told = [&](const std::string& from, const std::string& to) {
+  const auto faults_after = [&](const std::string& from, const std::string& to) {
     return faults_of(kMachine + edited(kPressure, from, to));
   };
-  CHECK(contains(told("faces: right", "faces: rihgt"), "forces.gas.faces: unknown surface or set 'rihgt'"));
-  CHECK(contains(told("faces: right", "faces: rihgt"), "did you mean 'right'"));
-  CHECK(contains(told("faces: right", "faces: edge"), "whose nodes make up no face"));
-  CHECK(contains(told("body: bar", "body: brr"), "forces.gas.body: unknown body 'brr'"));
-  CHECK(contains(told("pressure: 2 MPa", "pressure: 2 N"), "forces.gas.pressure"));
-  CHECK(contains(told("2 MPa", "{expression: \"clamp.rotation\", unit: MPa}"),
+  CHECK(contains(faults_after("faces: right", "faces: rihgt"), "forces.gas.faces: unknown surface or set 'rihgt'"));
+  CHECK(contains(faults_after("faces: right", "faces: rihgt"), "did you mean 'right'"));
+  CHECK(contains(faults_after("faces: right", "faces: edge"), "whose nodes make up no face"));
+  CHECK(contains(faults_after("body: bar", "body: brr"), "forces.gas.body: unknown body 'brr'"));
+  CHECK(contains(faults_after("pressure: 2 MPa", "pressure: 2 N"), "forces.gas.pressure"));
+  CHECK(contains(faults_after("2 MPa", "{expression: \"clamp.rotation\", unit: MPa}"),
                  "a load on a mesh that follows 'clamp.rotation'"));
   CHECK(contains(faults_of(edited(good_model, "forces:\n",
                                   "forces:\n  gas2: {type: pressure, body: rod, faces: a, "
@@ -270,7 +270,7 @@ TEST_CASE("SurfaceLoad_FaultsNameWhatIsThere") {
                  "rigid body 'rod'"));
 }
 
-TEST_CASE("ReducedBody_TakesThePlaceOfItsMesh") {
+TEST_CASE("ReducedBody_ReplacesItsMesh") {
   const MeshFile file;
   const Model meshed = read_text(kMachine + kPressure, "m.yaml");
   const fem::SolidMaterial steel = fem::isotropic({.youngs_modulus = 2.1e11, .poisson_ratio = 0.3, .density = 7850});
@@ -298,13 +298,16 @@ TEST_CASE("ReducedBody_TakesThePlaceOfItsMesh") {
   CHECK((a.stiffness - b.stiffness).norm() < 1e-12 * b.stiffness.norm());
   CHECK(a.mass == doctest::Approx(b.mass).epsilon(1e-14));  // round-off of sums over the mesh
   CHECK(of_file.surface_loads.size() == 1);
-  const auto told = [&](const std::string& from, const std::string& to) { return faults_of(edited(text, from, to)); };
-  CHECK(contains(told("bar.root", "bar.rot"),
+  const auto faults_after = [&](const std::string& from, const std::string& to) {
+    return faults_of(edited(text, from, to));
+  };
+  CHECK(contains(faults_after("bar.root", "bar.rot"),
                  "unknown frame 'rot' of body 'bar'; did you mean 'root'? expected root or tip"));
-  CHECK(contains(told("bar.h5", "br.h5"), "bodies.bar.flexible.reduced"));
-  CHECK(contains(told("bar.h5\n", "bar.h5\n      modes: 3\n"), "`modes` of a reduced body"));
-  CHECK(contains(told("bar.h5\n", "bar.h5\n    frames: {tp: {}}\n"), "frame 'tp', which the reduced body has not"));
-  CHECK(contains(told("bar.h5\n", "bar.h5\n    frames: {tip: {nodes: right}}\n"),
+  CHECK(contains(faults_after("bar.h5", "br.h5"), "bodies.bar.flexible.reduced"));
+  CHECK(contains(faults_after("bar.h5\n", "bar.h5\n      modes: 3\n"), "`modes` of a reduced body"));
+  CHECK(contains(faults_after("bar.h5\n", "bar.h5\n    frames: {tp: {}}\n"),
+                 "frame 'tp', which the reduced body has not"));
+  CHECK(contains(faults_after("bar.h5\n", "bar.h5\n    frames: {tip: {nodes: right}}\n"),
                  "`nodes` of a frame of a reduced body"));
   std::filesystem::remove("flexible_test_bar.h5");
 }
@@ -332,14 +335,14 @@ TEST_CASE("OrthotropicMaterial_WithEqualConstantsIsTheIsotropicOne") {
     return build(read_text(text, "m.yaml")).flexibles[0].body->data().stiffness;
   };
   const Eigen::MatrixXd K = stiffness(edited(kMachine, isotropic, nine));
-  // Round-off of nine constants, turned.
+  // Round-off of nine rotated constants.
   CHECK((K - stiffness(edited(kMachine, "210 GPa", "208 GPa"))).norm() < 1e-9 * K.norm());
-  const auto told = [&](const std::string& from, const std::string& to) {
+  const auto faults_after = [&](const std::string& from, const std::string& to) {
     return faults_of(edited(kMachine, isotropic, edited(nine, from, to)));
   };
-  CHECK(contains(told("[0.3, ", "[1.2, "), "material.orthotropic: constants of no material"));
-  CHECK(contains(told("208 208 208", "208 -1 208"), "constants of no material"));
-  CHECK(contains(told("[0.3, 0.3, 0.3]", "[0.3, 0.3]"), "poisson_ratios"));
+  CHECK(contains(faults_after("[0.3, ", "[1.2, "), "material.orthotropic: constants of no material"));
+  CHECK(contains(faults_after("208 208 208", "208 -1 208"), "constants of no material"));
+  CHECK(contains(faults_after("[0.3, 0.3, 0.3]", "[0.3, 0.3]"), "poisson_ratios"));
   CHECK(contains(faults_of(edited(kMachine, "youngs_modulus: 210 GPa, ", "")), "material"));
 }
 

@@ -71,7 +71,7 @@ TEST_CASE("Expression_KnowsTimeAndJoints") {
   CHECK(force.value->value(std::array{1.0, 2.0, 0.5}) == doctest::Approx(8500).epsilon(1e-14));  // round-off of units
 }
 
-TEST_CASE("FaultyExpressions_ArePlaced") {
+TEST_CASE("FaultyExpressions_AreLocated") {
   // The expression's first letter stands in column 66.
   CHECK(faults_of(with_force("{expression: \"2*sim(t)\", unit: N}")) ==
         "m.yaml:19:68: forces.push.components.1.expression: unknown function 'sim'; did you mean 'sin'? expected sin, "
@@ -107,7 +107,7 @@ TEST_CASE("Drive_DependsOnTimeAlone") {
         "m.yaml:18:46: drives.x.position: a drive that depends on main.rotation; expected a function of time alone");
 }
 
-TEST_CASE("TableInPlace_IsConvertedAndScaled") {
+TEST_CASE("InlineTable_IsConvertedAndScaled") {
   const Function force =
       force_of("{table: {x_unit: ms, y_unit: bar, points: [[0, 1], [100, 3]]}, scale: 2 cm^2, interpolation: linear}");
   REQUIRE(force.variables.size() == 1);
@@ -127,14 +127,14 @@ TEST_CASE("TableFromFile_IsConvertedAndScaled") {
   REQUIRE(force.variables.size() == 1);
   CHECK(force.variables[0].joint == "main");
   CHECK_FALSE(force.domain.has_value());  // periodic: covers everything
-  // 90 degrees into the first half: a quarter of the way from 1 to 11 bar, on 1 cm^2.
-  // Round-off of units and of whole turns.
+  // 90 degrees into the first half: a quarter of the way from 1 to 11 bar, on 1 cm^2. Round-off of units and of whole
+  // revolutions.
   CHECK(force.value->value(std::array{pi / 2}) == doctest::Approx(35).epsilon(1e-13));
   CHECK(force.value->value(std::array{pi / 2 + 4 * pi}) == doctest::Approx(35).epsilon(1e-13));
   CHECK(force.value->value(std::array{3 * pi}) == doctest::Approx(60).epsilon(1e-13));  // on the way back to 1 bar
 }
 
-TEST_CASE("FaultyTableFiles_ArePlaced") {
+TEST_CASE("FaultyTableFiles_AreLocated") {
   const Folder folder;
   CHECK(folder.faults_with("angle [deg], pressure [bar]\n0, 1\n360, nan\n") ==
         "gas.csv:3:6: 'nan'; expected a finite number");
@@ -168,7 +168,7 @@ TEST_CASE("MissingTableFile_IsReported") {
         "model file");
 }
 
-TEST_CASE("FaultyTablesInPlace_ArePlaced") {
+TEST_CASE("FaultyInlineTables_AreLocated") {
   CHECK(
       faults_of(with_force("{table: {x_unit: s, y_unit: N, points: [[0, 1], [1, .nan]]}}")) ==
       "m.yaml:19:104: forces.push.components.1.table.points.1.1: '.nan'; expected a number without unit, such as 0.5");
@@ -195,7 +195,7 @@ TEST_CASE("ShiftedTable_BeginsLater") {
 }
 
 TEST_CASE("TableThatDoesNotCoverTheRun_IsReportedBeforeIt") {
-  // The run lasts two turns at 3000 rpm: 40 ms, 720 degrees.
+  // The run lasts two revolutions at 3000 rpm: 40 ms, 720 degrees.
   CHECK(faults_of(with_force("{table: {x_unit: ms, y_unit: N, points: [[0, 1], [40, 1]]}}")) == "no fault");
   CHECK(
       faults_of(with_force("{table: {x_unit: ms, y_unit: N, points: [[0, 1], [30, 1]]}}")) ==

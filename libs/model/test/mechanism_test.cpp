@@ -108,7 +108,7 @@ TEST_CASE("FaultsOfForcesInJoints_AreReported") {
             .find("unknown coordinate 'x'") != std::string::npos);
   CHECK(after("speed: 100 rpm", "speed: {expression: main.rotation_rate, unit: rad/s}")
             .find("a wanted speed that depends on main.rotation") != std::string::npos);
-  CHECK(after("lead: 4 mm", "lead: 0 mm").find("joints.thread.lead: a lead of 0; expected a travel per turn") !=
+  CHECK(after("lead: 4 mm", "lead: 0 mm").find("joints.thread.lead: a lead of 0; expected a travel per revolution") !=
         std::string::npos);
 }
 

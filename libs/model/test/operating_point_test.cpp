@@ -74,7 +74,7 @@ std::string groove(const std::string& name, const std::string& more) {
   return "      " + name + ": {shape: axial_groove, arc: 30 deg, length: 5 mm, " + more + "}\n";
 }
 
-// Places at two pressures that touch: what flows between them has no limit as the grid is refined.
+// Regions at two pressures that touch: the flow between them has no limit as the grid is refined.
 TEST_CASE("SupplyLineThroughAGroove_OfAnotherPressureIsAFault") {
   const auto faults = [](const std::string& line, const std::string& more) {
     return faults_of(with_feeds(line + "    features:\n" + groove("feed", more)));
@@ -90,7 +90,7 @@ TEST_CASE("SupplyLineThroughAGroove_OfAnotherPressureIsAFault") {
   }
 }
 
-TEST_CASE("ReservoirsThatMeetAsTheJournalTurns_AreWarnedOf") {
+TEST_CASE("ReservoirsThatMeetAsTheJournalRotates_AreWarnedOf") {
   const auto warnings = [](const std::string& feeds) { return warnings_of(with_feeds(feeds)); };
   const std::string one = groove("one", "pressure: 1 bar");
   CHECK(warnings(line_at_widest + "    features:\n" + one) ==
@@ -101,7 +101,7 @@ TEST_CASE("ReservoirsThatMeetAsTheJournalTurns_AreWarnedOf") {
             .find("passes over the supply line (m.yaml:10)") != std::string::npos);
   CHECK(warnings("    features:\n" + one + groove("two", "angle: 180 deg, on: journal, pressure: 2 bar"))
             .find("m.yaml:12:7: bearings.main.features.two: passes over 'one' (m.yaml:11), which has another pressure, "
-                  "as the journal turns") == 0);
+                  "as the journal rotates") == 0);
   for (const std::string& good : {groove("two", "angle: 180 deg, on: journal, pressure: 1 bar"),
                                   groove("two", "angle: 180 deg, on: journal, z: 5 mm, pressure: 2 bar"),
                                   groove("two", "on: journal, depth: 1 mm")})
@@ -219,7 +219,7 @@ TEST_CASE("ClosedEdges_NeedAPressureSomewhere") {
   const Model model = read_text(with("edge_pressure: closed\n    supply: {line: widest_gap}"), "m.yaml");
   CHECK(film::is_closed(model.bearings[0].film));
   CHECK(model.warnings.empty());
-  CHECK(faults_of(with("edge_pressure: closed")).find("closed edges and no supply: no place has a given pressure") !=
+  CHECK(faults_of(with("edge_pressure: closed")).find("closed edges and no supply: the pressure is given nowhere") !=
         std::string::npos);
   CHECK(faults_of(with("edge_pressure: closed\n    supply: {line: 0 deg}\n    ambient_fill: 0.5"))
             .find("oil outside edges that are closed") != std::string::npos);

@@ -124,7 +124,7 @@ TEST_CASE("DerivedParameters_CarryTheirUnits") {
   CHECK(model.parameters[2].text == "0.025 mm");
 }
 
-TEST_CASE("FormulasThatDoNotFit_AreTold") {
+TEST_CASE("FormulasThatDoNotFit_AreReported") {
   const auto faults = [](const std::string& force, const std::string& a) {
     return faults_of(with_force_in_x(force, "  a: \"" + a + "\"\n"));
   };

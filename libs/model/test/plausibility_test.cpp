@@ -25,36 +25,38 @@ Bearing bearing_with(const std::string& keys) {
   return read_text(edited(text, "lubricant: oil", "lubricant: oil\n    " + keys), "m.yaml").bearings[0];
 }
 
-std::string doubts(const Bearing& bearing, double p_max, double h_min) {
+std::string warnings(const Bearing& bearing, double p_max, double h_min) {
   std::string all;
-  for (const std::string& doubt : doubts_of_surfaces(bearing, p_max, h_min)) all += doubt + "\n";
+  for (const std::string& warning : surface_warnings(bearing, p_max, h_min)) all += warning + "\n";
   return all;
 }
 
-TEST_CASE("PeakPressure_IsHeldAgainstWhatTheLiningBears") {
+TEST_CASE("PeakPressure_IsComparedWithThePermissibleOne") {
   const Bearing plain = bearing_with("cavitation: mass_conserving");
-  CHECK(doubts(plain, 199e6, 1e-6).empty());
-  CHECK(doubts(plain, 210e6, 1e-6).starts_with("its peak pressure: 210 MPa is above what layers of bearings usually"));
+  CHECK(warnings(plain, 199e6, 1e-6).empty());
+  CHECK(
+      warnings(plain, 210e6, 1e-6).starts_with("its peak pressure: 210 MPa is above what layers of bearings usually"));
   const Bearing white_metal = bearing_with("permissible_pressure: 30 MPa");
-  CHECK(doubts(white_metal, 30e6, 1e-6).empty());
-  CHECK(doubts(white_metal, 31e6, 1e-6) ==
+  CHECK(warnings(white_metal, 30e6, 1e-6).empty());
+  CHECK(warnings(white_metal, 31e6, 1e-6) ==
         "its peak pressure: 31 MPa is above its permissible_pressure, 30 MPa; elastic surfaces spread it "
         "(`shell_surface`, or `compliance`)\n");
   const Bearing hard =
       bearing_with("permissible_pressure: 400 MPa\n    compliance: {model: column, composite_modulus: 70 GPa}");
-  CHECK(doubts(hard, 390e6, 1e-6).empty());
-  CHECK(doubts(hard, 410e6, 1e-6).ends_with("permissible_pressure, 400 MPa; lower the load or give more width\n"));
+  CHECK(warnings(hard, 390e6, 1e-6).empty());
+  CHECK(warnings(hard, 410e6, 1e-6).ends_with("permissible_pressure, 400 MPa; lower the load or give more width\n"));
 }
 
-TEST_CASE("SmallestFilm_IsHeldAgainstTheRoughness") {
+TEST_CASE("SmallestFilm_IsComparedWithTheRoughness") {
   const Bearing plain = bearing_with("cavitation: mass_conserving");
-  CHECK(doubts(plain, 1e6, 0.11e-6).empty());
-  CHECK(doubts(plain, 1e6, 0.09e-6).starts_with("its smallest film: 0.09 um is below the roughness of the finest"));
+  CHECK(warnings(plain, 1e6, 0.11e-6).empty());
+  CHECK(warnings(plain, 1e6, 0.09e-6).starts_with("its smallest film: 0.09 um is below the roughness of the finest"));
   const Bearing rough = bearing_with("roughness: {shell: {sigma: 0.4 um}, journal: {sigma: 0.3 um}}");
-  CHECK(doubts(rough, 1e6, 0.51e-6).empty());
-  CHECK(doubts(rough, 1e6, 0.49e-6).starts_with("its smallest film: 0.49 um is below the roughness, 0.5 um: the surf"));
+  CHECK(warnings(rough, 1e6, 0.51e-6).empty());
+  CHECK(
+      warnings(rough, 1e6, 0.49e-6).starts_with("its smallest film: 0.49 um is below the roughness, 0.5 um: the surf"));
   // A film that never was has no smallest gap.
-  CHECK(doubts(plain, 0, std::numeric_limits<double>::infinity()).empty());
+  CHECK(warnings(plain, 0, std::numeric_limits<double>::infinity()).empty());
 }
 
 std::string warnings_of(const std::string& model) {

@@ -63,7 +63,7 @@ TEST_CASE("NumbersBeyondAnyMachine_AreReported") {
   CHECK(faults_after("500 N", "1e300 N").find("a force of at most 1e+18 N in size") != std::string::npos);
 }
 
-TEST_CASE("MaterialsBesideACompositeModulus_AreToldOrRefused") {
+TEST_CASE("MaterialsBesideACompositeModulus_AreReportedOrRefused") {
   const auto bearing_with = [](const std::string& modulus, const std::string& heat, const std::string& contact) {
     const std::string material = "{youngs_modulus: 210 GPa, poisson_ratio: 0.3" + heat + "}";
     return edited(good_model, "    lubricant: oil\n",
@@ -183,7 +183,7 @@ TEST_CASE("ASecondDocument_IsReported") {
 
 TEST_CASE("AnAliasOfItself_IsReported") {
   CHECK(faults_after("rod: {mass: 2 kg}", "rod: &r {mass: *r}") ==
-        "m.yaml:12:18: an alias of the value it stands in; expected an alias of an earlier value");
+        "m.yaml:12:18: an alias of the value that contains it; expected an alias of an earlier value");
 }
 
 TEST_CASE("ExplodingAliases_EndWithAFault") {
@@ -341,16 +341,17 @@ TEST_CASE("MissingModulus_PointsAtTheMaterials") {
 
 TEST_CASE("AngleWithoutCrank_SaysWhatToAdd") {
   CHECK(faults_after("  crank: main\n", "") ==
-        "m.yaml:31:13: simulation.duration: an angle; expected a time, or a crank that turns angles into times; add "
+        "m.yaml:31:13: simulation.duration: an angle; expected a time, or a crank that converts angles to times; add "
         "simulation.crank with the name of a driven revolute joint\n"
-        "m.yaml:32:9: simulation.step: an angle; expected a time, or a crank that turns angles into times; add "
+        "m.yaml:32:9: simulation.step: an angle; expected a time, or a crank that converts angles to times; add "
         "simulation.crank with the name of a driven revolute joint");
 }
 
 TEST_CASE("CrankWithoutDrive_IsReported") {
-  CHECK(faults_after("speed: \"${speed}\"", "position: 0 deg") ==
-        "m.yaml:31:10: simulation.crank: joint 'main', which no drive turns at a constant speed; expected a joint with "
-        "a drive such as {joint: main, coordinate: rotation, speed: 3570 rpm}");
+  CHECK(
+      faults_after("speed: \"${speed}\"", "position: 0 deg") ==
+      "m.yaml:31:10: simulation.crank: joint 'main', which no drive rotates at a constant speed; expected a joint with "
+      "a drive such as {joint: main, coordinate: rotation, speed: 3570 rpm}");
   CHECK(faults_after("crank: main", "crank: guide") ==
         "m.yaml:31:10: simulation.crank: joint 'guide', which is not revolute; expected a revolute joint");
 }

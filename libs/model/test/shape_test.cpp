@@ -61,7 +61,7 @@ TEST_CASE("MeasuredShapesThatCannotBe_AreReported") {
         "bore.csv:5:1: " + path + "a second opening at this angle and z; expected one for each");
   CHECK(faults_with(header + "0, 0, 1\n90, 0, 1\n360, 0, 1\n") ==
         "bore.csv:4:1: " + path +
-            "angles over a whole turn or more; expected angles within one turn; the first follows the last");
+            "angles over 360 deg or more; expected angles within 360 deg; the first follows the last");
   CHECK(faults_with(header + "0, 0, 1\n90, 0, 1\n180, 0, 1\n0, 5, 1\n90, 5, 1\n180, 5, 1\n") ==
         "m.yaml:30:36: " + path + "heights z from 0 to 5 mm; expected the whole width, -7.8 to 7.8 mm, or a single z");
   CHECK(faults_with(header + "0, 0, -20\n90, 0, -40\n180, 0, 1\n")

@@ -89,7 +89,7 @@ TEST_CASE("Variants_AreRunBesideEachOther") {
   CHECK(expand_study(file.path(), {"variant=starved"}).size() == 2);
 }
 
-TEST_CASE("FaultyVariants_ArePlaced") {
+TEST_CASE("FaultyVariants_AreLocated") {
   const std::string above = good_model + "study:\n  parameters:\n    load: [1 N]\n  variants:\n";
   CHECK(faults_of(above + "    dry: 3\n") == "m.yaml:38:10: study.variants.dry: '3'; expected unchanged");
   const StudyFile file(above + "    dry: [bearings.big_end.widht=3]\n    wet: [load]\n");
@@ -134,7 +134,7 @@ TEST_CASE("StudySettings_AreRead") {
   CHECK(model.study->figures == std::vector<StudyFigure>{StudyFigure::film_thickness});
 }
 
-TEST_CASE("FaultyStudies_ArePlaced") {
+TEST_CASE("FaultyStudies_AreLocated") {
   CHECK(faults_of(good_model + "study:\n  parameters:\n    laod: [1 N]\n") ==
         "m.yaml:36:5: study.parameters.laod: unknown parameter 'laod'; did you mean 'load'? expected load or speed");
   CHECK(faults_of(good_model + "study:\n  parameters:\n    load: []\n") ==
@@ -170,7 +170,7 @@ TEST_CASE("Distributions_AreReadInOneUnit") {
   CHECK(distribution_of("{distribution: triangular, low: 1 N, mode: 1 N, high: 2 N}").mode == 1);
 }
 
-TEST_CASE("FaultyDistributions_ArePlaced") {
+TEST_CASE("FaultyDistributions_AreLocated") {
   const auto fault = [](const std::string& text) {
     return faults_of(good_model + "study:\n  plan: sobol\n  parameters:\n    load: " + text + "\n");
   };

@@ -104,7 +104,7 @@ TEST_CASE("FaultsInTemplates_TellTheirLineAndTheUse") {
                          "'pressure'? expected one of the parameters line, n or pressure"));
 }
 
-TEST_CASE("WrongUses_AreTold") {
+TEST_CASE("WrongUses_AreReported") {
   CHECK(faults_with("  a: {use: {template: fde, n: 1}}\n") ==
         "m.yaml:14:23: bearings.a.use: unknown template 'fde'; did you mean 'fed'? expected plain or fed");
   CHECK(faults_with("  a: {use: fed}\n") ==
@@ -132,7 +132,7 @@ TEST_CASE("Bombs_AreRefused") {
   CHECK(faults_of(deep + "use: t79\n").find("64 levels") != std::string::npos);
 }
 
-TEST_CASE("UnusedTemplates_AreTold") {
+TEST_CASE("UnusedTemplates_AreReported") {
   const Model model = read_bearings("  a: {use: plain}\n");
   REQUIRE(model.warnings.size() >= 1);
   CHECK(model.warnings[0].path == "templates.fed");

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "interpret/interpret.h"
-#include "interpret/source_tree.h"
+#include "interpret/context/interpret.h"
+#include "interpret/tree/source_tree.h"
 #include "schema/film_vocabulary.h"
 #include "schema/machine_vocabulary.h"
 #include "schema/oil_laws.h"
@@ -26,7 +26,7 @@ TEST_CASE("Words_OfTheFormatAreReadAsWhatTheyStandFor") {
   for (const auto& one : analysis_words)
     CHECK(meaning_of(checked(*type, std::string(one.word)), analysis_words) == one.value);
   CHECK(meaning_of(checked(*type, "statics"), analysis_words) ==
-        Analysis::dynamics);  // told as a fault; the first stands in
+        Analysis::dynamics);  // reported as a fault; the first word replaces it
 }
 
 TEST_CASE("Words_ThatStandForNothingAreAMistakeInTheCode") {

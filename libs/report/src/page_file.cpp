@@ -42,7 +42,7 @@ void write_page(const nlohmann::json& data, const std::filesystem::path& out) {
   static constexpr std::string_view slot = R"(<script id="hersey-data" type="application/json"></script>)";
   const std::string_view page = report_page();
   const std::size_t at = page.find(slot);
-  HERSEY_REQUIRE(at != std::string_view::npos, "the page has a place for its data");
+  HERSEY_REQUIRE(at != std::string_view::npos, "the page has an element for its data");
   const std::size_t end_of_opening = at + slot.find("</script>");
 
   // Text in a results file may hold any bytes: what is not UTF-8 is replaced, not refused.

@@ -7,13 +7,14 @@
 
 namespace hersey::report {
 
-/// Numbers in two bytes each: those of a row lie evenly between the row's extremes, value = low[row] + step[row] code.
+/// Numbers in two bytes each, as multiples of a step between the extremes of their row: value = low[row] + step[row]
+/// code.
 struct Quantised {
   std::vector<std::uint16_t> codes;
   std::vector<double> low, step;  ///< of each row
 };
 
-/// What stands for a number that is none.
+/// Code of a value that is not a number.
 inline constexpr std::uint16_t no_number = 65535;
 
 /// Rows of `width` numbers. Each is wrong by at most half a step, 1/131068 of its row's range.

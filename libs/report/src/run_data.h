@@ -8,7 +8,7 @@
 
 namespace hersey::report {
 
-/// How much of one results file goes into the page.
+/// Limits of the data that the page takes from one results file.
 struct Budget {
   std::size_t series_rows;   ///< most rows of the time series, > 0
   std::size_t field_bytes;   ///< most bytes of all fields together; at least one instant is kept

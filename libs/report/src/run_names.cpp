@@ -27,7 +27,7 @@ class RunName {
     return text;
   }
 
-  /// Puts one more folder before it; returns false where there is none.
+  /// Adds one more folder in front; returns false if there is none.
   bool grow() {
     if (count_ == static_cast<std::ptrdiff_t>(parts_.size())) return false;
     ++count_;

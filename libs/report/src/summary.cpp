@@ -18,7 +18,7 @@ namespace {
 using results::Array;
 using results::Reader;
 using run::QuantityInfo;
-using run::Told;
+using run::SummaryEntry;
 
 constexpr double degrees = 180 / std::numbers::pi;
 
@@ -47,7 +47,7 @@ SiUnit si_of(const std::string& unit) {
   return found == known.end() ? SiUnit{unit.c_str(), unit.c_str(), 1, 1} : *found;
 }
 
-/// `text` with `name` in place of what stands in angle brackets.
+/// Returns `text` with `name` in place of the part in angle brackets.
 std::string filled_in(const std::string& text, const std::string& name) {
   const std::size_t from = text.find('<');
   return from == std::string::npos ? text : text.substr(0, from) + name + text.substr(text.find('>', from) + 1);
@@ -73,52 +73,52 @@ class Summary {
 
  private:
   void bearing_rows() {
-    using As = Told::As;
+    using Statistic = SummaryEntry::Statistic;
     const std::vector<QuantityInfo> quantities = run::quantities_of("/bearings/<b>/");
     for (const std::string& bearing : reader_.children("/bearings")) {
       group_ = bearing;
       path_ = "/bearings/" + bearing + "/";
-      tell(quantities, {As::smallest, As::largest, As::longest});
-      tell(quantities, {As::mean, As::integral});
-      tell(quantities, {As::at_end});
+      add_rows(quantities, {Statistic::smallest, Statistic::largest, Statistic::longest});
+      add_rows(quantities, {Statistic::mean, Statistic::integral});
+      add_rows(quantities, {Statistic::at_end});
       given_clearance();
-      tell(quantities, {As::largest_in_size});
+      add_rows(quantities, {Statistic::largest_in_size});
       film_energy_error();
       step_error_rows();
       cycle_rows();
     }
   }
 
-  /// The rows that the table of quantities makes of those told in one of these ways.
-  void tell(const std::vector<QuantityInfo>& quantities, std::initializer_list<Told::As> ways) {
+  /// Adds the summary rows whose statistic is one of these.
+  void add_rows(const std::vector<QuantityInfo>& quantities, std::initializer_list<SummaryEntry::Statistic> ways) {
     for (const QuantityInfo& quantity : quantities)
-      for (const Told& told : quantity.told)
-        if (std::find(ways.begin(), ways.end(), told.as) != ways.end())
+      for (const SummaryEntry& summary_entry : quantity.summary_entries)
+        if (std::find(ways.begin(), ways.end(), summary_entry.statistic) != ways.end())
           for (const std::string& name : names_in_file(quantity.name))
-            tell(filled_in(quantity.name, name), filled_in(told.name, name), told);
+            add_rows(filled_in(quantity.name, name), filled_in(summary_entry.name, name), summary_entry);
   }
 
-  void tell(const std::string& series, const std::string& name, const Told& told) {
-    const double factor = si_of(told.unit).per_si;
-    switch (told.as) {
-      case Told::As::smallest:
-        return extreme(name, series, smallest, factor, told.unit, told.has_place);
-      case Told::As::largest:
-        return extreme(name, series, largest, factor, told.unit, told.has_place);
-      case Told::As::largest_in_size:
-        return extreme(name, series, largest_size, factor, told.unit, told.has_place);
-      case Told::As::longest:
-        return longest(name, series, factor, told.unit);
-      case Told::As::mean:
-        return mean(name, series, factor, told.unit);
-      case Told::As::integral:
-        return total(name, series, factor, told.unit);
-      case Told::As::at_end:
-        return last(name, series, factor, told.unit);
+  void add_rows(const std::string& series, const std::string& name, const SummaryEntry& summary_entry) {
+    const double factor = si_of(summary_entry.unit).per_si;
+    switch (summary_entry.statistic) {
+      case SummaryEntry::Statistic::smallest:
+        return extreme(name, series, smallest, factor, summary_entry.unit, summary_entry.has_location);
+      case SummaryEntry::Statistic::largest:
+        return extreme(name, series, largest, factor, summary_entry.unit, summary_entry.has_location);
+      case SummaryEntry::Statistic::largest_in_size:
+        return extreme(name, series, largest_size, factor, summary_entry.unit, summary_entry.has_location);
+      case SummaryEntry::Statistic::longest:
+        return longest(name, series, factor, summary_entry.unit);
+      case SummaryEntry::Statistic::mean:
+        return mean(name, series, factor, summary_entry.unit);
+      case SummaryEntry::Statistic::integral:
+        return total(name, series, factor, summary_entry.unit);
+      case SummaryEntry::Statistic::at_end:
+        return last(name, series, factor, summary_entry.unit);
     }
   }
 
-  /// What stands in place of <...> in the names of this thing's series; one empty name where nothing does.
+  /// Replacements of <...> in the names of this thing's series; one empty name if there is no <...>.
   std::vector<std::string> names_in_file(const std::string& pattern) const {
     const std::size_t from = pattern.find('<');
     if (from == std::string::npos) return {""};
@@ -130,15 +130,16 @@ class Summary {
     return names;
   }
 
-  /// What the length of the steps has done to the figures, where the run was asked.
+  /// Adds the errors that the steps cause in the figures, if they were estimated.
   void step_error_rows() {
     const std::string group = "/step_errors/" + group_;
     if (!reader_.has(group)) return;
     for (const QuantityInfo& quantity : run::quantities_of("/step_errors/<bearing>/")) {
       const auto error = reader_.number_attribute(group, quantity.name);
       if (!error || !std::isfinite(*error)) continue;
-      for (const Told& told : quantity.told)
-        add(told.name, si_of(told.unit).per_si * *error, told.unit, "estimated by a run with steps twice as long");
+      for (const SummaryEntry& summary_entry : quantity.summary_entries)
+        add(summary_entry.name, si_of(summary_entry.unit).per_si * *error, summary_entry.unit,
+            "estimated by a run with steps twice as long");
     }
   }
 
@@ -153,16 +154,16 @@ class Summary {
     const std::vector<double> contact = cycle("contact");
     const bool touches = !contact.empty() && contact.back() >= 1;  // [Pa]: else the tail of a distribution of heights
     for (const QuantityInfo& quantity : run::quantities_of("/bearings/<b>/cycles/fields/")) {
-      for (const Told& told : quantity.told) {
-        if (told.only == Told::Only::of_a_cycle && !is_cycle) continue;
-        if (told.only == Told::Only::with_contact && !touches) continue;
-        const double factor = si_of(told.unit).per_si;
-        if (told.as == Told::As::largest)
-          largest_of_map(told.name + over, quantity.name, factor, told.unit);
-        else if (told.has_place)
-          of_cycle(told.name + over, quantity.name, factor, told.unit);
+      for (const SummaryEntry& summary_entry : quantity.summary_entries) {
+        if (summary_entry.only == SummaryEntry::Only::of_a_cycle && !is_cycle) continue;
+        if (summary_entry.only == SummaryEntry::Only::with_contact && !touches) continue;
+        const double factor = si_of(summary_entry.unit).per_si;
+        if (summary_entry.statistic == SummaryEntry::Statistic::largest)
+          largest_of_map(summary_entry.name + over, quantity.name, factor, summary_entry.unit);
+        else if (summary_entry.has_location)
+          of_cycle(summary_entry.name + over, quantity.name, factor, summary_entry.unit);
         else
-          last_of(told.name + over, quantity.name, factor, told.unit, when);
+          last_of(summary_entry.name + over, quantity.name, factor, summary_entry.unit, when);
       }
     }
   }
@@ -174,13 +175,13 @@ class Summary {
     if (const std::vector<double> all = cycle(series); !all.empty()) add(name, factor * all.back(), unit, when);
   }
 
-  /// An extreme of the last cycle, with its own instant and place.
+  /// An extreme of the last cycle, with its own instant and location.
   void of_cycle(const std::string& name, const std::string& series, double factor, const std::string& unit) {
     const std::vector<double> all = cycle(series), t = cycle(series + "_time");
     if (all.empty() || t.size() != all.size()) return;
     std::string where = fmt::format("t = {:.4g} ms", t.back() * 1e3);
     if (const auto row = row_at(t.back())) where = instant(*row);
-    add(name, factor * all.back(), unit, where + place("cycles/fields/" + series, all.size() - 1));
+    add(name, factor * all.back(), unit, where + location("cycles/fields/" + series, all.size() - 1));
   }
 
   /// The largest value of the last cycle's map, and where.
@@ -201,7 +202,7 @@ class Summary {
     return static_cast<std::size_t>(found - time_.begin());
   }
 
-  /// Beside the one at temperature.
+  /// Adds the given clearance, in addition to the one at temperature.
   void given_clearance() {
     const auto cold = reader_.number_attribute("/bearings/" + group_, "radial_clearance");
     if (cold && (reader_.has(path_ + "clearance") || reader_.has(path_ + "clearance_of_bodies")))
@@ -209,24 +210,24 @@ class Summary {
   }
 
   void thermal_rows() {
-    using As = Told::As;
+    using Statistic = SummaryEntry::Statistic;
     if (!reader_.has("/thermal/heat_stored")) return;
     group_ = "thermal network";
     path_ = "/thermal/";
-    tell(run::quantities_of(path_), {As::largest});
-    tell(run::quantities_of(path_), {As::mean});
-    tell(run::quantities_of(path_), {As::at_end});
-    tell(run::quantities_of(path_), {As::largest_in_size});
+    add_rows(run::quantities_of(path_), {Statistic::largest});
+    add_rows(run::quantities_of(path_), {Statistic::mean});
+    add_rows(run::quantities_of(path_), {Statistic::at_end});
+    add_rows(run::quantities_of(path_), {Statistic::largest_in_size});
   }
 
   void contact_rows() {
-    using As = Told::As;
+    using Statistic = SummaryEntry::Statistic;
     const std::vector<QuantityInfo> quantities = run::quantities_of("/contacts/<c>/");
     for (const std::string& contact : reader_.children("/contacts")) {
       group_ = "contact " + contact;
       path_ = "/contacts/" + contact + "/";
-      tell(quantities, {As::smallest, As::largest, As::longest});
-      tell(quantities, {As::mean, As::integral});
+      add_rows(quantities, {Statistic::smallest, Statistic::largest, Statistic::longest});
+      add_rows(quantities, {Statistic::mean, Statistic::integral});
     }
   }
 
@@ -238,7 +239,7 @@ class Summary {
     mean_of_rows("mean Newton iterations per step", "solver/newton_iterations");
     newton_row();
     step_rows();
-    tell(run::quantities_of("/"), {Told::As::largest_in_size});
+    add_rows(run::quantities_of("/"), {SummaryEntry::Statistic::largest_in_size});
     relative_power_error();
     energy_rows();
     group_ = "computing";
@@ -250,7 +251,7 @@ class Summary {
     timing_rows();
   }
 
-  /// What the steps cost, part by part, and how films and bodies were brought together.
+  /// Adds the cost of the steps, part by part, and that of the coupling of films and bodies.
   void timing_rows() {
     const double stepping = reader_.number_attribute("/timing", "stepping").value_or(0);
     const double steps = reader_.number_attribute("/timing", "steps").value_or(0);
@@ -276,7 +277,7 @@ class Summary {
     }
   }
 
-  /// Of all steps where the file knows it, else of those stored.
+  /// Uses all steps if the file has their count, else the stored ones.
   void newton_row() {
     const std::string name = "median Newton iterations per step";
     const auto median = reader_.number_attribute("/timing", "newton_iterations_median");
@@ -331,12 +332,12 @@ class Summary {
       }
     }
     const std::vector<double> rejected = values("solver/rejected_steps"), drift = values("solver/constraint_drift");
-    tell(run::quantities_of("/"), {Told::As::largest});
+    add_rows(run::quantities_of("/"), {SummaryEntry::Statistic::largest});
     if (!rejected.empty() && rejected.back() > 0) add("rejected steps", rejected.back(), "");
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
   }
 
-  /// What the bodies put into a film by its forces, against what the film's integrals take.
+  /// Compares the energy that the bodies put into a film by its forces with the film's integrals.
   void film_energy_error() {
     const double lost = integral(values("power_film")) + integral(values("power_asperity"));
     const std::vector<double> error = values("power_error");
@@ -344,7 +345,7 @@ class Summary {
     add("unexplained energy of the film, share of what it dissipates", 100 * integral(error) / lost, "%");
   }
 
-  /// Where the energy put in has gone by the end, each part from an integral of its own.
+  /// Adds the energy balance at the end of the run; each part is a separate integral.
   void energy_rows() {
     const auto series = [&](const std::string& name) { return values("energy/since_start/" + name); };
     const std::vector<double> put_in = series("put_in"), unexplained = series("unexplained");
@@ -365,7 +366,7 @@ class Summary {
     add("energy in bodies and springs, more than at the start", stored.back(), "J");
     add("unexplained energy", unexplained.back(), "J");
     const std::vector<double> available = series("available"), from_nowhere = series("from_nowhere");
-    // Results of programs before 0.11 do not tell.
+    // Results of programs before 0.11 do not contain these energies.
     if (available.empty() || from_nowhere.empty() || !(available.back() > 0)) return;
     const double all = available.back();
     add("the same, share of the energy at the start and put in since", 100 * std::abs(unexplained.back()) / all, "%");
@@ -404,19 +405,20 @@ class Summary {
     return row < crank_angle_.size() ? time + fmt::format(", crank {:.1f}°", crank_angle_[row] * degrees) : time;
   }
 
-  /// The most extreme finite value in the sense of `before`, with its instant and, if `placed`, its place on the film.
+  /// Adds the most extreme finite value in the sense of `before`, with its instant and, if `has_location`, its location
+  /// on the film.
   template <class Before>
   void extreme(const std::string& name, const std::string& series, Before before, double factor,
-               const std::string& unit, bool placed) {
+               const std::string& unit, bool has_location) {
     const std::vector<double> all = values(series);
     std::optional<std::size_t> best;
     for (std::size_t k = 0; k < all.size(); ++k)
       if (std::isfinite(all[k]) && (!best || before(all[k], all[*best]))) best = k;
     if (!best) return;
-    add(name, all[*best] * factor, unit, instant(*best) + (placed ? place(series, *best) : ""));
+    add(name, all[*best] * factor, unit, instant(*best) + (has_location ? location(series, *best) : ""));
   }
 
-  std::string place(const std::string& series, std::size_t row) const {
+  std::string location(const std::string& series, std::size_t row) const {
     const std::vector<double> phi = values(series + "_phi"), z = values(series + "_z");
     std::string text;
     if (row < phi.size()) text += fmt::format(", φ = {:.1f}°", phi[row] * degrees);
@@ -424,7 +426,7 @@ class Summary {
     return text;
   }
 
-  /// Of a vector with three components.
+  /// Adds the largest magnitude of a vector with three components.
   void longest(const std::string& name, const std::string& series, double factor, const std::string& unit) {
     const std::vector<double> force = values(series);
     double most = -1;

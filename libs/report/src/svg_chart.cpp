@@ -14,7 +14,7 @@ constexpr double width = 640, height = 380, left = 64, right = 118, top = 14, bo
 constexpr double line_height = 15;
 constexpr int colours = 6;
 
-/// An axis: values to places.
+/// An axis maps values to positions.
 class Axis {
  public:
   Axis(bool is_logarithmic, double from, double to) : is_logarithmic_(is_logarithmic), from_(from), to_(to) {}
@@ -69,8 +69,8 @@ std::string tick_text(double value) {
   return fmt::format("{:.4g}", value);
 }
 
-/// Places of labels beside the ends of lines, moved apart where they would cover each other.
-std::vector<double> label_places(std::vector<double> wanted) {
+/// Positions of labels beside the ends of lines, moved apart where they would overlap.
+std::vector<double> label_positions(std::vector<double> wanted) {
   std::vector<std::size_t> order(wanted.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return wanted[a] < wanted[b]; });
@@ -109,7 +109,7 @@ std::string line_of(const CurveChart& chart, const CurveLine& line, std::size_t 
   for (std::size_t k = 0; k < line.x.size(); ++k)
     path += fmt::format("{}{:.1f} {:.1f}", k == 0 ? "M" : "L", x.at(line.x[k]), y.at(line.y[k]));
   std::string svg = fmt::format("<path class=\"line c{}\" d=\"{}\"/>", colour % colours, path);
-  // What the pointer is told: about ten places a line.
+  // Tooltips show about ten points of a line.
   const std::size_t every = std::max<std::size_t>(1, line.x.size() / 10);
   for (std::size_t k = 0; k < line.x.size(); k += every)
     svg += fmt::format(
@@ -153,11 +153,11 @@ std::string svg_of(const CurveChart& chart) {
   svg += axes_of(chart, x, y);
   std::vector<double> ends;
   for (const CurveLine& line : chart.lines) ends.push_back(y.at(line.y.back()) + 4);
-  const std::vector<double> places = label_places(ends);
+  const std::vector<double> positions = label_positions(ends);
   for (std::size_t k = 0; k < chart.lines.size(); ++k) {
     svg += line_of(chart, chart.lines[k], k, x, y);
     svg += fmt::format("<text class=\"label c{}\" x=\"{}\" y=\"{:.1f}\">{}</text>", k % colours, width - right + 8,
-                       places[k], escaped(chart.lines[k].label));
+                       positions[k], escaped(chart.lines[k].label));
   }
   return svg + "</svg>";
 }

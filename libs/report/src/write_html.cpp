@@ -15,13 +15,13 @@ using nlohmann::json;
 
 constexpr std::size_t fewest_series_rows = 300;  // still a smooth curve on a screen
 
-/// Where the fields of a page lie that it loads when it is asked to: a folder beside it.
+/// Folder beside a page with the fields that it loads on request.
 std::filesystem::path folder_of_fields(const std::filesystem::path& out) {
   return out.parent_path() / (out.stem().string() + "_fields");
 }
 
-/// Writes all instants of the films of a run of which the page holds some only; tells the page where they are.
-json fields_beside(const results::Reader& reader, const json& run, std::size_t place, std::size_t budget,
+/// Writes all instants of the films of a run if the page contains only some, and returns their files for the page.
+json fields_beside(const results::Reader& reader, const json& run, std::size_t index, std::size_t budget,
                    const std::filesystem::path& out) {
   json list = json::array();
   if (run["field_stride"] == 1) return list;
@@ -32,10 +32,10 @@ json fields_beside(const results::Reader& reader, const json& run, std::size_t p
     const std::string time = group + "/fields/time";
     const json datasets = film_fields(reader, bearing, budget);
     if (!datasets.contains(time) || datasets[time]["shape"] == run["datasets"][time]["shape"]) continue;
-    std::error_code exists_or_fails;  // writing tells
+    std::error_code exists_or_fails;  // the writing below reports a failure
     std::filesystem::create_directory(folder_of_fields(out), exists_or_fails);
     const std::filesystem::path file =
-        folder_of_fields(out) / (std::to_string(place) + "_" + std::to_string(list.size()) + ".js");
+        folder_of_fields(out) / (std::to_string(index) + "_" + std::to_string(list.size()) + ".js");
     write_script("herseyFields", {{"run", run["name"]}, {"datasets", datasets}}, file);
     list.push_back({{"bearing", bearing},
                     {"file", (file.parent_path().filename() / file.filename()).generic_string()},

@@ -66,7 +66,7 @@ TEST_CASE("BearingPage_HoldsFiguresFeaturesAndFields") {
   CHECK(data["bearing"]["solutions"][1]["datasets"].empty());
 }
 
-TEST_CASE("BearingPage_FaultsAreTold") {
+TEST_CASE("BearingPage_FaultsAreReported") {
   const TemporaryDirectory directory;
   BearingPage page{.title = "t", .bearing = "main"};
   CHECK_THROWS_AS(write_html(page, directory.path() / "page.html"), ContractError);

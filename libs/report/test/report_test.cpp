@@ -35,12 +35,12 @@ template <class Number>
 std::vector<Number> decode(const std::string& text) {
   const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
-  unsigned bits = 0, held = 0;
+  unsigned bits = 0, buffer = 0;
   for (const char c : text) {
     if (c == '=') break;
-    held = held << 6 | static_cast<unsigned>(alphabet.find(c));
+    buffer = buffer << 6 | static_cast<unsigned>(alphabet.find(c));
     bits += 6;
-    if (bits >= 8) bytes += static_cast<char>(held >> (bits -= 8) & 0xff);
+    if (bits >= 8) bytes += static_cast<char>(buffer >> (bits -= 8) & 0xff);
   }
   std::vector<Number> numbers(bytes.size() / sizeof(Number));
   std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
@@ -162,7 +162,7 @@ TEST_CASE("Fields_TakeTwoBytesANumber") {
   const auto low = decode<float>(pressure["low"]), step = decode<float>(pressure["step"]);
   REQUIRE(codes.size() == 11 * 12);
   REQUIRE(low.size() == 11);
-  // Every instant's pressure is uniform: told exactly, in the page's single precision.
+  // Every instant's pressure is uniform: stored exactly, in the page's single precision.
   for (std::size_t k = 0; k < 11; ++k)
     CHECK(low[k] + step[k] * codes[12 * k] == static_cast<float>(run.p_max(static_cast<int>(k))));
 }
@@ -187,7 +187,7 @@ TEST_CASE("Study_ShowsEveryRunWithItsParameters") {
   CHECK(page.data["runs"][0]["attributes"]["/"]["study_parameters"] == json({"load"}));
 }
 
-TEST_CASE("TroubleWithFiles_IsToldWithThePath") {
+TEST_CASE("FailuresOfFiles_AreReportedWithThePath") {
   using Paths = std::vector<std::filesystem::path>;
   const TemporaryDirectory directory;
   CHECK_THROWS_WITH_AS(write_html(Paths{directory / "none.h5"}, directory / "r.html"),

@@ -25,7 +25,7 @@ std::vector<SummaryRow> summary_of(const SmallRun& run) {
 // Values pass through one multiplication or a short sum: a few roundings.
 const double round_off = 16 * std::numeric_limits<double>::epsilon();
 
-TEST_CASE("Extremes_ComeWithInstantAndPlace") {
+TEST_CASE("Extremes_HaveInstantAndLocation") {
   const auto rows = summary_of({});
   const SummaryRow& moft = find(rows, "minimum film thickness (MOFT)");
   CHECK(moft.run == "run");
@@ -57,7 +57,7 @@ TEST_CASE("WorstBalanceError_IsTheLargestInSize") {
   CHECK(find(rows, "the same, share of the largest power").value == doctest::Approx(5e-8).epsilon(round_off));
 }
 
-TEST_CASE("DifferencesOfCycles_AreToldFromTheSecondOn") {
+TEST_CASE("DifferencesOfCycles_AreReportedFromTheSecondOn") {
   const TemporaryDirectory directory;
   {
     results::Writer writer(directory / "run.h5");
@@ -137,7 +137,7 @@ TEST_CASE("WholeRunWithoutContact_HasItsEnergiesOnly") {
 }
 
 TEST_CASE("MedianOfIterations_LeavesOutTheStart") {
-  // 2, then ten steps of 4 and 2 in turn.
+  // 2, then ten steps of 4 and 2 alternately.
   CHECK(find(summary_of({}), "median Newton iterations per step").value == 3);
 }
 

@@ -24,14 +24,14 @@ inline std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The content damaged in one of two ways. Bytes changed: the input names places and new bytes in turn, four bytes
-/// each. Or cut short, where the first byte is odd: at the place that the next three name.
+/// The content damaged in one of two ways. Bytes changed: the input names offsets and new bytes alternately, four bytes
+/// each. Or cut short, if the first byte is odd: at the offset that the next three name.
 inline std::string damaged(std::string content, const std::uint8_t* data, std::size_t size) {
-  const auto place = [&](std::size_t at) {
+  const auto offset_at = [&](std::size_t at) {
     return (data[at] | std::size_t{data[at + 1]} << 8 | std::size_t{data[at + 2]} << 16) % content.size();
   };
-  if (size >= 4 && data[0] % 2 == 1) return content.substr(0, place(1));
-  for (std::size_t k = 1; k + 4 <= size; k += 4) content[place(k)] = static_cast<char>(data[k + 3]);
+  if (size >= 4 && data[0] % 2 == 1) return content.substr(0, offset_at(1));
+  for (std::size_t k = 1; k + 4 <= size; k += 4) content[offset_at(k)] = static_cast<char>(data[k + 3]);
   return content;
 }
 

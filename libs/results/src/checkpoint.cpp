@@ -22,8 +22,9 @@ constexpr const char* kFormat = "hersey-checkpoint";
 constexpr double kVersion = 1;
 constexpr std::size_t kMemoryStep = std::size_t{1} << 20;
 
-/// HDF5 file in memory: what goes to the disk is written in one piece. HDF5 tells files in memory apart by their names
-/// and has each open once only, so every one has the name of its own checkpoint. Lives within one session.
+/// HDF5 file in memory: its bytes are written to the disk in one piece. HDF5 distinguishes files in memory by their
+/// names and opens each only once, so every one has the name of its own checkpoint. Its lifetime lies within one
+/// session.
 class Image {
  public:
   explicit Image(const std::filesystem::path& path) : path_(path) {
@@ -105,8 +106,8 @@ class Contents {
  public:
   explicit Contents(const std::filesystem::path& path) : path_(path) {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such checkpoint");
-    if (const auto trouble = unreadable(path)) fail("it is " + *trouble);
-    // Before HDF5 sees it: the library trusts what it reads of a file's structure.
+    if (const auto failure = unreadable(path)) fail("it is " + *failure);
+    // The seal is checked before HDF5 reads the file: the library trusts the structure that it finds.
     if (const Seal seal = check_seal(path); seal != Seal::intact)
       fail(seal == Seal::broken ? "damaged: it has changed since it was written" : "not a checkpoint, or cut short");
     file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
@@ -171,7 +172,7 @@ class Contents {
   Handle file_;
 };
 
-/// Where a checkpoint is written until it is whole.
+/// Path of a checkpoint until it is complete.
 std::filesystem::path unfinished(std::filesystem::path path) { return path += ".new"; }
 
 std::vector<char> image_of(const std::filesystem::path& path, const Archive::Content& content) {

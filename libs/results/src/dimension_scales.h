@@ -29,7 +29,7 @@ class DimensionScales {
   /// Names the dimensions of a dataset by scales made before, one for each. False if HDF5 refuses.
   [[nodiscard]] bool attach(hid_t dataset, const std::string& path, const std::vector<std::string>& scales);
 
-  /// The scale of the rows of what grows with the dataset at `path`; that dataset itself if it is the first.
+  /// The scale of the rows of datasets that grow with the one at `path`; that dataset itself if it is the first.
   [[nodiscard]] std::string of_rows(const std::string& path);
 
   [[nodiscard]] bool has(const std::string& scale) const { return references_.contains(scale); }

@@ -52,7 +52,7 @@ bool GrowingDataset::add(std::span<const double> rows) {
   return true;
 }
 
-/// The chunk in which rows are written next, zeros behind those it has so far.
+/// Writes the chunk for the next rows, with zeros after the rows it has so far.
 bool GrowingDataset::write_chunk(std::span<const double> rows) {
   return size_ == NumberSize::eight_bytes ? write_chunk_of<double>(rows) : write_chunk_of<float>(rows);
 }
@@ -66,10 +66,10 @@ bool GrowingDataset::write_chunk_of(std::span<const double> rows) {
     std::transform(rows.begin(), rows.end(), whole.begin(), [](double number) { return static_cast<Number>(number); });
     numbers = whole.data();
   }
-  std::vector<hsize_t> place(shape_.size(), 0);
-  place[0] = next_chunk_;
+  std::vector<hsize_t> offset(shape_.size(), 0);
+  offset[0] = next_chunk_;
   if (rows.size() == chunk_numbers_) next_chunk_ += chunk_numbers_ / width_;
-  return H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, 0, place.data(), chunk_numbers_ * sizeof(Number), numbers) >= 0;
+  return H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, 0, offset.data(), chunk_numbers_ * sizeof(Number), numbers) >= 0;
 }
 
 }  // namespace hersey::results

@@ -15,15 +15,17 @@ enum class NumberSize { four_bytes, eight_bytes };
 
 /// A dataset of a results file that gets rows.
 ///
-/// Its chunks are put into the file whole, as they will lie there: HDF5 then need not find out which part of which
-/// chunk a row belongs to, nor keep any of them. With thousands of series that is most of what rows cost.
+/// Its chunks are written to the file whole, in their final form: HDF5 then need not find out to which part of which
+/// chunk a row belongs, nor cache any of them. With thousands of series that is most of the cost of rows.
 class GrowingDataset {
  public:
-  /// Rows of a chunk. One of many rows is larger, for making a chunk costs more than filling it.
+  /// Number of rows in a chunk. Chunks of datasets with many rows are larger, because making a chunk costs more than
+  /// filling it.
   /// @param width  numbers per row
-  /// @param expected  rows in the end, as far as is known
+  /// @param expected  final number of rows, as far as it is known
   [[nodiscard]] static std::size_t chunk_rows(std::size_t width, std::size_t expected);
-  /// Of rows of up to four numbers, as most are: the same for all, so that their chunks fill at the same step.
+  /// Number of rows in a chunk for rows of up to four numbers, the usual case: the same for all, so that their chunks
+  /// fill at the same step.
   [[nodiscard]] static std::size_t narrow_chunk_rows(std::size_t expected) { return chunk_rows(1, expected); }
 
   /// @param dataset  chunked, of `chunk_rows` rows each, with no row yet

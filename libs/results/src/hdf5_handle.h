@@ -42,12 +42,12 @@ class Handle {
   hid_t id_ = H5I_INVALID_HID;
 };
 
-/// Opens a stretch of calls of HDF5: while it lives this thread alone uses the library, and no error stacks are
-/// printed, for failures are told by exceptions, once.
+/// Begins a sequence of HDF5 calls: during its lifetime this thread alone uses the library, and no error stacks are
+/// printed, because exceptions report failures.
 class Hdf5Session {
  public:
-  /// @param doubtful  the file that is read, if nothing vouches for it (hersey/core/untrusted_file.h)
-  explicit Hdf5Session(const char* doubtful = nullptr) : lock_(hdf5_lock()), doubtful_(doubtful) {
+  /// @param untrusted_path  the file that is read, if no checksum covers it (hersey/core/untrusted_file.h)
+  explicit Hdf5Session(const char* untrusted_path = nullptr) : lock_(hdf5_lock()), untrusted_(untrusted_path) {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
@@ -57,7 +57,7 @@ class Hdf5Session {
 
  private:
   std::scoped_lock<std::recursive_mutex> lock_;
-  UntrustedFile doubtful_;
+  UntrustedFile untrusted_;
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };

@@ -16,15 +16,17 @@ struct OpenFile {
 
   /// Creates it. @throws FileExists, WriteError
   void open(bool overwrite);
-  /// Turns a failed call or a failed driver into the one exception the caller sees. @throws WriteError
+  /// Throws one exception for a failed call or a failed driver.
+  /// @throws WriteError
   void require(bool good, std::string_view what);
   /// @throws ContractError once it is finished, WriteError
   void require_open();
-  /// Puts what is flushed onto the disk. @throws WriteError
+  /// Syncs flushed data to the disk.
+  /// @throws WriteError
   void sync();
   /// Gives it another name, in one piece. @param replace  a file of that name; else @throws FileExists, WriteError
   void rename(const std::filesystem::path& to, bool replace);
-  /// In order or not: `status` tells.
+  /// Closes the file, whether or not an error occurred: `status` states which.
   void close();
 };
 

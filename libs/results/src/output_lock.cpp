@@ -18,7 +18,7 @@ std::filesystem::path lock_of(const std::filesystem::path& results) {
   return path;
 }
 
-/// "process 4711 on engine-room", as whoever holds the lock has written it.
+/// "process 4711 on engine-room", as written by the process that has the lock.
 std::string holder(int fd) {
   std::array<char, 256> text{};
   const ssize_t length = ::pread(fd, text.data(), text.size() - 1, 0);
@@ -41,7 +41,7 @@ void sign(int fd) {
   throw FileBusy(results, "another run" + who + " is writing this file: wait for its end, or write elsewhere");
 }
 
-/// Whether the name is still that of the open file: who ends a run takes the name away.
+/// True if the name still belongs to the open file: the end of a run removes the name.
 bool has_name(int fd, const std::filesystem::path& path) {
   struct stat opened {
   }, named{};
@@ -53,7 +53,7 @@ bool has_name(int fd, const std::filesystem::path& path) {
 
 OutputLock::OutputLock(const std::filesystem::path& results) : lock_(lock_of(results)) {
   while (!results.empty()) {
-    // What keeps the lock from being made keeps the results from being written, and is told then.
+    // An error that prevents the lock also prevents the results from being written, and is reported then.
     const int fd = ::open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (fd < 0) return;
     if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {

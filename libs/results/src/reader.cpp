@@ -64,17 +64,17 @@ struct Reader::Impl {
 
   [[noreturn]] void fail(const std::string& reason) const { throw ReadError(path, reason); }
 
-  /// Its name where no checksum vouches for what HDF5 finds in it.
-  [[nodiscard]] const char* doubtful() const { return is_sealed || path.empty() ? nullptr : path.c_str(); }
+  /// Path of the file if no checksum covers the structure that HDF5 reads.
+  [[nodiscard]] const char* untrusted_path() const { return is_sealed || path.empty() ? nullptr : path.c_str(); }
 
   void open() {
     if (std::error_code error; !std::filesystem::exists(path, error)) fail("there is no such file");
-    if (const auto trouble = unreadable(path)) fail("it is " + *trouble);
-    // Before HDF5 sees it: the library trusts what it reads of a file's structure.
+    if (const auto failure = unreadable(path)) fail("it is " + *failure);
+    // The seal is checked before HDF5 reads the file: the library trusts the structure that it finds.
     const Seal seal = check_seal(path);
     if (seal == Seal::broken) fail("damaged: it has changed since it was written");
     is_sealed = seal == Seal::intact;
-    const UntrustedFile untrusted_file(doubtful());
+    const UntrustedFile untrusted_file(untrusted_path());
     const Handle access(H5Pcreate(H5P_FILE_ACCESS));
     keep_metadata(access.get());
     file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));
@@ -134,7 +134,7 @@ struct Reader::Impl {
     return take(raw, memory.get(), space.get());
   }
 
-  /// Notes all groups and datasets below `group`, and how many rows are complete.
+  /// Lists all groups and datasets below `group`, and the number of complete rows.
   void survey(const std::string& group) {
     if (std::count(group.begin(), group.end(), '/') > deepest_group) fail("damaged: groups within groups without end");
     groups.push_back(group);
@@ -155,7 +155,7 @@ struct Reader::Impl {
     }
   }
 
-  /// Whether it is a link to a dimension scale that has another name, too.
+  /// True for a link to a dimension scale that has another name, too.
   [[nodiscard]] bool is_further_name(const std::string& name, hid_t object) const {
     H5O_info_t about{};
     if (H5Oget_info2(object, &about, H5O_INFO_BASIC) < 0 || about.rc < 2) return false;
@@ -204,10 +204,10 @@ struct Reader::Impl {
 };
 
 Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   impl_->path = std::move(path);
   impl_->open();
-  const UntrustedFile doubtful(impl_->doubtful());
+  const UntrustedFile untrusted_file(impl_->untrusted_path());
   if (text_attribute("/", "format") != "hersey-results") impl_->fail("HDF5, but not a results file of hersey");
   const double version = number_attribute("/", "format_version").value_or(0);
   if (version < 1 || version > newest_format)
@@ -219,7 +219,7 @@ Reader::Reader(std::filesystem::path path) : impl_(std::make_unique<Impl>()) {
 Reader::~Reader() = default;
 
 bool Reader::has(std::string_view path) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   return impl_->exists(absolute(path));
 }
 
@@ -228,7 +228,7 @@ const std::vector<std::string>& Reader::groups() const { return impl_->groups; }
 const std::vector<std::string>& Reader::datasets() const { return impl_->datasets; }
 
 std::vector<std::string> Reader::children(std::string_view group) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   std::vector<std::string> names;
   const std::string name = absolute(group);
   if (!impl_->exists(name)) return names;
@@ -238,7 +238,7 @@ std::vector<std::string> Reader::children(std::string_view group) const {
 }
 
 std::vector<std::string> Reader::attributes(std::string_view object) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   std::vector<std::string> names;
   const std::string name = absolute(object);
   if (!impl_->exists(name)) return names;
@@ -248,7 +248,7 @@ std::vector<std::string> Reader::attributes(std::string_view object) const {
 }
 
 std::optional<std::string> Reader::text_attribute(std::string_view object, std::string_view name) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   const Handle attribute = impl_->attribute(object, name);
   if (!attribute.valid()) return std::nullopt;
   const Handle space(H5Aget_space(attribute.get()));
@@ -258,7 +258,7 @@ std::optional<std::string> Reader::text_attribute(std::string_view object, std::
 }
 
 std::optional<double> Reader::number_attribute(std::string_view object, std::string_view name) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   const Handle attribute = impl_->attribute(object, name);
   if (!attribute.valid()) return std::nullopt;
   const Handle type(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
@@ -270,13 +270,13 @@ std::optional<double> Reader::number_attribute(std::string_view object, std::str
 }
 
 std::vector<std::string> Reader::list_attribute(std::string_view object, std::string_view name) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   const Handle attribute = impl_->attribute(object, name);
   return attribute.valid() ? impl_->texts(attribute.get()) : std::vector<std::string>{};
 }
 
 DatasetInfo Reader::info(std::string_view path) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   const std::string name = absolute(path);
   const Handle dataset = impl_->dataset(name);
   const Handle space(H5Dget_space(dataset.get()));
@@ -286,7 +286,7 @@ DatasetInfo Reader::info(std::string_view path) const {
 Array Reader::read(std::string_view path) const { return read_rows(path, 0, std::numeric_limits<std::size_t>::max()); }
 
 Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t count, std::size_t stride) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   const std::string name = absolute(path);
   const Handle dataset = impl_->dataset(name);
   const Handle type(H5Dget_type(dataset.get())), space(H5Dget_space(dataset.get()));
@@ -314,7 +314,7 @@ Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t co
 }
 
 std::string Reader::text(std::string_view path) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   const std::string name = absolute(path);
   std::vector<std::string> texts = impl_->dataset_texts(name);
   if (texts.size() != 1) impl_->fail(name + " is not a single text");
@@ -322,7 +322,7 @@ std::string Reader::text(std::string_view path) const {
 }
 
 std::vector<std::pair<std::string, std::string>> Reader::text_table(std::string_view path) const {
-  const Hdf5Session session(impl_->doubtful());
+  const Hdf5Session session(impl_->untrusted_path());
   std::vector<std::string> texts = impl_->dataset_texts(absolute(path));
   std::vector<std::pair<std::string, std::string>> rows;
   for (std::size_t i = 0; i + 1 < texts.size(); i += 2) rows.emplace_back(std::move(texts[i]), std::move(texts[i + 1]));

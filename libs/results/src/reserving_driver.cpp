@@ -98,7 +98,7 @@ H5FD_t* open_file(const char*, unsigned, hid_t access, haddr_t) {
 }
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
-  // Metadata is not gathered into blocks: place() gives every piece its own address.
+  // Metadata is not gathered into blocks: allocate() gives every piece its own address.
   if (flags != nullptr) *flags = H5FD_FEAT_AGGREGATE_SMALLDATA;
   return 0;
 }
@@ -113,7 +113,7 @@ herr_t set_eoa(H5FD_t* file, H5FD_mem_t, haddr_t address) {
 
 /// Finds room at the end of the file. A kill can cut a write where it crosses from one memory page to the next, and an
 /// index node cut in two is not readable: a piece of metadata that fits into a page is put into one.
-haddr_t place(H5FD_t* base, H5FD_mem_t type, hid_t, hsize_t size) {
+haddr_t allocate(H5FD_t* base, H5FD_mem_t type, hid_t, hsize_t size) {
   static const auto page = static_cast<haddr_t>(sysconf(_SC_PAGESIZE));
   ReservedFile& file = self(base);
   haddr_t address = file.eoa;
@@ -136,7 +136,7 @@ std::map<haddr_t, Piece>::iterator first_beyond(ReservedFile& file, haddr_t addr
   return end_of(*before) > address ? before : next;
 }
 
-/// What waits is newer than what is in the file.
+/// Waiting pieces are newer than the contents of the file.
 void overlay(ReservedFile& file, haddr_t address, std::size_t size, char* buffer) {
   for (auto at = first_beyond(file, address); at != file.waiting.end() && at->first < address + size; ++at) {
     const auto& [start, piece] = *at;
@@ -145,7 +145,7 @@ void overlay(ReservedFile& file, haddr_t address, std::size_t size, char* buffer
   }
 }
 
-/// A piece takes the place of what waits there; of older ones the parts beside it stay.
+/// A piece replaces the waiting ones it covers; the uncovered parts of older ones remain.
 void put(ReservedFile& file, haddr_t address, Piece piece) {
   const haddr_t end = address + piece.bytes.size();
   for (auto at = first_beyond(file, address); at != file.waiting.end() && at->first < end;) {
@@ -225,7 +225,7 @@ std::tuple<int, int> rank(const ReservedFile& file, haddr_t address, const Piece
   }
 }
 
-/// The end of a flush: all metadata goes into the file, in an order that keeps it readable if the program dies midway.
+/// Ends a flush: writes all metadata to the file, in an order that keeps it readable if the program is killed midway.
 herr_t commit(H5FD_t* base, hid_t, hbool_t) {
   ReservedFile& file = self(base);
   std::map<std::tuple<std::tuple<int, int>, haddr_t>, const Piece*> ordered;
@@ -263,7 +263,7 @@ constexpr H5FD_class_t make_class() {
   driver.open = open_file;
   driver.close = close_file;
   driver.query = query;
-  driver.alloc = place;
+  driver.alloc = allocate;
   driver.get_eoa = get_eoa;
   driver.set_eoa = set_eoa;
   driver.get_eof = get_eof;

@@ -45,7 +45,7 @@ void RowFlow::make_room() {
   drain();
 }
 
-/// Has the rows put into the file beside what goes on; waits for those before them.
+/// Writes the rows in a separate thread; waits for those before them.
 void RowFlow::hand_over(bool with_flush) {
   settle();
   file_.require_open();
@@ -75,7 +75,7 @@ void RowFlow::flush(WaitingRows& rows) {
   file_.require(H5Fflush(file_.handle.get(), H5F_SCOPE_LOCAL) >= 0, "HDF5 cannot flush");
   last_flush_ = Clock::now();
   rows_at_flush_ = datasets_.empty() ? 0 : datasets_.front().rows();
-  // A flush of few rows does not tell what the next one will cost.
+  // The cost of a flush of few rows does not predict that of the next one.
   if (has_rows) flush_cost_ = std::max(std::chrono::duration<double>(last_flush_ - began).count(), 0.5 * flush_cost_);
 }
 

@@ -12,13 +12,13 @@
 
 namespace hersey::results {
 
-/// The way of rows into the file: they wait in memory until their series' chunks are full or a flush is due, and go
-/// into the file at once or, where a thread is to be had, beside what goes on.
+/// Passes rows to the file: they wait in memory until their series' chunks are full or a flush is due, and are written
+/// to the file at once or, if a thread is available, in parallel.
 class RowFlow {
  public:
-  /// @param file  outlives it; touched by a thread of its own while rows are under way: settle() first
-  /// @param expected  rows of a series in the end, as far as known
-  /// @param flush_interval  shortest time between two flushes that nobody asked for [s]
+  /// @param file  outlives it; used by a separate thread while rows are being written: settle() first
+  /// @param expected  final number of rows of a series, as far as known
+  /// @param flush_interval  shortest time between two automatic flushes [s]
   RowFlow(OpenFile& file, std::size_t expected, double flush_interval, bool writes_beside)
       : file_(file), expected_(expected), flush_interval_(flush_interval), writes_beside_(writes_beside) {}
 
@@ -30,11 +30,11 @@ class RowFlow {
 
   /// Room for `width` numbers, zeros: a row, or rows that are handed over together. @throws WriteError
   [[nodiscard]] std::span<double> open(std::size_t width);
-  /// What was opened last is a row of each of `count` series from `first` on.
+  /// Adds the rows opened last: one for each of `count` series from `first` on.
   void add_opened(std::size_t first, std::size_t count) { waiting_.add(first, count); }
 
-  /// Puts all rows into the file, which keeps them from then on. Rows under way come first: settle(). @throws
-  /// WriteError
+  /// Writes all rows to the file. Rows already being written come first: settle().
+  /// @throws WriteError
   void flush() { flush(waiting_); }
   /// Hands rows to HDF5, which are safe only after a flush; settle() first. @throws WriteError
   void drain() { drain(waiting_); }

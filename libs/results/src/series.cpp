@@ -44,7 +44,7 @@ Series Writer::field(std::string_view path, std::array<int, 2> shape, std::strin
   std::vector<std::string> scales;
   for (std::size_t i = 0; i < 2; ++i)
     scales.push_back(impl_->numbers(dimensions[i].empty() ? name + which[i] : absolute(dimensions[i]), row[i],
-                                    "place, counted from 0"));
+                                    "index, counted from 0"));
   return {this, impl_->make_growing(path, row, unit, description, Precision::float64, std::move(scales))};
 }
 

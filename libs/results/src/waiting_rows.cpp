@@ -71,26 +71,26 @@ void WaitingRows::add(std::size_t first, std::size_t count) {
     runs_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)});
 }
 
-WaitingRows::Places WaitingRows::places(const std::vector<std::size_t>& widths) const {
-  Places places;
-  std::vector<std::size_t>& last = places.last;  // of what is filled in so far
+WaitingRows::Positions WaitingRows::positions(const std::vector<std::size_t>& widths) const {
+  Positions positions;
+  std::vector<std::size_t>& last = positions.last;  // of what is filled in so far
   last.assign(widths.size() + 1, 0);
   for (const Run& run : runs_)
     for (std::size_t series = run.first; series < run.first + run.count; ++series) ++last[series + 1];
   std::partial_sum(last.begin(), last.end(), last.begin());
-  places.rows.resize(last.back());
+  positions.rows.resize(last.back());
   std::size_t at = 0;
   for (const Run& run : runs_)
     for (std::size_t series = run.first; series < run.first + run.count; ++series) {
-      places.rows[last[series]++] = static_cast<std::uint32_t>(at);
+      positions.rows[last[series]++] = static_cast<std::uint32_t>(at);
       at += widths[series];
     }
-  return places;
+  return positions;
 }
 
 void WaitingRows::take_out(const std::vector<std::size_t>& widths,
                            const std::function<void(std::size_t series, std::span<const double> rows)>& take) {
-  const Places at = places(widths);
+  const Positions at = positions(widths);
   const auto first_of = [&](std::size_t series) { return series > 0 ? at.last[series - 1] : 0; };
   const auto count_of = [&](std::size_t series) { return at.last[series] - first_of(series); };
   // Rows of neighbouring series mostly lie beside each other: those of a few series are gathered at a time.

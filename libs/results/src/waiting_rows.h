@@ -8,10 +8,10 @@
 
 namespace hersey::results {
 
-/// Rows of many series in the order they came, until they are taken out series by series.
+/// Rows of many series in the order in which they came, until they are removed series by series.
 ///
-/// A machine of a thousand bodies hands over thousands of short rows a step: kept in one piece of memory they cost
-/// little more than their copying, and of rows of neighbouring series it is kept only where they begin.
+/// A machine of a thousand bodies passes thousands of short rows a step: kept in one piece of memory they cost little
+/// more than their copying, and for rows of neighbouring series only their beginning is stored.
 class WaitingRows {
  public:
   static constexpr std::size_t most_numbers = std::size_t{1} << 24;  // 128 MiB
@@ -22,7 +22,7 @@ class WaitingRows {
 
   /// Room for `width` numbers, zeros, which count once they are added; a second call forgets the first.
   [[nodiscard]] std::span<double> open(std::size_t width);
-  /// Adds what was opened last: a row of each of `count` series from `first` on, one after the other.
+  /// Adds the rows opened last: one for each of `count` series from `first` on.
   void add(std::size_t first, std::size_t count);
 
   [[nodiscard]] std::size_t numbers() const { return used_; }
@@ -36,19 +36,19 @@ class WaitingRows {
                 const std::function<void(std::size_t series, std::span<const double> rows)>& take);
 
  private:
-  /// Puts memory behind the first `end` numbers.
+  /// Allocates memory for the first `end` numbers.
   void prepare(std::size_t end);
 
   /// Rows of series that follow each other.
   struct Run {
     std::uint32_t first = 0, count = 0;
   };
-  /// Where each row begins, sorted by series.
-  struct Places {
+  /// Begin of each row, sorted by series.
+  struct Positions {
     std::vector<std::uint32_t> rows;  // in numbers_
     std::vector<std::size_t> last;    // of each series in `rows`
   };
-  [[nodiscard]] Places places(const std::vector<std::size_t>& widths) const;
+  [[nodiscard]] Positions positions(const std::vector<std::size_t>& widths) const;
 
   std::vector<double> numbers_;
   std::size_t used_ = 0;  // of numbers_; what lies behind is open

@@ -32,7 +32,7 @@ namespace hersey::results {
   return access;
 }
 
-/// The file that is written, and what has been made in it so far.
+/// The file being written, and the objects made in it so far.
 struct Writer::Impl {
   bool in_memory = false;
   std::vector<LatestRow> latest;                          // in memory
@@ -90,7 +90,7 @@ struct Writer::Impl {
     }
   }
 
-  /// In place where there is one of that type and shape: nothing of the file's structure changes then.
+  /// Overwrites an attribute of the same type and shape in place, which leaves the structure of the file unchanged.
   void set_attribute(hid_t object, std::string_view name, hid_t type, hid_t space, const void* value) {
     const std::string key(name);
     Handle attribute;
@@ -138,7 +138,7 @@ struct Writer::Impl {
     require(parent.valid(), "HDF5 cannot open group " + name);
   }
 
-  /// Of an object that has no such attribute yet.
+  /// Adds an attribute to an object that does not have it yet.
   void new_text(hid_t object, const char* name, std::string_view value) {
     const std::string copy(value);
     const char* pointer = copy.c_str();
@@ -172,13 +172,13 @@ struct Writer::Impl {
     return name;
   }
 
-  /// The dimension of `count` columns: as asked for, or that of a vector's components.
+  /// The dimension of `count` columns: the requested one, or that of a vector's components.
   std::string columns(const std::string& name, std::size_t count, std::string_view asked) {
     if (asked == xyz || (asked.empty() && count == 3)) return letters(std::string(xyz), "xyz");
     if (asked.empty() && count == 2) return letters("/xy", "xy");
     if (asked.empty() && count == 4) return letters("/wxyz", "wxyz");
     const std::string scale = asked.empty() ? name + "_column" : absolute(asked);
-    return numbers(scale, count, "place, counted from 0");
+    return numbers(scale, count, "index, counted from 0");
   }
 
   std::string letters(const std::string& name, std::string_view axes) {
@@ -246,7 +246,7 @@ struct Writer::Impl {
     return open_rows;
   }
 
-  /// What was opened last is a row of each of these series.
+  /// The rows opened last are one for each of these series.
   void add_open_row(std::size_t first, std::size_t count) {
     if (!in_memory) return flow.add_opened(first, count);
     auto at = open_rows.begin();
@@ -261,7 +261,7 @@ struct Writer::Impl {
     return in_memory ? numbers_of(latest.at(series).shape) : flow.width(series);
   }
 
-  /// To be alone with the file, rows handed over being in it.
+  /// Gets exclusive access to the file with all passed rows in it.
   [[nodiscard]] Hdf5Session enter() {
     flow.settle();
     return Hdf5Session();

@@ -53,7 +53,7 @@ Writer::~Writer() {
   try {
     finish(Status::failed, "ended by an error");
   } catch (const std::exception&) {
-    // The file is closed, in the state of its last good flush; a destructor has no one to tell.
+    // The file is closed, in the state of its last good flush; a destructor cannot report an error.
   }
 }
 
@@ -80,29 +80,29 @@ void Writer::flush_if_due() {
 void Writer::finish(Status status, std::string_view message) {
   if (impl_->in_memory) return;
   if (!impl_->file.handle.valid()) return;
-  std::exception_ptr untold;
+  std::exception_ptr unreported;
   try {
     impl_->flow.settle();
   } catch (const WriteError&) {
-    untold = std::current_exception();
+    unreported = std::current_exception();
   }
   const Hdf5Session session;
   const bool failed_before = impl_->file.status.failed;
   if (!failed_before) {
     try {
-      impl_->flow.flush();  // whoever reads the status finds all the rest
+      impl_->flow.flush();  // a reader who finds the final status finds all data, too
       const Handle root(H5Oopen(impl_->file.handle.get(), "/", H5P_DEFAULT));
       impl_->set_text(root.get(), "status", to_string(status));
       impl_->set_text(root.get(), "message", message);
       impl_->flow.flush();
     } catch (const WriteError&) {
-      untold = std::current_exception();
+      unreported = std::current_exception();
     }
   }
   impl_->flow.datasets().clear();
   impl_->parent.reset();
   impl_->file.close();
-  if (untold) std::rethrow_exception(untold);
+  if (unreported) std::rethrow_exception(unreported);
   if (failed_before) return;
   impl_->require(true, {});
   try {

@@ -1,6 +1,6 @@
 #include "writer_parts.h"
 
-// What a results file says once: attributes, texts, constants, labels.
+// Data that a results file contains once: attributes, texts, constants, labels.
 namespace hersey::results {
 
 void Writer::attribute(std::string_view object, std::string_view name, std::string_view text) {

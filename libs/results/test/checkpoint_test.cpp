@@ -35,7 +35,7 @@ TEST_CASE("Checkpoint_HoldsWhatWasWritten") {
   CHECK_FALSE(std::filesystem::exists(scratch / "run.checkpoint.new"));
 }
 
-TEST_CASE("SecondCheckpoint_TakesThePlaceOfTheFirst") {
+TEST_CASE("SecondCheckpoint_ReplacesTheFirst") {
   const TemporaryDirectory scratch;
   Archive::Content content = some();
   write_checkpoint(scratch / "run.checkpoint", content);
@@ -45,7 +45,7 @@ TEST_CASE("SecondCheckpoint_TakesThePlaceOfTheFirst") {
   CHECK(read_checkpoint(scratch / "run.checkpoint").numbers == content.numbers);
 }
 
-TEST_CASE("NoCheckpoint_IsTold") {
+TEST_CASE("NoCheckpoint_IsReported") {
   const TemporaryDirectory scratch;
   CHECK_THROWS_AS(read_checkpoint(scratch / "none"), ReadError);
   std::ofstream(scratch / "text") << "no HDF5";
@@ -55,7 +55,7 @@ TEST_CASE("NoCheckpoint_IsTold") {
   CHECK_THROWS_AS(write_checkpoint(scratch / "nowhere" / "run.checkpoint", some()), WriteError);
 }
 
-TEST_CASE("ABitThatFlipsInACheckpoint_IsTold") {
+TEST_CASE("ABitThatFlipsInACheckpoint_IsReported") {
   const TemporaryDirectory scratch;
   write_checkpoint(scratch / "run.checkpoint", some());
   std::ifstream file(scratch / "run.checkpoint", std::ios::binary);

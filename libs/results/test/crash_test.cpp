@@ -19,7 +19,7 @@
 namespace hersey::results {
 namespace crash_test {
 
-/// What the k-th row of every series holds, so that a reader can tell a lost or mixed row.
+/// Contents of the k-th row of every series, so that a reader can detect a lost or mixed row.
 double value(std::size_t row, std::size_t series) {
   return std::sin(static_cast<double>(row)) + static_cast<double>(series);
 }
@@ -78,9 +78,9 @@ TEST_CASE("FlushedRows_SurviveSigkill") {
     for (int k = 0; k < 500; ++k) run.step();
     run.writer.flush();
     for (int k = 0; k < 300; ++k) run.step();
-    const bool told = write(ready[1], "x", 1) == 1;
+    const bool is_reported = write(ready[1], "x", 1) == 1;
     pause();
-    _exit(told ? 0 : 1);
+    _exit(is_reported ? 0 : 1);
   }
   char byte = 0;
   REQUIRE(read(ready[0], &byte, 1) == 1);
@@ -185,7 +185,7 @@ TEST_CASE("IndexNodes_LieInOneMemoryPageEach") {
 }
 
 /// Runs in a child with a small file size limit, which to a program looks like a full disk.
-/// @returns 0 if the writer told of it as it should.
+/// @returns 0 if the writer reported it correctly.
 int write_until_full(const std::filesystem::path& path, bool writes_beside) {
   const rlimit limit{3 << 20, 3 << 20};
   if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 1;
@@ -211,14 +211,14 @@ int write_until_full(const std::filesystem::path& path, bool writes_beside) {
       return 5;
     } catch (const WriteError&) {
     }
-    run.writer.finish(Status::failed, "disk full");  // closes quietly: the fault has been told
+    run.writer.finish(Status::failed, "disk full");  // closes quietly: the fault has been reported
   } catch (...) {
     return 6;
   }
   return 0;
 }
 
-TEST_CASE("FullDisk_IsToldAndKeepsFlushedRows") {
+TEST_CASE("FullDisk_IsReportedAndKeepsFlushedRows") {
   const TemporaryDirectory directory;
   bool writes_beside = false;
   SUBCASE("rows written when asked for") {}

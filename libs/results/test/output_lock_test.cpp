@@ -9,10 +9,10 @@
 
 namespace hersey::results::output_lock_test {
 
-TEST_CASE("OutputLock_IsHeldByOneRunAndLeavesNothing") {
+TEST_CASE("OutputLock_BelongsToOneRunAndLeavesNothing") {
   const std::filesystem::path file = "locked.h5";
   {
-    const OutputLock held(file);
+    const OutputLock lock(file);
     CHECK_THROWS_WITH_AS(OutputLock{file}, doctest::Contains("locked.h5: another run (process "), FileBusy);
     CHECK_THROWS_AS(require_idle(file), FileBusy);
     CHECK_NOTHROW(OutputLock{"beside.h5"});  // another file of the folder
@@ -24,16 +24,16 @@ TEST_CASE("OutputLock_IsHeldByOneRunAndLeavesNothing") {
 
 TEST_CASE("OutputLock_OfAKilledRunBlocksNobody") {
   const std::filesystem::path file = "killed.h5";
-  int told[2]{};
-  REQUIRE(::pipe(told) == 0);
+  int ends[2]{};
+  REQUIRE(::pipe(ends) == 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    const OutputLock held(file);
-    [[maybe_unused]] const ssize_t one = ::write(told[1], "x", 1);
+    const OutputLock lock(file);
+    [[maybe_unused]] const ssize_t one = ::write(ends[1], "x", 1);
     ::pause();
   }
   char ready = 0;
-  REQUIRE(::read(told[0], &ready, 1) == 1);
+  REQUIRE(::read(ends[0], &ready, 1) == 1);
   CHECK_THROWS_AS(OutputLock{file}, FileBusy);
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);

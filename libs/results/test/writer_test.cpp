@@ -145,9 +145,9 @@ TEST_CASE("ExistingFile_IsKeptUnlessOverwritten") {
   CHECK(Reader(path).text_attribute("/", "status") == "stopped");
 }
 
-TEST_CASE("UnwritablePlace_IsToldWithPathAndReason") {
+TEST_CASE("UnwritablePath_IsReportedWithItsReason") {
   CHECK_THROWS_WITH_AS(Writer{"/nonexistent/run.h5"}, doctest::Contains("No such file or directory"), WriteError);
-  const TemporaryDirectory directory;  // a directory in the file's place is never removed, overwrite or not
+  const TemporaryDirectory directory;  // a directory under the file's name is never removed, overwrite or not
   CHECK_THROWS_AS(Writer(directory / "", {.overwrite = true}), WriteError);
 }
 
@@ -328,7 +328,7 @@ TEST_CASE("MissingOrWrongDataset_IsNamed") {
   CHECK_THROWS_WITH_AS((void)reader.text("/time"), doctest::Contains("does not hold text"), ReadError);
 }
 
-TEST_CASE("ABitThatFlipsInFinishedResults_IsToldOrHarmless") {
+TEST_CASE("ABitThatFlipsInFinishedResults_IsReportedOrHarmless") {
   const TemporaryDirectory scratch;
   {
     Writer writer(scratch / "run.h5");
@@ -339,7 +339,7 @@ TEST_CASE("ABitThatFlipsInFinishedResults_IsToldOrHarmless") {
   std::ifstream file(scratch / "run.h5", std::ios::binary);
   const std::string good{std::istreambuf_iterator<char>(file), {}};
   const auto written = Reader(scratch / "run.h5").read("/time").values;
-  int told = 0, tried = 0;
+  int reported = 0, tried = 0;
   for (std::size_t bit = 1; bit < 8 * good.size(); bit += 499, ++tried) {
     std::string turned = good;
     turned[bit / 8] = static_cast<char>(turned[bit / 8] ^ (1 << (bit % 8)));
@@ -349,10 +349,10 @@ TEST_CASE("ABitThatFlipsInFinishedResults_IsToldOrHarmless") {
       const auto values = Reader(scratch / "turned.h5").read("/time").values;
       CHECK(values == written);
     } catch (const ReadError&) {
-      ++told;
+      ++reported;
     }
   }
-  CHECK(told >= tried - 1);  // one of them may be a bit of the seal
+  CHECK(reported >= tried - 1);  // one of them may be a bit of the seal
   // Behind its end nothing matters to HDF5, and a file without a seal is that of a run that was killed.
   std::ofstream(scratch / "killed.h5", std::ios::binary) << good.substr(0, good.size() - 10);
   CHECK(Reader(scratch / "killed.h5").read("/time").values.size() == 9);

@@ -77,7 +77,8 @@ TEST_CASE("DoublePendulum_HasItsTwoFrequencies") {
   // Shapes: vectors of roots that are good to 1e-9.
   CHECK(shape[1] / shape[0] == doctest::Approx(std::sqrt(2) - 1).epsilon(1e-6));
   CHECK(shape[3] / shape[2] == doctest::Approx(-std::sqrt(2) - 1).epsilon(1e-6));
-  // What each body does: the upper turns by its joint, the lower by both; its origin is the upper's tip, 1 m below.
+  // Motion of each body: the upper one rotates by its joint, the lower one by both; its origin is the upper's tip, 1 m
+  // below.
   const std::vector<double> bodies = a.mode("body_real");
   REQUIRE(bodies.size() == 24);
   // The same numbers: round-off.
@@ -133,7 +134,7 @@ TEST_CASE("UprightPendulum_IsUnstable") {
   CHECK(a.summary.message.find("unstable") != std::string::npos);
 }
 
-/// A heavy platform on two parallel cranks of 1 m, a loop: it swings without turning, as a pendulum of 1 m.
+/// A heavy platform on two parallel cranks of 1 m, a loop: it swings without rotation, as a pendulum of 1 m.
 std::string swing(const std::string& simulation) {
   const std::string crank = "{mass: 1e-9 kg, " + kPoint + ", frames: {tip: {origin: 0 -1 0 m}}}\n";
   return R"(hersey: 1

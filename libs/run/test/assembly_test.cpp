@@ -8,8 +8,8 @@
 #include "hersey/core/input_error.h"
 #include "hersey/model/build.h"
 #include "hersey/run/simulate.h"
-#include "march/start.h"
 #include "small_rig.h"
+#include "start/start.h"
 
 namespace hersey::run {
 namespace assembly_test {
@@ -53,17 +53,19 @@ TEST_CASE("LoopThatCannotClose_SaysWhichJointIsHowFarOff") {
   }
 }
 
-TEST_CASE("RoughGuess_IsAssembledWithTheGivenCoordinateHeld") {
+TEST_CASE("RoughGuess_IsAssembledWithTheGivenCoordinateFixed") {
   // From coupler and rocker both lying along x, whatever the crank's angle.
   for (const char* angle : {"0", "40", "90", "135", "150", "-120"}) {
     CAPTURE(std::string(angle));
     const model::Model model = rig(four_bar("0.6", angle));
     model::Machine machine = model::build(model);
     const solver::State state = starting_state(model, machine);
-    const mbd::Observation seen = machine.mechanism->observe(state);
+    const mbd::Observation observation = machine.mechanism->observe(state);
     // rtol of the start is 1e-12.
-    CHECK(seen.joints[0].position[0] == doctest::Approx(std::stod(angle) * std::numbers::pi / 180).epsilon(1e-12));
-    const Vector3 gap = seen.bodies[2].X_WF * Vector3(0.5, 0, 0) - seen.bodies[3].X_WF * Vector3(0.4, 0, 0);
+    CHECK(observation.joints[0].position[0] ==
+          doctest::Approx(std::stod(angle) * std::numbers::pi / 180).epsilon(1e-12));
+    const Vector3 gap =
+        observation.bodies[2].X_WF * Vector3(0.5, 0, 0) - observation.bodies[3].X_WF * Vector3(0.4, 0, 0);
     CHECK(gap.norm() < 1e-11);  // rtol of the start is 1e-12
   }
 }

@@ -85,7 +85,7 @@ TEST_CASE("VerySlenderBlade_KeepsItsSlowModes") {
   CHECK(reader.number_attribute("/modes", "stable").value_or(0) == 1);
 }
 
-TEST_CASE("HeldBeam_ShowsItsSectionForces") {
+TEST_CASE("SupportedBeam_ShowsItsSectionForces") {
   const TemporaryDirectory folder;
   std::string text = edited(kBlade, "title:", "gravity: 0 0 -0.02 m/s^2\ntitle:");
   text = edited(text, "type: revolute, between: [ground, blade], axis: z", "type: fixed, between: [ground, blade]");
@@ -100,7 +100,7 @@ TEST_CASE("HeldBeam_ShowsItsSectionForces") {
   // q = 0.02 N/m; the middle of element k sees what hangs beyond its ends' share: q (L - x) and q (L - x)^2/2.
   for (std::size_t k = 0; k < 16; ++k) {
     const double x = (static_cast<double>(k) + 0.5) / 16;
-    // Sagging by 0.25 % turns the sections: of second order.
+    // Sagging by 0.25 % rotates the sections: an effect of second order.
     CHECK(std::abs(force[3 * k + 2]) == doctest::Approx(0.02 * (1 - x)).epsilon(1e-3));
     // The same, and the weight of half an element.
     CHECK(moment[3 * k + 1] == doctest::Approx(0.02 * (1 - x) * (1 - x) / 2).epsilon(1e-2).scale(1e-3));
@@ -113,10 +113,10 @@ TEST_CASE("HeldBeam_ShowsItsSectionForces") {
 // A strip of 1 m by 20 mm by 1 mm, E I = 1/3 N m^2, under a moment at its end of m times 2 pi E I/L: m whole circles.
 // Its stiffness along is 10^7 times the one across.
 TEST_CASE("StripUnderAnEndMoment_RollsUpToCircles") {
-  for (const double turns : {0.05, 0.5, 1.0, 2.0}) {
-    CAPTURE(turns);
+  for (const double revolutions : {0.05, 0.5, 1.0, 2.0}) {
+    CAPTURE(revolutions);
     const TemporaryDirectory folder;
-    const double angle = 2 * std::numbers::pi * turns;
+    const double angle = 2 * std::numbers::pi * revolutions;
     const results::Reader reader = run_in(folder, fmt::format(R"(hersey: 1
 gravity: 0 0 0 m/s^2
 bodies:
@@ -131,7 +131,7 @@ forces: {{roll: {{type: torque, body: strip.tip, components: [0 N.m, 0 N.m, {:.1
 simulation: {{analysis: static}}
 )",
                                                               angle / 3));
-    // Stable until it has turned twice: out of the plane a moment of fixed direction then turns it over.
+    // Stable for two revolutions: then a moment of fixed direction turns it over, out of the plane.
     CHECK(reader.text_attribute("/", "message").value_or("").find("indifferent") == std::string::npos);
     const auto tip = reader.read("/bodies/strip.tip/position").values;
     // chords of 20 equal arcs: longer than the arc's own by (angle/20)^2/24 at the most

@@ -1,4 +1,4 @@
-#include "record/bearing_axes.h"
+#include "start/bearing_axes.h"
 
 #include <doctest/doctest.h>
 
@@ -12,8 +12,8 @@
 namespace hersey::run {
 namespace bearing_axes_test {
 
-/// The rig with a journal that a joint turns in a shell held by ground.
-std::string held(const std::string& axis) {
+/// The rig with a journal that a joint rotates in a shell fixed to ground.
+std::string constrained(const std::string& axis) {
   std::string text = rig_with("between: [ground, rod], initial: {x: 0 um}", "between: [ground, rod], axis: z");
   const auto replace = [&](const std::string& old, const std::string& replacement) {
     text.replace(text.find(old), old.size(), replacement);
@@ -24,36 +24,36 @@ std::string held(const std::string& axis) {
   return text;
 }
 
-std::vector<std::string> told_of_axes(const std::string& text) {
-  std::vector<std::string> told;
+std::vector<std::string> axis_warnings_of(const std::string& text) {
+  std::vector<std::string> warnings;
   for (const Fault& warning : check(rig(text)))
-    if (warning.text().find("axis") != std::string::npos) told.push_back(warning.text());
-  return told;
+    if (warning.text().find("axis") != std::string::npos) warnings.push_back(warning.text());
+  return warnings;
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("JointAcrossItsBearing_IsWarnedOf") {
   // The shell is ground's by a fixed joint: journal and shell are joined all the same.
-  const std::vector<std::string> across = told_of_axes(held("x"));
+  const std::vector<std::string> across = axis_warnings_of(constrained("x"));
   REQUIRE(across.size() == 1);
   CHECK(contains(across[0], "rig.yaml:10:"));
-  CHECK(
-      contains(across[0], "joints.main.axis: the joint turns the journal of bearing big_end about an axis 90 deg off"));
-  CHECK(told_of_axes(held("z")).empty());
-  CHECK(told_of_axes(held("0 0 -1")).empty());
-  CHECK(told_of_axes(held("0 0.001 1")).empty());  // less than the clearance allows: 34 um on 15.6 mm
-  CHECK(told_of_axes(held("0 0.02 1")).size() == 1);
+  CHECK(contains(across[0],
+                 "joints.main.axis: the joint rotates the journal of bearing big_end about an axis 90 deg off"));
+  CHECK(axis_warnings_of(constrained("z")).empty());
+  CHECK(axis_warnings_of(constrained("0 0 -1")).empty());
+  CHECK(axis_warnings_of(constrained("0 0.001 1")).empty());  // less than the clearance allows: 34 um on 15.6 mm
+  CHECK(axis_warnings_of(constrained("0 0.02 1")).size() == 1);
 }
 
-TEST_CASE("JournalThatTurnsAcrossItsBearing_IsWarnedOf") {
-  // No joint is between pin and rod; the pin's hinge on ground turns it about x.
-  const std::vector<std::string> told =
-      told_of_axes(rig_with("between: [ground, pin]", "between: [ground, pin], axis: x"));
-  REQUIRE(told.size() == 1);
-  CHECK(
-      contains(told[0], "bearings.big_end: at the start the journal turns across the bearing's axis, with 314 rad/s"));
-  CHECK(told_of_axes(kSmallRig).empty());
+TEST_CASE("JournalThatRotatesAcrossItsBearing_IsWarnedOf") {
+  // No joint connects pin and rod; the pin's hinge on ground rotates it about x.
+  const std::vector<std::string> warnings =
+      axis_warnings_of(rig_with("between: [ground, pin]", "between: [ground, pin], axis: x"));
+  REQUIRE(warnings.size() == 1);
+  CHECK(contains(warnings[0],
+                 "bearings.big_end: at the start the journal rotates across the bearing's axis, with 314 rad/s"));
+  CHECK(axis_warnings_of(kSmallRig).empty());
 }
 
 }  // namespace bearing_axes_test

@@ -67,7 +67,7 @@ TEST_CASE("BouncingBall_IsRecordedAndBalanced") {
   CHECK(after == doctest::Approx(before - lost).epsilon(1e-3));
 }
 
-TEST_CASE("StartDeepInside_IsToldWithItsLine") {
+TEST_CASE("StartDeepInside_IsReportedWithItsLine") {
   const std::string from = "position: 0 0 22 mm";
   std::string text = kBall;
   text.replace(text.find(from), from.size(), "position: 0 0 11 mm");

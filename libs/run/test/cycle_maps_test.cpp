@@ -21,8 +21,8 @@ std::string rough_rig() {
       "    asperities: {model: greenwood_tripp, roughness: 2 um, composite_modulus: 115 GPa, friction: 0.1}\n");
 }
 
-struct Seen {
-  explicit Seen(const std::filesystem::path& file) : reader(file) {}
+struct RunResults {
+  explicit RunResults(const std::filesystem::path& file) : reader(file) {}
   [[nodiscard]] std::vector<double> series(const std::string& name) const {
     return reader.read("/bearings/big_end/" + name).values;
   }
@@ -58,34 +58,35 @@ TEST_CASE("WholeRun_LossesAndExtremesAreThoseOfTheSeries") {
   const TemporaryDirectory scratch;
   const Summary summary = simulate(rig(rough_rig(), {"load=8000 N"}), {.results = scratch / "run.h5"});
   REQUIRE(summary.status == Status::completed);
-  const Seen seen(summary.results);
-  const std::vector<double> t = seen.reader.read("/time").values;
-  CHECK(seen.only("begin") == 0);
-  CHECK(seen.only("end") == summary.t_end);
-  CHECK(seen.only("complete") == 0);
-  const double film = integral(t, seen.series("power_film")), asperity = integral(t, seen.series("power_asperity"));
+  const RunResults results(summary.results);
+  const std::vector<double> t = results.reader.read("/time").values;
+  CHECK(results.only("begin") == 0);
+  CHECK(results.only("end") == summary.t_end);
+  CHECK(results.only("complete") == 0);
+  const double film = integral(t, results.series("power_film")),
+               asperity = integral(t, results.series("power_asperity"));
   CHECK(film > 0);
   CHECK(asperity > 0);
-  CHECK(seen.only("energy_film") == doctest::Approx(film).epsilon(round_off));
-  CHECK(seen.only("energy_asperity") == doctest::Approx(asperity).epsilon(round_off));
-  CHECK(seen.only("power_film") == doctest::Approx(film / summary.t_end).epsilon(round_off));
-  CHECK(seen.only("moft") == summary.bearings[0].moft);
-  CHECK(seen.only("moft_time") == summary.bearings[0].moft_t);
-  CHECK(seen.only("pofp") == summary.bearings[0].pofp);
-  CHECK(seen.only("pofp_phi") == summary.bearings[0].pofp_phi);
+  CHECK(results.only("energy_film") == doctest::Approx(film).epsilon(round_off));
+  CHECK(results.only("energy_asperity") == doctest::Approx(asperity).epsilon(round_off));
+  CHECK(results.only("power_film") == doctest::Approx(film / summary.t_end).epsilon(round_off));
+  CHECK(results.only("moft") == summary.bearings[0].moft);
+  CHECK(results.only("moft_time") == summary.bearings[0].moft_t);
+  CHECK(results.only("pofp") == summary.bearings[0].pofp);
+  CHECK(results.only("pofp_phi") == summary.bearings[0].pofp_phi);
 }
 
 TEST_CASE("WearLoad_TimesFrictionIsTheMeanLossInContact") {
   const TemporaryDirectory scratch;
   const Summary summary = simulate(rig(rough_rig(), {"load=8000 N"}), {.results = scratch / "run.h5"});
   REQUIRE(summary.status == Status::completed);
-  const Seen seen(summary.results);
-  const double power = kFriction * surface_integral(seen.cycle("wear_load"), 0.0225, 0.0156, 24, 5);
+  const RunResults results(summary.results);
+  const double power = kFriction * surface_integral(results.cycle("wear_load"), 0.0225, 0.0156, 24, 5);
   // Sums over the same nodes: what means over time leave.
-  CHECK(power == doctest::Approx(seen.only("power_asperity")).epsilon(1e-6));
-  // The pin turns at a constant speed: wear load is mean contact pressure times speed, nearly; the rod hardly moves.
+  CHECK(power == doctest::Approx(results.only("power_asperity")).epsilon(1e-6));
+  // The pin rotates at a constant speed: wear load is mean contact pressure times speed, nearly; the rod hardly moves.
   const double speed = 3000 * M_PI / 30 * 0.0225;
-  const double mean = surface_integral(seen.cycle("asperity_pressure_mean"), 0.0225, 0.0156, 24, 5);
+  const double mean = surface_integral(results.cycle("asperity_pressure_mean"), 0.0225, 0.0156, 24, 5);
   CHECK(power / kFriction == doctest::Approx(speed * mean).epsilon(0.01));
 }
 
@@ -94,11 +95,11 @@ TEST_CASE("Maps_HoldTheExtremesOfTheFields") {
   const std::string text = rough_rig() + "output: {fields_every: 2 deg}\n";
   const Summary summary = simulate(rig(text, {"load=8000 N"}), {.results = scratch / "run.h5"});
   REQUIRE(summary.status == Status::completed);
-  const Seen seen(summary.results);
-  const std::vector<double> t = seen.series("fields/time"), h = seen.series("fields/thickness"),
-                            p = seen.series("fields/pressure"), contact = seen.series("fields/asperity_pressure");
-  const std::vector<double> h_min = seen.cycle("thickness_min"), p_max = seen.cycle("pressure_max");
-  const std::vector<double> t_h = seen.cycle("thickness_min_time"), t_p = seen.cycle("pressure_max_time");
+  const RunResults results(summary.results);
+  const std::vector<double> t = results.series("fields/time"), h = results.series("fields/thickness"),
+                            p = results.series("fields/pressure"), contact = results.series("fields/asperity_pressure");
+  const std::vector<double> h_min = results.cycle("thickness_min"), p_max = results.cycle("pressure_max");
+  const std::vector<double> t_h = results.cycle("thickness_min_time"), t_p = results.cycle("pressure_max_time");
   const std::size_t n = h_min.size();
   REQUIRE(n == 24 * 5);
   REQUIRE(t.size() == static_cast<std::size_t>(summary.steps) + 1);
@@ -113,7 +114,7 @@ TEST_CASE("Maps_HoldTheExtremesOfTheFields") {
     CHECK(p_max[k] == p[most * n + k]);
     CHECK(t_p[k] == t[most]);
   }
-  CHECK(seen.only("contact") == *std::max_element(contact.begin(), contact.end()));
+  CHECK(results.only("contact") == *std::max_element(contact.begin(), contact.end()));
 }
 
 }  // namespace cycle_maps_test

@@ -16,7 +16,7 @@ namespace cycles_test {
 
 std::string rig_of_cycles(const std::string& cycle) {
   std::string text = rig_with("  duration: \"${duration}\"\n", "  cycle: " + cycle + "\n");
-  // A load that turns round with the crank: the film never comes to rest.
+  // A load that rotates with the crank: the film never comes to rest.
   const std::string push = "components: [0 N, \"-${load}\", 0 N]";
   return text.replace(text.find(push), push.size(),
                       "direction: y, magnitude: {expression: \"-500*(1 + 0.5*sin(main.rotation))\", unit: N}");
@@ -24,70 +24,70 @@ std::string rig_of_cycles(const std::string& cycle) {
 
 struct Cycles {
   Summary summary;
-  std::vector<CycleProgress> told;
+  std::vector<CycleProgress> reported;
   std::vector<double> end, change, h_min, p_max, friction;
   std::vector<double> time;  // rows of the run
 };
 
 Cycles cycles_of(const std::string& text) {
   const TemporaryDirectory scratch;
-  Cycles seen;
+  Cycles cycles;
   Options options{.results = scratch / "run.h5"};
-  options.on_cycle = [&](const CycleProgress& cycle) { seen.told.push_back(cycle); };
-  seen.summary = simulate(rig(text), options);
+  options.on_cycle = [&](const CycleProgress& cycle) { cycles.reported.push_back(cycle); };
+  cycles.summary = simulate(rig(text), options);
   const results::Reader reader(options.results);
   const auto values = [&](const char* name) { return reader.read(name).values; };
-  seen.end = values("/cycles/fields/time"), seen.change = values("/cycles/fields/change");
-  seen.h_min = values("/bearings/big_end/cycles/fields/moft"),
-  seen.p_max = values("/bearings/big_end/cycles/fields/pofp");
-  seen.friction = values("/bearings/big_end/cycles/fields/power_film");  // nothing touches
-  seen.time = values("/time");
-  return seen;
+  cycles.end = values("/cycles/fields/time"), cycles.change = values("/cycles/fields/change");
+  cycles.h_min = values("/bearings/big_end/cycles/fields/moft"),
+  cycles.p_max = values("/bearings/big_end/cycles/fields/pofp");
+  cycles.friction = values("/bearings/big_end/cycles/fields/power_film");  // nothing touches
+  cycles.time = values("/time");
+  return cycles;
 }
 
 struct Rows {
   std::vector<double> T_journal, heat_to_journal, correction;
 };
 
-constexpr double kTurn = 60.0 / 3000;
+constexpr double kRevolution = 60.0 / 3000;
 
 TEST_CASE("Cycles_EndTheRunOnceTheyRepeat") {
-  const Cycles seen = cycles_of(rig_of_cycles("{period: 360 deg, until_converged: 0.01, most: 12}"));
-  INFO(seen.summary.message);
-  REQUIRE(seen.summary.status == Status::completed);
-  const std::size_t n = seen.change.size();
+  const Cycles cycles = cycles_of(rig_of_cycles("{period: 360 deg, until_converged: 0.01, most: 12}"));
+  INFO(cycles.summary.message);
+  REQUIRE(cycles.summary.status == Status::completed);
+  const std::size_t n = cycles.change.size();
   REQUIRE(n >= 2);
   CHECK(n < 12);
-  CHECK(seen.summary.cycles == static_cast<int>(n));
-  CHECK(seen.summary.message.find("converged in cycle") == 0);
-  CHECK(seen.told.size() == n);
-  CHECK(seen.time.back() == doctest::Approx(kTurn * static_cast<double>(n)));
-  CHECK(std::isnan(seen.change[0]));
+  CHECK(cycles.summary.cycles == static_cast<int>(n));
+  CHECK(cycles.summary.message.find("converged in cycle") == 0);
+  CHECK(cycles.reported.size() == n);
+  CHECK(cycles.time.back() == doctest::Approx(kRevolution * static_cast<double>(n)));
+  CHECK(std::isnan(cycles.change[0]));
   for (std::size_t i = 1; i < n; ++i) {
-    CHECK(seen.end[i] == doctest::Approx(kTurn * static_cast<double>(i + 1)));
+    CHECK(cycles.end[i] == doctest::Approx(kRevolution * static_cast<double>(i + 1)));
     // The change is that of the figure that changed most.
     const auto differ = [&](const std::vector<double>& x) {
       return std::abs(x[i] - x[i - 1]) / std::max(x[i], x[i - 1]);
     };
-    CHECK(seen.change[i] == std::max({differ(seen.h_min), differ(seen.p_max), differ(seen.friction)}));
-    CHECK((seen.change[i] <= 0.01) == (i + 1 == n));
-    CHECK(seen.told[i].change == seen.change[i]);
-    CHECK(seen.told[i].largest.find(" of big_end") != std::string::npos);
+    CHECK(cycles.change[i] == std::max({differ(cycles.h_min), differ(cycles.p_max), differ(cycles.friction)}));
+    CHECK((cycles.change[i] <= 0.01) == (i + 1 == n));
+    CHECK(cycles.reported[i].change == cycles.change[i]);
+    CHECK(cycles.reported[i].largest.find(" of big_end") != std::string::npos);
   }
 }
 
 TEST_CASE("AllCyclesAskedFor_AreRun") {
-  const Cycles seen = cycles_of(rig_of_cycles("{period: 90 deg, until_converged: 0, most: 3}"));
-  CHECK(seen.h_min.size() == 3);
-  CHECK(seen.summary.message.empty());
-  CHECK(seen.time.back() == doctest::Approx(0.75 * kTurn));
+  const Cycles cycles = cycles_of(rig_of_cycles("{period: 90 deg, until_converged: 0, most: 3}"));
+  CHECK(cycles.h_min.size() == 3);
+  CHECK(cycles.summary.message.empty());
+  CHECK(cycles.time.back() == doctest::Approx(0.75 * kRevolution));
 }
 
-TEST_CASE("CyclesThatDoNotConverge_AreTold") {
-  const Cycles seen = cycles_of(rig_of_cycles("{period: 90 deg, until_converged: 1e-9, most: 3}"));
-  CHECK(seen.summary.status == Status::completed);
-  CHECK(seen.summary.cycles == 3);
-  CHECK(seen.summary.message.find("not converged after 3 cycles: ") == 0);
+TEST_CASE("CyclesThatDoNotConverge_AreReported") {
+  const Cycles cycles = cycles_of(rig_of_cycles("{period: 90 deg, until_converged: 1e-9, most: 3}"));
+  CHECK(cycles.summary.status == Status::completed);
+  CHECK(cycles.summary.cycles == 3);
+  CHECK(cycles.summary.message.find("not converged after 3 cycles: ") == 0);
   const Cycles one = cycles_of(rig_of_cycles("{period: 90 deg}\n  duration: 135 deg"));
   CHECK(one.summary.cycles == 1);
   CHECK(one.summary.message.find("fewer than two cycles") == 0);
@@ -96,11 +96,11 @@ TEST_CASE("CyclesThatDoNotConverge_AreTold") {
 TEST_CASE("StepsOfControlledError_HitTheEndOfEachCycle") {
   std::string text = rig_of_cycles("{period: 90 deg, until_converged: 0, most: 2}");
   text.replace(text.find("step: 2 deg"), 11, "step: {tolerance: 1e-4}");
-  const Cycles seen = cycles_of(text);
-  REQUIRE(seen.end.size() == 2);
+  const Cycles cycles = cycles_of(text);
+  REQUIRE(cycles.end.size() == 2);
   // Hit exactly: round-off.
-  CHECK(seen.end[0] == doctest::Approx(kTurn / 4).epsilon(1e-14));
-  CHECK(seen.end[1] == doctest::Approx(kTurn / 2).epsilon(1e-14));
+  CHECK(cycles.end[0] == doctest::Approx(kRevolution / 4).epsilon(1e-14));
+  CHECK(cycles.end[1] == doctest::Approx(kRevolution / 2).epsilon(1e-14));
 }
 
 /// The rig with a warm film, a ring around it and walls as `walls` says.
@@ -123,7 +123,7 @@ TEST_CASE("WallsAtTheMeanOfACycle_TakeUpNoHeatInTheEnd") {
   const Rows rows = warm_rows("");  // a machine with cycles
   constexpr std::size_t per_cycle = 180;
   REQUIRE(rows.T_journal.size() == 9 * per_cycle + 1);
-  // Held from the first step of a cycle to its last.
+  // The temperature is constant from the first step of a cycle to its last.
   CHECK(rows.T_journal[1] == doctest::Approx(55).epsilon(1e-12));  // round-off of kelvins
   CHECK(rows.T_journal[per_cycle] == rows.T_journal[1]);
   CHECK(rows.T_journal[2 * per_cycle] == rows.T_journal[per_cycle + 1]);
@@ -132,7 +132,7 @@ TEST_CASE("WallsAtTheMeanOfACycle_TakeUpNoHeatInTheEnd") {
     const auto first = rows.heat_to_journal.begin() + static_cast<std::ptrdiff_t>(cycle * per_cycle) + 1;
     return std::accumulate(first, first + per_cycle, 0.0) / per_cycle;
   };
-  CHECK(std::abs(mean_heat(8)) < 0.02 * std::abs(mean_heat(0)));   // what the film itself has not settled to
+  CHECK(std::abs(mean_heat(8)) < 0.02 * std::abs(mean_heat(0)));   // residual of the film's own settling
   CHECK(rows.correction.back() < 0.05 * rows.correction.front());  // halved by each cycle, as bush and film settle
 }
 

@@ -1,4 +1,4 @@
-// Where the energy of a run has gone: each part from an integral of its own, and nothing unexplained.
+// Energy balance of a run: each part is a separate integral, and nothing is unexplained.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -58,7 +58,7 @@ TEST_CASE("EnergyOfDampers_IsWhatTheyTake") {
   CHECK(reader.read("/energy/since_start/unexplained").values.back() == fine.energy.unexplained());
 }
 
-// The torque that turns the journal is known from the drive. An oval bore's torque without the moment of the pressure
+// The torque on the rotating journal is known from the drive. An oval bore's torque without the moment of the pressure
 // on its slopes would put in some per cent too little.
 TEST_CASE("EnergyPutIntoAFilm_IsWhatItsIntegralsTake") {
   for (const std::string shape :
@@ -73,7 +73,8 @@ TEST_CASE("EnergyPutIntoAFilm_IsWhatItsIntegralsTake") {
     REQUIRE(summary.status == Status::completed);
     CHECK(summary.energy.films > 0.01);
     CHECK(summary.bearings[0].energy_taken > 0.01);
-    CHECK(std::abs(summary.bearings[0].energy_error) < 1e-3);  // what the grid leaves: 3e-5 to 1e-4 of the power
+    // Discretisation error of the grid: 3e-5 to 1e-4 of the power
+    CHECK(std::abs(summary.bearings[0].energy_error) < 1e-3);
     CHECK(summary.energy.error() < 2e-3);
     const results::Reader reader(folder / "r.h5");
     const auto series = [&](const std::string& name) { return reader.read(name).values; };

@@ -12,10 +12,10 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
 #include "hersey/solver/generalized_alpha.h"
-#include "march/start.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
 #include "source_dir.h"
+#include "start/start.h"
 #include "temporary_directory.h"
 
 namespace hersey::run {
@@ -64,7 +64,8 @@ double pendulum_error(const Outcome& o) {
 }
 
 TEST_CASE("ErrorOfTheRun_FollowsTheTolerance") {
-  // The error of a step is held: steps go as its third root and the error of the run, of order 2, as tolerance^(2/3).
+  // The error of a step is controlled: steps vary as its third root and the error of the run, of order 2, as
+  // tolerance^(2/3).
   const double coarse = pendulum_error(outcome(kPendulum, {"simulation.step.tolerance=1e-5"}, "pivot"));
   const double fine = pendulum_error(outcome(kPendulum, {"simulation.step.tolerance=1e-8"}, "pivot"));
   const double exponent = std::log(coarse / fine) / std::log(1e3);
@@ -106,14 +107,14 @@ Vector3 errors_of_a_pattern(int repetitions) {
     for (const double share : {1.0, 1.25, 1.5, 1.75, 2.0, 1.0, 1.25, 1.5, 1.25})
       REQUIRE(integrator.step(*machine.mechanism, state, share / (12.5 * repetitions), keep).solved());
   }
-  const mbd::Observation seen = machine.mechanism->observe(state);
+  const mbd::Observation observation = machine.mechanism->observe(state);
   const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81 / 1.1)};
   const double angle = exact.angle(1), rate = exact.rate(1);
-  const double turn = -exact.omega0 * exact.omega0 * std::sin(angle);
+  const double angular_acceleration = -exact.omega0 * exact.omega0 * std::sin(angle);
   const Vector3 up(-std::sin(angle), std::cos(angle), 0), along(std::cos(angle), std::sin(angle), 0);
-  const Vector3 force = turn * along + rate * rate * up + Vector3(0, 9.81, 0);
-  return {std::abs(seen.joints[0].position[5] - angle), std::abs(seen.joints[0].rate[5] - rate),
-          (seen.joints[1].force - force).norm()};
+  const Vector3 force = angular_acceleration * along + rate * rate * up + Vector3(0, 9.81, 0);
+  return {std::abs(observation.joints[0].position[5] - angle), std::abs(observation.joints[0].rate[5] - rate),
+          (observation.joints[1].force - force).norm()};
 }
 
 TEST_CASE("VaryingSteps_KeepOrderTwoOfMultipliersToo") {
@@ -126,8 +127,8 @@ TEST_CASE("VaryingSteps_KeepOrderTwoOfMultipliersToo") {
   }
 }
 
-// What steps cut again and again leave across a constraint dies out; it once grew tenfold with every dozen of them,
-// until a shaft driven at 600 rpm turned at a million. Fixed steps are judged too, where their error is told.
+// Violations of a constraint that repeatedly halved steps leave decay; they once grew tenfold with every dozen of them,
+// until a shaft driven at 600 rpm rotated at a million. Fixed steps are checked too if their error is estimated.
 TEST_CASE("StepsCutAgainAndAgain_LeaveADrivenRateAlone") {
   const model::Model model = rig(R"(hersey: 1
 bodies:
@@ -140,13 +141,13 @@ simulation: {duration: 2 s, step: 1 ms, spectral_radius: 0.8}
 )");
   model::Machine machine = model::build(model);
   solver::State state = starting_state(model, machine);
-  const auto tell = [](const solver::State&, const Eigen::VectorXd&) { return true; };
-  for (const solver::StepCheck& judge : {solver::StepCheck(), solver::StepCheck(tell)}) {
+  const auto accept_all = [](const solver::State&, const Eigen::VectorXd&) { return true; };
+  for (const solver::StepJudge& check : {solver::StepJudge(), solver::StepJudge(accept_all)}) {
     solver::GeneralizedAlpha integrator(
         {.spectral_radius = 0.8, .rtol = 1e-9, .chosen_by_error = false, .returns_to_constraints = true});
     for (int i = 0; i < 100; ++i) {
       for (const double share : {1.0, 0.5, 0.125, 0.0625, 0.0625, 0.125, 0.25, 0.5})
-        REQUIRE(integrator.step(*machine.mechanism, state, 1e-3 * share, judge).solved());
+        REQUIRE(integrator.step(*machine.mechanism, state, 1e-3 * share, check).solved());
     }
     // rad/s: constraints, to round-off over the shortest step.
     CHECK(std::abs(machine.mechanism->observe(state).joints[0].rate[0] - 60) < 1e-8);
@@ -227,7 +228,7 @@ TEST_CASE("DriveThatEndsItsRamp_ShowsNoRingingOfItsTorque") {
                             torque = reader.read("/drives/motor/force_or_torque").values;
   for (std::size_t i = 0; i < t.size(); ++i) {
     CAPTURE(t[i]);
-    // N m: constraints are held to round-off over the square of a step.
+    // N m: constraints are satisfied to round-off over the square of a step.
     CHECK(std::abs(torque[i] - (t[i] < 0.37 + 1e-9 ? 200 : 0)) < 1e-4);
   }
 }
@@ -264,7 +265,7 @@ TEST_CASE("ConstraintDrift_StaysBelowTheNewtonTolerance") {
   CHECK(drift.size() == reader.rows());
 }
 
-/// A spatial slider-crank whose crank runs through its hard places at up to 25 rad/s.
+/// A spatial slider-crank whose crank passes its near-singular positions at up to 25 rad/s.
 const std::string kSpatialCrank = R"(hersey: 1
 gravity: 0 0 -9.81 m/s^2
 bodies:
@@ -313,18 +314,18 @@ BearingSummary coarse_slider_crank(const std::string& step, bool step_error) {
 }
 
 TEST_CASE("StepError_IsThatOfAMuchFinerRunWithinAFactorOfThree") {
-  const BearingSummary truth = coarse_slider_crank("0.125 deg", false), told = coarse_slider_crank("0.5 deg", true);
+  const BearingSummary truth = coarse_slider_crank("0.125 deg", false), summary = coarse_slider_crank("0.5 deg", true);
   CHECK(std::isnan(truth.step_error.moft));
   const auto within_three = [](const std::string& name, double estimate, double error) {
     MESSAGE(name, ": estimated ", estimate, ", true ", error);
     CHECK(std::abs(estimate) < 3 * std::abs(error));
     CHECK(std::abs(estimate) > std::abs(error) / 3);
   };
-  within_three("MOFT", told.step_error.moft, told.moft - truth.moft);
-  within_three("POFP", told.step_error.pofp, told.pofp - truth.pofp);
+  within_three("MOFT", summary.step_error.moft, summary.moft - truth.moft);
+  within_three("POFP", summary.step_error.pofp, summary.pofp - truth.pofp);
   // The mean loss has all but converged.
-  CHECK(told.step_error.mean_power < 1e-3 * truth.mean_power);
-  CHECK(std::abs(told.mean_power - truth.mean_power) < 1e-3 * truth.mean_power);
+  CHECK(summary.step_error.mean_power < 1e-3 * truth.mean_power);
+  CHECK(std::abs(summary.mean_power - truth.mean_power) < 1e-3 * truth.mean_power);
 }
 
 }  // namespace error_control_test

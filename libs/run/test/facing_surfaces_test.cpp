@@ -1,5 +1,5 @@
-// Bearings whose surfaces do not fit each other at the start: what is told.
-#include "record/facing_surfaces.h"
+// Warnings and faults for bearings whose surfaces do not fit each other at the start.
+#include "start/facing_surfaces.h"
 
 #include <doctest/doctest.h>
 
@@ -100,7 +100,7 @@ struct Machine {
 
 TEST_CASE("MeshesThatFit_AreNotWarnedOf") { CHECK(Machine(two_meshes).warnings().empty()); }
 
-TEST_CASE("ClearanceNegativeInPlaces_IsToldWithPlaceAndSize") {
+TEST_CASE("LocallyNegativeClearance_IsReportedWithLocationAndSize") {
   // The ring's nodes lie 50 um off the frame's axis, towards -x: the bore comes nearest at 0 deg.
   const Fault shell = Machine(edited(two_meshes, "average, origin: 0 0 0 mm", "average, origin: 0.05 0 0 mm")).fault();
   CAPTURE(shell.found);
@@ -143,12 +143,13 @@ TEST_CASE("MeshOfAnotherRadiusThanTheFilms_IsWarnedOfAndInTheAssumptions") {
   const Summary summary = simulate(model::read(machine.file), {.results = results});
   INFO(summary.message);
   REQUIRE(summary.status == Status::completed);
-  int told = 0;
+  int reported = 0;
   for (const auto& [name, text] : results::Reader(results).text_table("/assumptions")) {
-    if (name == "main: journal surface") told += contains(text, "10 um above") && contains(text, "LEAVES OUT") ? 1 : 0;
-    if (name == "main: shell surface") told += contains(text, "LEAVES OUT") ? 10 : 1;
+    if (name == "main: journal surface")
+      reported += contains(text, "10 um above") && contains(text, "LEAVES OUT") ? 1 : 0;
+    if (name == "main: shell surface") reported += contains(text, "LEAVES OUT") ? 10 : 1;
   }
-  CHECK(told == 2);
+  CHECK(reported == 2);
 }
 
 TEST_CASE("SurfacesApartAlongTheAxis_DoNotFaceEachOther") {
@@ -159,7 +160,7 @@ TEST_CASE("SurfacesApartAlongTheAxis_DoNotFaceEachOther") {
   CHECK(contains(fault.suggestion, "shaft.pin"));
 }
 
-TEST_CASE("SurfacesThatLookTheWrongWay_AreTold") {
+TEST_CASE("SurfacesThatLookTheWrongWay_AreReported") {
   // A shaft as the shell, and the bore of a ring as the journal in it.
   const std::string swapped =
       edited(edited(two_meshes, "shell: ring.hub", "shell: shaft.pin"), "journal: shaft.pin", "journal: ring.hub");
@@ -198,7 +199,7 @@ TEST_CASE("AxesThatCross_DoNotFaceEachOther") {
   CHECK(contains(fault.suggestion, "turn the frame"));
 }
 
-TEST_CASE("JournalTouchingAtTheStart_IsToldWithPlace") {
+TEST_CASE("JournalTouchingAtTheStart_IsReportedWithLocation") {
   const Fault moved = fault_of(rig_with("initial: {x: 0 um}", "initial: {x: 40 um}"));
   CHECK(contains(moved.found, "the journal touches the shell (smallest undeformed gap -6 um at 180 deg"));
   const Fault tilted = fault_of(edited(

@@ -71,8 +71,8 @@ simulation: {duration: 1.2 ms, step: 0.230877 ms}
   CHECK_MESSAGE(summary.status == Status::completed, summary.message);
 }
 
-// At its edges the film has the pressure outside: nothing parts smooth surfaces there, however soft they are.
-TEST_CASE("HeavyJournalOnASoftLiner_IsToldToTouchAtItsEdges") {
+// At its edges the film has the pressure outside: nothing separates smooth surfaces there, however soft they are.
+TEST_CASE("HeavyJournalOnASoftLiner_IsReportedToTouchAtItsEdges") {
   const Summary summary = run(R"(hersey: 1
 bodies:
   shaft: {mass: 3147.4 kg, inertia: {xx: 13 kg.m^2, yy: 13 kg.m^2, zz: 3.9 kg.m^2}}

@@ -1,4 +1,4 @@
-// What films put on meshes, in the files for ParaView; maps of films over angle and time.
+// Pressures of films on meshes, in the files for ParaView; maps of films over angle and time.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 namespace hersey::run {
 namespace film_on_mesh_test {
 
-/// A hollow shaft turning in a ring, both meshes.
+/// A hollow shaft rotating in a ring, both meshes.
 const std::string machine = R"(hersey: 1
 title: A hollow shaft in a ring
 bodies:
@@ -142,7 +142,7 @@ TEST_CASE("FilmPressureOnMeshes_HasTheFilmsForce_AtTheChosenTimes") {
     const Eigen::Vector2d touching = resultant(Run::ring(), ring, field_of(of_ring[file], "contact_pressure"), 0.0225);
     // Quadrature on the mesh of a contact that is small beside the whole.
     CHECK((touching - contact).norm() < 0.02 * contact.norm() + 1e-3 * all.norm());
-    // The shaft has turned beneath the film, which pushes it the other way.
+    // The shaft has rotated beneath the film, which pushes it the other way.
     double angle = 0;
     for (std::size_t k = 0; k < width; ++k) angle = k + 1 == width ? turned[row * width + k] : angle;
     const Eigen::Vector2d on_shaft =
@@ -155,14 +155,14 @@ TEST_CASE("FilmPressureOnMeshes_HasTheFilmsForce_AtTheChosenTimes") {
 }
 
 TEST_CASE("DeformedMesh_MovesAsTheFilmSeesItsSurface") {
-  // Displacements, and with them stresses, hold the answers to film pressure: most of what a bore does.
+  // Displacements, and with them stresses, contain the responses to film pressure: most of the deformation of a bore.
   const Run run;
   const results::Reader reader(run.results);
-  const std::vector<double> seen = reader.read("/bearings/main/fields/shell_displacement").values;
+  const std::vector<double> pressures = reader.read("/bearings/main/fields/shell_displacement").values;
   constexpr std::size_t nodes = 48 * 9;
-  REQUIRE(seen.size() >= nodes);
-  const auto last = seen.end() - static_cast<std::ptrdiff_t>(nodes);
-  const double most = *std::max_element(last, seen.end());
+  REQUIRE(pressures.size() >= nodes);
+  const auto last = pressures.end() - static_cast<std::ptrdiff_t>(nodes);
+  const double most = *std::max_element(last, pressures.end());
   const fem::Mesh ring = fem::read_mesh(run.folder / "ring.inp", 1e-3);
   const std::vector<double> u = field_of(files_in(run.folder / "r_ring").back(), "displacement");
   double radial = 0;
@@ -178,7 +178,7 @@ TEST_CASE("MeshesAt_AnglesComeAgainInEveryCycle") {
   const model::Model model =
       rig(rig_with("  duration: \"${duration}\"\n", "  cycle: {period: 360 deg, until_converged: 0, most: 3}\n") +
           "output: {meshes_at: [90 deg, 1 ms]}\n");
-  const std::vector<double> expected{1e-3, 5e-3, 25e-3, 45e-3};  // a turn lasts 20 ms
+  const std::vector<double> expected{1e-3, 5e-3, 25e-3, 45e-3};  // a revolution lasts 20 ms
   REQUIRE(model.output.meshes_at.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(model.output.meshes_at[i] == doctest::Approx(expected[i]));
   try {

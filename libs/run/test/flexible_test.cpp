@@ -76,12 +76,12 @@ TEST_CASE("PointsOfDeformedMeshes_HaveMovedWithoutDeforming") {
   CHECK((x.col(nodes - 1) - mesh.nodes.back()).norm() > 1e-3);  // it has fallen
 }
 
-TEST_CASE("HeldBar_SagsUnderItsWeight") {
+TEST_CASE("SupportedBar_SagsUnderItsWeight") {
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);
   std::string text = kPendulum;
   text.replace(text.find("type: revolute"), 14, "type: fixed").replace(text.find("duration"), 29, "analysis: static");
-  text.erase(text.find("      tip:"), 26);  // held at one end alone: its only frame stands in its axes
+  text.erase(text.find("      tip:"), 26);  // fixed at one end alone: its only frame coincides with its axes
   std::ofstream(folder / "model.yaml") << text;
   const Summary summary = simulate(model::read(folder / "model.yaml"), {.results = folder / "r.h5"});
   INFO(summary.message);
@@ -93,7 +93,7 @@ TEST_CASE("HeldBar_SagsUnderItsWeight") {
         doctest::Approx(q * q * std::pow(0.2, 5) / (40 * 1e9 * I)).epsilon(0.03));
 }
 
-TEST_CASE("BarUnderPressureAndForce_ShortensAndTellsTheirResultants") {
+TEST_CASE("BarUnderPressureAndForce_ShortensAndReportsTheirResultants") {
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);
   std::string text = kPendulum;
@@ -158,7 +158,7 @@ TEST_CASE("PendulumOfNodes_IsRecordedAndBalanced") {
 }
 
 TEST_CASE("BarOfFiniteStrain_IsBentIntoAnArcByAMomentAtItsTip") {
-  // Curvature M/(E I) all along, to 1 rad: stresses of E kappa h/2 in axes that turn with the strip.
+  // Curvature M/(E I) all along, to 1 rad: stresses of E kappa h/2 in axes that rotate with the strip.
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 10);
   std::string text = kPendulum;
@@ -259,7 +259,7 @@ TEST_CASE("PendulumBlownAtItsEnd_BalancesPowers") {
     largest = std::max(largest, std::abs(loads[i]));
   }
   CHECK(largest > 1e-3);
-  CHECK(force[force.size() - 2] == doctest::Approx(2));  // ground's y, however the bar has turned
+  CHECK(force[force.size() - 2] == doctest::Approx(2));  // ground's y, whatever the rotation of the bar
 }
 
 /// A bar clamped at its left end is pushed down at its right one by a block that is driven.
@@ -353,7 +353,7 @@ TEST_CASE("ModesOfABar_BendItsSkin") {
   REQUIRE(frequencies.size() >= 2);
   CHECK(frequencies[0] == doctest::Approx(f).epsilon(0.02));
   CHECK(frequencies[1] == doctest::Approx(f).epsilon(0.02));
-  // The skin's displacement by the mode is what the tip's frame does, seen from the root: bodies bar and bar.tip.
+  // The skin's displacement by the mode is that of the tip's frame, relative to the root: bodies bar and bar.tip.
   const auto amplitudes = series("/modes/fields/bar_amplitudes_real"), bodies = series("/modes/fields/body_real"),
              deformation = series("/bodies/bar/shapes/mesh/deformation");
   const std::size_t shapes = amplitudes.size() / frequencies.size(), corners = deformation.size() / shapes / 3;

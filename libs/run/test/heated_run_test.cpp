@@ -128,7 +128,7 @@ TEST_CASE("ShellOfABody_SettlesOverCycles") {
     CHECK(again.read(std::string("/bearings/main/") + name).values == series(name));
 }
 
-/// With a hollow shaft in a body, cooled in its bore, in the place of the warm ring.
+/// A hollow shaft in a body, cooled in its bore, replaces the warm ring.
 const std::vector<std::string> warm_shaft = {
     "bodies.shaft={flexible: {mesh: shaft.inp, length_unit: 1 mm, modes: 0, material: {youngs_modulus: 210 GPa, "
     "poisson_ratio: 0.3, density: 7850 kg/m^3}, heat: {conductivity: 46 W/m/K, expansion: 12e-6 1/K, cooling: {bore: "
@@ -205,7 +205,7 @@ TEST_CASE("JournalOfABody_SettlesOverCycles") {
   CHECK(std::abs(growth.back() / growth[10] - 1) > 0.01);
   CHECK(std::abs(h.back() / h[10] - 1) > 1e-3);
   CHECK(*std::max_element(error.begin(), error.end()) < 1e-9);  // round-off of a step over its flow: the shape moves
-  // What bodies put in is what films take: growing walls included.
+  // Energy that bodies put in is absorbed by films, including growing walls.
   const std::vector<double> missing = series("power_error"), made = series("power_film");
   for (std::size_t k = 0; k < missing.size(); ++k)
     CHECK(std::abs(missing[k]) < 3e-4 * made[k]);  // motions of a step to first order; walls do a hundredth of it
@@ -220,23 +220,23 @@ TEST_CASE("JournalOfABody_SettlesOverCycles") {
     CHECK(again.read(std::string("/bearings/main/") + name).values == series(name));
 }
 
-// Heat comes evenly to what turns: of a pin that swings that is doubted.
-TEST_CASE("JournalInABodyThatSwings_IsDoubted") {
+// Heat enters a rotating body evenly around; for a pin that swings this assumption gets a warning.
+TEST_CASE("JournalInABodyThatSwings_IsWarnedOf") {
   const Files files;
-  const auto doubts_of = [&files](const std::string& drive) {
+  const auto warnings_of = [&files](const std::string& drive) {
     const TemporaryDirectory folder;
     const Summary summary = simulate(files.model(with_shaft({"drives.motor=" + drive})), {.results = folder / "r.h5"});
     CAPTURE(summary.message);
     REQUIRE(summary.status == Status::completed);
     std::string text;
-    for (const std::string& doubt : summary.bearings.at(0).doubts) text += doubt + "\n";
+    for (const std::string& warning : summary.bearings.at(0).warnings) text += warning + "\n";
     return text;
   };
-  const std::string swings =
-      doubts_of("{joint: slide, coordinate: rotation, position: {expression: 0.02*(1 - cos(2*pi*1000*t)), unit: rad}}");
+  const std::string swings = warnings_of(
+      "{joint: slide, coordinate: rotation, position: {expression: 0.02*(1 - cos(2*pi*1000*t)), unit: rad}}");
   CHECK(swings.find("swings in its shell") != std::string::npos);
   CHECK(swings.find("is an estimate") != std::string::npos);
-  CHECK(doubts_of("{joint: slide, coordinate: rotation, speed: 3000 rpm}").find("its shell") == std::string::npos);
+  CHECK(warnings_of("{joint: slide, coordinate: rotation, speed: 3000 rpm}").find("its shell") == std::string::npos);
 }
 
 // A shaft that cycles warm until it fills its bore.

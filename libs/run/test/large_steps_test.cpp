@@ -12,9 +12,9 @@
 namespace hersey::run {
 namespace large_steps_test {
 
-/// Simo and Vu-Quoc's beam in free flight: EA = GA = 1e4, EI = 500, rho A = 1, rho I = 10, 10 long, pushed and turned
-/// at its first node. In the plane (1986) by 8 and -80 until 2.5 s; in space (1988) by 20 and 200 about two axes at the
-/// peak of a triangle that ends at 5 s.
+/// Simo and Vu-Quoc's beam in free flight: EA = GA = 1e4, EI = 500, rho A = 1, rho I = 10, 10 long, with a force and a
+/// moment at its first node. In the plane (1986) 8 and -80 until 2.5 s; in space (1988) 20 and 200 about two axes at
+/// the peak of a triangle that ends at 5 s.
 std::string flying_beam(bool in_space, double step, double spectral_radius) {
   const std::string triangle = "(t <= 2.5 ? {0}*t : (t <= 5 ? {0}*(5 - t) : 0))";
   const auto term = [&](double size, const char* unit) {
@@ -67,7 +67,7 @@ TEST_CASE("FlyingBeam_HasTheWorkOfItsLoadsAtAnyStep") {
 
 TEST_CASE("StiffPendulum_KeepsItsEnergyForThirtySeconds") {
   // A mass of 10 kg on a bar of EA = 1e10 N, 3.0443 m long, thrown at 7.72 m/s (Kuhl and Crisfield 1999; Bathe 2007):
-  // 298 J, twelve turns, the bar vibrates 2900 times a second.
+  // 298 J, twelve revolutions, the bar vibrates 2900 times a second.
   for (const double step : {5.0, 10.0, 20.0}) {
     CAPTURE(step);
     const TemporaryDirectory folder;

@@ -47,14 +47,14 @@ std::vector<double> path(const std::vector<std::string>& overrides, const std::s
   return results::Reader(summary.results).read("/joints/slide/coordinates").values;
 }
 
-/// Where steps so short that they resolve the start, and all the rest, end.
+/// The limit of steps so short that they resolve the start.
 double reference() {
   static const double end = path({"mass=0 kg", "step=20 us"}).back();
   return end;
 }
 
-/// A rod of half a gram floats on a pin that turns, pushed to and fro by next to nothing: it stays within a thousandth
-/// of the clearance of the centre or, where the supply pulls it, off it without a load.
+/// A rod of half a gram floats on a rotating pin under a very small alternating force: it stays within a thousandth of
+/// the clearance of the centre or, where the supply pulls it, off it without a load.
 std::string floating(const std::string& edge, const std::string& supply, double rate) {
   const std::string push = "components: [0 N, \"-${load}\", 0 N]", rod = "rod: {mass: 0.5 kg";
   std::string text = rig_with("supply: {line: widest_gap, pressure: 1 bar}",
@@ -65,9 +65,9 @@ std::string floating(const std::string& edge, const std::string& supply, double 
   return text.replace(text.find(rod), rod.size(), "rod: {mass: 0.5 g");
 }
 
-// The widest gap goes round the centre for next to no motion, and a resultant of nothing is a sum with round-off: steps
-// were cut to nanoseconds for both, and ended there.
-TEST_CASE("JournalWithoutALoad_IsHeldByNoRoundOffAndNoSupply") {
+// The widest gap moves around the centre for very small motions, and a vanishing resultant is a sum with round-off:
+// steps were cut to nanoseconds for both, and the run ended there.
+TEST_CASE("JournalWithoutALoad_IsStoppedByNoRoundOffAndNoSupply") {
   const TemporaryDirectory scratch;
   for (const char* edge : {"0", "0.3", "1"}) {
     for (const char* supply : {"0", "0.5", "1"}) {

@@ -8,16 +8,16 @@
 
 #include "hersey/model/build.h"
 #include "hersey/solver/generalized_alpha.h"
-#include "march/start.h"
-#include "march/step_march.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
+#include "start/start.h"
+#include "time_stepping/time_stepper.h"
 
 namespace hersey::run {
 namespace loop_steps_test {
 
-/// A crank turned by a drive rocks a lever: hinges, three constraints of the loop redundant. `closing` is the last
-/// joint, `pin` that between crank and coupler, `side` -1 for the mirror image.
+/// A driven crank rocks a lever: hinges, three constraints of the loop redundant. `closing` is the last joint, `pin`
+/// that between crank and coupler, `side` -1 for the mirror image.
 std::string four_bar(const std::string& pin, const std::string& closing, int side = 1) {
   const std::string s = side < 0 ? "-" : "";
   const auto at = [&](const std::string& x) { return s + x + " 0 0 mm"; };
@@ -52,7 +52,8 @@ simulation: {duration: 0.5 s, step: {tolerance: 1e-6, largest: 0.2 s}}
 
 const std::string kHinges = four_bar("revolute", "revolute, axis: z");
 
-/// Six equal rods on six hinges, square to each other in turn: a loop with one freedom and one redundant constraint.
+/// Six equal rods on six hinges, each perpendicular to the one before: a loop with one freedom and one redundant
+/// constraint.
 const std::string kBricard = R"(hersey: 1
 gravity: 0 -9.81 0 m/s^2
 bodies:
@@ -83,27 +84,27 @@ joints:
 simulation: {duration: 1 s, step: {tolerance: 1e-6, largest: 0.2 s}}
 )";
 
-struct March {
+struct Steps {
   bool completes = false;
   std::string message;
   int steps = 0, rejected = 0;
   int later = 0;  ///< steps behind a tenth of a second: the first is a guess, and they grow by 1.3 at a time
   double shortest = 1;
   solver::State end;
-  mbd::Observation seen;
+  mbd::Observation observation;
 };
 
-March march(const std::string& text, double radius, double tolerance) {
+Steps step_through(const std::string& text, double radius, double tolerance) {
   const model::Model model = rig(text, {"simulation.spectral_radius=" + std::to_string(radius),
                                         "simulation.step.tolerance=" + std::to_string(tolerance * 1e12) + "e-12"});
   model::Machine machine = model::build(model);
-  March result;
+  Steps result;
   result.end = starting_state(model, machine);
-  StepMarch steps(model, machine);
+  TimeStepper steps(model, machine);
   steps.plan(result.end, machine.mechanism->observe(result.end));
-  // Far more than any of these takes: a march that creeps ends, too.
+  // Far more steps than any of these takes: time stepping with ever shorter steps ends, too.
   for (; !steps.is_at_end() && result.steps < 20000; ++result.steps) {
-    const MarchedStep step = steps.take(result.end);
+    const TimeStep step = steps.take(result.end);
     result.message = step.message;
     if (!step.solved()) return result;
     if (result.end.t < 0.1) continue;
@@ -112,32 +113,32 @@ March march(const std::string& text, double radius, double tolerance) {
   }
   result.completes = steps.is_at_end();
   result.rejected = steps.rejected_steps();
-  result.seen = machine.mechanism->observe(result.end);
+  result.observation = machine.mechanism->observe(result.end);
   return result;
 }
 
 /// Errors of angle, rate and force of the pendulum at t = 1 s.
-Vector3 pendulum_errors(const mbd::Observation& seen) {
+Vector3 pendulum_errors(const mbd::Observation& observation) {
   const verification::Pendulum exact{0.5 * std::numbers::pi, std::sqrt(9.81 / 1.1)};
   const double angle = exact.angle(1), rate = exact.rate(1);
-  const double turn = -exact.omega0 * exact.omega0 * std::sin(angle);
+  const double angular_acceleration = -exact.omega0 * exact.omega0 * std::sin(angle);
   const Vector3 up(-std::sin(angle), std::cos(angle), 0), along(std::cos(angle), std::sin(angle), 0);
-  const Vector3 force = turn * along + rate * rate * up + Vector3(0, 9.81, 0);
-  return {std::abs(seen.joints[0].position[5] - angle), std::abs(seen.joints[0].rate[5] - rate),
-          (seen.joints[1].force - force).norm()};
+  const Vector3 force = angular_acceleration * along + rate * rate * up + Vector3(0, 9.81, 0);
+  return {std::abs(observation.joints[0].position[5] - angle), std::abs(observation.joints[0].rate[5] - rate),
+          (observation.joints[1].force - force).norm()};
 }
 
 // Once "the tolerance is exceeded with the smallest step", or no end, at 0.9 and above.
 TEST_CASE("ClosedLoops_CompleteAtEverySpectralRadius") {
   for (const std::string& text : {kHinges, kBricard, kPendulumOnAJoint}) {
     for (const double tolerance : {1e-4, 1e-7}) {
-      const March usual = march(text, 0.8, tolerance);
+      const Steps usual = step_through(text, 0.8, tolerance);
       REQUIRE(usual.completes);
       for (const double radius : {0.0, 0.5, 0.9, 0.95, 0.99, 1.0}) {
         CAPTURE(text.substr(text.find("joints"), 80));
         CAPTURE(radius);
         CAPTURE(tolerance);
-        const March one = march(text, radius, tolerance);
+        const Steps one = step_through(text, radius, tolerance);
         CAPTURE(one.message);
         CHECK(one.completes);
         // The error of a step, (integrator.11), has the factor 5/12 at 0, 0.102 at 0.8 and 1/12 at 1: steps go as its
@@ -146,7 +147,7 @@ TEST_CASE("ClosedLoops_CompleteAtEverySpectralRadius") {
         CHECK(one.later > 0.85 * usual.later);
         // A few at the start, where the first step is a guess.
         CHECK(one.rejected <= 5);
-        // Neither motion has a hard place.
+        // Neither motion passes a near-singular position.
         CHECK(one.shortest > 0.05 / one.steps);
       }
     }
@@ -157,7 +158,7 @@ TEST_CASE("StepsInLoops_GoAsTheThirdRootOfTheTolerance") {
   for (const std::string& text : {kHinges, kPendulumOnAJoint}) {
     for (const double radius : {0.8, 0.95, 1.0}) {
       CAPTURE(radius);
-      const March coarse = march(text, radius, 1e-6), fine = march(text, radius, 1e-9);
+      const Steps coarse = step_through(text, radius, 1e-6), fine = step_through(text, radius, 1e-9);
       // From both sides.
       CHECK(std::abs(std::log(static_cast<double>(fine.later) / coarse.later) / std::log(1e3) - 1.0 / 3) < 0.02);
     }
@@ -166,8 +167,8 @@ TEST_CASE("StepsInLoops_GoAsTheThirdRootOfTheTolerance") {
 
 TEST_CASE("ErrorsInLoops_FollowTheTolerance") {
   for (const double radius : {0.0, 0.8, 0.95, 1.0}) {
-    const Vector3 coarse = pendulum_errors(march(kPendulumOnAJoint, radius, 1e-6).seen);
-    const Vector3 fine = pendulum_errors(march(kPendulumOnAJoint, radius, 1e-9).seen);
+    const Vector3 coarse = pendulum_errors(step_through(kPendulumOnAJoint, radius, 1e-6).observation);
+    const Vector3 fine = pendulum_errors(step_through(kPendulumOnAJoint, radius, 1e-9).observation);
     for (int i = 0; i < 3; ++i) {
       CAPTURE(radius);
       CAPTURE(i);
@@ -178,8 +179,8 @@ TEST_CASE("ErrorsInLoops_FollowTheTolerance") {
   }
 }
 
-// What a pattern of steps leaves across the constraints has no memory, so that any pattern will do: with the
-// constraints' own modes, one that alternates by 3 amplified them by more than 1 a step.
+// Constraint violations have no memory, so that any pattern of steps is allowed: with the constraints' own modes, one
+// that alternates by 3 amplified them by more than 1 a step.
 TEST_CASE("StepsOfAnyPattern_KeepOrderTwoInLoops") {
   const model::Model model = rig(kPendulumOnAJoint);
   const auto errors = [&](double radius, int repetitions) {
@@ -207,24 +208,25 @@ TEST_CASE("RedundantLoop_TakesTheStepsOfTheLoopWithoutRedundancy") {
   // The same motion in the plane; what acts across it is zero.
   for (const double radius : {0.8, 0.95}) {
     CAPTURE(radius);
-    const March hinges = march(kHinges, radius, 1e-7);
-    const March free = march(four_bar("cylindrical", "spherical"), radius, 1e-7);
+    const Steps hinges = step_through(kHinges, radius, 1e-7);
+    const Steps free = step_through(four_bar("cylindrical", "spherical"), radius, 1e-7);
     REQUIRE(hinges.completes);
     REQUIRE(free.completes);
     CHECK(hinges.steps == free.steps);
     // Newton's tolerance of 1e-8, by far smaller than the steps' error.
-    CHECK((hinges.seen.joints[2].force - free.seen.joints[2].force).norm() < 1e-7 * hinges.seen.joints[2].force.norm());
+    CHECK((hinges.observation.joints[2].force - free.observation.joints[2].force).norm() <
+          1e-7 * hinges.observation.joints[2].force.norm());
   }
 }
 
 TEST_CASE("MirroredLoop_TakesTheSameSteps") {
   for (const double radius : {0.8, 0.95}) {
     CAPTURE(radius);
-    const March one = march(kHinges, radius, 1e-7);
-    const March mirrored = march(four_bar("revolute", "revolute, axis: z", -1), radius, 1e-7);
+    const Steps one = step_through(kHinges, radius, 1e-7);
+    const Steps mirrored = step_through(four_bar("revolute", "revolute, axis: z", -1), radius, 1e-7);
     REQUIRE(one.completes);
     CHECK(one.steps == mirrored.steps);
-    const Vector3 force = one.seen.joints[2].force, other = mirrored.seen.joints[2].force;
+    const Vector3 force = one.observation.joints[2].force, other = mirrored.observation.joints[2].force;
     // Round-off of positions over the square of the step, over accelerations: 1e-16 / 1e-6.
     CHECK((force - Vector3(-other.x(), other.y(), other.z())).norm() < 1e-8 * force.norm());
   }
@@ -237,11 +239,12 @@ TEST_CASE("BodiesInAnotherOrder_TakeTheSameSteps") {
   reordered.erase(first, second - first).insert(reordered.find("joints:"), rod);
   for (const double radius : {0.8, 0.95}) {
     CAPTURE(radius);
-    const March one = march(kBricard, radius, 1e-7), other = march(reordered, radius, 1e-7);
+    const Steps one = step_through(kBricard, radius, 1e-7), other = step_through(reordered, radius, 1e-7);
     REQUIRE(one.completes);
     CHECK(one.steps == other.steps);
     // Round-off of sums in another order.
-    CHECK((one.seen.joints[2].force - other.seen.joints[2].force).norm() < 1e-8 * one.seen.joints[2].force.norm());
+    CHECK((one.observation.joints[2].force - other.observation.joints[2].force).norm() <
+          1e-8 * one.observation.joints[2].force.norm());
   }
 }
 

@@ -9,8 +9,8 @@
 
 #include "hersey/results/reader.h"
 #include "hersey/run/film_fields.h"
-#include "record/quantity.h"
 #include "source_dir.h"
+#include "table/quantity.h"
 #include "temporary_directory.h"
 
 namespace hersey::run {
@@ -45,15 +45,15 @@ TEST_CASE("EveryQuantity_IsDescribedWithItsUnit") {
   }
 }
 
-TEST_CASE("WhatIsTold_IsToldOnceOfEachThing") {
+TEST_CASE("SummaryEntries_AreUniqueForEachThing") {
   for (const QuantityGroup& group : result_quantities()) {
     std::set<std::string> names;
     for (const QuantityInfo& quantity : group.quantities)
-      for (const Told& told : quantity.told) {
-        CAPTURE(told.name);
-        CHECK_FALSE(told.name.empty());
-        CHECK(names.insert(told.name).second);
-        if (!told.has_place || !quantity.dimensions.empty()) continue;
+      for (const SummaryEntry& summary_entry : quantity.summary_entries) {
+        CAPTURE(summary_entry.name);
+        CHECK_FALSE(summary_entry.name.empty());
+        CHECK(names.insert(summary_entry.name).second);
+        if (!summary_entry.has_location || !quantity.dimensions.empty()) continue;
         const auto is_there = [&](const std::string& name) {
           return std::any_of(group.quantities.begin(), group.quantities.end(),
                              [&](const QuantityInfo& other) { return other.name == name; });
@@ -80,18 +80,18 @@ TEST_CASE("EveryFieldOfAFilm_IsAQuantityOfItsBearing") {
 struct Machine {
   int wheels = 0;
 };
-struct Seen {
+struct WheelState {
   double speed = 0;
-  std::vector<double> turns;
+  std::vector<double> revolutions;
 };
 
 TEST_CASE("TableOfQuantities_WritesAFileThatSaysWhatItSays") {
-  static const QuantityTable<Seen, Machine> table{
-      {"speed", "m/s", "of the machine", &Seen::speed},
+  static const QuantityTable<WheelState, Machine> table{
+      {"speed", "m/s", "of the machine", &WheelState::speed},
       {"turn_<wheel>",
        "rad",
        "of wheel <wheel>",
-       [](const Seen& seen, std::size_t k) { return seen.turns[k]; },
+       [](const WheelState& state, std::size_t k) { return state.revolutions[k]; },
        {.each =
             [](const Machine& machine) {
               std::vector<std::string> names;
@@ -101,15 +101,15 @@ TEST_CASE("TableOfQuantities_WritesAFileThatSaysWhatItSays") {
       {"turns",
        "rad",
        "of all wheels",
-       &Seen::turns,
+       &WheelState::revolutions,
        {.only = [](const Machine& machine) { return machine.wheels > 2; },
         .extent = {"wheels", [](const Machine& machine, std::size_t) { return std::vector{machine.wheels}; }}}},
-      {"place", "m", "of the machine", [](const Seen& seen) { return Vector3(seen.speed, 0, 0); }},
+      {"place", "m", "of the machine", [](const WheelState& state) { return Vector3(state.speed, 0, 0); }},
   };
   const TemporaryDirectory directory;
   const auto write = [&](const char* name, int wheels) {
     results::Writer writer(directory / name);
-    const QuantityRows<Seen, Machine> rows(table, "/machines/m/", Machine{wheels}, writer);
+    const QuantityRows<WheelState, Machine> rows(table, "/machines/m/", Machine{wheels}, writer);
     rows.append({3, {0.5, 1.5, 2.5}});
     rows.append({4, {0.25, 1.25, 2.25}});
     writer.finish(results::Status::completed);

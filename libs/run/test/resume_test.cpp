@@ -13,10 +13,10 @@
 #include "hersey/results/reader.h"
 #include "hersey/results/writer.h"
 #include "hersey/run/simulate.h"
-#include "march/checkpoint.h"
 #include "small_bar.h"
 #include "small_rig.h"
 #include "temporary_directory.h"
+#include "time_stepping/checkpoint.h"
 
 namespace hersey::run {
 namespace resume_test {
@@ -29,7 +29,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 Summary run_for(const model::Model& model, const std::filesystem::path& results, int steps, bool resume) {
   std::atomic<bool> stop{false};
   Options options{.results = results, .resume = resume, .stop = &stop};
-  int taken = resume ? 1 : 0;  // the start is told too
+  int taken = resume ? 1 : 0;  // the start is reported too
   options.on_progress = [&](const Progress&) { stop = taken++ >= steps; };
   return simulate(model, options);
 }
@@ -323,7 +323,7 @@ TEST_CASE("ChangedMesh_IsRefused") {
   CHECK(refusal(model(), results).find("the content of bar.inp") != std::string::npos);
 }
 
-TEST_CASE("DamagedFiles_AreTold") {
+TEST_CASE("DamagedFiles_AreReported") {
   const TemporaryDirectory scratch;
   const std::filesystem::path results = scratch / "run.h5", checkpoint = checkpoint_file(results);
   REQUIRE(run_for(rig(), results, 5, false).status == Status::stopped);
@@ -350,7 +350,7 @@ TEST_CASE("DamagedFiles_AreTold") {
   CHECK_THROWS_WITH_AS(resume(), doctest::Contains("not a checkpoint"), results::ReadError);
   CHECK_FALSE(std::filesystem::exists(results.string() + ".unfinished"));
 
-  // What was there is still good.
+  // The earlier checkpoint is still good.
   results::write_checkpoint(checkpoint, good);
   resume();
   CHECK(results::Reader(results).text_attribute("/", "status") == "completed");
@@ -371,7 +371,7 @@ TEST_CASE("OtherProgramVersion_IsAWarning") {
 TEST_CASE("KilledBeforeItsModelWasWritten_BeginsAnew") {
   const TemporaryDirectory scratch;
   const std::filesystem::path results = scratch / "run.h5";
-  results::Writer(results, {}).finish(results::Status::running);  // as far as a program came that was killed then
+  results::Writer(results, {}).finish(results::Status::running);  // the state of a program that was killed at that time
   const Summary summary = simulate(rig(), {.results = results, .resume = true});
   CHECK(summary.status == Status::completed);
   CHECK(summary.warning.find("began anew") != std::string::npos);
@@ -428,7 +428,7 @@ TEST_CASE("CheckpointBesideResultsThatSayToBeComplete_IsGoneOnFrom") {
   REQUIRE(run_for(rig(), parts, 5, false).status == Status::stopped);
   std::filesystem::copy_file(checkpoint_file(parts), kept);
   REQUIRE(simulate(rig(), {.results = parts, .resume = true}).status == Status::completed);
-  // As a program leaves them that is killed between the end of its results and the removal of its checkpoint.
+  // The files of a program that is killed between the end of its results and the removal of its checkpoint.
   std::filesystem::copy_file(kept, checkpoint_file(parts));
   const Summary again = simulate(rig(), {.results = parts, .resume = true});
   CHECK(again.status == Status::completed);

@@ -67,7 +67,7 @@ TEST_CASE("HoleInTheTurningPin_FeedsTheFilmAndIsReported") {
   CAPTURE(summary.message);
   REQUIRE(summary.status == Status::completed);
   CHECK(summary.rejected_steps == 0);
-  // As every step is solved to 1e-8 of its largest term.
+  // Every step is solved to 1e-8 of its largest term.
   CHECK(summary.bearings[0].worst_mass_balance < 1e-6);
   CHECK(summary.worst_power_balance < 1e-6);
   const results::Reader reader(summary.results);
@@ -77,8 +77,8 @@ TEST_CASE("HoleInTheTurningPin_FeedsTheFilmAndIsReported") {
 }
 
 TEST_CASE("PowerOfMotorAndLoad_GoesIntoFrictionOfTheSettledFilm") {
-  // At rest but for the turning pin: what the drives put in, the film dissipates. The dissipation integral and the
-  // shear traction are different discrete sums; on this coarse grid they agree to a few per cent.
+  // At rest but for the rotating pin: the film dissipates the energy that the drives put in. The dissipation integral
+  // and the shear traction are different discrete sums; on this coarse grid they agree to a few per cent.
   const TemporaryDirectory scratch;
   const Summary summary = simulate(rig(kSmallRig, {"duration=80 ms"}), {.results = scratch / "run.h5"});
   REQUIRE(summary.status == Status::completed);
@@ -131,7 +131,7 @@ TEST_CASE("MassBalance_IsRecordedOfFilmsThatConserveOil") {
 }
 
 // A spatial crank with steps so long that the velocities of its closed loop leave every motion it has.
-TEST_CASE("StepsTooLongForTheMotion_AreToldSo") {
+TEST_CASE("StepsTooLongForTheMotion_AreReportedSo") {
   const TemporaryDirectory scratch;
   const std::string text = R"(hersey: 1
 gravity: 0 0 -9.81 m/s^2
@@ -165,7 +165,7 @@ simulation: {duration: 5 s, step: 5 ms, spectral_radius: 0.95}
 }
 
 TEST_CASE("HardStep_IsHalvedAndTheRunGoesOn") {
-  // A quarter turn at once takes eight iterations and more: with seven it is halved until they do.
+  // A quarter of a revolution in one step takes eight iterations and more: with seven it is halved until they suffice.
   const TemporaryDirectory scratch;
   const model::Model model =
       rig(rig_with("step: 2 deg", "step: 90 deg"), {"load=5000 N", "duration=10 ms", "simulation.max_iterations=7"});
@@ -242,7 +242,7 @@ TEST_CASE("ClosedGapAtTheStart_PointsAtTheBearing") {
 }
 
 TEST_CASE("RedundantConstraints_AreWarnedOf") {
-  // A second revolute joint on the same axis says everything twice but turning.
+  // A second revolute joint on the same axis repeats every constraint; only the rotation is free.
   const std::string text = rig_with("drives:", "  again: {type: revolute, between: [ground, pin]}\ndrives:");
   const std::vector<Fault> warnings = check(rig(text));
   REQUIRE(warnings.size() == 1);
@@ -261,7 +261,7 @@ TEST_CASE("UndampedMultipliers_ArePointedAtBeforeTheRun") {
 }
 
 TEST_CASE("ContradictingDrives_AreNamed") {
-  // Both joints turn the same pin.
+  // Both joints rotate the same pin.
   std::string text = rig_with("drives:", "  again: {type: revolute, between: [ground, pin]}\ndrives:");
   text.replace(text.find("  hold:"), 0, "  second: {joint: again, coordinate: rotation, speed: 100 rpm}\n");
   std::string found;

@@ -36,7 +36,7 @@ forces:
 simulation: {duration: 1 s, step: 10 ms}
 )";
 
-/// A wheel that a drive turns, and one that it drags along through a damper.
+/// A wheel rotated by a drive, and one that it drags along through a damper.
 const char* const kDrivenWheel = R"(hersey: 1
 bodies:
   wheel: {mass: 1 kg, inertia: {xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}}
@@ -159,7 +159,7 @@ TEST_CASE("RestoredState_GoesOnWithTheSameBits") {
   CHECK_THROWS_AS(of_another.restore(saved), InputError);
 }
 
-TEST_CASE("WrongNames_AreToldWithTheNearest") {
+TEST_CASE("WrongNames_AreReportedWithTheNearest") {
   Simulation simulation(rig());
   CHECK_THROWS_WITH_AS(simulation.set("drives.motr.speed", 1), doctest::Contains("drives.motor.speed"), InputError);
   CHECK_THROWS_WITH_AS((void)simulation.output("bearings.big_end.hmin"), doctest::Contains("bearings.big_end.h_min"),
@@ -167,7 +167,7 @@ TEST_CASE("WrongNames_AreToldWithTheNearest") {
   CHECK_THROWS_AS(simulation.set("drives.motor.speed", std::nan("")), InputError);
 }
 
-TEST_CASE("StepWithoutAnAnswer_IsToldAndKeepsTheResults") {
+TEST_CASE("StepWithoutAnAnswer_IsReportedAndKeepsTheResults") {
   const TemporaryDirectory scratch;
   Simulation simulation(rig(), {.results = scratch / "run.h5"});
   REQUIRE(simulation.step().status == Advance::Status::advanced);

@@ -8,7 +8,7 @@
 
 namespace hersey::run {
 
-/// A journal turning in a bush that floats and is pushed: small enough for a run in milliseconds.
+/// A journal rotating in a floating bush under a load: small enough for a run in milliseconds.
 inline const std::string kSmallRig = R"(hersey: 1
 title: Small rig
 parameters:

@@ -1,4 +1,4 @@
-#include "march/start.h"
+#include "start/start.h"
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ namespace start_test {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Crank of 150 mm, rod of 500 mm, slider along x; `main`, `pin` and `bore` are what stands in these joints' braces.
+/// Crank of 150 mm, rod of 500 mm, slider along x; `main`, `pin` and `bore` are the contents of these joints' braces.
 std::string slider_crank(const std::string& main, const std::string& pin, const std::string& bore,
                          const std::string& more = "") {
   return R"(hersey: 1
@@ -43,20 +43,20 @@ joints:
 struct Started {
   explicit Started(const std::string& text) : model(rig(text)), machine(model::build(model)) {
     state = starting_state(model, machine);
-    seen = machine.mechanism->observe(state);
+    observation = machine.mechanism->observe(state);
   }
-  [[nodiscard]] double position(std::size_t joint) const { return seen.joints[joint].position[0]; }
-  [[nodiscard]] double rate(std::size_t joint) const { return seen.joints[joint].rate[0]; }
+  [[nodiscard]] double position(std::size_t joint) const { return observation.joints[joint].position[0]; }
+  [[nodiscard]] double rate(std::size_t joint) const { return observation.joints[joint].rate[0]; }
 
   model::Model model;
   model::Machine machine;
   solver::State state;
-  mbd::Observation seen;
+  mbd::Observation observation;
 };
 
 enum : std::size_t { kMain, kPin, kWrist, kBore };
 
-/// Where the slider stands at a crank angle, and how fast it goes per radian.
+/// Position of the slider at a crank angle, and its derivative by the angle.
 double slider(double angle) {
   const double s = 0.15 * std::sin(angle);
   return 0.15 * std::cos(angle) + std::sqrt(0.25 - s * s);
@@ -75,7 +75,7 @@ Fault refusal(const std::string& text) {
   return {};
 }
 
-TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
+TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndReported") {
   // The slider belongs 594.686 mm from the shaft; 0.034 mm more are of rounding.
   const std::string text =
       slider_crank(", initial: {rotation: 45 deg, rotation_rate: 10 rad/s}", "", ", initial: {translation: 594.72 mm}");
@@ -85,9 +85,9 @@ TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
   // rtol of the start is 1e-12.
   CHECK(start.position(kBore) == doctest::Approx(slider(start.position(kMain))).epsilon(1e-12));
   CHECK(start.rate(kMain) == doctest::Approx(10).epsilon(1e-12));
-  // Of all changes that close the loop the least, in rad and sizes of the machine: along the loop's own gradient.
+  // The least of all changes that close the loop, in rad and sizes of the machine: along the loop's own gradient.
   const double size = start.machine.mechanism->position_scales().maxCoeff(), g = slider_rate(45 * kDegree) / size;
-  // What is of second order in the misfit.
+  // Error of second order in the misfit.
   CHECK(shifted == doctest::Approx(-misfit / (1 + g * g)).epsilon(1e-3));
   CHECK(turned == doctest::Approx(misfit / size * g / (1 + g * g)).epsilon(1e-3));
 
@@ -101,13 +101,13 @@ TEST_CASE("Misfit_OfRoundedValuesIsSpreadAndTold") {
   const TemporaryDirectory scratch;
   const Summary summary = simulate(start.model, {.results = scratch / "run.h5"});
   REQUIRE(summary.status == Status::completed);
-  bool is_told = false;
-  for (const auto& [name, told] : results::Reader(summary.results).text_table("/assumptions"))
-    if (name == "start moved: joint bore, translation") is_told = told.find("594.72 mm given, 594.68") == 0;
-  CHECK(is_told);
+  bool is_reported = false;
+  for (const auto& [name, value] : results::Reader(summary.results).text_table("/assumptions"))
+    if (name == "start moved: joint bore, translation") is_reported = value.find("594.72 mm given, 594.68") == 0;
+  CHECK(is_reported);
 }
 
-TEST_CASE("ValuesThatFitTogether_AreNotTold") {
+TEST_CASE("ValuesThatFitTogether_AreNotReported") {
   const Started start(slider_crank(", initial: {rotation: 45 deg, rotation_rate: 10 rad/s}", "", ""));
   CHECK(start.position(kMain) == 45 * kDegree);
   // rtol of the start is 1e-12.
@@ -186,7 +186,7 @@ joints:
   d: {type: revolute, between: [two.end, plate.right]}
 simulation: {duration: 1 ms, step: 1 ms}
 )");
-  const mbd::JointValues& plate = start.seen.joints[0].position;
+  const mbd::JointValues& plate = start.observation.joints[0].position;
   CHECK(plate[0] == doctest::Approx(0.3).epsilon(1e-12));                  // rtol of the start is 1e-12
   CHECK(plate[1] == doctest::Approx(std::sqrt(1 - 0.09)).epsilon(1e-10));  // rtol of the start is 1e-12, over a slope
 }

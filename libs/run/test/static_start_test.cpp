@@ -42,34 +42,35 @@ double swing(const std::vector<double>& energy) {
   return largest / energy.front();
 }
 
-TEST_CASE("HeldBar_StartsAtRestUnderItsWeight") {
-  const std::string held = pendulum("  clamp: {type: fixed, between: [ground, bar.root]}\n");
-  CHECK(swing(strain_energy(held, "static")) < 1e-6);  // what is left of a start in its static answer
-  const std::vector<double> let_go = strain_energy(held, "none");
-  CHECK(let_go.front() == 0);
-  // Let go, it swings to twice the deflection: four times the energy, less what damping takes.
-  const double at_rest = strain_energy(held, "static").front();
-  CHECK(*std::max_element(let_go.begin(), let_go.end()) == doctest::Approx(4 * at_rest).epsilon(0.1));
+TEST_CASE("SupportedBar_StartsAtRestUnderItsWeight") {
+  const std::string in_equilibrium = pendulum("  clamp: {type: fixed, between: [ground, bar.root]}\n");
+  CHECK(swing(strain_energy(in_equilibrium, "static")) < 1e-6);  // residual swing of a start in static equilibrium
+  const std::vector<double> undeformed = strain_energy(in_equilibrium, "none");
+  CHECK(undeformed.front() == 0);
+  // A start without deformation swings to twice the deflection: four times the energy, less the energy that damping
+  // absorbs.
+  const double at_rest = strain_energy(in_equilibrium, "static").front();
+  CHECK(*std::max_element(undeformed.begin(), undeformed.end()) == doctest::Approx(4 * at_rest).epsilon(0.1));
 }
 
-// A displacement of every node, or four modes: both are let go undeformed where that is asked for.
+// Displacements of every node, or four modes: both start undeformed if this is requested.
 TEST_CASE("NodalBar_IsLetGoWhereItIsAskedFor") {
   const std::string modal = pendulum("  clamp: {type: fixed, between: [ground, bar.root]}\n");
   std::string nodal = modal;
   nodal.replace(nodal.find("modes: 4"), 8, "form: nodal");
-  const std::vector<double> let_go = strain_energy(nodal, "none");
-  CHECK(let_go.front() == 0);
-  const std::vector<double> held = strain_energy(nodal, "internal");
-  CHECK(held.front() > 0);
-  const double highest = *std::max_element(let_go.begin(), let_go.end());
-  CHECK(highest == doctest::Approx(4 * held.front()).epsilon(0.1));
+  const std::vector<double> undeformed = strain_energy(nodal, "none");
+  CHECK(undeformed.front() == 0);
+  const std::vector<double> in_equilibrium = strain_energy(nodal, "internal");
+  CHECK(in_equilibrium.front() > 0);
+  const double highest = *std::max_element(undeformed.begin(), undeformed.end());
+  CHECK(highest == doctest::Approx(4 * in_equilibrium.front()).epsilon(0.1));
   // The same swing as by modes, from the first step on.
   const std::vector<double> by_modes = strain_energy(modal, "none");
-  REQUIRE(by_modes.size() == let_go.size());
-  for (std::size_t i = 0; i < let_go.size(); ++i) CHECK(std::abs(let_go[i] - by_modes[i]) < 0.05 * highest);
+  REQUIRE(by_modes.size() == undeformed.size());
+  for (std::size_t i = 0; i < undeformed.size(); ++i) CHECK(std::abs(undeformed[i] - by_modes[i]) < 0.05 * highest);
 }
 
-// Not told otherwise it starts as its forces hold it.
+// By default it starts in equilibrium with its forces.
 TEST_CASE("NodalBar_StartsInItsStaticAnswerByDefault") {
   const TemporaryDirectory folder;
   write_bar(folder / "bar.inp", 4);
@@ -90,10 +91,10 @@ TEST_CASE("BarInALoop_StartsAtRestUnderItsWeight") {
           .insert(std::string(kPendulum).find("  bar:"), "  ground: {frames: {far: {origin: 200 5 5 mm}}}\n");
   const std::vector<double> energy = strain_energy(loop, "static");
   CHECK(energy.front() > 0);
-  CHECK(swing(energy) < 1e-6);  // what is left of a start in its static answer
+  CHECK(swing(energy) < 1e-6);  // residual swing of a start in static equilibrium
 }
 
-// It falls, and bends as its own inertia has it: not as a bar that is held.
+// It falls, and bends under its own inertia: not as a supported bar.
 TEST_CASE("FallingPendulum_StartsWithoutVibration") {
   const std::vector<double> smooth = strain_energy(kPendulum, "static"), ringing = strain_energy(kPendulum, "none");
   const std::size_t first = 60;  // 6 ms, more than a period of its first bending vibration

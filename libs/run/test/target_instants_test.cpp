@@ -1,4 +1,4 @@
-#include "march/target_instants.h"
+#include "time_stepping/target_instants.h"
 
 #include <doctest/doctest.h>
 

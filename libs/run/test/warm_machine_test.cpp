@@ -102,7 +102,7 @@ TEST_CASE("ClearanceThatGrows_KeepsItsOil") {
   }
 }
 
-// What the film does on walls that grow counts: the balance of power is as good as that of walls that stand still.
+// Work of the film on growing walls counts: the balance of power is as good as that of walls at rest.
 TEST_CASE("WorkOnWallsThatGrow_IsAccountedFor") {
   const TemporaryDirectory scratch;
   std::vector<double> missing;
@@ -156,8 +156,8 @@ const std::string sump_and_block =
     "model: film, supply_temperature: {node: shaft}, drains_to: shaft, layers: 3, shell: {wall: ring, outer_diameter: "
     "60 mm, ambient: {node: block}}";
 
-// What oil and ring give the nodes that they lead to, those receive: in steps, and over cycles, at whose end both are
-// where the cycle's mean heat passes them by.
+// Nodes receive the heat that oil and ring give them: in steps, and over cycles, at whose end both are at the
+// temperatures at which the cycle's mean heat flows through them.
 TEST_CASE("SumpAndBlock_TakeWhatOilAndRingGive") {
   const TemporaryDirectory scratch;
   for (const bool cycles : {false, true}) {
@@ -195,8 +195,7 @@ TEST_CASE("FilmsInOneSump_WarmItByAllTheirPower") {
   const double room = 25, sump = series(file, "/thermal/T_shaft").back(),
                block = series(file, "/thermal/T_block").back();
   CHECK(power > 20);
-  CHECK(1.0 * (sump - room) + 4.0 * (block - room) ==
-        relative(power).epsilon(1e-3));  // what is left of the last cycles
+  CHECK(1.0 * (sump - room) + 4.0 * (block - room) == relative(power).epsilon(1e-3));  // remainder of the last cycles
   CHECK(std::abs(sump - series(file, "/thermal/T_shaft").front()) > 1);
 }
 
@@ -213,7 +212,7 @@ TEST_CASE("SmallCapacity_DoesNotLimitTheStep") {
   for (std::size_t k = 2; k < T.size(); ++k) CHECK(std::abs(T[k] - T[k - 1]) < 2);  // and does not ring
 }
 
-// Walls that are held for a cycle jump at its end, by kelvins: no motion, and no squeeze of the film.
+// Walls that are constant within a cycle jump at its end, by kelvins: no motion, and no squeeze of the film.
 TEST_CASE("WallsThatSettleOverCycles_DoNotSqueezeTheFilm") {
   const TemporaryDirectory scratch;
   std::vector<double> loads;
@@ -240,7 +239,7 @@ TEST_CASE("WallsThatSettleOverCycles_DoNotSqueezeTheFilm") {
   CHECK(loads[1] == doctest::Approx(loads[0]).epsilon(0.1));  // of films whose clearances differ by percents
 }
 
-TEST_CASE("SeizureInARun_IsToldWithItsTime_AndKeepsTheResults") {
+TEST_CASE("SeizureInARun_IsReportedWithItsTime_AndKeepsTheResults") {
   const TemporaryDirectory scratch;
   std::string text = warm_rig(nodes + ", expansion: {shell: 0 1/K, journal: 80e-6 1/K}");
   text = edited(text, "heat_capacity: 1 J/K, temperature: 40 degC", "heat_capacity: 0.3 J/K, temperature: 21 degC");
@@ -272,7 +271,7 @@ TEST_CASE("IsothermalRun_HasTheClearanceOfItsTemperature") {
                             x = series(a, bearing + "eccentricity_ratio"),
                             y = series(b, bearing + "eccentricity_ratio");
   REQUIRE(h.size() == g.size());
-  // A line between nodes is held the more firmly the larger the clearance as given.
+  // A line between nodes restrains the journal the more firmly the larger the given clearance.
   CHECK(h.back() == relative(g.back()).epsilon(1e-3));
   CHECK(x.back() == relative(y.back()).epsilon(1e-3));
   CHECK(series(a, bearing + "clearance").back() == relative(grown).epsilon(1e-12));  // round-off

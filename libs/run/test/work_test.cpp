@@ -1,11 +1,11 @@
-// What the steps of a run cost: counts and parts of the computing time.
+// Cost of the steps of a run: counts and parts of the computing time.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
-#include "record/work_record.h"
+#include "series/work_record.h"
 #include "small_rig.h"
 #include "temporary_directory.h"
 
@@ -62,8 +62,8 @@ TEST_CASE("Work_SaysHowManyExchangesACouplingTook") {
   const auto coupled = [&](const std::string& coupling) {
     const TemporaryDirectory scratch;
     const Summary summary =
-        // Steps in which the exchange comes to its end: where it does not, as in some shorter and longer ones, the next
-        // ones are solved as one system.
+        // Steps in which the exchange converges: where it does not, as in some shorter and longer ones, the next ones
+        // are solved monolithically.
         simulate(rig(rig_with(line, line + "    coupling: " + coupling + "\n"), {"simulation.step=2.5 deg"}),
                  {.results = scratch / "r.h5"});
     REQUIRE(summary.status == Status::completed);

@@ -31,15 +31,15 @@ constexpr Unit kFlow{"mm^3/s", "m^3/s", 1e-9}, kVolume{"mm^3", "m^3", 1e-9};
 
 using Solution = BearingSolution;
 
-/// What is said of some figures only.
+/// Properties that only some figures have.
 struct More {
   /// Estimated error of the grid; negative: none. Empty: the figure has none.
   std::function<double(const Solution&)> grid_error = {};
-  /// Whether a solution has the figure; empty: every one has.
+  /// True if a solution has the figure; empty: every one has it.
   std::function<bool(const Solution&)> only = {};
-  /// Said in place of a value that is no number.
+  /// Text in place of a value that is not a number.
   std::function<std::string(const Solution&)> words = {};
-  /// Of a family: what stands for <...> in key and name.
+  /// Replacements of <...> in key and name, for a family.
   std::function<std::vector<std::string>(const Solution&)> each = {};
   /// Of a family: the grid's error of each.
   std::function<double(const Solution&, std::size_t)> grid_error_of = {};
@@ -94,7 +94,7 @@ auto error_of(double bearing::GridError::*member) {
   return [member](const Solution& s) { return s.grid_error.*member; };
 }
 
-// What is zero by symmetry comes out as the round-off of its parts, which tells nothing.
+// A quantity that is zero by symmetry comes out as the round-off of its parts, which is meaningless.
 double without_round_off(double value, double parts) { return std::abs(value) < 1e-12 * parts ? 0.0 : value; }
 
 bool is_load_given(const Solution& s) { return s.state.point.load.has_value(); }
@@ -204,7 +204,7 @@ Group deformation() {
             [](const Solution& s) { return s.state.tilt.y(); },
             {.only = is_elastic}},
            {"shell_turn",
-            "turn of the bearing's axes under load",
+            "rotation of the bearing's axes under load",
             kDegree,
             [](const Solution& s) { return s.state.turn; },
             {.only = shell}}}};
@@ -223,7 +223,8 @@ Group dimensionless() {
            {"hersey", "Hersey number mu N L D/W", kNone, numbers(&Number::hersey)}}};
 }
 
-/// The bearing's axes rest: power comes through the torques, and through the load where the journal gives way to it.
+/// The bearing's axes rest: power enters through the torques, and through the load where the journal's support deforms
+/// under it.
 double power_put_in(const Solution& s) {
   const film::FilmObservables& film = s.state.film;
   return -film.torque_journal * s.state.point.journal_speed - film.torque_shell * s.state.point.shell_speed +
@@ -287,8 +288,8 @@ std::vector<std::string> feature_names(const Solution& s) {
   return names;
 }
 
-/// Reynolds' condition lets oil vanish where the film breaks and appear where it forms again: what is missing there is
-/// no error of the solution.
+/// Reynolds' condition loses oil where the film ruptures and creates it where it reforms: this imbalance is not an
+/// error of the solution.
 bool conserves_oil(const Solution& s) { return !film::cavitation_law(s.model).loses_oil(); }
 
 Group oil() {
@@ -334,12 +335,12 @@ bool is_in_body(const Solution& s) { return s.state.heat && s.state.heat->T_body
 
 bool has_thermal_shape(const Solution& s) { return s.state.thermal_shape.size() > 0; }
 
-/// Of how far temperature puts the shell's surface out: its mean over the nodes, and the most it differs from it.
+/// Radial growth of the shell's surface by temperature: its mean over the nodes, and the largest deviation from it.
 double growth(const Solution& s) { return s.state.thermal_shape.mean(); }
 
 double distortion(const Solution& s) { return (s.state.thermal_shape.array() - growth(s)).abs().maxCoeff(); }
 
-/// Likewise the journal's.
+/// True if the journal's wall is a body.
 bool journal_is_in_body(const Solution& s) { return s.state.heat && s.state.heat->T_journal_body.size() > 0; }
 
 bool has_journal_shape(const Solution& s) { return s.state.journal_shape.size() > 0; }
@@ -359,14 +360,14 @@ double clearance_of_bodies(const Solution& s) {
 }
 
 Group heat() {
-  using Seen = film::HeatObservables;
+  using Observed = film::HeatObservables;
   using Balance = film::HeatBalance;
   const auto has_heat = [](const Solution& s) { return s.state.heat.has_value(); };
   const auto has_one = [](const Solution& s) { return s.state.effective.has_value(); };
-  const auto celsius = [](double Seen::*T) {
+  const auto celsius = [](double Observed::*T) {
     return [T](const Solution& s) { return s.state.heat->seen.*T - film::zero_celsius; };
   };
-  const auto of_heat = [](double Seen::*member) {
+  const auto of_heat = [](double Observed::*member) {
     return [member](const Solution& s) { return s.state.heat->seen.*member; };
   };
   const auto balance = [](double Balance::*member) {
@@ -375,110 +376,113 @@ Group heat() {
       return without_round_off(b.*member, b.power);
     };
   };
-  return {
-      "heat",
-      {{"T_effective",
-        "effective temperature of the oil",
-        kCelsius,
-        [](const Solution& s) { return s.state.effective->T - film::zero_celsius; },
-        {.only = has_one}},
-       {"T_out",
-        "temperature of the oil that leaves",
-        kCelsius,
-        [](const Solution& s) { return s.state.effective->T_out - film::zero_celsius; },
-        {.only = has_one}},
-       {"T_max",
-        "hottest oil",
-        kCelsius,
-        celsius(&Seen::T_max),
-        {.grid_error = error_of(&bearing::GridError::T_max), .only = has_heat}},
-       {"T_max_angle", "  at the angle", kDegree, of_heat(&Seen::T_max_phi), {.only = has_heat}},
-       {"T_max_z", "  at z", kMillimetre, of_heat(&Seen::T_max_z), {.only = has_heat}},
-       {"T_shell_max",
-        "hottest place of the shell",
-        kCelsius,
-        celsius(&Seen::T_shell_max),
-        {.grid_error = error_of(&bearing::GridError::T_shell_max), .only = has_heat}},
-       {"T_shell_max_angle", "  at the angle", kDegree, of_heat(&Seen::T_shell_max_phi), {.only = has_heat}},
-       {"T_shell_mean",
-        "mean temperature of the shell's surface",
-        kCelsius,
-        celsius(&Seen::T_shell_mean),
-        {.grid_error = error_of(&bearing::GridError::T_shell_mean), .only = has_heat}},
-       {"T_body_max", "hottest place of the shell's body", kCelsius, celsius(&Seen::T_body_max), {.only = is_in_body}},
-       {"bore_growth",
-        "growth of the bore's radius by temperature, mean",
-        kMicrometre,
-        growth,
-        {.only = has_thermal_shape}},
-       {"bore_distortion",
-        "  largest deviation from it, around and along",
-        kMicrometre,
-        distortion,
-        {.only = has_thermal_shape}},
-       {"T_journal",
-        "mean temperature of the journal's surface",
-        kCelsius,
-        celsius(&Seen::T_journal),
-        {.grid_error = error_of(&bearing::GridError::T_journal), .only = has_heat}},
-       {"T_journal_body_max",
-        "hottest place of the journal's body",
-        kCelsius,
-        celsius(&Seen::T_journal_body_max),
-        {.only = journal_is_in_body}},
-       {"journal_growth",
-        "growth of the journal's radius by temperature, mean",
-        kMicrometre,
-        journal_growth,
-        {.only = has_journal_shape}},
-       {"journal_distortion",
-        "  largest deviation from it, along",
-        kMicrometre,
-        journal_distortion,
-        {.only = has_journal_shape}},
-       {"clearance_of_bodies",
-        "radial clearance with what bodies have grown (hot), mean",
-        kMicrometre,
-        clearance_of_bodies,
-        {.only = [](const Solution& s) { return has_thermal_shape(s) || has_journal_shape(s); }}},
-       {"T_film",
-        "mean temperature of the oil in the film",
-        kCelsius,
-        celsius(&Seen::T_film_mean),
-        {.grid_error = error_of(&bearing::GridError::T_film), .only = has_heat}},
-       {"T_side",
-        "temperature of the side flow",
-        kCelsius,
-        celsius(&Seen::T_side),
-        {.grid_error = error_of(&bearing::GridError::T_side), .only = has_heat}},
-       {"T_supply_<name>",
-        "temperature in <name>",
-        kCelsius,
-        [](const Solution& s, std::size_t k) {
-          return s.state.heat->seen.T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
-        },
-        {.only = has_heat, .each = supply_names}},
-       {"heat_dissipated", "heat made", kWatt, balance(&Balance::power), {.only = has_heat}},
-       {"heat_to_oil", "  carried away by the oil", kWatt, balance(&Balance::to_oil), {.only = has_heat}},
-       {"heat_to_shell", "  into the shell", kWatt, balance(&Balance::to_shell), {.only = has_heat}},
-       {"heat_to_journal", "  into the journal", kWatt, balance(&Balance::to_journal), {.only = has_heat}},
-       {"heat_balance_error",
-        "  error of the balance of heat",
-        kNone,
-        [](const Solution& s) { return s.state.heat->seen.balance.error(); },
-        {.only = has_heat}},
-       {"T_node_<name>",
-        "temperature of <name>, with the heat of this bearing alone",
-        kCelsius,
-        [](const Solution& s, std::size_t k) {
-          return s.state.heat->network.T[static_cast<Eigen::Index>(k)] - film::zero_celsius;
-        },
-        {.each = [](const Solution& s) { return s.node_names; }}},
-       {"network_balance_error",
-        "  error of the balance of heat of these bodies",
-        kNone,
-        [](const Solution& s) { return s.state.heat->network.error(); },
-        {.only = [](const Solution& s) { return !s.node_names.empty(); }}}}};
+  return {"heat",
+          {{"T_effective",
+            "effective temperature of the oil",
+            kCelsius,
+            [](const Solution& s) { return s.state.effective->T - film::zero_celsius; },
+            {.only = has_one}},
+           {"T_out",
+            "temperature of the oil that leaves",
+            kCelsius,
+            [](const Solution& s) { return s.state.effective->T_out - film::zero_celsius; },
+            {.only = has_one}},
+           {"T_max",
+            "hottest oil",
+            kCelsius,
+            celsius(&Observed::T_max),
+            {.grid_error = error_of(&bearing::GridError::T_max), .only = has_heat}},
+           {"T_max_angle", "  at the angle", kDegree, of_heat(&Observed::T_max_phi), {.only = has_heat}},
+           {"T_max_z", "  at z", kMillimetre, of_heat(&Observed::T_max_z), {.only = has_heat}},
+           {"T_shell_max",
+            "hottest place of the shell",
+            kCelsius,
+            celsius(&Observed::T_shell_max),
+            {.grid_error = error_of(&bearing::GridError::T_shell_max), .only = has_heat}},
+           {"T_shell_max_angle", "  at the angle", kDegree, of_heat(&Observed::T_shell_max_phi), {.only = has_heat}},
+           {"T_shell_mean",
+            "mean temperature of the shell's surface",
+            kCelsius,
+            celsius(&Observed::T_shell_mean),
+            {.grid_error = error_of(&bearing::GridError::T_shell_mean), .only = has_heat}},
+           {"T_body_max",
+            "hottest place of the shell's body",
+            kCelsius,
+            celsius(&Observed::T_body_max),
+            {.only = is_in_body}},
+           {"bore_growth",
+            "growth of the bore's radius by temperature, mean",
+            kMicrometre,
+            growth,
+            {.only = has_thermal_shape}},
+           {"bore_distortion",
+            "  largest deviation from it, around and along",
+            kMicrometre,
+            distortion,
+            {.only = has_thermal_shape}},
+           {"T_journal",
+            "mean temperature of the journal's surface",
+            kCelsius,
+            celsius(&Observed::T_journal),
+            {.grid_error = error_of(&bearing::GridError::T_journal), .only = has_heat}},
+           {"T_journal_body_max",
+            "hottest place of the journal's body",
+            kCelsius,
+            celsius(&Observed::T_journal_body_max),
+            {.only = journal_is_in_body}},
+           {"journal_growth",
+            "growth of the journal's radius by temperature, mean",
+            kMicrometre,
+            journal_growth,
+            {.only = has_journal_shape}},
+           {"journal_distortion",
+            "  largest deviation from it, along",
+            kMicrometre,
+            journal_distortion,
+            {.only = has_journal_shape}},
+           {"clearance_of_bodies",
+            "radial clearance with what bodies have grown (hot), mean",
+            kMicrometre,
+            clearance_of_bodies,
+            {.only = [](const Solution& s) { return has_thermal_shape(s) || has_journal_shape(s); }}},
+           {"T_film",
+            "mean temperature of the oil in the film",
+            kCelsius,
+            celsius(&Observed::T_film_mean),
+            {.grid_error = error_of(&bearing::GridError::T_film), .only = has_heat}},
+           {"T_side",
+            "temperature of the side flow",
+            kCelsius,
+            celsius(&Observed::T_side),
+            {.grid_error = error_of(&bearing::GridError::T_side), .only = has_heat}},
+           {"T_supply_<name>",
+            "temperature in <name>",
+            kCelsius,
+            [](const Solution& s, std::size_t k) {
+              return s.state.heat->seen.T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+            },
+            {.only = has_heat, .each = supply_names}},
+           {"heat_dissipated", "heat made", kWatt, balance(&Balance::power), {.only = has_heat}},
+           {"heat_to_oil", "  carried away by the oil", kWatt, balance(&Balance::to_oil), {.only = has_heat}},
+           {"heat_to_shell", "  into the shell", kWatt, balance(&Balance::to_shell), {.only = has_heat}},
+           {"heat_to_journal", "  into the journal", kWatt, balance(&Balance::to_journal), {.only = has_heat}},
+           {"heat_balance_error",
+            "  error of the balance of heat",
+            kNone,
+            [](const Solution& s) { return s.state.heat->seen.balance.error(); },
+            {.only = has_heat}},
+           {"T_node_<name>",
+            "temperature of <name>, with the heat of this bearing alone",
+            kCelsius,
+            [](const Solution& s, std::size_t k) {
+              return s.state.heat->network.T[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+            },
+            {.each = [](const Solution& s) { return s.node_names; }}},
+           {"network_balance_error",
+            "  error of the balance of heat of these bodies",
+            kNone,
+            [](const Solution& s) { return s.state.heat->network.error(); },
+            {.only = [](const Solution& s) { return !s.node_names.empty(); }}}}};
 }
 
 /// The four entries of a matrix over x and y, row by row.
@@ -546,7 +550,7 @@ Group stability() {
         {.words = if_stable("none: stable at every speed")}}}};
 }
 
-/// The table of all figures, in the order in which they are told.
+/// The table of all figures, in the order in which they are reported.
 const std::vector<Group>& table() {
   static const std::vector<Group> groups{operating_point(), film_figures(), deformation(), dimensionless(),
                                          friction(),        oil(),          heat(),        dynamics(),
@@ -554,7 +558,7 @@ const std::vector<Group>& table() {
   return groups;
 }
 
-/// `text` with `name` in place of what stands in angle brackets.
+/// Returns `text` with `name` in place of the part in angle brackets.
 std::string filled_in(const std::string& text, const std::string& name) {
   const std::size_t from = text.find('<'), to = text.find('>');
   return name.empty() || from == std::string::npos ? text : text.substr(0, from) + name + text.substr(to + 1);

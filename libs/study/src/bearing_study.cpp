@@ -32,8 +32,7 @@
 
 namespace hersey::study {
 
-// How surfaces give way and bodies conduct heat, of every mesh seen so far: it takes long, and most sweeps leave the
-// bodies as they are.
+// Compliance and heat conduction of every mesh used so far: they take long, and most sweeps leave the bodies unchanged.
 class KnownBodies {
  public:
   [[nodiscard]] std::shared_ptr<const bearing::SteadyElasticity> elasticity(const model::Model& model,
@@ -76,13 +75,14 @@ Eigen::Vector2d polar(double length, double angle) {
   return length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
-// A steady film whose oil stays in and whose walls are bodies that nothing cools has no temperature.
+// Requires a path for the heat: a steady film whose oil stays in and whose walls are bodies that nothing cools has no
+// temperature.
 void require_way_out(const model::Model& model, const model::Bearing& bearing, const film::ThermalModel& heat) {
   if (heat.oil.drain && !film::reaches_surroundings(model.thermal.network, heat.oil.drain->node))
-    throw InputError(Fault{bearing.position, "bearings." + bearing.name + ".thermal.drains_to",
-                           "oil that drains to '" + heat.oil.drain->name +
-                               "', whose heat reaches no surroundings: in a steady state it has nowhere to go",
-                           "a path from there to a node with a `fixed` temperature", ""});
+    throw InputError(Fault{
+        bearing.position, "bearings." + bearing.name + ".thermal.drains_to",
+        "oil that drains to '" + heat.oil.drain->name + "', whose heat reaches no surroundings: it has no steady state",
+        "a path from there to a node with a `fixed` temperature", ""});
   if (!has_node_walls(heat) || !film::is_closed(bearing.film)) return;
   const film::FilmTerminals at = film::terminals_of(heat);
   const auto leads_out = [&](const std::optional<std::size_t>& node) {
@@ -101,17 +101,17 @@ void require_way_out(const model::Model& model, const model::Bearing& bearing, c
                          "`hersey run` follows how they warm"});
 }
 
-std::vector<std::string> doubts_of(const model::Bearing& bearing, const bearing::SteadyState& state) {
+std::vector<std::string> warnings_of(const model::Bearing& bearing, const bearing::SteadyState& state) {
   double T = std::numeric_limits<double>::quiet_NaN();
   if (state.heat) T = state.heat->seen.T_max;
   if (state.effective) T = state.effective->T;
-  std::vector<std::string> doubts = model::doubts_of_film(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
-  for (std::string& doubt : model::doubts_of_surfaces(bearing, state.film.p_max, state.film.h_min))
-    doubts.push_back(std::move(doubt));
-  return doubts;
+  std::vector<std::string> warnings = model::film_warnings(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
+  for (std::string& warning : model::surface_warnings(bearing, state.film.p_max, state.film.h_min))
+    warnings.push_back(std::move(warning));
+  return warnings;
 }
 
-// Those of a solution nearby, if it has as many.
+// Temperatures of a solution nearby, if it has as many.
 std::optional<film::HeatState> temperatures_of(const bearing::SteadyState& from, const film::FilmModel& film,
                                                const film::ThermalModel& thermal) {
   if (!from.heat) return std::nullopt;
@@ -139,10 +139,10 @@ bearing::SteadySummary solve_at(film::FilmModel& film, const bearing::OperatingP
                          ""});
 }
 
-// Stiffness and damping with temperatures that follow the motion, where that is asked for; false where they are not
+// Computes stiffness and damping with temperatures that follow the motion, if this is requested; false if they are not
 // found.
-bool let_heat_follow(const model::Bearing& bearing, const BearingStudyOptions& options,
-                     const bearing::SteadyOptions& steady, BearingSolution& solution) {
+bool solve_heat(const model::Bearing& bearing, const BearingStudyOptions& options, const bearing::SteadyOptions& steady,
+                BearingSolution& solution) {
   if (options.thermal_coefficients == ThermalCoefficients::frozen || !solution.has_temperatures()) return true;
   require_coefficients(bearing, options.thermal_coefficients);
   bearing::SteadyOptions nearby = steady;
@@ -161,7 +161,7 @@ bool let_heat_follow(const model::Bearing& bearing, const BearingStudyOptions& o
   return false;
 }
 
-// From `start` where there is one.
+// Solves from `start` if there is one.
 void solve_one(const model::Model& model, const BearingStudyOptions& options, const bearing::SteadyState* start,
                KnownBodies& bodies, BearingSolution& solution) {
   const auto began = std::chrono::steady_clock::now();
@@ -194,15 +194,15 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     solution.fail(fmt::format("bearing {}: {}", bearing.name, solution.summary.message));
     return;
   }
-  for (const std::string& doubt : doubts_of(bearing, solution.state))
-    solution.doubts.push_back("bearing " + bearing.name + ", " + doubt);
+  for (const std::string& warning : warnings_of(bearing, solution.state))
+    solution.warnings.push_back("bearing " + bearing.name + ", " + warning);
   steady.start_film = {}, steady.start_heat = {};
   // Those at the temperatures as they are, whose grid error stands beside those with temperatures that follow, too.
   solution.tangent = solution.state.coefficients;
   const bearing::DynamicCoefficients frozen = bearing::phase_averaged_coefficients(
       solution.state, bearing::turned_films(solution.model, solution.state, steady));
   solution.state.coefficients = frozen;
-  if (!let_heat_follow(bearing, options, steady, solution)) return;
+  if (!solve_heat(bearing, options, steady, solution)) return;
   const double omega = std::abs(point.entraining_speed());
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
@@ -326,7 +326,7 @@ const model::Bearing& bearing_called(const model::Model& model, const std::strin
 
 namespace {
 
-// What surfaces that deform do not answer while everything else rests.
+// Refuses deforming surfaces in motions that their compliance at rest does not describe.
 void require_rest(const model::Bearing& bearing) {
   const model::OperatingPoint& point = *bearing.operating_point;
   const std::string path = "bearings." + bearing.name + ".operating_point.";
@@ -339,18 +339,18 @@ void require_rest(const model::Bearing& bearing) {
               rigid + (bearing.shell_surface ? "shell" : "journal") + "_surface=rigid` for rigid surfaces"});
   if (bearing.heated_shell && point.shell_speed != 0)
     throw InputError(Fault{point.position, path + "shell_speed",
-                           "a shell that turns, whose temperatures are those of a body",
-                           "0: the body rests under the film's heat, and the journal turns",
+                           "a rotating shell, whose temperatures are those of a body",
+                           "0: the body rests under the film's heat, and the journal rotates",
                            "another wall: `ring`, `given`, `insulated`"});
   if (bearing.heated_journal && point.journal_speed == 0)
     throw InputError(Fault{point.position, path + "journal_speed",
                            "a journal at rest, whose temperatures are those of a body",
-                           "a speed: heat comes to a body evenly around because it turns in its film",
+                           "a speed: heat enters a body evenly around because it rotates in its film",
                            "another wall: `free`, `given`, `insulated`, `node`; or let the shell rest and the journal "
-                           "turn: the film knows no difference between its surfaces"});
+                           "rotate: the film knows no difference between its surfaces"});
   if (bearing.shell_surface && point.shell_speed != 0)
-    throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns and deforms",
-                           "0: the shell's body is held at rest, and the journal turns",
+    throw InputError(Fault{point.position, path + "shell_speed", "a shell that rotates and deforms",
+                           "0: the shell's body is fixed, and the journal rotates",
                            rigid + "shell_surface=rigid` for a rigid shell"});
   const auto travels = [](const film::SurfaceFeature& feature) {
     return feature.surface == film::Surface::shell && !feature.is_fed && feature.depth > 0 &&
@@ -358,7 +358,7 @@ void require_rest(const model::Bearing& bearing) {
   };
   const auto& features = bearing.film.features;
   if (point.shell_speed != 0 && std::any_of(features.begin(), features.end(), travels))
-    throw InputError(Fault{point.position, path + "shell_speed", "a shell that turns with pockets that nothing feeds",
+    throw InputError(Fault{point.position, path + "shell_speed", "a rotating shell with pockets that nothing feeds",
                            "0, or pockets of the journal, whose oil travels with them",
                            "the film knows no difference between its surfaces: exchange journal and shell, speeds "
                            "and features"});
@@ -411,7 +411,7 @@ std::vector<BearingSolution> solve_bearings(const ModelReader& read, const std::
                                             const BearingStudyOptions& options) {
   std::vector<BearingSolution> solutions(runs.size());
   if (runs.empty()) return solutions;
-  // Faults of the model itself are told once, from here, before any thread is started.
+  // Faults of the model itself are reported once, from here, before any thread is started.
   const model::Model first = options.first != nullptr ? *options.first : read(runs.front().overrides);
   (void)operating_point_of(bearing_called(first, options.bearing));
   std::atomic<std::size_t> next{0};
@@ -463,8 +463,8 @@ struct RunSolver::Impl {
   std::string path;
   std::vector<std::string> given;
   KnownBodies bodies;
-  std::map<std::string, std::optional<BearingSolution>> as_it_stands;  ///< by bearing; empty: has no solution
-  std::optional<model::ModelFile> file;                                ///< once it was readable
+  std::map<std::string, std::optional<BearingSolution>> unchanged;  ///< by bearing; empty: has no solution
+  std::optional<model::ModelFile> file;                             ///< once it was readable
 
   model::Model read(const std::vector<std::string>& overrides) {
     if (!file) file.emplace(path);
@@ -481,14 +481,14 @@ struct RunSolver::Impl {
   }
 
   const BearingSolution* start_of(const std::string& bearing) {
-    const auto known = as_it_stands.find(bearing);
-    if (known != as_it_stands.end()) return known->second ? &*known->second : nullptr;
-    std::optional<BearingSolution>& kept = as_it_stands[bearing];
+    const auto known = unchanged.find(bearing);
+    if (known != unchanged.end()) return known->second ? &*known->second : nullptr;
+    std::optional<BearingSolution>& kept = unchanged[bearing];
     try {
       kept = attempt(read(given), {given, "", "", {}}, bearing, nullptr);
       if (!kept->solved()) kept.reset();
     } catch (const std::exception&) {
-      kept.reset();  // the model as it stands has no answer: the run's own reason is told
+      kept.reset();  // the unchanged model has no solution: the run's own reason is reported
     }
     return kept ? &*kept : nullptr;
   }

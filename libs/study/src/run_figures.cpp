@@ -20,7 +20,7 @@ namespace {
 using results::Array;
 using results::Reader;
 using run::QuantityInfo;
-using run::Told;
+using run::SummaryEntry;
 
 constexpr std::array<const char*, 5> kWays{"min", "max", "mean", "rms", "end"};
 constexpr int kMostModes = 40;
@@ -49,35 +49,37 @@ const std::map<std::string, std::string>& short_names() {
   return names;
 }
 
-const char* suffix(Told::As as) {
-  switch (as) {
-    case Told::As::smallest:
+const char* suffix(SummaryEntry::Statistic statistic) {
+  switch (statistic) {
+    case SummaryEntry::Statistic::smallest:
       return ".min";
-    case Told::As::largest:
+    case SummaryEntry::Statistic::largest:
       return ".max";
-    case Told::As::largest_in_size:
+    case SummaryEntry::Statistic::largest_in_size:
       return ".peak";
-    case Told::As::longest:
+    case SummaryEntry::Statistic::longest:
       return ".longest";
-    case Told::As::mean:
+    case SummaryEntry::Statistic::mean:
       return ".mean";
-    case Told::As::integral:
+    case SummaryEntry::Statistic::integral:
       return ".integral";
-    case Told::As::at_end:
+    case SummaryEntry::Statistic::at_end:
       return ".end";
   }
   return "";
 }
 
 /// "/bearings/<b>/cycles/fields/" and "moft" as "bearings.<b>." and "cycle.moft".
-std::pair<std::string, std::string> name_of(const std::string& path, const QuantityInfo& quantity, Told::As as) {
+std::pair<std::string, std::string> name_of(const std::string& path, const QuantityInfo& quantity,
+                                            SummaryEntry::Statistic statistic) {
   constexpr std::string_view of_cycles = "cycles/fields/";
   const bool is_cycle = path.ends_with(of_cycles);
   std::string group = is_cycle ? path.substr(1, path.size() - 1 - of_cycles.size()) : path.substr(1);
   std::replace(group.begin(), group.end(), '/', '.');
   std::string name = quantity.name;
   std::replace(name.begin(), name.end(), '/', '.');
-  name = is_cycle ? "cycle." + name + (as == Told::As::at_end ? "" : suffix(as)) : name + suffix(as);
+  name = is_cycle ? "cycle." + name + (statistic == SummaryEntry::Statistic::at_end ? "" : suffix(statistic))
+                  : name + suffix(statistic);
   const auto found = short_names().find(name);
   return {group, found != short_names().end() && group.starts_with("bearings.") ? found->second : name};
 }
@@ -89,25 +91,25 @@ class Series {
     if (reader.has("/time")) time_ = reader.read("/time").values;
   }
 
-  [[nodiscard]] std::optional<double> value(const std::string& path, Told::As as) const {
+  [[nodiscard]] std::optional<double> value(const std::string& path, SummaryEntry::Statistic statistic) const {
     if (!reader_.has(path)) return std::nullopt;
     const Array array = reader_.read(path);
     if (array.values.empty()) return std::nullopt;
-    const std::vector<double> values = as == Told::As::longest ? lengths(array) : array.values;
-    switch (as) {
-      case Told::As::smallest:
+    const std::vector<double> values = statistic == SummaryEntry::Statistic::longest ? lengths(array) : array.values;
+    switch (statistic) {
+      case SummaryEntry::Statistic::smallest:
         return *std::min_element(values.begin(), values.end());
-      case Told::As::largest:
-      case Told::As::longest:
+      case SummaryEntry::Statistic::largest:
+      case SummaryEntry::Statistic::longest:
         return *std::max_element(values.begin(), values.end());
-      case Told::As::largest_in_size:
+      case SummaryEntry::Statistic::largest_in_size:
         return *std::max_element(values.begin(), values.end(),
                                  [](double a, double b) { return std::abs(a) < std::abs(b); });
-      case Told::As::mean:
+      case SummaryEntry::Statistic::mean:
         return integral(values) / duration();
-      case Told::As::integral:
+      case SummaryEntry::Statistic::integral:
         return integral(values);
-      case Told::As::at_end:
+      case SummaryEntry::Statistic::at_end:
         return values.back();
     }
     return std::nullopt;
@@ -144,7 +146,7 @@ std::string without_names(const std::string& pattern, const std::string& name) {
   return from == std::string::npos ? pattern : pattern.substr(0, from) + name + pattern.substr(to + 1);
 }
 
-/// What may stand for <...> of `pattern` among `names`.
+/// Names among `names` that match <...> of `pattern`.
 std::vector<std::string> names_for(const std::string& pattern, const std::vector<std::string>& names) {
   const std::size_t from = pattern.find('<'), to = pattern.find('>');
   if (from == std::string::npos) return {""};
@@ -156,7 +158,7 @@ std::vector<std::string> names_for(const std::string& pattern, const std::vector
   return found;
 }
 
-void add_told(const Reader& reader, const Series& series, std::vector<RunFigure>& figures) {
+void add_summary_entries(const Reader& reader, const Series& series, std::vector<RunFigure>& figures) {
   for (const run::QuantityGroup& group : run::result_quantities()) {
     const std::size_t open = group.path.find('<');
     const std::vector<std::string> things =
@@ -165,13 +167,15 @@ void add_told(const Reader& reader, const Series& series, std::vector<RunFigure>
       const std::string path = without_names(group.path, thing);
       for (const QuantityInfo& quantity : group.quantities) {
         if (quantity.kind != QuantityInfo::Kind::series) continue;
-        for (const Told& told : quantity.told) {
+        for (const SummaryEntry& summary_entry : quantity.summary_entries) {
           const std::string parent = path.size() > 1 ? path.substr(0, path.size() - 1) : path;
           for (const std::string& name : names_for(quantity.name, reader.children(parent))) {
-            const std::optional<double> value = series.value(path + without_names(quantity.name, name), told.as);
+            const std::optional<double> value =
+                series.value(path + without_names(quantity.name, name), summary_entry.statistic);
             if (!value) continue;
-            const auto [in, key] = name_of(group.path, quantity, told.as);
-            figures.push_back({without_names(in, thing) + without_names(key, name), without_names(told.name, name),
+            const auto [in, key] = name_of(group.path, quantity, summary_entry.statistic);
+            figures.push_back({without_names(in, thing) + without_names(key, name),
+                               without_names(summary_entry.name, name),
                                reader.info(path + without_names(quantity.name, name)).unit, *value});
           }
         }
@@ -249,7 +253,7 @@ void add_wanted(const Reader& reader, const Series& series, const std::string& n
 std::vector<RunFigure> figures_of(const Reader& reader, const std::vector<std::string>& wanted) {
   const Series series(reader);
   std::vector<RunFigure> figures;
-  add_told(reader, series, figures);
+  add_summary_entries(reader, series, figures);
   add_modes(reader, figures);
   std::set<std::string> known;
   for (const RunFigure& figure : figures) known.insert(figure.key);
@@ -264,8 +268,8 @@ std::vector<std::string> run_figure_keys() {
   for (const run::QuantityGroup& group : run::result_quantities())
     for (const QuantityInfo& quantity : group.quantities)
       if (quantity.kind == QuantityInfo::Kind::series)
-        for (const Told& told : quantity.told) {
-          const auto [in, key] = name_of(group.path, quantity, told.as);
+        for (const SummaryEntry& summary_entry : quantity.summary_entries) {
+          const auto [in, key] = name_of(group.path, quantity, summary_entry.statistic);
           keys.push_back(in + key);
         }
   return keys;

@@ -33,13 +33,13 @@ struct Source {
   std::string text, file;
 };
 
-/// What stands at key paths of a file with overrides in place.
+/// Values at key paths of a file with overrides applied.
 class Written {
  public:
   Written(const Source& source, const std::vector<std::string>& overrides)
       : whole_(nlohmann::json::parse(model::written_json(source.text, source.file, overrides, ""))) {}
 
-  /// A number with or without unit; none where there is no such key, or a word.
+  /// Returns a number with or without unit; none if there is no such key, or a word.
   [[nodiscard]] std::optional<Quantity> number_at(const std::string& key) const {
     const nlohmann::json* here = &whole_;
     for (std::size_t from = 0; from <= key.size();) {
@@ -103,7 +103,7 @@ struct Sides {
   double distance = 0;  ///< in the parameter's unit
 };
 
-/// Figures by their keys: a figure that one side has and the other has not is none.
+/// Compares figures by their keys: a figure that only one side has is left out.
 std::vector<double> slopes_between(const BearingSolution& here, const Sides& sides, double unit) {
   const std::array figures{figures_of(sides.below), figures_of(sides.above)};
   const auto value = [&](std::size_t side, const BearingFigure& wanted) {
@@ -118,7 +118,7 @@ std::vector<double> slopes_between(const BearingSolution& here, const Sides& sid
   return slopes;
 }
 
-/// All that follows from a state.
+/// Computes everything that follows from a state.
 void complete(BearingSolution& solution) {
   const double omega = std::abs(solution.state.point.entraining_speed());
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
@@ -127,8 +127,8 @@ void complete(BearingSolution& solution) {
       solution.coefficients, bearing::clearance(solution.model, solution.state.point), solution.numbers.load, omega);
 }
 
-/// Stiffness and damping beside a solution, their mean over where the lines of its grid may lie: each of these films
-/// has a tangent of its own.
+/// Stiffness and damping at a solution, as their mean over the possible positions of the grid's lines: each of these
+/// films has a tangent of its own.
 class MeanCoefficients {
  public:
   explicit MeanCoefficients(const BearingSolution& solution)
@@ -136,22 +136,23 @@ class MeanCoefficients {
     for (const bearing::TurnedFilm& film : films_) derivatives_.emplace_back(film.model, film.state);
   }
 
-  /// Takes the place of the coefficients of `state`, which are those of its own grid.
+  /// Replaces the coefficients of `state`, which are those of its own grid.
   void complete_here(bearing::SteadyState& state) {
     std::vector<bearing::TurnedFilm> films = films_;
     for (std::size_t k = 0; k < films.size(); ++k) films[k].state = derivatives_[k].here();
     state.coefficients = bearing::phase_averaged_coefficients(state, films);
   }
 
-  /// Likewise of a state on the tangent. @returns whether all films have one
+  /// Does the same for a state on the tangent.
+  /// @returns true if all films have one
   [[nodiscard]] bool complete_beside(const bearing::BearingBeside& side, bearing::SteadyState& state) {
     std::vector<bearing::TurnedFilm> films = films_;
     for (std::size_t k = 0; k < films.size(); ++k) {
-      bearing::BearingBeside held = side;
-      held.model.grid = films[k].model.grid;
-      held.point.load.reset();
-      held.point.e = state.e;
-      std::optional<bearing::SteadyState> found = derivatives_[k].beside(held);
+      bearing::BearingBeside fixed_film = side;
+      fixed_film.model.grid = films[k].model.grid;
+      fixed_film.point.load.reset();
+      fixed_film.point.e = state.e;
+      std::optional<bearing::SteadyState> found = derivatives_[k].beside(fixed_film);
       if (!found) return false;
       films[k].state = std::move(*found);
     }
@@ -164,7 +165,7 @@ class MeanCoefficients {
   std::deque<bearing::SteadyDerivative> derivatives_;
 };
 
-/// Solutions beside one that is there, on its tangent.
+/// Solutions near a given one, on its tangent.
 class Tangent {
  public:
   Tangent(const Source& source, const BearingSolution& solution, const std::string& bearing)
@@ -178,7 +179,7 @@ class Tangent {
     complete(here_);
   }
 
-  /// None where the film has no tangent, or the parameter changes the grid.
+  /// None if the film has no tangent, or the parameter changes the grid.
   [[nodiscard]] std::optional<Sides> sides(const std::string& key, const Quantity& middle) {
     const bool about_zero = middle.number == 0;
     const Varied parameter = varied(key, middle, about_zero ? kStepAboutZero : kTangentStep);
@@ -285,7 +286,7 @@ std::vector<Sensitivity> sensitivities(const std::string& text, const std::strin
       throw InputError(Fault{{"--sensitivity-to", 0, 0},
                              "",
                              "'" + key + "'",
-                             "a key path of the model at which a number stands, or a parameter as parameters.NAME",
+                             "a key path of the model whose value is a number, or a parameter as parameters.NAME",
                              ""});
     const SiUnit si = si_of(middle->unit);
     Sensitivity& found = all.emplace_back();

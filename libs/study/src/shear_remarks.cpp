@@ -18,7 +18,7 @@ bool depends_on_choice(const BearingSolution& solution) {
   return solution.solved() && film.power_film > 0 && film.power_film_other_shear != film.power_film;
 }
 
-/// By how much the other choice changes the film's power [%].
+/// Change of the film's power by the other choice [%].
 double change(const BearingSolution& solution) {
   return 100 * (solution.state.film.power_film_other_shear / solution.state.film.power_film - 1);
 }

@@ -20,7 +20,7 @@ struct Queue {
   std::atomic<int> computing{0};
 };
 
-/// A run as long as it computes: until it ends, or has seen that it is to stop.
+/// A run while it computes: until it ends, or has noticed the stop.
 class Computing {
  public:
   Computing(Queue& queue, const Options& options) : queue_(queue), options_(options) { ++queue_.computing; }

@@ -51,11 +51,11 @@ TEST_CASE("MassBalance_OfReynoldsIsNoNumberButWords") {
   CHECK(conserving.words.empty());
 }
 
-TEST_CASE("Speeds_AreToldInRevolutionsPerMinute") {
+TEST_CASE("Speeds_AreReportedInRevolutionsPerMinute") {
   const BearingSolution turning = solved_with(
       {"bearings.main.operating_point.journal_speed=1500 rpm", "bearings.main.operating_point.shell_speed=-10 rad/s",
        "bearings.main.operating_point.load=none", "bearings.main.operating_point.eccentricity_ratio=0.3"});
-  // A turn is 2 pi, a minute 60 s.
+  // A revolution is 2 pi, a minute 60 s.
   CHECK(figure_of(turning, "journal_speed").value == doctest::Approx(1500).epsilon(kRoundOff));
   CHECK(figure_of(turning, "shell_speed").value == doctest::Approx(-300 / std::numbers::pi).epsilon(kRoundOff));
   REQUIRE_FALSE(turning.whirl.always_stable);

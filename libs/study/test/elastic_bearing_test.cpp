@@ -66,7 +66,7 @@ bearings:
 simulation: {duration: 150 ms, step: 1 ms, spectral_radius: 0.6, settle: {tolerance: 1e-8, over: 10 ms}}
 )";
 
-/// The same ring, all around alike: held where its outside is.
+/// The same rotationally symmetric ring: supported at its outside.
 const std::vector<std::string> round = {"bodies.ring.frames.foot.nodes=outside",
                                         "bodies.ring.frames.foot.connection=average"};
 
@@ -207,7 +207,7 @@ TEST_CASE("ElasticBearing_StiffnessMatchesDifferencesOfTheForce") {
   check_stiffness(Rig(), {}, c * Eigen::Vector2d(0.2, -0.75));
 }
 
-/// A bearing all around alike, seen from axes that turn with its journal around the shell at Omega, is a steady one
+/// A rotationally symmetric bearing, in axes that rotate with its journal around the shell at Omega, is a steady one
 /// whose oil is dragged by omega - 2 Omega: b (z x e) = -2 dF/d omega (bearing.30), the motion of the deformation
 /// included.
 TEST_CASE("ElasticBearing_DampingIsThatOfAFlowSeenFromTurningAxes") {
@@ -285,7 +285,7 @@ const std::vector<std::string> hollow_shaft = {"bearings.main.shell_surface=rigi
                                                "joints.slide.between=[ground, shaft.pin]",
                                                "forces.push.body=shaft.pin"};
 
-TEST_CASE("ElasticJournal_IsHeldAtItsJoint_AndGivesWay") {
+TEST_CASE("ElasticJournal_IsSupportedAtItsJoint_AndDeforms") {
   const Rig rig;
   const BearingSolution solution = rig.solved(hollow_shaft);
   REQUIRE(solution.elasticity->journal);
@@ -298,8 +298,9 @@ TEST_CASE("ElasticJournal_IsHeldAtItsJoint_AndGivesWay") {
   CHECK((stiff.state.e - rigid.state.e).norm() < 1e-6 * c);  // 1e7 times as stiff: it gives way by that much less
 }
 
-/// In a run the mesh turns through its deformation, whose functions and elements leave a ripple: the mean of a turn.
-TEST_CASE("ElasticJournal_IsTheMeanOfATurnInARun") {
+/// In a run the mesh rotates through its deformation, whose functions and elements leave a ripple: the mean of a
+/// revolution.
+TEST_CASE("ElasticJournal_IsTheMeanOfARevolutionInARun") {
   const Rig rig;
   const std::vector<std::string> soft =
       with(hollow_shaft, {"bodies.shaft.flexible.form=modal", "bodies.shaft.flexible.material.youngs_modulus=60 GPa",
@@ -313,17 +314,17 @@ TEST_CASE("ElasticJournal_IsTheMeanOfATurnInARun") {
   const results::Reader reader(results);
   const auto mean = [&](const char* name) {
     const std::vector<double> values = reader.read(std::string("/bearings/main/") + name).values;
-    constexpr int turn = 40;  // steps
-    return std::accumulate(values.end() - turn, values.end(), 0.0) / turn;
+    constexpr int revolution = 40;  // steps
+    return std::accumulate(values.end() - revolution, values.end(), 0.0) / revolution;
   };
-  // Ripple of functions and elements in the mean of a turn.
+  // Ripple of functions and elements in the mean of a revolution.
   CHECK(alone.numbers.eccentricity_ratio == doctest::Approx(mean("eccentricity_ratio")).epsilon(1e-3));
   CHECK(alone.state.film.torque_journal == doctest::Approx(mean("torque_journal")).epsilon(1e-3));
   const BearingSolution rigid = rig.solved({"bearings.main.shell_surface=rigid"});
   CHECK(std::abs(rigid.numbers.eccentricity_ratio - alone.numbers.eccentricity_ratio) > 0.02);
 }
 
-TEST_CASE("ElasticBearing_IsHeldAtJoints_ThenAtOtherForces_ThenByItself") {
+TEST_CASE("ElasticBearing_IsSupportedAtJoints_ThenAtOtherForces_ThenByItself") {
   using Names = std::vector<std::string>;
   const auto held_at = [](const Rig& rig) { return rig.solved({}).elasticity->shell->held_at; };
   CHECK(held_at(Rig()) == Names{"foot"});
@@ -357,7 +358,7 @@ TEST_CASE("ElasticBearing_WhatItCannotAnswer_IsRefusedAtItsLine") {
   };
   const Fault turning = fault({point("shell_speed", 100, " rpm")});
   CHECK(turning.position.line > 0);
-  CHECK(turning.found == "a shell that turns and deforms");
+  CHECK(turning.found == "a shell that rotates and deforms");
   CHECK(turning.suggestion.find("bearings.main.shell_surface=rigid") != std::string::npos);
   const Fault squeezed = fault(with(at_position({0, -0.5 * c}), {point("radial_velocity", 1, " mm/s")}));
   CHECK(squeezed.found == "a velocity of the journal between surfaces that deform");

@@ -117,8 +117,8 @@ TEST_CASE("MeshedRing_IsThatOfAnIndependentProgram") {
   CHECK_FALSE(has_growth);
 }
 
-// Free, the ring grows with its mean temperature; held at its outside it grows inwards.
-TEST_CASE("RingThatExpands_OpensItsBearing_OrClosesItWhereItIsHeld") {
+// Free, the ring grows with its mean temperature; supported at its outside it grows inwards.
+TEST_CASE("RingThatExpands_OpensItsBearing_OrClosesItWhereItIsSupported") {
   const Written files;
   const std::string expands = "bodies.ring.flexible.heat.expansion=12e-6 1/K";
   const BearingSolution cold = solved({}), free = solved({expands});
@@ -128,9 +128,9 @@ TEST_CASE("RingThatExpands_OpensItsBearing_OrClosesItWhereItIsHeld") {
   CHECK(figure(free, "bore_distortion") < 0.2 * growth);
   CHECK(figure(free, "load") < 0.8 * figure(cold, "load"));
   CHECK(figure(free, "h_min") == doctest::Approx(43.5 + growth).epsilon(0.02));  // um; and a distortion of half of one
-  const BearingSolution held = solved({expands, "bodies.ring.flexible.heat.fixed=[outside]"});
-  CHECK(figure(held, "bore_growth") < -10);
-  CHECK(figure(held, "load") > 1.5 * figure(cold, "load"));
+  const BearingSolution supported = solved({expands, "bodies.ring.flexible.heat.fixed=[outside]"});
+  CHECK(figure(supported, "bore_growth") < -10);
+  CHECK(figure(supported, "load") > 1.5 * figure(cold, "load"));
   // At the reference temperature of its surroundings it is cold where no film warms it.
   const BearingSolution warm = solved({expands, "bodies.ring.flexible.heat.reference_temperature=40 degC"});
   CHECK(figure(warm, "bore_growth") ==
@@ -230,7 +230,7 @@ TEST_CASE("JournalInABodyAtRest_IsRefused") {
     CAPTURE(what);
     CHECK(what.find("operating_point.journal_speed: a journal at rest, whose temperatures are those of a body") !=
           std::string::npos);
-    CHECK(what.find("because it turns") != std::string::npos);
+    CHECK(what.find("because it rotates") != std::string::npos);
   }
   const auto total = solve_bearings("heated_body_test.yaml", {{with_shaft({}, "0 1/K"), "", "", {}}},
                                     {.bearing = "", .thermal_coefficients = ThermalCoefficients::total});
@@ -238,7 +238,7 @@ TEST_CASE("JournalInABodyAtRest_IsRefused") {
   CHECK(total.at(0).message.find("'total' of surfaces that deform") != std::string::npos);
 }
 
-TEST_CASE("ShellInABodyThatTurns_IsRefused") {
+TEST_CASE("ShellInABodyThatRotates_IsRefused") {
   const Written files;
   CHECK_THROWS_AS((void)solved({"bearings.main.operating_point.shell_speed=10 rad/s"}), InputError);
 }

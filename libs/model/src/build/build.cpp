@@ -16,7 +16,7 @@
 namespace hersey::model {
 namespace {
 
-// A function of time and of the crank's rotation as one of time alone: the crank turns at constant speed.
+// A function of time and of the crank's rotation as one of time alone: the crank rotates at constant speed.
 class OverTime final : public ScalarFunction {
  public:
   OverTime(Function function, const Simulation& simulation) : function_(std::move(function)), simulation_(simulation) {}
@@ -257,7 +257,7 @@ class Builder {
     mechanism_.add_load(std::move(spec));
   }
 
-  // Place among the machine's flexible bodies.
+  // Index among the machine's flexible bodies.
   [[nodiscard]] std::size_t flexible_called(const std::string& name) const {
     const auto at = std::find_if(machine_.flexibles.begin(), machine_.flexibles.end(),
                                  [&](const BuiltFlexible& flexible) { return flexible.name == name; });
@@ -275,7 +275,7 @@ class Builder {
     machine_.surface_loads.push_back({name, at, first, load.functions.size()});
   }
 
-  // What the value `i` of a surface load is multiplied with.
+  // Unit load by which the value `i` of a surface load is multiplied.
   static mbd::NodalLoad nodal_load(const std::string& name, const SurfaceLoad& load, const fem::Mesh& mesh,
                                    std::size_t i) {
     Eigen::VectorXd f;
@@ -367,7 +367,7 @@ class Builder {
     machine_.contacts.push_back({std::move(force), id, bodies_.at(contact.first.body)});
   }
 
-  // A bearing's surface by the shapes of the flexible body it lies on, seen from the bearing's frame.
+  // A bearing's surface by the shapes of its flexible body, in the axes of the bearing's frame.
   [[nodiscard]] std::shared_ptr<const bearing::ElasticSurface> surface_of(const DeformingSurface& surface,
                                                                           const FrameName& on) const {
     const BuiltFlexible& flexible = machine_.flexibles[flexible_called(on.body)];
@@ -416,7 +416,7 @@ class Builder {
   const Model& model_;
   mbd::MechanismBuilder mechanism_;
   Machine machine_;
-  std::map<const DeformingSurface*, BuiltSurface> kept_;  // what flexible bodies keep of bearings' surfaces
+  std::map<const DeformingSurface*, BuiltSurface> kept_;  // parts of bearings' surfaces that flexible bodies keep
   std::map<std::string, mbd::BodyId> bodies_;
   std::map<std::pair<std::string, std::string>, mbd::FrameId> frames_;
   std::map<std::pair<std::string, std::string>, Pose> poses_;

@@ -53,7 +53,7 @@ std::shared_ptr<const fem::ReducedBody> reduced(const Body& body, const std::vec
   if (auto known = known_reductions().find(fingerprint)) return known;
   mesh = assembled(body);
   fem::Reduction reduction = fem::reduce(*mesh, interface_frames(body), options_of(*body.flexible, surfaces));
-  if (!reduction.solved()) throw cannot_be_held(body, reduction.message);
+  if (!reduction.solved()) throw insufficient_supports(body, reduction.message);
   auto shapes = std::make_shared<const fem::ReducedBody>(std::move(reduction.body));
   known_reductions().keep(std::move(fingerprint), shapes);
   return shapes;
@@ -88,16 +88,16 @@ std::vector<fem::InterfaceFrame> interface_frames(const Body& body) {
   return frames;
 }
 
-InputError cannot_be_held(const Body& body, const std::string& why) {
+InputError insufficient_supports(const Body& body, const std::string& why) {
   return InputError({.position = body.flexible->position,
                      .path = "bodies." + body.name + ".flexible",
                      .found = why,
-                     .expected = "a mesh that can be held at its frames",
+                     .expected = "a mesh without rigid motion once its frames are fixed",
                      .suggestion = "see `hersey mesh` for its sets and its quality"});
 }
 
-BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces, bool is_let_go,
-                             std::vector<BuiltSurface>& kept) {
+BuiltFlexible build_flexible(const Body& body, const std::vector<const DeformingSurface*>& surfaces,
+                             bool starts_undeformed, std::vector<BuiltSurface>& kept) {
   HERSEY_REQUIRE(body.flexible && body.flexible->mesh, "the reader checks meshes");
   const Flexible& flexible = *body.flexible;
   std::optional<fem::ElasticBody> mesh;
@@ -116,7 +116,7 @@ BuiltFlexible build_flexible(const Body& body, const std::vector<const Deforming
   if (flexible.nodal) {
     if (!mesh) mesh = assembled(body);
     auto nodal = std::make_shared<mbd::NodalBody>(std::move(*mesh), shapes, flexible.damping, flexible.strain);
-    if (is_let_go) nodal->start_undeformed();
+    if (starts_undeformed) nodal->start_undeformed();
     built.body = std::move(nodal);
   } else {
     built.body = std::make_shared<mbd::ModalBody>(std::move(data));
@@ -167,10 +167,10 @@ std::shared_ptr<const bearing::ElasticSurface> elastic_surface(const DeformingSu
   const auto at = std::find_if(body.frames.begin(), body.frames.end(), [&](const Frame& f) { return f.name == frame; });
   const fem::FilmSurface& map = *surface.surface;
   // No shape moves the first frame, nor the body's own axes, which ride on it.
-  const auto place = at == body.frames.end() ? 0 : at - body.frames.begin();
+  const auto index = at == body.frames.end() ? 0 : at - body.frames.begin();
   const Eigen::MatrixXd D =
-      place == 0 ? map.coefficients(U)
-                 : fem::coefficients_from_frame(map, *body.flexible->mesh, U, at->X_BF.r, 6 * (place - 1));
+      index == 0 ? map.coefficients(U)
+                 : fem::coefficients_from_frame(map, *body.flexible->mesh, U, at->X_BF.r, 6 * (index - 1));
   return std::make_shared<const bearing::ElasticSurface>(bearing::ElasticSurface{map.functions, D});
 }
 

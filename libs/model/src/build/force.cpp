@@ -5,7 +5,7 @@
 namespace hersey::model {
 namespace {
 
-/// What follows time in a force's data, a T or a const T.
+/// Function of time in a force's data, a T or a const T.
 template <class T, class Take>
 void visit_functions(T& data, const std::string& name, Take take) {
   using Data = std::remove_const_t<T>;

@@ -27,7 +27,7 @@ class KnownReductions {
     std::string fingerprint;
     std::shared_ptr<const fem::ReducedBody> body;
   };
-  /// Of its matrices and its mesh.
+  /// Memory of its matrices and its mesh.
   [[nodiscard]] static std::size_t bytes_of(const Known& known);
 
   std::size_t most_;

@@ -20,7 +20,7 @@ Pose pose_of(const Body& body, const std::string& frame) {
   return {};
 }
 
-/// Forces on all frames and on the internal amplitudes of a modal body that turns at 1 rad/s.
+/// Forces on all frames and on the internal amplitudes of a modal body that rotates at 1 rad/s.
 VectorXd spin_forces(const mbd::ModalBodyData& data, const Vector3& centre, const Vector3& axis) {
   mbd::ModalBody body(data);
   mbd::ElasticMotion turning;
@@ -58,7 +58,7 @@ StaticShapes of_nodal_body(const Body& body, const DeformingSurface& surface, co
   const fem::ElasticBody mesh = assembled(body);
   const fem::StaticAnswers answers =
       fem::static_answers(mesh, interface_frames(body), *surface.surface, X.r, X.R.col(2));
-  if (!answers.solved()) throw cannot_be_held(body, answers.message);
+  if (!answers.solved()) throw insufficient_supports(body, answers.message);
   StaticShapes shapes;
   for (const Frame& each : body.frames) shapes.at.push_back(each.X_BF.r);
   const Index frames = answers.stiffness.rows() - 6;

@@ -25,8 +25,8 @@ const Body& body_called(const Model& model, const std::string& name) {
   return *found;
 }
 
-/// Place of a frame among those of its body; the body's own axes ride on the first.
-std::size_t place_of(const Body& body, const std::string& frame) {
+/// Index of a frame among those of its body; the body's own axes move with the first.
+std::size_t frame_index(const Body& body, const std::string& frame) {
   const auto found =
       std::find_if(body.frames.begin(), body.frames.end(), [&](const Frame& f) { return f.name == frame; });
   return found == body.frames.end() ? 0 : static_cast<std::size_t>(found - body.frames.begin());
@@ -37,13 +37,13 @@ class Attached {
  public:
   explicit Attached(const Body& body) : body_(body) {}
   void add(const FrameName& frame) {
-    if (frame.body == body_.name) places_.insert(place_of(body_, frame.frame));
+    if (frame.body == body_.name) indices_.insert(frame_index(body_, frame.frame));
   }
-  [[nodiscard]] std::vector<std::size_t> places() const { return {places_.begin(), places_.end()}; }
+  [[nodiscard]] std::vector<std::size_t> indices() const { return {indices_.begin(), indices_.end()}; }
 
  private:
   const Body& body_;
-  std::set<std::size_t> places_;
+  std::set<std::size_t> indices_;
 };
 
 std::vector<std::size_t> frames_with_joints(const Model& model, const Body& body) {
@@ -53,10 +53,10 @@ std::vector<std::size_t> frames_with_joints(const Model& model, const Body& body
     attached.add(joint.inboard);
     attached.add(joint.outboard);
   }
-  return attached.places();
+  return attached.indices();
 }
 
-/// Of forces, and of bearings beside `bearing`; not its own frame, which they do not hold.
+/// Frames of forces, and of bearings besides `bearing`; not its own frame, which they do not support.
 std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& bearing, const Body& body,
                                             std::size_t own) {
   Attached attached(body);
@@ -67,49 +67,50 @@ std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& b
     attached.add(other.shell);
     attached.add(other.journal);
   }
-  std::vector<std::size_t> places = attached.places();
-  std::erase(places, own);
-  return places;
+  std::vector<std::size_t> indices = attached.indices();
+  std::erase(indices, own);
+  return indices;
 }
 
-/// Where the body of a surface is held, as places among its frames.
+/// Supports of a surface's body, as indices of its frames.
 std::vector<std::size_t> holders(const Model& model, const Bearing& bearing, const Body& body, std::size_t own) {
   if (std::vector<std::size_t> joints = frames_with_joints(model, body); !joints.empty()) return joints;
   if (std::vector<std::size_t> forces = frames_with_forces(model, bearing, body, own); !forces.empty()) return forces;
   return {own};
 }
 
-/// A body by its shapes, held at some of its frames: displacements of its frames and loads on its amplitudes.
-class HeldBody {
+/// A body by its shapes, supported at some of its frames: displacements of its frames and loads on its amplitudes.
+class SupportedBody {
  public:
-  HeldBody(StaticShapes shapes, const std::vector<std::size_t>& held)
+  SupportedBody(StaticShapes shapes, const std::vector<std::size_t>& supports)
       : shapes_(std::move(shapes)), frames_(shapes_.stiffness.rows()), count_(frames_ + shapes_.flexibility.rows()) {
-    rigid_ = -carried(shapes_.at[held.front()]).inverse() * relative(held.front());
-    MatrixXd rows(6 * static_cast<Index>(held.size()) - 6, frames_);
-    for (std::size_t k = 1; k < held.size(); ++k)
-      rows.middleRows<6>(6 * static_cast<Index>(k - 1)) = motion(held[k], shapes_.at[held[k]]).leftCols(frames_);
+    rigid_ = -carried(shapes_.at[supports.front()]).inverse() * relative(supports.front());
+    MatrixXd rows(6 * static_cast<Index>(supports.size()) - 6, frames_);
+    for (std::size_t k = 1; k < supports.size(); ++k)
+      rows.middleRows<6>(6 * static_cast<Index>(k - 1)) =
+          motion(supports[k], shapes_.at[supports[k]]).leftCols(frames_);
     solve(rows);
   }
 
   [[nodiscard]] const std::shared_ptr<const bearing::ElasticSurface>& surface() const { return shapes_.surface; }
 
   /// Where a frame moves against the body's axes: not at all with the first, by its six amplitudes with the others.
-  [[nodiscard]] MatrixXd relative(std::size_t place) const {
+  [[nodiscard]] MatrixXd relative(std::size_t index) const {
     MatrixXd E = MatrixXd::Zero(6, count_);
-    if (place > 0) E.middleCols<6>(6 * (static_cast<Index>(place) - 1)).setIdentity();
+    if (index > 0) E.middleCols<6>(6 * (static_cast<Index>(index) - 1)).setIdentity();
     return E;
   }
 
   /// [rotation; displacement] of a point at `r` on a frame by the amplitudes, the first of those that hold at rest,
   /// body's axes, (6, amplitudes).
-  [[nodiscard]] MatrixXd motion(std::size_t place, const Vector3& r) const {
-    return relative(place) + carried(r) * rigid_;
+  [[nodiscard]] MatrixXd motion(std::size_t index, const Vector3& r) const {
+    return relative(index) + carried(r) * rigid_;
   }
 
-  /// Amplitudes for unit forces on each of them, and by a wrench at `r` on frame `place`, in the body's axes.
+  /// Amplitudes for unit forces on each of them, and by a wrench at `r` on frame `index`, in the body's axes.
   [[nodiscard]] const MatrixXd& by_forces() const { return answers_; }
-  [[nodiscard]] MatrixXd by_wrench(std::size_t place, const Vector3& r) const {
-    return answers_ * motion(place, r).transpose();
+  [[nodiscard]] MatrixXd by_wrench(std::size_t index, const Vector3& r) const {
+    return answers_ * motion(index, r).transpose();
   }
 
   /// Amplitudes by the forces of turning at 1 rad/s.
@@ -154,9 +155,9 @@ class HeldBody {
 std::shared_ptr<const bearing::SurfaceFlexibility> flexibility(const Model& model, const Bearing& bearing,
                                                                const DeformingSurface& surface, const FrameName& on) {
   const Body& body = body_called(model, on.body);
-  const std::size_t own = place_of(body, on.frame);
-  const std::vector<std::size_t> held = holders(model, bearing, body, own);
-  const HeldBody rest(static_shapes(model, body, surface, on.frame), held);
+  const std::size_t own = frame_index(body, on.frame);
+  const std::vector<std::size_t> supports = holders(model, bearing, body, own);
+  const SupportedBody rest(static_shapes(model, body, surface, on.frame), supports);
   const bool has_frame =
       std::any_of(body.frames.begin(), body.frames.end(), [&](const Frame& frame) { return frame.name == on.frame; });
   HERSEY_REQUIRE(has_frame || on.frame.empty(), "the reader checks frames");
@@ -169,11 +170,11 @@ std::shared_ptr<const bearing::SurfaceFlexibility> flexibility(const Model& mode
   result.by_wrench = rest.by_wrench(own, X.r) * turned;
   result.turn = X.R.transpose() * rest.motion(own, X.r).topRows<3>();
   result.turn_in_body = X.R.transpose() * rest.relative(own).topRows<3>();
-  result.offset = X.R.transpose() * (rest.relative(held.front()) - rest.relative(own)).bottomRows<3>();
-  result.by_offset_moment = rest.by_forces() * rest.relative(held.front()).topRows<3>().transpose() * X.R;
+  result.offset = X.R.transpose() * (rest.relative(supports.front()) - rest.relative(own)).bottomRows<3>();
+  result.by_offset_moment = rest.by_forces() * rest.relative(supports.front()).topRows<3>().transpose() * X.R;
   result.by_spin = rest.by_spin();
   result.body = body.name;
-  for (const std::size_t place : held) result.held_at.push_back(body.frames[place].name);
+  for (const std::size_t index : supports) result.held_at.push_back(body.frames[index].name);
   return std::make_shared<const bearing::SurfaceFlexibility>(std::move(result));
 }
 
@@ -181,9 +182,9 @@ void add_body(const Model& model, const Bearing& bearing, const FrameName& on, F
   const Body& body = body_called(model, on.body);
   print.add(body.name);
   add_reduction(body, surfaces_on(model, body), print);
-  const std::size_t own = place_of(body, on.frame);
+  const std::size_t own = frame_index(body, on.frame);
   print.add(static_cast<int>(own));
-  for (const std::size_t place : holders(model, bearing, body, own)) print.add(static_cast<int>(place));
+  for (const std::size_t index : holders(model, bearing, body, own)) print.add(static_cast<int>(index));
 }
 
 }  // namespace

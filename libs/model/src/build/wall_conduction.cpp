@@ -36,7 +36,7 @@ MatrixXd at_nodes(const SurfaceFunctions& functions, const film::FilmModel& film
   return psi;
 }
 
-/// What cools a body, less the faces that films lie on of what is cooled as the rest of it.
+/// Cooled faces of a body, without the faces of films in its remaining surface.
 fem::ThermalSurroundings surroundings_of(const Model& model, const Body& body) {
   fem::ThermalSurroundings surroundings = body.flexible->heat->surroundings;
   if (!body.flexible->heat->rest) return surroundings;
@@ -62,7 +62,7 @@ std::vector<double> angles_of(const film::Grid& grid) {
   return angles;
 }
 
-std::vector<double> places_of(const film::FilmModel& film) {
+std::vector<double> stations_of(const film::FilmModel& film) {
   std::vector<double> z;
   z.reserve(static_cast<std::size_t>(film.grid.n_z));
   for (int j = 0; j < film.grid.n_z; ++j) z.push_back(film.L * film.grid.z_over_L(j));
@@ -94,7 +94,7 @@ void add_wall(const Model& model, const Body& body, const fem::FilmSurface& film
   print.add(heat.material.conductivity), print.add(heat.material.expansion), print.add(heat.T_reference);
   for (const fem::CooledFaces& cooled : surroundings_of(model, body).cooled)
     print.add(cooled.faces), print.add(cooled.transfer), print.add(cooled.T_ambient);
-  for (const fem::HeldNodes& held : heat.surroundings.held) print.add(held.nodes), print.add(held.T);
+  for (const fem::HeldNodes& prescribed : heat.surroundings.held) print.add(prescribed.nodes), print.add(prescribed.T);
   print.add(heat.fixed);
   print.add(film.cylinder.X.R), print.add(film.cylinder.X.r), print.add(film.cylinder.R), print.add(film.cylinder.L);
   print.add(film.functions.around()), print.add(film.functions.along()), print.add(film.faces);
@@ -133,7 +133,7 @@ std::shared_ptr<const film::JournalConduction> journal_conduction(const Model& m
   journal->rise_body = found.rise_body.col(0);
   journal->T_reference = body.flexible->heat->T_reference;
   if (found.shape0.size() == 0) return journal;
-  const std::vector<double> z = places_of(bearing.film);
+  const std::vector<double> z = stations_of(bearing.film);
   journal->shape0 = fem::mean_around(film.functions, found.shape0, z);
   journal->shape_by_heat = fem::mean_around(film.functions, found.shape_by_heat, z);
   journal->shape_by_rise = fem::mean_around(film.functions, found.shape_by_rise, z);
@@ -145,7 +145,7 @@ std::string fingerprint_of_wall(const Model& model, const Bearing& bearing) {
   if (!bearing.heated_shell) return print.take();
   add_wall(model, conducting_body(model, bearing.shell.body), *bearing.heated_shell, print);
   for (const double phi : angles_of(bearing.film.grid)) print.add(phi);
-  for (const double z : places_of(bearing.film)) print.add(z);
+  for (const double z : stations_of(bearing.film)) print.add(z);
   return print.take();
 }
 
@@ -153,7 +153,7 @@ std::string fingerprint_of_journal(const Model& model, const Bearing& bearing) {
   Fingerprint print;
   if (!bearing.heated_journal) return print.take();
   add_wall(model, conducting_body(model, bearing.journal.body), *bearing.heated_journal, print);
-  for (const double z : places_of(bearing.film)) print.add(z);
+  for (const double z : stations_of(bearing.film)) print.add(z);
   return print.take();
 }
 

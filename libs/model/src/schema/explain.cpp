@@ -15,8 +15,8 @@ using Kind = Type::Kind;
 
 constexpr std::size_t kWidth = 100;
 
-/// A place of the format that a key path leads to.
-struct KeyPlace {
+/// A location in the format to which a key path leads.
+struct KeyLocation {
   std::string path;  ///< with <name> where names are free
   const Type* type = nullptr;
   const Key* key = nullptr;  ///< null for the item of a mapping with free names
@@ -45,38 +45,38 @@ bool is_item_number(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return '0' <= c && c <= '9'; });
 }
 
-/// The keys called `name` below `place`; a variant's may differ from one to the other.
-std::vector<KeyPlace> step(const KeyPlace& place, const std::string& name) {
-  std::vector<KeyPlace> found;
+/// The keys called `name` below `location`; a variant's may differ from one to the other.
+std::vector<KeyLocation> step(const KeyLocation& location, const std::string& name) {
+  std::vector<KeyLocation> found;
   const auto add = [&](const std::vector<Key>& keys, const std::string& condition) {
     const Key* key = find_key(keys, name);
     if (key == nullptr) return;
-    for (KeyPlace& other : found) {
+    for (KeyLocation& other : found) {
       if (other.type != key->type.get() || other.key->description != key->description) continue;
       if (!condition.empty()) other.condition += ", " + condition.substr(condition.find(": ") + 2);
       return;
     }
-    found.push_back({key_path(place.path, name), key->type.get(), key, condition});
+    found.push_back({key_path(location.path, name), key->type.get(), key, condition});
   };
-  if (place.type->kind == Kind::named) {
-    add(place.type->keys, "");
+  if (location.type->kind == Kind::named) {
+    add(location.type->keys, "");
     if (!found.empty()) return found;
-    const KeyPlace item{key_path(place.path, "<name>"), place.type->item.get(), nullptr, ""};
+    const KeyLocation item{key_path(location.path, "<name>"), location.type->item.get(), nullptr, ""};
     // "bearings.supply" means that of any bearing; else the word is a name.
-    std::vector<KeyPlace> below = step(item, name);
-    return below.empty() ? std::vector<KeyPlace>{item} : below;
+    std::vector<KeyLocation> below = step(item, name);
+    return below.empty() ? std::vector<KeyLocation>{item} : below;
   }
-  for (const Type* mapping : mappings_of(*place.type)) {
+  for (const Type* mapping : mappings_of(*location.type)) {
     add(mapping->keys, "");
     for (const Variant& variant : mapping->variants) add(variant.keys, mapping->tag + ": " + variant.tag);
-    if (mapping->tag == name && found.empty()) found.push_back({key_path(place.path, name), mapping, nullptr, ""});
+    if (mapping->tag == name && found.empty()) found.push_back({key_path(location.path, name), mapping, nullptr, ""});
   }
   return found;
 }
 
-std::vector<std::string> names_below(const KeyPlace& place) {
+std::vector<std::string> names_below(const KeyLocation& location) {
   std::vector<std::string> names;
-  for (const Type* mapping : mappings_of(*place.type)) {
+  for (const Type* mapping : mappings_of(*location.type)) {
     if (!mapping->tag.empty()) names.push_back(mapping->tag);
     for (const Key* key : all_keys(*mapping)) {
       if (std::find(names.begin(), names.end(), key->name) == names.end()) names.push_back(key->name);
@@ -92,37 +92,37 @@ std::vector<std::string> split(const std::string& path) {
   return keys;
 }
 
-std::vector<KeyPlace> find_places(const std::string& path) {
-  std::vector<KeyPlace> places{{"", &model_format(), nullptr, ""}};
+std::vector<KeyLocation> find_locations(const std::string& path) {
+  std::vector<KeyLocation> locations{{"", &model_format(), nullptr, ""}};
   for (const std::string& key : split(path)) {
-    std::vector<KeyPlace> next;
-    for (const KeyPlace& place : places) {
-      if (place.type->kind == Kind::list && is_item_number(key)) {
-        next.push_back({key_path(place.path, key), place.type->item.get(), place.key, place.condition});
+    std::vector<KeyLocation> next;
+    for (const KeyLocation& location : locations) {
+      if (location.type->kind == Kind::list && is_item_number(key)) {
+        next.push_back({key_path(location.path, key), location.type->item.get(), location.key, location.condition});
         continue;
       }
-      for (KeyPlace& found : step(place, key)) {
-        if (found.condition.empty()) found.condition = place.condition;
+      for (KeyLocation& found : step(location, key)) {
+        if (found.condition.empty()) found.condition = location.condition;
         next.push_back(std::move(found));
       }
     }
     if (next.empty()) {
       std::vector<std::string> names;
-      for (const KeyPlace& place : places)
-        for (const std::string& name : names_below(place)) names.push_back(name);
-      const std::string where = places.front().path.empty() ? "the model" : places.front().path;
+      for (const KeyLocation& location : locations)
+        for (const std::string& name : names_below(location)) names.push_back(name);
+      const std::string where = locations.front().path.empty() ? "the model" : locations.front().path;
       throw InputError(Fault{{path, 0, 0},
                              "",
                              "unknown key '" + key + "' of " + where,
                              names.empty() ? where + " has no keys" : one_of(names),
                              did_you_mean(key, names)});
     }
-    places = std::move(next);
+    locations = std::move(next);
   }
-  return places;
+  return locations;
 }
 
-/// Text in lines of `kWidth`, each begun with `indent` blanks; the first one stands behind `first`.
+/// Text in lines of `kWidth`, each indented by `indent` blanks; the first one follows `first`.
 std::string wrapped(const std::string& first, const std::string& text, std::size_t indent) {
   std::string lines, line = first;
   line.resize(std::max(line.size(), indent), ' ');
@@ -163,7 +163,7 @@ void add_words(const Type& type, std::string& text) {
   for (const Word& word : type.words) text += wrapped("      " + word.text, word.description, widest + 8);
 }
 
-/// What a value is: its words, and its usual units.
+/// Adds the allowed words of a value, and its usual units.
 void add_details(const Type& type, std::string& text) {
   add_words(type, text);
   for (const std::string& unit : type.units) {
@@ -195,17 +195,17 @@ void add_mapping(const Type& type, std::string& text) {
   }
 }
 
-std::string text_of(const KeyPlace& place) {
-  std::string text = place.path + (place.condition.empty() ? "" : "   (" + place.condition + ")") + "\n";
-  if (place.key != nullptr) text += wrapped("", plain(place.key->description), 2);
-  text += wrapped("  value", value_of(*place.type), 11);
-  if (place.key != nullptr) text += wrapped("  default", default_of(*place.key), 11);
-  add_details(*place.type, text);
-  const Type* of = place.type;
+std::string text_of(const KeyLocation& location) {
+  std::string text = location.path + (location.condition.empty() ? "" : "   (" + location.condition + ")") + "\n";
+  if (location.key != nullptr) text += wrapped("", plain(location.key->description), 2);
+  text += wrapped("  value", value_of(*location.type), 11);
+  if (location.key != nullptr) text += wrapped("  default", default_of(*location.key), 11);
+  add_details(*location.type, text);
+  const Type* of = location.type;
   if (of->kind == Kind::named) {
     text += "  a mapping from names of your choice; each has\n";
     of = of->item.get();
-    if (!place.type->keys.empty()) add_mapping(*place.type, text);
+    if (!location.type->keys.empty()) add_mapping(*location.type, text);
   }
   for (const Type* mapping : mappings_of(*of)) add_mapping(*mapping, text);
   return text;
@@ -219,7 +219,7 @@ std::string explanation(const std::string& path) {
     add_keys(model_format().keys, text);
     return "Sections of a model; `hersey explain bearings.X.supply` goes into them.\n" + text;
   }
-  for (const KeyPlace& place : find_places(path)) text += (text.empty() ? "" : "\n") + text_of(place);
+  for (const KeyLocation& location : find_locations(path)) text += (text.empty() ? "" : "\n") + text_of(location);
   return text;
 }
 

@@ -10,14 +10,14 @@ namespace hersey::model {
 
 inline constexpr Vocabulary<film::Cavitation, 3> cavitation_words{{
     {film::Cavitation::mass_conserving, "mass_conserving",
-     "pressure or fill fraction at every place (Jakobsson, Floberg, Olsson)"},
+     "pressure or fill fraction at every point (Jakobsson, Floberg, Olsson)"},
     {film::Cavitation::reynolds, "reynolds",
      "zero pressure gradient at rupture; oil is lost where the film forms again"},
     {film::Cavitation::guembel, "guembel", "full film, negative pressures left out of the forces (half Sommerfeld)"},
 }};
 
 inline constexpr Vocabulary<ThermalWalls, 3> thermal_walls_words{{
-    {ThermalWalls::transient, "transient", "they warm as their heat capacities let them"},
+    {ThermalWalls::transient, "transient", "their temperatures follow from their heat capacities"},
     {ThermalWalls::cycle_mean, "cycle_mean",
      "they keep their temperatures over a cycle of the machine, and then take those at which its mean heat would pass "
      "them by: in a few cycles they are those of an engine that has run for long"},
@@ -60,12 +60,12 @@ inline constexpr Vocabulary<film::PressureScale, 2> pressure_scale_words{{
 
 inline constexpr Vocabulary<film::Surface, 2> feature_surface_words{{
     {film::Surface::shell, "shell", "the bore"},
-    {film::Surface::journal, "journal", "the journal: it travels as the journal turns"},
+    {film::Surface::journal, "journal", "the journal: it moves as the journal rotates"},
 }};
 
 inline constexpr Vocabulary<film::Surface, 2> profile_surface_words{{
     {film::Surface::shell, "shell", "the bore"},
-    {film::Surface::journal, "journal", "the journal: it turns with it"},
+    {film::Surface::journal, "journal", "the journal: it rotates with it"},
 }};
 
 inline constexpr Vocabulary<solver::Acceleration, 3> acceleration_words{{

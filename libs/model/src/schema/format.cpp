@@ -17,8 +17,9 @@ TypePtr root() {
               "or brackets, since YAML gives braces a meaning of its own."),
           optional("templates", named("a mapping from names to templates", template_format()),
                    "Parts of a model with `parameters` of their own, put in by `use`; see [templates](#templates)."),
-          optional("use", use_format(),
-                   "Puts templates into the mapping it stands in, this one or any below; see [templates](#templates)."),
+          optional(
+              "use", use_format(),
+              "Puts templates into the mapping that contains it, this one or any below; see [templates](#templates)."),
           defaulted("gravity", vector("m/s^2", "0 -9.81 0 m/s^2"), "0 0 0 m/s^2",
                     "Acceleration of free fall, ground axes."),
           optional("bodies", bodies_format(),
@@ -85,14 +86,14 @@ TypePtr function_of_something(const std::vector<std::string>& si_units, const st
           required("y", column, "Name of the column with the value."),
       });
   const TypePtr pair = list("a pair", number("0.5"), 2);
-  const TypePtr in_place =
+  const TypePtr inline_table =
       object("a table in place", {
                                      required("points", list("a list of [x, y] pairs", pair), "Pairs, x increasing."),
                                      required("x_unit", text("a unit", "deg"), "Unit of x."),
                                      required("y_unit", text("a unit", "bar"), "Unit of y."),
                                  });
   std::vector<Key> table_keys = {
-      required("table", any_of("a table", {from_file, in_place}), "The points, in a file or in place."),
+      required("table", any_of("a table", {from_file, inline_table}), "The points, in a file or in place."),
       optional("period", quantity_in({"s", "rad", "m"}, "720 deg", Range::positive()),
                "The table repeats with this period.", "does not repeat"),
       optional("shift", quantity_in({"s", "rad", "m"}, "180 deg"),

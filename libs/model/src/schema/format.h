@@ -29,7 +29,7 @@ TypePtr thermal_network_format();
 [[nodiscard]] TypePtr output_format();
 [[nodiscard]] TypePtr study_format();
 
-/// What a template is, and how it is put in.
+/// Format of the use of a template.
 [[nodiscard]] TypePtr template_format();
 /// See template_format().
 [[nodiscard]] TypePtr use_format();

@@ -1,6 +1,6 @@
 #include "schema/format.h"
 
-// Beams: slender bodies that turn and bend as far as they like.
+// Beams: slender bodies with large rotations and bending.
 namespace hersey::model {
 namespace {
 

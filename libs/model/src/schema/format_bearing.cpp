@@ -60,7 +60,7 @@ TypePtr compliance_format() {
                  {
                      {"rigid", "surfaces keep their shape", {}},
                      {"column",
-                      "each place yields by itself, as a column: dh = p length/E",
+                      "each point deforms independently, as a column: dh = p length/E",
                       {
                           composite_modulus_key(),
                           optional("length", quantity("m", "22.5 mm", Range::positive()), "Length of the columns.",
@@ -98,7 +98,7 @@ TypePtr coupling_format() {
       {
           {"monolithic", "bodies and film in one Newton system", {}},
           {"partitioned",
-           "bodies and film in turn, exchanging force and motion until both agree",
+           "bodies and film alternately, exchanging force and motion until both agree",
            {
                defaulted("acceleration", choice(acceleration_words), "quasi_newton",
                          "How the exchanged force is corrected."),
@@ -129,7 +129,7 @@ TypePtr operating_point_format() {
                     "Velocity of the journal's centre in that direction, outwards; with an eccentricity_ratio. Without "
                     "rotation it is pure squeeze."),
           defaulted("journal_angle", angle, "0 deg",
-                    "By which the journal, with its holes and grooves, stands turned: one moment of its turn."),
+                    "Rotation of the journal, with its holes and grooves: one instant of its revolution."),
           defaulted("tilt_x", tilt, "0 deg", "Slope of the journal's axis towards x."),
           defaulted("tilt_y", tilt, "0 deg", "Slope of the journal's axis towards y."),
       });
@@ -210,7 +210,7 @@ TypePtr bearings_format() {
                    "oil. An edge above that pressure is always flooded.",
                    "0"),
           defaulted("thermal", thermal_format(), "isothermal", "Temperature of the film."),
-          optional("supply", supply, "A line along the whole width that is held full at a given pressure.", "none"),
+          optional("supply", supply, "A line along the whole width that is kept full at a given pressure.", "none"),
           optional("features", features_format(), "Holes and grooves through which oil is fed.", "none"),
           optional("shape", shape_format(), "What makes bore and journal differ from cylinders; all add up.",
                    "cylinders"),

@@ -14,9 +14,10 @@ TypePtr contacts_format() {
       "a stiffness",
       {
           optional("force", quantity("N", "1 kN", Range::positive()), "Normal force at this penetration."),
-          optional("pressure", quantity("Pa", "10 MPa", Range::positive()),
-                   "Of a mesh on anything but a sphere: pressure at this penetration. Each corner of the mesh stands "
-                   "for the area around it."),
+          optional(
+              "pressure", quantity("Pa", "10 MPa", Range::positive()),
+              "Of a mesh on anything but a sphere: pressure at this penetration. Each corner of the mesh represents "
+              "the area around it."),
           required("penetration", quantity("m", "10 um", Range::positive()), "What force or pressure belong to."),
           optional("exponent", number("1.5", {.low = 1}), "Force or pressure grow with this power of the penetration.",
                    "1.5 with `force`, 1 with `pressure`"),

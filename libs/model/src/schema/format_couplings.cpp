@@ -13,8 +13,8 @@ TypePtr couplings_format() {
           {"gear",
            "output = ratio times input, both rotations or both translations, from where the joints start",
            {input, required("ratio", number("-2.5"),
-                            "Turns of the output per turn of the input; negative where they "
-                            "turn against each other.")}},
+                            "Revolutions of the output per revolution of the input; negative where they "
+                            "rotate against each other.")}},
           {"rack",
            "output (a translation) = radius times input (a rotation), from where the joints start",
            {input, required("radius", quantity("m", "20 mm"), "Pitch radius; negative to run the other way.")}},

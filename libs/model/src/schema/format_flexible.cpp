@@ -31,7 +31,7 @@ TypePtr body_heat_format() {
                    named("a mapping from surfaces or sets of nodes to temperatures", temperature("60 degC")),
                    "Where its temperature is given.", "none"),
           optional("fixed", list("sets of nodes", text("a set of nodes", "base")),
-                   "Nodes that keep their places as the body expands.", "none: it expands freely"),
+                   "Nodes that are fixed as the body expands.", "none: it expands freely"),
       });
 }
 
@@ -45,7 +45,7 @@ TypePtr flexible_format() {
               "poisson_ratios", list("three numbers", number("0.3"), 3),
               "nu_12, nu_23, nu_13: contraction along the second axis under tension along the first, by the stretch."),
           required("shear_moduli", vector("Pa", "5 4 5 GPa"), "G_12, G_23, G_13."),
-          optional("axes", rotation_format(), "Turns axes 1, 2, 3 from the body's x, y, z.", "none"),
+          optional("axes", rotation_format(), "Rotates axes 1, 2, 3 from the body's x, y, z.", "none"),
       });
   const TypePtr material = with_together(
       with_exactly_one(
@@ -55,7 +55,7 @@ TypePtr flexible_format() {
                      optional("poisson_ratio",
                               number("0.3", {.low = -1, .high = 0.5, .low_open = true, .high_open = true}),
                               "Poisson's ratio."),
-                     optional("orthotropic", orthotropic, "Nine constants in place of these two."),
+                     optional("orthotropic", orthotropic, "Nine constants instead of these two."),
                      density,
                  }),
           {"youngs_modulus", "orthotropic"}),
@@ -73,10 +73,9 @@ TypePtr flexible_format() {
           optional(
               "mesh", text("a mesh file", "conrod.inp"),
               "Mesh beside the model file: Gmsh .msh, Abaqus or CalculiX .inp, Nastran .bdf. Its axes are the body's."),
-          optional(
-              "reduced", text("a file of `hersey reduce`", "conrod.h5"),
-              "Reduced body beside the model file, in place of a mesh: its frames come with it by their names, and "
-              "its material, modes and units are those it was made with."),
+          optional("reduced", text("a file of `hersey reduce`", "conrod.h5"),
+                   "Reduced body beside the model file, instead of a mesh: its frames come with it by their names, and "
+                   "its material, modes and units are those it was made with."),
           optional("length_unit", quantity("m", "1 mm", Range::positive()), "What a length of 1 in the mesh means.",
                    "must be given with `mesh`"),
           optional("part", text("a part of the mesh file", "Block"),
@@ -88,7 +87,7 @@ TypePtr flexible_format() {
           defaulted("form", choice(form_words), "modal", "What deforms."),
           defaulted("strain", choice(strain_words), "small", "How displacements strain the body."),
           defaulted("modes", integer(10, {.low = 0, .high = 1000}), "10",
-                    "How many vibrations with all frames held, those of lowest frequency, add to the static shapes."),
+                    "How many vibrations with all frames fixed, those of lowest frequency, add to the static shapes."),
           optional("highest_frequency", quantity("Hz", "5 kHz", Range::positive()),
                    "Vibrations above this frequency are left out.", "no limit"),
           optional("load_surfaces", list("surfaces or sets of nodes", text("a surface or a set of nodes", "big_end")),

@@ -26,9 +26,9 @@ TypePtr frames_format() {
              {
                  optional("origin", vector("m", "0 50 0 mm"), "From the body's origin.",
                           "0 0 0 m; with `nodes`, the centre of their faces"),
-                 optional("rotation", rotation_format(), "Turns the frame's axes from the body's.", "none"),
+                 optional("rotation", rotation_format(), "Rotates the frame's axes from the body's.", "none"),
                  optional("nodes", text("a set of nodes", "big_end"),
-                          "Set of the mesh's nodes that the frame of a flexible body stands on."),
+                          "Set of the mesh's nodes to which the frame of a flexible body is attached."),
                  optional("connection", choice(connection_words), "How frame and nodes hold each other.", "rigid"),
                  optional("along",
                           or_word(quantity("m", "250 mm", Range::not_negative()),
@@ -44,7 +44,7 @@ Key between_format() {
                   "second.");
 }
 
-/// What the values of a joint's coordinates, or their rates, look like: of one number and of three.
+/// Format of the values of a joint's coordinates, or of their rates: for one number and for three.
 struct ValueFormat {
   std::string unit, example, three, text;
 };
@@ -85,7 +85,7 @@ Key initial_key(mbd::JointType type) {
       "initial", object("initial values of coordinates", std::move(values)), "{}",
       "Where the joint starts, and how fast. Values given are kept; those left out start from 0 and move where loops, "
       "drives and couplings ask for it. Values that do not fit together are moved by the least that makes them fit, "
-      "and told, if that is at most 1e-3 (rad, of the machine's size, of the largest rate); otherwise refused.");
+      "and reported, if that is at most 1e-3 (rad, of the machine's size, of the largest rate); otherwise refused.");
 }
 
 Key guess_key(mbd::JointType type) {
@@ -98,11 +98,11 @@ Key guess_key(mbd::JointType type) {
       "a loop can close. Not kept.");
 }
 
-/// What the model file says of a joint type; its coordinates follow from the type.
+/// Format of a joint type in the model file; its coordinates follow from the type.
 struct JointFormat {
   mbd::JointType type;
   std::string text;
-  std::string axis = {};  ///< what its axis is; empty: it has none
+  std::string axis = {};  ///< description of its axis; empty: it has none
   std::vector<Key> more = {};
 };
 
@@ -118,14 +118,15 @@ std::vector<JointFormat> joint_formats() {
       {spherical, "a ball; coordinate `orientation` (a rotation vector)"},
       {planar, "motion in a plane; coordinates `x`, `y`, `rotation`", "Normal of the plane in the inboard frame."},
       {universal,
-       "a cross (Cardan) joint between shafts along `axis`: the cross turns about the first of the two axes normal to "
+       "a cross (Cardan) joint between shafts along `axis`: the cross rotates about the first of the two axes normal "
+       "to "
        "it in the inboard frame (x for z, y for x, z for y) and about the second in the outboard frame; coordinates "
        "`rotation_1`, `rotation_2`",
        "Axis of the shafts in the inboard frame."},
       {screw,
        "rotation about an axis with travel along it; coordinate `rotation`",
        "Axis of the thread in the inboard frame.",
-       {required("lead", quantity("m", "5 mm"), "Travel per turn, right-handed where positive.")}},
+       {required("lead", quantity("m", "5 mm"), "Travel per revolution, right-handed where positive.")}},
       {free, "all six motions; coordinates `position`, `orientation`"},
   };
 }
@@ -146,21 +147,19 @@ TypePtr bodies_format() {
                  defaulted("zx", moment, "0", "Element zx."),
              });
   const TypePtr frames = frames_format();
-  const TypePtr body =
-      object("a body",
-             {
-                 optional("mass", quantity("kg", "5 kg", Range::not_negative()),
-                          "Mass; 0 where joints, drives, dampers or films hold the body."),
-                 optional("flexible", flexible_format(),
-                          "The body deforms: its mesh takes the place of mass, centre and inertia."),
-                 optional("beam", beam_format(),
-                          "The body is a beam: section and material take the place of mass, centre and inertia."),
-                 defaulted("inertia", inertia, "{}", "Inertia matrix about the centre of mass, body axes."),
-                 defaulted("centre_of_mass", vector("m", "0 48 0 mm"), "0 0 0 m", "From the body's origin, body axes."),
-                 optional("frames", frames, "Frames fixed on the body; `body` alone names the body's own frame."),
-                 optional("shapes", shapes_format(), "What the report draws of it, and what `contacts` name.",
-                          "lines between its joints; of a flexible body or beam, its surface"),
-             });
+  const TypePtr body = object(
+      "a body",
+      {
+          optional("mass", quantity("kg", "5 kg", Range::not_negative()),
+                   "Mass; 0 where joints, drives, dampers or films hold the body."),
+          optional("flexible", flexible_format(), "The body deforms: its mesh replaces mass, centre and inertia."),
+          optional("beam", beam_format(), "The body is a beam: section and material replace mass, centre and inertia."),
+          defaulted("inertia", inertia, "{}", "Inertia matrix about the centre of mass, body axes."),
+          defaulted("centre_of_mass", vector("m", "0 48 0 mm"), "0 0 0 m", "From the body's origin, body axes."),
+          optional("frames", frames, "Frames fixed on the body; `body` alone names the body's own frame."),
+          optional("shapes", shapes_format(), "What the report draws of it, and what `contacts` name.",
+                   "lines between its joints; of a flexible body or beam, its surface"),
+      });
   const TypePtr ground =
       object("ground", {optional("frames", frames, "Frames fixed in space."),
                         optional("shapes", shapes_format(), "What the report draws of it, and what `contacts` name.")});

@@ -5,9 +5,9 @@ namespace hersey::model {
 
 TypePtr shapes_format() {
   const TypePtr size = quantity("m", "20 mm", Range::positive());
-  const TypePtr place = vector("m", "0 140 0 mm");
-  const std::vector<Key> line = {defaulted("from", place, "0 0 0 m", "Centre of one end, body axes."),
-                                 required("to", place, "Centre of the other end."),
+  const TypePtr position = vector("m", "0 140 0 mm");
+  const std::vector<Key> line = {defaulted("from", position, "0 0 0 m", "Centre of one end, body axes."),
+                                 required("to", position, "Centre of the other end."),
                                  required("diameter", size, "Its diameter.")};
   const TypePtr rotation =
       object("an axis and an angle",
@@ -21,18 +21,18 @@ TypePtr shapes_format() {
               {
                   {"sphere",
                    "a ball",
-                   {defaulted("centre", place, "0 0 0 m", "From the body's origin, body axes."),
+                   {defaulted("centre", position, "0 0 0 m", "From the body's origin, body axes."),
                     required("diameter", size, "Its diameter.")}},
                   {"cylinder", "a solid cylinder with flat ends", line},
                   {"capsule", "a cylinder with round ends, which reach half the diameter further", line},
                   {"box",
                    "a block",
-                   {defaulted("centre", place, "0 0 0 m", "From the body's origin, body axes."),
+                   {defaulted("centre", position, "0 0 0 m", "From the body's origin, body axes."),
                     required("size", vector("m", "20 40 10 mm"), "Its edges."),
-                    optional("rotation", rotation, "Turns the edges from the body's axes.", "none")}},
+                    optional("rotation", rotation, "Rotates the edges from the body's axes.", "none")}},
                   {"half_space",
                    "everything behind a plane",
-                   {defaulted("point", place, "0 0 0 m", "A point of the plane."),
+                   {defaulted("point", position, "0 0 0 m", "A point of the plane."),
                     required("normal", axis_format(),
                              "Points out of it: x, y, z or three numbers, whose length does not matter.")}},
                   {"faces",
@@ -44,7 +44,7 @@ TypePtr shapes_format() {
                              "Beside the model file: STL, text or binary, or a mesh of solids (.msh, .inp, .bdf), "
                              "whose outer surface is taken."),
                     defaulted("unit", quantity("m", "1 mm", Range::positive()), "1 mm", "What a length of 1 means."),
-                    defaulted("origin", place, "0 0 0 m", "Where the file's origin lies in the body.")}},
+                    defaulted("origin", position, "0 0 0 m", "Where the file's origin lies in the body.")}},
               }));
 }
 

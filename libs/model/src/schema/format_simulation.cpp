@@ -69,7 +69,7 @@ TypePtr simulation_format() {
               "**required** unless the analysis stays at the start"),
           defaulted("modes_about", about, "start", "The state about which `modes` looks for small motions."),
           optional("crank", reference(Refers::joint, "main"),
-                   "Revolute joint driven at a constant speed: turns angles into times, and is the report's abscissa.",
+                   "Revolute joint driven at a constant speed: converts angles to times, and is the report's abscissa.",
                    "angles cannot be used"),
           defaulted("start", quantity("s", "0 s"), "0 s", "Time at the start."),
           optional("initial_deformation", choice(initial_deformation_words),

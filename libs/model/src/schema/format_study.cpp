@@ -37,7 +37,7 @@ TypePtr study_format() {
   parameters->free_names = true;
   const TypePtr variant = any_of(
       "overrides of a variant",
-      {choice({{"unchanged", "the model as it stands"}}),
+      {choice({{"unchanged", "the unchanged model"}}),
        list("a list of overrides", text("a parameter or key path and its value", "bearings.big_end.width=20mm"))});
   const TypePtr figures = list("a list of figures", choice(study_figure_words));
   const TypePtr objective =
@@ -53,7 +53,7 @@ TypePtr study_format() {
                    "Models beside each other: each combination of parameters is run with the "
                    "overrides of every variant, written as after `--set`. `--set variant=NAME` "
                    "picks one.",
-                   "one, the model as it stands"),
+                   "one, the unchanged model"),
           defaulted("figures", figures, "[midplane_pressure, film_thickness]",
                     "Figures of the report; curves are drawn over the first parameter."),
           defaulted("plan", choice(study_plan_words), "full_factorial",
@@ -61,7 +61,7 @@ TypePtr study_format() {
           defaulted("samples", integer(128, {.low = 1, .high = 100000}), "128", "Runs of a plan that draws them."),
           defaulted("seed", integer(1, Range::not_negative()), "1", "Of what is drawn: the same seed, the same runs."),
           optional("outputs", list("a list of figures", figure_name("bearings.main.h_min")),
-                   "What is told of a study ([names](studies.md)).",
+                   "Figures reported by a study ([names](studies.md)).",
                    "those of `minimise`, `maximise` and `subject_to`; "
                    "without them a few of each bearing"),
           optional("minimise", objective, "What is to be small. Of several, the runs that none other beats in all.",

@@ -6,13 +6,13 @@
 #include "schema/profile_shapes.h"
 #include "schema/thermal_walls.h"
 
-// What the two surfaces of a bearing are like, and the grid between them.
+// Format of the two surfaces of a bearing and of the grid between them.
 namespace hersey::model {
 
 TypePtr features_format() {
   const TypePtr extent = quantity("m", "5 mm", Range::positive());
-  const Range whole_turn{.low = 0, .high = 2 * std::numbers::pi + 1e-9, .low_open = true};
-  const TypePtr arc = quantity("rad", "20 deg", whole_turn);
+  const Range full_circle{.low = 0, .high = 2 * std::numbers::pi + 1e-9, .low_open = true};
+  const TypePtr arc = quantity("rad", "20 deg", full_circle);
   const std::vector<Key> common = {
       defaulted("on", choice(feature_surface_words), "shell", "The surface it is made in."),
       defaulted("angle", quantity("rad", "90 deg"), "0 deg",
@@ -60,7 +60,7 @@ TypePtr shape_format() {
            "file", text("a file", "bore.csv"),
            "CSV file beside the model file with the columns `angle`, `z` and `opening`, units in brackets: by how "
            "much the gap is wider than that of the clearance at every combination of the angles, which lie "
-           "within one turn, and the heights.")}});
+           "within 360 deg, and the heights.")}});
   const Key on = defaulted("on", choice(profile_surface_words), "shell", "The surface that has it.");
   return list("a list of deviations from a cylinder",
               variant("a deviation from a cylinder", "profile", {on}, std::move(shapes)));
@@ -71,8 +71,8 @@ TypePtr grid_format() {
   const Key factor = defaulted("factor", number("3", {.low = 1, .high = 100}), "3",
                                "By how much cells are smaller there than far away, about.");
   const TypePtr refine = list(
-      "a list of places towards which cells get smaller",
-      variant("a place to refine", "towards", {factor},
+      "a list of regions towards which cells get smaller",
+      variant("a region to refine", "towards", {factor},
               {
                   {"edges",
                    "both edges of the bearing",

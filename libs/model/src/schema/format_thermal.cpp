@@ -57,7 +57,7 @@ TypePtr thermal_format() {
             optional("cooling", cooling_format(), "The housing gives off all heat.", "the oil cools"),
             expansion_key(false)}},
           {"film",
-           "the film's energy across and along it, with viscosity from place to place",
+           "the film's energy across and along it, with locally varying viscosity",
            {required("supply_temperature", supply_or_node,
                      "Of the oil that comes through line, holes and grooves; of a node, it follows the node."),
             optional("edge_temperature", supply_or_node, "Of the oil that edges draw in.", "that of the supply"),

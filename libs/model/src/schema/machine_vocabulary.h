@@ -9,20 +9,21 @@ namespace hersey::model {
 inline constexpr Vocabulary<fem::Connection, 2> connection_words{{
     {fem::Connection::rigid, "rigid", "the nodes follow the frame as one rigid piece"},
     {fem::Connection::average, "average",
-     "the frame follows the nodes' mean motion, and what acts on it spreads over them; on one node or a line it turns "
+     "the frame follows the nodes' mean motion, and what acts on it spreads over them; on one node or a line it "
+     "rotates "
      "with the elements around"},
 }};
 
-/// Whether every node moves.
+/// Form of a body: true if every node moves.
 inline constexpr Vocabulary<bool, 2> form_words{{
     {false, "modal", "it moves in static shapes of its frames and vibrations"},
     {true, "nodal", "every node moves; `modes` then only draw it in the report"},
 }};
 
-/// Whether parts of a mesh that nothing joins are meant.
+/// Treatment of parts of a mesh that are not connected.
 inline constexpr Vocabulary<fem::Parts, 2> parts_words{{
     {fem::Parts::one, "one", "the mesh hangs together by shared nodes or ties; anything else is a mistake"},
-    {fem::Parts::apart, "apart", "frames hold each part: a rigid one joins the parts it stands on"},
+    {fem::Parts::apart, "apart", "frames hold each part: a rigid one joins the parts it is attached to"},
 }};
 
 inline constexpr Vocabulary<mbd::Strain, 2> strain_words{{
@@ -45,7 +46,7 @@ inline constexpr Vocabulary<Axes, 2> axes_of_body_words{{
 inline constexpr Vocabulary<Analysis, 4> analysis_words{{
     {Analysis::dynamics, "dynamics", "motion under forces, integrated over time"},
     {Analysis::kinematics, "kinematics", "motion that drives prescribe completely, and the forces it takes"},
-    {Analysis::equilibrium, "static", "rest under gravity and the loads at `start`, drives held; no bearings"},
+    {Analysis::equilibrium, "static", "rest under gravity and the loads at `start`, drives locked; no bearings"},
     {Analysis::modes, "modes", "natural frequencies, damping and stability of small motions"},
 }};
 

@@ -23,7 +23,7 @@ constexpr OilGrade grade(std::string_view name, double nu40, double nu100, doubl
   return {name, 1e-6 * nu40, 1e-6 * nu100, rho15, pour + 273.15, flash + 273.15, 1e-3 * hths, source};
 }
 
-// Of a typical multigrade oil: what its polymers add is half of the viscosity, and how it goes.
+// Data of a typical multigrade oil: its polymers add half of the viscosity; exponent of the shear thinning.
 constexpr double typical_limit = 0.5, typical_exponent = 0.8;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "schema/oil_laws.h"
 
-#include "interpret/interpret.h"
+#include "interpret/context/interpret.h"
 
 namespace hersey::model {
 namespace {
@@ -87,7 +87,7 @@ std::vector<Alternative<film::ShearLaw>> shear_laws(double limit) {
         optional("limit_ratio", number("0.6", {.low = 0, .high = 1}), "mu_inf/mu0, what no shear takes.", "0"));
     keys.push_back(optional(
         "limit_viscosity", quantity("Pa.s", "6 mPa.s", Range::positive()),
-        "mu_inf in place of its ratio, at the lubricant's `temperature`; at others in the same ratio to mu0.", "0"));
+        "mu_inf instead of its ratio, at the lubricant's `temperature`; at others in the same ratio to mu0.", "0"));
     keys.push_back(optional("critical_shear_rate", quantity("1/s", "1e6 1/s", Range::positive()),
                             "Where it has begun, at every temperature.", "by the stress"));
     keys.push_back(optional("critical_stress", quantity("Pa", "10 kPa", Range::positive()),

@@ -11,7 +11,7 @@ namespace hersey::model {
 /// A temperature of oils and machines.
 [[nodiscard]] TypePtr temperature(const std::string& example);
 
-/// Laws of viscosity against pressure: the one place where the model file's formats of them are read.
+/// Laws of viscosity against pressure: the only definition of their formats in the model file.
 [[nodiscard]] const std::vector<Alternative<film::ViscosityLaw>>& viscosity_laws();
 
 /// Laws of viscosity against temperature. @param rho15  density at 15 degC, of laws for kinematic viscosities [kg/m^3]

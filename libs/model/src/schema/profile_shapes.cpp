@@ -1,6 +1,6 @@
 #include "schema/profile_shapes.h"
 
-#include "interpret/interpret.h"
+#include "interpret/context/interpret.h"
 
 namespace hersey::model {
 

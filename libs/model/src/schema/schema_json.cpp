@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = Type::Kind;
 
-// A number as the reader takes it, and a ${parameter} that may stand for any scalar.
+// A number in the reader's format, and a ${parameter}, which may replace any scalar.
 const std::string number_pattern = R"([-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?)";
 const std::string name_pattern = "^[A-Za-z][A-Za-z0-9_]*$";
 
@@ -42,7 +42,7 @@ class SchemaWriter {
     if (type.id.empty()) return inline_schema_of(type);
     const std::string id = identifier(type.id);
     if (!definitions_.contains(id)) {
-      definitions_[id] = Json();  // keeps its place in the order of first use
+      definitions_[id] = Json();  // keeps its position in the order of first use
       definitions_[id] = inline_schema_of(type);
     }
     return {{"$ref", "#/$defs/" + id}};
@@ -182,7 +182,7 @@ class SchemaWriter {
     first["use"] = schema_of(*use_);
     schema["properties"] = std::move(first);
     schema["additionalProperties"] = false;
-    // What is required may come from a template.
+    // Required keys may come from a template.
     Json whole = Json::object();
     if (!required.empty()) whole["required"] = std::move(required);
     add_groups(whole, type, keys);

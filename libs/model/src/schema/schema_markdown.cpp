@@ -227,7 +227,7 @@ class ReferenceWriter {
   }
 
   std::string page_;
-  std::map<const Type*, std::string> described_;  ///< where types used in several places are described
+  std::map<const Type*, std::string> described_;  ///< descriptions of types used several times
   bool in_functions_ = false;
 };
 

@@ -39,7 +39,7 @@ struct Key {
   std::string description;  ///< a sentence
   bool required = false;
   std::optional<std::string> default_text = {};  ///< YAML, read where the key is missing
-  std::string default_note = {};  ///< what holds where the key is missing and no fixed default can be given
+  std::string default_note = {};                 ///< the value if the key is missing and no fixed default can be given
 };
 
 /// One alternative of a variant.
@@ -49,11 +49,10 @@ struct Variant {
   std::vector<Key> keys;
 };
 
-/// What a reference names.
+/// Kind of object that a reference names.
 enum class Refers { body, frame, shape, joint, coordinate, lubricant, thermal_node };
 
-/// What may stand in one place of the model file: the one source of the reader's checks, the JSON Schema and the
-/// reference page.
+/// Type of a value in the model file: the one source of the reader's checks, the JSON Schema and the reference page.
 struct Type {
   enum class Kind {
     text,       ///< free text
@@ -68,11 +67,11 @@ struct Type {
     list,       ///< `count` items (0: any number, at least one)
     variant,    ///< mapping whose `tag` key decides which other keys it has
     part,       ///< a part of a model, checked where a template puts it in; or the use of one
-    any_of,     ///< one of `alternatives`: at most one scalar, one list, and mappings told apart by their first key
+    any_of,     ///< one of `alternatives`: at most one scalar, one list, and mappings distinguished by their first key
   };
   Kind kind = Kind::text;
-  std::string id;                  ///< name of a type that is described once and used often; else empty
-  std::string title;               ///< what the value is, with article; a quantity without it is named by its dimension
+  std::string id;     ///< name of a type that is described once and used often; else empty
+  std::string title;  ///< description of the value, with article; a quantity without it is named by its dimension
   std::vector<std::string> units;  ///< SI units of a quantity; the first one that fits is taken
   std::string example;
   Range range;
@@ -88,7 +87,7 @@ struct Type {
   std::vector<Variant> variants;                      ///< variant
   std::vector<TypePtr> alternatives;                  ///< any_of
 
-  /// What is expected here, for messages: "a length > 0, such as 45 mm".
+  /// Description of the expected value, for messages: "a length > 0, such as 45 mm".
   [[nodiscard]] std::string expectation() const;
 };
 

@@ -1,6 +1,6 @@
 #include "schema/thermal_walls.h"
 
-#include "interpret/interpret.h"
+#include "interpret/context/interpret.h"
 #include "schema/oil_laws.h"
 
 namespace hersey::model {
@@ -13,11 +13,11 @@ std::optional<double> start_of(const Value& wall) {
 
 /// A shell's own temperature: one, or over the angle.
 TypePtr temperature_around() {
-  const TypePtr in_place = object(
+  const TypePtr inline_table = object(
       "temperatures over the angle",
       {
           required("angles", list("angles", quantity("rad", "90 deg"), 0),
-                   "From the shell's x-axis towards y, ascending, within one turn; straight lines between them and "
+                   "From the shell's x-axis towards y, ascending, within 360 deg; straight lines between them and "
                    "around from the last to the first."),
           required("temperatures", list("temperatures", temperature("60 degC"), 0), "As many."),
       });
@@ -26,7 +26,7 @@ TypePtr temperature_around() {
       {required("file", text("a file", "shell.csv"),
                 "CSV file beside the model file with the columns `angle` and `temperature`, units in brackets.")});
   return any_of("a temperature such as 60 degC, or a table over the angle",
-                {temperature("60 degC"), in_place, from_file});
+                {temperature("60 degC"), inline_table, from_file});
 }
 
 Variant node_wall() {
@@ -103,7 +103,7 @@ const std::vector<Alternative<film::JournalWall>>& journal_walls() {
       {{"insulated", "no heat passes", {}}, [](const Value&) { return film::InsulatedWall{}; }},
       {{"body",
         "the mesh of the journal's body conducts the heat, steadily: its `heat` says how and where to; the journal "
-        "turns, so that heat comes to it evenly around",
+        "rotates, so that heat enters it evenly around",
         {optional("faces", text("a surface or a set of nodes", "pin"),
                   "Surface or set of nodes of the mesh that the film lies on.",
                   "those of `journal_surface`, or all faces on the bearing's cylinder"),

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "hersey/core/contract.h"
-#include "interpret/check.h"
+#include "interpret/check/check.h"
 #include "schema/schema_type.h"
 
 namespace hersey::model {
 
-/// A word of the model file and what it stands for.
+/// A word of the model file and its meaning.
 template <typename T>
 struct Meaning {
   T value;
@@ -42,16 +42,16 @@ template <typename T, std::size_t n>
   return all;
 }
 
-/// What a checked word stands for; what the first stands for where it is broken.
+/// Meaning of a checked word; that of the first word if it is broken.
 template <typename T, std::size_t n>
 [[nodiscard]] T meaning_of(const Value& word, const Vocabulary<T, n>& words) {
   if (word.broken) return words.front().value;
   const auto found = std::find_if(words.begin(), words.end(), [&](const auto& one) { return one.word == word.text; });
-  HERSEY_REQUIRE(found != words.end(), "'" + word.text + "' is a word of the format, but stands for nothing");
+  HERSEY_REQUIRE(found != words.end(), "'" + word.text + "' is a word of the format, but has no meaning");
   return found->value;
 }
 
-/// The same of the key `key` of `parent`; `otherwise` where it is missing.
+/// Meaning of the key `key` of `parent`; `otherwise` if it is missing.
 template <typename T, std::size_t n>
 [[nodiscard]] T meaning_of(const Value& parent, const std::string& key, const Vocabulary<T, n>& words, T otherwise) {
   const Value* word = parent.find(key);
@@ -78,7 +78,8 @@ template <typename T>
   return all;
 }
 
-/// What a checked mapping describes. @pre it is not broken
+/// Object described by a checked mapping.
+/// @pre it is not broken
 template <typename T>
 [[nodiscard]] T read_alternative(const Value& value, const std::vector<Alternative<T>>& alternatives) {
   for (const Alternative<T>& one : alternatives)

@@ -15,18 +15,19 @@ void persist_extreme(Archive& archive, const char* name, FilmExtreme& extreme) {
 
 }  // namespace
 
-void CycleSums::take(double t, const bearing::BearingObservation& seen, const film::FilmFields& fields) {
-  const film::FilmObservables& film = seen.film;
+void CycleSums::take(double t, const bearing::BearingObservation& observation, const film::FilmFields& fields) {
+  const film::FilmObservables& film = observation.film;
   Sample next{.power_film = film.power_film,
               .power_asperity = film.power_asperity,
               .sliding_speed = film.sliding_speed,
               .contact = fields.p_asperity,
               .moft = {film.h_min, t, film.h_min_phi, film.h_min_z},
               .pofp = {film.p_max, t, film.p_max_phi, film.p_max_z},
-              .walls = seen.walls,
+              .walls = observation.walls,
               .h = fields.thickness(),
               .p = fields.p};
-  if (seen.heat) next.hottest = {seen.heat->T_max, t, seen.heat->T_max_phi, seen.heat->T_max_z};
+  if (observation.heat)
+    next.hottest = {observation.heat->T_max, t, observation.heat->T_max_phi, observation.heat->T_max_z};
   if (is_begun_) integrate(t - cycle_.end, next);
   last_ = std::move(next);
   if (!is_begun_) begin(t);
@@ -48,7 +49,7 @@ BearingCycle CycleSums::close() {
   return closed;
 }
 
-// A cycle of no length yet, which has seen the last state.
+// Starts a cycle of zero length whose last state is known.
 void CycleSums::begin(double t) {
   const Eigen::Index n = last_.p.size();
   is_begun_ = true;
@@ -76,11 +77,11 @@ void CycleSums::compare(double t) {
   if (last_.pofp.value > cycle_.pofp.value) cycle_.pofp = last_.pofp;
   if (last_.hottest.value > cycle_.hottest.value) cycle_.hottest = last_.hottest;
   cycle_.walls = last_.walls;
-  Eigen::Index place = 0;
-  const double contact = last_.contact.maxCoeff(&place);
+  Eigen::Index node = 0;
+  const double contact = last_.contact.maxCoeff(&node);
   if (contact > cycle_.contact.value) {
     const film::Grid& grid = model_.grid;
-    const auto i = static_cast<int>(place) / grid.n_z, j = static_cast<int>(place) % grid.n_z;
+    const auto i = static_cast<int>(node) / grid.n_z, j = static_cast<int>(node) % grid.n_z;
     cycle_.contact = {contact, t, grid.phi(i), model_.L * grid.z_over_L(j)};
   }
   for (Eigen::Index k = 0; k < last_.p.size(); ++k) {

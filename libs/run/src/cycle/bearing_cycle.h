@@ -15,7 +15,8 @@ struct FilmExtreme {
   double phi = 0, z = 0;  ///< [rad, m]
 };
 
-/// One bearing over one cycle, or over a whole run that has none. Maps are over the nodes, shape (n_phi n_z).
+/// Results of one bearing over one cycle, or over a whole run without cycles. Maps are over the nodes, shape (n_phi
+/// n_z).
 struct BearingCycle {
   double begin = 0, end = 0;       ///< [s]
   double energy_film = 0;          ///< viscous dissipation [J]
@@ -23,7 +24,7 @@ struct BearingCycle {
   FilmExtreme moft, pofp;          ///< minimum oil film thickness [m], peak oil film pressure [Pa]
   FilmExtreme contact;             ///< largest contact pressure of a node [Pa]
   FilmExtreme hottest;             ///< hottest oil [K]; 0 K of a film without temperatures
-  film::WallCorrection walls;      ///< by what walls that are held were off in it
+  film::WallCorrection walls;      ///< error of quasi-steady walls in this cycle
   Eigen::VectorXd mean_contact;    ///< contact pressure p_a, mean over time [Pa]
   Eigen::VectorXd wear_load;       ///< p_a times sliding speed, mean over time [W/m^2]
   Eigen::VectorXd h_min, t_h_min;  ///< smallest film thickness [m] and when [s]
@@ -37,9 +38,9 @@ class CycleSums {
   explicit CycleSums(const film::FilmModel& model) : model_(model) {}
 
   /// The bearing at time `t`; the first call begins the first cycle.
-  void take(double t, const bearing::BearingObservation& seen, const film::FilmFields& fields);
+  void take(double t, const bearing::BearingObservation& observation, const film::FilmFields& fields);
 
-  /// The cycle that ends with the last state taken; the next one begins there.
+  /// Ends the cycle with the last state taken; the next cycle begins there.
   /// @pre a state was taken.
   [[nodiscard]] BearingCycle close();
 

@@ -9,26 +9,26 @@
 
 namespace hersey::run {
 
-/// How far a cycle of the machine repeats the one before.
+/// Difference between a cycle of the machine and the one before.
 struct CycleChange {
   int number = 0;       ///< of the cycle, from 1
   double value = 0;     ///< largest difference of a figure, over the larger one; not a number in the first cycle
   std::string largest;  ///< the figure that changed most, "film thickness of big_end"
 };
 
-/// Says when cycles end, and when they repeat each other: each bearing's smallest film thickness, peak pressure and
-/// mean friction loss, and by how much held walls were off, over their rise (plus 1 K) (model::Cycle).
+/// Detects the ends of cycles and their periodicity: compares each bearing's smallest film thickness, peak pressure and
+/// mean friction loss, and the error of its quasi-steady walls over their rise (plus 1 K) (model::Cycle).
 class CycleConvergence {
  public:
   explicit CycleConvergence(const model::Model& model) : model_(model) {}
 
-  /// Whether a cycle ends with the accepted step that ended at `t`.
+  /// True if a cycle ends with the accepted step that ended at `t`.
   [[nodiscard]] bool ends(double t) const;
 
   /// Takes the cycle that has ended, one entry per bearing.
   [[nodiscard]] CycleChange take(const std::vector<BearingCycle>& cycle);
 
-  /// Whether that cycle repeats the one before well enough to end the run.
+  /// True if that cycle repeats the one before closely enough to end the run.
   [[nodiscard]] bool converged(const CycleChange& change) const;
 
   void persist(Archive& archive);

@@ -5,8 +5,8 @@
 namespace hersey::run {
 namespace {
 
-using As = Told::As;
-using Only = Told::Only;
+using Statistic = SummaryEntry::Statistic;
+using Only = SummaryEntry::Only;
 using CycleLine = Quantity<CycleRow, model::Bearing>;
 using CycleTable = QuantityTable<CycleRow, model::Bearing>;
 
@@ -25,18 +25,18 @@ auto mean_power(double BearingCycle::*energy) {
 
 /// Four lines: the value, when and where.
 void add_extreme(const std::string& name, const char* unit, const char* text, FilmExtreme BearingCycle::*extreme,
-                 const Told& told, CycleTable& table) {
+                 const SummaryEntry& summary_entry, CycleTable& table) {
   const auto of = [extreme](double FilmExtreme::*member) {
     return [extreme, member](const CycleRow& row) { return row.cycle.*extreme.*member; };
   };
-  table.push_back({name, unit, text, of(&FilmExtreme::value), {.told = {told}}});
+  table.push_back({name, unit, text, of(&FilmExtreme::value), {.summary_entries = {summary_entry}}});
   table.push_back({name + "_time", "s", "when", of(&FilmExtreme::t)});
   table.push_back({name + "_phi", "rad", "where: bearing angle", of(&FilmExtreme::phi)});
   table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z)});
 }
 
 CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::VectorXd BearingCycle::*values,
-                   const char* note = "", std::vector<Told> told = {}) {
+                   const char* note = "", std::vector<SummaryEntry> summary_entries = {}) {
   return {name,
           unit,
           text,
@@ -47,7 +47,7 @@ CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::
                         return std::vector{bearing.film.grid.n_phi, bearing.film.grid.n_z};
                       },
                       {"../../fields/phi", "../../fields/z"}},
-           .told = std::move(told)}};
+           .summary_entries = std::move(summary_entries)}};
 }
 
 const CycleTable& cycle_quantities() {
@@ -59,32 +59,34 @@ const CycleTable& cycle_quantities() {
         {"complete", "1", "1: a cycle of the model; 0: the whole run", &CycleRow::is_complete},
     };
     add_extreme("moft", "m", "minimum oil film thickness, edges included", &C::moft,
-                {As::at_end, "minimum film thickness (MOFT)", "µm", true, Only::of_a_cycle}, lines);
+                {Statistic::at_end, "minimum film thickness (MOFT)", "µm", true, Only::of_a_cycle}, lines);
     add_extreme("pofp", "Pa", "peak oil film pressure, interpolated", &C::pofp,
-                {As::at_end, "peak film pressure (POFP)", "MPa", true, Only::of_a_cycle}, lines);
-    lines.insert(lines.end(),
-                 {{"energy_film",
-                   "J",
-                   "viscous dissipation in the film over the cycle",
-                   of_cycle(&C::energy_film),
-                   {.told = {{As::at_end, "energy lost in the film", "J"}}}},
-                  {"energy_asperity",
-                   "J",
-                   "boundary friction over the cycle",
-                   of_cycle(&C::energy_asperity),
-                   {.told = {{As::at_end, "energy lost in asperity contact", "J"}}}},
-                  {"power_film",
-                   "W",
-                   "viscous dissipation, mean over the cycle",
-                   mean_power(&C::energy_film),
-                   {.told = {{As::at_end, "mean power loss in the film", "W", false, Only::of_a_cycle}}}},
-                  {"power_asperity",
-                   "W",
-                   "boundary friction, mean over the cycle",
-                   mean_power(&C::energy_asperity),
-                   {.told = {{As::at_end, "mean power loss in asperity contact", "W", false, Only::of_a_cycle}}}}});
+                {Statistic::at_end, "peak film pressure (POFP)", "MPa", true, Only::of_a_cycle}, lines);
+    lines.insert(
+        lines.end(),
+        {{"energy_film",
+          "J",
+          "viscous dissipation in the film over the cycle",
+          of_cycle(&C::energy_film),
+          {.summary_entries = {{Statistic::at_end, "energy lost in the film", "J"}}}},
+         {"energy_asperity",
+          "J",
+          "boundary friction over the cycle",
+          of_cycle(&C::energy_asperity),
+          {.summary_entries = {{Statistic::at_end, "energy lost in asperity contact", "J"}}}},
+         {"power_film",
+          "W",
+          "viscous dissipation, mean over the cycle",
+          mean_power(&C::energy_film),
+          {.summary_entries = {{Statistic::at_end, "mean power loss in the film", "W", false, Only::of_a_cycle}}}},
+         {"power_asperity",
+          "W",
+          "boundary friction, mean over the cycle",
+          mean_power(&C::energy_asperity),
+          {.summary_entries = {
+               {Statistic::at_end, "mean power loss in asperity contact", "W", false, Only::of_a_cycle}}}}});
     add_extreme("contact", "Pa", "largest contact pressure of a node", &C::contact,
-                {As::at_end, "largest contact pressure", "MPa", true, Only::with_contact}, lines);
+                {Statistic::at_end, "largest contact pressure", "MPa", true, Only::with_contact}, lines);
     const auto of_hot_film = [](const model::Bearing& bearing) {
       return std::holds_alternative<film::ThermalModel>(bearing.heat);
     };
@@ -96,7 +98,7 @@ const CycleTable& cycle_quantities() {
           [](const CycleRow& row) { return row.cycle.hottest.value - film::zero_celsius; },
           {.note = "this and the following: of films with `thermal: {model: film}`",
            .only = of_hot_film,
-           .told = {{As::at_end, "hottest oil", "°C", true, Only::of_a_cycle}}}},
+           .summary_entries = {{Statistic::at_end, "hottest oil", "°C", true, Only::of_a_cycle}}}},
          {"T_max_time", "s", "when", [](const CycleRow& row) { return row.cycle.hottest.t; }, {.only = of_hot_film}},
          {"T_max_phi",
           "rad",
@@ -113,16 +115,17 @@ const CycleTable& cycle_quantities() {
           "by how much walls with the temperature of the cycle's mean heat were off",
           [](const CycleRow& row) { return row.cycle.walls.largest; },
           {.only = of_hot_film,
-           .told = {{As::at_end, "correction of wall temperatures", "K", false, Only::of_a_cycle}}}}});
-    const auto told_of_map = [](const char* name, const char* unit) {
-      return std::vector<Told>{{As::largest, name, unit, true, Only::with_contact}};
+           .summary_entries = {
+               {Statistic::at_end, "correction of wall temperatures", "K", false, Only::of_a_cycle}}}}});
+    const auto with_largest_of_map = [](const char* name, const char* unit) {
+      return std::vector<SummaryEntry>{{Statistic::largest, name, unit, true, Only::with_contact}};
     };
     lines.insert(lines.end(),
                  {map_line("asperity_pressure_mean", "Pa", "contact pressure, mean over the cycle", &C::mean_contact,
-                           "", told_of_map("largest mean contact pressure", "MPa")),
+                           "", with_largest_of_map("largest mean contact pressure", "MPa")),
                   map_line("wear_load", "W/m^2", "contact pressure times sliding speed, mean over the cycle",
                            &C::wear_load, "times the friction coefficient it is the mean heat of contact",
-                           told_of_map("largest wear load", "W/mm²")),
+                           with_largest_of_map("largest wear load", "W/mm²")),
                   map_line("thickness_min", "m", "smallest film thickness in the cycle", &C::h_min, "MOFT map"),
                   map_line("thickness_min_time", "s", "when", &C::t_h_min),
                   map_line("pressure_max", "Pa", "largest film pressure in the cycle", &C::p_max, "POFP map"),
@@ -132,7 +135,7 @@ const CycleTable& cycle_quantities() {
   return table;
 }
 
-// A group called fields counts its rows by itself: cycles are no instants.
+// A group called fields counts its own rows, because cycles are not instants.
 const char* const group_of_cycles = "cycles/fields/";
 
 }  // namespace
@@ -145,8 +148,9 @@ CycleMaps::CycleMaps(const model::Model& model, const model::Machine& machine, r
   }
 }
 
-void CycleMaps::take(double t, const std::vector<bearing::BearingObservation>& seen) {
-  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].take(t, seen[i], machine_.bearings[i].bearing->fields());
+void CycleMaps::take(double t, const std::vector<bearing::BearingObservation>& observation) {
+  for (std::size_t i = 0; i < sums_.size(); ++i)
+    sums_[i].take(t, observation[i], machine_.bearings[i].bearing->fields());
 }
 
 std::vector<BearingCycle> CycleMaps::close() { return write(true); }

@@ -5,7 +5,7 @@
 #include "cycle/bearing_cycle.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
-#include "record/quantity.h"
+#include "table/quantity.h"
 
 namespace hersey::run {
 
@@ -21,9 +21,9 @@ class CycleMaps {
   CycleMaps(const model::Model& model, const model::Machine& machine, results::Writer& writer);
 
   /// All bearings at an accepted state.
-  void take(double t, const std::vector<bearing::BearingObservation>& seen);
+  void take(double t, const std::vector<bearing::BearingObservation>& observation);
 
-  /// The cycle ends with the state last taken.
+  /// Ends the cycle with the state last taken.
   /// @returns one entry per bearing.
   std::vector<BearingCycle> close();
 

@@ -9,7 +9,7 @@
 namespace hersey::run {
 namespace {
 
-/// Stresses in the body's axes, which turn with it.
+/// Adds stresses in the body's axes, which rotate with it.
 void add_stress(const model::BuiltFlexible& flexible, const Eigen::VectorXd& u, fem::VtuFrame& frame) {
   const auto measure = flexible.strain == mbd::Strain::finite ? fem::StressMeasure::finite : fem::StressMeasure::small;
   const fem::Stress stress =
@@ -68,7 +68,8 @@ void DeformedMeshes::write(double t, double since_start, double slack, const Ste
     frame.positions.resize(3, nodes);
     Eigen::MatrixXd displacement(3, nodes);
     for (Eigen::Index n = 0; n < nodes; ++n) {
-      // Where the body has moved without deforming: viewers add the displacement themselves, as often as is asked.
+      // The position after a motion without deformation: viewers add the displacement themselves, with any
+      // magnification.
       displacement.col(n) = X_WB.R * u.segment<3>(3 * n);
       frame.positions.col(n) = X_WB * flexible.mesh->nodes[static_cast<std::size_t>(n)];
     }

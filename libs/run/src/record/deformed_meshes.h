@@ -7,7 +7,7 @@
 #include "hersey/fem/vtu_file.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
-#include "record/film_pressures.h"
+#include "observation/film_pressures.h"
 
 namespace hersey::run {
 
@@ -17,14 +17,14 @@ class DeformedMeshes {
  public:
   DeformedMeshes(const model::Model& model, const model::Machine& machine, const std::filesystem::path& results);
 
-  /// Writes those that are due at time `t`, `since_start` after the start of the run.
+  /// Writes the meshes that are due at time `t`, `since_start` after the start of the run.
   void write(double t, double since_start, double slack, const StepRecord& step);
 
   void persist(Archive& archive);
 
  private:
   struct Series {
-    std::size_t flexible = 0;  ///< place in Machine::flexibles
+    std::size_t flexible = 0;  ///< index in Machine::flexibles
     double every = 0;
     fem::VtuSeries files;
     FilmPressures films;

@@ -8,9 +8,9 @@
 
 #include "hersey/core/version.h"
 #include "hersey/run/assumptions.h"
-#include "march/redundancies.h"
-#include "march/start_changes.h"
-#include "record/film_surface_rows.h"
+#include "start/film_surface_rows.h"
+#include "start/redundancies.h"
+#include "start/start_changes.h"
 
 namespace hersey::run {
 namespace {
@@ -73,17 +73,19 @@ const char* const text_of_assumptions = "what decides the results: name, text";
 
 const std::vector<Attribute<StepErrors>>& step_error_attributes() {
   using E = StepErrors;
-  const auto told = [](const char* name, const char* unit) {
-    return More<E>{.told = {{Told::As::at_end, std::string("error by the step: ") + name, unit}}};
+  const auto with_summary_entry = [](const char* name, const char* unit) {
+    return More<E>{
+        .summary_entries = {{SummaryEntry::Statistic::at_end, std::string("error by the step: ") + name, unit}}};
   };
   static const std::vector<Attribute<E>> table{
       {"moft", "m", "size of the error of the smallest film thickness, estimated", &E::moft,
-       told("minimum film thickness (MOFT)", "µm")},
-      {"pofp", "Pa", "the same of the peak film pressure", &E::pofp, told("peak film pressure (POFP)", "MPa")},
-      {"max_force", "N", "of the largest film force", &E::max_force, told("largest film force", "N")},
-      {"mean_power", "W", "of the mean power loss", &E::mean_power, told("mean power loss", "W")},
+       with_summary_entry("minimum film thickness (MOFT)", "µm")},
+      {"pofp", "Pa", "the same of the peak film pressure", &E::pofp,
+       with_summary_entry("peak film pressure (POFP)", "MPa")},
+      {"max_force", "N", "of the largest film force", &E::max_force, with_summary_entry("largest film force", "N")},
+      {"mean_power", "W", "of the mean power loss", &E::mean_power, with_summary_entry("mean power loss", "W")},
       {"mean_flow", "m^3/s", "of the mean side flow, both sides", &E::mean_flow,
-       told("mean side flow, both sides", "mm³/s")},
+       with_summary_entry("mean side flow, both sides", "mm³/s")},
   };
   return table;
 }
@@ -113,8 +115,8 @@ std::vector<QuantityGroup> describe_header() {
   // The writer's own.
   add("format", "`hersey-results`", "", Kind::attribute);
   add("format_version", "1", "", Kind::attribute);
-  add("status", "how the run stands, see below", "", Kind::attribute);
-  add("message", "why it stands so", "", Kind::attribute);
+  add("status", "state of the run, see below", "", Kind::attribute);
+  add("message", "reason of this state", "", Kind::attribute);
   describe(header_attributes(), "n", root);
   add("model", text_of_model, "", Kind::constant, "text");
   add("assumptions", text_of_assumptions, "cavitation, edges, supply, clearance, grid, integrator", Kind::constant,

@@ -8,21 +8,21 @@
 
 #include "cycle/cycle_maps.h"
 #include "hersey/core/contract.h"
-#include "record/beam_record.h"
-#include "record/bearing_record.h"
-#include "record/body_record.h"
-#include "record/contact_record.h"
-#include "record/effort_record.h"
-#include "record/flexible_record.h"
-#include "record/geometry_record.h"
 #include "record/header_record.h"
-#include "record/joint_record.h"
-#include "record/mode_record.h"
 #include "record/results_page.h"
-#include "record/surface_load_record.h"
-#include "record/system_record.h"
-#include "record/thermal_record.h"
-#include "record/work_record.h"
+#include "series/beam_record.h"
+#include "series/bearing_record.h"
+#include "series/body_record.h"
+#include "series/contact_record.h"
+#include "series/effort_record.h"
+#include "series/flexible_record.h"
+#include "series/geometry_record.h"
+#include "series/joint_record.h"
+#include "series/mode_record.h"
+#include "series/surface_load_record.h"
+#include "series/system_record.h"
+#include "series/thermal_record.h"
+#include "series/work_record.h"
 
 namespace hersey::run {
 namespace {
@@ -44,7 +44,7 @@ QuantityGroup shapes_of_bodies() {
 
 QuantityGroup joint_group() {
   QuantityGroup group{.path = "/joints/<j>/", .heading = "of a joint", .quantities = {}};
-  describe_joint_place(group);
+  describe_joint_position(group);
   JointRecord::describe(group);
   return group;
 }
@@ -60,7 +60,7 @@ bool has(const QuantityGroup& group, const std::string& name) {
                      [&](const QuantityInfo& quantity) { return quantity.name == name; });
 }
 
-/// Dimensions that stand in no table are the numbers of columns, which the writer adds.
+/// Dimensions that are not in a table are the numbers of columns, which the writer adds.
 void add_dimensions(QuantityGroup& group) {
   for (std::size_t i = 0; i < group.quantities.size(); ++i) {
     const std::vector<std::string> dimensions = group.quantities[i].dimensions;
@@ -69,7 +69,7 @@ void add_dimensions(QuantityGroup& group) {
       const QuantityInfo& of = group.quantities[i];
       group.quantities.push_back({.name = name,
                                   .unit = "1",
-                                  .text = "places in its rows, counted from 0, or their names",
+                                  .text = "indices in its rows, counted from 0, or their names",
                                   .shape = "[...]",
                                   .note = "dimension of `" + of.name + "`",
                                   .kind = QuantityInfo::Kind::constant});
@@ -117,21 +117,21 @@ std::vector<QuantityInfo> quantities_of(std::string_view path) {
 
 namespace {
 
-const char* text_of(Told::As as) {
-  switch (as) {
-    case Told::As::smallest:
+const char* text_of(SummaryEntry::Statistic statistic) {
+  switch (statistic) {
+    case SummaryEntry::Statistic::smallest:
       return "smallest";
-    case Told::As::largest:
+    case SummaryEntry::Statistic::largest:
       return "largest";
-    case Told::As::largest_in_size:
+    case SummaryEntry::Statistic::largest_in_size:
       return "largest in size";
-    case Told::As::longest:
+    case SummaryEntry::Statistic::longest:
       return "longest";
-    case Told::As::mean:
+    case SummaryEntry::Statistic::mean:
       return "mean over time";
-    case Told::As::integral:
+    case SummaryEntry::Statistic::integral:
       return "integral over time";
-    case Told::As::at_end:
+    case SummaryEntry::Statistic::at_end:
       return "at the end";
   }
   HERSEY_REQUIRE(false, "every way of telling has its words");
@@ -170,7 +170,8 @@ nlohmann::ordered_json json_of(const QuantityInfo& quantity) {
                                {"text", quantity.text}};
   if (!quantity.symbol.empty()) entry["symbol"] = quantity.symbol;
   if (!quantity.note.empty()) entry["note"] = quantity.note;
-  for (const Told& told : quantity.told) entry["told"].push_back({{"name", told.name}, {"as", text_of(told.as)}});
+  for (const SummaryEntry& summary_entry : quantity.summary_entries)
+    entry["told"].push_back({{"name", summary_entry.name}, {"as", text_of(summary_entry.statistic)}});
   return entry;
 }
 
@@ -190,7 +191,7 @@ std::string cell(const std::string& text) {
   return safe;
 }
 
-/// "m^3/s" as it is printed.
+/// Unit in the form that is printed, "m³/s" for "m^3/s".
 std::string printed(std::string unit) {
   for (const auto& [from, to] : {std::pair{"^2", "²"}, std::pair{"^3", "³"}})
     for (auto at = unit.find(from); at != std::string::npos; at = unit.find(from)) unit.replace(at, 2, to);

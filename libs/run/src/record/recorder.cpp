@@ -5,9 +5,9 @@
 
 #include "hersey/core/task_pool.h"
 #include "hersey/results/reader.h"
-#include "record/geometry_record.h"
 #include "record/header_record.h"
-#include "record/work_record.h"
+#include "series/geometry_record.h"
+#include "series/work_record.h"
 
 namespace hersey::run {
 
@@ -19,7 +19,7 @@ std::filesystem::path unfinished_file(const std::filesystem::path& results) {
 
 namespace {
 
-/// Of a fixed step or an interval of output.
+/// Number of rows for a fixed step or an interval of output.
 std::size_t expected_rows(const model::Model& model) {
   const double interval =
       model.output.interval > 0 ? model.output.interval : model.simulation.step * model.output.every;
@@ -27,8 +27,8 @@ std::size_t expected_rows(const model::Model& model) {
   return rows < 1e9 ? static_cast<std::size_t>(std::max(rows, 0.0)) : 0;
 }
 
-/// The file to write. Results appear under their own name when all that is written before the first step is in them,
-/// so that whoever finds them finds the model; until then those that they replace stay.
+/// Returns the file to write. Results appear under their own name when everything that is written before the first step
+/// is in them, so that they always contain the model; until then the results that they replace remain.
 std::filesystem::path new_file(const Options& options, bool resumes) {
   if (!resumes && !options.overwrite && std::filesystem::exists(options.results))
     throw results::FileExists(options.results);
@@ -59,11 +59,11 @@ Hidden hidden_parts(const model::Machine& machine) {
   return hidden;
 }
 
-std::vector<std::size_t> places_of_shown(const std::vector<bool>& hidden) {
-  std::vector<std::size_t> places;
+std::vector<std::size_t> indices_of_shown(const std::vector<bool>& hidden) {
+  std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < hidden.size(); ++i)
-    if (!hidden[i]) places.push_back(i);
-  return places;
+    if (!hidden[i]) indices.push_back(i);
+  return indices;
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ Recorder::Recorder(const model::Model& model, const model::Machine& machine, con
 void Recorder::declare() {
   const mbd::MechanismSpec& spec = machine_.mechanism->spec();
   const Hidden hidden = hidden_parts(machine_);
-  shown_bodies_ = places_of_shown(hidden.bodies);
-  shown_joints_ = places_of_shown(hidden.joints);
+  shown_bodies_ = indices_of_shown(hidden.bodies);
+  shown_joints_ = indices_of_shown(hidden.joints);
   system_.emplace(model_, writer_);
   bodies_.reserve(shown_bodies_.size());
   joints_.reserve(shown_joints_.size());
@@ -105,14 +105,14 @@ void Recorder::declare() {
 }
 
 void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
-  const mbd::Observation& seen = step.mechanism;
+  const mbd::Observation& observation = step.mechanism;
   system_->append({model_, step, energy});
-  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].append(seen.bodies[shown_bodies_[i]]);
-  for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i].append(seen.joints[shown_joints_[i]]);
-  efforts_->append(seen);
-  for (const FlexibleRecord& body : flexibles_) body.append(seen);
-  surface_loads_->append(seen);
-  for (const BeamRecord& beam : beams_) beam.append(seen);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].append(observation.bodies[shown_bodies_[i]]);
+  for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i].append(observation.joints[shown_joints_[i]]);
+  efforts_->append(observation);
+  for (const FlexibleRecord& body : flexibles_) body.append(observation);
+  surface_loads_->append(observation);
+  for (const BeamRecord& beam : beams_) beam.append(observation);
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].append(step.contacts[i]);
   for (std::size_t i = 0; i < bearings_.size(); ++i) bearings_[i].append(step.bearings[i]);
   if (thermal_) thermal_->append({model_, step.network});

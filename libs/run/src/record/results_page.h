@@ -62,7 +62,7 @@ axes, those of bearings in the bearing's axes: z along the axis, angle φ from x
 ([definitions and signs](conventions.md)).
 )md";
 
-/// What stands behind them.
+/// The text after the tables.
 inline constexpr const char* results_page_end = R"md(
 Cycles are made of every accepted step, whether its row is stored or not. Energies and means are by the trapezoidal rule.
 
@@ -72,7 +72,7 @@ Extremes run over all stored instants: the *minimum film thickness (MOFT)* is th
 pressure (POFP)* the largest `p_max`, the *largest load* the longest `force`. Means are over time by the trapezoidal
 rule. Values *at the end* are the last row. The *worst* balance error is the one largest in size; the *residual power of the
 equations of motion* is also given as a share of the largest of all powers in the run. *Unexplained energy* is that at the end of the run, its share one of `available`; *energy from nowhere* has been gained by steps without anything that put it in;
-of a film, the integral of `power_error` over that of `power_film` and `power_asperity`. A page thins long series and many fields (it says so), and tells a
+of a film, the integral of `power_error` over that of `power_film` and `power_asperity`. A page thins long series and many fields (it says so), and shows a
 field to 1/131068 of its range at each instant; the
 summary never does.
 
@@ -82,7 +82,7 @@ summary never does.
 |---|---|
 | `completed` | the run reached its end (or settled) |
 | `stopped` | ended on request (Ctrl-C); everything up to then is valid |
-| `failed` | ended without an answer; `message` tells why, and what is in the file up to then is valid |
+| `failed` | ended without an answer; `message` gives the reason, and what is in the file up to then is valid |
 | `running` | under way; or the program was killed, or the disk was full, before it could say more |
 
 Rows are flushed together, at most every half second while a run goes on, less often where a flush of thousands of series would take
@@ -120,7 +120,7 @@ and the other one ends with 2 and the writing process's number. Reading is free 
 | every dataset and attribute is in the tables with its unit, and every line of them in some run | `results_file_test.py: test_every_dataset_is_in_the_tables_with_its_unit_and_text`, `test_every_line_of_the_tables_is_in_some_run` |
 | this page is made from the tables | `libs/run/test/quantities_test.cpp: CommittedReferenceOfResults_IsFresh` |
 | the same bits for any number of threads, of the program and of BLAS | `results_file_test.py: test_results_are_the_same_for_any_number_of_..._threads` |
-| a full disk is told and costs the unflushed rows only | `crash_test.cpp: FullDisk_IsToldAndKeepsFlushedRows` |
+| a full disk is reported and costs the unflushed rows only | `crash_test.cpp: FullDisk_IsReportedAndKeepsFlushedRows` |
 | results appear with their model; a run that could not begin leaves nothing | `libs/run/test/resume_test.cpp: ResultsAppear_WithTheirModel` |
 | closed standard streams leave results alone | `tests/cli/cli_test.py: test_closed_standard_streams_leave_results_alone` |
 | compared runs have names of their own | `libs/report/test/run_names_test.cpp`, `cli_test.py: test_compared_runs_stand_under_their_own_names` |

@@ -8,7 +8,7 @@
 #include "hersey/bearing/clearance.h"
 #include "hersey/film/cavitated_shear.h"
 #include "hersey/model/plausibility.h"
-#include "march/coarser_run.h"
+#include "record/coarser_run.h"
 
 namespace hersey::run {
 
@@ -111,8 +111,8 @@ bool RunRecord::are_fields_due(double t, double slack) {
 
 namespace {
 
-/// Over how much of the gap the cavitated film is sheared, and what the other choice would give; empty where both give
-/// the same.
+/// States over how much of the gap the cavitated film is sheared, with the result of the other choice; empty if both
+/// give the same.
 std::string cavitated_shear(const film::FilmModel& film, const BearingSummary& bearing) {
   const double change = bearing.mean_power_other_shear - bearing.mean_power_film;
   if (!(bearing.mean_power_film > 0) || change == 0) return "";
@@ -135,11 +135,11 @@ void RunRecord::summarise(Summary& summary) const {
   for (std::size_t i = 0; i < extremes_.size(); ++i) {
     BearingSummary bearing = extremes_[i].summary();
     const model::Bearing& plan = model_.bearings[i];
-    bearing.doubts = model::doubts_of_film(plan.validity, bearing.T_max, bearing.pofp - plan.film.p_cav);
-    for (std::string& doubt : model::doubts_of_surfaces(plan, bearing.pofp, bearing.moft))
-      bearing.doubts.push_back(std::move(doubt));
-    for (std::string& doubt : model::doubts_of_turning(plan, bearing.turned, bearing.travelled))
-      bearing.doubts.push_back(std::move(doubt));
+    bearing.warnings = model::film_warnings(plan.validity, bearing.T_max, bearing.pofp - plan.film.p_cav);
+    for (std::string& warning : model::surface_warnings(plan, bearing.pofp, bearing.moft))
+      bearing.warnings.push_back(std::move(warning));
+    for (std::string& warning : model::rotation_warnings(plan, bearing.turned, bearing.travelled))
+      bearing.warnings.push_back(std::move(warning));
     bearing.cavitated_shear = cavitated_shear(plan.film, bearing);
     summary.bearings.push_back(std::move(bearing));
   }

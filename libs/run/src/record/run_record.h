@@ -6,21 +6,21 @@
 #include <vector>
 
 #include "cycle/cycle_convergence.h"
+#include "cycle/settling.h"
 #include "hersey/core/archive.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/run/options.h"
 #include "hersey/run/summary.h"
-#include "march/settling.h"
+#include "observation/energy_balance.h"
+#include "observation/extremes.h"
 #include "record/deformed_meshes.h"
-#include "record/energy_balance.h"
-#include "record/extremes.h"
 #include "record/recorder.h"
 
 namespace hersey::run {
 
-/// What the accepted steps of a run leave behind: rows and fields in the results file, deformed meshes, cycles,
-/// extremes for the summary. Says when a run has settled or repeats itself.
+/// Collects the accepted steps of a run: rows and fields in the results file, deformed meshes, cycles, extremes for the
+/// summary. Detects that a run has settled or is periodic.
 class RunRecord {
  public:
   /// @param start, resumes  Recorder
@@ -31,31 +31,31 @@ class RunRecord {
   /// The start of the run, then every accepted step.
   void take(const StepRecord& step);
   void declare_cost(const Work& work);
-  /// Puts into the file what waits in memory.
+  /// Writes the rows that wait in memory to the file.
   void flush() { recorder_.flush(); }
-  /// Time of the row that was handed to the file last [s]; none since the run was begun or resumed.
+  /// Time of the row last passed to the file [s]; none since the run was begun or resumed.
   [[nodiscard]] std::optional<double> last_row() const { return last_row_; }
   void write_modes(const solver::State& state, const solver::Modes& found) { recorder_.write_modes(state, found); }
   void finish(results::Status status, const std::string& message, double wall_time, const Work& work);
 
-  /// Whether a cycle of the machine ends with the accepted step that ended at `t`.
+  /// True if a cycle of the machine ends with the accepted step that ended at `t`.
   [[nodiscard]] bool ends_cycle(double t) const { return cycles_.ends(t); }
-  /// Nothing changes any more, or cycle repeats cycle: the run ends with the step last taken.
+  /// True if nothing changes any more, or cycles repeat each other: the run ends with the step last taken.
   [[nodiscard]] bool ends_run() const { return settled_ || repeats_; }
-  /// What to say of that, or of cycles that did not repeat, when the run ends at `t`; empty where there is nothing.
+  /// Message about this end, or about cycles that did not repeat, when the run ends at `t`; may be empty.
   [[nodiscard]] std::string ending(double t) const;
 
   /// Smallest film thickness so far of all bearings [m].
   [[nodiscard]] double moft() const;
-  /// What to say of films of smooth surfaces that all but touch, where a run finds no further step; empty where none
-  /// do.
+  /// Message about films of smooth surfaces that almost touch, for a run that finds no further step; empty if there are
+  /// none.
   [[nodiscard]] std::string thin_films() const;
-  /// Since the start of the run.
+  /// Energy balance since the start of the run.
   [[nodiscard]] const EnergySummary& energy() const { return energy_.sums(); }
-  /// The figures of all steps taken.
+  /// Fills in the figures of all steps taken.
   void summarise(Summary& summary) const;
 
-  /// Writes what the steps have done to each bearing's figures. Before finish().
+  /// Writes the errors that the steps cause in each bearing's figures. To be called before finish().
   /// @param coarse  summary of the run with steps twice as long
   void write_step_errors(const Summary& coarse);
 
@@ -76,7 +76,7 @@ class RunRecord {
   std::vector<BearingExtremes> extremes_;
   EnergyBalance energy_;
   int steps_ = 0, newton_iterations_ = 0;
-  std::vector<StepErrors> step_errors_;  ///< of the bearings, where asked for
+  std::vector<StepErrors> step_errors_;  ///< errors for each bearing, if requested
   double step_error_ = 0;                ///< largest of a step
   double constraint_drift_ = 0, largest_power_ = 0, largest_error_ = 0;
   CycleChange last_cycle_;

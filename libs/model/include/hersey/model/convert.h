@@ -19,12 +19,13 @@ struct Conversion {
   std::vector<Change> changes;  ///< in the order of the file; empty: `text` is as it was given
 };
 
-/// A model file of an earlier version, brought up to date. Only what has changed is touched: comments, order and layout
-/// stay. What is wrong for other reasons stays wrong.
+/// Converts a model file of an earlier version. Only outdated parts are changed: comments, order and layout stay, and
+/// so do other faults.
+///
 ///
 /// @param text  of the model file
 /// @param file  names it in faults
-/// @throws InputError where the text is no YAML.
+/// @throws InputError if the text is not YAML.
 /// @verified_by convert_test.cpp
 [[nodiscard]] Conversion converted(const std::string& text, const std::string& file);
 

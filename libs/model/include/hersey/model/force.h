@@ -14,8 +14,8 @@
 #include "hersey/model/function.h"
 #include "hersey/model/names.h"
 
-/// The section `forces`. What acts between two frames (`from`, `to`) or on a joint coordinate (`on`) makes itself:
-/// nothing else has to know which it is.
+/// The section `forces`. Data of a force between two frames (`from`, `to`) or on a joint coordinate (`on`) construct
+/// the force themselves: no other code depends on its kind.
 namespace hersey::model {
 
 /// A force [N] or torque [N m] on a body, at the origin of `at`.
@@ -33,7 +33,7 @@ struct SpringDamper {
   double damping = 0;               ///< [N s/m], >= 0
   double free_length = 0;           ///< [m], >= 0
   std::optional<Function> tension;  ///< further pull [N] over the length [m]
-  /// A law of its own for each machine.
+  /// Constructs a law for one machine.
   [[nodiscard]] std::shared_ptr<mbd::TwoBodyForce> made() const {
     return std::make_shared<mbd::SpringDamper>(stiffness, damping, free_length, tension ? tension->value : nullptr);
   }
@@ -52,7 +52,7 @@ struct CoordinateSpring {
 struct Bushing {
   FrameName from, to;
   Matrix6 stiffness = Matrix6::Zero(), damping = Matrix6::Zero();  ///< symmetric, positive semidefinite
-  /// A law of its own for each machine.
+  /// Constructs a law for one machine.
   [[nodiscard]] std::shared_ptr<mbd::TwoBodyForce> made() const {
     return std::make_shared<mbd::Bushing>(stiffness, damping);
   }
@@ -63,7 +63,7 @@ struct JointFriction {
   double coulomb = 0;           ///< [N m] or [N], >= 0
   double viscous = 0;           ///< [N m s/rad] or [N s/m], >= 0
   double transition_speed = 0;  ///< [rad/s] or [m/s], > 0
-  /// A law of its own for each machine, with its own memory.
+  /// Constructs a law, with its own memory, for one machine.
   [[nodiscard]] std::shared_ptr<mbd::CoordinateForce> made() const {
     return std::make_shared<mbd::JointFriction>(coulomb, viscous, transition_speed);
   }
@@ -75,7 +75,7 @@ struct SpeedControl {
   double proportional = 0;  ///< [N m s/rad] or [N s/m], >= 0
   double integral = 0;      ///< [N m/rad] or [N/m], >= 0
   double limit = 0;         ///< [N m] or [N], > 0; infinity for none
-  /// A law of its own for each machine, with its own memory.
+  /// Constructs a law, with its own memory, for one machine.
   [[nodiscard]] std::shared_ptr<mbd::CoordinateForce> made() const {
     return std::make_shared<mbd::SpeedController>(speed.value, proportional, integral, limit);
   }
@@ -98,21 +98,21 @@ struct Force {
   std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, JointFriction, SpeedControl> data;
   SourcePosition position;
 
-  /// Its data where it is a T, null otherwise.
+  /// Data of the force if it is a T, null otherwise.
   template <class T>
   [[nodiscard]] const T* as() const {
     return std::get_if<T>(&data);
   }
 };
 
-/// A function of time that a force follows, and how it is told.
+/// A function of time that a force follows, with its description.
 template <class F>
 struct ForceFunction {
   F* function;
   std::string unit, text;  ///< "N", "force gas"
 };
 
-/// What a force follows over time; not laws over a length or an angle.
+/// Returns the functions of time of a force; not its laws over a length or an angle.
 [[nodiscard]] std::vector<ForceFunction<Function>> functions_of(Force& force);
 [[nodiscard]] std::vector<ForceFunction<const Function>> functions_of(const Force& force);
 

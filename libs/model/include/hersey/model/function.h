@@ -11,9 +11,9 @@
 
 namespace hersey::model {
 
-/// What a function of the model file depends on.
+/// Variable on which a function of the model file depends.
 struct Variable {
-  enum class Kind { time, coordinate, rate, argument };  ///< argument: what the function's place says, a length, ...
+  enum class Kind { time, coordinate, rate, argument };  ///< argument: given by the function's key, a length, ...
   Kind kind = Kind::time;
   std::string joint;       ///< empty for time
   std::string coordinate;  ///< "rotation", "translation", "x", "y"; empty for time
@@ -27,7 +27,7 @@ struct Function {
   SourcePosition position;
   std::string path;  ///< key path, e.g. "forces.gas.magnitude"
 
-  /// Whether it reads nothing, not even the time.
+  /// True if it reads no variable, not even the time.
   [[nodiscard]] bool is_constant() const { return variables.empty(); }
 };
 

@@ -42,7 +42,7 @@ struct BuiltFlexible {
   std::shared_ptr<mbd::ModalBody> body;
   std::shared_ptr<const fem::Mesh> mesh;
   Eigen::MatrixXd shapes;                     ///< displacements of the nodes per amplitude, shape (3 nodes, shapes)
-  std::vector<double> frequencies;            ///< with all frames held [Hz]
+  std::vector<double> frequencies;            ///< with all frames fixed [Hz]
   std::vector<fem::SolidMaterial> materials;  ///< of the mesh's elements; none: unknown
   mbd::Strain strain = mbd::Strain::small;
   std::vector<fem::StaticError> static_errors;  ///< of the surfaces that carry load
@@ -52,7 +52,7 @@ struct BuiltFlexible {
 /// A pressure or force on the mesh of a flexible body: `count` nodal loads from `first` on.
 struct BuiltSurfaceLoad {
   std::string name;
-  std::size_t flexible = 0;  ///< place in Machine::flexibles
+  std::size_t flexible = 0;  ///< index in Machine::flexibles
   std::size_t first = 0, count = 0;
 };
 

@@ -33,9 +33,9 @@
 #include "hersey/model/study_settings.h"
 #include "hersey/solver/fixed_point_iteration.h"
 
-/// The model file as checked, plain data: SI units, names resolved, nothing built yet.
+/// The checked model file as plain data: SI units, names resolved, nothing built yet.
 ///
-/// Everything that has a name in the file keeps it and its position, so that a fault found later (a gap closed at the
+/// Everything that has a name in the file keeps it and its location, so that a fault found later (a gap closed at the
 /// start, a table that does not cover the run) can point at the line that causes it.
 namespace hersey::model {
 
@@ -44,21 +44,21 @@ struct Frame {
   Pose X_BF;  ///< pose of the frame in its body
   SourcePosition position;
   // On a flexible body
-  std::vector<int> nodes;  ///< of its mesh that the frame stands on; of a beam, the one
+  std::vector<int> nodes;  ///< nodes of its mesh to which the frame is attached; of a beam, the single one
   fem::Connection connection = fem::Connection::rigid;
 };
 
-/// How a body conducts heat and expands.
+/// Heat conduction and thermal expansion of a body.
 struct BodyHeat {
   fem::ThermalMaterial material;  ///< of all of its elements; expansion 0: it keeps its shape
   double T_reference = 293.15;    ///< at which it has the shape of its mesh [K]
   fem::ThermalSurroundings surroundings;
-  /// Place in surroundings.cooled of all outer faces that nothing else names; those that films lie on are not cooled.
+  /// Index in surroundings.cooled of all outer faces that are not named elsewhere; faces with films are not cooled.
   std::optional<std::size_t> rest;
-  std::vector<int> fixed;  ///< nodes that keep their places as it expands; none: it expands freely
+  std::vector<int> fixed;  ///< nodes that are fixed as it expands; none: it expands freely
 };
 
-/// How a body deforms.
+/// Elastic properties of a body.
 struct Flexible {
   std::shared_ptr<const fem::Mesh> mesh;            ///< in metres; null where the file is broken
   std::shared_ptr<const fem::ReducedBody> reduced;  ///< read from a file, with its mesh; null: `mesh` is to be reduced
@@ -66,7 +66,7 @@ struct Flexible {
   fem::Parts parts = fem::Parts::one;               ///< of the mesh
   bool nodal = false;                               ///< a displacement of every node, not of shapes
   mbd::Strain strain = mbd::Strain::small;          ///< finite: of nodal bodies
-  int modes = 10;                                   ///< with all frames held
+  int modes = 10;                                   ///< with all frames fixed
   std::vector<std::string> load_surfaces;           ///< surfaces or sets of nodes
   double static_error = 0.01;                       ///< of their displacements
   int load_harmonics = 4;
@@ -106,7 +106,8 @@ struct Body {
   std::vector<Frame> frames;
   std::vector<mbd::Shape> shapes;
   std::vector<DeformingFaces> faces;
-  std::optional<Flexible> flexible;  ///< then mass, centre and inertia are those of its mesh, and each frame has nodes
+  std::optional<Flexible> flexible;  ///< if set, mass, centre and inertia are those of its mesh, and each frame has
+                                     ///< nodes
   std::optional<Beam> beam;          ///< the same
   SourcePosition position;
 };
@@ -125,7 +126,7 @@ struct Joint {
   JointType type = JointType::revolute;
   FrameName inboard, outboard;
   Vector3 axis = Vector3::UnitZ();    ///< unit vector in the inboard frame; planar: normal of the plane
-  double lead = 0;                    ///< of a screw: travel per turn [m], not 0
+  double lead = 0;                    ///< of a screw: travel per revolution [m], not 0
   std::vector<InitialValue> initial;  ///< only those given, and kept
   std::vector<InitialValue> guess;    ///< of positions, where the assembly begins to look; the others from 0
   SourcePosition position;
@@ -186,14 +187,14 @@ struct Thermal {
   std::vector<SourcePosition> positions;  ///< of its nodes
 };
 
-/// How a bearing's film is heated.
+/// Heating model of a bearing's film.
 using Heat = std::variant<std::monostate, bearing::GlobalHeat, film::ThermalModel>;
 
-/// What rings, free journals and nodes of the thermal network do in a simulation.
+/// Treatment of rings, free journals and nodes of the thermal network in a simulation.
 enum class ThermalWalls {
-  transient,   ///< warm as their heat capacities let them
-  cycle_mean,  ///< keep their temperatures over a cycle and then take those of its mean heat
-  frozen,      ///< keep those they begin with
+  transient,   ///< temperatures follow from heat capacities
+  cycle_mean,  ///< constant over a cycle, then set to the steady temperatures of its mean heat
+  frozen,      ///< constant at their initial values
 };
 
 enum class CouplingScheme { monolithic, partitioned };
@@ -205,7 +206,7 @@ struct Coupling {
   int max_iterations = 50;                                                 ///< partitioned: exchanges per step
 };
 
-/// What acts on a bearing that is looked at by itself. Either the load or the position is given.
+/// Conditions of a single bearing without a machine. Either the load or the position is given.
 struct OperatingPoint {
   double journal_speed = 0,
          shell_speed = 0;      ///< about the bearing's axis [rad/s]; of smooth surfaces at rest their sum is not 0
@@ -215,14 +216,14 @@ struct OperatingPoint {
   double eccentricity_angle = 0;             ///< direction of the journal's position, from x towards y [rad]
   double radial_velocity = 0;     ///< of the journal's centre in that direction [m/s]; 0 where a load is given
   double tilt_x = 0, tilt_y = 0;  ///< slope of the journal's axis towards x and y
-  double journal_angle = 0;       ///< by which the journal stands turned [rad]
+  double journal_angle = 0;       ///< rotation of the journal [rad]
   SourcePosition position;
 };
 
 /// A bearing's surface that lies on the mesh of its flexible body.
 struct DeformingSurface {
   std::shared_ptr<const fem::FilmSurface> surface;  ///< in the axes of the bearing's frame; never null
-  std::optional<int> modes;  ///< film modes that the body keeps of it at most; unset: by its form
+  std::optional<int> modes;  ///< largest number of film modes of the body for this surface; unset: by its form
   SourcePosition position;
 };
 
@@ -235,7 +236,8 @@ struct Bearing {
   std::optional<bearing::WallExpansion> expansion;  ///< of the walls, whatever heats the film; unset: they keep size
   double growth = 0;     ///< of the clearance of a film with one given temperature: expansion at that [m]
   OilValidity validity;  ///< of its oil
-  std::optional<double> permissible_pressure;  ///< that its lining bears [Pa]; unset: what is usual in engines
+  std::optional<double> permissible_pressure;  ///< permissible pressure of its lining [Pa]; unset: the usual value in
+                                               ///< engines
   std::vector<Function> feature_pressures;     ///< of each of film.features [Pa], over time or the crank's rotation
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;
@@ -243,7 +245,7 @@ struct Bearing {
   std::optional<DeformingSurface> shell_surface, journal_surface;  ///< unset: rigid
   /// On the mesh of the shell's body, of a shell whose wall is that body (film::BodyWall); else null.
   std::shared_ptr<const fem::FilmSurface> heated_shell;
-  /// Likewise of the journal's body, of a journal whose wall is that body (film::BodyJournal); else null.
+  /// The surface of the journal's body, for a journal whose wall is that body (film::BodyJournal); else null.
   std::shared_ptr<const fem::FilmSurface> heated_journal;
   std::optional<OperatingPoint> operating_point;
   SourcePosition position;
@@ -277,7 +279,7 @@ struct ErrorControl {
   double largest = 0;       ///< [s]
 };
 
-/// What a run computes.
+/// Kind of analysis of a run.
 enum class Analysis {
   dynamics,     ///< motion under forces, integrated over time
   kinematics,   ///< motion that drives prescribe completely, and the forces it takes
@@ -293,10 +295,10 @@ enum class ModesAbout {
   end,
 };
 
-/// How bodies that deform start.
+/// Initial state of bodies that deform.
 enum class InitialDeformation {
   none,      ///< undeformed
-  internal,  ///< as forces hold it between its frames, which stand where an undeformed body has them
+  internal,  ///< in equilibrium with their forces between their frames, which keep their undeformed positions
   complete   ///< as forces hold it
 };
 
@@ -316,7 +318,7 @@ struct Simulation {
   std::optional<Settle> settle;
   std::optional<Cycle> cycle;  ///< then `duration` is at most that of all cycles
 
-  /// When the run writes down how to go on after an interruption.
+  /// Schedule of the checkpoints from which an interrupted run can be resumed.
   struct Checkpoints {
     double every = 0;        ///< simulated time between them [s]; 0: does not count
     double wall_time = 300;  ///< computing time between them [s], > 0
@@ -359,14 +361,14 @@ struct Model {
   Simulation simulation;
   Output output;
   std::optional<Study> study;
-  std::vector<Fault> warnings;  ///< what can be computed but is hardly meant
+  std::vector<Fault> warnings;  ///< implausible values that can be computed
   std::string resolved_text;    ///< the file's text, preceded by comments naming the overrides of this run
 
-  std::map<std::string, std::uint64_t> files;  ///< that it names, as it names them, and a hash of their content
+  std::map<std::string, std::uint64_t> files;  ///< file names as given in the model, with a hash of their content
 
   std::map<std::string, SourcePosition> positions;  ///< of every key in the file, by key path
 
-  /// Whether the file holds bearings without a machine around them: something to solve, nothing to simulate.
+  /// True if the file contains bearings without a machine: they can be solved but not simulated.
   [[nodiscard]] bool is_of_bearings_alone() const { return bodies.empty() && simulation.duration == 0; }
 
   /// Faces that a contact names; null if it names none that deform.
@@ -374,7 +376,7 @@ struct Model {
   /// A shape that a contact names; null if there is none.
   [[nodiscard]] const mbd::ShapeGeometry* find_shape(const ShapeName& name) const;
 
-  /// Where `path` ("bearings.big_end.radial_clearance") is given; of its nearest given parent if it was left out.
+  /// Location of `path` ("bearings.big_end.radial_clearance"); that of its nearest given parent if it was left out.
   [[nodiscard]] SourcePosition position_of(const std::string& path) const;
 };
 

@@ -4,7 +4,7 @@
 
 #include "hersey/core/input_error.h"
 
-/// What the model file calls by name.
+/// Things that the model file refers to by name.
 namespace hersey::model {
 
 /// A frame fixed on a body; `frame` is empty for the body's own frame.
@@ -19,7 +19,7 @@ struct CoordinateName {
   std::string joint, coordinate;
 };
 
-/// Whether a joint coordinate of this name is an angle.
+/// True if a joint coordinate of this name is an angle.
 [[nodiscard]] inline bool is_rotation(const std::string& coordinate) { return coordinate == "rotation"; }
 
 /// Unit of its rate.

@@ -22,13 +22,13 @@ struct OilGrade {
   [[nodiscard]] film::ShearThinning shear_thinning() const;
 };
 
-/// Where the viscosity of multigrade oils at high shear is told [K, 1/s].
+/// conditions at which the high-shear viscosity of multigrade oils is specified [K, 1/s]
 inline constexpr double hths_temperature = 423.15, hths_rate = 1e6;
 
 /// All grades, from thin to thick.
 [[nodiscard]] const std::vector<OilGrade>& oil_grades();
 
-/// The grade of that name; null where there is none.
+/// The grade of that name; null if there is none.
 [[nodiscard]] const OilGrade* oil_grade(std::string_view name);
 
 /// Their names.

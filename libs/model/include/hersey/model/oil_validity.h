@@ -10,9 +10,9 @@ namespace hersey::model {
 
 struct OilGrade;
 
-/// Where an oil's numbers mean something, and what ends there.
+/// Range in which an oil's data are valid, and the reasons of its ends.
 struct OilValidity {
-  /// A temperature, and what it is: "the pour point typical of iso_vg_46".
+  /// A temperature with its description: "the pour point typical of iso_vg_46".
   struct End {
     double T = 0;  ///< [K]
     std::string what;
@@ -21,14 +21,15 @@ struct OilValidity {
   double p_high = std::numeric_limits<double>::infinity();  ///< end of a table, above the cavitation pressure [Pa]
 };
 
-/// Of the law, and of its grade where it has one. @param grade  null: none
+/// Validity of the law, and of its grade if it has one.
+/// @param grade  null: none
 [[nodiscard]] OilValidity validity_of(const film::Lubricant& oil, const OilGrade* grade);
 
-/// What is to be said of oil at a temperature [K]; empty: nothing.
-[[nodiscard]] std::string doubt_at(const OilValidity& validity, double T);
+/// Returns a warning about oil at a temperature [K]; empty if there is none.
+[[nodiscard]] std::string temperature_warning(const OilValidity& validity, double T);
 
-/// The same of a film with its hottest oil [K] (not a number: not known) and its largest pressure above the cavitation
-/// pressure [Pa].
-[[nodiscard]] std::vector<std::string> doubts_of_film(const OilValidity& validity, double T, double p);
+/// Returns warnings about a film with its hottest oil [K] (not a number: not known) and its largest pressure above the
+/// cavitation pressure [Pa].
+[[nodiscard]] std::vector<std::string> film_warnings(const OilValidity& validity, double T, double p);
 
 }  // namespace hersey::model

@@ -7,12 +7,14 @@
 
 namespace hersey::model {
 
-/// What is hardly meant of a film that has been computed: a peak pressure p_max [Pa] above what its lining bears, or a
-/// smallest gap h_min [m] below the roughness of the surfaces; each with what to do. Empty: nothing.
-[[nodiscard]] std::vector<std::string> doubts_of_surfaces(const Bearing& bearing, double p_max, double h_min);
+/// Returns warnings about an implausible film: a peak pressure p_max [Pa] above the permissible one of its lining, or a
+/// smallest gap h_min [m] below the roughness of the surfaces; each with a remedy. Empty if there are none.
+[[nodiscard]] std::vector<std::string> surface_warnings(const Bearing& bearing, double p_max, double h_min);
 
-/// Of a journal in a body (film::BodyJournal), to which heat comes evenly only as it turns (theory manual, thermal.59).
-/// @param turned  by which it has turned in its shell [rad] @param travelled  the same, to and fro counted alike [rad]
-[[nodiscard]] std::vector<std::string> doubts_of_turning(const Bearing& bearing, double turned, double travelled);
+/// Returns warnings about a journal in a body (film::BodyJournal), which heat enters evenly only if it rotates (theory
+/// manual, thermal.59).
+/// @param turned  its net rotation in its shell [rad]
+/// @param travelled  the sum of the magnitudes of its rotations [rad]
+[[nodiscard]] std::vector<std::string> rotation_warnings(const Bearing& bearing, double turned, double travelled);
 
 }  // namespace hersey::model

@@ -20,11 +20,11 @@ namespace hersey::model {
 [[nodiscard]] Model read_text(const std::string& text, const std::string& file,
                               const std::vector<std::string>& overrides = {});
 
-/// A model file that is read several times, with other overrides each time: it is opened and taken apart once, and what
-/// happens to it meanwhile changes nothing. May be used by several threads; copies share what was read.
+/// A model file that is read several times, with other overrides each time: it is opened and parsed once, and later
+/// changes of the file have no effect. May be used by several threads; copies share the parsed content.
 class ModelFile {
  public:
-  /// @throws InputError where it cannot be read or is larger than any model; other faults are told by read()
+  /// @throws InputError if it cannot be read or is larger than any model; other faults are reported by read()
   explicit ModelFile(const std::string& path);
   /// Of text; `file` names it in faults and is where relative paths of tables start.
   ModelFile(std::string text, std::string file);
@@ -40,8 +40,9 @@ class ModelFile {
 /// The text of a model file. @throws InputError where it cannot be read or is larger than any model
 [[nodiscard]] std::string file_text(const std::string& path);
 
-/// The model file as YAML with templates, aliases, overrides and parameters put in; without `parameters` and `study`.
-/// @throws InputError where these are wrong; nothing else is checked
+/// Returns the model file as YAML with templates, aliases, overrides and parameters applied; without `parameters` and
+/// `study`.
+/// @throws InputError if these have faults; nothing else is checked
 [[nodiscard]] std::string expanded_text(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace hersey::model

@@ -10,8 +10,9 @@ namespace hersey::model {
 /// The reference page docs/model-file.md, from the same tree.
 [[nodiscard]] std::string schema_markdown();
 
-/// What the key at `path` is, "bearings.main.supply": meaning, value, units, default and keys, from the same tree; of
-/// an empty path the sections of a model. @throws InputError for an unknown key, with the nearest one
+/// Returns the description of the key at `path`, "bearings.main.supply": meaning, value, units, default and keys, from
+/// the same tree; for an empty path the sections of a model.
+/// @throws InputError for an unknown key, with the nearest one
 [[nodiscard]] std::string explanation(const std::string& path);
 
 }  // namespace hersey::model

@@ -8,18 +8,18 @@
 
 namespace hersey::model {
 
-/// How the surfaces of a bearing give way to its film while everything rests, null where both are rigid.
+/// Returns the compliance of a bearing's surfaces under its film while everything rests, null if both are rigid.
 ///
-/// The body of a surface that deforms has the shapes it has in a run (a nodal body its static ones), and is held at
-/// those of its frames that joints attach to; where none has one at the other frames that bushings, springs, loads
-/// or bearings attach to; and by the bearing's own frame where there are none. Frames that hold keep their
-/// places against each other, all others are free (theory manual, bearing.23 to bearing.25).
-/// @throws InputError where a body cannot be reduced, as `build` does
-/// @cost of a mesh two factorisations and one solution per shape
+/// The body of a surface that deforms has the shapes that it has in a run (a nodal body its static ones). It is
+/// supported at those of its frames to which joints attach; if there are none, at the other frames to which bushings,
+/// springs, loads or bearings attach; and by the bearing's own frame if there are none of these either. Supported
+/// frames keep their relative poses, all others are free (theory manual, bearing.23 to bearing.25).
+/// @throws InputError if a body cannot be reduced, as `build` does @cost of a mesh two factorisations and one solution
+///         per shape
 [[nodiscard]] std::shared_ptr<const bearing::SteadyElasticity> steady_elasticity(const Model& model,
                                                                                  const Bearing& bearing);
 
-/// All that `steady_elasticity` depends on, in a row: equal for models with the same answer.
+/// Returns all data on which `steady_elasticity` depends: equal for models with the same result.
 [[nodiscard]] std::string fingerprint_of_elasticity(const Model& model, const Bearing& bearing);
 
 }  // namespace hersey::model

@@ -17,7 +17,7 @@ struct StudyValue {
 
 /// One combination of the study's parameters.
 struct StudyRun {
-  std::vector<std::string> overrides;  ///< those given, then the study's; hand them to `read`
+  std::vector<std::string> overrides;  ///< given overrides followed by the study's; arguments of `read`
   std::string label;                   ///< "load = 100 N, clearance = 34 um"
   std::string slug;                    ///< the same, fit for a file name: "load_100_N-clearance_34_um"
   std::vector<StudyValue> values;      ///< in the order of study.parameters
@@ -29,8 +29,9 @@ struct StudyRun {
 [[nodiscard]] std::vector<StudyParameter> check_study(const std::string& path,
                                                       const std::vector<std::string>& overrides = {});
 
-/// What decides the result of a run of the model file at `path` beside the values given to it: the content of the file
-/// and of all that it names, without comments, texts and the study. 16 hexadecimal digits.
+/// Returns a fingerprint of all data, besides the values given to it, that decide the result of a run of the model file
+/// at `path`: the content of the file and of all files it names, without comments, texts and the study. 16 hexadecimal
+/// digits.
 /// @throws InputError
 [[nodiscard]] std::string model_fingerprint(const std::string& path);
 

@@ -8,7 +8,7 @@
 
 namespace hersey::model {
 
-/// How a parameter scatters. All numbers are in `unit`; what a kind has no use for is 0.
+/// Distribution of a scattering parameter. All numbers are in `unit`; those that a kind does not need are 0.
 struct Distribution {
   enum class Kind { normal, uniform, triangular, truncated_normal };
   Kind kind = Kind::uniform;
@@ -16,9 +16,9 @@ struct Distribution {
   double low = 0, mode = 0, high = 0;
   std::string unit;  ///< as written with the mean or `low`; empty for a bare number
 
-  /// Standard deviations off the mean that a parameter must be able to take where nothing cuts its distribution off.
+  /// number of standard deviations from the mean for which the model must be valid if the distribution is unbounded
   static constexpr double reach = 5;
-  /// Whether it has ends of its own, `low` and `high`.
+  /// True if it has the bounds `low` and `high`.
   [[nodiscard]] bool is_bounded() const { return kind != Kind::normal; }
   /// The smallest value that a parameter must be able to take, in `unit`.
   [[nodiscard]] double lowest() const { return is_bounded() ? low : mean - reach * standard_deviation; }
@@ -77,7 +77,7 @@ struct Study {
   StudyDiagram diagram = StudyDiagram::none;
   std::string spectrum_of;  ///< a series of results; empty: none
 
-  /// Whether its runs are written out: every combination of values, or values side by side.
+  /// True if its runs are listed: every combination of values, or values side by side.
   [[nodiscard]] bool is_written_out() const;
 };
 

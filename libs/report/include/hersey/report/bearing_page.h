@@ -15,7 +15,7 @@ struct PageFigure {
   std::string key, group, name, unit;
   double value = 0;
   double grid_error = -1;  ///< negative: none estimated
-  std::string words = {};  ///< said in place of a value that is no number; else empty
+  std::string words = {};  ///< text in place of a value that is not a number; else empty
 };
 
 /// A hole or groove where it lies over the film.
@@ -28,13 +28,13 @@ struct PageFeature {
 /// A field of the film at the nodes.
 struct PageField {
   std::string name, unit;  ///< as in a results file: "pressure", SI
-  std::string text;        ///< what it is
+  std::string text;        ///< description
   Eigen::VectorXd values;  ///< at the nodes, index i z.size() + j
 };
 
-/// One operating point of a bearing by itself. Unsolved, it has a label, values and why there is no solution.
+/// One operating point of a single bearing. Unsolved, it has a label, values and the reason why there is no solution.
 struct [[nodiscard]] PageSolution : Outcome {
-  std::string label;                                        ///< what tells it from the others; empty if alone
+  std::string label;  ///< label that distinguishes it from the others; empty if it is the only one
   std::vector<std::pair<std::string, std::string>> values;  ///< of the swept parameters, as written
   std::string remark;                                       ///< about its stability and the like
   std::vector<PageFigure> figures;
@@ -42,11 +42,11 @@ struct [[nodiscard]] PageSolution : Outcome {
   double clearance = 0;                            ///< radial [m]
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< on the journal [N]
-  Eigen::VectorXd phi, z;                          ///< places of the nodes [rad, m]
+  Eigen::VectorXd phi, z;                          ///< positions of the nodes [rad, m]
   std::vector<PageField> fields;
 };
 
-/// What the report of a bearing by itself shows.
+/// Contents of the report of a single bearing.
 struct BearingPage {
   std::string title, description, file, bearing, created, version;
   std::vector<std::pair<std::string, std::string>> conditions;  ///< name and text, such as the cavitation condition

@@ -9,7 +9,7 @@
 
 namespace hersey::report {
 
-/// A page of curves, by itself in one file without scripts.
+/// A page of curves in one file without scripts.
 struct CurvePage {
   std::string title, lead;
   std::vector<std::string> facts;                               ///< one line under the title

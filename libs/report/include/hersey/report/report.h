@@ -39,10 +39,10 @@ struct ReportOptions {
 
 /// Writes one HTML file that shows a run, or several as a study: no network, no other file, any browser.
 ///
-/// Where the page holds some instants of the films only, all of them lie beside it, in the folder OUT_fields (OUT
-/// without its extension), a script for each film that the page loads at the press of a button. The page works without
-/// them. Time series and fields are thinned to the options' limits (the page says so); the summary is not: it sees
-/// every row. Fields have two bytes a number, each right to 1/131068 of its instant's range.
+/// If the page contains only some instants of the films, all of them are stored beside it, in the folder OUT_fields
+/// (OUT without its extension), a script for each film that the page loads at the press of a button. The page works
+/// without them. Time series and fields are thinned to the options' limits (the page states it); the summary is
+/// computed from every row. Fields have two bytes per number, accurate to 1/131068 of the range of their instant.
 /// @throws results::ReadError if a results file cannot be read; results::WriteError if `out` cannot be written.
 /// @pre results is not empty.
 /// @verified_by report_test.cpp, tests/report_browser

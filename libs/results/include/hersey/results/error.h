@@ -6,7 +6,7 @@
 
 namespace hersey::results {
 
-/// Something is wrong with a results file: what() names the file and the reason, path() the file.
+/// A fault of a results file: what() contains the file and the reason, path() the file.
 class FileError : public std::runtime_error {
  public:
   /// what() is "path: reason".
@@ -14,7 +14,7 @@ class FileError : public std::runtime_error {
       : std::runtime_error(path.string() + ": " + reason), path_(std::move(path)), reason_(reason) {}
   /// The file.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// What is wrong with it, without its name.
+  /// The reason without the name of the file.
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
@@ -25,7 +25,7 @@ class FileError : public std::runtime_error {
 /// The file to be written exists already and was left untouched.
 class FileExists : public FileError {
  public:
-  /// Of the file at `path`.
+  /// Constructs the error for the file at `path`.
   explicit FileExists(std::filesystem::path path)
       : FileError(std::move(path), "the results file exists already and was kept") {}
 };
@@ -36,7 +36,7 @@ class WriteError : public FileError {
   using FileError::FileError;
 };
 
-/// A file is missing, is not a results file of this program, or lacks what was asked of it.
+/// A file is missing, is not a results file of this program, or lacks the requested data.
 class ReadError : public FileError {
  public:
   using FileError::FileError;

@@ -12,16 +12,16 @@ class FileBusy : public FileError {
   using FileError::FileError;
 };
 
-/// Holds a results file for the run that writes it, from before its first byte until after its last. The system's lock
-/// is on the file FILE.lock beside it and goes with the process that holds it: what a killed run leaves of it blocks
-/// nobody. Where the file system has no locks nothing is held.
+/// Locks a results file for the run that writes it, from before its first byte until after its last. The system's lock
+/// is on the file FILE.lock beside it and ends with its process: the lock file of a killed run blocks nobody. On a file
+/// system without locks nothing is locked.
 /// @verified_by output_lock_test.cpp
 class OutputLock {
  public:
-  /// Holds nothing.
+  /// Locks nothing.
   OutputLock() = default;
-  /// @param results  empty: holds nothing
-  /// @throws FileBusy where another run holds it, of this process or of another one
+  /// @param results  empty: nothing is locked
+  /// @throws FileBusy if another run has the lock, of this process or of another one
   explicit OutputLock(const std::filesystem::path& results);
   OutputLock(const OutputLock&) = delete;
   OutputLock& operator=(const OutputLock&) = delete;
@@ -33,7 +33,7 @@ class OutputLock {
   int fd_ = -1;
 };
 
-/// @throws FileBusy where a run holds the file.
+/// @throws FileBusy if a run has locked the file.
 void require_idle(const std::filesystem::path& results);
 
 }  // namespace hersey::results

@@ -13,7 +13,7 @@
 
 namespace hersey::results {
 
-/// What a dataset is, without its numbers.
+/// Description of a dataset, without its numbers.
 struct DatasetInfo {
   std::vector<std::size_t> shape;
   bool grows = false;    ///< one entry of the first dimension per stored instant
@@ -51,12 +51,13 @@ class Reader {
 
   /// Attribute of that name and kind, if there is one.
   [[nodiscard]] std::optional<std::string> text_attribute(std::string_view object, std::string_view name) const;
-  /// Likewise a number.
+  /// Returns an attribute that is a number.
   [[nodiscard]] std::optional<double> number_attribute(std::string_view object, std::string_view name) const;
-  /// Likewise a list of texts; empty where there is none.
+  /// Returns an attribute that is a list of texts; empty if there is none.
   [[nodiscard]] std::vector<std::string> list_attribute(std::string_view object, std::string_view name) const;
 
-  /// What a dataset is. @throws ReadError unless there is such a one; the members below, unless it is of their kind
+  /// Returns the description of a dataset.
+  /// @throws ReadError if there is none; the members below also if it is of another kind
   [[nodiscard]] DatasetInfo info(std::string_view path) const;
   /// All numbers of a dataset.
   [[nodiscard]] Array read(std::string_view path) const;

@@ -16,22 +16,22 @@
 
 namespace hersey::results {
 
-/// How a run stands; kept as the text attribute `status` of the file.
+/// State of a run; stored as the text attribute `status` of the file.
 enum class Status {
   running,    ///< under way, or killed: no one had time to write another status
   completed,  ///< reached its end
   stopped,    ///< ended early on request (Ctrl-C); everything up to then is valid
-  failed,     ///< ended early without an answer; `message` tells why
+  failed,     ///< ended early without a solution; `message` gives the reason
 };
 
-/// "running": as the attribute says it.
+/// Returns the value of the attribute, e.g. "running".
 [[nodiscard]] std::string_view to_string(Status status);
 
 struct WriterOptions {
   bool overwrite = false;       ///< replace an existing file instead of throwing FileExists
   double flush_interval = 0.5;  ///< shortest time between two writes by flush_if_due() [s], >= 0
-  std::size_t rows = 0;         ///< expected of the series, as far as known
-  /// flush_if_due() has rows put into the file by a thread of its own while others are added.
+  std::size_t rows = 0;         ///< expected number of rows of the series, as far as known
+  /// true: flush_if_due() writes rows to the file in a separate thread while others are added.
   bool writes_beside = false;
 };
 
@@ -78,7 +78,7 @@ class Series {
   std::size_t index_ = 0;
 };
 
-/// Series that get their rows together: what a thing of a machine of thousands shows is handed over in one piece.
+/// Series that get their rows together, so that the rows of one thing in a machine of thousands are passed in one call.
 class SeriesBlock {
  public:
   /// Adds a series, declared right after the one added before. @throws ContractError where it is not
@@ -103,21 +103,21 @@ class SeriesBlock {
   std::size_t first_ = 0, count_ = 0, width_ = 0;
 };
 
-/// Writes one results file (HDF5; layout in docs/results-file.md) while the run goes on.
+/// Writes one results file (HDF5; layout in docs/results-file.md) during the run.
 ///
-/// Every dataset has its unit and a description, and names its dimensions by HDF5 dimension scales, which stand in its
-/// group (links to one and the same dataset): h5netcdf and xarray show them. The scales' own lists of the datasets that
-/// use them, which grow with the number of series, are left out.
+/// Every dataset has its unit and a description, and names its dimensions by HDF5 dimension scales in its group (links
+/// to one and the same dataset): h5netcdf and xarray show them. The scales' own lists of the datasets that use them,
+/// which grow with the number of series, are left out.
 ///
-/// Groups on the way to a dataset or attribute are made as needed. Declare all series before the first flush: the file
-/// then keeps its structure and only grows. Rows wait in memory; a flush puts all of them into the file together, after
+/// Groups on the path of a dataset or attribute are made as needed. Declare all series before the first flush: the file
+/// then keeps its structure and only grows. Rows wait in memory; a flush writes all of them to the file together, after
 /// which they survive a SIGKILL of the program, and another process may read them between flushes. Space is reserved
-/// before it is used, so a full disk costs the rows since the last flush and nothing else. What a thread of the
-/// writer's own could not write is told by the next call.
+/// before it is used, so a full disk costs the rows since the last flush and nothing else. A write error in the
+/// writer's own thread is reported by the next call.
 ///
 /// Every method but the destructor throws WriteError when the file cannot be written, and from then on again; finish()
-/// and the destructor then close the file in its last good state without another exception.
-/// Not for use from two threads at once. HDF5 keeps its own error printing to itself while a method runs.
+/// and the destructor then close the file in its last good state without another exception. Not for use from two
+/// threads at once. HDF5 prints no errors of its own while a method runs.
 /// @verified_by writer_test.cpp, crash_test.cpp
 class Writer {
  public:
@@ -157,31 +157,31 @@ class Writer {
   /// The dimension along x, y and z.
   static constexpr std::string_view xyz = "/xyz";
 
-  /// A fixed list of names, which is a dimension: what the columns of a series are.
+  /// A fixed list of names that serves as a dimension: the names of the columns of a series.
   void labels(std::string_view path, const std::vector<std::string>& names, std::string_view description);
 
   /// A growing dataset, shape [n] for columns = 1, else [n, columns]. `unit` in SI, "1" for a pure number. The first
   /// series of those that grow together is the dimension of the others' rows, as /time is.
-  /// @param dimension  path of the constant or labels that tell what the columns are; made as their numbers where there
-  ///                   is none; empty: x, y or x, y, z or a quaternion's w, x, y, z
+  /// @param dimension  path of the constant or labels that describe the columns; their numbers are written there if it
+  ///         does not exist; empty: x, y or x, y, z or a quaternion's w, x, y, z
   [[nodiscard]] Series series(std::string_view path, int columns, std::string_view unit, std::string_view description,
                               Precision precision = Precision::float64, std::string_view dimension = {});
 
   /// A growing dataset of shape [n, rows, cols]; a row is row-major, index i cols + j.
-  /// @param dimensions  paths of the constants that tell what rows and columns are; empty: their numbers under a name
-  ///                    made from the field's
+  /// @param dimensions  paths of the constants that describe rows and columns; empty: their numbers under a name made
+  ///         from the field's
   [[nodiscard]] Series field(std::string_view path, std::array<int, 2> shape, std::string_view unit,
                              std::string_view description, const std::array<std::string, 2>& dimensions = {});
 
-  /// How many rows each series has; they are flushed, and put onto the disk.
+  /// Returns the number of rows of each series; they are flushed, and synced to the disk.
   [[nodiscard]] std::vector<std::pair<std::string, std::size_t>> rows();
 
-  /// Begins every series with rows of another file of the same series, as many as `rows` says.
-  /// @throws ReadError where that file has fewer rows, or other series.
+  /// Copies the first rows of every series from another file with the same series, as many as `rows` states.
+  /// @throws ReadError if that file has fewer rows, or other series.
   void copy_rows(const Reader& from, const std::vector<std::pair<std::string, std::size_t>>& rows);
 
-  /// Puts what is flushed onto the disk and renames the file, which goes on growing.
-  /// @throws FileExists if there is a file of that name that is not to be replaced.
+  /// Syncs flushed data to the disk and renames the file, which continues to grow.
+  /// @throws FileExists if there is a file of that name that must not be replaced.
   void rename(const std::filesystem::path& path, bool replace = true);
 
   void flush();  ///< puts all rows so far into the file
@@ -191,10 +191,10 @@ class Writer {
   /// Flushes, sets `status` and `message`, and closes the file; later calls do nothing.
   void finish(Status status, std::string_view message = {});
 
-  /// All series of a writer in memory, in the order of their declaration; of a file none.
+  /// All series of a writer in memory, in the order of their declaration; empty for a writer with a file.
   [[nodiscard]] const std::vector<LatestRow>& latest() const;
 
-  /// Of the file, as last renamed; empty in memory.
+  /// Path of the file after the last rename; empty in memory.
   [[nodiscard]] const std::filesystem::path& path() const;
 
  private:

@@ -13,16 +13,16 @@ namespace hersey::run {
 struct FilmField {
   std::string name;         ///< in the results file, "asperity_pressure"
   std::string unit;         ///< SI
-  std::string text;         ///< what it is
+  std::string text;         ///< description
   std::string label;        ///< in tables, "asperity pressure"
   std::string shown_unit;   ///< in tables, "MPa"; empty for a pure number
-  double shown_per_si = 1;  ///< how many of that unit one of SI is, 1e-6
-  /// At the nodes, shape (n_phi n_z); empty where the film has none.
+  double shown_per_si = 1;  ///< number of shown units in one SI unit, 1e-6
+  /// Values at the nodes, shape (n_phi n_z); empty where the film has none.
   std::function<Eigen::VectorXd(const film::FilmFields&)> values;
   std::string symbol = {}, note = {};  ///< QuantityInfo
 };
 
-/// All fields that are stored over time and shown of a bearing by itself.
+/// All fields that are stored over time and shown of a single bearing.
 [[nodiscard]] const std::vector<FilmField>& film_fields();
 
 }  // namespace hersey::run

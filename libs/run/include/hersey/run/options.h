@@ -9,10 +9,10 @@
 
 namespace hersey::run {
 
-/// How far a run has come; handed to Options::on_progress after every accepted step.
+/// Progress of a run; handed to Options::on_progress after every accepted step.
 struct Progress {
   double t = 0, t_start = 0, t_end = 0;                   ///< [s]
-  double dt = 0;                                          ///< step just taken [s]
+  double dt = 0;                                          ///< length of the last step [s]
   int newton_iterations = 0;                              ///< of that step
   double moft = std::numeric_limits<double>::infinity();  ///< minimum oil film thickness so far, all bearings [m]
   double elapsed = 0;                                     ///< wall time since the start of the run [s]
@@ -30,10 +30,10 @@ struct StudyParameterValue {
 };
 
 struct Options {
-  std::filesystem::path results;                       ///< the HDF5 file to write; empty: none, of a Simulation
-  bool overwrite = false;                              ///< replace an existing one
-  bool step_error = false;                             ///< run with steps twice as long first, and compare
-  bool resume = false;                                 ///< go on where `results` and its checkpoint end
+  std::filesystem::path results;  ///< the HDF5 file to write; a Simulation writes none if it is empty
+  bool overwrite = false;         ///< replace an existing one
+  bool step_error = false;        ///< run with steps twice as long first, and compare
+  bool resume = false;            ///< go on where `results` and its checkpoint end
   std::function<void(const Progress&)> on_progress;    ///< may be empty
   std::function<void(const CycleProgress&)> on_cycle;  ///< may be empty
   const std::atomic<bool>* stop = nullptr;             ///< set from a signal handler: end after the current step

@@ -8,11 +8,12 @@
 
 namespace hersey::run {
 
-/// Every quantity of results files: what is written, told and documented follows from these tables.
+/// Every quantity of results files: the file, the summary and the documentation follow from these tables.
 /// @verified_by tests/results_file, quantities_test.cpp
 [[nodiscard]] const std::vector<QuantityGroup>& result_quantities();
 
-/// Those of one path. @pre there is a group of that path.
+/// Returns the quantities of one path.
+/// @pre there is a group of that path.
 [[nodiscard]] std::vector<QuantityInfo> quantities_of(std::string_view path);
 
 /// The layout of results files as JSON: {"format", "format_version", "groups": [{"path", "heading", "quantities"}]}.

@@ -14,31 +14,32 @@
 
 namespace hersey::run {
 
-/// How an advance ended.
+/// Outcome of an advance.
 enum class AdvanceStatus {
   failed,    ///< without an answer; time() is that of the last good step, and the results up to it are intact
-  advanced,  ///< where it was asked to go
+  advanced,  ///< the requested time was reached
   ended,     ///< before that, in order: the end of simulation.duration, a run that has settled or repeats itself
 };
 
-/// Outcome of an advance, solved unless it failed. The message tells why it ended, or failed.
+/// Outcome of an advance, solved unless it failed. The message gives the reason why it ended early or failed.
 struct [[nodiscard]] Advance : OutcomeOf<AdvanceStatus, AdvanceStatus::advanced, AdvanceStatus::ended> {
   using Status = AdvanceStatus;
 };
 
-/// One machine, stepped from outside: for control, co-simulation, and programs that decide as they go.
+/// One machine, stepped from outside: for control, co-simulation, and programs that decide during the run.
 ///
 /// It takes the steps of `hersey run`: simulate() is a loop over the same class of steps. Stepped to the end by step(),
-/// or by advance_to() with multiples of the fixed step, it comes to the same numbers to the last bit. Any other instant
+/// or by advance_to() with multiples of the fixed step, it yields the same numbers to the last bit. Any other instant
 /// is hit exactly, too: on the way to it fixed steps are equal and at most as long as simulation.step.
 ///
-/// Inputs are the loads, drives and supply pressures that the model gives as a number or as a function. One that is
-/// never set stays as the model has it; once set it keeps its value until it is set again. A changed force or speed is
-/// a jump: the integrator's history ends there, accelerations and constraint forces are found anew, and with a jump of
-/// a prescribed speed the machine's velocities follow at once, as by an impulse. A changed supply pressure acts from
-/// the next step on.
+/// Inputs are the loads, drives and supply pressures that the model gives as a number or as a function. An input that
+/// is never set keeps the model's value; once set it keeps the new value until it is set again. A changed force or
+/// speed is a jump: the integrator's history ends there, accelerations and constraint forces are computed anew, and
+/// with a jump of a prescribed speed the machine's velocities follow at once, as by an impulse. A changed supply
+/// pressure acts from the next step on.
 ///
-/// Objects know nothing of each other; several may live at once. One object is not for use from two threads at once.
+/// Objects are independent of each other; several may exist at once. One object must not be used from two threads at
+/// once.
 /// @verified_by simulation_test.cpp
 class Simulation {
  public:
@@ -51,7 +52,7 @@ class Simulation {
   /// Closes the results as stopped where finish() has not been called.
   ~Simulation();
 
-  /// As it was given; its functions are those that inputs set.
+  /// The given model; its functions are those that the inputs set.
   [[nodiscard]] const model::Model& model() const;
   [[nodiscard]] double time() const;   ///< of the last accepted step [s]
   [[nodiscard]] double start() const;  ///< [s]
@@ -59,31 +60,34 @@ class Simulation {
 
   /// One step of the solver.
   Advance step();
-  /// As many steps as it takes to be at `t`, to a millionth of a step. @pre finite
-  /// @throws InputError where t lies before time()
+  /// Takes the steps needed to reach `t`, within a millionth of a step.
+  /// @pre finite
+  /// @throws InputError if t is before time()
   Advance advance_to(double t);
 
   /// All inputs of this model.
   [[nodiscard]] const std::vector<InputInfo>& inputs() const;
-  /// Holds an input at `value` [SI] from now on. Setting the value it has changes nothing, not a bit.
-  /// @throws InputError naming the nearest input where there is none of that name, or a value not finite
+  /// Fixes an input at `value` [SI] from now on. Setting the value it already has changes no bit of the results.
+  /// @throws InputError naming the nearest input if there is none of that name, or a value that is not finite
   void set(const std::string& input, double value);
   /// Gives an input back to the model.
   void release(const std::string& input);
-  /// Its value now [SI]; of a function of the motion that has not been set: not a number.
+  /// Current value of an input [SI]; not a number for a function of the motion that has not been set.
   [[nodiscard]] double input(const std::string& name) const;
 
   /// All quantities of results that grow row by row, but for fields over a film.
   [[nodiscard]] const std::vector<OutputInfo>& outputs() const;
-  /// At time(), row-major [SI]. @throws InputError naming the nearest output where there is none
+  /// Value of an output at time(), row-major [SI].
+  /// @throws InputError naming the nearest output if there is none
   [[nodiscard]] const std::vector<double>& output(const std::string& name) const;
-  /// By its place in outputs().
-  [[nodiscard]] const std::vector<double>& output(std::size_t place) const;
+  /// Value of an output by its index in outputs().
+  [[nodiscard]] const std::vector<double>& output(std::size_t index) const;
 
   /// State and inputs, in memory: going on from it gives the same bits. Of this model and version of the program.
   [[nodiscard]] Archive::Content save();
-  /// Goes back, or on, to what save() gave, also of another object of the same model. Without a results file only: such
-  /// a file goes forward. @throws ArchiveError where it does not fit
+  /// Restores a state that save() returned, earlier or later than the present one, also from another object of the same
+  /// model. Only without a results file, because such a file cannot go backwards.
+  /// @throws ArchiveError if the state does not fit
   void restore(Archive::Content saved);
 
   /// Extremes and balances of all steps so far.

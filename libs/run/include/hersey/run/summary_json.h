@@ -6,8 +6,8 @@
 
 namespace hersey::run {
 
-/// A summary as `hersey run --json` tells it: all in SI, null for what was not asked for; without the bearings'
-/// extremes, which are rows of the closing table.
+/// Returns a summary in the format of `hersey run --json`: all values in SI, null for values that were not requested;
+/// without the bearings' extremes, which are rows of the summary table.
 /// @verified_by tests/cli
 [[nodiscard]] std::string summary_json(const Summary& summary);
 

@@ -5,7 +5,7 @@
 
 namespace hersey::run {
 
-/// How many of something the steps of a run took.
+/// Statistics of a count per step over a run.
 struct PerStep {
   double median = 0, mean = 0;
   int most = 0;
@@ -17,16 +17,16 @@ struct WorkPart {
   double seconds = 0;  ///< that the steps waited for it
 };
 
-/// How film and bodies of one bearing were brought together.
+/// Cost of the coupling of film and bodies of one bearing.
 struct CouplingWork {
   std::string bearing, scheme;
   PerStep film_iterations;  ///< linearisations of the film
-  PerStep exchanges;        ///< of wrenches between film and bodies; monolithic: none
-  int steps_as_one = 0;     ///< partitioned: steps solved monolithically, as their exchange came to no end
+  PerStep exchanges;        ///< exchanges of wrenches between film and bodies; monolithic: none
+  int steps_as_one = 0;  ///< partitioned: steps that were solved monolithically because the exchange did not converge
 };
 
-/// What a run's steps cost. Films are solved side by side: the time until all of them are known is divided among them
-/// in proportion to the time each of them took in its own thread.
+/// Cost of a run's steps. Films are solved in parallel: the time until all of them are solved is divided among them in
+/// proportion to the time each of them took in its own thread.
 struct Work {
   double start_up = 0;          ///< reading, meshes, reduction, the starting state [s]
   double stepping = 0;          ///< all steps, rejected ones and recording included [s]

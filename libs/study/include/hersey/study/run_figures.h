@@ -16,8 +16,8 @@ struct RunFigure {
   double value = 0;     ///< in `si_unit`
 };
 
-/// What the closing table tells of a run, and those of `wanted` that are a series of the results file and one of
-/// `.min`, `.max`, `.mean`, `.rms`, `.end`, such as `bearings.main.eccentricity.x.max`; of a machine's modes
+/// Returns the summary rows of a run, and those of `wanted` that are a series of the results file and one of `.min`,
+/// `.max`, `.mean`, `.rms`, `.end`, such as `bearings.main.eccentricity.x.max`; for a machine's modes
 /// `modes.<number>.frequency`, `.damped_frequency` and `.damping_ratio`. Values of cycles (`bearings.<b>.cycle.`) are
 /// those of the last one.
 /// @throws results::ReadError
@@ -30,14 +30,14 @@ struct RunFigure {
 /// Names that figures of `model` solved as steady bearings have, <...> standing for any.
 [[nodiscard]] std::vector<std::string> steady_figure_keys(const model::Model& model);
 
-/// Whether `name` is one of `patterns`, whose <...> stand for anything without a dot.
+/// True if `name` matches one of `patterns`, in which <...> matches anything without a dot.
 [[nodiscard]] bool is_among(const std::string& name, const std::vector<std::string>& patterns);
 
 /// Names of series that are like `name`: every one of the same kind of thing, with the names of things and the ending
 /// that `name` has. For who has mistyped one.
 [[nodiscard]] std::vector<std::string> series_like(const std::string& name);
 
-/// Whether `name` is that of a series of results files, and how to sum it up.
+/// True if `name` is that of a series of results files with a statistic.
 [[nodiscard]] bool is_of_a_series(const std::string& name);
 
 }  // namespace hersey::study

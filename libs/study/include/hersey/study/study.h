@@ -14,11 +14,11 @@ namespace hersey::study {
 
 enum class RunEnding {
   failed,     ///< it could not start or write its results
-  not_begun,  ///< all were asked to stop before
-  solved,     ///< simulated as far as its summary tells
+  not_begun,  ///< a stop was requested before it began
+  solved,     ///< simulated; its summary gives the outcome
 };
 
-/// One run of a study. Solved, it has a summary, which tells how the run ended; else `summary` is empty.
+/// One run of a study. Solved, it has a summary with the run's outcome; else `summary` is empty.
 struct [[nodiscard]] RunResult : OutcomeOf<RunEnding, RunEnding::solved> {
   model::StudyRun run;
   run::Summary summary;
@@ -32,7 +32,7 @@ struct Options {
   int threads = 0;          ///< runs at the same time; 0: one per core
   /// Called from the run's own thread, one call at a time.
   std::function<void(std::size_t run, const run::Progress&)> on_progress;
-  /// Before a run begins: what its model and its start should make the user know (model::Model::warnings, run::check).
+  /// called before a run begins with the warnings of its model and its start (model::Model::warnings, run::check)
   std::function<void(std::size_t run, const std::vector<Fault>&)> on_warnings;
   std::function<void(std::size_t run, const RunResult&)> on_finished;
   const std::atomic<bool>* stop = nullptr;  ///< set from a signal handler: runs end after their step, no other begins

@@ -1,0 +1,335 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hersey/core/spelling.h"
+#include "interpret/context/interpret.h"
+#include "interpret/tree/overrides.h"
+#include "schema/machine_vocabulary.h"
+
+namespace hersey::model {
+namespace {
+
+const Joint* joint_called(const Model& model, const std::string& name) {
+  for (const Joint& joint : model.joints) {
+    if (joint.name == name) return &joint;
+  }
+  return nullptr;
+}
+
+double initial_value(const Joint& joint, const std::string& coordinate) {
+  for (const InitialValue& initial : joint.initial) {
+    if (initial.coordinate == coordinate && !initial.value.empty()) return initial.value.front();
+  }
+  return 0;
+}
+
+/// The drive that moves `coordinate` of `joint` at a constant speed; null if there is none.
+const Drive* constant_drive(const Model& model, const std::string& joint, const std::string& coordinate) {
+  for (const Drive& drive : model.drives) {
+    const bool drives_it = drive.joint == joint && drive.coordinate == coordinate;
+    const bool is_constant = drive.prescribes == Drive::Prescribes::speed && drive.ramp == 0 &&
+                             drive.motion.value != nullptr && drive.motion.is_constant();
+    if (drives_it && is_constant) return &drive;
+  }
+  return nullptr;
+}
+
+std::optional<Crank> crank_of(Context& context, const Value& simulation) {
+  const Value* value = simulation.find("crank");
+  if (value == nullptr || value->broken) return std::nullopt;
+  require_name(context, *value, "joints", "joint");
+  const Joint* joint = joint_called(context.model, value->text);
+  if (joint == nullptr || context.has_fault_in("joints." + value->text) || context.has_fault_in("drives")) {
+    return std::nullopt;
+  }
+  if (joint->type != JointType::revolute) {
+    context.fault(*value, "joint '" + joint->name + "', which is not revolute", "a revolute joint");
+    return std::nullopt;
+  }
+  const Drive* drive = constant_drive(context.model, joint->name, "rotation");
+  const double speed = drive != nullptr ? drive->motion.value->value({}) : 0;
+  if (speed == 0) {
+    context.fault(*value, "joint '" + joint->name + "', which no drive rotates at a constant speed",
+                  "a joint with a drive such as {joint: " + joint->name + ", coordinate: rotation, speed: 3570 rpm}");
+    return std::nullopt;
+  }
+  return Crank{joint->name, speed, initial_value(*joint, "rotation")};
+}
+
+/// A time, or the time the crank takes for an angle.
+double seconds_of(Context& context, const Value& value, const std::optional<Crank>& crank) {
+  if (value.broken) return 0;
+  if (value.unit != "rad") return value.number;
+  if (crank) return value.number / std::abs(crank->speed);
+  const Value* simulation = context.root.find("simulation");
+  if (simulation != nullptr && simulation->find("crank") != nullptr) return 0;  // a crank at fault has been reported
+  context.fault(value, "an angle", "a time, or a crank that converts angles to times",
+                "add simulation.crank with the name of a driven revolute joint");
+  return 0;
+}
+
+double seconds_of(Context& context, const Value& parent, const std::string& key, const std::optional<Crank>& crank) {
+  const Value* value = parent.find(key);
+  return value != nullptr ? seconds_of(context, *value, crank) : 0;
+}
+
+std::string in_users_unit(double x, bool is_angle) {
+  std::array<char, 48> text{};
+  const double degrees = x * 180 / std::numbers::pi;
+  std::snprintf(text.data(), text.size(), "%.6g", is_angle ? degrees : x);
+  return text.data();
+}
+
+/// Range of the first variable of a function during the run, as far as it is prescribed.
+std::optional<std::pair<double, double>> range_during_run(const Model& model, const Variable& variable) {
+  const Simulation& simulation = model.simulation;
+  if (variable.kind == Variable::Kind::time) {
+    return std::pair{simulation.start, simulation.start + simulation.duration};
+  }
+  const Joint* joint = joint_called(model, variable.joint);
+  const Drive* drive = constant_drive(model, variable.joint, variable.coordinate);
+  if (variable.kind == Variable::Kind::rate || joint == nullptr || drive == nullptr) return std::nullopt;
+  const double from = initial_value(*joint, variable.coordinate);
+  const double to = from + drive->motion.value->value({}) * simulation.duration;
+  return std::pair{std::min(from, to), std::max(from, to)};
+}
+
+void check_table_range(Context& context, const Function& function) {
+  if (!function.domain || function.variables.empty()) return;
+  const Variable& variable = function.variables.front();
+  const auto range = range_during_run(context.model, variable);
+  if (!range) return;
+  const auto [low, high] = *function.domain;
+  const double slack = 1e-9 * (high - low);
+  if (low - slack <= range->first && range->second <= high + slack) return;
+  const bool is_angle = variable.coordinate == "rotation";
+  const std::string unit = variable.kind == Variable::Kind::time ? " s" : is_angle ? " deg" : " m";
+  const auto text = [&](double from, double to) {
+    return in_users_unit(from, is_angle) + " to " + in_users_unit(to, is_angle) + unit;
+  };
+  context.faults.push_back({function.position, function.path, "a table that covers " + text(low, high),
+                            "one that covers the run, " + text(range->first, range->second),
+                            "add points, or a period after which it repeats"});
+}
+
+}  // namespace
+
+namespace {
+
+/// True if an analysis has a duration.
+bool needs_duration(const Simulation& simulation) {
+  return simulation.analysis == Analysis::dynamics || simulation.analysis == Analysis::kinematics ||
+         (simulation.analysis == Analysis::modes && simulation.modes_about == ModesAbout::end);
+}
+
+void refuse_bearings(Context& context, const Value& value) {
+  const Simulation& simulation = context.model.simulation;
+  const Value* bearings = context.root.find("bearings");
+  if (bearings == nullptr || bearings->members.empty() || simulation.analysis == Analysis::dynamics) return;
+  if (simulation.analysis == Analysis::kinematics) {
+    context.fault(*value.find("analysis"), "a kinematic analysis of a machine with bearings",
+                  "ideal joints: a film lets its journal move as forces will", "leave out `bearings`, or use dynamics");
+  } else if (simulation.analysis == Analysis::equilibrium || simulation.modes_about != ModesAbout::end) {
+    context.fault(*value.find("analysis"), "rest of a machine with bearings",
+                  "ideal joints: a film at rest carries nothing",
+                  "use dynamics with `settle`, or modes with `modes_about: end`; `hersey bearing` solves one bearing");
+  }
+}
+
+void refuse_flexible_bodies(Context& context, const Value& value) {
+  const Analysis analysis = context.model.simulation.analysis;
+  for (const auto& [name, body] : section(context.root, "bodies")) {
+    if (name == "ground") continue;
+    const Value* flexible = body.find("flexible");
+    if (analysis == Analysis::kinematics && (flexible != nullptr || body.find("beam") != nullptr)) {
+      context.fault(*value.find("analysis"), "a kinematic analysis with the flexible body '" + name + "'",
+                    "rigid bodies: how others deform depends on forces", "use dynamics, or make the body rigid");
+    } else if (analysis == Analysis::modes && flexible != nullptr && meaning_of(*flexible, "form", form_words)) {
+      context.fault(*flexible->find("form"), "`form: nodal` of a body whose small motions are sought",
+                    "`form: modal`, with as many `modes` as are needed", "");
+    }
+  }
+}
+
+void interpret_analysis(Context& context, const Value& value) {
+  Simulation& simulation = context.model.simulation;
+  simulation.analysis = meaning_of(value, "analysis", analysis_words);
+  simulation.modes_about = meaning_of(value, "modes_about", modes_about_words);
+  if (needs_duration(simulation)) {
+    if (value.find("duration") == nullptr && value.find("cycle") == nullptr)
+      context.fault_at_key(value, "missing key 'duration'", "a time or an angle > 0, such as 0.1 s");
+    if (value.find("step") == nullptr)
+      context.fault_at_key(value, "missing key 'step'", "a time or an angle > 0, such as 0.1 ms, or {tolerance}");
+  }
+  refuse_bearings(context, value);
+  refuse_flexible_bodies(context, value);
+}
+
+void interpret_step(Context& context, const Value& parent) {
+  Simulation& simulation = context.model.simulation;
+  const Value* value = parent.find("step");
+  if (value == nullptr || value->broken) return;
+  const Value& content = value->members.front().value;
+  if (value->alternative == 0) {
+    simulation.step = seconds_of(context, content, simulation.crank);
+    return;
+  }
+  ErrorControl control;
+  control.tolerance = number_of(content, "tolerance");
+  control.smallest = number_of(content, "smallest");
+  control.largest = content.find("largest") != nullptr ? seconds_of(context, *content.find("largest"), simulation.crank)
+                                                       : simulation.duration / 50;
+  if (control.largest > 0 && control.smallest > control.largest) {
+    context.fault(*content.find("smallest"), "a smallest step longer than the largest", "at most the largest step");
+  }
+  simulation.step = control.largest / 100;
+  simulation.error_control = control;
+}
+
+/// Angles come again in every cycle.
+void interpret_meshes_at(Context& context, const Value& list) {
+  if (list.broken) return;
+  const Simulation& simulation = context.model.simulation;
+  std::vector<double>& times = context.model.output.meshes_at;
+  const double end = simulation.duration * (1 + 1e-9);
+  for (const Member& member : list.members) {
+    const double at = seconds_of(context, member.value, simulation.crank);
+    const bool repeats = member.value.unit == "rad" && simulation.cycle && simulation.cycle->period > 0;
+    const int most = repeats ? simulation.cycle->most : 1;
+    if (simulation.duration > 0 && at > end)
+      context.fault(member.value, "a mesh after the end of the run", "a time or an angle during the run");
+    for (int k = 0; k < most; ++k) {
+      const double t = at + (repeats ? k * simulation.cycle->period : 0);
+      if (t <= end) times.push_back(t);
+    }
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+}
+
+void interpret_output(Context& context) {
+  Output& output = context.model.output;
+  const Simulation& simulation = context.model.simulation;
+  const Value* out = context.root.find("output");
+  if (out == nullptr) return;
+  output.position = out->key_position;
+  output.every = integer_of(*out, "every");
+  output.interval = seconds_of(context, *out, "interval", simulation.crank);
+  if (output.interval > 0 && !simulation.error_control && simulation.step > 0) {
+    context.fault(*out->find("interval"), "an interval with a fixed step",
+                  "an error control, such as step: {tolerance: 1e-4}",
+                  "with a fixed step, `every` counts the steps between rows");
+  }
+  output.fields_every = out->find("fields_every") != nullptr
+                            ? seconds_of(context, *out, "fields_every", simulation.crank)
+                            : (simulation.cycle ? simulation.cycle->period : simulation.duration) / 100;
+  if (const Value* meshes = out->find("meshes_at")) interpret_meshes_at(context, *meshes);
+}
+
+/// Cycles that end the run, if its duration does not.
+void interpret_cycle(Context& context, const Value& parent) {
+  Simulation& simulation = context.model.simulation;
+  const Value* value = parent.find("cycle");
+  if (value == nullptr || value->broken) return;
+  const Value* bearings = context.root.find("bearings");
+  if (bearings == nullptr || bearings->members.empty())
+    context.fault_at_key(*value, "cycles of a machine without bearings", "bearings whose figures repeat",
+                         "give a `duration` instead");
+  simulation.cycle = Cycle{seconds_of(context, *value, "period", simulation.crank),
+                           number_of(*value, "until_converged"), integer_of(*value, "most")};
+  const double longest = simulation.cycle->most * simulation.cycle->period;
+  simulation.duration = parent.find("duration") != nullptr ? std::min(simulation.duration, longest) : longest;
+}
+
+/// Each cycle has to end with a step.
+void require_whole_steps(Context& context, const Value& parent) {
+  const Simulation& simulation = context.model.simulation;
+  if (!simulation.cycle || simulation.error_control || simulation.step <= 0 || simulation.cycle->period <= 0) return;
+  const double steps = simulation.cycle->period / simulation.step;
+  if (steps > 0.5 && std::abs(steps - std::round(steps)) < 1e-6) return;
+  context.fault(*parent.find("cycle")->find("period"), "a cycle of " + in_users_unit(steps, false) + " steps",
+                "a whole number of steps", "change the step, or let steps be chosen with step: {tolerance: 1e-4}");
+}
+
+InitialDeformation initial_deformation_of(const Model& model, const Value& simulation) {
+  if (const Value* value = simulation.find("initial_deformation"); value != nullptr && !value->broken)
+    return meaning_of(*value, initial_deformation_words);
+  const auto deforms = [](const Bearing& bearing) { return bearing.shell_surface || bearing.journal_surface; };
+  const auto is_nodal = [](const Body& body) { return body.flexible && body.flexible->nodal; };
+  const bool rests = std::any_of(model.bearings.begin(), model.bearings.end(), deforms) ||
+                     std::any_of(model.bodies.begin(), model.bodies.end(), is_nodal);
+  return rests ? InitialDeformation::internal : InitialDeformation::none;
+}
+
+}  // namespace
+
+void interpret_simulation(Context& context) {
+  Simulation& simulation = context.model.simulation;
+  const Value* value = context.root.find("simulation");
+  if (value == nullptr) return;
+  simulation.position = value->key_position;
+  interpret_analysis(context, *value);
+  simulation.crank = crank_of(context, *value);
+  simulation.start = number_of(*value, "start");
+  simulation.duration = seconds_of(context, *value, "duration", simulation.crank);
+  interpret_cycle(context, *value);
+  interpret_step(context, *value);
+  require_whole_steps(context, *value);
+  if (simulation.error_control && simulation.analysis == Analysis::kinematics) {
+    context.fault(*value->find("step"), "an error control of a kinematic analysis, which integrates nothing",
+                  "the time between its instants, such as 0.1 ms");
+  }
+  simulation.initial_deformation = initial_deformation_of(context.model, *value);
+  simulation.spectral_radius = number_of(*value, "spectral_radius");
+  simulation.tolerance = number_of(*value, "tolerance");
+  simulation.max_iterations = integer_of(*value, "max_iterations");
+  simulation.smallest_step = number_of(*value, "smallest_step");
+  if (simulation.step > simulation.duration && simulation.duration > 0) {
+    context.fault(*value->find("step"), "a step longer than the run", "a step of at most the duration");
+  }
+  if (!simulation.error_control && simulation.step > 0 && simulation.smallest_step > simulation.step) {
+    context.fault(*value->find("smallest_step"), "a smallest step longer than the step", "at most the step");
+  }
+  if (const Value* settle = value->find("settle"); settle != nullptr && !settle->broken) {
+    simulation.settle = Settle{number_of(*settle, "tolerance"), seconds_of(context, *settle, "over", simulation.crank)};
+  }
+  if (const Value* checkpoint = value->find("checkpoint"); checkpoint != nullptr && !checkpoint->broken) {
+    simulation.checkpoint = {seconds_of(context, *checkpoint, "every", simulation.crank),
+                             number_of(*checkpoint, "wall_time")};
+  }
+  interpret_output(context);
+}
+
+namespace {
+
+void require_function_of_crank(Context& context, const Function& function, const std::string& what) {
+  const std::optional<Crank>& crank = context.model.simulation.crank;
+  for (const Variable& variable : function.variables) {
+    if (variable.kind == Variable::Kind::time || (crank && variable.joint == crank->joint)) continue;
+    context.faults.push_back({function.position, function.path,
+                              what + " that follows '" + variable.joint + "." + variable.coordinate + "'",
+                              "a function of time or of the rotation of simulation.crank", ""});
+  }
+}
+
+}  // namespace
+
+void check_functions_of_crank(Context& context) {
+  for (const Bearing& bearing : context.model.bearings)
+    for (const Function& pressure : bearing.feature_pressures)
+      require_function_of_crank(context, pressure, "a pressure");
+  for (const Force& force : context.model.forces)
+    if (const auto* load = force.as<SurfaceLoad>())
+      for (const Function& function : load->functions) require_function_of_crank(context, function, "a load on a mesh");
+}
+
+void check_table_ranges(Context& context) {
+  if (context.model.simulation.duration <= 0) return;
+  for (const Drive& drive : context.model.drives) check_table_range(context, drive.motion);
+  for (const Force& force : context.model.forces)
+    for (const auto& followed : functions_of(force)) check_table_range(context, *followed.function);
+}
+
+}  // namespace hersey::model

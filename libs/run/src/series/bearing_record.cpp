@@ -1,0 +1,508 @@
+#include "series/bearing_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "cycle/cycle_maps.h"
+#include "hersey/run/assumptions.h"
+#include "hersey/run/film_fields.h"
+#include "series/geometry_record.h"
+
+namespace hersey::run {
+namespace {
+
+using Film = film::FilmObservables;
+using Statistic = SummaryEntry::Statistic;
+
+/// Member of the observation of the bearing.
+template <class Member>
+auto of_bearing(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, row.observation); };
+}
+
+/// Member of the position of its journal.
+template <class Member>
+auto of_position(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, row.observation.position); };
+}
+
+/// Member of the observables of its film.
+template <class Member>
+auto of_film(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, row.observation.film); };
+}
+
+template <class Member>
+auto of_oil(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, row.observation.oil); };
+}
+
+Vector3 force_on_shell(const BearingRow& row) { return row.observation.wrench_on_shell.tail<3>(); }
+Vector3 moment_on_shell(const BearingRow& row) { return row.observation.wrench_on_shell.head<3>(); }
+
+// Attitude angle: from the load on the journal (the shell's film force reversed) to the line of centres, 0..pi.
+double attitude(const BearingRow& row) {
+  const Eigen::Vector2d load = force_on_shell(row).head<2>(), e = row.observation.position.e;
+  return std::abs(std::atan2(load.x() * e.y() - load.y() * e.x(), load.dot(e)));
+}
+
+double power_error(const BearingRow& row) {
+  return -row.observation.power_into_bodies - row.observation.film.power_taken();
+}
+
+bool has_depth(const BearingPlan& plan) {
+  const std::vector<film::SurfaceFeature>& features = plan.bearing.film.features;
+  return std::any_of(features.begin(), features.end(), [](const film::SurfaceFeature& f) { return f.depth > 0; });
+}
+
+bool conserves_oil(const BearingPlan& plan) { return !film::cavitation_law(plan.bearing.film).loses_oil(); }
+
+bool is_partitioned(const BearingPlan& plan) {
+  return plan.bearing.coupling.scheme == model::CouplingScheme::partitioned;
+}
+
+std::vector<std::string> feature_names(const BearingPlan& plan) {
+  std::vector<std::string> names;
+  for (const film::SurfaceFeature& feature : plan.bearing.film.features) names.push_back(feature.name);
+  return names;
+}
+
+double flow_of_feature(const BearingRow& row, std::size_t k) {
+  return row.observation.film.flow_features[static_cast<Eigen::Index>(k)];
+}
+
+bool has_heat(const BearingPlan& plan) { return std::holds_alternative<film::ThermalModel>(plan.bearing.heat); }
+
+bool shell_is_in_body(const BearingPlan& plan) { return plan.bearing.heated_shell != nullptr; }
+
+bool journal_is_in_body(const BearingPlan& plan) { return plan.bearing.heated_journal != nullptr; }
+
+bool is_in_body(const BearingPlan& plan) { return shell_is_in_body(plan) || journal_is_in_body(plan); }
+
+bool expands(const BearingPlan& plan) { return plan.bearing.expansion.has_value(); }
+
+using Heat = film::HeatObservables;
+
+/// Temperature of the film's heat in degC.
+auto celsius(double Heat::*T) {
+  return [T](const BearingRow& row) { return *row.observation.heat.*T - film::zero_celsius; };
+}
+
+template <class Member>
+auto of_heat(Member member) {
+  return [member](const BearingRow& row) { return std::invoke(member, *row.observation.heat); };
+}
+
+auto of_heat_balance(double film::HeatBalance::*member) {
+  return [member](const BearingRow& row) { return row.observation.heat->balance.*member; };
+}
+
+/// Line and features, in the order of HeatObservables::T_supplies.
+std::vector<std::string> supply_names(const BearingPlan& plan) {
+  std::vector<std::string> names = feature_names(plan);
+  if (plan.bearing.film.supply.kind != film::SupplyKind::none) names.insert(names.begin(), "line");
+  return has_heat(plan) ? names : std::vector<std::string>{};
+}
+
+double supply_temperature(const BearingRow& row, std::size_t k) {
+  return row.observation.heat->T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+}
+
+/// A field with one column for each angle: index i n_z + j is angle i, height j.
+Eigen::Map<const Eigen::MatrixXd> by_angle(const Eigen::VectorXd& field, const film::Grid& grid) {
+  return {field.data(), grid.n_z, grid.n_phi};
+}
+
+Eigen::VectorXd h_min_around(const BearingRow& row) {
+  const Eigen::VectorXd thickness = row.fields.thickness();
+  return by_angle(thickness, row.grid).colwise().minCoeff();
+}
+
+Eigen::VectorXd p_max_around(const BearingRow& row) { return by_angle(row.fields.p, row.grid).colwise().maxCoeff(); }
+
+/// The table of a bearing's quantities over time. The summary reports them in this order, extremes first.
+const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
+  static const Extent<BearingPlan> around{
+      "n_phi",
+      [](const BearingPlan& plan, std::size_t /*k*/) { return std::vector{plan.bearing.film.grid.n_phi}; },
+      {"fields/phi"}};
+  static const std::string of_film_heat = "this and the following: of films with `thermal: {model: film}`";
+  static const std::string per_angle = "four bytes a number";
+  static const QuantityTable<BearingRow, BearingPlan> table{
+      {"h_min",
+       "m",
+       "smallest film thickness beside features with depth, edges included",
+       of_film(&Film::h_min),
+       {.symbol = "h_min",
+        .summary_entries = {{Statistic::smallest, "minimum film thickness (MOFT)", "µm", true},
+                            {Statistic::at_end, "minimum film thickness at the end", "µm"}}}},
+      {"h_min_phi", "rad", "where: bearing angle", of_film(&Film::h_min_phi)},
+      {"h_min_z", "m", "where: axial", of_film(&Film::h_min_z)},
+      {"h_min_centre",
+       "m",
+       "smallest film thickness at z = 0",
+       of_film(&Film::h_min_centre),
+       {.summary_entries = {{Statistic::smallest, "minimum film thickness at the centreline", "µm"}}}},
+      {"h_min_features",
+       "m",
+       "smallest thickness over features with depth, that included",
+       of_film(&Film::h_min_features),
+       {.note = "only where there are any", .only = has_depth}},
+      {"p_max",
+       "Pa",
+       "peak film pressure, interpolated",
+       of_film(&Film::p_max),
+       {.symbol = "p_max",
+        .summary_entries = {{Statistic::largest, "peak film pressure (POFP)", "MPa", true},
+                            {Statistic::at_end, "peak film pressure at the end", "MPa"}}}},
+      {"p_max_phi", "rad", "where: bearing angle", of_film(&Film::p_max_phi)},
+      {"p_max_z", "m", "where: axial", of_film(&Film::p_max_z)},
+      {"p_max_node", "Pa", "largest nodal film pressure", of_film(&Film::p_max_node)},
+      {"force",
+       "N",
+       "film force on the shell, bearing frame",
+       force_on_shell,
+       {.symbol = "F", .summary_entries = {{Statistic::longest, "largest load", "N"}}}},
+      {"force_pressure", "N", "its part from film pressure", of_film(&Film::force_pressure)},
+      {"force_shear", "N", "its part from shear", of_film(&Film::force_shear)},
+      {"force_asperity", "N", "its part from asperity contact", of_film(&Film::force_asperity)},
+      {"moment", "N.m", "film moment on the shell about the bearing's origin", moment_on_shell},
+      {"eccentricity",
+       "m",
+       "journal axis from bore axis at z = 0, bearing frame",
+       of_position(&bearing::GapPosition::e),
+       {.symbol = "e"}},
+      {"eccentricity_ratio",
+       "1",
+       "eccentricity over radial clearance (at temperature)",
+       of_position(&bearing::GapPosition::ratio),
+       {.symbol = "epsilon",
+        .summary_entries = {{Statistic::largest, "largest eccentricity ratio"},
+                            {Statistic::at_end, "eccentricity ratio at the end"}}}},
+      {"clearance",
+       "m",
+       "radial clearance at the temperatures of the walls",
+       of_bearing(&bearing::BearingObservation::clearance),
+       {.symbol = "c",
+        .note = "of walls that expand (`thermal.expansion`); as given it is the attribute `radial_clearance`",
+        .only = expands,
+        .summary_entries = {{Statistic::smallest, "smallest radial clearance at temperature (hot)", "µm"},
+                            {Statistic::at_end, "radial clearance at temperature (hot) at the end", "µm"}}}},
+      {"bore_growth",
+       "m",
+       "growth of the bore's radius by the temperature of its body, mean over the nodes",
+       of_bearing(&bearing::BearingObservation::bore_growth),
+       {.note = "of a shell in a body (`shell: {wall: body}`)",
+        .only = shell_is_in_body,
+        .summary_entries = {{Statistic::at_end, "growth of the bore's radius at the end", "µm"}}}},
+      {"journal_growth",
+       "m",
+       "growth of the journal's radius by the temperature of its body, mean over the nodes",
+       of_bearing(&bearing::BearingObservation::journal_growth),
+       {.note = "of a journal in a body (`journal: {wall: body}`)",
+        .only = journal_is_in_body,
+        .summary_entries = {{Statistic::at_end, "growth of the journal's radius at the end", "µm"}}}},
+      {"clearance_of_bodies",
+       "m",
+       "radial clearance with what bodies have grown, mean over the nodes",
+       of_bearing(&bearing::BearingObservation::clearance_of_bodies),
+       {.note = "where shell or journal is in a body; as given it is the attribute `radial_clearance`",
+        .only = is_in_body,
+        .summary_entries = {{Statistic::smallest, "smallest radial clearance with what bodies have grown (hot)", "µm"},
+                            {Statistic::at_end, "radial clearance with what bodies have grown (hot) at the end",
+                             "µm"}}}},
+      {"attitude",
+       "rad",
+       "angle between load and line of centres",
+       attitude,
+       {.note = "from the load to the line of centres",
+        .summary_entries = {{Statistic::at_end, "attitude angle at the end", "°"}}}},
+      {"tilt", "1", "slope of the journal's axis in the bearing frame", of_position(&bearing::GapPosition::tilt)},
+      {"speed",
+       "rad/s",
+       "journal's angular velocity relative to the shell",
+       of_position(&bearing::GapPosition::speed),
+       {.symbol = "omega"}},
+      {"power_film",
+       "W",
+       "viscous dissipation in the film",
+       of_film(&Film::power_film),
+       {.summary_entries = {{Statistic::mean, "mean power loss in the film", "W"}}}},
+      {"power_film_other_shear",
+       "W",
+       "power_film were the cavitated film sheared as the other choice of `cavitated_shear` has it",
+       of_film(&Film::power_film_other_shear),
+       {.note = "all else being the same: over the whole gap with `film_share`, over the oil's share of it with `full`",
+        .summary_entries = {{Statistic::mean, "mean power loss in the film, cavitated film sheared the other way",
+                             "W"}}}},
+      {"power_asperity",
+       "W",
+       "boundary friction",
+       of_film(&Film::power_asperity),
+       {.summary_entries = {{Statistic::mean, "mean power loss in asperity contact", "W"}}}},
+      {"power_stored", "W", "rate of the energy in liner, asperities and compressed oil", of_film(&Film::power_stored)},
+      {"power_oil", "W", "taken along by oil over the edges less what feeds bring", of_film(&Film::power_oil)},
+      {"power_into_bodies", "W", "film wrench times relative velocity, and on walls that grow (negative: taken)",
+       of_bearing(&bearing::BearingObservation::power_into_bodies)},
+      {"power_error",
+       "W",
+       "put in by the bodies less dissipated, stored and carried out",
+       power_error,
+       {.note = "what the bodies put in less `power_film`, `power_asperity`, `power_stored` and `power_oil`"}},
+      {"torque_journal",
+       "N.m",
+       "friction torque on the journal about its own axis",
+       of_film(&Film::torque_journal),
+       {.summary_entries = {{Statistic::mean, "mean friction torque on the journal", "N·mm"}}}},
+      {"torque_shell", "N.m", "friction torque on the shell about its own axis", of_film(&Film::torque_shell)},
+      {"flow_left",
+       "m^3/s",
+       "oil leaving over the edge z = -L/2, mean of the step",
+       of_film(&Film::flow_left),
+       {.summary_entries = {{Statistic::mean, "mean side flow, left", "mm³/s"}}}},
+      {"flow_right",
+       "m^3/s",
+       "oil leaving over the edge z = +L/2, mean of the step",
+       of_film(&Film::flow_right),
+       {.summary_entries = {{Statistic::mean, "mean side flow, right", "mm³/s"}}}},
+      {"flow_supply",
+       "m^3/s",
+       "oil entering through the supply, mean of the step",
+       of_film(&Film::flow_supply),
+       {.summary_entries = {{Statistic::mean, "mean supply flow", "mm³/s"}}}},
+      {"flow_feature_<name>",
+       "m^3/s",
+       "oil entering through this feature, mean of the step",
+       flow_of_feature,
+       {.note = "one hole or groove; part of `flow_supply`",
+        .each = feature_names,
+        .summary_entries = {{Statistic::mean, "mean flow through <name>", "mm³/s"}}}},
+      {"storage_rate", "m^3/s", "rate of change of the oil volume in the film, mean of the step",
+       of_film(&Film::storage_rate)},
+      {"oil_volume", "m^3", "oil volume in the film", of_film(&Film::oil_volume)},
+      {"mass_balance_error",
+       "1",
+       "oil of the step that is neither stored nor has passed, over the largest flow",
+       of_film(&Film::mass_balance_error),
+       {.note = "not of `reynolds` films, which do not conserve oil",
+        .only = conserves_oil,
+        .summary_entries = {{Statistic::largest_in_size, "worst mass-balance error of the film"}}}},
+      {"oil_through_flow", "m^3", "oil that has passed the film since the start",
+       of_oil(&bearing::CumulativeOilBalance::through_flow)},
+      {"oil_unexplained", "m^3", "growth of the oil volume since the start less what has come in",
+       of_oil(&bearing::CumulativeOilBalance::unexplained)},
+      {"cavitated_share", "1", "share of the area that is cavitated", of_film(&Film::cavitated_share)},
+      {"rupture_angle",
+       "rad",
+       "where the film at mid-width ruptures; NaN where it is whole",
+       of_film(&Film::rupture_angle),
+       {.note = "with the flow, of its widest cavity"}},
+      {"reformation_angle", "rad", "where it re-forms; NaN where it is whole", of_film(&Film::reformation_angle)},
+      {"T_max",
+       "degC",
+       "temperature of the hottest oil",
+       celsius(&Heat::T_max),
+       {.symbol = "T_max",
+        .note = of_film_heat,
+        .only = has_heat,
+        .summary_entries = {{Statistic::largest, "hottest oil", "°C", true},
+                            {Statistic::at_end, "hottest oil at the end", "°C"}}}},
+      {"T_max_phi", "rad", "where: bearing angle", of_heat(&Heat::T_max_phi), {.only = has_heat}},
+      {"T_max_z", "m", "where: axial", of_heat(&Heat::T_max_z), {.only = has_heat}},
+      {"T_shell_max",
+       "degC",
+       "highest temperature of the shell's surface",
+       celsius(&Heat::T_shell_max),
+       {.only = has_heat, .summary_entries = {{Statistic::largest, "hottest place of the shell", "°C"}}}},
+      {"T_shell_mean",
+       "degC",
+       "mean temperature of the shell's surface",
+       celsius(&Heat::T_shell_mean),
+       {.only = has_heat}},
+      {"T_journal",
+       "degC",
+       "mean temperature of the journal's surface",
+       celsius(&Heat::T_journal),
+       {.symbol = "T_J",
+        .only = has_heat,
+        .summary_entries = {{Statistic::at_end, "temperature of the journal at the end", "°C"}}}},
+      {"T_body_max",
+       "degC",
+       "temperature of the hottest place of the shell's body",
+       celsius(&Heat::T_body_max),
+       {.only = shell_is_in_body,
+        .summary_entries = {{Statistic::at_end, "hottest place of the shell's body at the end", "°C"}}}},
+      {"T_journal_body_max",
+       "degC",
+       "temperature of the hottest place of the journal's body",
+       celsius(&Heat::T_journal_body_max),
+       {.only = journal_is_in_body,
+        .summary_entries = {{Statistic::at_end, "hottest place of the journal's body at the end", "°C"}}}},
+      {"T_film", "degC", "mean temperature of the oil in the film", celsius(&Heat::T_film_mean), {.only = has_heat}},
+      {"T_side",
+       "degC",
+       "temperature of the oil that leaves over the edges; NaN where none does",
+       celsius(&Heat::T_side),
+       {.only = has_heat, .summary_entries = {{Statistic::at_end, "temperature of the side flow at the end", "°C"}}}},
+      {"T_supply_<name>",
+       "degC",
+       "temperature of the fully mixed oil in this supply",
+       supply_temperature,
+       {.note = "the line, or one hole or groove", .only = has_heat, .each = supply_names}},
+      {"heat_dissipated",
+       "W",
+       "made in the film and by asperities",
+       of_heat_balance(&film::HeatBalance::power),
+       {.only = has_heat}},
+      {"heat_to_oil",
+       "W",
+       "carried away by oil that leaves, over that of the oil that comes",
+       of_heat_balance(&film::HeatBalance::to_oil),
+       {.only = has_heat, .summary_entries = {{Statistic::mean, "mean heat carried away by the oil", "W"}}}},
+      {"heat_to_shell",
+       "W",
+       "into the shell",
+       of_heat_balance(&film::HeatBalance::to_shell),
+       {.only = has_heat, .summary_entries = {{Statistic::mean, "mean heat into the shell", "W"}}}},
+      {"heat_to_journal",
+       "W",
+       "into the journal",
+       of_heat_balance(&film::HeatBalance::to_journal),
+       {.only = has_heat, .summary_entries = {{Statistic::mean, "mean heat into the journal", "W"}}}},
+      {"heat_stored",
+       "W",
+       "rate of the heat in the film's oil",
+       of_heat_balance(&film::HeatBalance::stored),
+       {.only = has_heat}},
+      {"heat_balance_error",
+       "1",
+       "what is missing in the balance of heat, over its largest term",
+       [](const BearingRow& row) { return row.observation.heat->balance.error(); },
+       {.only = has_heat, .summary_entries = {{Statistic::largest_in_size, "worst error of the film's heat balance"}}}},
+      {"film_iterations", "1", "film linearisations in the step",
+       of_bearing(&bearing::BearingObservation::film_iterations)},
+      {"exchanges",
+       "1",
+       "wrenches that film and bodies exchanged in the step; 0: it was solved as one system",
+       of_bearing(&bearing::BearingObservation::exchanges),
+       {.note = "of a partitioned coupling", .only = is_partitioned}},
+      {"h_min_around",
+       "m",
+       "smallest film thickness over the width at each angle of fields/phi",
+       h_min_around,
+       {.note = per_angle, .extent = around, .precision = results::Precision::float32}},
+      {"p_max_around",
+       "Pa",
+       "largest film pressure over the width at each angle of fields/phi",
+       p_max_around,
+       {.note = per_angle, .extent = around, .precision = results::Precision::float32}},
+  };
+  return table;
+}
+
+/// The lines of film_fields() as series.
+const QuantityTable<FilmInstant, BearingPlan>& film_field_quantities() {
+  static const QuantityTable<FilmInstant, BearingPlan> table = [] {
+    const Extent<BearingPlan> nodes{"n_phi, n_z",
+                                    [](const BearingPlan& plan, std::size_t /*k*/) {
+                                      const film::Grid& grid = plan.bearing.film.grid;
+                                      return std::vector{grid.n_phi, grid.n_z};
+                                    },
+                                    {"fields/phi", "fields/z"}};
+    QuantityTable<FilmInstant, BearingPlan> lines{{"fields/time", "s", "time of the fields", &FilmInstant::t}};
+    for (const FilmField& field : film_fields())
+      lines.push_back({"fields/" + field.name,
+                       field.unit,
+                       field.text,
+                       [&field](const FilmInstant& instant) { return field.values(instant.fields); },
+                       {.symbol = field.symbol,
+                        .note = field.note,
+                        .only = [&field](const BearingPlan& plan) { return field.values(plan.start).size() > 0; },
+                        .extent = nodes}});
+    return lines;
+  }();
+  return table;
+}
+
+/// Positions of the nodes: the dimensions of all fields.
+const std::vector<Constant<BearingPlan>>& film_nodes() {
+  static const std::vector<Constant<BearingPlan>> table{
+      {"fields/phi", "rad", "bearing angle of the nodes", "[n_phi]",
+       [](const BearingPlan& plan) {
+         const film::Grid& grid = plan.bearing.film.grid;
+         std::vector<double> phi(static_cast<std::size_t>(grid.n_phi));
+         for (int i = 0; i < grid.n_phi; ++i) phi[static_cast<std::size_t>(i)] = grid.phi(i);
+         return phi;
+       }},
+      {"fields/z", "m", "axial position of the nodes", "[n_z]",
+       [](const BearingPlan& plan) {
+         const film::FilmModel& film = plan.bearing.film;
+         std::vector<double> z(static_cast<std::size_t>(film.grid.n_z));
+         for (int j = 0; j < film.grid.n_z; ++j) z[static_cast<std::size_t>(j)] = film.L * film.grid.z_over_L(j);
+         return z;
+       }},
+  };
+  return table;
+}
+
+/// Assumptions that decide the results of this bearing.
+std::vector<std::pair<std::string, std::string>> own_assumptions(const BearingPlan& plan) {
+  std::vector<std::pair<std::string, std::string>> own;
+  const std::string prefix = plan.bearing.name + ": ";
+  for (const auto& [name, text] : assumptions(plan.model))
+    if (name.starts_with(prefix)) own.emplace_back(name.substr(prefix.size()), text);
+  return own;
+}
+
+const std::vector<Attribute<BearingPlan>>& bearing_attributes() {
+  const auto of_model = [](auto member) {
+    return [member](const BearingPlan& plan) { return std::invoke(member, plan.bearing.film); };
+  };
+  const auto names = [](const BearingPlan& plan) {
+    std::vector<std::string> all;
+    for (const auto& [name, text] : own_assumptions(plan)) all.push_back(name);
+    return all;
+  };
+  static const std::vector<Attribute<BearingPlan>> table{
+      {"radius", "m", "of the bore", of_model(&film::FilmModel::R), {.symbol = "R"}},
+      {"width", "m", "of the bearing", of_model(&film::FilmModel::L), {.symbol = "L"}},
+      {"radial_clearance", "m", "of the bearing, as given (cold)", of_model(&film::FilmModel::c), {.symbol = "c"}},
+      {"n_phi", "1", "nodes around", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_phi; }},
+      {"n_z", "1", "nodes along", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_z; }},
+      {"<assumption>",
+       "",
+       "what decides the results of this bearing",
+       [](const BearingPlan& plan, std::size_t k) { return own_assumptions(plan)[k].second; },
+       {.note = "its rows of `/assumptions`", .each = names}},
+  };
+  return table;
+}
+
+std::string group_of(const model::Bearing& bearing) { return "/bearings/" + bearing.name + "/"; }
+
+/// Constants are written first, because series name the nodes as their dimensions.
+const BearingPlan& written(const BearingPlan& plan, results::Writer& writer) {
+  write_once(bearing_attributes(), group_of(plan.bearing), plan, writer);
+  write_once(film_nodes(), group_of(plan.bearing), plan, writer);
+  return plan;
+}
+
+}  // namespace
+
+BearingRecord::BearingRecord(const BearingPlan& plan, const bearing::FilmForce& film, results::Writer& writer)
+    : film_(film),
+      rows_(bearing_quantities(), group_of(plan.bearing), written(plan, writer), writer),
+      fields_(film_field_quantities(), group_of(plan.bearing), plan, writer) {}
+
+std::vector<QuantityGroup> BearingRecord::describe() {
+  QuantityGroup figures{.path = "/bearings/<b>/", .heading = "of a bearing", .quantities = {}};
+  run::describe(bearing_attributes(), "n", figures);
+  describe_link(figures);
+  run::describe(bearing_quantities(), "n", figures);
+  run::describe(film_nodes(), "m", figures);
+  run::describe(film_field_quantities(), "m", figures);
+  return {figures, CycleMaps::describe()};
+}
+
+}  // namespace hersey::run

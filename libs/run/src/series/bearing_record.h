@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "hersey/bearing/film_force.h"
+#include "hersey/model/model.h"
+#include "table/quantity.h"
+
+namespace hersey::run {
+
+/// Data of a bearing that exist before the first row.
+struct BearingPlan {
+  const model::Model& model;
+  const model::Bearing& bearing;
+  film::FilmFields start;  ///< the same fields as at any instant
+};
+
+/// A bearing at an instant.
+struct BearingRow {
+  const bearing::BearingObservation& observation;
+  const film::FilmFields& fields;
+  const film::Grid& grid;
+};
+
+/// The fields of a film at an instant.
+struct FilmInstant {
+  double t = 0;
+  const film::FilmFields& fields;
+};
+
+/// One bearing in the results file: figures over time, extremes around the bore, fields.
+class BearingRecord {
+ public:
+  /// @param film  of the bearing; outlives this
+  BearingRecord(const BearingPlan& plan, const bearing::FilmForce& film, results::Writer& writer);
+  void append(const bearing::BearingObservation& observation) const {
+    rows_.append({observation, film_.fields(), film_.model().grid});
+  }
+  void append_fields(double t) const { fields_.append({t, film_.fields()}); }
+  /// The group of a bearing and that of its cycles.
+  [[nodiscard]] static std::vector<QuantityGroup> describe();
+
+ private:
+  const bearing::FilmForce& film_;
+  QuantityRows<BearingRow, BearingPlan> rows_;
+  QuantityRows<FilmInstant, BearingPlan> fields_;
+};
+
+}  // namespace hersey::run

@@ -1,0 +1,164 @@
+#include "start/start.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hersey/core/input_error.h"
+#include "hersey/solver/initialise.h"
+#include "hersey/solver/kinematics.h"
+#include "hersey/solver/static_deformation.h"
+#include "start/facing_surfaces.h"
+#include "start/start_changes.h"
+
+namespace hersey::run {
+namespace {
+
+// Returns the key path of the first name in a message: "joint main, rotation" -> joints.main; "t = 0 s: bearing
+// big_end: ..." -> bearings.big_end.
+std::string path_of(const std::string& message) {
+  const std::array<std::pair<const char*, const char*>, 6> sections{{{"joint ", "joints."},
+                                                                     {"drive ", "drives."},
+                                                                     {"coupling ", "couplings."},
+                                                                     {"contact ", "contacts."},
+                                                                     {"bearing ", "bearings."},
+                                                                     {"body ", "bodies."}}};
+  std::size_t first = std::string::npos;
+  std::string path;
+  for (const auto& [word, section] : sections) {
+    const std::size_t at = message.find(word);
+    if (at >= first) continue;
+    first = at;
+    const std::size_t name = at + std::string(word).size();
+    path = section + message.substr(name, message.find_first_of(",: ", name) - name);
+  }
+  return path;
+}
+
+Fault fault_at(const model::Model& model, const std::string& row, std::string found, std::string expected,
+               std::string suggestion) {
+  const std::string path = path_of(row);
+  SourcePosition position = path.empty() ? SourcePosition{model.file, 0, 0} : model.position_of(path);
+  return {std::move(position), path, std::move(found), std::move(expected), std::move(suggestion)};
+}
+
+std::vector<Fault> faults_of_open_loop(const model::Model& model, const solver::InitialiseSummary& summary) {
+  return {fault_at(model, summary.open.front().name,
+                   "a mechanism that cannot be assembled: at its closest, " + gaps_text(summary.open),
+                   "initial values and lengths with which every loop closes",
+                   "check the frames and `initial` values along the loop, and the drives in it")};
+}
+
+std::vector<Fault> faults_of(const model::Model& model, const solver::InitialiseSummary& summary) {
+  using Status = solver::InitialiseStatus;
+  std::vector<Fault> faults;
+  for (const std::string& row : summary.redundant) {
+    faults.push_back(
+        fault_at(model, row,
+                 "singular mechanism: " + row +
+                     " constrains a motion that other drives or joints prescribe already, or the loops start in a "
+                     "singular position",
+                 "constraints that are independent",
+                 "remove one of the drives, or start the loops away from positions where their rods align"));
+  }
+  for (const std::string& row : summary.undetermined) {
+    faults.push_back(fault_at(model, row, "singular mechanism: nothing determines the motion of " + row,
+                              "mass, inertia, a joint, a drive, a damper or a film for every coordinate",
+                              "give the bodies behind it mass and inertia, or hold it with a drive"));
+  }
+  if (!faults.empty()) return faults;
+  if (summary.status == Status::domain_error && path_of(summary.message).starts_with("contacts.")) {
+    return {fault_at(model, summary.message, summary.message, "shapes apart or just touching at the start",
+                     "move the joints' `initial` values or the shapes; of a half-space or mesh, see that its normals "
+                     "point out of the solid")};
+  }
+  if (summary.status == Status::domain_error && summary.message.find("are not numbers") != std::string::npos) {
+    return {fault_at(model, summary.message, summary.message, "loads, springs and inertias that are numbers together",
+                     "see that values and factors are in the units meant")};
+  }
+  if (summary.status == Status::domain_error && summary.message.find("do not face each other") != std::string::npos) {
+    return {fault_at(model, summary.message, summary.message, "frames whose z-axes are those of bore and journal",
+                     "turn the frame of the shell or of the journal, or the bodies by the joints' `initial` values")};
+  }
+  if (summary.status == Status::domain_error && path_of(summary.message).starts_with("bodies.")) {
+    return {fault_at(model, summary.message, summary.message,
+                     "a body whose motion at the start its material can follow",
+                     "see that speeds, loads and stiffness are in the units meant, or start from rest and let a drive "
+                     "speed up")};
+  }
+  if (summary.status == Status::domain_error) {
+    return {fault_at(model, summary.message, summary.message, "a journal inside its shell at the start",
+                     "move the bodies' frames or the joints' `initial` values, or enlarge `radial_clearance`")};
+  }
+  return faults_of_open_loop(model, summary);
+}
+
+}  // namespace
+
+namespace {
+
+// In a kinematic analysis nothing moves the coordinates that no drive prescribes.
+void require_prescribed_motion(const model::Model& model, model::Machine& machine, const solver::State& start) {
+  const std::vector<std::string> loose = solver::free_coordinates(*machine.mechanism, start);
+  if (loose.empty()) return;
+  throw InputError(Fault{
+      model.position_of("simulation.analysis"), "simulation.analysis",
+      fmt::format("kinematics of a mechanism with coordinates that nothing prescribes: {}", fmt::join(loose, ", ")),
+      "drives for as many coordinates as the mechanism has freedoms", "add a drive, or use `analysis: dynamics`"});
+}
+
+// At spectral radius 1 generalized-alpha damps nothing, and multipliers oscillate with growing amplitude. Steps chosen
+// by their error end on the constraints, so that no such oscillation persists.
+void require_damped_multipliers(const model::Model& model, const mbd::Mechanism& mechanism) {
+  if (model.simulation.analysis != model::Analysis::dynamics || mechanism.nlambda() == 0) return;
+  if (model.simulation.spectral_radius < 1 || model.simulation.error_control) return;
+  throw InputError(Fault{model.position_of("simulation.spectral_radius"), "simulation.spectral_radius",
+                         "1 in a mechanism with drives, couplings or closed loops", "a value below 1",
+                         "0.95 dissipates little; at 1 the multipliers of equal steps grow without bound, those of "
+                         "`step: {tolerance}` do not"});
+}
+
+// Deformable bodies start in equilibrium with the forces on them, if this is requested.
+void deform(const model::Model& model, model::Machine& machine, solver::InitialiseOptions options,
+            solver::State& state) {
+  using model::InitialDeformation;
+  const model::Simulation& plan = model.simulation;
+  if (plan.analysis != model::Analysis::dynamics || plan.initial_deformation == InitialDeformation::none) return;
+  if (plan.initial_deformation == InitialDeformation::internal) {
+    options.fixed.insert(options.fixed.end(), options.stiff.begin(), options.stiff.end());
+    options.stiff = machine.mechanism->internal_coordinates();
+  }
+  if (options.stiff.empty()) return;
+  const solver::StaticDeformationSummary summary = solver::settle_deformations(*machine.mechanism, state, options);
+  if (summary.solved()) return;
+  throw InputError(Fault{model.position_of("simulation"), "simulation.initial_deformation",
+                         "a start in which the deformation that the forces hold cannot be found: " + summary.message,
+                         "forces that the bodies can carry at the start",
+                         "start nearer to the motion that follows, or undeformed with initial_deformation: none"});
+}
+
+}  // namespace
+
+solver::State starting_state(const model::Model& model, model::Machine& machine) {
+  require_damped_multipliers(model, *machine.mechanism);
+  solver::State state = machine.mechanism->initial_state();
+  state.t = model.simulation.start;
+  solver::InitialiseOptions options;
+  options.fixed = machine.mechanism->given_coordinates();
+  options.fixed_rates = machine.mechanism->given_rates();
+  options.stiff = machine.mechanism->elastic_coordinates();
+  const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
+  if (!summary.solved()) throw InputError(faults_of(model, summary));
+  require_given_start(model, *machine.mechanism, state, summary);
+  require_clearance(model, machine, state);
+  deform(model, machine, options, state);
+  if (model.simulation.analysis == model::Analysis::kinematics) require_prescribed_motion(model, machine, state);
+  return state;
+}
+
+}  // namespace hersey::run

@@ -1,0 +1,201 @@
+#include "time_stepping/machine_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "hersey/core/stopwatch.h"
+#include "hersey/results/checkpoint.h"
+#include "hersey/results/reader.h"
+#include "hersey/results/writer.h"
+#include "hersey/run/checkpoint.h"
+#include "observation/observe_step.h"
+#include "start/start.h"
+#include "time_stepping/warm_bodies.h"
+
+namespace hersey::run {
+namespace {
+
+results::Status as_written(Status status) {
+  if (status == Status::completed) return results::Status::completed;
+  return status == Status::stopped ? results::Status::stopped : results::Status::failed;
+}
+
+}  // namespace
+
+MachineRun::MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint)
+    : model_(model),
+      options_(options),
+      began_(Clock::now()),
+      machine_(model::build(model)),
+      state_(starting_state(model, machine_)),
+      kinds_(force_kinds(machine_)),
+      stepper_(model, machine_),
+      work_(model, machine_, stepper_.integrator()),
+      record_(model, machine_, state_, options, checkpoint.has_value()),
+      checkpoints_(model.simulation) {
+  record_.declare_cost(work_.work());
+  if (checkpoint) restore_file(std::move(*checkpoint));
+}
+
+void MachineRun::begin() {
+  if (!resumes_) {
+    StepRecord start = observe({});
+    stepper_.plan(state_, start.mechanism);
+    record(std::move(start));
+  }
+  work_.begin();
+}
+
+Outcome MachineRun::step(double limit) {
+  const TimeStep step = stepper_.take(state_, limit);
+  if (!step.solved()) {
+    // The message of a journal that touches names asperities already.
+    const bool is_advised = step.message.find("asperities") != std::string::npos;
+    if (const std::string why = thermal_failure(machine_, true); !why.empty())
+      return no_answer<Outcome>(
+          fmt::format("t = {:.6g} s: {}; no step goes on from there: {}", state_.t, why, step.message));
+    return no_answer<Outcome>(step.message + (is_advised ? "" : record_.thin_films()));
+  }
+  if (model_.thermal_walls == model::ThermalWalls::transient) warm_bodies(machine_, step.dt);
+  record(step);
+  if (const std::string why = thermal_failure(machine_); !why.empty())
+    return no_answer<Outcome>(fmt::format("t = {:.6g} s: {}", state_.t, why));
+  return {Ending::solved};
+}
+
+StepRecord MachineRun::observe(const TimeStep& step) {
+  StepRecord observed = observe_step(machine_, state_, kinds_);
+  observed.dt = step.dt;
+  observed.error = step.error;
+  observed.step_error = step.local_error;
+  observed.newton_iterations = step.solution.iterations;
+  observed.newton_residual = step.solution.residual;
+  observed.rejected_steps = stepper_.rejected_steps();
+  observed.energy_available = stepper_.energy().available();
+  observed.energy_from_nowhere = stepper_.energy().gained();
+  return observed;
+}
+
+void MachineRun::record(const TimeStep& step) {
+  if (model_.thermal_walls == model::ThermalWalls::cycle_mean && record_.ends_cycle(state_.t)) settle_walls(machine_);
+  const Stopwatch watch(work_.recording());
+  record(observe(step));
+}
+
+void MachineRun::record(StepRecord step) {
+  last_step_ = std::move(step);
+  work_.take(last_step_);
+  record_.take(last_step_);
+  report_progress(last_step_);
+}
+
+void MachineRun::persist(Archive& archive) {
+  {
+    const Archive::Group group(archive, "state");
+    archive.io("t", state_.t), archive.io("q", state_.q), archive.io("v", state_.v);
+    archive.io("vdot", state_.vdot), archive.io("lambda", state_.lambda);
+  }
+  {
+    const Archive::Group group(archive, "mechanism");
+    machine_.mechanism->persist(archive);
+  }
+  {
+    const Archive::Group group(archive, "march");
+    stepper_.persist(archive);
+  }
+  if (machine_.network) {
+    const Archive::Group group(archive, "thermal_network");
+    machine_.network->persist(archive);
+  }
+  {
+    const Archive::Group group(archive, "work");
+    double wall_time = elapsed();
+    archive.io("wall_time", wall_time);
+    if (archive.restores()) before_ = wall_time;
+    work_.persist(archive);
+  }
+  const Archive::Group group(archive, "record");
+  record_.persist(archive);
+}
+
+void MachineRun::write_checkpoint(bool in_any_case) {
+  if (options_.results.empty() || !(in_any_case || checkpoints_.is_due(state_.t))) return;
+  const Stopwatch watch(work_.recording());
+  const Clock::time_point began = Clock::now();
+  Archive archive;
+  save_identity(archive, model_);
+  persist(archive);
+  results::write_checkpoint(checkpoint_file(options_.results), archive.content());
+  checkpoints_.written(state_.t, std::chrono::duration<double>(Clock::now() - began).count());
+}
+
+void MachineRun::restore(Archive& archive) {
+  persist(archive);
+  const bool is_finite = std::isfinite(state_.t) && state_.q.allFinite() && state_.v.allFinite() &&
+                         state_.vdot.allFinite() && state_.lambda.allFinite();
+  if (!is_finite) throw ArchiveError("its state has a number that is not finite");
+  for (const std::string& name : archive.unread())
+    if (!is_identity(name)) throw ArchiveError("it holds '" + name + "', of which this program knows nothing");
+  TimeStep last;
+  last.dt = stepper_.last_dt();
+  last_step_ = observe(last);
+}
+
+void MachineRun::restore_file(Archive::Content checkpoint) {
+  stepper_.plan(state_, observe({}).mechanism);
+  Archive archive(std::move(checkpoint));
+  try {
+    restore(archive);
+  } catch (const ArchiveError& error) {
+    throw results::ReadError(checkpoint_file(options_.results),
+                             std::string("it does not fit this program: ") + error.what());
+  }
+  checkpoints_.written(state_.t, 0);
+  resumes_ = true;
+}
+
+void MachineRun::report_progress(const StepRecord& step) const {
+  if (!options_.on_progress) return;
+  const model::Simulation& plan = model_.simulation;
+  options_.on_progress({.t = state_.t,
+                        .t_start = plan.start,
+                        .t_end = plan.start + plan.duration,
+                        .dt = step.dt,
+                        .newton_iterations = step.newton_iterations,
+                        .moft = record_.moft(),
+                        .elapsed = elapsed()});
+}
+
+Outcome MachineRun::finish(Status status, const std::string& message, const Summary* coarse) {
+  cost_ = cost();  // in case of a file that cannot be written
+  try {
+    {
+      const Stopwatch watch(work_.recording());
+      record_.flush();
+    }
+    cost_ = cost();
+    if (coarse != nullptr && status == Status::completed) record_.write_step_errors(*coarse);
+    record_.finish(as_written(status), message, cost_->wall_time, cost_->work);
+  } catch (const results::WriteError& error) {
+    return no_answer<Outcome>(error.what());
+  }
+  return {Ending::solved};
+}
+
+Summary MachineRun::summary() const {
+  Summary summary;
+  summary.results = options_.results;
+  summary.t_end = state_.t;
+  summary.rejected_steps = stepper_.rejected_steps();
+  record_.summarise(summary);
+  const Cost spent = cost_ ? *cost_ : cost();
+  summary.wall_time = spent.wall_time;
+  summary.work = spent.work;
+  return summary;
+}
+
+double MachineRun::elapsed() const { return before_ + std::chrono::duration<double>(Clock::now() - began_).count(); }
+
+}  // namespace hersey::run

@@ -1,0 +1,49 @@
+#include "time_stepping/warm_bodies.h"
+
+#include <vector>
+
+#include "hersey/bearing/global_heat.h"
+
+namespace hersey::run {
+
+void warm_bodies(model::Machine& machine, double dt) {
+  if (!machine.network) return;
+  std::vector<film::FilmAtNodes> films;
+  std::vector<bearing::FilmForce*> warmed;
+  for (const model::BuiltBearing& built : machine.bearings) {
+    const film::FilmHeat* heat = built.bearing->heat();
+    if (heat == nullptr || !film::terminals_of(heat->thermal()).has_any()) continue;
+    films.push_back({film::terminals_of(heat->thermal()), heat->exchange()});
+    warmed.push_back(built.bearing.get());
+  }
+  machine.network->advance(dt, films);
+  for (std::size_t i = 0; i < films.size(); ++i)
+    warmed[i]->move_walls(machine.network->walls(films[i].at, films[i].exchange.T));
+}
+
+void settle_walls(model::Machine& machine) {
+  std::vector<film::FilmAtNodes> films;
+  std::vector<bearing::FilmForce*> warm;
+  for (const model::BuiltBearing& built : machine.bearings) {
+    const film::FilmHeat* heat = built.bearing->heat();
+    if (heat == nullptr) continue;
+    films.push_back({film::terminals_of(heat->thermal()), built.bearing->mean_exchange()});
+    warm.push_back(built.bearing.get());
+  }
+  if (machine.network) machine.network->advance(0, films);
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const Eigen::VectorXd& T = films[i].exchange.T;
+    warm[i]->settle_walls(machine.network ? machine.network->walls(films[i].at, T) : T);
+  }
+}
+
+std::string thermal_failure(const model::Machine& machine, bool has_failed) {
+  constexpr double all_but_closed = 0.3;  // of the clearance as given
+  for (const model::BuiltBearing& built : machine.bearings)
+    if (const std::string why = built.bearing->thermal_trouble(has_failed ? all_but_closed : bearing::seized);
+        !why.empty())
+      return "bearing " + built.bearing->name() + ": " + why;
+  return {};
+}
+
+}  // namespace hersey::run
