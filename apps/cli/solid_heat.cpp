@@ -5,7 +5,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/fem/heat_conduction.h"
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
 #include "option_value.h"
 
 namespace hersey::cli {

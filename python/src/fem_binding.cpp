@@ -10,13 +10,13 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_distributions.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduced_body_file.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/stress.h"
-#include "hersey/fem/surface_loads.h"
 #include "hersey/fem/vibration.h"
 
 namespace hersey::python {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "small_bodies.h"
 
 namespace hersey::fem {

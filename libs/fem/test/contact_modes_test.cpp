@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "small_bodies.h"
 
 namespace hersey::fem {

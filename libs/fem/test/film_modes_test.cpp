@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "hersey/fem/film_surface.h"
+#include "hersey/fem/load_distributions.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/reduction.h"
-#include "hersey/fem/surface_loads.h"
 #include "ring.h"
 #include "small_bodies.h"
 #include "source_dir.h"

@@ -8,9 +8,9 @@
 #include <limits>
 #include <numbers>
 
+#include "hersey/fem/load_distributions.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/skin.h"
-#include "hersey/fem/surface_loads.h"
 #include "ring.h"
 #include "small_bodies.h"
 #include "source_dir.h"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "elastic_large_displacement.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "small_bodies.h"
 
 namespace hersey::fem {

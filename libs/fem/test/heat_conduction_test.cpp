@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
 #include "ring.h"
 #include "small_bodies.h"
 

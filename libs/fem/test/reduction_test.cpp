@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "hersey/fem/constrained_stiffness.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/fem/vibration.h"
 #include "small_bodies.h"
 

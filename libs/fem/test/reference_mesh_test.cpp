@@ -6,11 +6,11 @@
 
 #include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/heat_conduction.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_distributions.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/stress.h"
-#include "hersey/fem/surface_loads.h"
 #include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/vibration.h"
 #include "small_bodies.h"

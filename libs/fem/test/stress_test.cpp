@@ -6,7 +6,7 @@
 
 #include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/finite_strain.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "small_bodies.h"
 
 namespace hersey::fem {

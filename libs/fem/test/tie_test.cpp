@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hersey/fem/constrained_stiffness.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduction.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
-#include "hersey/fem/loads.h"
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
+#include "hersey/fem/load_vectors.h"
 #include "reduction/interface_motion.h"
 
 namespace hersey::fem {

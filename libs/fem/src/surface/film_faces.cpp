@@ -3,8 +3,8 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/fem/film_surface.h"
-#include "hersey/fem/surface_loads.h"
-#include "surface/cylinder_point.h"
+#include "hersey/fem/load_distributions.h"
+#include "surface/film_coordinates.h"
 
 namespace hersey::fem {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "hersey/fem/element_point.h"
 #include "hersey/fem/quadrature.h"
-#include "surface/cylinder_point.h"
+#include "surface/film_coordinates.h"
 
 namespace hersey::fem {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/fem/elastic_body.h"
-#include "hersey/fem/surface_loads.h"
-#include "surface/cylinder_point.h"
-#include "surface/film_cover.h"
+#include "hersey/fem/load_distributions.h"
+#include "surface/film_coordinates.h"
+#include "surface/film_coverage.h"
 #include "surface/film_quadrature.h"
 
 namespace hersey::fem {

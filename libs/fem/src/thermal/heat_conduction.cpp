@@ -4,7 +4,7 @@
 
 #include "element/block_pattern.h"
 #include "hersey/core/contract.h"
-#include "surface/face_points.h"
+#include "surface/face_quadrature.h"
 
 namespace hersey::fem {
 namespace {

@@ -8,7 +8,7 @@
 #include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/ties.h"
-#include "surface/cylinder_point.h"
+#include "surface/film_coordinates.h"
 #include "surface/film_quadrature.h"
 
 namespace hersey::fem {

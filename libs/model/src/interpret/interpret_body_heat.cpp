@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "hersey/core/spelling.h"
+#include "hersey/fem/load_distributions.h"
 #include "hersey/fem/skin.h"
-#include "hersey/fem/surface_loads.h"
 #include "interpret/interpret.h"
 
 // How bodies conduct heat and expand.

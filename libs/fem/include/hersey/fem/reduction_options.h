@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hersey/fem/film_surface.h"
-#include "hersey/fem/loaded_surface.h"
+#include "hersey/fem/load_shapes.h"
 
 namespace hersey::fem {
 

@@ -1,4 +1,4 @@
-#include "hersey/fem/found_surface.h"
+#include "hersey/fem/surface_detection.h"
 
 #include <doctest/doctest.h>
 

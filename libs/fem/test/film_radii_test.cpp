@@ -1,4 +1,4 @@
-#include "hersey/fem/surface_radii.h"
+#include "hersey/fem/film_radii.h"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hersey/fem/found_surface.h"
+#include "hersey/fem/surface_detection.h"
 
 namespace hersey::fem {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "hersey/core/turn.h"
-#include "surface/surface_regions.h"
+#include "surface/detection_regions.h"
 
 namespace hersey::fem {
 namespace {

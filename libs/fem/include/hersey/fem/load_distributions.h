@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 
 /// Where a load acts on a mesh, and the distributions that are not plain.
 namespace hersey::fem {

@@ -29,7 +29,7 @@ struct SurfaceFacets {
   std::vector<std::vector<FacetNeighbour>> neighbours;  ///< of each facet; edges of more than two facets have none
 };
 
-/// @verified_by found_surface_test.cpp
+/// @verified_by surface_detection_test.cpp
 [[nodiscard]] SurfaceFacets surface_facets(const Mesh& mesh);
 
 }  // namespace hersey::fem

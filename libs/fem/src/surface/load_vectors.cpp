@@ -1,6 +1,6 @@
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 
-#include "surface/face_points.h"
+#include "surface/face_quadrature.h"
 
 namespace hersey::fem {
 Eigen::VectorXd gravity_load(const ElasticBody& body, const Vector3& g) {

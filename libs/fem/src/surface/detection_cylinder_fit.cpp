@@ -1,4 +1,4 @@
-#include "surface/cylinder_fit.h"
+#include "surface/detection_cylinder_fit.h"
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "hersey/fem/loaded_surface.h"
+#include "hersey/fem/load_shapes.h"
 
 #include <cmath>
 
 #include "hersey/core/contract.h"
-#include "hersey/fem/loads.h"
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
+#include "hersey/fem/load_vectors.h"
 
 namespace hersey::fem {
 namespace {

@@ -1,4 +1,4 @@
-#include "hersey/fem/surface_pressure.h"
+#include "hersey/fem/film_pressure.h"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "surface/surface_regions.h"
+#include "surface/detection_regions.h"
 
 namespace hersey::fem {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/surface_names.h"
+#include "surface/detection_names.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "hersey/fem/surface_radii.h"
+#include "hersey/fem/film_radii.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "hersey/core/turn.h"
-#include "surface/cylinder_point.h"
+#include "surface/film_coordinates.h"
 #include "surface/film_quadrature.h"
 
 namespace hersey::fem {

@@ -40,7 +40,7 @@ struct FoundSurface {
 /// lands beside a groove no wider than half a land) are one. What faces remain are of planes where their nodes lie on
 /// one; faces on the same plane are one surface though they do not touch. Cylinders of less than 60 degrees, cones and
 /// other shapes are not told.
-/// @verified_by found_surface_test.cpp
+/// @verified_by surface_detection_test.cpp
 [[nodiscard]] std::vector<FoundSurface> find_surfaces(const Mesh& mesh);
 
 /// Adds each as a surface of the mesh and a node set, unless there is a surface of its name.

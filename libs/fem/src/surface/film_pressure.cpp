@@ -1,10 +1,10 @@
-#include "hersey/fem/surface_pressure.h"
+#include "hersey/fem/film_pressure.h"
 
 #include <cmath>
 
 #include "hersey/core/contract.h"
-#include "hersey/fem/surface_loads.h"
-#include "surface/cylinder_point.h"
+#include "hersey/fem/load_distributions.h"
+#include "surface/film_coordinates.h"
 
 namespace hersey::fem {
 

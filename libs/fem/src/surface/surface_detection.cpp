@@ -1,11 +1,12 @@
+#include "hersey/fem/surface_detection.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "hersey/fem/found_surface.h"
-#include "hersey/fem/surface_loads.h"
-#include "surface/surface_names.h"
-#include "surface/surface_regions.h"
+#include "hersey/fem/load_distributions.h"
+#include "surface/detection_names.h"
+#include "surface/detection_regions.h"
 
 namespace hersey::fem {
 namespace {

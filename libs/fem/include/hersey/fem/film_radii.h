@@ -21,7 +21,7 @@ struct SurfaceRadii {
   [[nodiscard]] static double phi_of(int i);  ///< in the middle of a field, 0..2 pi
 };
 
-/// @verified_by surface_radii_test.cpp
+/// @verified_by film_radii_test.cpp
 [[nodiscard]] SurfaceRadii surface_radii(const Mesh& mesh, const FilmSurface& surface);
 
 }  // namespace hersey::fem

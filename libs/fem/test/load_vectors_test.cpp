@@ -1,4 +1,4 @@
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 
 #include <doctest/doctest.h>
 

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "hersey/core/contract.h"
-#include "hersey/fem/loaded_surface.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_shapes.h"
+#include "hersey/fem/load_vectors.h"
 
 namespace hersey::fem {
 namespace {

@@ -25,7 +25,7 @@ struct CylinderFit {
 /// The cylinder with the least sum of squares of the points' distances from it, by Gauss and Newton from the circle
 /// that fits best along `axis`. Nothing where the points are fewer than six or lie on no cylinder: the iteration does
 /// not settle, or the radius is beyond `largest_radius` [m].
-/// @verified_by found_surface_test.cpp
+/// @verified_by surface_detection_test.cpp
 [[nodiscard]] std::optional<CylinderFit> fit_cylinder(const std::vector<Vector3>& points, const Vector3& axis,
                                                       double largest_radius);
 

@@ -11,7 +11,7 @@ namespace hersey::fem {
 /// Pressure on a film's surface by the functions that carry it to the mesh: forces f_k that push outward at places of
 /// the film become
 ///     p(phi, z) = sum_j psi_j p_j,    G p = sum_k psi(phi_k, z_k) f_k,    nodal forces T p.       (film-surface.8)
-/// @verified_by surface_pressure_test.cpp
+/// @verified_by film_pressure_test.cpp
 class SurfacePressure {
  public:
   /// Factorises G of `surface`, which lies on `mesh`.

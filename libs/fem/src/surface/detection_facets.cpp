@@ -1,4 +1,4 @@
-#include "surface/surface_facets.h"
+#include "surface/detection_facets.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "hersey/fem/shape_functions.h"
 #include "hersey/fem/skin.h"
-#include "surface/face_points.h"
+#include "surface/face_quadrature.h"
 
 namespace hersey::fem {
 namespace {

@@ -1,4 +1,4 @@
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
 
 #include <doctest/doctest.h>
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "surface/cylinder_fit.h"
-#include "surface/surface_facets.h"
+#include "surface/detection_cylinder_fit.h"
+#include "surface/detection_facets.h"
 
 /// Facets that lie on one plane or cylinder.
 namespace hersey::fem {

@@ -1,4 +1,4 @@
-#include "surface/film_cover.h"
+#include "surface/film_coverage.h"
 
 #include <fmt/format.h>
 
