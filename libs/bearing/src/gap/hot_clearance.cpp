@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "hersey/bearing/clearance.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::bearing {
 namespace {
@@ -14,9 +14,9 @@ namespace {
 Eigen::VectorXd shares(const film::Grid& grid) {
   Eigen::VectorXd share(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double before = i > 0 ? grid.phi(i - 1) : grid.phi(grid.n_phi - 1) - turn;
-    const double after = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + turn;
-    share[i] = (after - before) / (2 * turn);
+    const double before = i > 0 ? grid.phi(i - 1) : grid.phi(grid.n_phi - 1) - two_pi;
+    const double after = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + two_pi;
+    share[i] = (after - before) / (2 * two_pi);
   }
   return share;
 }

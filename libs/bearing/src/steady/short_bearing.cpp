@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "hersey/core/contract.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::bearing {
 namespace {
@@ -58,7 +58,7 @@ double likely_temperature(const film::FilmModel& model, double T_supply, const O
     const double e = point.load ? ocvirk_position(at, point).norm() : point.e.norm();
     const double epsilon = std::clamp(e / clearance(model, point), 0.1, 0.95);
     const double power =
-        at.lubricant.mu0 * U * U * turn * model.R * model.L / (clearance(model) * std::sqrt(1 - epsilon * epsilon));
+        at.lubricant.mu0 * U * U * two_pi * model.R * model.L / (clearance(model) * std::sqrt(1 - epsilon * epsilon));
     const double rise = power / (2 * oil.density * oil.specific_heat * epsilon * carried);
     T += 0.5 * (T_supply + rise - T);
   }

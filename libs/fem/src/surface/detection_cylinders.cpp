@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 #include "surface/detection_regions.h"
 
 namespace hersey::fem {
@@ -195,7 +195,7 @@ CylinderExtent extent_of(const Mesh& mesh, const SurfaceFacets& surface, const C
     for (std::size_t c = 0; c < facet.corners; ++c) {
       const Vector3& x = place_of(mesh, facet.nodes[c]);
       const Vector3 r = fit.from_axis(x);
-      const double from_middle = std::remainder(std::atan2(quarter.dot(r), zero.dot(r)) - phi, turn);
+      const double from_middle = std::remainder(std::atan2(quarter.dot(r), zero.dot(r)) - phi, two_pi);
       before = std::min(before, from_middle), after = std::max(after, from_middle);
       const double along = fit.axis.dot(x - fit.point);
       extent.low = std::min(extent.low, along), extent.high = std::max(extent.high, along);
@@ -209,7 +209,7 @@ CylinderExtent extent_of(const Mesh& mesh, const SurfaceFacets& surface, const C
     extent.arc += std::max(0.0, to - std::max(from, reached));
     reached = std::max(reached, to);
   }
-  extent.arc -= std::max(0.0, reached - angles.front().first - turn);  // counted twice where the turn closes
+  extent.arc -= std::max(0.0, reached - angles.front().first - two_pi);  // counted twice where the turn closes
   return extent;
 }
 

@@ -6,14 +6,14 @@
 #include <array>
 #include <cmath>
 
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 #include "surface/film_quadrature.h"
 
 namespace hersey::fem {
 namespace {
 constexpr int points_around = 144, points_along = 24;  // points looked at
 
-double phi_at(int i) { return (i + 0.5) * turn / points_around; }
+double phi_at(int i) { return (i + 0.5) * two_pi / points_around; }
 double z_at(int k, double L) { return ((k + 0.5) / points_along - 0.5) * L; }
 
 /// Whether (phi, z) lies in a triangle, with its edges.
@@ -34,8 +34,8 @@ bool holds(const std::array<FilmCorner, 3>& corners, double phi, double z) {
 void mark(const std::array<FilmCorner, 3>& corners, double L, std::vector<char>& covered) {
   const auto [phi_low, phi_high] = std::minmax({corners[0].phi, corners[1].phi, corners[2].phi});
   const auto [z_low, z_high] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
-  const int i_first = static_cast<int>(std::floor(phi_low / turn * points_around - 0.5));
-  const int i_last = static_cast<int>(std::ceil(phi_high / turn * points_around - 0.5));
+  const int i_first = static_cast<int>(std::floor(phi_low / two_pi * points_around - 0.5));
+  const int i_last = static_cast<int>(std::ceil(phi_high / two_pi * points_around - 0.5));
   const int k_first = std::max(0, static_cast<int>(std::floor((z_low / L + 0.5) * points_along - 0.5)));
   const int k_last = std::min(points_along - 1, static_cast<int>(std::ceil((z_high / L + 0.5) * points_along - 0.5)));
   for (int i = i_first; i <= i_last; ++i)
@@ -61,9 +61,9 @@ std::array<int, 2> arc_of(const std::array<char, points_around>& marked) {
 }  // namespace
 
 std::string FilmCover::text() const {
-  const double degrees = 360 / turn;
+  const double degrees = 360 / two_pi;
   const std::string phi =
-      phi_over > turn * (1 - 1.5 / points_around)
+      phi_over > two_pi * (1 - 1.5 / points_around)
           ? "all around"
           : fmt::format("from {:.0f} to {:.0f} deg", phi_from * degrees, (phi_from + phi_over) * degrees);
   return fmt::format("a surface that covers only {:.0f} % of the film: there is none {}, z = {:.3g} to {:.3g} mm",
@@ -87,8 +87,8 @@ FilmCover film_cover(const Mesh& mesh, const std::vector<ElementFace>& faces, co
   if (missing == 0) return {};
   const auto [first, columns] = arc_of(has_gap);
   return {.missing = static_cast<double>(missing) / (points_around * points_along),
-          .phi_from = first * turn / points_around,
-          .phi_over = columns * turn / points_around,
+          .phi_from = first * two_pi / points_around,
+          .phi_over = columns * two_pi / points_around,
           .z_low = (static_cast<double>(k_low) / points_along - 0.5) * cylinder.L,
           .z_high = (static_cast<double>(k_high + 1) / points_along - 0.5) * cylinder.L};
 }

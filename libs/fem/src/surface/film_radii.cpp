@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 #include "surface/film_coordinates.h"
 #include "surface/film_quadrature.h"
 
@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 
 Index column_of(double phi) {
-  const auto i = static_cast<Index>(std::floor(phi / turn * SurfaceRadii::around));
+  const auto i = static_cast<Index>(std::floor(phi / two_pi * SurfaceRadii::around));
   return (i % SurfaceRadii::around + SurfaceRadii::around) % SurfaceRadii::around;
 }
 
@@ -26,7 +26,7 @@ Index row_of(double z, double width) {
 /// Pieces of each edge, so that every field under a face gets a point.
 int parts_of(const Mesh& mesh, ElementFace face, const FilmCylinder& cylinder) {
   const CylinderBox box = cylinder_box(mesh, face, cylinder.X.inverse());
-  const double fields = std::max((box.phi_high - box.phi_low) / turn * SurfaceRadii::around,
+  const double fields = std::max((box.phi_high - box.phi_low) / two_pi * SurfaceRadii::around,
                                  (box.z_high - box.z_low) / cylinder.L * SurfaceRadii::along);
   return std::clamp(static_cast<int>(std::ceil(fields)), 2, 24);
 }
@@ -50,7 +50,7 @@ void fill_holes(Eigen::MatrixXd& deviation) {
 
 }  // namespace
 
-double SurfaceRadii::phi_of(int i) { return (i + 0.5) * turn / around; }
+double SurfaceRadii::phi_of(int i) { return (i + 0.5) * two_pi / around; }
 
 double SurfaceRadii::at(double phi, double z) const { return deviation(column_of(phi), row_of(z, width)); }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 #include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/ties.h"
@@ -28,18 +28,18 @@ struct Between {
 
 Between between(const std::vector<double>& angles, double phi) {
   const auto n = static_cast<Index>(angles.size());
-  const double at = angles.front() + std::fmod(std::fmod(phi - angles.front(), turn) + turn, turn);
+  const double at = angles.front() + std::fmod(std::fmod(phi - angles.front(), two_pi) + two_pi, two_pi);
   const auto after = std::upper_bound(angles.begin(), angles.end(), at);
   const Index second = after - angles.begin();
   const double from = angles[static_cast<std::size_t>(second - 1)];
-  const double to = second < n ? *after : angles.front() + turn;
+  const double to = second < n ? *after : angles.front() + two_pi;
   return {second - 1, second % n, (at - from) / (to - from)};
 }
 
 /// Pieces of a face's edges, at least three to the distance of two angles.
 int pieces_of(const Mesh& mesh, const FilmSurface& surface, const std::vector<double>& angles) {
   const Pose to_cylinder = surface.cylinder.X.inverse();
-  double widest = 0, finest = angles.front() + turn - angles.back();
+  double widest = 0, finest = angles.front() + two_pi - angles.back();
   for (const ElementFace face : surface.faces) {
     const CylinderBox box = cylinder_box(mesh, face, to_cylinder);
     widest = std::max(widest, box.phi_high - box.phi_low);
@@ -130,7 +130,7 @@ MatrixXd mean_around(const SurfaceFunctions& functions, const MatrixXd& shapes, 
   std::vector<SurfaceTerm> terms;
   for (std::size_t j = 0; j < z.size(); ++j)
     for (int i = 0; i < functions.around(); ++i) {
-      functions.at(turn * i / functions.around(), z[j], terms);
+      functions.at(two_pi * i / functions.around(), z[j], terms);
       for (const SurfaceTerm& term : terms)
         mean.row(static_cast<Index>(j)) += term.value / functions.around() * shapes.row(term.index);
     }

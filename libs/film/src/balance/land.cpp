@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "balance/flow_balance.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::film {
 
@@ -27,7 +27,7 @@ void FlowBalance::find_strips(int f, double phi, double u) {
       const double back = before < 0 ? 0 : 0.5 * geometry_.step(before, j), ahead = 0.5 * geometry_.step(i, j);
       const double middle = R * geometry_.from_to(geometry_.phi[i], phi), reach = 0.5 * R * feature.arc;
       bool touches = false;
-      for (const double image : {-turn * R, 0.0, turn * R}) {
+      for (const double image : {-two_pi * R, 0.0, two_pi * R}) {
         const double from = std::max(-back, middle + image - reach), to = std::min(ahead, middle + image + reach);
         if (from >= to) continue;
         strips_.push_back({node, grid.index(i, next), f, from, to, 1 / land - 1 / tube, u});

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "balance/flow_balance.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 // Rows of the residual that supply line and features have a part in (film.21, film.22).
 namespace hersey::film {

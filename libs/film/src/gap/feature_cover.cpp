@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::film {
 namespace {
@@ -112,7 +112,7 @@ Share held(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surrou
 /// borders move backwards.
 Share overlap(double first, double last, double half) {
   Share sum;
-  for (const double image : {-turn, 0.0, turn}) {
+  for (const double image : {-two_pi, 0.0, two_pi}) {
     const double left = std::max(first, image - half), right = std::min(last, image + half);
     if (right <= left) continue;
     sum.value += right - left;
@@ -129,7 +129,7 @@ double overlap_along(const SurfaceFeature& feature, const Surroundings& s) {
 
 /// Of a control volume.
 Share covered(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s) {
-  if (feature.arc >= turn) return {overlap_along(feature, s), 0};
+  if (feature.arc >= two_pi) return {overlap_along(feature, s), 0};
   const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
   const double along = overlap_along(feature, s) / (s.back + s.ahead);
   return {around.value * along, around.phi * along};
@@ -142,7 +142,7 @@ Share covered(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Sur
 /// Of a control volume that a feature covers in part, or, where the feature is the smaller around the bearing, of what
 /// goes around there.
 Share stirred_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
-  if (feature.arc >= turn) return {1, 0};
+  if (feature.arc >= two_pi) return {1, 0};
   const double smaller = std::min(s.back + s.ahead, feature.arc);
   const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
   return {around.value / smaller, around.phi / smaller};
@@ -178,7 +178,7 @@ void stir(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroun
 }  // namespace
 
 SurfaceFeature without_border(SurfaceFeature feature, const FilmModel& model, const GridGeometry& geometry) {
-  if (feature.arc < turn) feature.arc -= same_place * geometry.mean_dx / geometry.R;
+  if (feature.arc < two_pi) feature.arc -= same_place * geometry.mean_dx / geometry.R;
   const bool reaches = std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9);  // to round-off
   if (!reaches) feature.length -= same_place * geometry.mean_dz;
   return feature;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::film {
 namespace {
@@ -52,7 +52,7 @@ void check(const std::vector<Refinement>& places) {
 }  // namespace
 
 double mean_step(const Grid& grid) {
-  if (grid.closes()) return turn / grid.n_phi;
+  if (grid.closes()) return two_pi / grid.n_phi;
   double sum = 0;
   for (int i = 0; i < grid.n_phi; ++i)
     if (grid.next(i) >= 0) sum += grid.phi(i + 1) - grid.phi(i);
@@ -65,10 +65,10 @@ Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, cons
   if (!around.empty()) {
     const auto density = [&](double phi) {
       double sum = 1;
-      for (const Refinement& r : around) sum += density_at(std::remainder(phi - r.place, turn), r);
+      for (const Refinement& r : around) sum += density_at(std::remainder(phi - r.place, two_pi), r);
       return sum;
     };
-    grid.angles = equal_shares(n_phi + 1, 0, turn, density);
+    grid.angles = equal_shares(n_phi + 1, 0, two_pi, density);
     grid.angles.pop_back();
   }
   if (!along.empty()) {
@@ -102,7 +102,7 @@ Grid resampled(const Grid& grid, int n_phi, int n_z) {
     other.angles = grid.angles;
   } else if (!grid.angles.empty()) {
     std::vector<double> whole_turn = grid.angles;
-    whole_turn.push_back(grid.angles.front() + turn);
+    whole_turn.push_back(grid.angles.front() + two_pi);
     other.angles.resize(n_phi);
     for (int i = 0; i < n_phi; ++i) {
       other.angles[i] = between(whole_turn, static_cast<double>(i) * grid.n_phi / n_phi);
@@ -123,7 +123,7 @@ Grid turned(const Grid& grid, double share) {
   Grid other = grid;
   other.angles.resize(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + turn;
+    const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + two_pi;
     other.angles[i] = grid.phi(i) + share * (next - grid.phi(i));
   }
   return other;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::film {
 
@@ -92,12 +92,12 @@ GridGeometry::GridGeometry(const FilmModel& model) : R(model.R), surface(model.s
   int intervals = 0;
   for (int i = 0; i < n_phi; ++i) {
     if (grid.next(i) < 0) continue;
-    const double next = i + 1 < n_phi ? phi[i + 1] : phi[0] + turn;
-    dx[i] = even_phi ? turn * R / n_phi : R * (next - phi[i]);
+    const double next = i + 1 < n_phi ? phi[i + 1] : phi[0] + two_pi;
+    dx[i] = even_phi ? two_pi * R / n_phi : R * (next - phi[i]);
     HERSEY_REQUIRE(dx[i] > 0, "the grid's nodes ascend");
     ++intervals;
   }
-  mean_dx = grid.closes() ? turn * R / n_phi : dx.sum() / intervals;
+  mean_dx = grid.closes() ? two_pi * R / n_phi : dx.sum() / intervals;
   mean_dz = model.L / (n_z - 1);
   for (int i = 0; i < n_phi; ++i) width_phi[i] = 0.5 * (dx[i] + (grid.before(i) < 0 ? 0 : dx[grid.before(i)]));
   for (int j = 0; j + 1 < n_z; ++j) {
@@ -120,24 +120,24 @@ GridGeometry::GridGeometry(const FilmModel& model) : R(model.R), surface(model.s
 }
 
 double GridGeometry::from_to(double from, double to) const {
-  return closes(surface) ? std::remainder(to - from, turn) : to - from;
+  return closes(surface) ? std::remainder(to - from, two_pi) : to - from;
 }
 
 double GridGeometry::told(double angle) const {
-  return closes(surface) ? std::fmod(std::fmod(angle, turn) + turn, turn) : angle;
+  return closes(surface) ? std::fmod(std::fmod(angle, two_pi) + two_pi, two_pi) : angle;
 }
 
 GridGeometry::Place GridGeometry::place_of(double angle) const {
   const auto n = static_cast<int>(phi.size());
   // Just below a node counts as on it: round-off decides nothing.
-  const double sliver = 1e-9 * turn / n;
+  const double sliver = 1e-9 * two_pi / n;
   double along = angle + sliver - phi[0];
-  if (closes(surface)) along = std::fmod(along, turn);
-  if (closes(surface) && along < 0) along += turn;
+  if (closes(surface)) along = std::fmod(along, two_pi);
+  if (closes(surface) && along < 0) along += two_pi;
   const double at = phi[0] + along;
   const int node = std::max(static_cast<int>(std::upper_bound(phi.begin(), phi.end(), at) - phi.begin()) - 1, 0);
   if (dx[node] == 0) return {node - 1, 1};
-  const double next = node + 1 < n ? phi[node + 1] : phi[0] + turn;
+  const double next = node + 1 < n ? phi[node + 1] : phi[0] + two_pi;
   return {node, std::max(0.0, at - sliver - phi[node]) / (next - phi[node])};
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::film {
 namespace {
@@ -34,9 +34,9 @@ struct Border {
 
 /// Length of the interval from `first` to `last` that lies within +-half or a turn away from there.
 double length_within(double first, double last, double half) {
-  if (half >= 0.5 * turn) return last - first;
+  if (half >= 0.5 * two_pi) return last - first;
   double sum = 0;
-  for (const double image : {-turn, 0.0, turn, 2 * turn}) {
+  for (const double image : {-two_pi, 0.0, two_pi, 2 * two_pi}) {
     sum += std::max(0.0, std::min(last, image + half) - std::max(first, image - half));
   }
   return sum;
@@ -56,7 +56,7 @@ struct PocketRelief::Extent {
 double swept_area(const SurfaceFeature& pocket, double R, double phi, double low, double high, double start,
                   double end) {
   // Seen from the pocket the face moves from phi - start back to phi - end.
-  const double turned = std::remainder(end - start, turn), from = std::remainder(phi - pocket.phi - start, turn);
+  const double turned = std::remainder(end - start, two_pi), from = std::remainder(phi - pocket.phi - start, two_pi);
   const double first = std::min(from, from - turned), last = std::max(from, from - turned);
   const double sign = turned < 0 ? -1 : 1, half = 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
   if (std::holds_alternative<Rectangle>(pocket.shape)) {
@@ -126,11 +126,11 @@ void PocketRelief::place_tubes(double phi_journal) {
     const double back = before < 0 ? 0 : 0.5 * geometry_.dphi(before), ahead = 0.5 * step;
     around.clear(), along.clear();
     for (const SurfaceFeature& pocket : pockets_) {
-      const bool turns = pocket.surface == Surface::journal, all_around = pocket.arc >= turn;
+      const bool turns = pocket.surface == Surface::journal, all_around = pocket.arc >= two_pi;
       const double rate = turns && !all_around ? 1 : 0;
       const double middle = half_turn_from(phi + ahead, pocket.phi + (turns ? phi_journal : 0.0));
-      const double half_arc = all_around ? turn : 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
-      for (const double image : {-turn, 0.0, turn}) {
+      const double half_arc = all_around ? two_pi : 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
+      for (const double image : {-two_pi, 0.0, two_pi}) {
         if (all_around && image != 0) continue;
         const double at = middle + image;
         if (at + half_arc <= phi - back || at - half_arc >= phi + step) continue;

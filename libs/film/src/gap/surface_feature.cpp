@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::film {
 namespace {
@@ -14,7 +14,7 @@ constexpr int samples = 50;
 
 bool contains(const SurfaceFeature& feature, double phi, double z) {
   // A groove all around has no end, wherever its seam is rounded to.
-  const double x = feature.arc >= turn ? 0 : std::remainder(phi - feature.phi, turn) / (0.5 * feature.arc);
+  const double x = feature.arc >= two_pi ? 0 : std::remainder(phi - feature.phi, two_pi) / (0.5 * feature.arc);
   const double y = (z - feature.z) / (0.5 * feature.length);
   return std::visit([&](const auto& shape) { return shape.contains(x, y); }, feature.shape);
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gap/feature_cover.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::film {
 namespace {
@@ -145,7 +145,7 @@ class Search {
     const double half_arc = 0.5 * f.arc, half_length = 0.5 * f.length;
     for (const double side : {-1.0, 1.0}) {
       try_place(f.phi + s * half_arc, f.z + side * half_length, best);
-      if (f.arc < turn) try_place(f.phi + side * half_arc, f.z + s * half_length, best);
+      if (f.arc < two_pi) try_place(f.phi + side * half_arc, f.z + s * half_length, best);
     }
   }
 

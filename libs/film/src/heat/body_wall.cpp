@@ -1,6 +1,6 @@
 #include "hersey/film/body_wall.h"
 
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 #include "hersey/film/grid_transfer.h"
 
 namespace hersey::film {
@@ -24,8 +24,8 @@ MatrixXd at_nodes(const GridTransfer& transfer, const MatrixXd& fields) {
 VectorXd widths(const Grid& grid) {
   VectorXd width(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
-    const double before = i > 0 ? grid.phi(i - 1) : grid.phi(grid.n_phi - 1) - turn;
-    const double after = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + turn;
+    const double before = i > 0 ? grid.phi(i - 1) : grid.phi(grid.n_phi - 1) - two_pi;
+    const double after = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + two_pi;
     width[i] = (after - before) / 2;
   }
   return width;

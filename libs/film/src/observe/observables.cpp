@@ -7,7 +7,7 @@
 #include "balance/flow_balance.h"
 #include "gap/thinnest_film.h"
 #include "hersey/core/contract.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 #include "observe/film_power.h"
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
@@ -92,7 +92,7 @@ Peak largest_pressure_of(const FlowBalance& balance, const Eigen::VectorXd& p, d
   const Peak peak =
       PeakFinder(model, balance.geometry()).largest(p, [&](int a, int b) { return is_smooth(balance, a, b); });
   if (model.supply.kind == SupplyKind::none || model.supply.pressure <= peak.value) return peak;
-  return {model.supply.pressure, phi_supply - turn * std::floor(phi_supply / turn), 0};
+  return {model.supply.pressure, phi_supply - two_pi * std::floor(phi_supply / two_pi), 0};
 }
 
 /// Flows over the boundaries, storage and volume (film.55).

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hersey/core/contract.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::film {
 namespace {
@@ -38,9 +38,9 @@ GridTransfer::GridTransfer(const Grid& from, const Grid& to) : GridTransfer(from
 GridTransfer GridTransfer::by_place(const Grid& from, const Grid& to) {
   HERSEY_REQUIRE(from.closes() && to.closes(), "between rings");
   GridTransfer transfer(from);
-  const auto phi = [&](int k) { return from.phi(k % from.n_phi) + (k < from.n_phi ? 0 : turn); };
+  const auto phi = [&](int k) { return from.phi(k % from.n_phi) + (k < from.n_phi ? 0 : two_pi); };
   for (int i = 0; i < to.n_phi; ++i) {
-    const double at = to.phi(i) < phi(0) ? to.phi(i) + turn : to.phi(i);
+    const double at = to.phi(i) < phi(0) ? to.phi(i) + two_pi : to.phi(i);
     int k = 0;
     while (k + 1 < from.n_phi && phi(k + 1) <= at) ++k;
     transfer.around_.push_back({k, (k + 1) % from.n_phi, (at - phi(k)) / (phi(k + 1) - phi(k))});

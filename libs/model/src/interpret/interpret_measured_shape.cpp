@@ -6,7 +6,7 @@
 #include <set>
 
 #include "hersey/core/spelling.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 #include "interpret/table_file.h"
 
 namespace hersey::model {
@@ -72,7 +72,7 @@ class ShapeTable {
   /// width.
   bool is_within(const std::vector<double>& angle, const std::vector<double>& z, double L) {
     const auto [first, last] = std::minmax_element(angle.begin(), angle.end());
-    if (*last - *first >= turn * (1 - 1e-9)) {
+    if (*last - *first >= two_pi * (1 - 1e-9)) {
       (void)fault(static_cast<std::size_t>(last - angle.begin()), "angles over a whole turn or more",
                   "angles within one turn; the first follows the last");
       return false;
@@ -96,7 +96,7 @@ class ShapeTable {
       shape.z.push_back(z);
       shape.openings.push_back(std::make_shared<TableFunction>(
           std::move(angles), std::move(openings),
-          TableFunction::Options{.interpolation = Interpolation::smooth, .period = turn}));
+          TableFunction::Options{.interpolation = Interpolation::smooth, .period = two_pi}));
     }
     return shape;
   }

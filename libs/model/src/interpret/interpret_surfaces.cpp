@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 #include "hersey/film/gap_shape.h"
 #include "interpret/interpret.h"
 #include "schema/film_vocabulary.h"
@@ -20,10 +20,10 @@ constexpr int angles_tried = 72;
 
 /// Places of a grid's nodes as fractional indices.
 double index_of_angle(const film::Grid& grid, double phi) {
-  const double whole = std::floor(phi / turn), within = phi - turn * whole;
+  const double whole = std::floor(phi / two_pi), within = phi - two_pi * whole;
   int i = 0;
   while (i + 1 < grid.n_phi && grid.phi(i + 1) <= within) ++i;
-  const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + turn;
+  const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + two_pi;
   return whole * grid.n_phi + i + (within - grid.phi(i)) / (next - grid.phi(i));
 }
 
@@ -48,7 +48,7 @@ Cells cells_across(const film::FilmModel& film, const film::SurfaceFeature& feat
         index_of_angle(grid, feature.phi + 0.5 * feature.arc) - index_of_angle(grid, feature.phi - 0.5 * feature.arc);
     return cells;
   }
-  double widest = grid.phi(0) + turn - grid.phi(grid.n_phi - 1);
+  double widest = grid.phi(0) + two_pi - grid.phi(grid.n_phi - 1);
   for (int i = 0; i + 1 < grid.n_phi; ++i) widest = std::max(widest, grid.phi(i + 1) - grid.phi(i));
   cells.around = feature.arc / widest;
   return cells;
@@ -277,7 +277,7 @@ class SurfaceReader {
     if (context_.has_fault_in(value_.path) || film_.c <= 0 || film_.L <= 0) return;
     double smallest = film_.c;
     for (int k = 0; k < angles_tried; ++k) {
-      smallest = std::min(smallest, film_.c + film::gap_opening(film_, turn * k / angles_tried).minCoeff());
+      smallest = std::min(smallest, film_.c + film::gap_opening(film_, two_pi * k / angles_tried).minCoeff());
     }
     if (smallest > 0) return;
     context_.fault_at_key(*shape, fmt::format("a shape that closes the gap by {:.4g} um", -1e6 * smallest),
@@ -328,7 +328,7 @@ class SurfaceReader {
         if (std::abs(border) < 0.5 - 1e-9) {
           along.push_back({border, (given > 0 ? given : 0.25 * feature.length) / film_.L, factor});
         }
-        if (feature.surface == film::Surface::journal || feature.arc >= turn - 1e-9) continue;
+        if (feature.surface == film::Surface::journal || feature.arc >= two_pi - 1e-9) continue;
         around.push_back({feature.phi + side * feature.arc, given > 0 ? given / film_.R : 0.25 * feature.arc, factor});
       }
     }

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "hersey/core/spelling.h"
-#include "hersey/core/turn.h"
+#include "hersey/core/two_pi.h"
 #include "hersey/core/units.h"
 #include "interpret/table_file.h"
 
@@ -62,12 +62,12 @@ bool is_usable(Context& context, const Value& at, const Around& table) {
   for (std::size_t k = 1; k < n; ++k) {
     if (table.phi[k] > table.phi[k - 1]) continue;
     context.fault_at_key(at,
-                         fmt::format("an angle of {:.4g} deg after one of {:.4g} deg", table.phi[k] / turn * 360,
-                                     table.phi[k - 1] / turn * 360),
+                         fmt::format("an angle of {:.4g} deg after one of {:.4g} deg", table.phi[k] / two_pi * 360,
+                                     table.phi[k - 1] / two_pi * 360),
                          "angles that ascend");
     return false;
   }
-  if (table.phi.back() - table.phi.front() >= turn - 1e-9) {
+  if (table.phi.back() - table.phi.front() >= two_pi - 1e-9) {
     context.fault_at_key(at, "angles of a whole turn or more", "angles within one turn: the last leads to the first");
     return false;
   }
@@ -77,11 +77,11 @@ bool is_usable(Context& context, const Value& at, const Around& table) {
 /// Straight lines from row to row, and from the last to the first (theory manual, thermal.41).
 double value_at(const Around& table, double phi) {
   const double first = table.phi.front();
-  phi -= turn * std::floor((phi - first) / turn);
+  phi -= two_pi * std::floor((phi - first) / two_pi);
   std::size_t k = table.phi.size() - 1;
   while (k > 0 && table.phi[k] > phi) --k;
   const bool closes = k + 1 == table.phi.size();
-  const double to = closes ? first + turn : table.phi[k + 1], T = closes ? table.T.front() : table.T[k + 1];
+  const double to = closes ? first + two_pi : table.phi[k + 1], T = closes ? table.T.front() : table.T[k + 1];
   return table.T[k] + (T - table.T[k]) * (phi - table.phi[k]) / (to - table.phi[k]);
 }
 
