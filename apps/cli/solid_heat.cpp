@@ -48,7 +48,7 @@ std::vector<int> nodes_of(const char* option, const fem::Mesh& mesh, const std::
   return fem::nodes_on(mesh, faces_of(option, mesh, name));
 }
 
-fem::HeldNodes held_nodes(const fem::Mesh& mesh, const std::string& text) {
+fem::PrescribedNodes held_nodes(const fem::Mesh& mesh, const std::string& text) {
   const Named given = named_value("--temperature", text, "a set and a value, SET=80degC, or one value, 80degC");
   return {nodes_of("--temperature", mesh, given.name), in_si("--temperature", given.value, "K")};
 }
@@ -85,7 +85,7 @@ bool is_uniform(const std::vector<std::string>& temperatures) {
 /// Temperatures by conduction, and where the heat goes.
 void conduct(const SolidArguments& arguments, const fem::ElasticBody& body, SolidHeat& heat) {
   fem::ThermalSurroundings surroundings;
-  for (const std::string& text : arguments.temperature) surroundings.held.push_back(held_nodes(body.mesh, text));
+  for (const std::string& text : arguments.temperature) surroundings.prescribed.push_back(held_nodes(body.mesh, text));
   for (const std::string& text : arguments.cooling) surroundings.cooled.push_back(cooled_faces(body.mesh, text));
   const Eigen::VectorXd into = heat_into(body.mesh, arguments.heat);
   fem::HeatConduction conduction(body.mesh, heat.materials, surroundings, body.integration);
@@ -94,7 +94,7 @@ void conduct(const SolidArguments& arguments, const fem::ElasticBody& body, Soli
     refuse_heat("--cooling", summary.message, "--cooling SURFACE=80W/m^2/K:20degC, or --temperature SET=80degC");
   if (!summary.solved()) throw std::runtime_error(summary.message);
   heat.T = conduction.temperatures(into);
-  const Eigen::VectorXd cooling = conduction.cooling(heat.T), held = conduction.held_heat(heat.T, into);
+  const Eigen::VectorXd cooling = conduction.cooling(heat.T), held = conduction.reaction_heat(heat.T, into);
   const auto name_of = [](const std::string& text) { return text.substr(0, text.find('=')); };
   for (std::size_t s = 0; s < arguments.cooling.size(); ++s)
     heat.leaving.push_back({name_of(arguments.cooling[s]), cooling[static_cast<Eigen::Index>(s)]});

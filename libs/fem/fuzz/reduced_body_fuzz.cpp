@@ -89,8 +89,8 @@ ReducedBody spoilt(ReducedBody body, const std::uint8_t* data, std::size_t size)
     const auto set = [&](double* values, Eigen::Index count) {
       if (count > 0) values[data[1] % count] = value;
     };
-    const auto set_place = [&](std::vector<int>& places) {
-      if (!places.empty()) places[data[1] % places.size()] = static_cast<int>(integer);
+    const auto set_index = [&](std::vector<int>& indices) {
+      if (!indices.empty()) indices[data[1] % indices.size()] = static_cast<int>(integer);
     };
     switch (data[0] % 18) {
       case 0:
@@ -127,13 +127,13 @@ ReducedBody spoilt(ReducedBody body, const std::uint8_t* data, std::size_t size)
         body.materials[0].density = value;
         break;
       case 11:
-        set_place(body.frames[0].nodes);
+        set_index(body.frames[0].nodes);
         break;
       case 12:
-        set_place(body.mesh.connectivity);
+        set_index(body.mesh.connectivity);
         break;
       case 13:
-        set_place(body.mesh.node_sets["base"]);
+        set_index(body.mesh.node_sets["base"]);
         break;
       case 14:
         body.mesh.surfaces["base"][0] = {static_cast<int>(integer), data[1]};

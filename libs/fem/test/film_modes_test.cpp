@@ -29,10 +29,10 @@ FilmSurface must_make(const Mesh& mesh, const FilmCylinder& cylinder, const Surf
   return *result.surface;
 }
 
-/// A body held by frames.
+/// A body fixed by frames.
 ConstrainedStiffness held_by(const ElasticBody& body, const std::vector<InterfaceFrame>& frames) {
   const FrameSupports supports = frame_supports(body.mesh, frames);
-  ConstrainedStiffness stiffness(body.K, body.m, supports.held, supports.C);
+  ConstrainedStiffness stiffness(body.K, body.m, supports.fixed_dofs, supports.C);
   REQUIRE(stiffness.factorise().solved());
   return stiffness;
 }
@@ -63,10 +63,10 @@ TEST_CASE("ThinLiner_GivesWayAsColumnsDo") {
   const auto error_of = [](double thickness) {
     const Ring ring{.inner = 0.0225, .outer = 0.0225 + thickness, .cells = {2, 36, 2}};
     const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});
-    std::vector<int> held = dofs_of(body.mesh.node_sets.at("outside"));
+    std::vector<int> fixed = dofs_of(body.mesh.node_sets.at("outside"));
     for (const char* end : {"bottom", "top"})
-      for (const int dof : dofs_of(body.mesh.node_sets.at(end), {false, false, true})) held.push_back(dof);
-    ConstrainedStiffness stiffness(body.K, body.m, held);
+      for (const int dof : dofs_of(body.mesh.node_sets.at(end), {false, false, true})) fixed.push_back(dof);
+    ConstrainedStiffness stiffness(body.K, body.m, fixed);
     REQUIRE(stiffness.factorise().solved());
     const FilmSurface surface = must_make(body.mesh, film_of(ring), {18, 3, ring.width});
     const VectorXd p = VectorXd::Constant(surface.functions.count(), 2.0) + cosine_on(surface.functions);

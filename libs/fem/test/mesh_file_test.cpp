@@ -231,10 +231,10 @@ TEST_CASE("AMillionLines_AreReadInAFewSeconds") {
   // 79^3 hexahedra: 512,000 nodes and 493,039 elements, a million lines. A second or so on an idle core; ten times
   // that is a reader of streams, and what this test is to catch.
   constexpr long n = 79, m = n + 1;
-  std::array<std::string, m> place;
+  std::array<std::string, m> coordinate;
   for (long k = 0; k < m; ++k)
-    place[static_cast<std::size_t>(k)] = ", " + std::to_string(0.001 * static_cast<double>(k));
-  const auto at = [&](long k) -> const std::string& { return place[static_cast<std::size_t>(k % m)]; };
+    coordinate[static_cast<std::size_t>(k)] = ", " + std::to_string(0.001 * static_cast<double>(k));
+  const auto at = [&](long k) -> const std::string& { return coordinate[static_cast<std::size_t>(k % m)]; };
   std::string text = "*NODE\n";
   for (long k = 0; k < m * m * m; ++k) text += std::to_string(k + 1) + at(k) + at(k / m) + at(k / m / m) + "\n";
   text += "*ELEMENT, TYPE=C3D8, ELSET=ALL\n";

@@ -84,17 +84,18 @@ struct Chain {
 Chain chain_of(const std::string& kinds) {
   Chain chain;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const double turn = 0.4 + 0.3 * static_cast<double>(k);
+    const double angle = 0.4 + 0.3 * static_cast<double>(k);
     chain.systems.push_back({Vector3(0.3, -0.2 + 0.1 * static_cast<double>(k), 0.7),
-                             Eigen::AngleAxisd(turn, Vector3(1, 2, -1).normalized()).toRotationMatrix(), kinds[k]});
+                             Eigen::AngleAxisd(angle, Vector3(1, 2, -1).normalized()).toRotationMatrix(), kinds[k]});
   }
   return chain;
 }
 
-std::string body(const Mesh& mesh, const std::function<std::string(const Vector3&)>& place, const std::string& system) {
+std::string body(const Mesh& mesh, const std::function<std::string(const Vector3&)>& coordinates,
+                 const std::string& system) {
   std::string text;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    text += fmt::format("GRID,{},{},{}\n", mesh.node_labels[n], system, place(mesh.nodes[n]));
+    text += fmt::format("GRID,{},{},{}\n", mesh.node_labels[n], system, coordinates(mesh.nodes[n]));
   for (const Element& e : mesh.elements) {
     text += fmt::format("CHEXA,{},1", e.label);
     for (int k = 0; k < 8; ++k) text += fmt::format("{},{}", k == 6 ? "\n" : "", mesh.node_labels[mesh.nodes_of(e)[k]]);
@@ -109,14 +110,14 @@ TEST_CASE("TheSameBody_InBasicAndInChainedSystems_HasTheSameMatrices") {
   for (const std::string kinds : {"R", "C", "S", "RC", "CS", "SC", "RCSR", "CRS"}) {
     CAPTURE(kinds);
     const Chain chain = chain_of(kinds);
-    const auto place = [&](const Vector3& r) { return numbers(chain.in_last(r)); };
+    const auto coordinates = [&](const Vector3& r) { return numbers(chain.in_last(r)); };
     // Systems may stand behind the points that use them.
-    const std::string text = body(box, place, std::to_string(9 + kinds.size()));
+    const std::string text = body(box, coordinates, std::to_string(9 + kinds.size()));
     const ElasticBody chained = assemble(read(chain.entries() + text), {steel});
     // Seventeen digits and some turns of round-off; strains divide by the elements' size.
     CHECK((chained.K - basic.K).norm() < 1000 * eps * basic.K.norm());
     CHECK((chained.m - basic.m).norm() < 1000 * eps * basic.m.norm());
-    const std::string by_default = fmt::format("GRDSET,,{}\n", 9 + kinds.size()) + body(box, place, "");
+    const std::string by_default = fmt::format("GRDSET,,{}\n", 9 + kinds.size()) + body(box, coordinates, "");
     CHECK((assemble(read(chain.entries() + by_default), {steel}).K - basic.K).norm() < 1000 * eps * basic.K.norm());
   }
 }
@@ -124,8 +125,8 @@ TEST_CASE("TheSameBody_InBasicAndInChainedSystems_HasTheSameMatrices") {
 TEST_CASE("SystemsByGridPoints_AreThoseByTheirPositions") {
   const Mesh box = distorted_box(ElementType::hex8);
   const Chain chain = chain_of("RC");
-  const auto place = [&](const Vector3& r) { return numbers(chain.in_last(r)); };
-  const std::string text = body(box, place, "11");
+  const auto coordinates = [&](const Vector3& r) { return numbers(chain.in_last(r)); };
+  const std::string text = body(box, coordinates, "11");
   const Mesh expected = read(chain.entries() + text);
   // The second system by points 91 to 93, which lie in the first one.
   const Axes& last = chain.systems[1];

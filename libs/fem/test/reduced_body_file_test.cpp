@@ -243,9 +243,9 @@ TEST_CASE("MatricesThatAreNoFreeBody_AreTold") {
   const ElasticBody body = box_body();
   const Eigen::SparseMatrix<double> M = full_mass(body.m);
   CHECK(import_fault(body.K, M) == "no fault");
-  Eigen::SparseMatrix<double> held = body.K;
-  held.coeffRef(0, 0) += body.K.coeff(0, 0);
-  CHECK(import_fault(held, M) == "a stiffness that resists turning about y rigidly");
+  Eigen::SparseMatrix<double> fixed = body.K;
+  fixed.coeffRef(0, 0) += body.K.coeff(0, 0);
+  CHECK(import_fault(fixed, M) == "a stiffness that resists turning about y rigidly");
   Eigen::SparseMatrix<double> uneven = body.K;
   uneven.coeffRef(0, 1) += body.K.coeff(0, 0);
   CHECK(import_fault(uneven, M) == "a stiffness matrix that is not symmetric");

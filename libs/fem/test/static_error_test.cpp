@@ -48,11 +48,11 @@ TEST_CASE("StaticError_HoldsForACosinePressureNotAmongTheShapes") {
   const std::vector<InterfaceFrame> frames = {frame("small_end"), frame("big_end")};
   const LoadedSurface bore = loaded_surface(mesh, "big_end", 4);
   const Eigen::VectorXd load = cosine_pressure_load(mesh, faces_called(mesh, "big_end"), Vector3(0.6, 0.8, 0));
-  // The whole mesh with its frames held.
+  // The whole mesh with its frames fixed.
   const FrameSupports supports = frame_supports(mesh, frames);
-  ConstrainedStiffness held(body.K, body.m, supports.held, supports.C);
-  REQUIRE(held.factorise().solved());
-  const Eigen::VectorXd exact = held.solve(load);
+  ConstrainedStiffness fixed(body.K, body.m, supports.fixed_dofs, supports.C);
+  REQUIRE(fixed.factorise().solved());
+  const Eigen::VectorXd exact = fixed.solve(load);
   const auto size_on_bore = [&](const Eigen::VectorXd& u) {
     double sum = 0;
     for (std::size_t i = 0; i < bore.nodes.size(); ++i)

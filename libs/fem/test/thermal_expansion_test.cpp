@@ -159,8 +159,8 @@ TEST_CASE("TubeHotInside_MeetsTheClosedForm") {
       x = {r * std::cos(phi), r * std::sin(phi), 0.005 * x.z()};
     }
     const ElasticBody body = assemble(mesh, {steel});
-    HeatConduction conduction(mesh, expands,
-                              {.cooled = {}, .held = {{mesh.node_sets.at("x0"), dT}, {mesh.node_sets.at("x1"), 0}}});
+    HeatConduction conduction(
+        mesh, expands, {.cooled = {}, .prescribed = {{mesh.node_sets.at("x0"), dT}, {mesh.node_sets.at("x1"), 0}}});
     REQUIRE(conduction.factorise().solved());
     const VectorXd rise = conduction.temperatures(VectorXd::Zero(body.node_count()));
     std::vector<Support> supports;

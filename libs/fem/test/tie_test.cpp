@@ -162,8 +162,8 @@ Mesh merged(const Halves& halves) {
               MeshFormat::nastran);
 }
 
-Eigen::VectorXd frequencies(const Mesh& mesh, const std::vector<int>& held) {
-  const Vibration modes = natural_modes(assemble(mesh, {steel}), held, {.count = 12});
+Eigen::VectorXd frequencies(const Mesh& mesh, const std::vector<int>& fixed) {
+  const Vibration modes = natural_modes(assemble(mesh, {steel}), fixed, {.count = 12});
   REQUIRE(modes.solved());
   return modes.omega;
 }
@@ -180,14 +180,14 @@ std::vector<int> foot(const Mesh& mesh) {
 TEST_CASE("TiedHalves_VibrateAsTheBodyThatSharesItsNodes") {
   const Halves halves(ElementType::hex8);
   const Mesh one = merged(halves);
-  const Eigen::VectorXd free = frequencies(one, {}), held = frequencies(one, dofs_of(foot(one)));
+  const Eigen::VectorXd free = frequencies(one, {}), fixed = frequencies(one, dofs_of(foot(one)));
   for (const Tied& tied : all_ties(halves)) {
     CAPTURE(tied.name);
     CHECK(tied.mesh.ties.size() == 27);  // three for each of nine pairs
     CHECK(quality_of(tied.mesh).parts.size() == 1);
     // Lanczos iteration stops at 1e-7, which squared is round-off of the factors.
     CHECK((frequencies(tied.mesh, {}) - free).norm() < 1e-9 * free.norm());
-    CHECK((frequencies(tied.mesh, dofs_of(foot(tied.mesh))) - held).norm() < 1e-9 * held.norm());
+    CHECK((frequencies(tied.mesh, dofs_of(foot(tied.mesh))) - fixed).norm() < 1e-9 * fixed.norm());
   }
 }
 
@@ -249,7 +249,7 @@ TEST_CASE("SupportsOfTiedNodes_BearTheLoad") {
   for (const Tied& tied : all_ties(halves)) {
     CAPTURE(tied.name);
     const ElasticBody body = assemble(tied.mesh, {steel});
-    // All nodes of the lower half are held, those that ties reach among them.
+    // All nodes of the lower half are fixed, those that ties reach among them.
     std::vector<int> low;
     for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n)
       if (body.mesh.node_labels[n] < kLabelsOfTop) low.push_back(static_cast<int>(n));

@@ -156,9 +156,9 @@ SectionForces elastic_forces(const BeamElement& element, const Deformation& d) {
 
 /// The section's rotation with its derivatives: q (1 + theta/2) to the first order.
 Rotation varied(const Eigen::Quaterniond& q, int first) {
-  Rotation turn{.w = 1};
-  for (int k = 0; k < 3; ++k) turn.v[static_cast<std::size_t>(k)] = Dual(0, 0.5 * BeamVector::Unit(first + k));
-  return Rotation{q.w(), {q.x(), q.y(), q.z()}} * turn;
+  Rotation small{.w = 1};
+  for (int k = 0; k < 3; ++k) small.v[static_cast<std::size_t>(k)] = Dual(0, 0.5 * BeamVector::Unit(first + k));
+  return Rotation{q.w(), {q.x(), q.y(), q.z()}} * small;
 }
 
 /// Values and derivatives of the four parts of a wrench on each end.
@@ -186,8 +186,8 @@ BeamMatrix sections_from_nodes(const BeamElement& element) {
 Vec3 varied_along(const Vector3& r, const Rotation& section, int first) {
   const Vec3 d = {Dual(0, BeamVector::Unit(first)), Dual(0, BeamVector::Unit(first + 1)),
                   Dual(0, BeamVector::Unit(first + 2))};
-  const Vec3 turned = section * d;
-  return {Dual(r[0]) + turned[0], Dual(r[1]) + turned[1], Dual(r[2]) + turned[2]};
+  const Vec3 rotated = section * d;
+  return {Dual(r[0]) + rotated[0], Dual(r[1]) + rotated[1], Dual(r[2]) + rotated[2]};
 }
 
 /// Both ends with all derivatives in section axes, seen from node a's place and axes.

@@ -38,7 +38,7 @@ struct ElementKind {
   Eigen::VectorXd (*stress_terms)(const Vector3& xi) = nullptr;
 
   /// Corners whose shape is judged, each with three neighbours in right-handed order.
-  std::vector<std::array<int, 4>> judged_corners;
+  std::vector<std::array<int, 4>> checked_corners;
   Matrix3 ideal_edges = Matrix3::Identity();  ///< of such a corner, as columns
 };
 

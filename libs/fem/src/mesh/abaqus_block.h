@@ -13,11 +13,11 @@ namespace hersey::fem {
 /// A keyword with its parameters and all of its data.
 struct AbaqusBlock {
   struct Line {
-    Place place;
+    FileLocation location;
     std::vector<std::string> parts;
   };
   std::string name;
-  Place place;
+  FileLocation location;
   std::map<std::string, std::string> parameters;  ///< by name in upper case, without blanks
   std::vector<Line> lines;
 

@@ -18,7 +18,7 @@ class AbaqusParts {
 
   /// Follows *PART, *INSTANCE and their ends. @returns whether a keyword with its data is of another part
   /// @param value  of a parameter by its name in upper case; empty: not given
-  bool passes_over(const RawMesh& raw, const std::string& keyword, Place place,
+  bool passes_over(const RawMesh& raw, const std::string& keyword, FileLocation location,
                    const std::function<std::string(const char*)>& value);
   /// Whether a keyword that is passed over is one of the assembly, which may concern the part that is read.
   [[nodiscard]] bool is_told(const std::string& keyword) const;

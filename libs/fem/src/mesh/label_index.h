@@ -30,16 +30,16 @@ class LabelIndex {
       const bool is_inside = label >= 0 && static_cast<std::size_t>(label) < table_.size();
       return is_inside ? table_[static_cast<std::size_t>(label)] : -1;
     }
-    const auto place = map_.find(label);
-    return place == map_.end() ? -1 : place->second;
+    const auto entry = map_.find(label);
+    return entry == map_.end() ? -1 : entry->second;
   }
 
  private:
-  void add(long label, int place) {
+  void add(long label, int index) {
     if (!is_dense_)
-      map_.try_emplace(label, place);
+      map_.try_emplace(label, index);
     else if (table_[static_cast<std::size_t>(label)] < 0)
-      table_[static_cast<std::size_t>(label)] = place;
+      table_[static_cast<std::size_t>(label)] = index;
   }
 
   bool is_dense_ = true;

@@ -23,9 +23,9 @@ constexpr int kMostIncludes = 1000;
 bool leads_out_of(const std::filesystem::path& folder, const std::filesystem::path& name) {
   std::error_code error;
   const std::filesystem::path inside = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
-  const std::filesystem::path place = std::filesystem::weakly_canonical(inside / name, error);
+  const std::filesystem::path target = std::filesystem::weakly_canonical(inside / name, error);
   if (error) return true;
-  const std::filesystem::path from_there = place.lexically_relative(inside);
+  const std::filesystem::path from_there = target.lexically_relative(inside);
   return from_there.empty() || *from_there.begin() == "..";
 }
 

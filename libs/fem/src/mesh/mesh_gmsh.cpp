@@ -65,7 +65,7 @@ class GmshReader {
   }
 
  private:
-  [[nodiscard]] Place here() const { return {0, lines_.number()}; }
+  [[nodiscard]] FileLocation here() const { return {0, lines_.number()}; }
 
   [[noreturn]] void fail(std::string found, std::string expected, std::string suggestion = {}) const {
     raw_.fail(here(), std::move(found), std::move(expected), std::move(suggestion));
@@ -274,7 +274,7 @@ class GmshReader {
       label = add_solid(*type.solid, label, used, groups);
     else
       raw_.add_mark(label, used, type.dimension == 2 ? type.corners : 0, here());
-    if (type.dimension == 1) curve_places_.push_back(here());
+    if (type.dimension == 1) curve_locations_.push_back(here());
     for (const long group : groups)
       raw_.element_sets[group_name(type.dimension, std::abs(group))].labels.push_back({label, label, 1});
   }
@@ -310,12 +310,12 @@ class GmshReader {
     std::size_t curve = 0;
     for (const RawMark& mark : raw_.marks) {
       if (mark.corner_count > 0 || mark.node_count == 1) continue;
-      const Place place = curve_places_[curve++];
+      const FileLocation location = curve_locations_[curve++];
       const long first = mark.nodes[0], last = mark.nodes[1], middle = mark.nodes[2];
       const bool has_middle = mark.node_count == 3;
-      raw_.add_element(ElementType::beam2, mark.label, std::array{first, has_middle ? middle : last}, place);
+      raw_.add_element(ElementType::beam2, mark.label, std::array{first, has_middle ? middle : last}, location);
       if (!has_middle) continue;
-      raw_.add_element(ElementType::beam2, mark.label, std::array{middle, last}, place);
+      raw_.add_element(ElementType::beam2, mark.label, std::array{middle, last}, location);
       raw_.elements.back().continues_another = true;
     }
     std::erase_if(raw_.marks, [](const RawMark& m) { return m.corner_count == 0 && m.node_count > 1; });
@@ -334,7 +334,7 @@ class GmshReader {
     long group = 0;
   };
   std::unordered_map<std::size_t, Grouped> grouped_;  ///< by a hash of the nodes
-  std::vector<Place> curve_places_;                   ///< of marks of one dimension
+  std::vector<FileLocation> curve_locations_;         ///< of marks of one dimension
 };
 
 }  // namespace

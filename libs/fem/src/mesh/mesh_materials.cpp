@@ -40,12 +40,12 @@ class Assignment {
   void take_the_only_one() {
     for (Element& element : mesh_.elements) element.material = 0;
     if (!raw_.unsound_materials.empty()) raw_.material_faults.push_back(raw_.unsound_materials.begin()->second);
-    raw_.warn(raw_.material_places[0], fmt::format("material '{}', which no section gives to elements", names_[0]),
+    raw_.warn(raw_.material_locations[0], fmt::format("material '{}', which no section gives to elements", names_[0]),
               "a section for the elements", "all elements are taken to be of it: the file has no other");
   }
 
   void apply(const RawSection& section) {
-    const int material = place_of(section);
+    const int material = index_of(section);
     const auto elements = mesh_.element_sets.find(section.element_set);
     if (elements == mesh_.element_sets.end()) {
       if (!section.may_be_unused && !marks_.contains(section.element_set)) tell_of_set(section);
@@ -62,13 +62,13 @@ class Assignment {
     }
   }
 
-  [[nodiscard]] int place_of(const RawSection& section) const {
+  [[nodiscard]] int index_of(const RawSection& section) const {
     const auto found = std::find(names_.begin(), names_.end(), section.material);
     return found == names_.end() ? kUnknown : static_cast<int>(found - names_.begin());
   }
 
   void tell_of_material(const RawSection& section) {
-    add(section.place,
+    add(section.location,
         section.material.empty()
             ? fmt::format("the section of '{}' names no material", section.element_set)
             : fmt::format("the section of '{}' names the material '{}', which the file does not define",
@@ -80,7 +80,7 @@ class Assignment {
   void tell_of_set(const RawSection& section) {
     std::vector<std::string> sets;
     for (const auto& [name, elements] : mesh_.element_sets) sets.push_back(name);
-    add(section.place,
+    add(section.location,
         fmt::format("a section of the element set '{}', which the file does not define", section.element_set),
         sets.empty() ? "a set of elements; the file has none" : "a set of elements: " + one_of(sets),
         did_you_mean(section.element_set, sets));
@@ -88,7 +88,7 @@ class Assignment {
 
   void tell_of_second(const RawSection& section, int element) {
     const auto e = static_cast<std::size_t>(element);
-    add(section.place,
+    add(section.location,
         fmt::format("element {} gets the material '{}', but has '{}' by another section", mesh_.elements[e].label,
                     section.material, names_[static_cast<std::size_t>(material_[e])]),
         "one material for each element");
@@ -96,25 +96,25 @@ class Assignment {
 
   void tell_of_missing() {
     std::vector<long> labels;
-    Place first;
+    FileLocation first;
     for (std::size_t e = 0; e < material_.size(); ++e) {
       const bool is_solid = mesh_.elements[e].type != ElementType::beam2;
       if (material_[e] != kNone || !is_solid) continue;
-      if (labels.empty()) first = raw_.elements[e].place;
+      if (labels.empty()) first = raw_.elements[e].location;
       labels.push_back(mesh_.elements[e].label);
     }
     if (labels.empty()) return;
-    const std::size_t told = std::min(labels.size(), kMostLabels);
+    const std::size_t listed = std::min(labels.size(), kMostLabels);
     add(first,
         fmt::format("{} {} no material by any section: {}{}", labels.size(),
                     labels.size() == 1 ? "element has" : "elements have",
-                    fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(told), ", "),
-                    told < labels.size() ? ", ..." : ""),
+                    fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(listed), ", "),
+                    listed < labels.size() ? ", ..." : ""),
         "a section with a material for each element");
   }
 
-  void add(Place place, std::string found, std::string expected, std::string suggestion = {}) {
-    raw_.material_faults.push_back(raw_.fault(place, std::move(found), std::move(expected), std::move(suggestion)));
+  void add(FileLocation location, std::string found, std::string expected, std::string suggestion = {}) {
+    raw_.material_faults.push_back(raw_.fault(location, std::move(found), std::move(expected), std::move(suggestion)));
   }
 
   RawMesh& raw_;
@@ -127,18 +127,18 @@ class Assignment {
 }  // namespace
 
 void drop_unused_materials(Mesh& mesh) {
-  std::vector<int> place(mesh.materials.size(), -1);
+  std::vector<int> kept_index(mesh.materials.size(), -1);
   for (const Element& element : mesh.elements)
-    if (element.material >= 0) place[static_cast<std::size_t>(element.material)] = 0;
+    if (element.material >= 0) kept_index[static_cast<std::size_t>(element.material)] = 0;
   std::vector<MeshMaterial> kept;
-  for (std::size_t m = 0; m < place.size(); ++m) {
+  for (std::size_t m = 0; m < kept_index.size(); ++m) {
     const MeshMaterial& material = mesh.materials[m];
-    if (place[m] < 0 && !(material.youngs_modulus && material.poisson_ratio && material.density)) continue;
-    place[m] = static_cast<int>(kept.size());
+    if (kept_index[m] < 0 && !(material.youngs_modulus && material.poisson_ratio && material.density)) continue;
+    kept_index[m] = static_cast<int>(kept.size());
     kept.push_back(material);
   }
   for (Element& element : mesh.elements)
-    if (element.material >= 0) element.material = place[static_cast<std::size_t>(element.material)];
+    if (element.material >= 0) element.material = kept_index[static_cast<std::size_t>(element.material)];
   mesh.materials = std::move(kept);
 }
 

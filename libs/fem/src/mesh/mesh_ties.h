@@ -10,7 +10,7 @@ namespace hersey::fem {
 
 /// How ties find the nodes they name.
 struct TiedNodes {
-  std::function<int(long)> place;                ///< in the mesh by label; -1: of no element, or not in the file
+  std::function<int(long)> index_of;             ///< in the mesh by label; -1: of no element, or not in the file
   std::function<const Vector3*(long)> position;  ///< in the file; null: it has no such node
 };
 

@@ -17,8 +17,8 @@ struct NastranCard {
   int line_of_mistake = 0;
 
   /// Field `place`, counted from 0; empty where there is none.
-  [[nodiscard]] std::string_view field(std::size_t place) const {
-    return place < fields.size() ? fields[place] : std::string_view();
+  [[nodiscard]] std::string_view field(std::size_t index) const {
+    return index < fields.size() ? fields[index] : std::string_view();
   }
 };
 

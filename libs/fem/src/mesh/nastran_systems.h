@@ -25,14 +25,14 @@ class NastranSystems {
   };
 
   /// CORD2R, C, S: three points a, b, c in the system `in`, the origin, one on the z-axis, one in the x-z plane.
-  void add_by_points(long number, Kind kind, long in, const std::array<Vector3, 3>& points, Place place);
+  void add_by_points(long number, Kind kind, long in, const std::array<Vector3, 3>& points, FileLocation location);
   /// CORD1R, C, S: by grid points.
-  void add_by_grids(long number, Kind kind, const std::array<long, 3>& grids, Place place);
+  void add_by_grids(long number, Kind kind, const std::array<long, 3>& grids, FileLocation location);
 
   /// Once for each node that is added to the mesh, in turn.
   /// @param position, motion  systems of the coordinates and of the displacements; none: those of GRDSET
   void add_grid(long label, const Vector3& coordinates, std::optional<long> position, std::optional<long> motion,
-                Place place);
+                FileLocation location);
   /// GRDSET, before or behind the grid points that it concerns.
   void set_defaults(long position, long motion) { default_position_ = position, default_motion_ = motion; }
 
@@ -49,7 +49,7 @@ class NastranSystems {
  private:
   enum class Progress { open, begun, done };
   struct Definition {
-    Place place;
+    FileLocation location;
     Kind kind = Kind::rectangular;
     bool is_by_grids = false;
     long in = 0;
@@ -61,19 +61,19 @@ class NastranSystems {
   struct Grid {
     Vector3 r = Vector3::Zero();
     std::optional<long> position, motion;
-    Place place;
+    FileLocation location;
     bool is_basic = false;  ///< r is in the basic system by now
   };
 
   void add(long number, Definition definition);
-  const System& resolved(const RawMesh& raw, long number, Place user, int depth);
-  const Vector3& resolved_grid(const RawMesh& raw, std::size_t place, int depth);
-  [[nodiscard]] std::size_t place_of(const RawMesh& raw, long label, Place user) const;
+  const System& resolved(const RawMesh& raw, long number, FileLocation user, int depth);
+  const Vector3& resolved_grid(const RawMesh& raw, std::size_t index, int depth);
+  [[nodiscard]] std::size_t index_of(const RawMesh& raw, long label, FileLocation user) const;
   void find_axes(const RawMesh& raw, long number, Definition& definition, int depth);
 
   long default_position_ = 0, default_motion_ = 0;
   std::map<long, Definition> systems_;
-  std::vector<std::pair<long, Place>> repeated_;
+  std::vector<std::pair<long, FileLocation>> repeated_;
   std::vector<Grid> grids_;                      ///< as RawMesh::nodes
   std::unordered_map<long, std::size_t> first_;  ///< of each label
 };

@@ -13,11 +13,12 @@ namespace hersey::fem {
 
 /// What the frames do to the mesh: nodes that follow a rigid frame, constraints that tie average ones.
 struct Interface {
-  std::vector<int> held;          ///< degrees of freedom of rigid frames' nodes
+  std::vector<int> fixed_dofs;    ///< degrees of freedom of rigid frames' nodes
   Eigen::MatrixXd prescribed;     ///< (3 n, 6 frames): their displacement for unit motions of the frames
   Eigen::SparseMatrix<double> C;  ///< (6 average frames and ties of the mesh, 3 n)
   Eigen::MatrixXd motion;         ///< (rows of C, 6 frames): C u for unit motions of the frames; of ties zero
-  Eigen::MatrixXd torn;  ///< (rows, 6 frames): what unit motions leave of ties between held nodes, (elastic.31)
+  Eigen::MatrixXd
+      tie_residual;  ///< (rows, 6 frames): what unit motions leave of ties between fixed_dofs nodes, (elastic.31)
 };
 
 /// Empty if the frames can be used; otherwise what is wrong with which.

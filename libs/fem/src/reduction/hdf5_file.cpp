@@ -51,7 +51,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path) {
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   Lock lock(hdf5_lock());
   be_quiet();
-  if (const auto trouble = unreadable(path)) throw std::runtime_error(*trouble);
+  if (const auto failure = unreadable(path)) throw std::runtime_error(*failure);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) throw std::runtime_error("is no HDF5 file that can be read");
   Hdf5File file(std::move(lock), id);

@@ -34,7 +34,7 @@ StaticAnswers static_answers(const ElasticBody& body, const std::vector<Interfac
   answers.message = fault_of(body.mesh, frames);
   if (!answers.message.empty()) return answers;
   const Interface interface = interface_of(body.mesh, frames);
-  ConstrainedStiffness stiffness(body.K, body.m, interface.held, interface.C);
+  ConstrainedStiffness stiffness(body.K, body.m, interface.fixed_dofs, interface.C);
   if (const solver::FactorSummary summary = stiffness.factorise(); !summary.solved()) {
     answers.message = summary.status == solver::FactorStatus::singular
                           ? "a part of the body is not connected to the frames"

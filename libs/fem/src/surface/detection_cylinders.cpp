@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<int, 3> kRings = {3, 2, 1};
 
 // What is nearly flat fits a cylinder too: below this the first facets' sagitta is what `kRoundness` allows.
-constexpr double kLeastTurn = 6 * std::numbers::pi / 180;
+constexpr double kLeastFitArc = 6 * std::numbers::pi / 180;
 constexpr double kLeastArc = 20 * std::numbers::pi / 180;
 
 // Of a facet's normal from the radius: half a facet's turn, and the tilt of triangles whose corners lie on a cylinder.
@@ -24,7 +24,7 @@ const double kAlongRadius = std::cos(25 * std::numbers::pi / 180);
 
 constexpr int kMostFits = 6;
 
-const Vector3& place_of(const Mesh& mesh, int node) { return mesh.nodes[static_cast<std::size_t>(node)]; }
+const Vector3& position_of(const Mesh& mesh, int node) { return mesh.nodes[static_cast<std::size_t>(node)]; }
 
 /// Corners of facets, each once, and midside nodes where `with_midside` finds them good.
 template <typename WithMidside>
@@ -34,13 +34,13 @@ std::vector<Vector3> points_of(const Mesh& mesh, const SurfaceFacets& surface, c
   for (const int f : facets) {
     const Facet& facet = surface.facets[static_cast<std::size_t>(f)];
     for (std::size_t k = 0; k < facet.nodes.size(); ++k)
-      if (k < facet.corners || with_midside(place_of(mesh, facet.nodes[k]))) nodes.push_back(facet.nodes[k]);
+      if (k < facet.corners || with_midside(position_of(mesh, facet.nodes[k]))) nodes.push_back(facet.nodes[k]);
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::vector<Vector3> points;
   points.reserve(nodes.size());
-  for (const int node : nodes) points.push_back(place_of(mesh, node));
+  for (const int node : nodes) points.push_back(position_of(mesh, node));
   return points;
 }
 
@@ -51,7 +51,7 @@ class CylinderFinder {
         surface_(surface),
         size_(size),
         taken_(taken),
-        seen_(surface.facets.size(), 0),
+        visited_(surface.facets.size(), 0),
         too_short_(surface.facets.size(), 0) {}
 
   std::vector<CylinderRegion> regions() {
@@ -86,14 +86,14 @@ class CylinderFinder {
   std::vector<int> reached(int f, int rings, const IsOf& is_of) {
     ++pass_;
     std::vector<int> facets{f}, front{f}, next;
-    seen_[static_cast<std::size_t>(f)] = pass_;
+    visited_[static_cast<std::size_t>(f)] = pass_;
     for (int ring = 0; ring < rings && !front.empty(); ++ring) {
       next.clear();
       for (const int from : front)
         for (const FacetNeighbour& to : surface_.neighbours[static_cast<std::size_t>(from)]) {
           const auto t = static_cast<std::size_t>(to.facet);
-          if (to.angle > kSmoothAngle || seen_[t] == pass_ || taken_[t] != 0 || !is_of(to.facet)) continue;
-          seen_[t] = pass_;
+          if (to.angle > kSmoothAngle || visited_[t] == pass_ || taken_[t] != 0 || !is_of(to.facet)) continue;
+          visited_[t] = pass_;
           next.push_back(to.facet);
         }
       facets.insert(facets.end(), next.begin(), next.end());
@@ -121,7 +121,7 @@ class CylinderFinder {
     for (const Vector3& x : points)
       if (std::abs(fit->deviation(x)) > kRoundness * fit->radius) return std::nullopt;
     region.is_internal = fit->from_axis(facet(seed).centre).dot(facet(seed).normal) < 0;
-    if (extent_of(mesh_, surface_, region).arc < kLeastTurn || !lies_on(region, seed)) return std::nullopt;
+    if (extent_of(mesh_, surface_, region).arc < kLeastFitArc || !lies_on(region, seed)) return std::nullopt;
     if (!grow(region, seed)) return std::nullopt;
     if (extent_of(mesh_, surface_, region).arc >= kLeastArc) return region;
     // Each of its facets would grow to the same again.
@@ -154,14 +154,14 @@ class CylinderFinder {
     const double outwards = candidate.normal.dot(radius) / radius.norm();
     if (!((region.is_internal ? -outwards : outwards) > kAlongRadius)) return false;
     for (std::size_t c = 0; c < candidate.corners; ++c)
-      if (std::abs(region.fit.deviation(place_of(mesh_, candidate.nodes[c]))) > kRoundness * region.fit.radius)
+      if (std::abs(region.fit.deviation(position_of(mesh_, candidate.nodes[c]))) > kRoundness * region.fit.radius)
         return false;
     // A midside node is on the cylinder, or no deeper than a straight edge's middle.
     for (std::size_t k = candidate.corners; k < candidate.nodes.size(); ++k) {
       const std::size_t c = k - candidate.corners, next = c + 1 == candidate.corners ? 0 : c + 1;
-      const Vector3 edge = place_of(mesh_, candidate.nodes[next]) - place_of(mesh_, candidate.nodes[c]);
+      const Vector3 edge = position_of(mesh_, candidate.nodes[next]) - position_of(mesh_, candidate.nodes[c]);
       const double sagitta = edge.squaredNorm() / (8 * region.fit.radius);
-      const double deviation = region.fit.deviation(place_of(mesh_, candidate.nodes[k]));
+      const double deviation = region.fit.deviation(position_of(mesh_, candidate.nodes[k]));
       const double within = kRoundness * region.fit.radius;
       if (deviation > within || deviation < -1.2 * sagitta - within) return false;
     }
@@ -172,7 +172,7 @@ class CylinderFinder {
   const SurfaceFacets& surface_;
   double size_;
   std::vector<char>& taken_;
-  std::vector<int> seen_;        // in which pass
+  std::vector<int> visited_;     // in which pass
   std::vector<char> too_short_;  // part of a region that was
   int pass_ = 0;
 };
@@ -193,7 +193,7 @@ CylinderExtent extent_of(const Mesh& mesh, const SurfaceFacets& surface, const C
     const double phi = std::atan2(quarter.dot(middle), zero.dot(middle));
     double before = 0, after = 0;
     for (std::size_t c = 0; c < facet.corners; ++c) {
-      const Vector3& x = place_of(mesh, facet.nodes[c]);
+      const Vector3& x = position_of(mesh, facet.nodes[c]);
       const Vector3 r = fit.from_axis(x);
       const double from_middle = std::remainder(std::atan2(quarter.dot(r), zero.dot(r)) - phi, two_pi);
       before = std::min(before, from_middle), after = std::max(after, from_middle);
@@ -209,7 +209,7 @@ CylinderExtent extent_of(const Mesh& mesh, const SurfaceFacets& surface, const C
     extent.arc += std::max(0.0, to - std::max(from, reached));
     reached = std::max(reached, to);
   }
-  extent.arc -= std::max(0.0, reached - angles.front().first - two_pi);  // counted twice where the turn closes
+  extent.arc -= std::max(0.0, reached - angles.front().first - two_pi);  // counted twice where the revolution closes
   return extent;
 }
 

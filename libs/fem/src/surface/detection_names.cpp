@@ -19,7 +19,7 @@ std::string rounded(double value) {
   return fmt::format("{}", hundredths == 0 ? 0.0 : hundredths / 100);
 }
 
-std::string place_text(const Vector3& x) {
+std::string position_text(const Vector3& x) {
   return fmt::format("{}_{}_{}", rounded(1e3 * x.x()), rounded(1e3 * x.y()), rounded(1e3 * x.z()));
 }
 
@@ -65,10 +65,10 @@ void name_surfaces(const Mesh& mesh, const Vector3& lower, const Vector3& upper,
     for (const auto& [name, other] : known)
       if (surface.name.empty() && other == faces) surface.name = name;
     if (!surface.name.empty()) continue;
-    const std::string base =
-        surface.kind == FoundSurface::Kind::plane
-            ? name_of_plane(surface, lower, upper)
-            : fmt::format("{}_d{}_at_{}", word_for(surface), rounded(2e3 * surface.radius), place_text(surface.centre));
+    const std::string base = surface.kind == FoundSurface::Kind::plane
+                                 ? name_of_plane(surface, lower, upper)
+                                 : fmt::format("{}_d{}_at_{}", word_for(surface), rounded(2e3 * surface.radius),
+                                               position_text(surface.centre));
     surface.name = base;
     for (int k = 2; !names.insert(surface.name).second; ++k) surface.name = fmt::format("{}_{}", base, k);
   }

@@ -15,23 +15,23 @@ SurfacePressure::SurfacePressure(const Mesh& mesh, const FilmSurface& surface)
     : functions_(surface.functions), G_(surface.G) {
   const Pose to_cylinder = surface.cylinder.X.inverse();
   const double edge = surface.cylinder.L / 2 * (1 + 1e-6);  // round-off of the mesh file's numbers
-  std::vector<CylinderPoint> places;
+  std::vector<CylinderPoint> points;
   for (const int node : nodes_on(mesh, surface.faces)) {
-    const CylinderPoint place = cylinder_point(to_cylinder * mesh.nodes[static_cast<std::size_t>(node)]);
-    if (std::abs(place.z) > edge) continue;
+    const CylinderPoint point = cylinder_point(to_cylinder * mesh.nodes[static_cast<std::size_t>(node)]);
+    if (std::abs(point.z) > edge) continue;
     nodes_.push_back(node);
-    places.push_back(place);
+    points.push_back(point);
   }
   psi_.setZero(static_cast<Index>(nodes_.size()), functions_.count());
   std::vector<SurfaceTerm> terms;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    functions_.at(places[i].phi, places[i].z, terms);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    functions_.at(points[i].phi, points[i].z, terms);
     for (const SurfaceTerm& term : terms) psi_(static_cast<Index>(i), term.index) = term.value;
   }
 }
 
 VectorXd SurfacePressure::coefficients(const VectorXd& phi, const VectorXd& z, const VectorXd& forces) const {
-  HERSEY_REQUIRE(phi.size() == forces.size() && z.size() == forces.size(), "a place for each force");
+  HERSEY_REQUIRE(phi.size() == forces.size() && z.size() == forces.size(), "a position for each force");
   VectorXd sums = VectorXd::Zero(functions_.count());
   std::vector<SurfaceTerm> terms;
   for (Index k = 0; k < forces.size(); ++k) {

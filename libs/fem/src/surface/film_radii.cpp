@@ -70,9 +70,9 @@ SurfaceRadii surface_radii(const Mesh& mesh, const FilmSurface& surface) {
       }
       area += std::abs(point.area);
       sum += std::abs(point.area) * deviation;
-      double& held = radii.deviation(column_of(point.phi), row_of(point.z, cylinder.L));
-      const bool is_worse = cylinder.is_bore ? deviation < held : deviation > held;
-      if (std::isnan(held) || is_worse) held = deviation;
+      double& field = radii.deviation(column_of(point.phi), row_of(point.z, cylinder.L));
+      const bool is_worse = cylinder.is_bore ? deviation < field : deviation > field;
+      if (std::isnan(field) || is_worse) field = deviation;
     });
   radii.mean = area > 0 ? sum / area : 0;
   fill_holes(radii.deviation);

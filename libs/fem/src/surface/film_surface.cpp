@@ -111,8 +111,8 @@ std::optional<CylinderPoint> wrong_face(const Mesh& mesh, const std::vector<Elem
 /// Fills T and G.
 void integrate(const Mesh& mesh, int parts, FilmSurface& surface) {
   const std::vector<int> nodes = nodes_on(mesh, surface.faces);
-  std::vector<Index> place(mesh.nodes.size(), -1);
-  for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<Index>(i);
+  std::vector<Index> index(mesh.nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) index[static_cast<std::size_t>(nodes[i])] = static_cast<Index>(i);
   const Index count = surface.functions.count();
   MatrixXd T = MatrixXd::Zero(3 * static_cast<Index>(nodes.size()), count);
   surface.G = MatrixXd::Zero(count, count);
@@ -123,7 +123,7 @@ void integrate(const Mesh& mesh, int parts, FilmSurface& surface) {
       const double area = std::abs(point.area);
       for (const SurfaceTerm& term : terms) {
         for (std::size_t a = 0; a < point.nodes.size(); ++a)
-          T.block<3, 1>(3 * place[static_cast<std::size_t>(point.nodes[a])], term.index) +=
+          T.block<3, 1>(3 * index[static_cast<std::size_t>(point.nodes[a])], term.index) +=
               area * term.value * point.N[static_cast<Index>(a)] * point.outward;
         for (const SurfaceTerm& other : terms) surface.G(other.index, term.index) += area * term.value * other.value;
       }

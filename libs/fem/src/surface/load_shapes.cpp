@@ -83,10 +83,10 @@ LoadedSurface loaded_surface(const Mesh& mesh, const std::string& name, int harm
   const std::vector<ElementFace> faces = faces_called(mesh, name);
   HERSEY_REQUIRE(!faces.empty(), "the caller knows that there are faces of this name");
   LoadedSurface surface{.name = name, .loads = {}, .nodes = nodes_on(mesh, faces), .areas = {}};
-  std::vector<int> place(mesh.nodes.size(), -1);
+  std::vector<int> index(mesh.nodes.size(), -1);
   for (std::size_t i = 0; i < surface.nodes.size(); ++i)
-    place[static_cast<std::size_t>(surface.nodes[i])] = static_cast<int>(i);
-  surface.areas = nodal_areas(mesh, faces, place, surface.nodes.size());
+    index[static_cast<std::size_t>(surface.nodes[i])] = static_cast<int>(i);
+  surface.areas = nodal_areas(mesh, faces, index, surface.nodes.size());
   const std::optional<Pose> bore = bore_of(mesh, faces);
   surface.loads = bore ? bore_pressures(mesh, faces, *bore, harmonics) : face_pressures(mesh, faces);
   return surface;

@@ -26,7 +26,7 @@ Eigen::VectorXd pressure_load(const Mesh& mesh, const std::vector<ElementFace>& 
                        [&](const Vector3&, const Vector3& normal) -> Vector3 { return -pressure * normal; });
 }
 
-std::vector<double> nodal_areas(const Mesh& mesh, const std::vector<ElementFace>& faces, const std::vector<int>& place,
+std::vector<double> nodal_areas(const Mesh& mesh, const std::vector<ElementFace>& faces, const std::vector<int>& index,
                                 std::size_t count) {
   std::vector<double> areas(count, 0);
   for (const ElementFace& face : faces) {
@@ -40,7 +40,7 @@ std::vector<double> nodal_areas(const Mesh& mesh, const std::vector<ElementFace>
       area += point.area;
     });
     for (std::size_t a = 0; a < of_face.size(); ++a)
-      areas[static_cast<std::size_t>(place[static_cast<std::size_t>(of_face[a])])] +=
+      areas[static_cast<std::size_t>(index[static_cast<std::size_t>(of_face[a])])] +=
           area * squares[static_cast<Eigen::Index>(a)] / squares.sum();
   }
   return areas;

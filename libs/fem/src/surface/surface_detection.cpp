@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastArcOfBore = 120 * kDegree;
 constexpr double kNearlyFull = 300 * kDegree;
-constexpr double kLeastArcTold = 60 * kDegree;
+constexpr double kLeastReportedArc = 60 * kDegree;
 constexpr double kNarrowest = 0.1, kWidestBore = 2;  // by the diameter
 
 /// Whether more than half of a cylinder's sides, the parts of its rim along the axis, go on without an edge.
@@ -114,7 +114,7 @@ std::vector<FoundSurface> find_surfaces(const Mesh& mesh) {
   std::vector<FoundSurface> found;
   for (const CylinderRegion& region : cylinders) {
     FoundSurface cylinder = cylinder_of(mesh, surface, region);
-    if (cylinder.arc >= kLeastArcTold) found.push_back(std::move(cylinder));
+    if (cylinder.arc >= kLeastReportedArc) found.push_back(std::move(cylinder));
   }
   for (const PlaneRegion& region : plane_regions(mesh, surface, size, taken))
     found.push_back(plane_of(mesh, surface, region));

@@ -117,10 +117,10 @@ std::vector<int> statically_determinate(const Mesh& mesh) {
   MatrixXd motions = rigid_motions(mesh, A);
   motions.leftCols<3>() /= (mesh.nodes[static_cast<std::size_t>(b)] - A).norm();
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(MatrixXd(motions(dofs, Eigen::all)).transpose());
-  std::vector<int> held;
-  held.reserve(6);
-  for (int i = 0; i < 6; ++i) held.push_back(dofs[static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
-  return held;
+  std::vector<int> fixed_dofs;
+  fixed_dofs.reserve(6);
+  for (int i = 0; i < 6; ++i) fixed_dofs.push_back(dofs[static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
+  return fixed_dofs;
 }
 
 // A spline's functions around have all the same mean, and any turn of as many points meets it.
@@ -155,8 +155,9 @@ HeatedSurface heated_surface(const ElasticBody& body, const std::vector<ThermalM
   if (!options.expands) return result;
   MatrixXd rises(P.rows(), P.cols() + 2);
   rises << result.rise_body, result.T_body0.array() - options.T_reference, VectorXd::Ones(P.rows());
-  const std::vector<int> held = options.held.empty() ? statically_determinate(body.mesh) : options.held;
-  ConstrainedStiffness stiffness(body.K, body.m, held, tie_constraints(body.mesh, held).C);
+  const std::vector<int> fixed_dofs =
+      options.fixed_dofs.empty() ? statically_determinate(body.mesh) : options.fixed_dofs;
+  ConstrainedStiffness stiffness(body.K, body.m, fixed_dofs, tie_constraints(body.mesh, fixed_dofs).C);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular)
     return no_answer<HeatedSurface>("what holds the body as it expands leaves it a motion");

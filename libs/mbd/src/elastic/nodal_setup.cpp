@@ -54,7 +54,7 @@ ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& 
   }
   if (further > 0) {
     const fem::FrameSupports supports = supports_of(body, reduced);
-    fem::ConstrainedStiffness held(body.K, body.m, supports.held, supports.C);
+    fem::ConstrainedStiffness held(body.K, body.m, supports.fixed_dofs, supports.C);
     HERSEY_REQUIRE(held.factorise().solved(), "a reduction has held it");
     Psi -= held.solve(MatrixXd(body.K * Psi));
   }

@@ -7,21 +7,23 @@
 
 namespace hersey::fem {
 
-/// Where the nodes of a film's surface put it: its radius less the cylinder's, over angle and width. Between nodes it
-/// is taken as the elements take displacements, so that flat faces between nodes on a circle count as round.
+/// Radius of a film's surface less that of the cylinder, over angle and width, as the mesh's nodes give it. Between
+/// nodes the deviation is interpolated as the elements interpolate displacements, so that flat faces between nodes on a
+/// circle count as round.
 struct SurfaceRadii {
   static constexpr int around = 144, along = 24;  ///< fields of the raster
 
-  Eigen::MatrixXd deviation;  ///< in each field the smallest of a bore, the largest of a journal, (around, along) [m]
-  double mean = 0;            ///< over the area [m]
-  double width = 0;           ///< of the film [m]
+  Eigen::MatrixXd
+      deviation;     ///< smallest radius deviation in each field of a bore, largest of a journal, (around, along) [m]
+  double mean = 0;   ///< mean over the area [m]
+  double width = 0;  ///< width of the film [m]
 
-  /// The field that holds a place of the film; z beyond the width belongs to its edge.
+  /// Returns the deviation in the field that contains (phi, z); z beyond the width belongs to the edge.
   [[nodiscard]] double at(double phi, double z) const;
-  [[nodiscard]] static double phi_of(int i);  ///< in the middle of a field, 0..2 pi
+  [[nodiscard]] static double phi_of(int i);  ///< angle of the middle of a field, 0..2 pi
 };
 
-/// @verified_by film_radii_test.cpp
+/// Computes the radii of `surface` on `mesh`. @verified_by film_radii_test.cpp
 [[nodiscard]] SurfaceRadii surface_radii(const Mesh& mesh, const FilmSurface& surface);
 
 }  // namespace hersey::fem

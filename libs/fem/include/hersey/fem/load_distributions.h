@@ -5,24 +5,26 @@
 
 #include "hersey/fem/load_vectors.h"
 
-/// Where a load acts on a mesh, and the distributions that are not plain.
+/// Faces on which a load acts, and non-uniform load distributions.
 namespace hersey::fem {
 
-/// Outer faces all of whose nodes are among `nodes`.
+/// Returns the outer faces all of whose nodes are among `nodes`.
 [[nodiscard]] std::vector<ElementFace> outer_faces(const Mesh& mesh, const std::vector<int>& nodes);
 
-/// Faces of the surface called `name`, or else the outer faces of the node set of that name; none if there is neither.
+/// Returns the faces of the surface called `name`, or else the outer faces of the node set of that name; none if there
+/// is neither.
 [[nodiscard]] std::vector<ElementFace> faces_called(const Mesh& mesh, const std::string& name);
 
-/// Nodes of faces, ascending.
+/// Returns the nodes of faces, ascending.
 [[nodiscard]] std::vector<int> nodes_on(const Mesh& mesh, const std::vector<ElementFace>& faces);
 
-/// What a pin pressed into a bore does: a pressure max(0, -n . towards) on faces of outward normal n, for a largest
-/// pressure of 1 Pa, (elastic.9). @pre |towards| = 1
+/// Returns the load vector of a pin that is pressed into a bore: a pressure max(0, -n . towards) on faces of outward
+/// normal n, with a largest pressure of 1 Pa, (elastic.9). @pre |towards| = 1
 [[nodiscard]] Eigen::VectorXd cosine_pressure_load(const Mesh& mesh, const std::vector<ElementFace>& faces,
                                                    const Vector3& towards);
 
-/// A force of 1 N along the unit vector `direction`, spread evenly over the area of faces.
+/// Returns the load vector of a force of 1 N along the unit vector `direction`, distributed evenly over the area of
+/// faces.
 [[nodiscard]] Eigen::VectorXd spread_force(const Mesh& mesh, const std::vector<ElementFace>& faces,
                                            const Vector3& direction);
 
