@@ -146,8 +146,9 @@ TEST_CASE("SystemsThatLeadNowhere_AreToldWithTheirLine") {
   CHECK(refusal(kTetIn7) == "1: the coordinate system 7, which the file does not define");
   const std::string points = "0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n";
   CHECK(refusal(kTetIn7 + "CORD2R,7,8," + points + "CORD2C,8,7," + points)
-            .ends_with("the coordinate system 7 is told by itself, through other systems"));
-  CHECK(refusal(kTetIn7 + "CORD1R,7,1,2,3\n") == "6: the coordinate system 7 is told by itself, through other systems");
+            .ends_with("the coordinate system 7 is defined by itself, through other systems"));
+  CHECK(refusal(kTetIn7 + "CORD1R,7,1,2,3\n") ==
+        "6: the coordinate system 7 is defined by itself, through other systems");
   CHECK(refusal(kTetIn7 + "CORD1R,7,91,92,93\n") == "6: the grid point 91, which the file does not define");
   CHECK(refusal(kTetIn7 + "CORD2R,7,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\n") ==
         "6: the coordinate system 7 has its three points on one line");

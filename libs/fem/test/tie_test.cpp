@@ -316,7 +316,7 @@ TEST_CASE("TiesThatCannotBeFollowed_AreToldWithTheirLine") {
   CHECK(of_abaqus("*EQUATION\n2\n1,1,1.,777,1,-1.\n") == "node 777, which the file does not contain");
   CHECK(of_abaqus("*RIGID BODY,REF NODE=1\n") == "*RIGID BODY without a set");
   CHECK(of_abaqus("*TRANSFORM,NSET=up\n1.,0.,0.,0.,1.,0.\n*EQUATION\n2\n19,1,1.,101,1,-1.\n")
-            .starts_with("an equation of node 19, whose axes *TRANSFORM turns"));
+            .starts_with("an equation of node 19, whose axes *TRANSFORM rotates"));
   std::vector<Fault> warnings;
   const Mesh far = read(abaqus(halves, "*TIE,NAME=t,POSITION TOLERANCE=0.01\nfoot,up\n*NSET,NSET=foot\n1,2,3\n"),
                         MeshFormat::abaqus, &warnings);

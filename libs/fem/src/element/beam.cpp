@@ -86,9 +86,9 @@ struct Ends {
   Vec3 r_a, r_b;
 };
 
-/// How an element is deformed, and what its forces need of that.
+/// Deformation of an element, and the quantities that its forces need.
 struct Deformation {
-  Rotation half, R_m;  ///< from the section at a to the middle one; of that
+  Rotation half, R_m;  ///< half: from the section at a to the middle section; R_m: of the middle section
   Vec3 psi, along;     ///< along: from a to b in the axes of the middle section
   Vec3 Gamma;
 };
@@ -190,7 +190,7 @@ Vec3 varied_along(const Vector3& r, const Rotation& section, int first) {
   return {Dual(r[0]) + rotated[0], Dual(r[1]) + rotated[1], Dual(r[2]) + rotated[2]};
 }
 
-/// Both ends with all derivatives in section axes, seen from node a's place and axes.
+/// Both ends with all derivatives in section axes, relative to the position and axes of node a.
 Ends ends_of(const BeamElement& element, const BeamMotion& motion) {
   const Eigen::Quaterniond E(element.frame);
   const Matrix3 R_ab = motion.X_a.R.transpose() * motion.X_b.R;

@@ -8,7 +8,8 @@
 
 namespace hersey::fem {
 
-/// Which nodes share an element, and where their 3 x 3 blocks lie in a compressed matrix of 3 n columns.
+/// Pattern of nodes that share an element, and the positions of their 3 x 3 blocks in a compressed matrix of 3 n
+/// columns.
 class BlockPattern {
  public:
   explicit BlockPattern(const Mesh& mesh);

@@ -10,7 +10,8 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Lower triangle of A on the unknowns with free_index[i] >= 0, `size` of them and of the multipliers, which come last.
+/// Lower triangle of A on the unknowns with free_index[i] >= 0; `size` counts them and the multipliers, which come
+/// last.
 SparseMatrix lower_part(const SparseMatrix& A, const std::vector<int>& free_index, Eigen::Index size) {
   SparseMatrix part(size, size);
   part.reserve(A.nonZeros() / 2 + A.cols());
@@ -41,8 +42,9 @@ SparseMatrix constraint_rows(const SparseMatrix& C, const std::vector<int>& free
   return rows;
 }
 
-/// Which motions a singular stiffness leaves: rigid ones that the supports do not see, or else those of a part.
-std::string what_is_loose(const ElasticBody& body, const std::vector<int>& fixed_dofs) {
+/// Describes the motions that a singular stiffness leaves free: rigid ones that no support resists, or else those of a
+/// part.
+std::string unsupported_motions(const ElasticBody& body, const std::vector<int>& fixed_dofs) {
   Eigen::MatrixXd blocked_motions = rigid_motions(body.mesh, body.centre);
   blocked_motions = (blocked_motions * blocked_motions.colwise().norm().cwiseInverse().asDiagonal()).eval();
   blocked_motions = Eigen::MatrixXd(blocked_motions(fixed_dofs, Eigen::all));
@@ -53,8 +55,8 @@ std::string what_is_loose(const ElasticBody& body, const std::vector<int>& fixed
   return fmt::format("the body is not supported: {} of its 6 rigid motions meet no resistance", 6 - blocked);
 }
 
-/// What supports bear of the forces that K u - f leaves: those of ties are told by their pivots, which no support and
-/// no other tie acts on.
+/// Forces on the supports among the forces that K u - f leaves. The forces of ties are computed from their pivots, on
+/// which no support and no other tie acts.
 Eigen::MatrixXd without_ties(const TieConstraints& ties, Eigen::MatrixXd unbalanced) {
   if (ties.C.rows() == 0) return unbalanced;
   Eigen::MatrixXd force(ties.C.rows(), unbalanced.cols());
@@ -170,7 +172,7 @@ StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>&
   ConstrainedStiffness stiffness(body.K, body.m, fixed_dofs, ties.C);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular) {
-    auto loose = no_answer<StaticSolution>(what_is_loose(body, fixed_dofs));
+    auto loose = no_answer<StaticSolution>(unsupported_motions(body, fixed_dofs));
     loose.is_supported = false;
     return loose;
   }

@@ -12,7 +12,7 @@
 namespace hersey::fem {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 constexpr long kMostTerms = 100000;  // of one equation
 
 long integer_of(const RawMesh& raw, FileLocation location, std::string_view text) {
@@ -165,7 +165,7 @@ void AbaqusSystem::set(const RawMesh& raw, const AbaqusBlock& block) {
 
 Vector3 AbaqusSystem::in_basic(char kind, const Vector3& q) const {
   Vector3 own = q;
-  const double angle = kDegree * q[1], up = kDegree * q[2];
+  const double angle = kRadiansPerDegree * q[1], up = kRadiansPerDegree * q[2];
   if (kind == 'C') own = {q[0] * std::cos(angle), q[0] * std::sin(angle), q[2]};
   if (kind == 'S')
     own = {q[0] * std::cos(up) * std::cos(angle), q[0] * std::cos(up) * std::sin(angle), q[0] * std::sin(up)};

@@ -37,7 +37,7 @@ bool AbaqusParts::passes_over(const RawMesh& raw, const std::string& keyword, Fi
   return true;
 }
 
-bool AbaqusParts::is_told(const std::string& keyword) const { return !is_in_another_ && ties_nodes(keyword); }
+bool AbaqusParts::is_reported(const std::string& keyword) const { return !is_in_another_ && ties_nodes(keyword); }
 
 bool AbaqusParts::is_of_another(const std::string& set) const { return !set.empty() && sets_.contains(upper(set)); }
 

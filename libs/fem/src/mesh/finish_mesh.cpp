@@ -150,7 +150,7 @@ class Finisher {
         "nodes of elements", "left out of the mesh and its sets");
   }
 
-  // Nodes of no element that a tie goes through: references of rigid bodies.
+  // Nodes of no element that occur in a tie: references of rigid bodies.
   [[nodiscard]] std::set<long> tied_labels() const {
     std::set<long> labels;
     for (const RawTie& tie : raw_.ties)
@@ -191,7 +191,7 @@ class Finisher {
     check_marks();
   }
 
-  // A mark of a label that stands elsewhere would never be found by it.
+  // A mark whose label occurs elsewhere would never be found by it.
   void check_marks() const {
     for (const RawMark& mark : raw_.marks) {
       const RawMark& first = mark_at(mark_index_.find(mark.label));
@@ -204,7 +204,7 @@ class Finisher {
     }
   }
 
-  // All indices an element's label stands for: one, or the pieces of a beam of three nodes.
+  // Adds all indices of an element's label: one, or the pieces of a beam of three nodes.
   void add_element_indices(long label, std::vector<int>& indices) const {
     int index = element_index_->find(label);
     if (index < 0) return;
@@ -216,7 +216,7 @@ class Finisher {
 
   using Members = std::map<std::string, RawSet>;
 
-  // The set and those it names, directly or through others.
+  // Returns the set and those it names, directly or through others.
   std::vector<const RawSet*> closure(const Members& sets, const std::string& name) const {
     std::set<std::string> visited{name};
     std::vector<std::string> open{name};
@@ -237,7 +237,7 @@ class Finisher {
     return members;
   }
 
-  // Visits labels of a range; a range much longer than what exists is walked over what exists.
+  // Visits the labels of a range; of a range much longer than the file's labels, only the labels that exist.
   template <typename Visit>
   static void for_each_label(const LabelRange& range, const std::vector<long>& existing, const Visit& visit) {
     const auto length = static_cast<unsigned long>(range.last) - static_cast<unsigned long>(range.first);
@@ -395,7 +395,7 @@ class Finisher {
     return key;
   }
 
-  // Whatever has a name can be asked for its nodes.
+  // Every named set and surface gets a node set.
   void name_nodes() {
     for (auto& [name, surface] : mesh_.surfaces) {
       std::sort(surface.begin(), surface.end(), [](ElementFace a, ElementFace b) {
@@ -450,7 +450,7 @@ class Finisher {
   std::unique_ptr<LabelIndex> element_index_;
   LabelIndex mark_index_;
   std::map<std::string, std::vector<int>> marks_of_;  // by set
-  std::vector<int> node_index_of_;                    // in mesh_.nodes, by place in raw_.nodes; -1: dropped
+  std::vector<int> node_index_of_;                    // index in mesh_.nodes, by index in raw_.nodes; -1: dropped
   std::vector<ElementFace> outer_;
   std::vector<Fault> faults_;
   Mesh mesh_;

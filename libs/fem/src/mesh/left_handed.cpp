@@ -8,7 +8,7 @@
 namespace hersey::fem {
 namespace {
 
-/// For each node the one that changes order with it when the first two natural coordinates do.
+/// For each node, the node with which it is exchanged when the first two natural coordinates are exchanged.
 std::vector<std::size_t> mirrored_nodes(const ElementKind& kind) {
   std::vector<std::size_t> order;
   for (Eigen::Index a = 0; a < kind.nodes; ++a) {
@@ -35,7 +35,7 @@ class Mirror {
       std::array<Vector3, 4> r;
       for (std::size_t k = 0; k < 4; ++k) {
         const int n = index_.find(raw_.connectivity[element.first + static_cast<std::size_t>(corner[k])]);
-        if (n < 0) return false;  // told with the element
+        if (n < 0) return false;  // reported with the element
         r[k] = raw_.nodes[static_cast<std::size_t>(n)];
       }
       return (r[1] - r[0]).cross(r[2] - r[0]).dot(r[3] - r[0]) < 0;

@@ -62,7 +62,7 @@ class AbaqusReader {
   RawMesh read(std::string_view text, const std::string& name) {
     read_file(text, name, 0);
     parts_of_file_.require_found(raw_);
-    tell_of_passed_over();
+    warn_of_ignored_keywords();
     return std::move(raw_);
   }
 
@@ -100,13 +100,13 @@ class AbaqusReader {
       current_ = keyword(line);
       read_block(depth);
     }
-    if (!lines.ends_with_line()) tell_of_last_line();
+    if (!lines.ends_with_line()) warn_of_last_line();
     lines_ = outer_lines;
     file_ = outer_file;
     last_line_ = outer_last;
   }
 
-  void tell_of_last_line() {
+  void warn_of_last_line() {
     if (is_blank(last_line_) || upper(trimmed(last_line_)).starts_with("*END")) return;
     raw_.warn(here(), fmt::format("a last line that does not end: '{}'", trimmed(last_line_).substr(0, 40)),
               "an end of line behind the last number", "the file may be cut short: compare it with its source");
@@ -176,7 +176,7 @@ class AbaqusReader {
       fail(fmt::format("*{} with INPUT", name), "its lines in this file, or *INCLUDE");
     if (parts_of_file_.passes_over(raw_, name, current_.location,
                                    [this](const char* p) { return current_.value(p); })) {
-      if (parts_of_file_.is_told(name)) count_passed_over(name);
+      if (parts_of_file_.is_reported(name)) count_passed_over(name);
       return skip_data();
     }
     check_parameters();
@@ -263,7 +263,7 @@ class AbaqusReader {
   }
 
   void read_instance() {
-    if (instances_seen_++ > 0 && !parts_of_file_.is_chosen())
+    if (instance_count_++ > 0 && !parts_of_file_.is_chosen())
       raw_.fail(current_.location, "a second *INSTANCE", "one body in one file",
                 "write each instance to a file of its own, or all without parts and assemblies");
     if (data())
@@ -271,7 +271,7 @@ class AbaqusReader {
                 "the position is left out; place the body in the model file");
   }
 
-  void tell_of_passed_over() {
+  void warn_of_ignored_keywords() {
     for (const auto& [name, passed] : passed_over_)
       raw_.warn(passed.location, fmt::format("{} *{}", passed.count, name.substr(0, 40)),
                 "nodes, elements, sets, surfaces, sections, elastic constants and densities",
@@ -446,7 +446,7 @@ class AbaqusReader {
     if (!(*target.youngs_modulus > 0) || !(*target.poisson_ratio > -1 && *target.poisson_ratio < 0.5))
       fail(fmt::format("Young's modulus {}, Poisson's ratio {}", *target.youngs_modulus, *target.poisson_ratio),
            "a modulus > 0 and a ratio between -1 and 0.5");
-    tell_of_further_lines();
+    warn_of_further_lines();
   }
 
   void read_density() {
@@ -455,7 +455,7 @@ class AbaqusReader {
     if (!data()) fail("*DENSITY without a number", "a density");
     target.density = number(parts_[0]);
     if (!(*target.density > 0)) fail(fmt::format("density {}", *target.density), "a density > 0");
-    tell_of_further_lines();
+    warn_of_further_lines();
   }
 
   [[noreturn]] void refuse_second() {
@@ -463,13 +463,13 @@ class AbaqusReader {
               "each constant once");
   }
 
-  void tell_of_further_lines() {
+  void warn_of_further_lines() {
     if (data())
       raw_.warn(here(), fmt::format("a second line of *{} of material '{}'", current_.name, material().name),
                 "constants that do not depend on temperature", "the first line is taken");
   }
 
-  // The material of a section that names none is told where its elements would need it.
+  // A section without a material is reported where its elements need one.
   void read_section() {
     const std::string set = current_.value("ELSET"), name = current_.value("MATERIAL");
     if (set.empty()) raw_.fail(current_.location, fmt::format("*{} without ELSET", current_.name), "ELSET=name");
@@ -493,7 +493,7 @@ class AbaqusReader {
   LineScanner* lines_ = nullptr;
   int file_ = 0;
   AbaqusParts parts_of_file_;
-  int instances_seen_ = 0;
+  int instance_count_ = 0;
   bool is_in_step_ = false;
   AbaqusSystem system_;
   std::string_view last_line_;

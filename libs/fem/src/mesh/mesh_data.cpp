@@ -1,4 +1,4 @@
-// The mesh of a reduced body in its file: what loads on faces, pictures and stresses need.
+// The mesh of a reduced body in its file: the data for loads on faces, pictures and stresses.
 #include "mesh/mesh_data.h"
 
 #include <fmt/format.h>

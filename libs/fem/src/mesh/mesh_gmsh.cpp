@@ -21,7 +21,7 @@ struct GmshType {
   int nodes = 0;
   int corners = 0;                   ///< of a surface
   std::optional<ElementType> solid;  ///< none: serves to mark a surface, curve or point
-  std::vector<std::size_t> order;    ///< place in Gmsh's numbering of each node in Abaqus' order; empty: the same
+  std::vector<std::size_t> order;    ///< index in Gmsh's numbering of each node in Abaqus' order; empty: the same
 };
 
 const std::map<long, GmshType>& gmsh_types() {
@@ -120,7 +120,7 @@ class GmshReader {
     fail(fmt::format("'{}'", line.substr(0, 40)), std::string(name));
   }
 
-  // Fields, comments and periodicity say nothing of the mesh; of other sections nobody knows.
+  // Fields, comments and periodicity do not describe the mesh; other sections are unknown.
   void pass_over(std::string_view begin) {
     static constexpr std::array<std::string_view, 6> harmless = {
         "$Comments", "$Periodic", "$NodeData", "$ElementData", "$ElementNodeData", "$InterpolationScheme"};
@@ -330,7 +330,7 @@ class GmshReader {
   std::map<Key, std::string> names_;
   std::map<Key, std::vector<long>> entity_groups_;
   struct Grouped {
-    std::size_t element = 0;  ///< place in RawMesh::elements
+    std::size_t element = 0;  ///< index in RawMesh::elements
     long group = 0;
   };
   std::unordered_map<std::size_t, Grouped> grouped_;  ///< by a hash of the nodes

@@ -10,7 +10,7 @@
 namespace hersey::fem {
 namespace {
 
-constexpr std::size_t kMostLabels = 5;  // told in one message
+constexpr std::size_t kMostLabels = 5;  // listed in one message
 
 constexpr int kNone = -1, kUnknown = -2;
 
@@ -25,13 +25,13 @@ class Assignment {
     if (raw_.sections.empty() && names_.size() == 1) return take_the_only_one();
     for (const RawSection& section : raw_.sections) apply(section);
     for (std::size_t e = 0; e < material_.size(); ++e) mesh_.elements[e].material = std::max(material_[e], kNone);
-    if (!names_.empty() || !raw_.sections.empty()) tell_of_missing();
-    tell_of_unsound();
+    if (!names_.empty() || !raw_.sections.empty()) report_missing();
+    report_unsound();
   }
 
  private:
-  // A material that no element has is no matter.
-  void tell_of_unsound() {
+  // Faults of a material that no element has are ignored.
+  void report_unsound() {
     for (const auto& [material, fault] : raw_.unsound_materials)
       if (std::find(material_.begin(), material_.end(), material) != material_.end())
         raw_.material_faults.push_back(fault);
@@ -48,16 +48,16 @@ class Assignment {
     const int material = index_of(section);
     const auto elements = mesh_.element_sets.find(section.element_set);
     if (elements == mesh_.element_sets.end()) {
-      if (!section.may_be_unused && !marks_.contains(section.element_set)) tell_of_set(section);
+      if (!section.may_be_unused && !marks_.contains(section.element_set)) report_set(section);
       return;
     }
-    if (material == kUnknown && !elements->second.empty()) tell_of_material(section);
-    bool is_told = false;
+    if (material == kUnknown && !elements->second.empty()) report_material(section);
+    bool is_reported = false;
     for (const int e : elements->second) {
       int& given = material_[static_cast<std::size_t>(e)];
       const bool has_another = given >= 0 && material >= 0 && given != material;
-      if (has_another && !is_told) tell_of_second(section, e);
-      is_told = is_told || has_another;
+      if (has_another && !is_reported) report_second(section, e);
+      is_reported = is_reported || has_another;
       given = material;
     }
   }
@@ -67,7 +67,7 @@ class Assignment {
     return found == names_.end() ? kUnknown : static_cast<int>(found - names_.begin());
   }
 
-  void tell_of_material(const RawSection& section) {
+  void report_material(const RawSection& section) {
     add(section.location,
         section.material.empty()
             ? fmt::format("the section of '{}' names no material", section.element_set)
@@ -77,7 +77,7 @@ class Assignment {
         did_you_mean(section.material, names_));
   }
 
-  void tell_of_set(const RawSection& section) {
+  void report_set(const RawSection& section) {
     std::vector<std::string> sets;
     for (const auto& [name, elements] : mesh_.element_sets) sets.push_back(name);
     add(section.location,
@@ -86,7 +86,7 @@ class Assignment {
         did_you_mean(section.element_set, sets));
   }
 
-  void tell_of_second(const RawSection& section, int element) {
+  void report_second(const RawSection& section, int element) {
     const auto e = static_cast<std::size_t>(element);
     add(section.location,
         fmt::format("element {} gets the material '{}', but has '{}' by another section", mesh_.elements[e].label,
@@ -94,7 +94,7 @@ class Assignment {
         "one material for each element");
   }
 
-  void tell_of_missing() {
+  void report_missing() {
     std::vector<long> labels;
     FileLocation first;
     for (std::size_t e = 0; e < material_.size(); ++e) {
@@ -121,7 +121,7 @@ class Assignment {
   const std::map<std::string, std::vector<int>>& marks_;
   Mesh& mesh_;
   std::vector<std::string> names_;
-  std::vector<int> material_;  ///< by element: place in the file's materials, or why there is none
+  std::vector<int> material_;  ///< by element: index in the file's materials, or the reason why there is none
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ std::string expected_nodes(const NastranSolids& shapes) {
                      shapes.rbegin()->first - shapes.begin()->first);
 }
 
-/// CORD1R, CORD2C and the like: whether it is by grid points, and of which kind.
+/// Kind of a coordinate system CORD1R, CORD2C and the like, and whether grid points define it.
 std::optional<std::pair<bool, NastranSystems::Kind>> system_of(const std::string& entry) {
   if (entry.size() != 6 || !entry.starts_with("CORD") || (entry[4] != '1' && entry[4] != '2')) return std::nullopt;
   const bool is_by_grids = entry[4] == '1';
@@ -199,8 +199,7 @@ class NastranReader {
     if (card.name.starts_with("BEGIN")) require_no_superelement(card);
     if (card.name == "BAROR" || card.name == "BEAMOR") return read_default_property(card);
     if (is_axisymmetric(card.name))
-      fail(card, fmt::format("{}, an element of a section that turns about an axis", card.name), "solids",
-           "mesh the whole body with solids");
+      fail(card, fmt::format("{}, an axisymmetric element", card.name), "solids", "mesh the whole body with solids");
     if (changes_the_bulk(card.name))
       fail(card, card.name.substr(0, 20), "GRID, CTETRA, CPENTA, CPYRAM, CHEXA, CBAR or CBEAM, each written out",
            "mesh the body with these");
@@ -229,7 +228,7 @@ class NastranReader {
       for (std::size_t k = 0; k < 9; ++k) points[k / 3][static_cast<Eigen::Index>(k % 3)] = fields.number(2 + k);
       return systems_.add_by_points(fields.integer(0), kind, fields.integer_or(1, 0), points, fields.location());
     }
-    for (const std::size_t first : {std::size_t{0}, std::size_t{4}})  // an entry may tell two
+    for (const std::size_t first : {std::size_t{0}, std::size_t{4}})  // an entry may define two
       if (first == 0 || !card.field(first).empty())
         systems_.add_by_grids(fields.integer(first), kind,
                               {fields.integer(first + 1), fields.integer(first + 2), fields.integer(first + 3)},
@@ -260,7 +259,7 @@ class NastranReader {
       fail(card, "BEGIN of a superelement", "one body in one file", "write its bulk data to a file of its own");
   }
 
-  // PARAM,WTMASS turns densities of weight into densities of mass.
+  // PARAM,WTMASS converts densities of weight into densities of mass.
   void read_mass_factor(const NastranCard& card) {
     mass_factor_ = number(card, 1);
     if (!(mass_factor_ > 0)) fail(card, fmt::format("WTMASS = {}", mass_factor_), "a factor > 0");
@@ -379,7 +378,7 @@ class NastranReader {
                 "it is left out; give the body's damping in the model file");
   }
 
-  // Its elements have no elastic constants then, which is told where they are needed.
+  // Elements of this material have no elastic constants; this is reported where they are needed.
   void read_other_material(const NastranCard& card) {
     const FileLocation location{file_, card.line};
     raw_.add_material(material_name(card, 0), location);

@@ -22,7 +22,7 @@ constexpr double kFlat = 0.02;                 // shape below which a solver los
 constexpr double kLargeBody = 10;              // [m]
 constexpr double kSmallBody = 1e-4;            // [m]
 constexpr double kHeavyBody = 1000;            // [kg]
-constexpr std::size_t kMostLabelsListed = 10;  // told in one message
+constexpr std::size_t kMostLabelsListed = 10;  // listed in one message
 
 NodeColumns positions_of(const Mesh& mesh, const Element& element) {
   const int count = node_count(element.type);
@@ -116,7 +116,7 @@ std::array<int, 4> midside_nodes(const Mesh& mesh, ElementFace face, const std::
   return midside;
 }
 
-// Elements that share a face's corners but not its midside nodes come apart, or into each other, between the corners.
+// Elements that share a face's corners but not its midside nodes separate or overlap between the corners.
 void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
   const auto curves = [](const Element& element) { return has_midside_nodes(element.type); };
   if (std::none_of(mesh.elements.begin(), mesh.elements.end(), curves)) return;
@@ -138,7 +138,7 @@ void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
       quality.mismatched.emplace_back(sides[k - 1].label, sides[k].label);
 }
 
-/// Nodes that one tie goes through, the smaller place first.
+/// Nodes of one tie, in ascending order.
 std::set<std::pair<int, int>> tied_pairs(const Mesh& mesh) {
   std::set<std::pair<int, int>> tied;
   for (const MeshTie& tie : mesh.ties)
@@ -235,7 +235,7 @@ std::string first_of(const std::vector<std::string>& names, std::size_t most) {
                      shown < names.size() ? ", ..." : "");
 }
 
-/// Which sets would join parts as a rigid frame, or by a tie.
+/// Describes the sets that would join parts as a rigid frame, or by a tie.
 std::string sets_text(const MeshQuality& quality) {
   constexpr std::size_t most_of_part = 3;
   if (!quality.joining_sets.empty())

@@ -61,7 +61,7 @@ class TieMaker {
   // Rotations, and nodes of no element, are numbered behind the displacements of the mesh.
   int unknown_of(long node, bool is_rotation, int axis) {
     if (!is_rotation)
-      if (const int location = nodes_.index_of(node); location >= 0) return 3 * location + axis;
+      if (const int index = nodes_.index_of(node); index >= 0) return 3 * index + axis;
     const auto [number, is_new] =
         auxiliary_.try_emplace({node, is_rotation, axis}, first_auxiliary_ + static_cast<int>(auxiliary_.size()));
     return number->second;
@@ -111,7 +111,7 @@ class TieMaker {
     if (body.reference && !members.contains(nodes_.index_of(*body.reference))) tie(*body.reference, origin);
   }
 
-  // A term of a set stands for its nodes in turn, by their numbers; a single node goes with all of them.
+  // A term of a set represents its nodes one by one, in ascending order; a single node is combined with each of them.
   void add_equation(const RawEquation& equation) {
     std::vector<std::vector<long>> members;
     std::size_t count = 1;
@@ -127,7 +127,7 @@ class TieMaker {
       std::sort(of_term.begin(), of_term.end());
       if (count > 1 && of_term.size() > 1 && of_term.size() != count)
         raw_.fail(equation.location, fmt::format("an equation between sets of {} and {} nodes", count, of_term.size()),
-                  "sets of as many nodes, which go together in turn");
+                  "sets of equally many nodes, which are paired one by one");
       count = std::max(count, of_term.size());
     }
     for (const std::vector<long>& of_term : members)
@@ -150,7 +150,7 @@ class TieMaker {
       const auto set = mesh_.node_sets.find(name);
       if (at >= 0 && set != mesh_.node_sets.end() && std::binary_search(set->second.begin(), set->second.end(), at))
         raw_.fail(location,
-                  fmt::format("an equation of node {}, whose axes *TRANSFORM turns by the set '{}'", node, name),
+                  fmt::format("an equation of node {}, whose axes *TRANSFORM rotates by the set '{}'", node, name),
                   "equations in the axes of the mesh", "write the equation without *TRANSFORM");
     }
   }
@@ -180,7 +180,7 @@ class TieMaker {
           tie.location,
           fmt::format("{} nodes of '{}' farther than {:.4g} from '{}'; the first is {}", made.loose.size(), tie.slave,
                       made.tolerance, tie.master, mesh_.node_labels[static_cast<std::size_t>(made.loose.front())]),
-          "nodes on the faces they are tied to", "they are not tied; POSITION TOLERANCE lets more in");
+          "nodes on the faces they are tied to", "they are not tied; a larger POSITION TOLERANCE ties them");
     if (made.moved > kMovedVisibly * size_)
       raw_.warn(tie.location, fmt::format("nodes of '{}' up to {:.4g} beside '{}'", tie.slave, made.moved, tie.master),
                 "nodes on the faces they are tied to", "they are put there; ADJUST=NO leaves them where they are");

@@ -9,14 +9,14 @@
 
 namespace hersey::fem {
 
-/// Entries written by their difference from the one before: "=" repeats a field, "==" all that follow, "*(2)" or "*2"
-/// adds to a number; "=(3)" or "=3" in place of a name repeats the step three times more.
+/// Entries written by their difference from the previous one: "=" repeats a field, "==" all that follow, "*(2)" or "*2"
+/// adds to a number; "=(3)" or "=3" instead of a name repeats the step three times more.
 class NastranReplication {
  public:
-  /// Whether an entry is written so.
+  /// True if an entry is written by its difference from the previous one.
   [[nodiscard]] static bool is_written_so(const NastranCard& card);
 
-  /// Puts what the entry stands for in its place; `storage` holds the text of its fields.
+  /// Replaces the entry by its expanded form; `storage` holds the text of its fields.
   void replace(NastranCard& card, std::deque<std::string>& storage);
 
   /// The next repetition, into `card`; false where none is left.

@@ -12,7 +12,7 @@ namespace {
 using Kind = NastranSystems::Kind;
 
 constexpr double kDegreeOfAngle = std::numbers::pi / 180;
-constexpr double kOnALine = 1e-10;  // sine of the angle below which three points tell no plane
+constexpr double kOnALine = 1e-10;  // sine of the angle below which three points define no plane
 constexpr int kDeepestChain = 1000;
 
 /// Components along the system's own axes of a point: r, theta, z or r, theta from z, phi in degrees.
@@ -77,8 +77,8 @@ const NastranSystems::System& NastranSystems::resolved(const RawMesh& raw, long 
   if (definition.progress == Progress::done) return definition.system;
   if (definition.progress == Progress::begun || depth > kDeepestChain)
     raw.fail(definition.location,
-             fmt::format("the coordinate system {} is told by itself, through other systems", number),
-             "systems that lead to the basic one", "give one system of the circle in basic coordinates");
+             fmt::format("the coordinate system {} is defined by itself, through other systems", number),
+             "systems that lead to the basic one", "give one system of the cycle in basic coordinates");
   definition.progress = Progress::begun;
   find_axes(raw, number, definition, depth);
   definition.progress = Progress::done;

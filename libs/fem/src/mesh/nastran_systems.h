@@ -11,7 +11,7 @@
 
 namespace hersey::fem {
 
-/// Coordinate systems of a bulk data file and the grid points in them: each system may be told by points of another
+/// Coordinate systems of a bulk data file and the grid points in them: each system may be defined by points of another
 /// one, or by grid points, which may lie in other systems themselves.
 class NastranSystems {
  public:
@@ -29,16 +29,16 @@ class NastranSystems {
   /// CORD1R, C, S: by grid points.
   void add_by_grids(long number, Kind kind, const std::array<long, 3>& grids, FileLocation location);
 
-  /// Once for each node that is added to the mesh, in turn.
+  /// Adds a grid point; call it once for each node of the mesh, in their order.
   /// @param position, motion  systems of the coordinates and of the displacements; none: those of GRDSET
   void add_grid(long label, const Vector3& coordinates, std::optional<long> position, std::optional<long> motion,
                 FileLocation location);
   /// GRDSET, before or behind the grid points that it concerns.
   void set_defaults(long position, long motion) { default_position_ = position, default_motion_ = motion; }
 
-  /// Puts the positions of all grid points of `raw` into the basic system.
-  /// @throws InputError for systems and grid points that the file does not define, that are told by each other in a
-  /// circle, or whose points lie on one line
+  /// Transforms the positions of all grid points of `raw` into the basic system.
+  /// @throws InputError for systems and grid points that the file does not define, that define each other in a cycle,
+  /// or whose points lie on one line
   void resolve(RawMesh& raw);
 
   /// Directions of a grid point's displacements 1, 2, 3 in the basic system, as columns, where it lies after `resolve`.
@@ -62,7 +62,7 @@ class NastranSystems {
     Vector3 r = Vector3::Zero();
     std::optional<long> position, motion;
     FileLocation location;
-    bool is_basic = false;  ///< r is in the basic system by now
+    bool is_basic = false;  ///< true: r is in the basic system
   };
 
   void add(long number, Definition definition);
@@ -75,7 +75,7 @@ class NastranSystems {
   std::map<long, Definition> systems_;
   std::vector<std::pair<long, FileLocation>> repeated_;
   std::vector<Grid> grids_;                      ///< as RawMesh::nodes
-  std::unordered_map<long, std::size_t> first_;  ///< of each label
+  std::unordered_map<long, std::size_t> first_;  ///< first index of each label
 };
 
 }  // namespace hersey::fem

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kAll = "123456";
 constexpr double kSingular = 1e-10;     // share of the largest eigenvalue
-constexpr double kUndetermined = 1e-6;  // share of a motion that the members do not see
+constexpr double kUndetermined = 1e-6;  // share of a motion that the members do not determine
 
 const Vector3& position_of(const RawMesh& raw, const NastranSystems& systems, long grid, FileLocation user) {
   const Vector3* const r = systems.position(grid);
@@ -172,14 +172,15 @@ void NastranTies::build(RawMesh& raw, NastranSystems& systems) {
   build_equations(raw, systems);
 }
 
-// All that takes part moves as one body of six coordinates; those of the independent ones tell it, the others obey.
+// All grid points of the element move as one body with six coordinates; the independent components determine them, the
+// dependent ones follow.
 void NastranTies::build_rigid(RawMesh& raw, NastranSystems& systems, const Rigid& rigid) const {
   if (rigid.independent.empty() || rigid.dependent.empty()) return;
   std::size_t coordinates = 0;
   for (const auto& [grid, components] : rigid.independent) coordinates += components.size();
   if (coordinates < 6)
     raw.fail(rigid.location, fmt::format("a rigid element with {} independent components", coordinates),
-             "six of them, which tell a rigid motion");
+             "six of them, which determine a rigid motion");
   const bool is_one = rigid.independent.size() == 1;
   const long body = is_one ? rigid.independent.front().first : raw.new_reference();
   const Vector3 origin = position_of(raw, systems, rigid.independent.front().first, rigid.location);
@@ -225,8 +226,8 @@ void NastranTies::build_average(RawMesh& raw, NastranSystems& systems, const Ave
     }
   const Eigen::SelfAdjointEigenSolver<Matrix6> of_A(A);
   const Vector6& lambda = of_A.eigenvalues();
-  const Eigen::Array<bool, 6, 1> is_told = lambda.array() > kSingular * lambda[5];
-  const Vector6 inverse_lambda = is_told.select(lambda.cwiseInverse(), Vector6(Vector6::Zero()));
+  const Eigen::Array<bool, 6, 1> is_determined = lambda.array() > kSingular * lambda[5];
+  const Vector6 inverse_lambda = is_determined.select(lambda.cwiseInverse(), Vector6(Vector6::Zero()));
   const Matrix6 inverse = of_A.eigenvectors() * inverse_lambda.asDiagonal() * of_A.eigenvectors().transpose();
   for (const char component : average.components) {
     const auto [direction, is_rotation] = direction_of(raw, systems, average.grid, component);
@@ -235,7 +236,8 @@ void NastranTies::build_average(RawMesh& raw, NastranSystems& systems, const Ave
     wanted.segment<3>(is_rotation ? 3 : 0) = is_rotation ? Vector3(direction / size) : direction;
     const Vector6 share = inverse * wanted;
     if (!((A * share - wanted).norm() < kUndetermined * wanted.norm()))
-      raw.fail(average.location, "an RBE3 whose grid points and components do not tell the motion of its reference",
+      raw.fail(average.location,
+               "an RBE3 whose grid points and components do not determine the motion of its reference",
                "at least three grid points that are not on one line, with components 123");
     for (const Row& row : rows)
       tie.terms.push_back({row.grid, row.is_rotation, -row.weight * share.dot(row.of_motion) * row.direction});
@@ -245,7 +247,7 @@ void NastranTies::build_average(RawMesh& raw, NastranSystems& systems, const Ave
 
 void NastranTies::build_rod(RawMesh& raw, const NastranSystems& systems, const Rod& rod) const {
   const Vector3 along = position_of(raw, systems, rod.b, rod.location) - position_of(raw, systems, rod.a, rod.location);
-  if (!(along.norm() > 0)) raw.fail(rod.location, "an RROD without length", "two grid points at different places");
+  if (!(along.norm() > 0)) raw.fail(rod.location, "an RROD without length", "two grid points at different positions");
   const Vector3 direction = along.normalized();
   raw.ties.push_back({rod.location, {{rod.a, false, direction}, {rod.b, false, -direction}}});
 }

@@ -15,12 +15,12 @@
 
 namespace hersey::fem {
 
-/// In place of the label of a mid-side node that an element leaves out.
+/// Label that stands for a mid-side node that an element omits.
 inline constexpr long kLeftOut = std::numeric_limits<long>::min() / 2;
 
-/// Where in the mesh file, or a file it includes, something stands.
+/// Location in the mesh file, or in a file it includes.
 struct FileLocation {
-  int file = 0;  ///< place in RawMesh::files
+  int file = 0;  ///< index in RawMesh::files
   int line = 0;
 };
 
@@ -44,8 +44,8 @@ struct RawElement {
   ElementType type = ElementType::tet4;
   long label = 0;
   FileLocation location;
-  std::size_t first = 0;           ///< place of its first node's label in RawMesh::connectivity
-  int material = -1;               ///< place in RawMesh::materials
+  std::size_t first = 0;           ///< index of its first node's label in RawMesh::connectivity
+  int material = -1;               ///< index in RawMesh::materials
   bool continues_another = false;  ///< a further piece of the element before it, with the same label
 };
 
@@ -103,7 +103,7 @@ struct RawRigidBody {
   std::optional<long> reference;      ///< a node that moves with them
 };
 
-/// An equation whose terms are of nodes, or of all nodes of sets in turn.
+/// An equation whose terms are of nodes, or of all nodes of sets, one after the other.
 struct RawEquation {
   struct Term {
     long node = 0;
@@ -115,7 +115,7 @@ struct RawEquation {
   std::vector<Term> terms;
 };
 
-/// What a reader finds in a file, by the file's labels and in the file's units; `finished` makes a Mesh of it.
+/// Content of a mesh file, by the file's labels and in the file's units; `finished` makes a Mesh of it.
 struct RawMesh {
   std::vector<std::string> files;
   std::vector<Vector3> nodes;
@@ -133,8 +133,9 @@ struct RawMesh {
   std::vector<RawEquation> equations;
   std::vector<RawSurfaceTie> surface_ties;
   std::vector<RawRigidBody> rigid_bodies;
-  std::map<int, Fault> unsound_materials;     ///< by place: why none can be computed with, told where one is used
-  std::vector<std::string> transformed_sets;  ///< whose nodes have displacements in axes of their own
+  std::map<int, Fault>
+      unsound_materials;  ///< by index: reason why the material cannot be used, reported where it is needed
+  std::vector<std::string> transformed_sets;  ///< sets whose nodes have displacements in axes of their own
   std::vector<Fault> warnings;
   std::vector<Fault> material_faults;  ///< why elements have no material, or more than one
 
@@ -143,8 +144,8 @@ struct RawMesh {
   void add_element(ElementType type, long label, std::span<const long> nodes, FileLocation location);
   /// @param nodes labels, corners first
   void add_mark(long label, std::span<const long> nodes, int corner_count, FileLocation location);
-  /// A tie that says: along `direction` the node at `r` moves, or about it turns, as a rigid body does whose reference
-  /// is the node `body` at `origin`.
+  /// Adds a tie: the displacement along `direction` of the node at `r`, or its rotation about it, equals that of a
+  /// rigid body whose reference is the node `body` at `origin`.
   void add_rigid_tie(long node, const Vector3& r, long body, const Vector3& origin, const Vector3& direction,
                      bool of_rotation, FileLocation location);
   /// A label for a reference that no file has.
@@ -154,7 +155,7 @@ struct RawMesh {
   [[nodiscard]] Fault fault(FileLocation location, std::string found, std::string expected,
                             std::string suggestion = {}) const;
   void warn(FileLocation location, std::string found, std::string expected, std::string suggestion = {});
-  /// Throws InputError for this place.
+  /// Throws InputError for a location.
   [[noreturn]] void fail(FileLocation location, std::string found, std::string expected,
                          std::string suggestion = {}) const;
 

@@ -42,7 +42,7 @@ std::string component_names(int components) {
   return text;
 }
 
-/// The two halves of the file: XML that names arrays by their place, and the arrays, each behind its length.
+/// The two parts of the file: XML that names arrays by their offset, and the arrays, each after its length.
 class VtuText {
  public:
   void line(const std::string& text) { header_ += text + "\n"; }

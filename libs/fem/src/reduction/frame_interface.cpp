@@ -38,8 +38,8 @@ std::string fault_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames
     if (frame.nodes.empty()) return fmt::format("frame '{}' sits on no node", frame.name);
     if (!nodes_span_rotations(mesh, frame))
       return fmt::format(
-          "the nodes of frame '{}' lie on one line, about which nothing would hold it; take a face or an edge that "
-          "bends, or the connection `average`, which turns with the elements around",
+          "the nodes of frame '{}' lie on one line, about which nothing would fix it; take a face or an edge that "
+          "bends, or the connection `average`, which rotates with the elements around",
           frame.name);
     if (frame.connection == Connection::average) continue;
     for (const int node : frame.nodes) {

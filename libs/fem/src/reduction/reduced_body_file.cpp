@@ -99,7 +99,7 @@ Eigen::SparseMatrix<double> read_mass(const Hdf5File& file, Eigen::Index nodes) 
   entries.reserve(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     const bool is_inside = rows[k] >= 0 && rows[k] < nodes && columns[k] >= 0 && columns[k] < nodes;
-    require_content(is_inside && std::isfinite(values[k]), fmt::format("'mass' has an impossible entry, place {}", k));
+    require_content(is_inside && std::isfinite(values[k]), fmt::format("'mass' has an impossible entry, index {}", k));
     entries.emplace_back(static_cast<int>(rows[k]), static_cast<int>(columns[k]), values[k]);
   }
   Eigen::SparseMatrix<double> m(nodes, nodes);
@@ -163,7 +163,7 @@ ReducedBody read_body(const Hdf5File& file) {
   require_content(body.internal_first() <= body.size(),
                   fmt::format("{} frames need {} columns of Phi, which has {}", body.frames.size(),
                               body.internal_first(), body.size()));
-  // With all frames held: rigid motions store nothing but round-off, which may be negative.
+  // With all frames fixed: rigid motions store no energy except round-off, which may be negative.
   const Eigen::Index internal = body.size() - body.internal_first();
   if (internal > 0) require_no_negative_energy(body.K.bottomRightCorner(internal, internal), "K");
   body.internal_omega = read_vector(file, "internal_omega");
@@ -205,7 +205,7 @@ void write_reduced_body(const std::filesystem::path& path, const ReducedBody& bo
 
 ReducedBody read_reduced_body(const std::filesystem::path& path) {
   try {
-    // Before HDF5 sees it: the library trusts what it reads of a file's structure.
+    // Checked before HDF5 reads the file: the library trusts a file's structure.
     const Seal seal = check_seal(path);
     require_content(seal != Seal::broken, "has changed since it was written: its checksum is another");
     const DoubtfulFile doubtful(seal == Seal::intact ? nullptr : path.c_str());

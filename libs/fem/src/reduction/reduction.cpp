@@ -68,7 +68,7 @@ void project(const ElasticBody& body, ReducedBody& reduced) {
   const MatrixXd M = reduced.Phi.transpose() * mass_times(body.m, reduced.Phi);
   reduced.K = (K + K.transpose()) / 2;
   reduced.M = (M + M.transpose()) / 2;
-  // What is exact is written exactly.
+  // Exactly known values are written exactly.
   const Index b = reduced.internal_first(), i = reduced.size() - b;
   reduced.K.topRightCorner(b, i).setZero();
   reduced.K.bottomLeftCorner(i, b).setZero();

@@ -18,7 +18,7 @@ MatrixXd compliance_of(const ConstrainedStiffness& stiffness, const SurfaceMap& 
   return 0.5 * (C + C.transpose());
 }
 
-/// -M a of turning at 1 rad/s: what pulls the nodes outwards.
+/// Centrifugal forces -M a of a rotation at 1 rad/s.
 VectorXd centrifugal(const ElasticBody& body, const Vector3& centre, const Vector3& axis) {
   VectorXd a(body.size());
   for (Index n = 0; n < body.node_count(); ++n)

@@ -13,18 +13,18 @@ struct CylinderFit {
   Vector3 axis = Vector3::UnitZ();  ///< unit vector
   double radius = 0;                ///< [m]
 
-  /// From the axis to a place, square to it [m].
+  /// Returns the vector from the axis to a point, perpendicular to the axis [m].
   [[nodiscard]] Vector3 from_axis(const Vector3& x) const {
     const Vector3 r = x - point;
     return r - axis.dot(r) * axis;
   }
-  /// A place's distance from the cylinder, positive outside [m].
+  /// Returns the distance of a point from the cylinder, positive outside [m].
   [[nodiscard]] double deviation(const Vector3& x) const { return from_axis(x).norm() - radius; }
 };
 
-/// The cylinder with the least sum of squares of the points' distances from it, by Gauss and Newton from the circle
-/// that fits best along `axis`. Nothing where the points are fewer than six or lie on no cylinder: the iteration does
-/// not settle, or the radius is beyond `largest_radius` [m].
+/// Fits a cylinder with the least sum of squares of the points' distances from it, by Gauss and Newton from the circle
+/// that fits best along `axis`. Nothing is returned where the points are fewer than six or lie on no cylinder: the
+/// iteration does not converge, or the radius exceeds `largest_radius` [m].
 /// @verified_by surface_detection_test.cpp
 [[nodiscard]] std::optional<CylinderFit> fit_cylinder(const std::vector<Vector3>& points, const Vector3& axis,
                                                       double largest_radius);

@@ -1,4 +1,4 @@
-// Cylinders of a surface: a few facets around each place give a fit, and it grows over the facets that lie on it.
+// Cylinders of a surface: a few facets around a facet give a fit, and the region grows over the facets that lie on it.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,16 @@
 namespace hersey::fem {
 namespace {
 
-// Facets around a place, in rings beyond its edges, that make the first fit: the more the better, unless they reach
-// beyond the cylinder.
+// Numbers of rings of facets around a facet that make the first fit: more rings are better unless they reach beyond the
+// cylinder.
 constexpr std::array<int, 3> kRings = {3, 2, 1};
 
-// What is nearly flat fits a cylinder too: below this the first facets' sagitta is what `kRoundness` allows.
+// A nearly flat region fits a cylinder too: below this arc the first facets' sagitta is within `kRoundness`.
 constexpr double kLeastFitArc = 6 * std::numbers::pi / 180;
 constexpr double kLeastArc = 20 * std::numbers::pi / 180;
 
-// Of a facet's normal from the radius: half a facet's turn, and the tilt of triangles whose corners lie on a cylinder.
+// Largest angle of a facet's normal from the radius: half a facet's arc, and the tilt of triangles whose corners lie on
+// a cylinder.
 const double kAlongRadius = std::cos(25 * std::numbers::pi / 180);
 
 constexpr int kMostFits = 6;
@@ -129,7 +130,7 @@ class CylinderFinder {
     return std::nullopt;
   }
 
-  /// Takes all that lies on the fit, fits all of it, and again until it does not change.
+  /// Takes all facets on the fit, fits the cylinder to them, and repeats until the region does not change.
   bool grow(CylinderRegion& region, int seed) {
     std::size_t members = 0;
     for (int k = 0; k < kMostFits; ++k) {
@@ -172,7 +173,7 @@ class CylinderFinder {
   const SurfaceFacets& surface_;
   double size_;
   std::vector<char>& taken_;
-  std::vector<int> visited_;     // in which pass
+  std::vector<int> visited_;     // index of the last pass that visited each facet
   std::vector<char> too_short_;  // part of a region that was
   int pass_ = 0;
 };

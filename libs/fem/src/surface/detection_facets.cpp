@@ -67,7 +67,7 @@ SurfaceFacets surface_facets(const Mesh& mesh) {
   SurfaceFacets surface;
   for (const ElementFace face : outer_faces(mesh)) {
     Facet facet = facet_of(mesh, face);
-    // A face without area, of a flat element, has no normal: quality_of tells of it.
+    // A face without area, of a flat element, has no normal; quality_of reports it.
     if (facet.area > 0 && facet.normal.allFinite()) surface.facets.push_back(std::move(facet));
   }
   surface.neighbours.resize(surface.facets.size());

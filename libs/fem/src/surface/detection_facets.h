@@ -9,8 +9,8 @@ namespace hersey::fem {
 /// One outer face of a mesh with its geometry.
 struct Facet {
   ElementFace face;
-  std::vector<int> nodes;        ///< corners in turn, then the midside nodes of their edges
-  std::size_t corners = 0;       ///< how many of `nodes`
+  std::vector<int> nodes;        ///< corners in order around the face, then the midside nodes of their edges
+  std::size_t corners = 0;       ///< number of corners among `nodes`
   std::vector<Vector3> normals;  ///< outward unit normals at `nodes`
   Vector3 centre = Vector3::Zero(), normal = Vector3::Zero();  ///< in its middle
   double area = 0;                                             ///< [m^2]
@@ -19,7 +19,7 @@ struct Facet {
 /// A facet beyond an edge.
 struct FacetNeighbour {
   int facet = 0;
-  int first = 0, last = 0;  ///< the edge's corners, places in Mesh::nodes
+  int first = 0, last = 0;  ///< the edge's corners, indices in Mesh::nodes
   double angle = 0;         ///< largest one between the two facets' normals along the edge [rad]
 };
 

@@ -1,4 +1,4 @@
-// Planes of a surface: facets without curvature that hang together.
+// Planes of a surface: connected facets without curvature.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -62,7 +62,8 @@ class PlaneFinder {
     std::sort(region.facets.begin(), region.facets.end());
   }
 
-  /// Half of its rim is edges, or it has a corner within: else it is one of the strips or facets of a curved surface.
+  /// True if edges form half of its rim, or if it has a corner inside: otherwise it is one of the strips or facets of a
+  /// curved surface.
   [[nodiscard]] bool is_surface_of_its_own(const PlaneRegion& region) const {
     double rim = 0, edges = 0;
     std::vector<int> inner, on_rim;

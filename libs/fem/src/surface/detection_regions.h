@@ -8,11 +8,11 @@
 /// Facets that lie on one plane or cylinder.
 namespace hersey::fem {
 
-/// Facets meet in an edge, no longer on one smooth surface, where their normals differ by more: a circle of nine flat
+/// Angle of the normals above which two facets meet in an edge instead of a smooth surface: a circle of nine flat
 /// facets is round, a hexagon and an octagon are not.
 inline constexpr double kSmoothAngle = 40 * 3.14159265358979323846 / 180;  // [rad]
 
-/// How far corners may lie off a cylinder, by its radius: coordinates of five figures do.
+/// Largest deviation of corners from a cylinder, by its radius: enough for coordinates of five figures.
 inline constexpr double kRoundness = 2e-4;
 
 struct CylinderRegion {
@@ -21,17 +21,17 @@ struct CylinderRegion {
   bool is_internal = false;  ///< the solid lies around it
 };
 
-/// Of the facets whose entry in `taken` is 0, those on cylinders; sets their entries. Each region hangs together, and
-/// has 20 degrees of its turn at least. @param size  of the whole mesh: no cylinder has a larger radius [m]
+/// Finds cylinders among the facets whose entry in `taken` is 0, and sets the entries of their facets. Each region is
+/// connected and has an arc of at least 20 degrees. @param size  of the whole mesh: no cylinder has a larger radius [m]
 [[nodiscard]] std::vector<CylinderRegion> cylinder_regions(const Mesh& mesh, const SurfaceFacets& surface, double size,
                                                            std::vector<char>& taken);
 
-/// Puts together what is one cylinder with gaps: two halves, the lands beside a groove. Axes and radii agree to
-/// 1e-3 of the radius; along the axis pieces overlap, or are no farther apart than half the narrower one is wide.
+/// Merges the regions of one cylinder with gaps: two halves, the lands beside a groove. Axes and radii agree to 1e-3 of
+/// the radius; along the axis the pieces overlap, or their distance is at most half the width of the narrower one.
 [[nodiscard]] std::vector<CylinderRegion> merged_regions(const Mesh& mesh, const SurfaceFacets& surface,
                                                          std::vector<CylinderRegion> regions);
 
-/// What a region takes of its cylinder.
+/// Extent of a region on its cylinder.
 struct CylinderExtent {
   double low = 0, high = 0;  ///< along the axis from the fit's point [m]
   double arc = 0;            ///< [rad]
@@ -44,8 +44,8 @@ struct PlaneRegion {
   std::vector<int> facets;  ///< ascending
 };
 
-/// Of the facets whose entry in `taken` is 0, those on planes, one region for each plane and direction. A strip between
-/// smooth edges, as a cone has many, is none.
+/// Finds planes among the facets whose entry in `taken` is 0, one region for each plane and direction. A strip between
+/// smooth edges, of which a cone has many, is no plane.
 [[nodiscard]] std::vector<PlaneRegion> plane_regions(const Mesh& mesh, const SurfaceFacets& surface, double size,
                                                      std::vector<char>& taken);
 

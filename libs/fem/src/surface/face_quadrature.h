@@ -7,16 +7,16 @@
 
 namespace hersey::fem {
 
-/// One point of a face: its nodes' shape functions, where it is, outward normal, and share of the area.
+/// One point of a face: its nodes' shape functions, its position, outward normal, and share of the area.
 struct FacePoint {
   const NodeValues& N;
   Vector3 x, normal;
   double area;
 };
 
-/// Calls `see(nodes, point)` at every point of integration; `nodes` are places in the mesh.
-template <typename See>
-void visit_face(const Mesh& mesh, const ElementFace& face, See&& see) {
+/// Calls `visit(nodes, point)` at every point of integration; `nodes` are indices in the mesh.
+template <typename Visit>
+void visit_face(const Mesh& mesh, const ElementFace& face, Visit&& visit) {
   const Element& element = mesh.elements[static_cast<std::size_t>(face.element)];
   const std::vector<int>& local = face_nodes(element.type, face.face);
   const auto count = static_cast<Eigen::Index>(local.size());
@@ -32,7 +32,7 @@ void visit_face(const Mesh& mesh, const ElementFace& face, See&& see) {
     const FaceShape shape = face_shape(static_cast<int>(count), xi[0], xi[1]);
     const Eigen::Matrix<double, 3, 2> t = x * shape.dN;
     const Vector3 n = t.col(0).cross(t.col(1));
-    see(nodes, FacePoint{shape.N, x * shape.N, n.normalized(), weight * n.norm()});
+    visit(nodes, FacePoint{shape.N, x * shape.N, n.normalized(), weight * n.norm()});
   }
 }
 

@@ -20,12 +20,12 @@ struct CylinderPoint {
   return {std::atan2(x.y(), x.x()), x.z(), std::hypot(x.x(), x.y())};
 }
 
-/// `phi` plus full turns, as near to `to` as can be.
+/// Returns `phi` plus full revolutions, as near to `to` as possible.
 [[nodiscard]] inline double angle_near(double phi, double to) {
   return to + std::remainder(phi - to, 2 * std::numbers::pi);
 }
 
-/// What a face takes of a cylinder's coordinates.
+/// Ranges of cylinder coordinates of a face.
 struct CylinderBox {
   double phi_low = std::numeric_limits<double>::infinity(), phi_high = -phi_low;
   double z_low = phi_low, z_high = -phi_low;
@@ -52,7 +52,7 @@ struct CylinderBox {
   return box;
 }
 
-/// Whether a face takes part of the film's width, not an edge of it alone.
+/// True if a face covers part of the film's width, not only touches its edge.
 [[nodiscard]] inline bool reaches_into(const CylinderBox& box, const FilmCylinder& cylinder) {
   const double edge = cylinder.L / 2 * (1 - 1e-6);  // round-off of the mesh file's numbers
   return box.z_low < edge && box.z_high > -edge;

@@ -11,12 +11,12 @@
 
 namespace hersey::fem {
 namespace {
-constexpr int points_around = 144, points_along = 24;  // points looked at
+constexpr int points_around = 144, points_along = 24;  // number of points
 
 double phi_at(int i) { return (i + 0.5) * two_pi / points_around; }
 double z_at(int k, double L) { return ((k + 0.5) / points_along - 0.5) * L; }
 
-/// Whether (phi, z) lies in a triangle, with its edges.
+/// True if (phi, z) lies in a triangle or on its edges.
 bool holds(const std::array<FilmCorner, 3>& corners, double phi, double z) {
   double low = 0, high = 0, size = 0;
   for (std::size_t c = 0; c < 3; ++c) {

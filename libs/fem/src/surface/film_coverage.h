@@ -8,7 +8,7 @@
 
 namespace hersey::fem {
 
-/// How much of a film lies on faces, seen at points spread evenly over it.
+/// Coverage of a film by faces, evaluated at points distributed evenly over the film.
 struct FilmCover {
   double missing = 0;                 ///< share of its area that lies on none
   double phi_from = 0, phi_over = 0;  ///< the missing part begins here and goes on over this angle [rad]

@@ -1,4 +1,4 @@
-// Which faces of a mesh a film lies on, and how finely they tell displacements apart.
+// Faces of a mesh on which a film lies, and the resolution of their displacements.
 #include <fmt/format.h>
 
 #include "hersey/core/contract.h"

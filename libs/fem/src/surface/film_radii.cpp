@@ -31,7 +31,7 @@ int parts_of(const Mesh& mesh, ElementFace face, const FilmCylinder& cylinder) {
   return std::clamp(static_cast<int>(std::ceil(fields)), 2, 24);
 }
 
-/// Fields without a point (an oil hole) take what the nearest one around has, or none of it.
+/// Fills fields without a point (an oil hole) with the value of the nearest field around, or zero if there is none.
 void fill_holes(Eigen::MatrixXd& deviation) {
   const Eigen::MatrixXd found = deviation;
   for (Index k = 0; k < found.cols(); ++k)

@@ -68,7 +68,7 @@ FilmSurfaceResult no_faces(const Mesh& mesh, const FilmCylinder& cylinder) {
                  "a larger distance");
 }
 
-/// The radius that lies furthest off; none if all nodes are near enough.
+/// Returns the radius of the largest deviation; none if all nodes are within the tolerance.
 std::optional<double> off_radius(const Mesh& mesh, const std::vector<ElementFace>& faces, const FilmCylinder& cylinder,
                                  double tolerance) {
   const Pose to_cylinder = cylinder.X.inverse();
@@ -93,7 +93,7 @@ FilmSurfaceResult refused_radius(double worst, const FilmCylinder& cylinder) {
                  unit);
 }
 
-/// Where a face that looks the wrong way is; none if all are right.
+/// Returns the position of a face whose normal has the wrong direction; none if all are right.
 std::optional<CylinderPoint> wrong_face(const Mesh& mesh, const std::vector<ElementFace>& faces,
                                         const FilmCylinder& cylinder) {
   for (const ElementFace face : faces) {

@@ -9,8 +9,9 @@
 namespace hersey::fem {
 namespace {
 
-constexpr double flat = 1e-2;    // share of the normals' squares along an axis that none looks along
-constexpr double curved = 5e-2;  // and across it, from where on faces are part of a bore
+constexpr double flat =
+    1e-2;  // share of the normals' squares along the axis, below which no normal has a component along it
+constexpr double curved = 5e-2;  // share across the axis, above which faces are part of a bore
 
 /// Mean of n n^T over the area of faces.
 Matrix3 spread_of_normals(const Mesh& mesh, const std::vector<ElementFace>& faces) {
@@ -44,7 +45,7 @@ Vector3 centre_of(const Mesh& mesh, const std::vector<ElementFace>& faces, const
   return A.ldlt().solve(b + area * axis * axis.dot(middle));
 }
 
-/// 1 and what grows along a face in each direction it extends in.
+/// Returns a uniform pressure and one that varies linearly in each direction in which the face extends.
 Eigen::MatrixXd face_pressures(const Mesh& mesh, const std::vector<ElementFace>& faces) {
   std::vector<int> nodes = nodes_on(mesh, faces);
   Vector3 middle = Vector3::Zero();

@@ -17,7 +17,7 @@ constexpr double kNearlyFull = 300 * kDegree;
 constexpr double kLeastReportedArc = 60 * kDegree;
 constexpr double kNarrowest = 0.1, kWidestBore = 2;  // by the diameter
 
-/// Whether more than half of a cylinder's sides, the parts of its rim along the axis, go on without an edge.
+/// True if more than half of a cylinder's sides, the parts of its rim along the axis, continue without an edge.
 bool has_smooth_sides(const Mesh& mesh, const SurfaceFacets& surface, const CylinderRegion& region) {
   double sides = 0, smooth = 0;
   for (const int f : region.facets)
@@ -79,7 +79,7 @@ FoundSurface plane_of(const Mesh& mesh, const SurfaceFacets& surface, const Plan
   return found;
 }
 
-/// Bores, journals, other cylinders, planes; within each the larger first, and then by place.
+/// Order: bores, journals, other cylinders, planes; within each kind the larger first, then by position.
 bool comes_before(const FoundSurface& a, const FoundSurface& b) {
   const auto rank = [](const FoundSurface& s) {
     if (s.kind == FoundSurface::Kind::plane) return 3;
@@ -87,7 +87,7 @@ bool comes_before(const FoundSurface& a, const FoundSurface& b) {
   };
   if (rank(a) != rank(b)) return rank(a) < rank(b);
   const double size_a = rank(a) == 3 ? a.area : a.radius, size_b = rank(a) == 3 ? b.area : b.radius;
-  // Sizes that are equal but for round-off leave the order to the place.
+  // Sizes that are equal except for round-off are ordered by position.
   if (std::abs(size_a - size_b) > 1e-6 * size_a) return size_a > size_b;
   for (int i = 0; i < 3; ++i)
     if (std::abs(a.centre[i] - b.centre[i]) > 1e-9) return a.centre[i] < b.centre[i];
