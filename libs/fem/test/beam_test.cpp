@@ -164,7 +164,7 @@ TEST_CASE("FortyFiveDegreeBend_OfBatheAndBolourchi") {
   }
 }
 
-TEST_CASE("BeamThatIsNotHeld_FindsNoEquilibrium") {
+TEST_CASE("BeamWithoutSupports_FindsNoEquilibrium") {
   const BeamBody body = beam_body(line(4), slender, {0, 0, 1});
   BeamState state = undeformed(body);
   CHECK(solve_beam(body, {}, {{.node = 4, .force = {0, 1, 0}}}, state) == 0);

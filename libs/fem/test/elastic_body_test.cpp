@@ -127,7 +127,7 @@ TEST_CASE("Hex8_InBending_DoesNotLock") {
   CHECK(bending_ratio(ElementType::tet4, 0) < 0.3);                                // what locking looks like
 }
 
-TEST_CASE("MeshesThatAreNoBody_AreToldByLabel") {
+TEST_CASE("MeshesThatAreNoBody_AreReportedByLabel") {
   const auto told = [](const Mesh& mesh) -> std::string {
     try {
       (void)assemble(mesh, {steel});

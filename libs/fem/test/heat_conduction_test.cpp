@@ -124,7 +124,7 @@ TEST_CASE("Ring_ConvergesToTheLogarithm") {
   CHECK(ring_error(ElementType::hex20, 6) < 2e-4);
 }
 
-TEST_CASE("RiseAtOnePlaceByHeatAtAnother_IsThatTheOtherWayRound") {
+TEST_CASE("RiseAtOneAngleByHeatAtAnother_IsReciprocal") {
   const Mesh mesh = distorted_box(ElementType::tet10);
   HeatConduction conduction(
       mesh, {{.conductivity = k}},
@@ -136,7 +136,7 @@ TEST_CASE("RiseAtOnePlaceByHeatAtAnother_IsThatTheOtherWayRound") {
   CHECK(rises.col(mesh.node_sets.at("y0").front()).isZero(0));
 }
 
-TEST_CASE("HeatThatHasNowhereToGo_IsTold") {
+TEST_CASE("HeatThatHasNowhereToGo_IsReported") {
   const Mesh mesh = box_mesh(ElementType::hex8, {1, 1, 1}, {2, 2, 2});
   HeatConduction insulated(mesh, {{.conductivity = k}}, {});
   const solver::FactorSummary summary = insulated.factorise();

@@ -117,7 +117,7 @@ TEST_CASE("StaticallyDeterminateSupports_HoldWithoutReaction") {
   }
 }
 
-TEST_CASE("HeatedSurface_ThatNothingCools_IsTold") {
+TEST_CASE("HeatedSurface_ThatNothingCools_IsReported") {
   const Ring ring;
   const ElasticBody body = assemble(ring_mesh(ElementType::hex8, ring), {steel});
   const HeatedSurface heated = heated_surface(body, steel_of_heat, {}, bore_of_ring(body.mesh, ring),

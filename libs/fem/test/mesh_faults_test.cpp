@@ -50,7 +50,7 @@ const std::string kSteel = "*MATERIAL,NAME=Steel\n*DENSITY\n7.85\n*ELASTIC\n210,
 
 Answer abaqus(const std::string& text) { return read(text, MeshFormat::abaqus); }
 
-TEST_CASE("SectionOfAnUnknownMaterial_IsToldWithBothNames_AndGivesNone") {
+TEST_CASE("SectionOfAnUnknownMaterial_IsReportedWithBothNames_AndGivesNone") {
   const std::string sections = "*SOLID SECTION,ELSET=a,MATERIAL=STELL\n*SOLID SECTION,ELSET=b,MATERIAL=Alu\n";
   const Answer answer = abaqus(kTets + kAlu + kSteel + sections);
   CHECK(answer.materials == "21: the section of 'a' names the material 'STELL', which the file does not define");
@@ -61,7 +61,7 @@ TEST_CASE("SectionOfAnUnknownMaterial_IsToldWithBothNames_AndGivesNone") {
   CHECK_FALSE(quality_of(answer.mesh).mass.has_value());
 }
 
-TEST_CASE("ElementsWithoutASection_OrWithTwo_AreTold") {
+TEST_CASE("ElementsWithoutASection_OrWithTwo_AreReported") {
   const std::string of_a = "*SOLID SECTION,ELSET=a,MATERIAL=Alu\n";
   CHECK(abaqus(kTets + kAlu + of_a).materials == "10: 1 element has no material by any section: 2");
   CHECK(abaqus(kTets + kAlu + kSteel).materials == "8: 2 elements have no material by any section: 1, 2");
@@ -75,7 +75,7 @@ TEST_CASE("ElementsWithoutASection_OrWithTwo_AreTold") {
         "16: the section of 'a' names no material");
 }
 
-TEST_CASE("TheOnlyMaterial_IsTakenWithoutASection_AndThatIsTold") {
+TEST_CASE("TheOnlyMaterial_IsTakenWithoutASection_AndThatIsReported") {
   const Answer answer = abaqus(kTets + kAlu);
   CHECK(answer.materials.empty());
   CHECK(answer.warnings == "11: material 'Alu', which no section gives to elements");
@@ -88,7 +88,7 @@ TEST_CASE("AMeshWithoutMaterials_SaysNothingOfThem") {
   CHECK(answer.warnings.empty());
 }
 
-TEST_CASE("Abaqus_MaterialsThatSayMoreThanIsRead_AreTold") {
+TEST_CASE("Abaqus_MaterialsThatSayMoreThanIsRead_AreReported") {
   const std::string sections = "*ELSET,ELSET=c\na,b\n*SOLID SECTION,ELSET=c,MATERIAL=Alu\n";
   const auto warnings = [&](const std::string& material) { return abaqus(kTets + material + sections).warnings; };
   CHECK(warnings(kAlu + "*PLASTIC\n1,0\n") == "16: 1 *PLASTIC");
@@ -135,7 +135,7 @@ TEST_CASE("Abaqus_OneOfSeveralParts_IsReadByItsName") {
                     doctest::Contains("a part of the file: First or Second"));
 }
 
-TEST_CASE("Abaqus_WhatConnectsOrLoadsTheMesh_IsToldOrOfNoConcern") {
+TEST_CASE("Abaqus_WhatConnectsOrLoadsTheMesh_IsReportedOrIgnored") {
   CHECK(abaqus(kTets + "*COUPLING,REF NODE=1\n*KINEMATIC\n*COUPLING\n").warnings ==
         "11: 2 *COUPLING; 12: 1 *KINEMATIC");
   CHECK(abaqus(kTets + "*ELEMENT,TYPE=SPRINGA,ELSET=s\n9,1,2\n").warnings == "11: 1 *ELEMENT of type SPRINGA");
@@ -153,7 +153,7 @@ TEST_CASE("Abaqus_ParametersThatWouldBePassedOver_AreRefused") {
   CHECK(abaqus(kTets + "*NSET,NSET=n,\nGENERATE\n1,4,1\n").refusal.empty());
 }
 
-TEST_CASE("Abaqus_ALastLineWithoutItsEnd_IsTold") {
+TEST_CASE("Abaqus_ALastLineWithoutItsEnd_IsReported") {
   CHECK(abaqus(kTets + "*NSET,NSET=n\n1,2,3").warnings == "12: a last line that does not end: '1,2,3'");
   CHECK(abaqus(kTets + "*STEP\n*END STEP").warnings.empty());
   const auto include = [](const std::string&) -> std::string { return "1,0,0,0\n2,1,0"; };
@@ -204,7 +204,7 @@ TEST_CASE("Nastran_GridPointsInAnotherSystem_AlsoByGrdset") {
   CHECK(nastran("GRDSET,,5\n" + in_basic + kEnd).refusal.empty());
 }
 
-TEST_CASE("Nastran_AFileWithoutItsEnd_IsTold") {
+TEST_CASE("Nastran_AFileWithoutItsEnd_IsReported") {
   CHECK(nastran(kTet + kEnd).warnings.empty());
   CHECK(nastran(kTet).warnings == "5: no ENDDATA at the end");
   CHECK(nastran("CEND\nBEGIN  BULK\n" + kTet + kEnd).warnings.empty());
@@ -224,7 +224,7 @@ TEST_CASE("Nastran_LinesThatDoNotBelongTogether_AreRefused") {
   CHECK(nastran("=,*1,=,*1.,==\n" + kTet + kEnd).refusal == "1: a replication of no entry (=)");
 }
 
-TEST_CASE("Nastran_MaterialsThatAreMissing_OrSayMore_AreTold") {
+TEST_CASE("Nastran_MaterialsThatAreMissing_OrSayMore_AreReported") {
   const std::string mat = "MAT1,5,210.,,.3,7.8\n";
   CHECK(nastran(kTet + "PSOLID,1,5\n" + mat + kEnd).materials.empty());
   CHECK(nastran(kTet + "PSOLID,1,6\n" + mat + kEnd).materials ==
@@ -256,7 +256,7 @@ TEST_CASE("Nastran_WtmassScalesDensities") {
   CHECK(nastran("PARAM,WTMASS,0.\n" + body).refusal == "1: WTMASS = 0");
 }
 
-TEST_CASE("Nastran_EntriesThatAreNotRead_AreRefusedToldOrOfNoConcern") {
+TEST_CASE("Nastran_EntriesThatAreNotRead_AreRefusedReportedOrIgnored") {
   CHECK(nastran(kTet + "CONM2,1,2,,3.\nCTETTRA,2,1,1,2,3,4\nCONM2,2,1,,3.\nCBEAM3,3,1,1,2,3\nCBEND,4,1,1,2\n" + kEnd)
             .warnings == "9: 1 CBEAM3; 10: 1 CBEND; 6: 2 CONM2; 7: 1 CTETTRA");
   CHECK(nastran(kTet + "MPC,1,2,1,1.,3,1,-1.\n" + kEnd).warnings == "6: MPC 1, which no case control section selects");
@@ -271,7 +271,7 @@ TEST_CASE("Nastran_EntriesThatAreNotRead_AreRefusedToldOrOfNoConcern") {
   CHECK(nastran("INCLUDE 'sets.txt'\nBEGIN BULK\n" + kTet + kEnd).warnings == "1: INCLUDE before BEGIN BULK");
 }
 
-TEST_CASE("Gmsh_SectionsThatAreNotRead_AreTold_AndPartitionsRefused") {
+TEST_CASE("Gmsh_SectionsThatAreNotRead_AreReported_AndPartitionsRefused") {
   const std::string mesh =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
       "$Elements\n1\n1 4 0 1 2 3 4\n$EndElements\n";

@@ -264,7 +264,7 @@ std::string fault_of(const std::string& text, MeshFormat format) {
   return "no fault";
 }
 
-TEST_CASE("FaultyFiles_AreToldWithLineAndRemedy") {
+TEST_CASE("FaultyFiles_AreReportedWithLineAndRemedy") {
   const auto abaqus = [](const std::string& text) { return fault_of(text, MeshFormat::abaqus); };
   const std::string nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
   CHECK(abaqus(nodes + "*ELEMENT,TYPE=C3D4\n7,1,2,3,5\n") ==
@@ -312,7 +312,7 @@ TEST_CASE("FaultyFiles_AreToldWithLineAndRemedy") {
   CHECK(nastran("CTRIAX,1,1,1,2,3\n") == "1: CTRIAX, an element of a section that turns about an axis; solids");
 }
 
-TEST_CASE("Files_OfUnknownEnding_OrMissing_AreTold") {
+TEST_CASE("Files_OfUnknownEnding_OrMissing_AreReported") {
   CHECK_THROWS_AS((void)read_mesh("body.step", 1), InputError);
   CHECK_THROWS_AS((void)read_mesh("no_such_file.msh", 1), InputError);
   CHECK_THROWS_AS((void)read_mesh("/", 1), InputError);

@@ -142,7 +142,7 @@ TEST_CASE("SystemsByGridPoints_AreThoseByTheirPositions") {
 const std::string kTetIn7 =
     "GRID,1,7,0.,0.,0.\nGRID,2,7,1.,0.,0.\nGRID,3,7,0.,1.,0.\nGRID,4,7,0.,0.,1.\nCTETRA,1,1,1,2,3,4\n";
 
-TEST_CASE("SystemsThatLeadNowhere_AreToldWithTheirLine") {
+TEST_CASE("SystemsThatLeadNowhere_AreReportedWithTheirLine") {
   CHECK(refusal(kTetIn7) == "1: the coordinate system 7, which the file does not define");
   const std::string points = "0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n";
   CHECK(refusal(kTetIn7 + "CORD2R,7,8," + points + "CORD2C,8,7," + points)

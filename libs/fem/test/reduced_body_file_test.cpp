@@ -102,7 +102,7 @@ std::string fault_after(const Spoil& spoil) {
   return "no fault";
 }
 
-TEST_CASE("SpoiledReducedBodies_AreToldByTheirDataSet") {
+TEST_CASE("SpoiledReducedBodies_AreReportedByTheirDataSet") {
   CHECK(fault_after([](ReducedBody&) {}) == "no fault");
   CHECK(fault_after([](ReducedBody& b) { b.K(0, 1) += 1e9; }) == "data set 'K' is not symmetric");
   CHECK(fault_after([](ReducedBody& b) { b.M(3, 3) = std::nan(""); }) ==
@@ -157,7 +157,7 @@ std::string bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST_CASE("ABitThatFlipsInAReducedBody_IsToldOrHarmless") {
+TEST_CASE("ABitThatFlipsInAReducedBody_IsReportedOrHarmless") {
   const TemporaryDirectory folder;
   const ReducedBody body = reduced();
   write_reduced_body(folder / "rod.h5", body);
@@ -179,7 +179,7 @@ TEST_CASE("ABitThatFlipsInAReducedBody_IsToldOrHarmless") {
   CHECK(told >= tried - 1);  // the seal is 46 bytes, less than a step
 }
 
-TEST_CASE("FilesThatAreNoReducedBody_AreTold") {
+TEST_CASE("FilesThatAreNoReducedBody_AreReported") {
   const TemporaryDirectory folder;
   std::ofstream(folder / "text.h5") << "no HDF5";
   CHECK_THROWS_AS((void)read_reduced_body(folder / "text.h5"), InputError);
@@ -239,7 +239,7 @@ std::string import_fault(const Eigen::SparseMatrix<double>& K, const Eigen::Spar
   return "no fault";
 }
 
-TEST_CASE("MatricesThatAreNoFreeBody_AreTold") {
+TEST_CASE("MatricesThatAreNoFreeBody_AreReported") {
   const ElasticBody body = box_body();
   const Eigen::SparseMatrix<double> M = full_mass(body.m);
   CHECK(import_fault(body.K, M) == "no fault");

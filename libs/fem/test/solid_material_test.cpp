@@ -41,7 +41,7 @@ TEST_CASE("Orthotropic_WithEqualConstantsIsIsotropicInAnyAxes") {
   CHECK(turned.density == 2700);
 }
 
-TEST_CASE("Orthotropic_TurnedByAQuarter_SwapsItsAxes") {
+TEST_CASE("Orthotropic_RotatedByARightAngle_SwapsItsAxes") {
   OrthotropicMaterial m = ply();
   const SolidMaterial straight = orthotropic(m);
   m.R << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // axis 1 along y

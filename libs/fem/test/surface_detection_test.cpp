@@ -216,7 +216,7 @@ TEST_CASE("LandsBesideAGroove_AreOneBore_ButBearingsInARow_AreNot") {
   CHECK(called(grooved, "hole_d52.5_at_0_0_0").use() == Use::none);  // the groove's floor, a 26th of its diameter wide
 }
 
-TEST_CASE("SlightlyCurvedFace_IsNotTold_AndItsEdgesArePlanes") {
+TEST_CASE("SlightlyCurvedFace_IsNotReported_AndItsEdgesArePlanes") {
   // 10 degrees of a cylinder of 0.3 m: a plane it is not, nor a cylinder that a bearing could have.
   Mesh mesh = without_sets(box_mesh(ElementType::hex20, {0.05, 0.05, 0.02}, {12, 12, 2}));
   for (Vector3& x : mesh.nodes) x.z() += x.z() / 0.02 * (std::sqrt(0.09 - std::pow(x.x() - 0.025, 2)) - 0.3);

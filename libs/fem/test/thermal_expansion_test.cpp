@@ -93,7 +93,7 @@ TEST_CASE("ExpansionLoad_IsInBalanceWhateverTheTemperature") {
   }
 }
 
-TEST_CASE("BodyHeldEverywhere_BearsAllOfItsExpansionAsPressure") {
+TEST_CASE("BodyFixedEverywhere_BearsAllOfItsExpansionAsPressure") {
   for (const ElementType type : solids) {
     CAPTURE(name_of(type));
     const ElasticBody body = assemble(distorted_box(type), {steel});

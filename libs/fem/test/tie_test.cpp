@@ -291,7 +291,7 @@ TEST_CASE("TiesBetweenMeshesThatDoNotMatch_PassThePatchTest") {
   CHECK((C * u).norm() < 1e-10 * u.norm());  // twelve digits of positions
 }
 
-TEST_CASE("TiesThatCannotBeFollowed_AreToldWithTheirLine") {
+TEST_CASE("TiesThatCannotBeFollowed_AreReportedWithTheirLine") {
   const Halves halves(ElementType::hex8);
   const auto refusal = [&](const std::string& text, MeshFormat format) -> std::string {
     try {
@@ -325,7 +325,7 @@ TEST_CASE("TiesThatCannotBeFollowed_AreToldWithTheirLine") {
   CHECK(warnings[0].found == "3 nodes of 'foot' farther than 0.01 from 'up'; the first is 1");
 }
 
-TEST_CASE("EquationsBetweenSets_GoTogetherInTurn") {
+TEST_CASE("EquationsBetweenSets_PairTheirNodes") {
   const Halves halves(ElementType::hex8);
   std::string of_sets = "*NSET,NSET=a\n", more = "*NSET,NSET=b\n";
   for (const auto& [a, b] : halves.pairs) of_sets += fmt::format("{}\n", a), more += fmt::format("{}\n", b);

@@ -79,7 +79,7 @@ TEST_CASE("Vtu_OfAMovedBody_HasThePositionsGiven") {
   CHECK_THROWS_AS(write_vtu(folder / "box.vtu", mesh, frame), ContractError);
 }
 
-TEST_CASE("Vtu_ThatCannotBeWritten_IsToldByItsName") {
+TEST_CASE("Vtu_ThatCannotBeWritten_IsReportedByItsName") {
   CHECK_THROWS_WITH_AS(write_vtu("/no/such/folder/a.vtu", block(), {}),
                        "/no/such/folder/a.vtu: cannot be written: No such file or directory", std::runtime_error);
 }
