@@ -36,10 +36,10 @@ inline BeamBody beam_body(const std::vector<Vector3>& nodes, const BeamStiffness
   return body;
 }
 
-/// Where the nodes are and how the material around them has turned from the undeformed state.
+/// Positions of the nodes, and rotations of the material around them from the undeformed state.
 using BeamState = std::vector<Pose>;
 
-/// The nodes where the body has them, nothing turned.
+/// Positions of the undeformed nodes without rotations.
 inline BeamState undeformed(const BeamBody& body) {
   BeamState state;
   for (const Vector3& node : body.nodes) state.push_back({Matrix3::Identity(), node});
@@ -110,18 +110,18 @@ class BeamBalance {
     }
   }
 
-  // What keeps its direction in space is R^T m in the node's axes, and turns with theta as -theta x R^T m.
+  // A vector of constant direction in space is R^T m in the node's axes, and rotates with theta as -theta x R^T m.
   void add(const BeamLoad& load, const Matrix3& R, double share) {
     for (const int first : {0, 3}) {
       const Vector3 own = share * R.transpose() * (first == 0 ? load.moment : load.force);
-      const Matrix3 turned = skew(own);
+      const Matrix3 rotated = skew(own);
       for (int i = 0; i < 3; ++i) {
         const int row = free_index_[6 * load.node + first + i];
         if (row < 0) continue;
         residual[row] -= own[i];
         for (int j = 0; j < 3; ++j)
           if (const int column = free_index_[6 * load.node + j]; column >= 0)
-            entries_.emplace_back(row, column, -turned(i, j));
+            entries_.emplace_back(row, column, -rotated(i, j));
       }
     }
   }

@@ -59,11 +59,12 @@ TEST_CASE("PrescribedDisplacement_StretchesTheBar") {
 TEST_CASE("BodyWithoutSupports_ReportsTheNumberOfItsMotions") {
   const ElasticBody body = assemble(box_mesh(ElementType::tet10, {1, 0.2, 0.3}, {3, 1, 2}), {steel});
   const Eigen::MatrixXd f = gravity_load(body, {0, 0, -9.81});
-  const auto told = [&](const std::vector<int>& fixed) { return solve_static(body, at_rest(fixed), f).message; };
-  CHECK(told({}).find("6 of its 6 rigid motions") != std::string::npos);
+  const auto message = [&](const std::vector<int>& fixed) { return solve_static(body, at_rest(fixed), f).message; };
+  CHECK(message({}).find("6 of its 6 rigid motions") != std::string::npos);
   const std::vector<int>& x0 = body.mesh.node_sets.at("x0");
-  CHECK(told(dofs_of({x0[0]})).find("3 of its 6 rigid motions") != std::string::npos);                   // a ball joint
-  CHECK(told(dofs_of(x0, {true, false, false})).find("3 of its 6 rigid motions") != std::string::npos);  // on a plane
+  CHECK(message(dofs_of({x0[0]})).find("3 of its 6 rigid motions") != std::string::npos);  // a ball joint
+  CHECK(message(dofs_of(x0, {true, false, false})).find("3 of its 6 rigid motions") !=
+        std::string::npos);  // on a plane
   CHECK(solve_static(body, at_rest(dofs_of(x0)), f).solved());
 }
 

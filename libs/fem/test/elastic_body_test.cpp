@@ -128,7 +128,7 @@ TEST_CASE("Hex8_InBending_DoesNotLock") {
 }
 
 TEST_CASE("MeshesThatAreNoBody_AreReportedByLabel") {
-  const auto told = [](const Mesh& mesh) -> std::string {
+  const auto fault = [](const Mesh& mesh) -> std::string {
     try {
       (void)assemble(mesh, {steel});
     } catch (const InputError& error) {
@@ -138,15 +138,15 @@ TEST_CASE("MeshesThatAreNoBody_AreReportedByLabel") {
   };
   Mesh folded = box_mesh(ElementType::hex8, {1, 1, 1}, {2, 1, 1});
   std::swap(folded.connectivity[8], folded.connectivity[12]);
-  CHECK(told(folded).find("elements 2 are folded or inside out") != std::string::npos);
+  CHECK(fault(folded).find("elements 2 are folded or inside out") != std::string::npos);
   Mesh loose = box_mesh(ElementType::tet4, {1, 1, 1}, {1, 1, 1});
   loose.nodes.emplace_back(2, 2, 2);
   loose.node_labels.push_back(77);
-  CHECK(told(loose).find("nodes 77 belong to no element") != std::string::npos);
+  CHECK(fault(loose).find("nodes 77 belong to no element") != std::string::npos);
   Mesh beam = box_mesh(ElementType::tet4, {1, 1, 1}, {1, 1, 1});
   beam.elements.push_back({.type = ElementType::beam2, .label = 9, .first = 0});
-  CHECK(told(beam).find("elements 9 are beams") != std::string::npos);
-  CHECK(told(Mesh{}).find("without elements") != std::string::npos);
+  CHECK(fault(beam).find("elements 9 are beams") != std::string::npos);
+  CHECK(fault(Mesh{}).find("without elements") != std::string::npos);
 }
 
 }  // namespace elastic_body_test

@@ -49,7 +49,7 @@ TEST_CASE("RingUnderFilmPressure_WidensAsLameSays") {
   for (const ElementType type : {ElementType::hex20, ElementType::tet10}) {
     CAPTURE(name_of(type));
     const ElasticBody body = assemble(ring_mesh(type, ring), {steel});
-    // The mean of the outside is held: a pressure all around needs no force for that.
+    // The mean of the outside is fixed: a pressure all around needs no force for that.
     const ConstrainedStiffness stiffness = held_by(body, {average_on(body.mesh, "outside")});
     const FilmSurface surface = must_make(body.mesh, film_of(ring), {16, 4, ring.width});
     const VectorXd f = surface.T * VectorXd::Ones(surface.functions.count());
@@ -88,7 +88,7 @@ TEST_CASE("FilmModes_MissNoMoreThanTheySay_AndLessTheMoreThereAre") {
   const FilmCylinder film{.X = {}, .R = 0.0225, .L = 0.0156, .is_bore = true};
   const std::vector<ElementFace> faces = faces_called(mesh, "big_end");
   const FilmSurface surface = must_make(mesh, film, functions_for(mesh, faces, film), 2e-4);
-  // A pressure of 1 at 60 degrees that falls to nothing within a fifth of the turn.
+  // A pressure of 1 at 60 degrees that falls to nothing within a fifth of the circumference.
   VectorXd p(surface.functions.count());
   for (int j = 0; j < surface.functions.count(); ++j) {
     const double phi = 2 * std::numbers::pi * (j % surface.functions.around()) / surface.functions.around();
@@ -143,7 +143,8 @@ TEST_CASE("FilmModes_OfASurfaceThatAFrameHolds_AreNone") {
 TEST_CASE("CoefficientsFromAFrame_SeeDeformationAlone") {
   const Ring ring{.cells = {2, 18, 3}};
   const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});
-  // A bore that its frame carries rigidly does not deform, however the frame moves; seen from the other frame it does.
+  // A bore that its frame carries rigidly does not deform, however the frame moves; relative to the other frame it
+  // does.
   const std::vector<int>& nodes = body.mesh.node_sets.at("bore");
   const std::vector<InterfaceFrame> frames = {average_on(body.mesh, "outside"),
                                               {"bore", {0, 0, 1e-3}, nodes, Connection::rigid, {}}};

@@ -12,7 +12,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::fem {
-namespace surface_pressure_test {
+namespace film_pressure_test {
 
 TEST_CASE("SurfacePressure_IsTheFilmsAtTheNodesAndCarriesItsForce") {
   const TemporaryDirectory folder;
@@ -62,5 +62,5 @@ TEST_CASE("SurfacePressure_IsTheFilmsAtTheNodesAndCarriesItsForce") {
   CHECK(nodal.dot(u) == doctest::Approx(work));
 }
 
-}  // namespace surface_pressure_test
+}  // namespace film_pressure_test
 }  // namespace hersey::fem

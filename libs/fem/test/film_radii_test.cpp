@@ -12,7 +12,7 @@
 #include "temporary_directory.h"
 
 namespace hersey::fem {
-namespace surface_radii_test {
+namespace film_radii_test {
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -78,5 +78,5 @@ TEST_CASE("SurfaceRadii_TakeTheWorstInAField") {
   CHECK(radii.mean == doctest::Approx(-30e-6 / 24).epsilon(0.01));
 }
 
-}  // namespace surface_radii_test
+}  // namespace film_radii_test
 }  // namespace hersey::fem

@@ -48,7 +48,8 @@ TEST_CASE("EvenHeatIntoAHollowShaft_IsTheLogarithmOfItsRadii") {
   CHECK(heated.rise_body(at_bore, 0) == doctest::Approx(to_oil).epsilon(1e-4));  // as well
 }
 
-// Through a thin tube to both ends, which are held: conduction along, and no more than a third of the wall across.
+// Through a thin tube to both ends, whose temperature is prescribed: conduction along, and no more than a third of the
+// wall across.
 TEST_CASE("EvenHeatIntoTheMiddleOfATube_LeavesByItsEnds") {
   const Ring tube{.inner = 0.045, .outer = 0.05, .width = 0.2, .cells = {2, 24, 30}};
   const ElasticBody body = assemble(ring_mesh(ElementType::hex20, tube), {steel});

@@ -112,8 +112,8 @@ TEST_CASE("StaticallyDeterminateSupports_HoldWithoutReaction") {
     const Mesh mesh = distorted_box(type);
     const std::vector<int> fixed = statically_determinate(mesh);
     const Eigen::MatrixXd motions = rigid_motions(mesh, mesh.nodes.front());
-    const Eigen::MatrixXd seen = motions(fixed, Eigen::all);
-    CHECK(std::abs(seen.determinant()) > 0.05);  // a box of about 1 m: its six supports see every motion
+    const Eigen::MatrixXd supported = motions(fixed, Eigen::all);
+    CHECK(std::abs(supported.determinant()) > 0.05);  // a box of about 1 m: its six supports resist every motion
   }
 }
 

@@ -11,7 +11,7 @@
 #include "source_dir.h"
 
 namespace hersey::fem {
-namespace surface_loads_test {
+namespace load_distributions_test {
 
 double total(const Eigen::VectorXd& f, int axis) {
   double sum = 0;
@@ -58,5 +58,5 @@ TEST_CASE("SpreadForce_IsOneNewtonHoweverLargeItsFaces") {
   CHECK(total(f, 2) == doctest::Approx(-0.8).epsilon(1e-13));
 }
 
-}  // namespace surface_loads_test
+}  // namespace load_distributions_test
 }  // namespace hersey::fem

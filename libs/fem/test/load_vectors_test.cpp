@@ -7,7 +7,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace loads_test {
+namespace load_vectors_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -63,5 +63,5 @@ TEST_CASE("TractionLoad_OfAVaryingTraction_DoesItsWork") {
   CHECK(w[1] == doctest::Approx(3 * 2 - 2.0 / 3));  // int 3 y - x^2
 }
 
-}  // namespace loads_test
+}  // namespace load_vectors_test
 }  // namespace hersey::fem

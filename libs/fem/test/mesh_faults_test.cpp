@@ -1,4 +1,4 @@
-// What a mesh file says is followed, refused or told: each keyword and entry that changes geometry, connections,
+// Contents of mesh files are followed, refused or reported: each keyword and entry that changes geometry, connections,
 // material or coordinates.
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include "hersey/fem/mesh_quality.h"
 
 namespace hersey::fem {
-namespace mesh_told_test {
+namespace mesh_faults_test {
 
 /// What reading a text leads to: a refusal, or warnings and faults of materials, as "line: found; line: found".
 struct Answer {
@@ -21,11 +21,11 @@ struct Answer {
   Mesh mesh;
 };
 
-std::string told(const Fault& fault) { return std::to_string(fault.position.line) + ": " + fault.found; }
+std::string text_of(const Fault& fault) { return std::to_string(fault.position.line) + ": " + fault.found; }
 
-std::string told(const std::vector<Fault>& faults) {
+std::string text_of(const std::vector<Fault>& faults) {
   std::string all;
-  for (const Fault& fault : faults) all += (all.empty() ? "" : "; ") + told(fault);
+  for (const Fault& fault : faults) all += (all.empty() ? "" : "; ") + text_of(fault);
   return all;
 }
 
@@ -35,10 +35,10 @@ Answer read(const std::string& text, MeshFormat format, const IncludeLoader& inc
   try {
     answer.mesh = parse_mesh(text, format, "x", 1, &warnings, include, &answer.material_faults);
   } catch (const InputError& error) {
-    answer.refusal = told(error.faults().at(0));
+    answer.refusal = text_of(error.faults().at(0));
   }
-  answer.warnings = told(warnings);
-  answer.materials = told(answer.material_faults);
+  answer.warnings = text_of(warnings);
+  answer.materials = text_of(answer.material_faults);
   return answer;
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("Abaqus_OneOfSeveralParts_IsReadByItsName") {
   CHECK(mesh.node_sets.at("m") == std::vector<int>{4});
   CHECK_FALSE(mesh.node_sets.contains("n"));
   CHECK(mesh.surfaces.empty());
-  CHECK(told(warnings) == "35: 1 *TIE");
+  CHECK(text_of(warnings) == "35: 1 *TIE");
   CHECK(parse_mesh(text, MeshFormat::abaqus, "x", 1, nullptr, {}, nullptr, "first").nodes.at(0).x() == 7);
   CHECK_THROWS_WITH((void)parse_mesh(text, MeshFormat::abaqus, "x", 1, nullptr, {}, nullptr, "Third"),
                     doctest::Contains("a part of the file: First or Second"));
@@ -174,7 +174,7 @@ TEST_CASE("CoordinatesAndConstants_BeyondAllMachines_AreRefused") {
     try {
       (void)parse_mesh(text, MeshFormat::abaqus, "x", unit);
     } catch (const InputError& error) {
-      return told(error.faults().at(0));
+      return text_of(error.faults().at(0));
     }
     return std::string();
   };
@@ -295,5 +295,5 @@ TEST_CASE("ElementsOfDifferentOrder_OnOneFace_AreWarnedOf") {
   CHECK(warnings[0].found.starts_with("elements whose common face has not the same midside nodes: "));
 }
 
-}  // namespace mesh_told_test
+}  // namespace mesh_faults_test
 }  // namespace hersey::fem

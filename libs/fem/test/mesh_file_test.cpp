@@ -309,7 +309,7 @@ TEST_CASE("FaultyFiles_AreReportedWithLineAndRemedy") {
   CHECK(nastran("$\nCTETRA,1,1,1,2,3\n") ==
         "2: CTETRA 1 with 3 nodes; 4 corners, then up to 6 mid-side nodes, of which any may be left out");
   CHECK(nastran("GRID,1,,zero\n") == "1: 'zero' in GRID; a number");
-  CHECK(nastran("CTRIAX,1,1,1,2,3\n") == "1: CTRIAX, an element of a section that turns about an axis; solids");
+  CHECK(nastran("CTRIAX,1,1,1,2,3\n") == "1: CTRIAX, an axisymmetric element; solids");
 }
 
 TEST_CASE("Files_OfUnknownEnding_OrMissing_AreReported") {

@@ -57,7 +57,7 @@ Vector3 coordinates(char kind, const Vector3& x) {
 
 std::string numbers(const Vector3& x) { return fmt::format("{:.17f},{:.17f},{:.17f}", x[0], x[1], x[2]); }
 
-/// The coordinates in the last of a chain of systems, each told by three points in the one before.
+/// The coordinates in the last of a chain of systems, each defined by three points in the one before.
 struct Chain {
   std::vector<Axes> systems;
 
@@ -114,7 +114,7 @@ TEST_CASE("TheSameBody_InBasicAndInChainedSystems_HasTheSameMatrices") {
     // Systems may stand behind the points that use them.
     const std::string text = body(box, coordinates, std::to_string(9 + kinds.size()));
     const ElasticBody chained = assemble(read(chain.entries() + text), {steel});
-    // Seventeen digits and some turns of round-off; strains divide by the elements' size.
+    // Seventeen digits and the round-off of some rotations; strains divide by the elements' size.
     CHECK((chained.K - basic.K).norm() < 1000 * eps * basic.K.norm());
     CHECK((chained.m - basic.m).norm() < 1000 * eps * basic.m.norm());
     const std::string by_default = fmt::format("GRDSET,,{}\n", 9 + kinds.size()) + body(box, coordinates, "");

@@ -162,21 +162,21 @@ TEST_CASE("ABitThatFlipsInAReducedBody_IsReportedOrHarmless") {
   const ReducedBody body = reduced();
   write_reduced_body(folder / "rod.h5", body);
   const std::string good = bytes_of(folder / "rod.h5");
-  int told = 0, tried = 0;
+  int reported = 0, tried = 0;
   for (std::size_t bit = 5; bit < 8 * good.size(); bit += 997, ++tried) {
-    std::string turned = good;
-    turned[bit / 8] = static_cast<char>(turned[bit / 8] ^ (1 << (bit % 8)));
-    std::ofstream(folder / "turned.h5", std::ios::binary) << turned;
+    std::string flipped = good;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+    std::ofstream(folder / "flipped.h5", std::ios::binary) << flipped;
     try {
-      const ReducedBody back = read_reduced_body(folder / "turned.h5");
+      const ReducedBody back = read_reduced_body(folder / "flipped.h5");
       CHECK(back.K == body.K);  // the bit is one of the seal
       CHECK(back.Phi == body.Phi);
     } catch (const InputError& error) {
       CHECK(error.faults().at(0).found == "has changed since it was written: its checksum is another");
-      ++told;
+      ++reported;
     }
   }
-  CHECK(told >= tried - 1);  // the seal is 46 bytes, less than a step
+  CHECK(reported >= tried - 1);  // the seal is 46 bytes, less than a step
 }
 
 TEST_CASE("FilesThatAreNoReducedBody_AreReported") {

@@ -59,14 +59,14 @@ TEST_CASE("StaticError_HoldsForACosinePressureNotAmongTheShapes") {
       sum += bore.areas[i] * u.segment<3>(3 * bore.nodes[i]).squaredNorm();
     return std::sqrt(sum);
   };
-  const auto error_of = [&](double asked, StaticError& told) {
+  const auto error_of = [&](double asked, StaticError& error) {
     ReductionOptions options;
     options.modes = 10;
     options.surfaces = {bore};
     options.static_error = asked;
     const Reduction reduction = reduce(body, frames, options);
     REQUIRE(reduction.solved());
-    told = reduction.body.static_errors.at(0);
+    error = reduction.body.static_errors.at(0);
     const Eigen::Index n = reduction.body.internal_omega.size();
     const Eigen::MatrixXd V = reduction.body.Phi.rightCols(n);
     const Eigen::VectorXd q =

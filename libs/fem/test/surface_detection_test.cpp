@@ -13,10 +13,10 @@
 #include "source_dir.h"
 
 namespace hersey::fem {
-namespace found_surface_test {
+namespace surface_detection_test {
 
 constexpr double pi = std::numbers::pi;
-// Nodes lie on circles but for round-off, which the fit of a part of a turn enlarges: far below the micrometre of a
+// Nodes lie on circles but for round-off, which the fit of a part of a circle enlarges: far below the micrometre of a
 // bearing's clearance.
 constexpr double kRoundOff = 1e-12;  // m
 
@@ -67,8 +67,8 @@ Vector3 on_rounded_square(double share, double a, double r) {
   if (along > 1 && along <= 2)
     x = Eigen::Vector2d(a - r, a - r) +
         r * Eigen::Vector2d(std::cos((along - 1) * pi / 2), std::sin((along - 1) * pi / 2));
-  const Eigen::Vector2d turned = Eigen::Rotation2Dd(quarter * pi / 2) * x;
-  return {turned.x(), turned.y(), 0};
+  const Eigen::Vector2d rotated = Eigen::Rotation2Dd(quarter * pi / 2) * x;
+  return {rotated.x(), rotated.y(), 0};
 }
 
 /// A ring one of whose sides is a rounded square: a block with a bore, or a pocket in a disc.
@@ -159,7 +159,7 @@ TEST_CASE("FilletsOfAPocket_AreNoBores") {
 }
 
 TEST_CASE("BoreInTwoHalves_IsOneBore") {
-  // Two cells are taken out, at 0 and 180 degrees: the halves do not touch, 11/12 of the turn stay.
+  // Two cells are taken out, at 0 and 180 degrees: the halves do not touch, 11/12 of the circle remain.
   const Ring ring{0.0225, 0.03, 0.0156, {1, 24, 2}};
   for (const ElementType type : {ElementType::hex8, ElementType::tet10}) {
     const Mesh mesh = cut(without_sets(ring_mesh(type, ring)), [](const Vector3& x) {
@@ -288,5 +288,5 @@ TEST_CASE("BodyOfBeams_HasNoSurfaces") {
   CHECK(find_surfaces(mesh).empty());
 }
 
-}  // namespace found_surface_test
+}  // namespace surface_detection_test
 }  // namespace hersey::fem

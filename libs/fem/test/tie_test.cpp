@@ -121,8 +121,8 @@ std::vector<Tied> all_ties(const Halves& halves) {
                                   return fmt::format("RBE3,{},,{},123,1.,123456,{}\n", 900 + k, b, a);
                                 })),
       MeshFormat::nastran);
-  // In the axes of a turned system, in which the same three components span the same displacements.
-  add("MPC in turned axes",
+  // In the axes of a rotated system, in which the same three components span the same displacements.
+  add("MPC in rotated axes",
       "CORD2C,7,,0.,0.,0.,0.3,0.2,1.\n,1.,0.,0.\nGRDSET,,,,,,7\n" +
           nastran(halves, for_pairs(halves,
                                     [](long a, long b, int) {
