@@ -24,7 +24,7 @@ class BlockPattern {
                   Eigen::SparseMatrix<double>& sum) const;
 
  private:
-  [[nodiscard]] int block_index(int row, int column) const;  ///< of `row` among the neighbours of `column`
+  [[nodiscard]] int block_index(int row, int column) const;  ///< index of `row` among the neighbours of `column`
 
   std::vector<int> start_;      ///< (n + 1)
   std::vector<int> neighbour_;  ///< ascending for each node, itself included

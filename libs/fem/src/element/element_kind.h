@@ -25,7 +25,7 @@ struct ElementKind {
   ElementType type = ElementType::tet4;
   const char* name = "";
   int nodes = 0, corners = 0;           ///< corners come first
-  std::vector<std::vector<int>> faces;  ///< as `face_nodes`
+  std::vector<std::vector<int>> faces;  ///< nodes of each face, as in `face_nodes`
   ElementInFiles files;
 
   /// Shape functions at natural coordinates, (elastic.1).
@@ -39,7 +39,7 @@ struct ElementKind {
 
   /// Corners whose shape is checked, each with three neighbours in right-handed order.
   std::vector<std::array<int, 4>> checked_corners;
-  Matrix3 ideal_edges = Matrix3::Identity();  ///< of such a corner, as columns
+  Matrix3 ideal_edges = Matrix3::Identity();  ///< edges of the ideal corner, as columns
 };
 
 /// All types, as enumerated.

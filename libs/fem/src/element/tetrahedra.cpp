@@ -23,7 +23,7 @@ Eigen::Matrix3Xd tetrahedron_corners() {
   return xi;
 }
 
-/// Of equal length.
+/// Edges of the ideal corner: equal lengths.
 Matrix3 ideal_tetrahedron() {
   const double half = 0.5, root = std::sqrt(0.75);
   Matrix3 edge = Matrix3::Identity();

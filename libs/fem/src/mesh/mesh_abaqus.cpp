@@ -329,7 +329,7 @@ class AbaqusReader {
               "C3D4, C3D10, C3D5, C3D6, C3D15, C3D8, C3D20 (also R, I, H), B31 or B32; shells only to mark faces");
   }
 
-  // What joins two points without a volume, or weighs a point, is written in the model file.
+  // Elements that join two points without a volume, or give a point a mass, belong into the model file.
   static bool is_of_no_volume(const std::string& type) {
     constexpr std::array beginnings = {"SPRING", "DASHPOT", "MASS",   "ROTARYI", "CONN3D",
                                        "GAP",    "ITS",     "JOINTC", "DCOUP"};
@@ -498,7 +498,7 @@ class AbaqusReader {
   AbaqusSystem system_;
   std::string_view last_line_;
   struct PassedOver {
-    FileLocation location;  ///< of the first
+    FileLocation location;  ///< location of the first
     int count = 0;
   };
   std::map<std::string, PassedOver> passed_over_;

@@ -19,7 +19,7 @@ constexpr long kMostTags = 1000;  // on one entity or element; more is no mesh
 struct GmshType {
   int dimension = 0;
   int nodes = 0;
-  int corners = 0;                   ///< of a surface
+  int corners = 0;                   ///< number of corners of a surface
   std::optional<ElementType> solid;  ///< none: serves to mark a surface, curve or point
   std::vector<std::size_t> order;    ///< index in Gmsh's numbering of each node in Abaqus' order; empty: the same
 };
@@ -334,7 +334,7 @@ class GmshReader {
     long group = 0;
   };
   std::unordered_map<std::size_t, Grouped> grouped_;  ///< by a hash of the nodes
-  std::vector<FileLocation> curve_locations_;         ///< of marks of one dimension
+  std::vector<FileLocation> curve_locations_;         ///< locations of the marks of one dimension
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kSameModulus = 0.01;  // of G and E / (2 (1 + nu)), from which on Nastran warns too
 
-/// Of each entry the solids it may be, by their nodes.
+/// Types of solids of each entry, by their number of nodes.
 using NastranSolids = std::map<int, const ElementKind*>;
 
 const std::map<std::string_view, NastranSolids>& solids() {
@@ -429,15 +429,15 @@ class NastranReader {
 
   const IncludeLoader& include_;
   int file_ = 0;
-  bool has_ended_ = false;                                   ///< by ENDDATA
+  bool has_ended_ = false;                                   ///< true: ENDDATA was read
   double mass_factor_ = 1;                                   ///< PARAM,WTMASS
   std::string default_bar_, default_beam_;                   ///< properties of BAROR and BEAMOR
-  std::vector<std::pair<long, FileLocation>> bars_, beams_;  ///< that name none
+  std::vector<std::pair<long, FileLocation>> bars_, beams_;  ///< beams that name no property
   NastranSystems systems_;
   NastranTies ties_;
   std::map<std::string, int> properties_;  ///< line of each by its name
   struct LeftOut {
-    FileLocation location;  ///< of the first
+    FileLocation location;  ///< location of the first
     int count = 0;
   };
   std::map<std::string, LeftOut> left_out_;

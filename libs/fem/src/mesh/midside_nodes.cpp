@@ -124,7 +124,7 @@ class MidsideNodes {
   RawMesh& raw_;
   std::map<ElementType, std::vector<LocalEdge>> edges_;
   std::map<EdgeKey, long> node_on_;
-  std::set<EdgeKey> straight_edges_;  ///< of elements of first order
+  std::set<EdgeKey> straight_edges_;  ///< edges of elements of first order
   std::vector<StraightNode> straight_;
   FileLocation first_;
   long last_ = 0;

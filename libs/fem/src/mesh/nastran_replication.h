@@ -28,11 +28,11 @@ class NastranReplication {
  private:
   void step(NastranCard& card, std::deque<std::string>& storage);
 
-  std::string name_;                 ///< of the last entry
+  std::string name_;                 ///< name of the last entry
   std::vector<std::string> fields_;  ///< its fields
-  std::vector<std::string> steps_;   ///< of the last entry that was written so: "=", "*..." or a value
+  std::vector<std::string> steps_;   ///< steps of the last entry written by differences: "=", "*..." or a value
   long left_ = 0;                    ///< repetitions still to come
-  int line_ = 0;                     ///< of those
+  int line_ = 0;                     ///< line of the repetitions
   long made_ = 0;
 };
 

@@ -21,7 +21,7 @@ class NastranSystems {
   struct System {
     Kind kind = Kind::rectangular;
     Vector3 origin = Vector3::Zero();
-    Matrix3 axes = Matrix3::Identity();  ///< as columns
+    Matrix3 axes = Matrix3::Identity();  ///< axes as columns
   };
 
   /// CORD2R, C, S: three points a, b, c in the system `in`, the origin, one on the z-axis, one in the x-z plane.
@@ -74,7 +74,7 @@ class NastranSystems {
   long default_position_ = 0, default_motion_ = 0;
   std::map<long, Definition> systems_;
   std::vector<std::pair<long, FileLocation>> repeated_;
-  std::vector<Grid> grids_;                      ///< as RawMesh::nodes
+  std::vector<Grid> grids_;                      ///< grid points in the order of RawMesh::nodes
   std::unordered_map<long, std::size_t> first_;  ///< first index of each label
 };
 

@@ -208,7 +208,7 @@ void NastranTies::build_average(RawMesh& raw, NastranSystems& systems, const Ave
     long grid;
     bool is_rotation;
     Vector3 direction;
-    Vector6 of_motion;  ///< how far along it a rigid motion (d, size theta) goes
+    Vector6 of_motion;  ///< component along it of each rigid motion (d, size theta)
     double weight;
   };
   std::vector<Row> rows;

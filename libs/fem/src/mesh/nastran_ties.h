@@ -17,7 +17,7 @@ namespace hersey::fem {
 /// coordinate systems are known.
 class NastranTies {
  public:
-  /// Whether it takes such an entry.
+  /// True if an entry defines a tie.
   [[nodiscard]] static bool takes(const std::string& entry);
 
   void add(const RawMesh& raw, int file, const NastranCard& card);

@@ -33,7 +33,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// Of symmetric tensors; ParaView names the components of vectors itself.
+/// Names the components of symmetric tensors; ParaView names those of vectors itself.
 std::string component_names(int components) {
   constexpr std::array<const char*, 6> tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
   std::string text;

@@ -67,7 +67,7 @@ MatrixXd orthonormalise(const LanczosProblem& problem, const MatrixXd& W, Matrix
 /// Eigenpairs of the projection and their residuals.
 struct Ritz {
   VectorXd theta;     ///< ascending
-  MatrixXd vectors;   ///< in the basis
+  MatrixXd vectors;   ///< vectors in the basis
   VectorXd residual;  ///< ||A y - theta y||_B
 };
 

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 struct Missing {
   const LoadedSurface* surface;
   MatrixXd residual;  ///< (3 n, shapes)
-  double size;        ///< of the largest of these displacements, on the surface
+  double size;        ///< norm of the largest of these displacements, on the surface
 };
 
 VectorXd sizes_on(const LoadedSurface& surface, const MatrixXd& u) {

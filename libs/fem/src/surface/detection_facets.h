@@ -12,7 +12,7 @@ struct Facet {
   std::vector<int> nodes;        ///< corners in order around the face, then the midside nodes of their edges
   std::size_t corners = 0;       ///< number of corners among `nodes`
   std::vector<Vector3> normals;  ///< outward unit normals at `nodes`
-  Vector3 centre = Vector3::Zero(), normal = Vector3::Zero();  ///< in its middle
+  Vector3 centre = Vector3::Zero(), normal = Vector3::Zero();  ///< centre, and outward normal there
   double area = 0;                                             ///< [m^2]
 };
 
@@ -26,7 +26,8 @@ struct FacetNeighbour {
 /// The outer surface of a mesh as facets that know their neighbours.
 struct SurfaceFacets {
   std::vector<Facet> facets;
-  std::vector<std::vector<FacetNeighbour>> neighbours;  ///< of each facet; edges of more than two facets have none
+  std::vector<std::vector<FacetNeighbour>>
+      neighbours;  ///< neighbours of each facet; edges of more than two facets have none
 };
 
 /// @verified_by surface_detection_test.cpp

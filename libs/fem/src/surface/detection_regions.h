@@ -35,7 +35,7 @@ struct CylinderRegion {
 struct CylinderExtent {
   double low = 0, high = 0;  ///< along the axis from the fit's point [m]
   double arc = 0;            ///< [rad]
-  double deviation = 0;      ///< of corners, at most [m]
+  double deviation = 0;      ///< largest deviation of corners [m]
 };
 [[nodiscard]] CylinderExtent extent_of(const Mesh& mesh, const SurfaceFacets& surface, const CylinderRegion& region);
 

@@ -58,7 +58,7 @@ Eigen::Matrix3Xd nodal_normals(const Mesh& mesh, const std::vector<ElementFace>&
       of_face += point.area * point.normal * point.N.cwiseAbs2().transpose();
       squares += point.area * point.N.squaredNorm();
     });
-    // As nodal_areas: midside nodes would otherwise bear everything.
+    // Weights as in nodal_areas: with int N_a dA midside nodes would carry the whole load.
     const double share = area_of(mesh, {face}) / squares;
     for (std::size_t a = 0; a < at.size(); ++a) normals.col(at[a]) += share * of_face.col(static_cast<Eigen::Index>(a));
   }

@@ -68,7 +68,7 @@ MatrixXd heat_of_angles(const Mesh& mesh, const FilmSurface& surface, const std:
   return P * areas.cwiseInverse().asDiagonal();
 }
 
-/// The same of a unit of heat that is spread evenly over all of the surface (thermal.59).
+/// Returns the same for a unit of heat that is spread evenly over all of the surface (thermal.59).
 MatrixXd even_heat(const Mesh& mesh, const FilmSurface& surface) {
   constexpr int pieces = 2;  // its quadrature is exact for the polynomials of a face
   MatrixXd P = MatrixXd::Zero(static_cast<Index>(mesh.nodes.size()), 1);
