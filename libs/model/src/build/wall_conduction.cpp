@@ -75,7 +75,7 @@ fem::HeatedSurface heated(const Model& model, const Body& body, const fem::FilmS
   const BodyHeat& heat = *body.flexible->heat;
   const fem::HeatedSurfaceOptions options{.angles = std::move(angles),
                                           .T_reference = heat.T_reference,
-                                          .held = fem::dofs_of(heat.fixed),
+                                          .fixed_dofs = fem::dofs_of(heat.fixed),
                                           .expands = heat.material.expansion > 0};
   const std::vector<fem::ThermalMaterial> materials(body.flexible->materials.size(), heat.material);
   fem::HeatedSurface found =
