@@ -121,7 +121,7 @@ StaticResult solve_static(const fem::ElasticBody& body, const Names& hold,
   std::vector<fem::Support> supports;
   for (const int dof : held_by(body.mesh, hold)) supports.push_back({dof, 0});
   const fem::StaticSolution solution = fem::solve_static(body, supports, f);
-  if (!solution.held) refuse("hold", solution.message, "sets that leave no motion free");
+  if (!solution.is_supported) refuse("hold", solution.message, "sets that leave no motion free");
   if (!solution.solved()) throw std::runtime_error(solution.message);
   const fem::Stress stress = fem::recover_stress(body, solution.u.col(0));
   return {by_node(solution.u.col(0)), by_node(solution.reaction.col(0)), stress.nodal.transpose(),
