@@ -98,7 +98,7 @@ TEST_CASE("Abaqus_MaterialsThatSayMoreThanIsRead_AreReported") {
   CHECK(warnings("*MATERIAL,NAME=Alu\n*ELASTIC,TYPE=ENGINEERING CONSTANTS\n1,1,1,.3,.3,.3,1,1\n1\n") ==
         "12: *ELASTIC of type ENGINEERING CONSTANTS");
   CHECK(warnings("*MATERIAL,NAME=Alu\n*ELASTIC,NO COMPRESSION\n70,.3\n") == "12: *ELASTIC with NO COMPRESSION");
-  CHECK(abaqus(kTets + kAlu + kAlu).refusal == "16: material 'Alu' stands in line 11 already");
+  CHECK(abaqus(kTets + kAlu + kAlu).refusal == "16: material 'Alu' is already defined in line 11");
   CHECK(abaqus(kTets + kAlu + "*DENSITY\n3\n").refusal == "16: a second *DENSITY of material 'Alu'");
   CHECK(abaqus(kTets + "*MATERIAL\n").refusal == "11: *MATERIAL without NAME");
   CHECK(abaqus(kTets + "*SOLID SECTION,MATERIAL=a\n").refusal == "11: *SOLIDSECTION without ELSET");
@@ -165,8 +165,8 @@ TEST_CASE("ALabelOfAShell_IsNotThatOfAnother") {
   const std::string shell = "*ELEMENT,TYPE=S3,ELSET=s\n7,1,2,3\n";
   CHECK(abaqus(kTets + shell + shell).refusal.empty());
   CHECK(abaqus(kTets + shell + "*ELEMENT,TYPE=S3,ELSET=t\n7,1,2,4\n").refusal ==
-        "14: element 7 stands in line 12 already");
-  CHECK(abaqus(kTets + "*ELEMENT,TYPE=S3\n2,1,2,3\n").refusal == "12: element 2 stands in line 10 already");
+        "14: element 7 is already defined in line 12");
+  CHECK(abaqus(kTets + "*ELEMENT,TYPE=S3\n2,1,2,3\n").refusal == "12: element 2 is already defined in line 10");
 }
 
 TEST_CASE("CoordinatesAndConstants_BeyondAllMachines_AreRefused") {
@@ -230,8 +230,8 @@ TEST_CASE("Nastran_MaterialsThatAreMissing_OrSayMore_AreReported") {
   CHECK(nastran(kTet + "PSOLID,1,6\n" + mat + kEnd).materials ==
         "6: the section of 'pid_1' names the material 'mid_6', which the file does not define");
   CHECK(nastran(kTet + "PSOLID,2,5\n" + mat + kEnd).materials == "5: 1 element has no material by any section: 1");
-  CHECK(nastran(kTet + "PSOLID,1,5\nPSOLID,1,5\n" + kEnd).refusal == "7: property 1 stands in line 6 already");
-  CHECK(nastran(kTet + mat + mat + kEnd).refusal == "7: material 'mid_5' stands in line 6 already");
+  CHECK(nastran(kTet + "PSOLID,1,5\nPSOLID,1,5\n" + kEnd).refusal == "7: property 1 is already defined in line 6");
+  CHECK(nastran(kTet + mat + mat + kEnd).refusal == "7: material 'mid_5' is already defined in line 6");
   CHECK(nastran(kTet + "PSOLID,1,5,,,,,PFLUID\n" + kEnd).refusal == "6: PSOLID of a fluid");
   const auto of_material = [](const std::string& entry) {
     return nastran(kTet + "PSOLID,1,5\n" + entry + kEnd).warnings;

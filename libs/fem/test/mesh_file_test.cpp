@@ -273,9 +273,9 @@ TEST_CASE("FaultyFiles_AreReportedWithLineAndRemedy") {
         "7: element 7 has node 3 twice; elements of distinct nodes of the file");
   CHECK(abaqus(nodes + "*ELEMENT,TYPE=C3D4\n7,1,2,3\n") == "7: element 7 with 3 nodes; 4 nodes for C3D4");
   CHECK(abaqus(nodes + "*ELEMENT,TYPE=C3D4\n7,1,2,3,4\n7,1,2,4,3\n") ==
-        "8: element 7 stands in line 7 already; each element once");
+        "8: element 7 is already defined in line 7; each element once");
   CHECK(abaqus(nodes + "4,0,0,2\n*ELEMENT,TYPE=C3D4\n7,1,2,3,4\n") ==
-        "6: node 4 stands in line 5 already, elsewhere; each node once");
+        "6: node 4 is already defined in line 5, at another position; each node once");
   CHECK(abaqus(nodes) == "0: no elements of a solid or beam among 4 nodes; tetrahedra, wedges, hexahedra or beams");
   CHECK(abaqus("1,0,0,0\n") == "1: '1,0,0,0'; a keyword, such as *NODE");
   CHECK(abaqus("*NODE\n1,0,0,nan\n") == "2: 'nan'; a number");

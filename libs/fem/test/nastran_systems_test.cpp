@@ -153,7 +153,7 @@ TEST_CASE("SystemsThatLeadNowhere_AreReportedWithTheirLine") {
   CHECK(refusal(kTetIn7 + "CORD2R,7,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\n") ==
         "6: the coordinate system 7 has its three points on one line");
   CHECK(refusal(kTetIn7 + "CORD2R,7,," + points + "CORD2R,7,,1." + points.substr(2)) ==
-        "8: the coordinate system 7 stands in line 6 already, otherwise");
+        "8: the coordinate system 7 is already defined in line 6, differently");
   CHECK(refusal(kTetIn7 + "CORD2R,7,," + points + "CORD2R,7,," + points) == "none");
   CHECK(refusal("CORD2R,5\n" + kTetIn7 + "CORD2R,7,," + points) == "none");  // nothing lies in 5
 }
@@ -222,7 +222,7 @@ TEST_CASE("ShortenedWords_AndContinuationsByTheirNames_AreRead") {
               .node_sets.at("set_3") == std::vector<int>{0, 2, 3});
     CHECK(warnings.empty());
   }
-  // The first letter of a continuation's name gives way to the sign.
+  // The first letter of a continuation's name is replaced by the sign.
   CHECK(read(points + "CTETRA  1       1       1       2       3       4                       P51\n"
                       "+51\nENDDATA\n")
             .elements.size() == 1);

@@ -92,8 +92,7 @@ void add_rigid_body(RawMesh& raw, const AbaqusBlock& block, const Spelling& spel
     }
   if (const std::string name = block.value("ELSET"); !name.empty()) body.element_set = spelled(name);
   if (!block.value("ANALYTICALSURFACE").empty() && body.node_set.empty() && body.element_set.empty())
-    return raw.warn(block.location, "*RIGID BODY of an analytical surface", "rigid bodies of nodes",
-                    "it is passed over");
+    return raw.warn(block.location, "*RIGID BODY of an analytical surface", "rigid bodies of nodes", "it is ignored");
   if (body.node_set.empty() && body.element_set.empty())
     raw.fail(block.location, "*RIGID BODY without a set", "NSET=name or ELSET=name");
   if (const std::string node = block.value("REFNODE"); !node.empty()) {
@@ -117,8 +116,7 @@ void add_multi_point(RawMesh& raw, const AbaqusBlock& block) {
     const bool is_whole = nodes.size() == 2 && line.parts.size() == 3;
     if ((type != "TIE" && type != "PIN") || !is_whole) {
       raw.warn(line.location, fmt::format("*MPC {} of {} nodes", type.substr(0, 20), line.parts.size() - 1),
-               "TIE or PIN of two nodes, *EQUATION, *TIE or *RIGID BODY",
-               "it is passed over: these nodes are not tied");
+               "TIE or PIN of two nodes, *EQUATION, *TIE or *RIGID BODY", "it is ignored: these nodes are not tied");
       continue;
     }
     for (int axis = 0; axis < 3; ++axis)

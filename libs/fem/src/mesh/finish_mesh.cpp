@@ -81,7 +81,7 @@ class Finisher {
       const auto first = static_cast<std::size_t>(node_index_.find(raw_.node_labels[n]));
       if (first == n || raw_.nodes[first] == raw_.nodes[n]) continue;
       raw_.fail(raw_.node_locations[n],
-                fmt::format("node {} stands in line {} already, elsewhere", raw_.node_labels[n],
+                fmt::format("node {} is already defined in line {}, at another position", raw_.node_labels[n],
                             raw_.node_locations[first].line),
                 "each node once");
     }
@@ -185,7 +185,7 @@ class Finisher {
       const auto first = static_cast<std::size_t>(element_index_->find(labels[e]));
       if (first == e || raw_.elements[e].continues_another) continue;
       raw_.fail(raw_.elements[e].location,
-                fmt::format("element {} stands in line {} already", labels[e], raw_.elements[first].location.line),
+                fmt::format("element {} is already defined in line {}", labels[e], raw_.elements[first].location.line),
                 "each element once");
     }
     check_marks();
@@ -199,7 +199,7 @@ class Finisher {
       if (element < 0 && (&first == &mark || first.nodes == mark.nodes)) continue;
       const FileLocation other =
           element < 0 ? first.location : raw_.elements[static_cast<std::size_t>(element)].location;
-      raw_.fail(mark.location, fmt::format("element {} stands in line {} already", mark.label, other.line),
+      raw_.fail(mark.location, fmt::format("element {} is already defined in line {}", mark.label, other.line),
                 "each element once");
     }
   }

@@ -242,7 +242,7 @@ class AbaqusReader {
         raw_.fail(current_.location, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
                   fmt::format("the parameters {}", fmt::join(*known, ", ")));
       raw_.warn(current_.location, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
-                fmt::format("the parameters {}", fmt::join(*known, ", ")), "it is passed over");
+                fmt::format("the parameters {}", fmt::join(*known, ", ")), "it is ignored");
     }
   }
 
@@ -275,7 +275,7 @@ class AbaqusReader {
     for (const auto& [name, passed] : passed_over_)
       raw_.warn(passed.location, fmt::format("{} *{}", passed.count, name.substr(0, 40)),
                 "nodes, elements, sets, surfaces, sections, elastic constants and densities",
-                "passed over: what it says of the body is not in the mesh");
+                "ignored: what it says of the body is not in the mesh");
   }
 
   long integer(std::string_view text) const {

@@ -129,7 +129,7 @@ class GmshReader {
            "save it with Mesh.PartitionSplitMeshFiles = 0 and one partition");
     if (std::find(harmless.begin(), harmless.end(), begin) == harmless.end())
       raw_.warn(here(), fmt::format("a section {}", begin.substr(0, 40)), "nodes, elements and physical groups",
-                "it is passed over");
+                "it is ignored");
     skip_section(begin);
   }
 

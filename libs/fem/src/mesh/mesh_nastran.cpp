@@ -120,7 +120,7 @@ class NastranReader {
       select_equations(line, lines.number());
       if (word.starts_with("INCLUDE"))
         raw_.warn({file_, lines.number()}, "INCLUDE before BEGIN BULK", "INCLUDE in the bulk data",
-                  "passed over: sets of the case control section that it holds are not in the mesh");
+                  "ignored: the sets of the case control section in it are not in the mesh");
       if (!word.starts_with("SET ") || line.find('=') == std::string_view::npos) continue;
       NastranCard card;
       card.line = lines.number();
@@ -398,7 +398,7 @@ class NastranReader {
                        true};
     const auto [first, is_new] = properties_.try_emplace(section.element_set, card.line);
     if (!is_new)
-      fail(card, fmt::format("property {} stands in line {} already", card.field(0), first->second),
+      fail(card, fmt::format("property {} is already defined in line {}", card.field(0), first->second),
            "each property once");
     raw_.sections.push_back(std::move(section));
   }

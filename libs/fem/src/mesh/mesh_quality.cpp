@@ -239,7 +239,7 @@ std::string first_of(const std::vector<std::string>& names, std::size_t most) {
 std::string sets_text(const MeshQuality& quality) {
   constexpr std::size_t most_of_part = 3;
   if (!quality.joining_sets.empty())
-    return fmt::format("a rigid frame joins what it stands on; sets with nodes of several parts: {}",
+    return fmt::format("a rigid frame joins the parts of its nodes; sets with nodes of several parts: {}",
                        first_of(quality.joining_sets, kMostLabelsListed));
   std::vector<std::string> of_parts;
   for (std::size_t k = 0; k < std::min(quality.part_sets.size(), kMostLabelsListed); ++k)
@@ -324,12 +324,12 @@ std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& fi
     warnings.push_back(std::move(*size));
   if (!quality.touching.empty())
     warnings.push_back(fault(file, fmt::format("nodes on each other: {}", listed(quality.touching)),
-                             "one node where elements are to hang together", "merge them unless the gap is meant"));
+                             "one node where elements are connected", "merge them unless the gap is meant"));
   if (!quality.mismatched.empty())
     warnings.push_back(fault(
         file, fmt::format("elements whose common face has not the same midside nodes: {}", listed(quality.mismatched)),
         "elements of one order, and one midside node on an edge that elements share",
-        "they hang together by the corners alone: mesh them anew in one order, or merge the nodes"));
+        "they are connected by the corners alone: mesh them anew in one order, or merge the nodes"));
   for (const auto& [type, of_type] : quality.types)
     if (of_type.smallest_shape < kFlat && type != ElementType::beam2)
       warnings.push_back(fault(

@@ -124,7 +124,7 @@ void NastranSystems::resolve(RawMesh& raw) {
   if (!repeated_.empty()) {
     const auto& [number, location] = repeated_.front();
     raw.fail(location,
-             fmt::format("the coordinate system {} stands in line {} already, otherwise", number,
+             fmt::format("the coordinate system {} is already defined in line {}, differently", number,
                          systems_.at(number).location.line),
              "each system once");
   }

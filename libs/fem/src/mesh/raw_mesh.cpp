@@ -47,7 +47,7 @@ long RawMesh::new_reference() { return std::numeric_limits<long>::min() + refere
 MeshMaterial& RawMesh::add_material(const std::string& name, FileLocation location) {
   for (std::size_t m = 0; m < materials.size(); ++m)
     if (materials[m].name == name)
-      fail(location, fmt::format("material '{}' stands in line {} already", name, material_locations[m].line),
+      fail(location, fmt::format("material '{}' is already defined in line {}", name, material_locations[m].line),
            "each material once");
   material_locations.push_back(location);
   materials.emplace_back().name = name;
