@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hersey/fem/found_surface.h"
+#include "hersey/fem/surface_detection.h"
 
 namespace hersey::cli {
 

@@ -150,7 +150,7 @@ int stress_command(const SolidArguments& arguments) {
   std::vector<fem::Support> supports;
   for (const int dof : fixed_dofs_of(arguments, body.mesh)) supports.push_back({dof, 0});
   result.solution = fem::solve_static(body, supports, f);
-  if (!result.solution.held)
+  if (!result.solution.is_supported)
     throw InputError(Fault{{"", 0, 0}, "--hold", result.solution.message, "sets that leave no motion free", ""});
   if (!result.solution.solved()) return fail(result.solution.message);
   const Eigen::VectorXd u = result.solution.u.col(0);

@@ -5,7 +5,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/fem/heat_conduction.h"
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
 #include "option_value.h"
 
 namespace hersey::cli {
@@ -48,7 +48,7 @@ std::vector<int> nodes_of(const char* option, const fem::Mesh& mesh, const std::
   return fem::nodes_on(mesh, faces_of(option, mesh, name));
 }
 
-fem::HeldNodes nodes_at_temperature(const fem::Mesh& mesh, const std::string& text) {
+fem::PrescribedNodes nodes_at_temperature(const fem::Mesh& mesh, const std::string& text) {
   const Named given = named_value("--temperature", text, "a set and a value, SET=80degC, or one value, 80degC");
   return {nodes_of("--temperature", mesh, given.name), in_si("--temperature", given.value, "K")};
 }
@@ -86,7 +86,7 @@ bool is_uniform(const std::vector<std::string>& temperatures) {
 void conduct(const SolidArguments& arguments, const fem::ElasticBody& body, SolidHeat& heat) {
   fem::ThermalSurroundings surroundings;
   for (const std::string& text : arguments.temperature)
-    surroundings.held.push_back(nodes_at_temperature(body.mesh, text));
+    surroundings.prescribed.push_back(nodes_at_temperature(body.mesh, text));
   for (const std::string& text : arguments.cooling) surroundings.cooled.push_back(cooled_faces(body.mesh, text));
   const Eigen::VectorXd into = heat_into(body.mesh, arguments.heat);
   fem::HeatConduction conduction(body.mesh, heat.materials, surroundings, body.integration);

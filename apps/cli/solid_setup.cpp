@@ -9,9 +9,9 @@
 
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
+#include "hersey/fem/load_distributions.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
-#include "hersey/fem/surface_loads.h"
 #include "option_value.h"
 #include "orthotropic_option.h"
 

@@ -10,13 +10,13 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_distributions.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduced_body_file.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/stress.h"
-#include "hersey/fem/surface_loads.h"
 #include "hersey/fem/vibration.h"
 
 namespace hersey::python {
@@ -121,7 +121,7 @@ StaticResult solve_static(const fem::ElasticBody& body, const Names& hold,
   std::vector<fem::Support> supports;
   for (const int dof : held_by(body.mesh, hold)) supports.push_back({dof, 0});
   const fem::StaticSolution solution = fem::solve_static(body, supports, f);
-  if (!solution.held) refuse("hold", solution.message, "sets that leave no motion free");
+  if (!solution.is_supported) refuse("hold", solution.message, "sets that leave no motion free");
   if (!solution.solved()) throw std::runtime_error(solution.message);
   const fem::Stress stress = fem::recover_stress(body, solution.u.col(0));
   return {by_node(solution.u.col(0)), by_node(solution.reaction.col(0)), stress.nodal.transpose(),

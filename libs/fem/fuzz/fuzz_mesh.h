@@ -10,7 +10,7 @@
 
 namespace hersey::fem {
 
-/// Whatever the bytes, a reader either returns a mesh whose quality can be told or throws InputError.
+/// For any bytes, a reader either returns a mesh whose quality can be computed or throws InputError.
 inline void fuzz_mesh(const std::uint8_t* data, std::size_t size, MeshFormat format) {
   const std::string text(data, data + size);
   try {

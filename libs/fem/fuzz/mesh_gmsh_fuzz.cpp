@@ -1,4 +1,4 @@
-// libFuzzer target of the reader of the format its name tells.
+// libFuzzer target of the reader of the format in its name.
 // seeds: libs/fem/test/data/*.msh
 #include "fuzz_mesh.h"
 

@@ -69,13 +69,14 @@ void check(const ReducedBody& body) {
       if (body.mesh.nodes_of(element)[k] >= static_cast<int>(body.nodes.size())) std::abort();
 }
 
-/// Bytes changed, four of the input each: place and new byte; where the second is odd, cut short instead.
+/// Changes bytes by four bytes of input each: position and new byte; where the second is odd, the file is truncated
+/// instead.
 std::string damaged(std::string content, const std::uint8_t* data, std::size_t size) {
-  const auto place = [&](std::size_t at) {
+  const auto position = [&](std::size_t at) {
     return (data[at] | std::size_t{data[at + 1]} << 8 | std::size_t{data[at + 2]} << 16) % content.size();
   };
-  if (size >= 5 && data[1] % 2 == 1) return content.substr(0, place(2));
-  for (std::size_t k = 2; k + 4 <= size; k += 4) content[place(k)] = static_cast<char>(data[k + 3]);
+  if (size >= 5 && data[1] % 2 == 1) return content.substr(0, position(2));
+  for (std::size_t k = 2; k + 4 <= size; k += 4) content[position(k)] = static_cast<char>(data[k + 3]);
   return content;
 }
 
@@ -89,8 +90,8 @@ ReducedBody spoilt(ReducedBody body, const std::uint8_t* data, std::size_t size)
     const auto set = [&](double* values, Eigen::Index count) {
       if (count > 0) values[data[1] % count] = value;
     };
-    const auto set_place = [&](std::vector<int>& places) {
-      if (!places.empty()) places[data[1] % places.size()] = static_cast<int>(integer);
+    const auto set_index = [&](std::vector<int>& indices) {
+      if (!indices.empty()) indices[data[1] % indices.size()] = static_cast<int>(integer);
     };
     switch (data[0] % 18) {
       case 0:
@@ -127,13 +128,13 @@ ReducedBody spoilt(ReducedBody body, const std::uint8_t* data, std::size_t size)
         body.materials[0].density = value;
         break;
       case 11:
-        set_place(body.frames[0].nodes);
+        set_index(body.frames[0].nodes);
         break;
       case 12:
-        set_place(body.mesh.connectivity);
+        set_index(body.mesh.connectivity);
         break;
       case 13:
-        set_place(body.mesh.node_sets["base"]);
+        set_index(body.mesh.node_sets["base"]);
         break;
       case 14:
         body.mesh.surfaces["base"][0] = {static_cast<int>(integer), data[1]};

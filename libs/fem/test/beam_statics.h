@@ -36,10 +36,10 @@ inline BeamBody beam_body(const std::vector<Vector3>& nodes, const BeamStiffness
   return body;
 }
 
-/// Where the nodes are and how the material around them has turned from the undeformed state.
+/// Positions of the nodes, and rotations of the material around them from the undeformed state.
 using BeamState = std::vector<Pose>;
 
-/// The nodes where the body has them, nothing turned.
+/// Positions of the undeformed nodes without rotations.
 inline BeamState undeformed(const BeamBody& body) {
   BeamState state;
   for (const Vector3& node : body.nodes) state.push_back({Matrix3::Identity(), node});
@@ -67,13 +67,13 @@ struct BeamLoad {
   Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
 };
 
-/// Inner minus outer forces and their derivative, on the unknowns (6 nodes) that are not held.
+/// Inner minus outer forces and their derivative, on the unknowns (6 nodes) that are not fixed.
 class BeamBalance {
  public:
-  BeamBalance(const BeamBody& body, const std::vector<int>& held, const std::vector<BeamLoad>& loads)
-      : body_(body), loads_(loads), place_(6 * body.nodes.size(), 0) {
-    for (const int dof : held) place_[dof] = -1;
-    for (int& p : place_)
+  BeamBalance(const BeamBody& body, const std::vector<int>& fixed, const std::vector<BeamLoad>& loads)
+      : body_(body), loads_(loads), free_index_(6 * body.nodes.size(), 0) {
+    for (const int dof : fixed) free_index_[dof] = -1;
+    for (int& p : free_index_)
       if (p == 0) p = size_++;
   }
 
@@ -87,11 +87,11 @@ class BeamBalance {
     tangent.setFromTriplets(entries_.begin(), entries_.end());
   }
 
-  /// Zeros where the beam is held.
+  /// Zeros where the beam is fixed.
   [[nodiscard]] Eigen::VectorXd spread(const Eigen::VectorXd& x) const {
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(place_.size()));
-    for (std::size_t i = 0; i < place_.size(); ++i)
-      if (place_[i] >= 0) all[static_cast<Eigen::Index>(i)] = x[place_[i]];
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(free_index_.size()));
+    for (std::size_t i = 0; i < free_index_.size(); ++i)
+      if (free_index_[i] >= 0) all[static_cast<Eigen::Index>(i)] = x[free_index_[i]];
     return all;
   }
 
@@ -101,7 +101,7 @@ class BeamBalance {
  private:
   void add(const BeamBody::Piece& piece, const BeamState& state) {
     const BeamMotionResponse response = test::beam_response(piece.element, state[piece.a], state[piece.b]);
-    const auto at = [&](int i) { return place_[6 * (i < 6 ? piece.a : piece.b) + i % 6]; };
+    const auto at = [&](int i) { return free_index_[6 * (i < 6 ? piece.a : piece.b) + i % 6]; };
     for (int i = 0; i < 12; ++i) {
       if (at(i) < 0) continue;
       residual[at(i)] += response.force[i];
@@ -110,18 +110,18 @@ class BeamBalance {
     }
   }
 
-  // What keeps its direction in space is R^T m in the node's axes, and turns with theta as -theta x R^T m.
+  // A vector of constant direction in space is R^T m in the node's axes, and rotates with theta as -theta x R^T m.
   void add(const BeamLoad& load, const Matrix3& R, double share) {
     for (const int first : {0, 3}) {
       const Vector3 own = share * R.transpose() * (first == 0 ? load.moment : load.force);
-      const Matrix3 turned = skew(own);
+      const Matrix3 rotated = skew(own);
       for (int i = 0; i < 3; ++i) {
-        const int row = place_[6 * load.node + first + i];
+        const int row = free_index_[6 * load.node + first + i];
         if (row < 0) continue;
         residual[row] -= own[i];
         for (int j = 0; j < 3; ++j)
-          if (const int column = place_[6 * load.node + j]; column >= 0)
-            entries_.emplace_back(row, column, -turned(i, j));
+          if (const int column = free_index_[6 * load.node + j]; column >= 0)
+            entries_.emplace_back(row, column, -rotated(i, j));
       }
     }
   }
@@ -129,14 +129,14 @@ class BeamBalance {
   const BeamBody& body_;
   const std::vector<BeamLoad>& loads_;
   int size_ = 0;
-  std::vector<int> place_;
+  std::vector<int> free_index_;
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
 /// Newton's method for one share of the load; false: no equilibrium was found, `state` is of no use.
 inline bool equilibrate(BeamBalance& balance, double size, double share, BeamState& state) {
-  constexpr double tolerance = 1e-11;   // of the last correction, over the body's size, and in rad
-  constexpr double largest_turn = 1.0;  // rad, of a node in one iteration: beyond, Newton's method is lost
+  constexpr double tolerance = 1e-11;       // of the last correction, over the body's size, and in rad
+  constexpr double largest_rotation = 1.0;  // rad, of a node in one iteration: beyond, Newton's method is lost
   for (int i = 0; i < 20; ++i) {
     balance.evaluate(state, share);
     solver::SparseLu lu;
@@ -145,23 +145,23 @@ inline bool equilibrate(BeamBalance& balance, double size, double share, BeamSta
     Eigen::VectorXd x = -balance.residual;
     lu.solve({x.data(), static_cast<std::size_t>(x.size())});
     const Eigen::VectorXd correction = balance.spread(x);
-    double turn = 0, moved = 0;
+    double rotation = 0, moved = 0;
     for (Eigen::Index node = 0; 6 * node < correction.size(); ++node) {
-      turn = std::max(turn, correction.segment<3>(6 * node).norm());
+      rotation = std::max(rotation, correction.segment<3>(6 * node).norm());
       moved = std::max(moved, correction.segment<3>(6 * node + 3).norm());
     }
-    if (!(turn < largest_turn) || !(moved < size)) return false;
+    if (!(rotation < largest_rotation) || !(moved < size)) return false;
     move(state, correction);
-    if (std::max(turn, moved / size) < tolerance) return true;
+    if (std::max(rotation, moved / size) < tolerance) return true;
   }
   return false;
 }
 
-/// Equilibrium of a beam whose `held` unknowns (places among 6 nodes) do not move, from `state` on; the load grows in
+/// Equilibrium of a beam whose `fixed` unknowns (indices among 6 nodes) do not move, from `state` on; the load grows in
 /// `steps` equal parts, halved where Newton's method fails. The share of the load that was reached: 1 if all goes well.
-[[nodiscard]] inline double solve_beam(const BeamBody& body, const std::vector<int>& held,
+[[nodiscard]] inline double solve_beam(const BeamBody& body, const std::vector<int>& fixed,
                                        const std::vector<BeamLoad>& loads, BeamState& state, int steps = 10) {
-  BeamBalance balance(body, held, loads);
+  BeamBalance balance(body, fixed, loads);
   double size = 0, reached = 0, part = 1.0 / steps;
   for (const Vector3& x : body.nodes) size = std::max(size, (x - body.nodes[0]).norm());
   while (reached < 1) {
@@ -180,9 +180,9 @@ inline bool equilibrate(BeamBalance& balance, double size, double share, BeamSta
 
 /// How many independent motions would release energy at an equilibrium: 0 if it is stable. -1: it is at a point of
 /// buckling itself.
-[[nodiscard]] inline int unstable_motions(const BeamBody& body, const std::vector<int>& held,
+[[nodiscard]] inline int unstable_motions(const BeamBody& body, const std::vector<int>& fixed,
                                           const std::vector<BeamLoad>& loads, const BeamState& state) {
-  BeamBalance balance(body, held, loads);
+  BeamBalance balance(body, fixed, loads);
   balance.evaluate(state, 1);
   // In equilibrium the derivative in turning axes differs from the symmetric second derivative of the energy by
   // round-off.

@@ -64,8 +64,9 @@ TEST_CASE("RigidMotionOfABeam_ChangesNoForce") {
   const BeamMotionResponse before = beam_response(any_element(), state[0], state[1]),
                            after = beam_response(any_element(), Q * state[0], Q * state[1]);
   CHECK(after.energy == doctest::Approx(before.energy).epsilon(1000 * eps));
-  CHECK((after.force - before.force).norm() < 1000 * eps * before.force.norm());  // in axes that turn along
-  // Undeformed and turned, it stores nothing.
+  CHECK((after.force - before.force).norm() <
+        1000 * eps * before.force.norm());  // in axes that rotate with the element
+  // Undeformed and rotated, it stores nothing.
   const Pose far{Matrix3::Identity(), any_element().frame.col(0) * 0.8};
   CHECK(beam_response(any_element(), Q, Q * far).force.norm() < 1000 * eps * 50);
 }
@@ -102,17 +103,17 @@ TEST_CASE("Elastica_UnderATipLoad_ConvergesToTheExactSolutionWithOrderTwo") {
 
 TEST_CASE("RollUp_ByAnEndMoment_IsACircleExactly") {
   // Every element bends alike, so the nodes lie on a polygon with the exact rotations.
-  for (const double turns : {0.25, 0.5, 1.0}) {
+  for (const double revolutions : {0.25, 0.5, 1.0}) {
     const int n = 20;
     const BeamBody body = beam_body(line(n), slender, {0, 0, 1});
     BeamState state = undeformed(body);
-    const double angle = 2 * pi * turns;
+    const double angle = 2 * pi * revolutions;
     REQUIRE(solve_beam(body, first_node_clamped, {{.node = n, .moment = {0, 0, angle}}}, state, 20) == 1);
     const double chord = 1 / (2.0 * n) / std::sin(angle / (2 * n));  // radius of the polygon's corners
     for (int a = 0; a <= n; ++a) {
       const double phi = angle * a / n;
-      // Sections are half an element's turn off the chords.
-      // A circle in place of its polygon would be off by 1e-4 and more.
+      // Sections are half an element's rotation off the chords. A circle instead of its polygon would be off by 1e-4
+      // and more.
       CHECK(std::abs(state[a].r.x() - chord * std::sin(phi)) < 1e-6);
       CHECK(std::abs(state[a].r.y() - chord * (1 - std::cos(phi))) < 1e-6);
     }
@@ -164,7 +165,7 @@ TEST_CASE("FortyFiveDegreeBend_OfBatheAndBolourchi") {
   }
 }
 
-TEST_CASE("BeamThatIsNotHeld_FindsNoEquilibrium") {
+TEST_CASE("BeamWithoutSupports_FindsNoEquilibrium") {
   const BeamBody body = beam_body(line(4), slender, {0, 0, 1});
   BeamState state = undeformed(body);
   CHECK(solve_beam(body, {}, {{.node = 4, .force = {0, 1, 0}}}, state) == 0);

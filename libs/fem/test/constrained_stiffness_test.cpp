@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "small_bodies.h"
 
 namespace hersey::fem {
@@ -56,18 +56,19 @@ TEST_CASE("PrescribedDisplacement_StretchesTheBar") {
   CHECK(pull == doctest::Approx(2.1e11 * 1e-3 * 0.06).epsilon(1e5 * eps));
 }
 
-TEST_CASE("BodyThatIsNotHeld_IsToldHowManyMotionsItHas") {
+TEST_CASE("BodyWithoutSupports_ReportsTheNumberOfItsMotions") {
   const ElasticBody body = assemble(box_mesh(ElementType::tet10, {1, 0.2, 0.3}, {3, 1, 2}), {steel});
   const Eigen::MatrixXd f = gravity_load(body, {0, 0, -9.81});
-  const auto told = [&](const std::vector<int>& held) { return solve_static(body, at_rest(held), f).message; };
-  CHECK(told({}).find("6 of its 6 rigid motions") != std::string::npos);
+  const auto message = [&](const std::vector<int>& fixed) { return solve_static(body, at_rest(fixed), f).message; };
+  CHECK(message({}).find("6 of its 6 rigid motions") != std::string::npos);
   const std::vector<int>& x0 = body.mesh.node_sets.at("x0");
-  CHECK(told(dofs_of({x0[0]})).find("3 of its 6 rigid motions") != std::string::npos);                   // a ball joint
-  CHECK(told(dofs_of(x0, {true, false, false})).find("3 of its 6 rigid motions") != std::string::npos);  // on a plane
+  CHECK(message(dofs_of({x0[0]})).find("3 of its 6 rigid motions") != std::string::npos);  // a ball joint
+  CHECK(message(dofs_of(x0, {true, false, false})).find("3 of its 6 rigid motions") !=
+        std::string::npos);  // on a plane
   CHECK(solve_static(body, at_rest(dofs_of(x0)), f).solved());
 }
 
-TEST_CASE("HeldEverywhere_NothingMoves") {
+TEST_CASE("FixedEverywhere_NothingMoves") {
   const ElasticBody body = assemble(box_mesh(ElementType::tet4, {1, 1, 1}, {1, 1, 1}), {steel});
   std::vector<int> all;
   for (int a = 0; a < body.node_count(); ++a) all.push_back(a);

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "small_bodies.h"
 
 namespace hersey::fem {
@@ -25,7 +25,7 @@ TEST_CASE("ContactModes_AnswerEveryForceOnTheirFaces") {
   ConstrainedStiffness stiffness(body.K, body.m, dofs_of(body.mesh.node_sets.at("x0")));
   REQUIRE(stiffness.factorise().solved());
   const auto& faces = body.mesh.surfaces.at("y1");
-  // The nodes on the held end answer nothing.
+  // The nodes on the fixed end do not move.
   const FilmModes all = contact_modes(stiffness, body.mesh, faces, 100, 1e-9);
   REQUIRE(all.shapes.cols() == 15);
   const Eigen::MatrixXd f = pressure_load(body.mesh, faces, 1e6), u = stiffness.solve(f);

@@ -21,13 +21,13 @@ void check_patch(const Mesh& mesh, const std::function<bool(const Vector3&)>& ou
   const ElasticBody body = assemble(mesh, {material}, integration);
   const Matrix3 gradient = 0.5e-3 * (Matrix3() << 2, 1, 1, 1, 2, 1, 1, 1, 2).finished();
   Eigen::VectorXd exact(body.size());
-  std::vector<char> held(static_cast<std::size_t>(body.size()), 0);
+  std::vector<char> fixed(static_cast<std::size_t>(body.size()), 0);
   for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
     exact.segment<3>(3 * a) = gradient * mesh.nodes[a];
-    for (int i = 0; i < 3; ++i) held[3 * a + i] = outer(mesh.nodes[a]);
+    for (int i = 0; i < 3; ++i) fixed[3 * a + i] = outer(mesh.nodes[a]);
   }
-  REQUIRE(std::count(held.begin(), held.end(), 0) > 0);
-  const Eigen::VectorXd u = solve_dense(Eigen::MatrixXd(body.K), Eigen::VectorXd::Zero(body.size()), held, exact);
+  REQUIRE(std::count(fixed.begin(), fixed.end(), 0) > 0);
+  const Eigen::VectorXd u = solve_dense(Eigen::MatrixXd(body.K), Eigen::VectorXd::Zero(body.size()), fixed, exact);
   CHECK((u - exact).cwiseAbs().maxCoeff() < 1e4 * eps * exact.cwiseAbs().maxCoeff());  // condition number of K: 1e3
   const Vector6 stress = (Vector6() << 2000, 2000, 2000, 400, 400, 400).finished();
   for (const Element& e : mesh.elements) {
@@ -109,12 +109,12 @@ double bending_ratio(ElementType type, double skew_by) {
   Eigen::VectorXd f = Eigen::VectorXd::Zero(body.size());
   // A linear traction -2 (z - 1/2) on the end: nodal forces of the bilinear quad.
   for (const int a : mesh.node_sets.at("x1")) f[3 * a] = mesh.nodes[a].z() > 0.5 ? -1.0 / 12 * 2 : 1.0 / 12 * 2;
-  std::vector<char> held(static_cast<std::size_t>(body.size()), 0);
+  std::vector<char> fixed(static_cast<std::size_t>(body.size()), 0);
   // Which node it is.
   for (const int a : mesh.node_sets.at("x0"))
     for (int i = 0; i < 3; ++i)
-      held[3 * a + i] = i == 0 || mesh.nodes[a].norm() < 1e-9 || (i == 2 && mesh.nodes[a].z() == 0);
-  const Eigen::VectorXd u = solve_dense(Eigen::MatrixXd(body.K), f, held, Eigen::VectorXd::Zero(body.size()));
+      fixed[3 * a + i] = i == 0 || mesh.nodes[a].norm() < 1e-9 || (i == 2 && mesh.nodes[a].z() == 0);
+  const Eigen::VectorXd u = solve_dense(Eigen::MatrixXd(body.K), f, fixed, Eigen::VectorXd::Zero(body.size()));
   double tip = 0;
   for (const int a : mesh.node_sets.at("x1")) tip += u[3 * a + 2] / 4;
   const double moment = 2.0 / 12 * 2, curvature = moment / (1e7 / 12);
@@ -127,8 +127,8 @@ TEST_CASE("Hex8_InBending_DoesNotLock") {
   CHECK(bending_ratio(ElementType::tet4, 0) < 0.3);                                // what locking looks like
 }
 
-TEST_CASE("MeshesThatAreNoBody_AreToldByLabel") {
-  const auto told = [](const Mesh& mesh) -> std::string {
+TEST_CASE("MeshesThatAreNoBody_AreReportedByLabel") {
+  const auto fault = [](const Mesh& mesh) -> std::string {
     try {
       (void)assemble(mesh, {steel});
     } catch (const InputError& error) {
@@ -138,15 +138,15 @@ TEST_CASE("MeshesThatAreNoBody_AreToldByLabel") {
   };
   Mesh folded = box_mesh(ElementType::hex8, {1, 1, 1}, {2, 1, 1});
   std::swap(folded.connectivity[8], folded.connectivity[12]);
-  CHECK(told(folded).find("elements 2 are folded or inside out") != std::string::npos);
+  CHECK(fault(folded).find("elements 2 are folded or inside out") != std::string::npos);
   Mesh loose = box_mesh(ElementType::tet4, {1, 1, 1}, {1, 1, 1});
   loose.nodes.emplace_back(2, 2, 2);
   loose.node_labels.push_back(77);
-  CHECK(told(loose).find("nodes 77 belong to no element") != std::string::npos);
+  CHECK(fault(loose).find("nodes 77 belong to no element") != std::string::npos);
   Mesh beam = box_mesh(ElementType::tet4, {1, 1, 1}, {1, 1, 1});
   beam.elements.push_back({.type = ElementType::beam2, .label = 9, .first = 0});
-  CHECK(told(beam).find("elements 9 are beams") != std::string::npos);
-  CHECK(told(Mesh{}).find("without elements") != std::string::npos);
+  CHECK(fault(beam).find("elements 9 are beams") != std::string::npos);
+  CHECK(fault(Mesh{}).find("without elements") != std::string::npos);
 }
 
 }  // namespace elastic_body_test

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "hersey/fem/film_surface.h"
+#include "hersey/fem/load_distributions.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/reduction.h"
-#include "hersey/fem/surface_loads.h"
 #include "ring.h"
 #include "small_bodies.h"
 #include "source_dir.h"
@@ -29,10 +29,10 @@ FilmSurface must_make(const Mesh& mesh, const FilmCylinder& cylinder, const Surf
   return *result.surface;
 }
 
-/// A body held by frames.
+/// A body fixed by frames.
 ConstrainedStiffness held_by(const ElasticBody& body, const std::vector<InterfaceFrame>& frames) {
   const FrameSupports supports = frame_supports(body.mesh, frames);
-  ConstrainedStiffness stiffness(body.K, body.m, supports.held, supports.C);
+  ConstrainedStiffness stiffness(body.K, body.m, supports.fixed_dofs, supports.C);
   REQUIRE(stiffness.factorise().solved());
   return stiffness;
 }
@@ -49,7 +49,7 @@ TEST_CASE("RingUnderFilmPressure_WidensAsLameSays") {
   for (const ElementType type : {ElementType::hex20, ElementType::tet10}) {
     CAPTURE(name_of(type));
     const ElasticBody body = assemble(ring_mesh(type, ring), {steel});
-    // The mean of the outside is held: a pressure all around needs no force for that.
+    // The mean of the outside is fixed: a pressure all around needs no force for that.
     const ConstrainedStiffness stiffness = held_by(body, {average_on(body.mesh, "outside")});
     const FilmSurface surface = must_make(body.mesh, film_of(ring), {16, 4, ring.width});
     const VectorXd f = surface.T * VectorXd::Ones(surface.functions.count());
@@ -63,10 +63,10 @@ TEST_CASE("ThinLiner_GivesWayAsColumnsDo") {
   const auto error_of = [](double thickness) {
     const Ring ring{.inner = 0.0225, .outer = 0.0225 + thickness, .cells = {2, 36, 2}};
     const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});
-    std::vector<int> held = dofs_of(body.mesh.node_sets.at("outside"));
+    std::vector<int> fixed = dofs_of(body.mesh.node_sets.at("outside"));
     for (const char* end : {"bottom", "top"})
-      for (const int dof : dofs_of(body.mesh.node_sets.at(end), {false, false, true})) held.push_back(dof);
-    ConstrainedStiffness stiffness(body.K, body.m, held);
+      for (const int dof : dofs_of(body.mesh.node_sets.at(end), {false, false, true})) fixed.push_back(dof);
+    ConstrainedStiffness stiffness(body.K, body.m, fixed);
     REQUIRE(stiffness.factorise().solved());
     const FilmSurface surface = must_make(body.mesh, film_of(ring), {18, 3, ring.width});
     const VectorXd p = VectorXd::Constant(surface.functions.count(), 2.0) + cosine_on(surface.functions);
@@ -88,7 +88,7 @@ TEST_CASE("FilmModes_MissNoMoreThanTheySay_AndLessTheMoreThereAre") {
   const FilmCylinder film{.X = {}, .R = 0.0225, .L = 0.0156, .is_bore = true};
   const std::vector<ElementFace> faces = faces_called(mesh, "big_end");
   const FilmSurface surface = must_make(mesh, film, functions_for(mesh, faces, film), 2e-4);
-  // A pressure of 1 at 60 degrees that falls to nothing within a fifth of the turn.
+  // A pressure of 1 at 60 degrees that falls to nothing within a fifth of the circumference.
   VectorXd p(surface.functions.count());
   for (int j = 0; j < surface.functions.count(); ++j) {
     const double phi = 2 * std::numbers::pi * (j % surface.functions.around()) / surface.functions.around();
@@ -143,7 +143,8 @@ TEST_CASE("FilmModes_OfASurfaceThatAFrameHolds_AreNone") {
 TEST_CASE("CoefficientsFromAFrame_SeeDeformationAlone") {
   const Ring ring{.cells = {2, 18, 3}};
   const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});
-  // A bore that its frame carries rigidly does not deform, however the frame moves; seen from the other frame it does.
+  // A bore that its frame carries rigidly does not deform, however the frame moves; relative to the other frame it
+  // does.
   const std::vector<int>& nodes = body.mesh.node_sets.at("bore");
   const std::vector<InterfaceFrame> frames = {average_on(body.mesh, "outside"),
                                               {"bore", {0, 0, 1e-3}, nodes, Connection::rigid, {}}};

@@ -8,9 +8,9 @@
 #include <limits>
 #include <numbers>
 
+#include "hersey/fem/load_distributions.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/skin.h"
-#include "hersey/fem/surface_loads.h"
 #include "ring.h"
 #include "small_bodies.h"
 #include "source_dir.h"
@@ -143,7 +143,7 @@ TEST_CASE("Work_IsTheSameOnNodesAndOnTheFilm") {
   CHECK(std::abs(on_nodes - on_film) < 1e-4 * scale);  // 720 x 200 points on one side, triangles on the other
 }
 
-TEST_CASE("RadialDisplacement_ComesBackOnAFilmTurnedInTheMesh") {
+TEST_CASE("RadialDisplacement_IsRecoveredOnAFilmRotatedInTheMesh") {
   const Ring ring;
   Mesh mesh = ring_mesh(ElementType::hex20, ring);
   FilmCylinder film = film_of(ring);

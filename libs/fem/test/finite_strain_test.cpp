@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "elastic_large_displacement.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "small_bodies.h"
 
 namespace hersey::fem {
@@ -103,7 +103,7 @@ TEST_CASE("SlenderBar_BendsLikeTheElastica") {
   }
 }
 
-TEST_CASE("BodyThatIsNotHeld_FindsNoLargeDisplacement") {
+TEST_CASE("BodyWithoutSupports_FindsNoLargeDisplacement") {
   const ElasticBody body = assemble(box_mesh(ElementType::hex8, {1, 1, 1}, {1, 1, 1}), {rubbery});
   CHECK(verification::solve_large_displacement(body, {}, gravity_load(body, {0, 0, -1})).load == 0);
 }

@@ -48,7 +48,7 @@ TEST_CASE("WrittenMesh_IsReadAsItWas_InEveryElement") {
   }
 }
 
-TEST_CASE("MeshThatCannotBeWritten_IsToldWithItsFile") {
+TEST_CASE("MeshThatCannotBeWritten_IsReportedWithItsFile") {
   const Mesh mesh = ring_mesh(ElementType::hex8, {});
   CHECK_THROWS_WITH_AS(write_gmsh("no/such/folder.msh", mesh), doctest::Contains("no/such/folder.msh"),
                        std::runtime_error);

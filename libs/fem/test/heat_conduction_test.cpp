@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
 #include "ring.h"
 #include "small_bodies.h"
 
@@ -33,8 +33,8 @@ TEST_CASE("LinearTemperature_IsExactInEveryElement") {
     const Mesh mesh = distorted_box(type);
     ThermalSurroundings surroundings;
     for (const int node : outer_nodes(mesh))
-      surroundings.held.push_back({{node}, 300 + gradient.dot(mesh.nodes[static_cast<std::size_t>(node)])});
-    REQUIRE(surroundings.held.size() < mesh.nodes.size());
+      surroundings.prescribed.push_back({{node}, 300 + gradient.dot(mesh.nodes[static_cast<std::size_t>(node)])});
+    REQUIRE(surroundings.prescribed.size() < mesh.nodes.size());
     HeatConduction conduction(mesh, {{.conductivity = k}}, surroundings);
     REQUIRE(conduction.factorise().solved());
     const VectorXd T = conduction.temperatures(VectorXd::Zero(static_cast<Eigen::Index>(mesh.nodes.size())));
@@ -51,7 +51,7 @@ TEST_CASE("SlabBetweenFluxAndAir_IsExactInEveryElement") {
     CAPTURE(name_of(type));
     const Mesh mesh = box_mesh(type, {length, 0.1, 0.2}, {3, 2, 2});
     HeatConduction conduction(mesh, {{.conductivity = k}},
-                              {.cooled = {{mesh.surfaces.at("x1"), alpha, ambient}}, .held = {}});
+                              {.cooled = {{mesh.surfaces.at("x1"), alpha, ambient}}, .prescribed = {}});
     REQUIRE(conduction.factorise().solved());
     const VectorXd heat = heat_load(mesh, mesh.surfaces.at("x0"), [&](const Vector3&) { return q; });
     CHECK(heat.sum() == doctest::Approx(q * 0.02).epsilon(100 * eps));
@@ -74,7 +74,7 @@ TEST_CASE("ThinRodInAir_IsAFin") {
   ThermalSurroundings surroundings;
   for (const char* face : {"y0", "y1", "z0", "z1"})
     surroundings.cooled.push_back({mesh.surfaces.at(face), alpha, ambient});
-  surroundings.held.push_back({mesh.node_sets.at("x0"), hot});
+  surroundings.prescribed.push_back({mesh.node_sets.at("x0"), hot});
   HeatConduction conduction(mesh, {{.conductivity = k}}, surroundings);
   REQUIRE(conduction.factorise().solved());
   const VectorXd none = VectorXd::Zero(static_cast<Eigen::Index>(mesh.nodes.size()));
@@ -86,7 +86,7 @@ TEST_CASE("ThinRodInAir_IsAFin") {
     worst = std::max(worst, std::abs((T[static_cast<Eigen::Index>(a)] - ambient) / (hot - ambient) - fin));
   }
   CHECK(worst < biot);
-  const double through_root = -conduction.held_heat(T, none)[0];
+  const double through_root = -conduction.reaction_heat(T, none)[0];
   CHECK(through_root ==
         doctest::Approx((hot - ambient) * std::sqrt(alpha * 4 * side * k * side * side) * std::tanh(m * length))
             .epsilon(biot));
@@ -100,18 +100,18 @@ double ring_error(ElementType type, int fineness) {
   const Mesh mesh = ring_mesh(type, ring);
   const double alpha = 500, ambient = 293, heat = 4e4;  // W/m
   HeatConduction conduction(mesh, {{.conductivity = k}},
-                            {.cooled = {{mesh.surfaces.at("outside"), alpha, ambient}}, .held = {}});
+                            {.cooled = {{mesh.surfaces.at("outside"), alpha, ambient}}, .prescribed = {}});
   REQUIRE(conduction.factorise().solved());
-  const double turn = 2 * std::numbers::pi;
+  const double two_pi = 2 * std::numbers::pi;
   const VectorXd T = conduction.temperatures(heat_load(
-      mesh, mesh.surfaces.at("bore"), [&](const Vector3& x) { return heat / turn / std::hypot(x.x(), x.y()); }));
+      mesh, mesh.surfaces.at("bore"), [&](const Vector3& x) { return heat / two_pi / std::hypot(x.x(), x.y()); }));
   double worst = 0;
   for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
     const double r = std::hypot(mesh.nodes[a].x(), mesh.nodes[a].y());
-    const double exact = ambient + heat / turn * (std::log(ring.outer / r) / k + 1 / (alpha * ring.outer));
+    const double exact = ambient + heat / two_pi * (std::log(ring.outer / r) / k + 1 / (alpha * ring.outer));
     worst = std::max(worst, std::abs(T[static_cast<Eigen::Index>(a)] - exact));
   }
-  return worst / (heat / turn * std::log(ring.outer / ring.inner) / k);
+  return worst / (heat / two_pi * std::log(ring.outer / ring.inner) / k);
 }
 
 TEST_CASE("Ring_ConvergesToTheLogarithm") {
@@ -124,10 +124,11 @@ TEST_CASE("Ring_ConvergesToTheLogarithm") {
   CHECK(ring_error(ElementType::hex20, 6) < 2e-4);
 }
 
-TEST_CASE("RiseAtOnePlaceByHeatAtAnother_IsThatTheOtherWayRound") {
+TEST_CASE("RiseAtOneAngleByHeatAtAnother_IsReciprocal") {
   const Mesh mesh = distorted_box(ElementType::tet10);
-  HeatConduction conduction(mesh, {{.conductivity = k}},
-                            {.cooled = {{mesh.surfaces.at("x1"), 30, 293}}, .held = {{mesh.node_sets.at("y0"), 310}}});
+  HeatConduction conduction(
+      mesh, {{.conductivity = k}},
+      {.cooled = {{mesh.surfaces.at("x1"), 30, 293}}, .prescribed = {{mesh.node_sets.at("y0"), 310}}});
   REQUIRE(conduction.factorise().solved());
   const auto n = static_cast<Eigen::Index>(mesh.nodes.size());
   const Eigen::MatrixXd rises = conduction.rises(Eigen::MatrixXd::Identity(n, n));
@@ -135,7 +136,7 @@ TEST_CASE("RiseAtOnePlaceByHeatAtAnother_IsThatTheOtherWayRound") {
   CHECK(rises.col(mesh.node_sets.at("y0").front()).isZero(0));
 }
 
-TEST_CASE("HeatThatHasNowhereToGo_IsTold") {
+TEST_CASE("HeatThatHasNowhereToGo_IsReported") {
   const Mesh mesh = box_mesh(ElementType::hex8, {1, 1, 1}, {2, 2, 2});
   HeatConduction insulated(mesh, {{.conductivity = k}}, {});
   const solver::FactorSummary summary = insulated.factorise();

@@ -13,7 +13,7 @@ namespace heated_journal_test {
 
 using Eigen::VectorXd;
 
-constexpr double turn = 2 * std::numbers::pi, k = 46, alpha = 12e-6, transfer = 300, ambient = 310;
+constexpr double two_pi = 2 * std::numbers::pi, k = 46, alpha = 12e-6, transfer = 300, ambient = 310;
 const std::vector<ThermalMaterial> steel_of_heat = {{.conductivity = k, .expansion = alpha}};
 
 FilmSurface outside_of_shaft(const Mesh& mesh, const Ring& shaft, double width) {
@@ -28,7 +28,7 @@ FilmSurface outside_of_shaft(const Mesh& mesh, const Ring& shaft, double width) 
 /// Cooled in its bore.
 HeatedSurface hollow_shaft(const Ring& shaft, const ElasticBody& body) {
   return heated_surface(body, steel_of_heat,
-                        {.cooled = {{body.mesh.surfaces.at("bore"), transfer, ambient}}, .held = {}},
+                        {.cooled = {{body.mesh.surfaces.at("bore"), transfer, ambient}}, .prescribed = {}},
                         outside_of_shaft(body.mesh, shaft, shaft.width), {.T_reference = ambient - 30});
 }
 
@@ -41,14 +41,15 @@ TEST_CASE("EvenHeatIntoAHollowShaft_IsTheLogarithmOfItsRadii") {
   REQUIRE(heated.solved());
   REQUIRE(heated.rise.size() == 1);
   CHECK(std::abs(heated.T0[0] - ambient) < 1e-9);  // round-off of 310 K by a condition number of 1e4
-  const double to_oil = 1 / (transfer * turn * shaft.inner * shaft.width);
-  const double through = std::log(shaft.outer / shaft.inner) / (turn * k * shaft.width);
+  const double to_oil = 1 / (transfer * two_pi * shaft.inner * shaft.width);
+  const double through = std::log(shaft.outer / shaft.inner) / (two_pi * k * shaft.width);
   CHECK(heated.rise(0, 0) == doctest::Approx(through + to_oil).epsilon(1e-4));  // eight elements across
   const int at_bore = body.mesh.node_sets.at("bore").front();
   CHECK(heated.rise_body(at_bore, 0) == doctest::Approx(to_oil).epsilon(1e-4));  // as well
 }
 
-// Through a thin tube to both ends, which are held: conduction along, and no more than a third of the wall across.
+// Through a thin tube to both ends, whose temperature is prescribed: conduction along, and no more than a third of the
+// wall across.
 TEST_CASE("EvenHeatIntoTheMiddleOfATube_LeavesByItsEnds") {
   const Ring tube{.inner = 0.045, .outer = 0.05, .width = 0.2, .cells = {2, 24, 30}};
   const ElasticBody body = assemble(ring_mesh(ElementType::hex20, tube), {steel});
@@ -56,12 +57,12 @@ TEST_CASE("EvenHeatIntoTheMiddleOfATube_LeavesByItsEnds") {
   std::vector<int> ends = body.mesh.node_sets.at("bottom");
   const std::vector<int>& top = body.mesh.node_sets.at("top");
   ends.insert(ends.end(), top.begin(), top.end());
-  const HeatedSurface heated = heated_surface(body, steel_of_heat, {.cooled = {}, .held = {{ends, ambient}}},
+  const HeatedSurface heated = heated_surface(body, steel_of_heat, {.cooled = {}, .prescribed = {{ends, ambient}}},
                                               outside_of_shaft(body.mesh, tube, L), {.expands = false});
   REQUIRE(heated.solved());
-  const double kS = k * turn / 2 * (tube.outer * tube.outer - tube.inner * tube.inner);
+  const double kS = k * two_pi / 2 * (tube.outer * tube.outer - tube.inner * tube.inner);
   const double along = (L / 12 + (tube.width - L) / 4) / kS;
-  const double across = (tube.outer - tube.inner) / (3 * k * turn * tube.outer * L);
+  const double across = (tube.outer - tube.inner) / (3 * k * two_pi * tube.outer * L);
   CHECK(heated.rise(0, 0) == doctest::Approx(along + across).epsilon(2e-3));  // half of `across`: curvature, edges
   CHECK(heated.shape0.size() == 0);
 }
@@ -80,7 +81,7 @@ TEST_CASE("WarmShaft_GrowsByItsMeanTemperature") {
     CHECK(even(j, 0) == doctest::Approx(alpha * b).epsilon(1e-4));        // splines of its functions, 48 chords of arcs
     CHECK(cold(j, 0) == doctest::Approx(30 * even(j, 0)).epsilon(1e-6));  // round-off by the stiffness' condition
   }
-  const double to_oil = 1 / (transfer * turn * a * shaft.width), per_log = 1 / (turn * k * shaft.width);
+  const double to_oil = 1 / (transfer * two_pi * a * shaft.width), per_log = 1 / (two_pi * k * shaft.width);
   // int r ln(r/a) dr from a to b
   const double integral = b * b / 2 * std::log(b / a) - (b * b - a * a) / 4;
   const double mean = to_oil + 2 * per_log * integral / (b * b - a * a);

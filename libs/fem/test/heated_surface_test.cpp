@@ -13,12 +13,12 @@ namespace heated_surface_test {
 
 using Eigen::VectorXd;
 
-constexpr double turn = 2 * std::numbers::pi, k = 46, alpha = 12e-6, transfer = 300, ambient = 310;
+constexpr double two_pi = 2 * std::numbers::pi, k = 46, alpha = 12e-6, transfer = 300, ambient = 310;
 const std::vector<ThermalMaterial> steel_of_heat = {{.conductivity = k, .expansion = alpha}};
 
 std::vector<double> even_angles(int n) {
   std::vector<double> angles;
-  for (int i = 0; i < n; ++i) angles.push_back(turn * i / n);
+  for (int i = 0; i < n; ++i) angles.push_back(two_pi * i / n);
   return angles;
 }
 
@@ -45,21 +45,21 @@ TEST_CASE("HeatAroundARing_WarmsItsBoreAsTheClosedForm") {
   const FilmSurface surface = bore_of_ring(body.mesh, ring);
   const int angles = 60;
   const HeatedSurface heated = heated_surface(
-      body, steel_of_heat, {.cooled = {{body.mesh.surfaces.at("outside"), transfer, ambient}}, .held = {}}, surface,
-      {.angles = even_angles(angles), .T_reference = ambient});
+      body, steel_of_heat, {.cooled = {{body.mesh.surfaces.at("outside"), transfer, ambient}}, .prescribed = {}},
+      surface, {.angles = even_angles(angles), .T_reference = ambient});
   REQUIRE(heated.solved());
   CHECK((heated.T0.array() - ambient).abs().maxCoeff() < 1e-9);  // round-off of 310 K by a condition number of 1e4
   CHECK((heated.rise - heated.rise.transpose()).cwiseAbs().maxCoeff() < 1e-10 * heated.rise.maxCoeff());  // as well
-  const double area = ring.inner * turn / angles * ring.width;
+  const double area = ring.inner * two_pi / angles * ring.width;
   for (const int n : {0, 1, 2, 3}) {
     VectorXd heat(angles);
-    for (int i = 0; i < angles; ++i) heat[i] = 1e4 * area * std::cos(n * turn * i / angles);
+    for (int i = 0; i < angles; ++i) heat[i] = 1e4 * area * std::cos(n * two_pi * i / angles);
     const VectorXd T = heated.rise * heat;
     // Weights that fall to both neighbours take 1 - (n dphi)^2/12 of a cosine, coming and going.
-    const double weights = std::pow(1 - std::pow(n * turn / angles, 2) / 12, 2);
+    const double weights = std::pow(1 - std::pow(n * two_pi / angles, 2) / 12, 2);
     CHECK(T[0] == doctest::Approx(1e4 * closed_form(ring, n) * weights).epsilon(1e-3));  // eight elements across
     constexpr double elements = 1e-3;                                                    // eight across the wall
-    CHECK(T[angles / 4] == doctest::Approx(T[0] * std::cos(n * turn / 4)).epsilon(elements).scale(T[0]));
+    CHECK(T[angles / 4] == doctest::Approx(T[0] * std::cos(n * two_pi / 4)).epsilon(elements).scale(T[0]));
   }
 }
 
@@ -72,12 +72,12 @@ TEST_CASE("BoreOfAWarmBody_WidensAsIfItWereFull") {
   const ElasticBody body = assemble(mesh, {steel});
   const FilmSurface surface = bore_of_ring(body.mesh, ring);
   const HeatedSurface heated = heated_surface(
-      body, steel_of_heat, {.cooled = {{body.mesh.surfaces.at("outside"), transfer, ambient}}, .held = {}}, surface,
-      {.angles = even_angles(24), .T_reference = ambient - 50});
+      body, steel_of_heat, {.cooled = {{body.mesh.surfaces.at("outside"), transfer, ambient}}, .prescribed = {}},
+      surface, {.angles = even_angles(24), .T_reference = ambient - 50});
   REQUIRE(heated.solved());
   // Without heat from the film all of it is as warm as what is around. Flat faces between nodes: 1 - cos(7.5 deg)/...
   // of the radius; the splines take displacements at angles between them.
-  const double radius = ring.inner * 0.5 * (1 + std::cos(turn / 48));
+  const double radius = ring.inner * 0.5 * (1 + std::cos(two_pi / 48));
   CHECK((heated.shape_by_rise.array() - alpha * radius).abs().maxCoeff() < 5e-3 * alpha * radius);
   CHECK((heated.shape0 - 50 * heated.shape_by_rise).cwiseAbs().maxCoeff() < 1e-6 * 50 * alpha * radius);  // 1e4 eps, K
 }
@@ -88,8 +88,8 @@ TEST_CASE("ShapeByHeat_HasNoRigidMotion_AndIsThatOfThermalStrains") {
   const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});
   const FilmSurface surface = bore_of_ring(body.mesh, ring);
   const HeatedSurface heated = heated_surface(
-      body, steel_of_heat, {.cooled = {{body.mesh.surfaces.at("outside"), transfer, ambient}}, .held = {}}, surface,
-      {.angles = even_angles(48), .T_reference = ambient});
+      body, steel_of_heat, {.cooled = {{body.mesh.surfaces.at("outside"), transfer, ambient}}, .prescribed = {}},
+      surface, {.angles = even_angles(48), .T_reference = ambient});
   REQUIRE(heated.solved());
   const VectorXd cosine = surface.G * cosine_on(surface.functions);
   for (int i = 0; i < 48; ++i)
@@ -97,7 +97,7 @@ TEST_CASE("ShapeByHeat_HasNoRigidMotion_AndIsThatOfThermalStrains") {
           1e-3 * cosine.cwiseAbs().dot(heated.shape_by_heat.col(i).cwiseAbs()));  // a spline's cosine is one to 1e-4
   // Even heat: Timoshenko's ring of free ends, u(a) = alpha a times the mean of the temperature over its area.
   const double a = ring.inner, b = ring.outer, flux = 1e4;
-  const VectorXd even = VectorXd::Constant(48, flux * turn * a * ring.width / 48);
+  const VectorXd even = VectorXd::Constant(48, flux * two_pi * a * ring.width / 48);
   const double outside = flux * a / b / transfer, slope = flux * a / k;
   // int r slope ln(b/r) dr from a to b
   const double integral = slope * ((b * b - a * a) / 4 - a * a / 2 * std::log(b / a));
@@ -110,14 +110,14 @@ TEST_CASE("StaticallyDeterminateSupports_HoldWithoutReaction") {
   for (const ElementType type : solids) {
     CAPTURE(name_of(type));
     const Mesh mesh = distorted_box(type);
-    const std::vector<int> held = statically_determinate(mesh);
+    const std::vector<int> fixed = statically_determinate(mesh);
     const Eigen::MatrixXd motions = rigid_motions(mesh, mesh.nodes.front());
-    const Eigen::MatrixXd seen = motions(held, Eigen::all);
-    CHECK(std::abs(seen.determinant()) > 0.05);  // a box of about 1 m: its six supports see every motion
+    const Eigen::MatrixXd supported = motions(fixed, Eigen::all);
+    CHECK(std::abs(supported.determinant()) > 0.05);  // a box of about 1 m: its six supports resist every motion
   }
 }
 
-TEST_CASE("HeatedSurface_ThatNothingCools_IsTold") {
+TEST_CASE("HeatedSurface_ThatNothingCools_IsReported") {
   const Ring ring;
   const ElasticBody body = assemble(ring_mesh(ElementType::hex8, ring), {steel});
   const HeatedSurface heated = heated_surface(body, steel_of_heat, {}, bore_of_ring(body.mesh, ring),

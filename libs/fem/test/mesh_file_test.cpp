@@ -231,10 +231,10 @@ TEST_CASE("AMillionLines_AreReadInAFewSeconds") {
   // 79^3 hexahedra: 512,000 nodes and 493,039 elements, a million lines. A second or so on an idle core; ten times
   // that is a reader of streams, and what this test is to catch.
   constexpr long n = 79, m = n + 1;
-  std::array<std::string, m> place;
+  std::array<std::string, m> coordinate;
   for (long k = 0; k < m; ++k)
-    place[static_cast<std::size_t>(k)] = ", " + std::to_string(0.001 * static_cast<double>(k));
-  const auto at = [&](long k) -> const std::string& { return place[static_cast<std::size_t>(k % m)]; };
+    coordinate[static_cast<std::size_t>(k)] = ", " + std::to_string(0.001 * static_cast<double>(k));
+  const auto at = [&](long k) -> const std::string& { return coordinate[static_cast<std::size_t>(k % m)]; };
   std::string text = "*NODE\n";
   for (long k = 0; k < m * m * m; ++k) text += std::to_string(k + 1) + at(k) + at(k / m) + at(k / m / m) + "\n";
   text += "*ELEMENT, TYPE=C3D8, ELSET=ALL\n";
@@ -264,7 +264,7 @@ std::string fault_of(const std::string& text, MeshFormat format) {
   return "no fault";
 }
 
-TEST_CASE("FaultyFiles_AreToldWithLineAndRemedy") {
+TEST_CASE("FaultyFiles_AreReportedWithLineAndRemedy") {
   const auto abaqus = [](const std::string& text) { return fault_of(text, MeshFormat::abaqus); };
   const std::string nodes = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
   CHECK(abaqus(nodes + "*ELEMENT,TYPE=C3D4\n7,1,2,3,5\n") ==
@@ -273,9 +273,9 @@ TEST_CASE("FaultyFiles_AreToldWithLineAndRemedy") {
         "7: element 7 has node 3 twice; elements of distinct nodes of the file");
   CHECK(abaqus(nodes + "*ELEMENT,TYPE=C3D4\n7,1,2,3\n") == "7: element 7 with 3 nodes; 4 nodes for C3D4");
   CHECK(abaqus(nodes + "*ELEMENT,TYPE=C3D4\n7,1,2,3,4\n7,1,2,4,3\n") ==
-        "8: element 7 stands in line 7 already; each element once");
+        "8: element 7 is already defined in line 7; each element once");
   CHECK(abaqus(nodes + "4,0,0,2\n*ELEMENT,TYPE=C3D4\n7,1,2,3,4\n") ==
-        "6: node 4 stands in line 5 already, elsewhere; each node once");
+        "6: node 4 is already defined in line 5, at another position; each node once");
   CHECK(abaqus(nodes) == "0: no elements of a solid or beam among 4 nodes; tetrahedra, wedges, hexahedra or beams");
   CHECK(abaqus("1,0,0,0\n") == "1: '1,0,0,0'; a keyword, such as *NODE");
   CHECK(abaqus("*NODE\n1,0,0,nan\n") == "2: 'nan'; a number");
@@ -309,10 +309,10 @@ TEST_CASE("FaultyFiles_AreToldWithLineAndRemedy") {
   CHECK(nastran("$\nCTETRA,1,1,1,2,3\n") ==
         "2: CTETRA 1 with 3 nodes; 4 corners, then up to 6 mid-side nodes, of which any may be left out");
   CHECK(nastran("GRID,1,,zero\n") == "1: 'zero' in GRID; a number");
-  CHECK(nastran("CTRIAX,1,1,1,2,3\n") == "1: CTRIAX, an element of a section that turns about an axis; solids");
+  CHECK(nastran("CTRIAX,1,1,1,2,3\n") == "1: CTRIAX, an axisymmetric element; solids");
 }
 
-TEST_CASE("Files_OfUnknownEnding_OrMissing_AreTold") {
+TEST_CASE("Files_OfUnknownEnding_OrMissing_AreReported") {
   CHECK_THROWS_AS((void)read_mesh("body.step", 1), InputError);
   CHECK_THROWS_AS((void)read_mesh("no_such_file.msh", 1), InputError);
   CHECK_THROWS_AS((void)read_mesh("/", 1), InputError);

@@ -18,7 +18,7 @@ Mesh file(const std::string& name) {
   return read_mesh(std::filesystem::path(hersey::source_dir()) / "libs/fem/test/data" / name, 1e-3);
 }
 
-TEST_CASE("CornerShape_IsOneForTheIdealCorner_OfAnySizeAndTurn") {
+TEST_CASE("CornerShape_IsOneForTheIdealCorner_OfAnySizeAndRotation") {
   const Matrix3 R = 7.0 * Eigen::AngleAxisd(1.1, Vector3(1, 2, 3).normalized()).toRotationMatrix();
   Matrix3 tetrahedron;
   tetrahedron << 1, 0.5, 0.5, 0, std::sqrt(0.75), std::sqrt(0.75) / 3, 0, 0, std::sqrt(2.0 / 3);

@@ -57,7 +57,7 @@ Vector3 coordinates(char kind, const Vector3& x) {
 
 std::string numbers(const Vector3& x) { return fmt::format("{:.17f},{:.17f},{:.17f}", x[0], x[1], x[2]); }
 
-/// The coordinates in the last of a chain of systems, each told by three points in the one before.
+/// The coordinates in the last of a chain of systems, each defined by three points in the one before.
 struct Chain {
   std::vector<Axes> systems;
 
@@ -84,17 +84,18 @@ struct Chain {
 Chain chain_of(const std::string& kinds) {
   Chain chain;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const double turn = 0.4 + 0.3 * static_cast<double>(k);
+    const double angle = 0.4 + 0.3 * static_cast<double>(k);
     chain.systems.push_back({Vector3(0.3, -0.2 + 0.1 * static_cast<double>(k), 0.7),
-                             Eigen::AngleAxisd(turn, Vector3(1, 2, -1).normalized()).toRotationMatrix(), kinds[k]});
+                             Eigen::AngleAxisd(angle, Vector3(1, 2, -1).normalized()).toRotationMatrix(), kinds[k]});
   }
   return chain;
 }
 
-std::string body(const Mesh& mesh, const std::function<std::string(const Vector3&)>& place, const std::string& system) {
+std::string body(const Mesh& mesh, const std::function<std::string(const Vector3&)>& coordinates,
+                 const std::string& system) {
   std::string text;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    text += fmt::format("GRID,{},{},{}\n", mesh.node_labels[n], system, place(mesh.nodes[n]));
+    text += fmt::format("GRID,{},{},{}\n", mesh.node_labels[n], system, coordinates(mesh.nodes[n]));
   for (const Element& e : mesh.elements) {
     text += fmt::format("CHEXA,{},1", e.label);
     for (int k = 0; k < 8; ++k) text += fmt::format("{},{}", k == 6 ? "\n" : "", mesh.node_labels[mesh.nodes_of(e)[k]]);
@@ -109,14 +110,14 @@ TEST_CASE("TheSameBody_InBasicAndInChainedSystems_HasTheSameMatrices") {
   for (const std::string kinds : {"R", "C", "S", "RC", "CS", "SC", "RCSR", "CRS"}) {
     CAPTURE(kinds);
     const Chain chain = chain_of(kinds);
-    const auto place = [&](const Vector3& r) { return numbers(chain.in_last(r)); };
+    const auto coordinates = [&](const Vector3& r) { return numbers(chain.in_last(r)); };
     // Systems may stand behind the points that use them.
-    const std::string text = body(box, place, std::to_string(9 + kinds.size()));
+    const std::string text = body(box, coordinates, std::to_string(9 + kinds.size()));
     const ElasticBody chained = assemble(read(chain.entries() + text), {steel});
-    // Seventeen digits and some turns of round-off; strains divide by the elements' size.
+    // Seventeen digits and the round-off of some rotations; strains divide by the elements' size.
     CHECK((chained.K - basic.K).norm() < 1000 * eps * basic.K.norm());
     CHECK((chained.m - basic.m).norm() < 1000 * eps * basic.m.norm());
-    const std::string by_default = fmt::format("GRDSET,,{}\n", 9 + kinds.size()) + body(box, place, "");
+    const std::string by_default = fmt::format("GRDSET,,{}\n", 9 + kinds.size()) + body(box, coordinates, "");
     CHECK((assemble(read(chain.entries() + by_default), {steel}).K - basic.K).norm() < 1000 * eps * basic.K.norm());
   }
 }
@@ -124,8 +125,8 @@ TEST_CASE("TheSameBody_InBasicAndInChainedSystems_HasTheSameMatrices") {
 TEST_CASE("SystemsByGridPoints_AreThoseByTheirPositions") {
   const Mesh box = distorted_box(ElementType::hex8);
   const Chain chain = chain_of("RC");
-  const auto place = [&](const Vector3& r) { return numbers(chain.in_last(r)); };
-  const std::string text = body(box, place, "11");
+  const auto coordinates = [&](const Vector3& r) { return numbers(chain.in_last(r)); };
+  const std::string text = body(box, coordinates, "11");
   const Mesh expected = read(chain.entries() + text);
   // The second system by points 91 to 93, which lie in the first one.
   const Axes& last = chain.systems[1];
@@ -141,17 +142,18 @@ TEST_CASE("SystemsByGridPoints_AreThoseByTheirPositions") {
 const std::string kTetIn7 =
     "GRID,1,7,0.,0.,0.\nGRID,2,7,1.,0.,0.\nGRID,3,7,0.,1.,0.\nGRID,4,7,0.,0.,1.\nCTETRA,1,1,1,2,3,4\n";
 
-TEST_CASE("SystemsThatLeadNowhere_AreToldWithTheirLine") {
+TEST_CASE("SystemsThatLeadNowhere_AreReportedWithTheirLine") {
   CHECK(refusal(kTetIn7) == "1: the coordinate system 7, which the file does not define");
   const std::string points = "0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n";
   CHECK(refusal(kTetIn7 + "CORD2R,7,8," + points + "CORD2C,8,7," + points)
-            .ends_with("the coordinate system 7 is told by itself, through other systems"));
-  CHECK(refusal(kTetIn7 + "CORD1R,7,1,2,3\n") == "6: the coordinate system 7 is told by itself, through other systems");
+            .ends_with("the coordinate system 7 is defined by itself, through other systems"));
+  CHECK(refusal(kTetIn7 + "CORD1R,7,1,2,3\n") ==
+        "6: the coordinate system 7 is defined by itself, through other systems");
   CHECK(refusal(kTetIn7 + "CORD1R,7,91,92,93\n") == "6: the grid point 91, which the file does not define");
   CHECK(refusal(kTetIn7 + "CORD2R,7,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\n") ==
         "6: the coordinate system 7 has its three points on one line");
   CHECK(refusal(kTetIn7 + "CORD2R,7,," + points + "CORD2R,7,,1." + points.substr(2)) ==
-        "8: the coordinate system 7 stands in line 6 already, otherwise");
+        "8: the coordinate system 7 is already defined in line 6, differently");
   CHECK(refusal(kTetIn7 + "CORD2R,7,," + points + "CORD2R,7,," + points) == "none");
   CHECK(refusal("CORD2R,5\n" + kTetIn7 + "CORD2R,7,," + points) == "none");  // nothing lies in 5
 }
@@ -220,7 +222,7 @@ TEST_CASE("ShortenedWords_AndContinuationsByTheirNames_AreRead") {
               .node_sets.at("set_3") == std::vector<int>{0, 2, 3});
     CHECK(warnings.empty());
   }
-  // The first letter of a continuation's name gives way to the sign.
+  // The first letter of a continuation's name is replaced by the sign.
   CHECK(read(points + "CTETRA  1       1       1       2       3       4                       P51\n"
                       "+51\nENDDATA\n")
             .elements.size() == 1);

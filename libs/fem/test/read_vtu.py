@@ -23,10 +23,10 @@ def arrays(path):
     assert root.get("header_type") == "UInt64" and root.get("byte_order") == "LittleEndian"
     result = {}
     for array in root.iter("DataArray"):
-        place = data + int(array.get("offset"))
-        (size,) = struct.unpack_from("<Q", content, place)
+        offset = data + int(array.get("offset"))
+        (size,) = struct.unpack_from("<Q", content, offset)
         letter = FORMATS[array.get("type")]
-        values = struct.unpack_from(f"<{size // struct.calcsize(letter)}{letter}", content, place + 8)
+        values = struct.unpack_from(f"<{size // struct.calcsize(letter)}{letter}", content, offset + 8)
         result[array.get("Name")] = (int(array.get("NumberOfComponents")), values)
     piece = root.find(".//Piece")
     return int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells")), result

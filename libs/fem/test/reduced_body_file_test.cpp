@@ -102,7 +102,7 @@ std::string fault_after(const Spoil& spoil) {
   return "no fault";
 }
 
-TEST_CASE("SpoiledReducedBodies_AreToldByTheirDataSet") {
+TEST_CASE("SpoiledReducedBodies_AreReportedByTheirDataSet") {
   CHECK(fault_after([](ReducedBody&) {}) == "no fault");
   CHECK(fault_after([](ReducedBody& b) { b.K(0, 1) += 1e9; }) == "data set 'K' is not symmetric");
   CHECK(fault_after([](ReducedBody& b) { b.M(3, 3) = std::nan(""); }) ==
@@ -157,29 +157,29 @@ std::string bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST_CASE("ABitThatFlipsInAReducedBody_IsToldOrHarmless") {
+TEST_CASE("ABitThatFlipsInAReducedBody_IsReportedOrHarmless") {
   const TemporaryDirectory folder;
   const ReducedBody body = reduced();
   write_reduced_body(folder / "rod.h5", body);
   const std::string good = bytes_of(folder / "rod.h5");
-  int told = 0, tried = 0;
+  int reported = 0, tried = 0;
   for (std::size_t bit = 5; bit < 8 * good.size(); bit += 997, ++tried) {
-    std::string turned = good;
-    turned[bit / 8] = static_cast<char>(turned[bit / 8] ^ (1 << (bit % 8)));
-    std::ofstream(folder / "turned.h5", std::ios::binary) << turned;
+    std::string flipped = good;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+    std::ofstream(folder / "flipped.h5", std::ios::binary) << flipped;
     try {
-      const ReducedBody back = read_reduced_body(folder / "turned.h5");
+      const ReducedBody back = read_reduced_body(folder / "flipped.h5");
       CHECK(back.K == body.K);  // the bit is one of the seal
       CHECK(back.Phi == body.Phi);
     } catch (const InputError& error) {
       CHECK(error.faults().at(0).found == "has changed since it was written: its checksum is another");
-      ++told;
+      ++reported;
     }
   }
-  CHECK(told >= tried - 1);  // the seal is 46 bytes, less than a step
+  CHECK(reported >= tried - 1);  // the seal is 46 bytes, less than a step
 }
 
-TEST_CASE("FilesThatAreNoReducedBody_AreTold") {
+TEST_CASE("FilesThatAreNoReducedBody_AreReported") {
   const TemporaryDirectory folder;
   std::ofstream(folder / "text.h5") << "no HDF5";
   CHECK_THROWS_AS((void)read_reduced_body(folder / "text.h5"), InputError);
@@ -239,13 +239,13 @@ std::string import_fault(const Eigen::SparseMatrix<double>& K, const Eigen::Spar
   return "no fault";
 }
 
-TEST_CASE("MatricesThatAreNoFreeBody_AreTold") {
+TEST_CASE("MatricesThatAreNoFreeBody_AreReported") {
   const ElasticBody body = box_body();
   const Eigen::SparseMatrix<double> M = full_mass(body.m);
   CHECK(import_fault(body.K, M) == "no fault");
-  Eigen::SparseMatrix<double> held = body.K;
-  held.coeffRef(0, 0) += body.K.coeff(0, 0);
-  CHECK(import_fault(held, M) == "a stiffness that resists turning about y rigidly");
+  Eigen::SparseMatrix<double> fixed = body.K;
+  fixed.coeffRef(0, 0) += body.K.coeff(0, 0);
+  CHECK(import_fault(fixed, M) == "a stiffness that resists turning about y rigidly");
   Eigen::SparseMatrix<double> uneven = body.K;
   uneven.coeffRef(0, 1) += body.K.coeff(0, 0);
   CHECK(import_fault(uneven, M) == "a stiffness matrix that is not symmetric");

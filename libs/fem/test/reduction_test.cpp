@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "hersey/fem/constrained_stiffness.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/fem/vibration.h"
 #include "small_bodies.h"
 
@@ -128,7 +128,7 @@ TEST_CASE("WrenchOnAFrame_MovesTheReducedBodyAsTheMesh") {
   CHECK((reduced.Phi * q - full.u).norm() < kCondition * full.u.norm());
 }
 
-TEST_CASE("LoadShapes_AreHeldExactly_AndToldWhereModesMissThem") {
+TEST_CASE("LoadShapes_AreRepresentedExactly_AndReportedWhereModesMissThem") {
   const ElasticBody body = bar();
   Eigen::MatrixXd loads(body.size(), 2);
   loads.col(0) = pressure_load(body.mesh, body.mesh.surfaces.at("z1"), 1e6);  // bends it: modes do that well
@@ -167,7 +167,7 @@ TEST_CASE("BorePressures_HaveTheResultantsOfTheirHarmonics") {
   CHECK(w(1, 5) == doctest::Approx(w(3, 2) * 1.5 / 3));  // int s (h s) over the height, h = 1.5
 }
 
-TEST_CASE("FrameOnANodeOrAnEdge_MovesWithItAndTurnsWithTheElementsAround") {
+TEST_CASE("FrameOnANodeOrAnEdge_MovesWithItAndRotatesWithTheElementsAround") {
   const ElasticBody body = bar(ElementType::hex20, {6, 2, 2});
   const InterfaceFrame root = frame_on(body.mesh, "x0", Connection::rigid);
   std::vector<int> edge;  // the upper edge of the free end
@@ -192,7 +192,7 @@ TEST_CASE("FrameOnANodeOrAnEdge_MovesWithItAndTurnsWithTheElementsAround") {
     const StaticSolution whole = solve_static(body, supports, f);
     REQUIRE(whole.solved());
     CHECK(flexibility(5, 5) == doctest::Approx(f.dot(whole.u.col(0))).epsilon(5e-3));
-    CHECK(flexibility(1, 1) > 0);  // its rotation is held by something
+    CHECK(flexibility(1, 1) > 0);  // some nodes fix its rotation
   }
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("AveragingFrameOnNodesOfARigidOne_IsTheirAverageStill") {
   CHECK((average - expected).cwiseAbs().maxCoeff() < kCondition * reduced.Phi.cwiseAbs().maxCoeff());
 }
 
-TEST_CASE("FramesThatCannotHoldTheBody_AreToldByName") {
+TEST_CASE("FramesThatCannotSupportTheBody_AreReportedByName") {
   const ElasticBody body = bar(ElementType::tet4, {2, 1, 1});
   InterfaceFrame good = frame_on(body.mesh, "x0", Connection::rigid),
                  bad = frame_on(body.mesh, "x1", Connection::rigid);
@@ -225,7 +225,7 @@ TEST_CASE("FramesThatCannotHoldTheBody_AreToldByName") {
         std::string::npos);
 }
 
-TEST_CASE("PartNotConnectedToAnyFrame_IsTold") {
+TEST_CASE("PartNotConnectedToAnyFrame_IsReported") {
   Mesh mesh = box_mesh(ElementType::hex8, {1, 0.1, 0.06}, {2, 1, 1});
   const Mesh other = mesh;
   for (const Vector3& x : other.nodes) {

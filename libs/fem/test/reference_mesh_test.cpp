@@ -6,11 +6,11 @@
 
 #include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/heat_conduction.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_distributions.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/fem/stress.h"
-#include "hersey/fem/surface_loads.h"
 #include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/vibration.h"
 #include "small_bodies.h"
@@ -114,7 +114,7 @@ TEST_CASE("CantileverBetweenTwoTemperatures_ConductsAsInCalculiX") {
       if (mesh.nodes[a].z() > 0.03 - 1e-9) top.push_back(static_cast<int>(a));  // which nodes they are
     HeatConduction conduction(mesh, {{.conductivity = 46}},
                               {.cooled = {{outer_faces(mesh, top), 800, 60}},
-                               .held = {{mesh.node_sets.at("FIX"), 20}, {mesh.node_sets.at("TIP"), 100}}});
+                               .prescribed = {{mesh.node_sets.at("FIX"), 20}, {mesh.node_sets.at("TIP"), 100}}});
     REQUIRE(conduction.factorise().solved());
     const Eigen::VectorXd T =
         conduction.temperatures(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.nodes.size())));

@@ -56,8 +56,8 @@ TEST_CASE("FaceShapes_AreTheSolidsShapesOnTheirFaces") {
       const NodeValues solid = shape_functions(type, xi).N;
       double others = 0;
       for (Eigen::Index a = 0; a < solid.size(); ++a) {
-        const auto place = std::find(of_face.begin(), of_face.end(), a);
-        const double on_face = place == of_face.end() ? 0 : s.N[place - of_face.begin()];
+        const auto at = std::find(of_face.begin(), of_face.end(), a);
+        const double on_face = at == of_face.end() ? 0 : s.N[at - of_face.begin()];
         others = std::max(others, std::abs(solid[a] - on_face));
       }
       CHECK(others < 20 * eps);

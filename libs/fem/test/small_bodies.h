@@ -83,20 +83,20 @@ inline Mesh macneal_harder(ElementType type) {
       std::vector<int> ends;
       for (int a = 0; a < 8; ++a)
         if ((natural.col(a) - natural.col(m)).norm() < 1.1) ends.push_back(brick[a]);
-      const auto [place, is_new] = middle.try_emplace(std::minmax(ends[0], ends[1]), int(mesh.nodes.size()));
+      const auto [at, is_new] = middle.try_emplace(std::minmax(ends[0], ends[1]), int(mesh.nodes.size()));
       if (is_new) mesh.nodes.push_back((mesh.nodes[ends[0]] + mesh.nodes[ends[1]]) / 2);
-      mesh.connectivity.push_back(place->second);
+      mesh.connectivity.push_back(at->second);
     }
   }
   return mesh;
 }
 
-/// u with K u = f on the free degrees of freedom and u as given where `held`.
-inline Eigen::VectorXd solve_dense(const Eigen::MatrixXd& K, const Eigen::VectorXd& f, const std::vector<char>& held,
+/// u with K u = f on the free degrees of freedom and u as given where `fixed`.
+inline Eigen::VectorXd solve_dense(const Eigen::MatrixXd& K, const Eigen::VectorXd& f, const std::vector<char>& fixed,
                                    Eigen::VectorXd u) {
   std::vector<int> free;
   for (int i = 0; i < K.rows(); ++i)
-    if (!held[i]) free.push_back(i);
+    if (!fixed[i]) free.push_back(i);
   for (const int i : free) u[i] = 0;
   const Eigen::VectorXd rest = f - K * u;
   const Eigen::VectorXd x = Eigen::MatrixXd(K(free, free)).ldlt().solve(Eigen::VectorXd(rest(free)));

@@ -35,21 +35,21 @@ TEST_CASE("Isotropic_UniaxialStressGivesYoungAndPoisson") {
 TEST_CASE("Orthotropic_WithEqualConstantsIsIsotropicInAnyAxes") {
   const double E = 70e9, nu = 0.33, G = E / (2 * (1 + nu));
   const Matrix3 R = rotation_exp({0.3, -0.7, 1.1}).toRotationMatrix();
-  const SolidMaterial turned = orthotropic({E, E, E, nu, nu, nu, G, G, G, 2700, R});
+  const SolidMaterial rotated = orthotropic({E, E, E, nu, nu, nu, G, G, G, 2700, R});
   const SolidMaterial plain = isotropic({E, nu, 2700});
-  CHECK((turned.D - plain.D).cwiseAbs().maxCoeff() < 100 * eps * plain.D.maxCoeff());
-  CHECK(turned.density == 2700);
+  CHECK((rotated.D - plain.D).cwiseAbs().maxCoeff() < 100 * eps * plain.D.maxCoeff());
+  CHECK(rotated.density == 2700);
 }
 
-TEST_CASE("Orthotropic_TurnedByAQuarter_SwapsItsAxes") {
+TEST_CASE("Orthotropic_RotatedByARightAngle_SwapsItsAxes") {
   OrthotropicMaterial m = ply();
   const SolidMaterial straight = orthotropic(m);
   m.R << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // axis 1 along y
-  const SolidMaterial turned = orthotropic(m);
-  CHECK(turned.D(1, 1) == doctest::Approx(straight.D(0, 0)).epsilon(100 * eps));
-  CHECK(turned.D(1, 2) == doctest::Approx(straight.D(0, 2)).epsilon(100 * eps));
-  CHECK(turned.D(4, 4) == doctest::Approx(m.G_13).epsilon(100 * eps));
-  const Vector6 strain = turned.D.ldlt().solve(Vector6::Unit(1));
+  const SolidMaterial rotated = orthotropic(m);
+  CHECK(rotated.D(1, 1) == doctest::Approx(straight.D(0, 0)).epsilon(100 * eps));
+  CHECK(rotated.D(1, 2) == doctest::Approx(straight.D(0, 2)).epsilon(100 * eps));
+  CHECK(rotated.D(4, 4) == doctest::Approx(m.G_13).epsilon(100 * eps));
+  const Vector6 strain = rotated.D.ldlt().solve(Vector6::Unit(1));
   CHECK(1 / strain[1] == doctest::Approx(m.E_1).epsilon(1000 * eps));
   CHECK(-strain[0] / strain[1] == doctest::Approx(m.nu_12).epsilon(1000 * eps));
 }

@@ -54,7 +54,7 @@ TEST_CASE("StaticAnswers_AreThoseOfTheReductionWithEveryFilmMode") {
 
 /// A turning ring grows by rho omega^2 r/(8 E) [(3 + nu)(1 - nu)(a^2 + b^2 + (1 + nu)/(1 - nu) a^2 b^2/r^2)
 /// - (1 - nu^2) r^2], plane stress (Timoshenko and Goodier 1970, sec. 32).
-TEST_CASE("TurningRing_GrowsByTheClosedForm") {
+TEST_CASE("RotatingRing_GrowsByTheClosedForm") {
   const Ring ring;
   const ElasticBody body = assemble(ring_mesh(ElementType::hex20, ring), {steel});
   const FilmSurface surface = bore_of(body.mesh, ring);

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "hersey/fem/constrained_stiffness.h"
+#include "hersey/fem/load_distributions.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/reduction.h"
-#include "hersey/fem/surface_loads.h"
 #include "small_bodies.h"
 #include "source_dir.h"
 
@@ -48,25 +48,25 @@ TEST_CASE("StaticError_HoldsForACosinePressureNotAmongTheShapes") {
   const std::vector<InterfaceFrame> frames = {frame("small_end"), frame("big_end")};
   const LoadedSurface bore = loaded_surface(mesh, "big_end", 4);
   const Eigen::VectorXd load = cosine_pressure_load(mesh, faces_called(mesh, "big_end"), Vector3(0.6, 0.8, 0));
-  // The whole mesh with its frames held.
+  // The whole mesh with its frames fixed.
   const FrameSupports supports = frame_supports(mesh, frames);
-  ConstrainedStiffness held(body.K, body.m, supports.held, supports.C);
-  REQUIRE(held.factorise().solved());
-  const Eigen::VectorXd exact = held.solve(load);
+  ConstrainedStiffness fixed(body.K, body.m, supports.fixed_dofs, supports.C);
+  REQUIRE(fixed.factorise().solved());
+  const Eigen::VectorXd exact = fixed.solve(load);
   const auto size_on_bore = [&](const Eigen::VectorXd& u) {
     double sum = 0;
     for (std::size_t i = 0; i < bore.nodes.size(); ++i)
       sum += bore.areas[i] * u.segment<3>(3 * bore.nodes[i]).squaredNorm();
     return std::sqrt(sum);
   };
-  const auto error_of = [&](double asked, StaticError& told) {
+  const auto error_of = [&](double asked, StaticError& error) {
     ReductionOptions options;
     options.modes = 10;
     options.surfaces = {bore};
     options.static_error = asked;
     const Reduction reduction = reduce(body, frames, options);
     REQUIRE(reduction.solved());
-    told = reduction.body.static_errors.at(0);
+    error = reduction.body.static_errors.at(0);
     const Eigen::Index n = reduction.body.internal_omega.size();
     const Eigen::MatrixXd V = reduction.body.Phi.rightCols(n);
     const Eigen::VectorXd q =

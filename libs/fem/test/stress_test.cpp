@@ -6,7 +6,7 @@
 
 #include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/finite_strain.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "small_bodies.h"
 
 namespace hersey::fem {
@@ -30,8 +30,8 @@ TEST_CASE("Stress_OfALinearField_IsUniformAndItsEnergyThatOfK") {
   }
 }
 
-TEST_CASE("StressOfFiniteStrain_TurnsWithTheBody") {
-  // Stretched by U, then turned by 1 rad: the stress is that of U alone in axes that turn, and its energy.
+TEST_CASE("StressOfFiniteStrain_RotatesWithTheBody") {
+  // Stretched by U, then rotated by 1 rad: the stress is that of U alone in axes that rotate, and its energy.
   const Matrix3 R = Eigen::AngleAxisd(1, Vector3(1, 2, -2).normalized()).toRotationMatrix();
   const Matrix3 U = Matrix3::Identity() + 1e-2 * (Matrix3() << 1, 0.5, 0, 0.5, -1, 0.2, 0, 0.2, 2).finished();
   const Matrix3 E = 0.5 * (U * U - Matrix3::Identity());

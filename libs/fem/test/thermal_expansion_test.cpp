@@ -23,11 +23,11 @@ const std::vector<ThermalMaterial> expands = {{.conductivity = 46, .expansion = 
 /// Six degrees of freedom at three corners, as many as hold the body and no more.
 std::vector<Support> statically(const Mesh& mesh) {
   const std::vector<int> corners = {0, mesh.node_sets.at("x1").front(), mesh.node_sets.at("y1").front()};
-  Eigen::MatrixXd seen(9, 6);
+  Eigen::MatrixXd supported(9, 6);
   const Eigen::MatrixXd motions = rigid_motions(mesh, mesh.nodes[0]);
   for (int c = 0; c < 3; ++c)
-    seen.middleRows<3>(3 * c) = motions.middleRows<3>(3 * corners[static_cast<std::size_t>(c)]);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(seen.transpose());
+    supported.middleRows<3>(3 * c) = motions.middleRows<3>(3 * corners[static_cast<std::size_t>(c)]);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(supported.transpose());
   std::vector<Support> supports;
   for (int i = 0; i < 6; ++i) {
     const int row = qr.colsPermutation().indices()[i];
@@ -93,7 +93,7 @@ TEST_CASE("ExpansionLoad_IsInBalanceWhateverTheTemperature") {
   }
 }
 
-TEST_CASE("BodyHeldEverywhere_BearsAllOfItsExpansionAsPressure") {
+TEST_CASE("BodyFixedEverywhere_BearsAllOfItsExpansionAsPressure") {
   for (const ElementType type : solids) {
     CAPTURE(name_of(type));
     const ElasticBody body = assemble(distorted_box(type), {steel});
@@ -159,8 +159,8 @@ TEST_CASE("TubeHotInside_MeetsTheClosedForm") {
       x = {r * std::cos(phi), r * std::sin(phi), 0.005 * x.z()};
     }
     const ElasticBody body = assemble(mesh, {steel});
-    HeatConduction conduction(mesh, expands,
-                              {.cooled = {}, .held = {{mesh.node_sets.at("x0"), dT}, {mesh.node_sets.at("x1"), 0}}});
+    HeatConduction conduction(
+        mesh, expands, {.cooled = {}, .prescribed = {{mesh.node_sets.at("x0"), dT}, {mesh.node_sets.at("x1"), 0}}});
     REQUIRE(conduction.factorise().solved());
     const VectorXd rise = conduction.temperatures(VectorXd::Zero(body.node_count()));
     std::vector<Support> supports;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hersey/fem/constrained_stiffness.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduction.h"
@@ -121,8 +121,8 @@ std::vector<Tied> all_ties(const Halves& halves) {
                                   return fmt::format("RBE3,{},,{},123,1.,123456,{}\n", 900 + k, b, a);
                                 })),
       MeshFormat::nastran);
-  // In the axes of a turned system, in which the same three components span the same displacements.
-  add("MPC in turned axes",
+  // In the axes of a rotated system, in which the same three components span the same displacements.
+  add("MPC in rotated axes",
       "CORD2C,7,,0.,0.,0.,0.3,0.2,1.\n,1.,0.,0.\nGRDSET,,,,,,7\n" +
           nastran(halves, for_pairs(halves,
                                     [](long a, long b, int) {
@@ -162,8 +162,8 @@ Mesh merged(const Halves& halves) {
               MeshFormat::nastran);
 }
 
-Eigen::VectorXd frequencies(const Mesh& mesh, const std::vector<int>& held) {
-  const Vibration modes = natural_modes(assemble(mesh, {steel}), held, {.count = 12});
+Eigen::VectorXd frequencies(const Mesh& mesh, const std::vector<int>& fixed) {
+  const Vibration modes = natural_modes(assemble(mesh, {steel}), fixed, {.count = 12});
   REQUIRE(modes.solved());
   return modes.omega;
 }
@@ -180,14 +180,14 @@ std::vector<int> foot(const Mesh& mesh) {
 TEST_CASE("TiedHalves_VibrateAsTheBodyThatSharesItsNodes") {
   const Halves halves(ElementType::hex8);
   const Mesh one = merged(halves);
-  const Eigen::VectorXd free = frequencies(one, {}), held = frequencies(one, dofs_of(foot(one)));
+  const Eigen::VectorXd free = frequencies(one, {}), fixed = frequencies(one, dofs_of(foot(one)));
   for (const Tied& tied : all_ties(halves)) {
     CAPTURE(tied.name);
     CHECK(tied.mesh.ties.size() == 27);  // three for each of nine pairs
     CHECK(quality_of(tied.mesh).parts.size() == 1);
     // Lanczos iteration stops at 1e-7, which squared is round-off of the factors.
     CHECK((frequencies(tied.mesh, {}) - free).norm() < 1e-9 * free.norm());
-    CHECK((frequencies(tied.mesh, dofs_of(foot(tied.mesh))) - held).norm() < 1e-9 * held.norm());
+    CHECK((frequencies(tied.mesh, dofs_of(foot(tied.mesh))) - fixed).norm() < 1e-9 * fixed.norm());
   }
 }
 
@@ -249,7 +249,7 @@ TEST_CASE("SupportsOfTiedNodes_BearTheLoad") {
   for (const Tied& tied : all_ties(halves)) {
     CAPTURE(tied.name);
     const ElasticBody body = assemble(tied.mesh, {steel});
-    // All nodes of the lower half are held, those that ties reach among them.
+    // All nodes of the lower half are fixed, those that ties reach among them.
     std::vector<int> low;
     for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n)
       if (body.mesh.node_labels[n] < kLabelsOfTop) low.push_back(static_cast<int>(n));
@@ -291,7 +291,7 @@ TEST_CASE("TiesBetweenMeshesThatDoNotMatch_PassThePatchTest") {
   CHECK((C * u).norm() < 1e-10 * u.norm());  // twelve digits of positions
 }
 
-TEST_CASE("TiesThatCannotBeFollowed_AreToldWithTheirLine") {
+TEST_CASE("TiesThatCannotBeFollowed_AreReportedWithTheirLine") {
   const Halves halves(ElementType::hex8);
   const auto refusal = [&](const std::string& text, MeshFormat format) -> std::string {
     try {
@@ -316,7 +316,7 @@ TEST_CASE("TiesThatCannotBeFollowed_AreToldWithTheirLine") {
   CHECK(of_abaqus("*EQUATION\n2\n1,1,1.,777,1,-1.\n") == "node 777, which the file does not contain");
   CHECK(of_abaqus("*RIGID BODY,REF NODE=1\n") == "*RIGID BODY without a set");
   CHECK(of_abaqus("*TRANSFORM,NSET=up\n1.,0.,0.,0.,1.,0.\n*EQUATION\n2\n19,1,1.,101,1,-1.\n")
-            .starts_with("an equation of node 19, whose axes *TRANSFORM turns"));
+            .starts_with("an equation of node 19, whose axes *TRANSFORM rotates"));
   std::vector<Fault> warnings;
   const Mesh far = read(abaqus(halves, "*TIE,NAME=t,POSITION TOLERANCE=0.01\nfoot,up\n*NSET,NSET=foot\n1,2,3\n"),
                         MeshFormat::abaqus, &warnings);
@@ -325,7 +325,7 @@ TEST_CASE("TiesThatCannotBeFollowed_AreToldWithTheirLine") {
   CHECK(warnings[0].found == "3 nodes of 'foot' farther than 0.01 from 'up'; the first is 1");
 }
 
-TEST_CASE("EquationsBetweenSets_GoTogetherInTurn") {
+TEST_CASE("EquationsBetweenSets_PairTheirNodes") {
   const Halves halves(ElementType::hex8);
   std::string of_sets = "*NSET,NSET=a\n", more = "*NSET,NSET=b\n";
   for (const auto& [a, b] : halves.pairs) of_sets += fmt::format("{}\n", a), more += fmt::format("{}\n", b);

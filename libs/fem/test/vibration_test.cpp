@@ -16,13 +16,13 @@ TEST_CASE("NaturalModes_AreThoseOfTheDenseEigenproblem") {
     CAPTURE(name_of(type));
     const ElasticBody body = assemble(box_mesh(type, {1, 0.2, 0.2}, {3, 1, 1}), {steel});  // square: double frequencies
     for (const bool is_free : {true, false}) {
-      const std::vector<int> held = is_free ? std::vector<int>{} : dofs_of(body.mesh.node_sets.at("x0"));
-      const Vibration modes = natural_modes(body, held, {.count = 12});
+      const std::vector<int> fixed = is_free ? std::vector<int>{} : dofs_of(body.mesh.node_sets.at("x0"));
+      const Vibration modes = natural_modes(body, fixed, {.count = 12});
       REQUIRE(modes.solved());
       REQUIRE(modes.omega.size() == 12);
       std::vector<int> kept;
       for (int i = 0; i < body.size(); ++i)
-        if (std::find(held.begin(), held.end(), i) == held.end()) kept.push_back(i);
+        if (std::find(fixed.begin(), fixed.end(), i) == fixed.end()) kept.push_back(i);
       const Eigen::MatrixXd K = Eigen::MatrixXd(body.K)(kept, kept),
                             M = Eigen::MatrixXd(mass_matrix(body.m))(kept, kept);
       const Eigen::VectorXd lambda =
@@ -43,11 +43,11 @@ TEST_CASE("NaturalModes_AreThoseOfTheDenseEigenproblem") {
 
 TEST_CASE("NaturalModes_UpToAFrequency_AreAllOfThem") {
   const ElasticBody body = assemble(box_mesh(ElementType::hex8, {1, 0.2, 0.2}, {8, 2, 2}), {steel});
-  const std::vector<int> held = dofs_of(body.mesh.node_sets.at("x0"));
-  const Vibration many = natural_modes(body, held, {.count = 30});
+  const std::vector<int> fixed = dofs_of(body.mesh.node_sets.at("x0"));
+  const Vibration many = natural_modes(body, fixed, {.count = 30});
   REQUIRE(many.solved());
   const double limit = (many.omega[16] + many.omega[17]) / 2;
-  const Vibration some = natural_modes(body, held, {.count = 30, .highest = limit});
+  const Vibration some = natural_modes(body, fixed, {.count = 30, .highest = limit});
   REQUIRE(some.solved());
   REQUIRE(some.omega.size() == 17);
   CHECK((some.omega - many.omega.head(17)).norm() < 1e-9 * many.omega.norm());  // both are good to about rtol^2

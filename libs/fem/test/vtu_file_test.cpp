@@ -35,11 +35,11 @@ std::vector<T> array_of(const std::string& content, const std::string& name) {
   REQUIRE(header != std::string::npos);
   const std::size_t offset_at = content.find("offset=\"", header) + 8;
   const std::size_t data = content.find('_', content.find("<AppendedData encoding=\"raw\">")) + 1;
-  const std::size_t place = data + std::stoul(content.substr(offset_at));
+  const std::size_t offset = data + std::stoul(content.substr(offset_at));
   std::uint64_t bytes = 0;
-  std::memcpy(&bytes, content.data() + place, sizeof bytes);
+  std::memcpy(&bytes, content.data() + offset, sizeof bytes);
   std::vector<T> values(bytes / sizeof(T));
-  std::memcpy(values.data(), content.data() + place + sizeof bytes, bytes);
+  std::memcpy(values.data(), content.data() + offset + sizeof bytes, bytes);
   return values;
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("Vtu_OfAMovedBody_HasThePositionsGiven") {
   CHECK_THROWS_AS(write_vtu(folder / "box.vtu", mesh, frame), ContractError);
 }
 
-TEST_CASE("Vtu_ThatCannotBeWritten_IsToldByItsName") {
+TEST_CASE("Vtu_ThatCannotBeWritten_IsReportedByItsName") {
   CHECK_THROWS_WITH_AS(write_vtu("/no/such/folder/a.vtu", block(), {}),
                        "/no/such/folder/a.vtu: cannot be written: No such file or directory", std::runtime_error);
 }

@@ -7,7 +7,7 @@
 #include "elastic_large_displacement.h"
 #include "flexible_beam.h"
 #include "hersey/fem/finite_strain.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/mbd/mechanism_builder.h"
 #include "hersey/solver/equilibrium.h"
 #include "simulate.h"

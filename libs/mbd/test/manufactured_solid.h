@@ -6,7 +6,7 @@
 
 #include "hersey/core/spatial.h"
 #include "hersey/fem/elastic_body.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "varied.h"
 
 namespace hersey::mbd::test {

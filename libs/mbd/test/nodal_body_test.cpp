@@ -8,7 +8,7 @@
 
 #include "elastic_large_displacement.h"
 #include "flexible_beam.h"
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 #include "hersey/mbd/mechanism_builder.h"
 #include "hersey/solver/equilibrium.h"
 #include "simulate.h"
@@ -94,7 +94,7 @@ TEST_CASE("NodalBody_SagsLikeItsMesh") {
   const fem::ElasticBody body = beam.elastic();
   const fem::FrameSupports supports = fem::frame_supports(
       body.mesh, {{"root", beam.frame_at(0).r, body.mesh.node_sets.at("x0"), fem::Connection::average, {}}});
-  fem::ConstrainedStiffness constrained(body.K, body.m, supports.held, supports.C);
+  fem::ConstrainedStiffness constrained(body.K, body.m, supports.fixed_dofs, supports.C);
   REQUIRE(constrained.factorise().solved());
   const VectorXd u = constrained.solve(fem::gravity_load(body, g));
   Vector6 tip = fem::frame_motion(body.mesh, {"tip", beam.frame_at(1).r, body.mesh.node_sets.at("x1"), {}, {}}) * u;

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "hersey/fem/constrained_stiffness.h"
+#include "hersey/fem/load_distributions.h"
 #include "hersey/fem/skin.h"
-#include "hersey/fem/surface_loads.h"
 #include "hersey/model/build.h"
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"

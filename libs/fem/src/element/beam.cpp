@@ -86,9 +86,9 @@ struct Ends {
   Vec3 r_a, r_b;
 };
 
-/// How an element is deformed, and what its forces need of that.
+/// Deformation of an element, and the quantities that its forces need.
 struct Deformation {
-  Rotation half, R_m;  ///< from the section at a to the middle one; of that
+  Rotation half, R_m;  ///< half: from the section at a to the middle section; R_m: of the middle section
   Vec3 psi, along;     ///< along: from a to b in the axes of the middle section
   Vec3 Gamma;
 };
@@ -156,9 +156,9 @@ SectionForces elastic_forces(const BeamElement& element, const Deformation& d) {
 
 /// The section's rotation with its derivatives: q (1 + theta/2) to the first order.
 Rotation varied(const Eigen::Quaterniond& q, int first) {
-  Rotation turn{.w = 1};
-  for (int k = 0; k < 3; ++k) turn.v[static_cast<std::size_t>(k)] = Dual(0, 0.5 * BeamVector::Unit(first + k));
-  return Rotation{q.w(), {q.x(), q.y(), q.z()}} * turn;
+  Rotation small{.w = 1};
+  for (int k = 0; k < 3; ++k) small.v[static_cast<std::size_t>(k)] = Dual(0, 0.5 * BeamVector::Unit(first + k));
+  return Rotation{q.w(), {q.x(), q.y(), q.z()}} * small;
 }
 
 /// Values and derivatives of the four parts of a wrench on each end.
@@ -186,11 +186,11 @@ BeamMatrix sections_from_nodes(const BeamElement& element) {
 Vec3 varied_along(const Vector3& r, const Rotation& section, int first) {
   const Vec3 d = {Dual(0, BeamVector::Unit(first)), Dual(0, BeamVector::Unit(first + 1)),
                   Dual(0, BeamVector::Unit(first + 2))};
-  const Vec3 turned = section * d;
-  return {Dual(r[0]) + turned[0], Dual(r[1]) + turned[1], Dual(r[2]) + turned[2]};
+  const Vec3 rotated = section * d;
+  return {Dual(r[0]) + rotated[0], Dual(r[1]) + rotated[1], Dual(r[2]) + rotated[2]};
 }
 
-/// Both ends with all derivatives in section axes, seen from node a's place and axes.
+/// Both ends with all derivatives in section axes, relative to the position and axes of node a.
 Ends ends_of(const BeamElement& element, const BeamMotion& motion) {
   const Eigen::Quaterniond E(element.frame);
   const Matrix3 R_ab = motion.X_a.R.transpose() * motion.X_b.R;

@@ -77,7 +77,7 @@ Eigen::SparseMatrix<double> BlockPattern::vector_matrix() const {
   return A;
 }
 
-int BlockPattern::place(int row, int column) const {
+int BlockPattern::block_index(int row, int column) const {
   const auto first = neighbour_.begin() + start_[static_cast<std::size_t>(column)];
   const auto last = neighbour_.begin() + start_[static_cast<std::size_t>(column) + 1];
   return static_cast<int>(std::lower_bound(first, last, row) - first);
@@ -89,7 +89,7 @@ void BlockPattern::add_scalar(const Mesh& mesh, const Element& element, const El
   const int n = node_count(element.type);
   for (int b = 0; b < n; ++b) {
     double* column = sum.valuePtr() + start_[static_cast<std::size_t>(node[b])];
-    for (int a = 0; a < n; ++a) column[place(node[a], node[b])] += matrix(a, b);
+    for (int a = 0; a < n; ++a) column[block_index(node[a], node[b])] += matrix(a, b);
   }
 }
 
@@ -102,7 +102,7 @@ void BlockPattern::add_vector(const Mesh& mesh, const Element& element, const El
     const int height = 3 * (start_[column + 1] - start_[column]);
     double* block = sum.valuePtr() + 9 * static_cast<Eigen::Index>(start_[column]);
     for (int a = 0; a < n; ++a) {
-      double* at = block + 3 * place(node[a], node[b]);
+      double* at = block + 3 * block_index(node[a], node[b]);
       for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) at[j * height + i] += matrix(3 * a + i, 3 * b + j);
     }

@@ -8,7 +8,8 @@
 
 namespace hersey::fem {
 
-/// Which nodes share an element, and where their 3 x 3 blocks lie in a compressed matrix of 3 n columns.
+/// Pattern of nodes that share an element, and the positions of their 3 x 3 blocks in a compressed matrix of 3 n
+/// columns.
 class BlockPattern {
  public:
   explicit BlockPattern(const Mesh& mesh);
@@ -23,7 +24,7 @@ class BlockPattern {
                   Eigen::SparseMatrix<double>& sum) const;
 
  private:
-  [[nodiscard]] int place(int row, int column) const;  ///< of `row` among the neighbours of `column`
+  [[nodiscard]] int block_index(int row, int column) const;  ///< index of `row` among the neighbours of `column`
 
   std::vector<int> start_;      ///< (n + 1)
   std::vector<int> neighbour_;  ///< ascending for each node, itself included

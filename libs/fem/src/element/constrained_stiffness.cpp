@@ -10,16 +10,17 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Lower triangle of A on the unknowns with place[i] >= 0, `size` of them and of the multipliers, which come last.
-SparseMatrix lower_part(const SparseMatrix& A, const std::vector<int>& place, Eigen::Index size) {
+/// Lower triangle of A on the unknowns with free_index[i] >= 0; `size` counts them and the multipliers, which come
+/// last.
+SparseMatrix lower_part(const SparseMatrix& A, const std::vector<int>& free_index, Eigen::Index size) {
   SparseMatrix part(size, size);
   part.reserve(A.nonZeros() / 2 + A.cols());
   for (Eigen::Index j = 0; j < A.outerSize(); ++j) {
-    const int column = place[static_cast<std::size_t>(j)];
+    const int column = free_index[static_cast<std::size_t>(j)];
     if (column < 0) continue;
     part.startVec(column);
     for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
-      const int row = place[static_cast<std::size_t>(entry.row())];
+      const int row = free_index[static_cast<std::size_t>(entry.row())];
       if (row >= column) part.insertBack(row, column) = entry.value();
     }
   }
@@ -29,32 +30,33 @@ SparseMatrix lower_part(const SparseMatrix& A, const std::vector<int>& place, Ei
 }
 
 /// C on the free degrees of freedom, in the rows of the multipliers.
-SparseMatrix constraint_rows(const SparseMatrix& C, const std::vector<int>& place, Eigen::Index size) {
+SparseMatrix constraint_rows(const SparseMatrix& C, const std::vector<int>& free_index, Eigen::Index size) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(C.nonZeros()));
   for (Eigen::Index j = 0; j < C.outerSize(); ++j)
     for (SparseMatrix::InnerIterator entry(C, j); entry; ++entry)
-      if (const int column = place[static_cast<std::size_t>(j)]; column >= 0)
+      if (const int column = free_index[static_cast<std::size_t>(j)]; column >= 0)
         entries.emplace_back(static_cast<int>(size - C.rows() + entry.row()), column, entry.value());
   SparseMatrix rows(size, size);
   rows.setFromTriplets(entries.begin(), entries.end());
   return rows;
 }
 
-/// Which motions a singular stiffness leaves: rigid ones that the supports do not see, or else those of a part.
-std::string what_is_loose(const ElasticBody& body, const std::vector<int>& held) {
-  Eigen::MatrixXd seen = rigid_motions(body.mesh, body.centre);
-  seen = (seen * seen.colwise().norm().cwiseInverse().asDiagonal()).eval();
-  seen = Eigen::MatrixXd(seen(held, Eigen::all));
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(Eigen::MatrixXd(seen.transpose() * seen));
+/// Describes the motions that a singular stiffness leaves free: rigid ones that no support resists, or else those of a
+/// part.
+std::string unsupported_motions(const ElasticBody& body, const std::vector<int>& fixed_dofs) {
+  Eigen::MatrixXd blocked_motions = rigid_motions(body.mesh, body.centre);
+  blocked_motions = (blocked_motions * blocked_motions.colwise().norm().cwiseInverse().asDiagonal()).eval();
+  blocked_motions = Eigen::MatrixXd(blocked_motions(fixed_dofs, Eigen::all));
+  Eigen::FullPivLU<Eigen::MatrixXd> lu(Eigen::MatrixXd(blocked_motions.transpose() * blocked_motions));
   lu.setThreshold(1e-9);
-  const Eigen::Index blocked = held.empty() ? 0 : lu.rank();
-  if (blocked == 6) return "a part of the body is not connected to what is held";
-  return fmt::format("the body is not held: {} of its 6 rigid motions meet no resistance", 6 - blocked);
+  const Eigen::Index blocked = fixed_dofs.empty() ? 0 : lu.rank();
+  if (blocked == 6) return "a part of the body is not connected to the fixed nodes";
+  return fmt::format("the body is not supported: {} of its 6 rigid motions meet no resistance", 6 - blocked);
 }
 
-/// What supports bear of the forces that K u - f leaves: those of ties are told by their pivots, which no support and
-/// no other tie acts on.
+/// Forces on the supports among the forces that K u - f leaves. The forces of ties are computed from their pivots, on
+/// which no support and no other tie acts.
 Eigen::MatrixXd without_ties(const TieConstraints& ties, Eigen::MatrixXd unbalanced) {
   if (ties.C.rows() == 0) return unbalanced;
   Eigen::MatrixXd force(ties.C.rows(), unbalanced.cols());
@@ -89,29 +91,29 @@ SparseMatrix mass_matrix(const SparseMatrix& m) {
   return M;
 }
 
-ConstrainedStiffness::ConstrainedStiffness(const SparseMatrix& K, const SparseMatrix& m, const std::vector<int>& held,
-                                           const SparseMatrix& C)
-    : place_(static_cast<std::size_t>(K.rows()), 0), constraints_(C.rows()) {
+ConstrainedStiffness::ConstrainedStiffness(const SparseMatrix& K, const SparseMatrix& m,
+                                           const std::vector<int>& fixed_dofs, const SparseMatrix& C)
+    : free_index_(static_cast<std::size_t>(K.rows()), 0), constraints_(C.rows()) {
   HERSEY_REQUIRE(K.rows() == 3 * m.rows(), "three degrees of freedom per node");
   HERSEY_REQUIRE(C.rows() == 0 || C.cols() == K.cols(), "constraints are on the degrees of freedom");
-  for (const int dof : held) {
+  for (const int dof : fixed_dofs) {
     HERSEY_REQUIRE(0 <= dof && dof < K.rows(), "supports are among the degrees of freedom");
-    place_[static_cast<std::size_t>(dof)] = -1;
+    free_index_[static_cast<std::size_t>(dof)] = -1;
   }
-  for (std::size_t i = 0; i < place_.size(); ++i)
-    if (place_[i] == 0) {
-      place_[i] = static_cast<int>(free_.size());
+  for (std::size_t i = 0; i < free_index_.size(); ++i)
+    if (free_index_[i] == 0) {
+      free_index_[i] = static_cast<int>(free_.size());
       free_.push_back(static_cast<int>(i));
     }
   const auto total = static_cast<Eigen::Index>(free_.size()) + constraints_;
-  M_free_ = lower_part(mass_matrix(m), place_, total);
-  C_free_ = constraint_rows(C, place_, total);
+  M_free_ = lower_part(mass_matrix(m), free_index_, total);
+  C_free_ = constraint_rows(C, free_index_, total);
   replace(K);
 }
 
 void ConstrainedStiffness::replace(const SparseMatrix& K) {
   HERSEY_REQUIRE(K.rows() == size(), "one row per degree of freedom");
-  K_free_ = lower_part(K, place_, M_free_.rows());
+  K_free_ = lower_part(K, free_index_, M_free_.rows());
 }
 
 SparseMatrix ConstrainedStiffness::shifted(double shift) const {
@@ -159,19 +161,19 @@ Eigen::MatrixXd ConstrainedStiffness::solve(const Eigen::MatrixXd& f, const Eige
 
 StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>& supports, const Eigen::MatrixXd& f) {
   HERSEY_REQUIRE(f.rows() == body.size(), "one force per degree of freedom");
-  std::vector<int> held;
+  std::vector<int> fixed_dofs;
   Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(body.size());
-  held.reserve(supports.size());
+  fixed_dofs.reserve(supports.size());
   for (const Support& support : supports) {
-    held.push_back(support.dof);
+    fixed_dofs.push_back(support.dof);
     prescribed[support.dof] = support.displacement;
   }
-  const TieConstraints ties = tie_constraints(body.mesh, held);
-  ConstrainedStiffness stiffness(body.K, body.m, held, ties.C);
+  const TieConstraints ties = tie_constraints(body.mesh, fixed_dofs);
+  ConstrainedStiffness stiffness(body.K, body.m, fixed_dofs, ties.C);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular) {
-    auto loose = no_answer<StaticSolution>(what_is_loose(body, held));
-    loose.held = false;
+    auto loose = no_answer<StaticSolution>(unsupported_motions(body, fixed_dofs));
+    loose.is_supported = false;
     return loose;
   }
   if (!summary.solved()) return no_answer<StaticSolution>(summary.message);
@@ -183,7 +185,7 @@ StaticSolution solve_static(const ElasticBody& body, const std::vector<Support>&
   solution.u = stiffness.solve(f.colwise() - forces_of_supports, d).colwise() + prescribed;
   const Eigen::MatrixXd unbalanced = without_ties(ties, body.K * solution.u - f);
   solution.reaction = Eigen::MatrixXd::Zero(f.rows(), f.cols());
-  for (const int dof : held) solution.reaction.row(dof) = unbalanced.row(dof);
+  for (const int dof : fixed_dofs) solution.reaction.row(dof) = unbalanced.row(dof);
   return solution;
 }
 

@@ -12,13 +12,13 @@
 namespace hersey::fem {
 namespace {
 
-constexpr std::size_t told_at_most = 5;  // labels in one message
+constexpr std::size_t most_listed = 5;  // labels in one message
 
 std::string labels(const std::vector<long>& all) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(all.size(), told_at_most); ++i)
+  for (std::size_t i = 0; i < std::min(all.size(), most_listed); ++i)
     text += fmt::format("{}{}", i ? ", " : "", all[i]);
-  if (all.size() > told_at_most) text += fmt::format(" and {} more", all.size() - told_at_most);
+  if (all.size() > most_listed) text += fmt::format(" and {} more", all.size() - most_listed);
   return text;
 }
 

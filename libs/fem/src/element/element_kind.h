@@ -9,8 +9,8 @@
 
 namespace hersey::fem {
 
-/// What files call a type, "" or 0 where they have none; `order`: for each node in our order its place in theirs, empty
-/// where it is the same.
+/// Names of a type in files, "" or 0 where they have none; `order`: for each node in our order its index in theirs,
+/// empty where it is the same.
 struct ElementInFiles {
   const char* abaqus = "";   ///< without variants: C3D8R, C3D8I and C3D8H are C3D8
   const char* nastran = "";  ///< one entry for first and second order
@@ -20,12 +20,12 @@ struct ElementInFiles {
   std::uint8_t vtk = 0;  ///< nodes as ours
 };
 
-/// All that is particular to one type of element. A beam has only name, nodes and what files call it.
+/// Properties of one type of element. A beam has only its name, its nodes and its names in files.
 struct ElementKind {
   ElementType type = ElementType::tet4;
   const char* name = "";
   int nodes = 0, corners = 0;           ///< corners come first
-  std::vector<std::vector<int>> faces;  ///< as `face_nodes`
+  std::vector<std::vector<int>> faces;  ///< nodes of each face, as in `face_nodes`
   ElementInFiles files;
 
   /// Shape functions at natural coordinates, (elastic.1).
@@ -37,9 +37,9 @@ struct ElementKind {
   /// `reduced_points` determine.
   Eigen::VectorXd (*stress_terms)(const Vector3& xi) = nullptr;
 
-  /// Corners whose shape is judged, each with three neighbours in right-handed order.
-  std::vector<std::array<int, 4>> judged_corners;
-  Matrix3 ideal_edges = Matrix3::Identity();  ///< of such a corner, as columns
+  /// Corners whose shape is checked, each with three neighbours in right-handed order.
+  std::vector<std::array<int, 4>> checked_corners;
+  Matrix3 ideal_edges = Matrix3::Identity();  ///< edges of the ideal corner, as columns
 };
 
 /// All types, as enumerated.

@@ -28,7 +28,7 @@ StrainMatrix strain_variation(const NodeGradients& gradients, const Matrix3& F) 
   return B;
 }
 
-/// What one point of integration knows.
+/// Quantities at one point of integration.
 struct Point {
   NodeGradients gradients;
   StrainMatrix B;

@@ -5,8 +5,8 @@
 namespace hersey::fem {
 
 /// The nine incompatible modes of hex8, (elastic.7): displacements lambda_k (1 - xi_k^2), k = 1..3. Their gradients are
-/// taken with the Jacobian of the centre, scaled so that they do no work against a constant stress; that is what lets a
-/// distorted element pass the patch test.
+/// taken with the Jacobian of the centre, scaled so that they do no work against a constant stress; this allows a
+/// distorted element to pass the patch test.
 class IncompatibleModes {
  public:
   explicit IncompatibleModes(const NodeColumns& x);

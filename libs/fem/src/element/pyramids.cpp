@@ -116,7 +116,7 @@ Matrix3 ideal_pyramid() {
 }  // namespace
 
 std::vector<ElementKind> pyramids() {
-  const std::vector<std::array<int, 4>> judged = {{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}};
+  const std::vector<std::array<int, 4>> checked = {{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}};
   // Exact for K of straight pyramids on a parallelogram: u^2 towards the apex for pyramid5, u^4 for pyramid13; m has
   // two powers of u more.
   const QuadratureRule eight = pyramid_rule(gauss_2(), gauss_2()), twenty_seven = pyramid_rule(gauss_3(), gauss_3()),
@@ -134,7 +134,7 @@ std::vector<ElementKind> pyramids() {
        .reduced_points = eight,
        .mass_points = twenty_seven,
        .stress_terms = linear_pyramid_stress,
-       .judged_corners = judged,
+       .checked_corners = checked,
        .ideal_edges = ideal_pyramid()},
       {.type = ElementType::pyramid13,
        .name = "pyramid13",
@@ -152,7 +152,7 @@ std::vector<ElementKind> pyramids() {
        .reduced_points = twenty_seven,
        .mass_points = thirty_six,
        .stress_terms = quadratic_pyramid_stress,
-       .judged_corners = judged,
+       .checked_corners = checked,
        .ideal_edges = ideal_pyramid()}};
 }
 

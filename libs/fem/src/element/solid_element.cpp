@@ -9,12 +9,12 @@ namespace hersey::fem {
 
 double smallest_jacobian(ElementType type, const NodeColumns& x) {
   double smallest = std::numeric_limits<double>::infinity();
-  const auto see = [&](const Vector3& xi) {
+  const auto reduce_by = [&](const Vector3& xi) {
     const Matrix3 J = x * shape_functions(type, xi).dN;
     smallest = std::min(smallest, J.determinant());
   };
-  for (const QuadraturePoint& point : stiffness_points(type)) see(point.xi);
-  for (const QuadraturePoint& point : mass_points(type)) see(point.xi);
+  for (const QuadraturePoint& point : stiffness_points(type)) reduce_by(point.xi);
+  for (const QuadraturePoint& point : mass_points(type)) reduce_by(point.xi);
   return smallest;
 }
 

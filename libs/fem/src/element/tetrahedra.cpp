@@ -23,7 +23,7 @@ Eigen::Matrix3Xd tetrahedron_corners() {
   return xi;
 }
 
-/// Of equal length.
+/// Edges of the ideal corner: equal lengths.
 Matrix3 ideal_tetrahedron() {
   const double half = 0.5, root = std::sqrt(0.75);
   Matrix3 edge = Matrix3::Identity();
@@ -35,7 +35,7 @@ Matrix3 ideal_tetrahedron() {
 }  // namespace
 
 std::vector<ElementKind> tetrahedra() {
-  const std::vector<std::array<int, 4>> judged = {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 0, 2, 1}};
+  const std::vector<std::array<int, 4>> checked = {{0, 1, 2, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 0, 2, 1}};
   return {{.type = ElementType::tet4,
            .name = "tet4",
            .nodes = 4,
@@ -48,7 +48,7 @@ std::vector<ElementKind> tetrahedra() {
            .reduced_points = tetrahedron_centre(),
            .mass_points = tetrahedron_degree_2(),
            .stress_terms = constant_stress,
-           .judged_corners = judged,
+           .checked_corners = checked,
            .ideal_edges = ideal_tetrahedron()},
           {.type = ElementType::tet10,
            .name = "tet10",
@@ -66,7 +66,7 @@ std::vector<ElementKind> tetrahedra() {
            .reduced_points = tetrahedron_degree_2(),
            .mass_points = tetrahedron_degree_5(),
            .stress_terms = linear_stress,
-           .judged_corners = judged,
+           .checked_corners = checked,
            .ideal_edges = ideal_tetrahedron()}};
 }
 

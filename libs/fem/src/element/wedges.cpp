@@ -58,7 +58,7 @@ Eigen::Matrix3Xd wedge_corners() {
   return xi;
 }
 
-/// Of an equilateral triangle, and upright.
+/// Edges of the ideal corner: an equilateral triangle and a perpendicular edge.
 Matrix3 ideal_wedge() {
   Matrix3 edge = Matrix3::Identity();
   edge.col(1) = Vector3(0.5, std::sqrt(0.75), 0);
@@ -68,8 +68,8 @@ Matrix3 ideal_wedge() {
 }  // namespace
 
 std::vector<ElementKind> wedges() {
-  const std::vector<std::array<int, 4>> judged = {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5},
-                                                  {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}};
+  const std::vector<std::array<int, 4>> checked = {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5},
+                                                   {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}};
   const std::vector<QuadraturePoint> six = wedge_rule(triangle_degree_2(), gauss_2()),
                                      nine = wedge_rule(triangle_degree_2(), gauss_3()),
                                      twenty_one = wedge_rule(triangle_degree_5(), gauss_3());
@@ -85,7 +85,7 @@ std::vector<ElementKind> wedges() {
            .reduced_points = six,
            .mass_points = twenty_one,
            .stress_terms = wedge_stress_terms,
-           .judged_corners = judged,
+           .checked_corners = checked,
            .ideal_edges = ideal_wedge()},
           {.type = ElementType::wedge15,
            .name = "wedge15",
@@ -108,7 +108,7 @@ std::vector<ElementKind> wedges() {
            .reduced_points = nine,
            .mass_points = twenty_one,
            .stress_terms = wedge_stress_terms,
-           .judged_corners = judged,
+           .checked_corners = checked,
            .ideal_edges = ideal_wedge()}};
 }
 

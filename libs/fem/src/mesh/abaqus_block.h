@@ -13,11 +13,11 @@ namespace hersey::fem {
 /// A keyword with its parameters and all of its data.
 struct AbaqusBlock {
   struct Line {
-    Place place;
+    FileLocation location;
     std::vector<std::string> parts;
   };
   std::string name;
-  Place place;
+  FileLocation location;
   std::map<std::string, std::string> parameters;  ///< by name in upper case, without blanks
   std::vector<Line> lines;
 
@@ -30,13 +30,13 @@ struct AbaqusBlock {
 /// A name as it was first written.
 using Spelling = std::function<std::string(const std::string&)>;
 
-/// Whether a keyword ties nodes: *EQUATION, *TIE, *RIGID BODY, *MPC.
+/// True if a keyword ties nodes: *EQUATION, *TIE, *RIGID BODY, *MPC.
 [[nodiscard]] bool ties_nodes(std::string_view keyword);
 
-/// Puts what it ties into `raw`. @throws InputError with the line that says what cannot be followed
+/// Adds the ties of a keyword to `raw`. @throws InputError with the line that cannot be interpreted
 void add_abaqus_ties(RawMesh& raw, const AbaqusBlock& block, const Spelling& spelled);
 
-/// Where *NODE's coordinates are counted from, of *SYSTEM and of the parameter SYSTEM.
+/// Coordinate system of *NODE, by *SYSTEM and the parameter SYSTEM.
 class AbaqusSystem {
  public:
   /// *SYSTEM: an origin, a point on the x-axis, and in a second line one in the x-y plane; no data: the basic axes.

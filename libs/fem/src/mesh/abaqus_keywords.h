@@ -6,11 +6,11 @@
 
 namespace hersey::fem {
 
-/// Whether a keyword (upper case, without blanks) writes nodes or elements by a rule, or moves them: a mesh read
-/// without following it would be another one.
+/// True if a keyword (upper case, without blanks) generates nodes or elements by a rule, or moves them: without it the
+/// mesh would be another one.
 [[nodiscard]] bool changes_the_mesh(std::string_view keyword);
 
-/// Whether a keyword says nothing of shape, connections, stiffness or mass at rest: names, loads, supports, output,
+/// True if a keyword has no influence on shape, connections, stiffness or mass at rest: names, loads, supports, output,
 /// contact laws, thermal constants.
 [[nodiscard]] bool concerns_no_mesh(std::string_view keyword);
 

@@ -12,12 +12,12 @@ namespace hersey::fem {
 
 bool AbaqusParts::is_chosen(const std::string& part) const { return equal_ignoring_case(part, chosen_); }
 
-bool AbaqusParts::passes_over(const RawMesh& raw, const std::string& keyword, Place place,
+bool AbaqusParts::passes_over(const RawMesh& raw, const std::string& keyword, FileLocation location,
                               const std::function<std::string(const char*)>& value) {
   if (keyword == "PART") {
     names_.push_back(value("NAME"));
     if (!is_chosen() && names_.size() > 1)
-      raw.fail(place, fmt::format("a second *PART, '{}' behind '{}'", names_[1], names_[0]), "one body in one file",
+      raw.fail(location, fmt::format("a second *PART, '{}' behind '{}'", names_[1], names_[0]), "one body in one file",
                "say which is the body: `part: NAME` in the model file, --part NAME on the command line");
     is_in_another_ = is_chosen() && !is_chosen(names_.back());
     return is_in_another_;
@@ -37,7 +37,7 @@ bool AbaqusParts::passes_over(const RawMesh& raw, const std::string& keyword, Pl
   return true;
 }
 
-bool AbaqusParts::is_told(const std::string& keyword) const { return !is_in_another_ && ties_nodes(keyword); }
+bool AbaqusParts::is_reported(const std::string& keyword) const { return !is_in_another_ && ties_nodes(keyword); }
 
 bool AbaqusParts::is_of_another(const std::string& set) const { return !set.empty() && sets_.contains(upper(set)); }
 

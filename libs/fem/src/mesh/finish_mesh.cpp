@@ -26,9 +26,9 @@ struct FaceKeyHash {
   }
 };
 
-void sort_and_unite(std::vector<int>& places) {
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+void sort_and_unite(std::vector<int>& indices) {
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
 }
 
 std::vector<long> labels_of(const std::vector<RawMark>& marks) {
@@ -80,9 +80,9 @@ class Finisher {
     for (std::size_t n = 0; n < raw_.nodes.size(); ++n) {
       const auto first = static_cast<std::size_t>(node_index_.find(raw_.node_labels[n]));
       if (first == n || raw_.nodes[first] == raw_.nodes[n]) continue;
-      raw_.fail(raw_.node_places[n],
-                fmt::format("node {} stands in line {} already, elsewhere", raw_.node_labels[n],
-                            raw_.node_places[first].line),
+      raw_.fail(raw_.node_locations[n],
+                fmt::format("node {} is already defined in line {}, at another position", raw_.node_labels[n],
+                            raw_.node_locations[first].line),
                 "each node once");
     }
   }
@@ -96,8 +96,8 @@ class Finisher {
       for (std::size_t k = raw.first; k < raw.first + count; ++k) {
         mesh_.connectivity[k] = node_index_.find(raw_.connectivity[k]);
         if (mesh_.connectivity[k] < 0 && missing++ < kMostFaults)
-          add_fault(raw.place, fmt::format("element {} has node {}, which the file does not contain", raw.label,
-                                           raw_.connectivity[k]));
+          add_fault(raw.location, fmt::format("element {} has node {}, which the file does not contain", raw.label,
+                                              raw_.connectivity[k]));
       }
       require_distinct_nodes(raw, count);
       Element element;
@@ -116,41 +116,41 @@ class Finisher {
     std::sort(nodes.begin(), end);
     const auto repeated = std::adjacent_find(nodes.begin(), end);
     if (repeated == end || faults_.size() >= 2 * kMostFaults) return;
-    add_fault(raw.place, fmt::format("element {} has node {} twice", raw.label, *repeated));
+    add_fault(raw.location, fmt::format("element {} has node {} twice", raw.label, *repeated));
     faults_.back().suggestion = "write the collapsed element in its own shape, such as a wedge";
   }
 
-  void add_fault(Place place, std::string found) {
-    faults_.push_back(raw_.fault(place, std::move(found), "elements of distinct nodes of the file"));
+  void add_fault(FileLocation location, std::string found) {
+    faults_.push_back(raw_.fault(location, std::move(found), "elements of distinct nodes of the file"));
   }
 
   void drop_unused_nodes() {
-    place_of_.assign(raw_.nodes.size(), -1);
-    for (const int node : mesh_.connectivity) place_of_[static_cast<std::size_t>(node)] = 0;
+    node_index_of_.assign(raw_.nodes.size(), -1);
+    for (const int node : mesh_.connectivity) node_index_of_[static_cast<std::size_t>(node)] = 0;
     std::vector<long> dropped;
     const std::set<long> tied = tied_labels();
     for (std::size_t n = 0; n < raw_.nodes.size(); ++n) {
-      if (place_of_[n] < 0) {
+      if (node_index_of_[n] < 0) {
         const bool is_repeated = static_cast<std::size_t>(node_index_.find(raw_.node_labels[n])) != n;
         if (!is_repeated && !tied.contains(raw_.node_labels[n])) dropped.push_back(raw_.node_labels[n]);
         continue;
       }
-      place_of_[n] = static_cast<int>(mesh_.nodes.size());
+      node_index_of_[n] = static_cast<int>(mesh_.nodes.size());
       mesh_.nodes.push_back(raw_.nodes[n]);
       mesh_.node_labels.push_back(raw_.node_labels[n]);
     }
-    for (int& node : mesh_.connectivity) node = place_of_[static_cast<std::size_t>(node)];
+    for (int& node : mesh_.connectivity) node = node_index_of_[static_cast<std::size_t>(node)];
     if (dropped.empty()) return;
-    const std::size_t told = std::min<std::size_t>(dropped.size(), 5);
+    const std::size_t listed = std::min<std::size_t>(dropped.size(), 5);
     raw_.warn(
-        raw_.node_places[static_cast<std::size_t>(node_index_.find(dropped.front()))],
+        raw_.node_locations[static_cast<std::size_t>(node_index_.find(dropped.front()))],
         fmt::format("{} {} part of no element: {}{}", dropped.size(), dropped.size() == 1 ? "node is" : "nodes are",
-                    fmt::join(dropped.begin(), dropped.begin() + static_cast<std::ptrdiff_t>(told), ", "),
-                    told < dropped.size() ? ", ..." : ""),
+                    fmt::join(dropped.begin(), dropped.begin() + static_cast<std::ptrdiff_t>(listed), ", "),
+                    listed < dropped.size() ? ", ..." : ""),
         "nodes of elements", "left out of the mesh and its sets");
   }
 
-  // Nodes of no element that a tie goes through: references of rigid bodies.
+  // Nodes of no element that occur in a tie: references of rigid bodies.
   [[nodiscard]] std::set<long> tied_labels() const {
     std::set<long> labels;
     for (const RawTie& tie : raw_.ties)
@@ -163,7 +163,7 @@ class Finisher {
   }
 
   void tie() {
-    const TiedNodes nodes{[this](long label) { return place_of_label(label); },
+    const TiedNodes nodes{[this](long label) { return index_of_label(label); },
                           [this](long label) -> const Vector3* {
                             const int n = node_index_.find(label);
                             return n < 0 ? nullptr : &raw_.nodes[static_cast<std::size_t>(n)];
@@ -171,9 +171,9 @@ class Finisher {
     add_ties(raw_, mesh_, nodes, straight_);
   }
 
-  [[nodiscard]] int place_of_label(long label) const {
+  [[nodiscard]] int index_of_label(long label) const {
     const int raw = node_index_.find(label);
-    return raw < 0 ? -1 : place_of_[static_cast<std::size_t>(raw)];
+    return raw < 0 ? -1 : node_index_of_[static_cast<std::size_t>(raw)];
   }
 
   void check_elements() {
@@ -184,40 +184,41 @@ class Finisher {
     for (std::size_t e = 0; e < labels.size(); ++e) {
       const auto first = static_cast<std::size_t>(element_index_->find(labels[e]));
       if (first == e || raw_.elements[e].continues_another) continue;
-      raw_.fail(raw_.elements[e].place,
-                fmt::format("element {} stands in line {} already", labels[e], raw_.elements[first].place.line),
+      raw_.fail(raw_.elements[e].location,
+                fmt::format("element {} is already defined in line {}", labels[e], raw_.elements[first].location.line),
                 "each element once");
     }
     check_marks();
   }
 
-  // A mark of a label that stands elsewhere would never be found by it.
+  // A mark whose label occurs elsewhere would never be found by it.
   void check_marks() const {
     for (const RawMark& mark : raw_.marks) {
       const RawMark& first = mark_at(mark_index_.find(mark.label));
       const int element = element_index_->find(mark.label);
       if (element < 0 && (&first == &mark || first.nodes == mark.nodes)) continue;
-      const Place other = element < 0 ? first.place : raw_.elements[static_cast<std::size_t>(element)].place;
-      raw_.fail(mark.place, fmt::format("element {} stands in line {} already", mark.label, other.line),
+      const FileLocation other =
+          element < 0 ? first.location : raw_.elements[static_cast<std::size_t>(element)].location;
+      raw_.fail(mark.location, fmt::format("element {} is already defined in line {}", mark.label, other.line),
                 "each element once");
     }
   }
 
-  // All places an element's label stands for: one, or the pieces of a beam of three nodes.
-  void add_element_places(long label, std::vector<int>& places) const {
-    int place = element_index_->find(label);
-    if (place < 0) return;
+  // Adds all indices of an element's label: one, or the pieces of a beam of three nodes.
+  void add_element_indices(long label, std::vector<int>& indices) const {
+    int index = element_index_->find(label);
+    if (index < 0) return;
     do {
-      places.push_back(place++);
-    } while (static_cast<std::size_t>(place) < raw_.elements.size() &&
-             raw_.elements[static_cast<std::size_t>(place)].continues_another);
+      indices.push_back(index++);
+    } while (static_cast<std::size_t>(index) < raw_.elements.size() &&
+             raw_.elements[static_cast<std::size_t>(index)].continues_another);
   }
 
   using Members = std::map<std::string, RawSet>;
 
-  // The set and those it names, directly or through others.
+  // Returns the set and those it names, directly or through others.
   std::vector<const RawSet*> closure(const Members& sets, const std::string& name) const {
-    std::set<std::string> seen{name};
+    std::set<std::string> visited{name};
     std::vector<std::string> open{name};
     std::vector<const RawSet*> members;
     while (!open.empty()) {
@@ -227,16 +228,16 @@ class Finisher {
       members.push_back(&set->second);
       for (const std::string& other : set->second.sets) {
         if (!sets.contains(other))
-          raw_.fail(set->second.place,
+          raw_.fail(set->second.location,
                     fmt::format("set '{}' has the set '{}', which the file does not define", name, other),
                     "numbers or names of sets");
-        if (seen.insert(other).second) open.push_back(other);
+        if (visited.insert(other).second) open.push_back(other);
       }
     }
     return members;
   }
 
-  // Visits labels of a range; a range much longer than what exists is walked over what exists.
+  // Visits the labels of a range; of a range much longer than the file's labels, only the labels that exist.
   template <typename Visit>
   static void for_each_label(const LabelRange& range, const std::vector<long>& existing, const Visit& visit) {
     const auto length = static_cast<unsigned long>(range.last) - static_cast<unsigned long>(range.first);
@@ -252,18 +253,18 @@ class Finisher {
 
   void add_node_sets() {
     for (const auto& [name, set] : raw_.node_sets) {
-      std::vector<int> places;
+      std::vector<int> indices;
       std::size_t unknown = 0;
       for (const RawSet* member : closure(raw_.node_sets, name))
         for (const LabelRange& range : member->labels)
           for_each_label(range, raw_.node_labels, [&](long label) {
             if (node_index_.find(label) < 0) ++unknown;
-            if (const int place = place_of_label(label); place >= 0) places.push_back(place);
+            if (const int index = index_of_label(label); index >= 0) indices.push_back(index);
           });
-      if (set.is_of_either_kind && places.empty()) continue;
-      if (!set.is_of_either_kind) tell_of_unknown(set.place, name, "node", unknown, places.empty());
-      sort_and_unite(places);
-      mesh_.node_sets[name] = std::move(places);
+      if (set.is_of_either_kind && indices.empty()) continue;
+      if (!set.is_of_either_kind) warn_of_unknown(set.location, name, "node", unknown, indices.empty());
+      sort_and_unite(indices);
+      mesh_.node_sets[name] = std::move(indices);
     }
   }
 
@@ -273,7 +274,7 @@ class Finisher {
     for (const Element& element : mesh_.elements) labels.push_back(element.label);
     for (const RawMark& mark : raw_.marks) labels.push_back(mark.label);
     for (const auto& [name, set] : raw_.element_sets) {
-      std::vector<int> places, marks;
+      std::vector<int> indices, marks;
       std::size_t unknown = 0;
       for (const RawSet* member : closure(raw_.element_sets, name))
         for (const LabelRange& range : member->labels)
@@ -283,24 +284,26 @@ class Finisher {
               marks.push_back(mark);
             else if (element_index_->find(label) < 0)
               ++unknown;
-            add_element_places(label, places);
+            add_element_indices(label, indices);
           });
-      if (set.is_of_either_kind && places.empty() && marks.empty()) continue;
-      if (!set.is_of_either_kind) tell_of_unknown(set.place, name, "element", unknown, places.empty() && marks.empty());
-      sort_and_unite(places);
+      if (set.is_of_either_kind && indices.empty() && marks.empty()) continue;
+      if (!set.is_of_either_kind)
+        warn_of_unknown(set.location, name, "element", unknown, indices.empty() && marks.empty());
+      sort_and_unite(indices);
       sort_and_unite(marks);
       if (!marks.empty()) marks_of_[name] = std::move(marks);
-      if (!places.empty() || !marks_of_.contains(name)) mesh_.element_sets[name] = std::move(places);
+      if (!indices.empty() || !marks_of_.contains(name)) mesh_.element_sets[name] = std::move(indices);
     }
   }
 
-  void tell_of_unknown(Place place, const std::string& name, const char* what, std::size_t unknown, bool is_empty) {
+  void warn_of_unknown(FileLocation location, const std::string& name, const char* what, std::size_t unknown,
+                       bool is_empty) {
     if (unknown > 0)
-      raw_.warn(place, fmt::format("set '{}' names {} {}s that the mesh does not contain", name, unknown, what),
+      raw_.warn(location, fmt::format("set '{}' names {} {}s that the mesh does not contain", name, unknown, what),
                 fmt::format("{}s of the mesh", what), "they are left out");
     else if (is_empty)
-      raw_.warn(place, fmt::format("set '{}' has no {} of the mesh", name, what), fmt::format("{}s of the mesh", what),
-                "nothing can be fixed to it");
+      raw_.warn(location, fmt::format("set '{}' has no {} of the mesh", name, what),
+                fmt::format("{}s of the mesh", what), "nothing can be fixed to it");
   }
 
   void add_surfaces() {
@@ -313,20 +316,20 @@ class Finisher {
   void add_surface_part(const std::string& name, const RawSurfacePart& part, std::vector<ElementFace>& surface) {
     std::vector<int> elements;
     if (part.element_set.empty())
-      add_element_places(part.element, elements);
+      add_element_indices(part.element, elements);
     else if (const auto set = mesh_.element_sets.find(part.element_set); set != mesh_.element_sets.end())
       elements = set->second;
     if (elements.empty()) {
       const std::string what = part.element_set.empty() ? fmt::format("element {}", part.element)
                                                         : fmt::format("element set '{}'", part.element_set);
-      raw_.fail(part.place, fmt::format("surface '{}' lies on {}, which the mesh does not contain", name, what),
+      raw_.fail(part.location, fmt::format("surface '{}' lies on {}, which the mesh does not contain", name, what),
                 "elements or element sets of the mesh");
     }
     if (part.face < 0) return add_outer_faces(elements, surface);
     for (const int e : elements) {
       const ElementType type = mesh_.elements[static_cast<std::size_t>(e)].type;
       if (part.face >= face_count(type))
-        raw_.fail(part.place, fmt::format("surface '{}' has face {} of a {}", name, part.face + 1, name_of(type)),
+        raw_.fail(part.location, fmt::format("surface '{}' has face {} of a {}", name, part.face + 1, name_of(type)),
                   fmt::format("a face from 1 to {}", face_count(type)));
       surface.push_back({e, part.face});
     }
@@ -360,7 +363,7 @@ class Finisher {
     for (const int m : marks) {
       const RawMark& mark = mark_at(m);
       for (std::size_t k = 0; k < static_cast<std::size_t>(mark.node_count); ++k)
-        if (const int node = place_of_label(mark.nodes[k]); node >= 0) nodes.push_back(node);
+        if (const int node = index_of_label(mark.nodes[k]); node >= 0) nodes.push_back(node);
       if (mark.corner_count == 0) continue;
       const ElementFace face = faces.at(key_of(mark));
       if (face.element < 0) {
@@ -382,17 +385,17 @@ class Finisher {
     if (target.empty()) mesh_.surfaces.erase(name);
   }
 
-  [[nodiscard]] const RawMark& mark_at(int place) const { return raw_.marks[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] const RawMark& mark_at(int index) const { return raw_.marks[static_cast<std::size_t>(index)]; }
 
   [[nodiscard]] FaceKey key_of(const RawMark& face) const {
     FaceKey key{-1, -1, -1, -1};
     for (std::size_t c = 0; c < static_cast<std::size_t>(face.corner_count); ++c)
-      key[c] = place_of_label(face.nodes[c]);
+      key[c] = index_of_label(face.nodes[c]);
     std::sort(key.begin(), key.begin() + face.corner_count);
     return key;
   }
 
-  // Whatever has a name can be asked for its nodes.
+  // Every named set and surface gets a node set.
   void name_nodes() {
     for (auto& [name, surface] : mesh_.surfaces) {
       std::sort(surface.begin(), surface.end(), [](ElementFace a, ElementFace b) {
@@ -423,7 +426,7 @@ class Finisher {
       mesh_.nodes[n] *= length_unit_;
       if (mesh_.nodes[n].lpNorm<Eigen::Infinity>() < kFarthest) continue;
       const int raw = node_index_.find(mesh_.node_labels[n]);
-      raw_.fail(raw_.node_places[static_cast<std::size_t>(raw)],
+      raw_.fail(raw_.node_locations[static_cast<std::size_t>(raw)],
                 fmt::format("node {} at {:.3g} m", mesh_.node_labels[n], mesh_.nodes[n].lpNorm<Eigen::Infinity>()),
                 fmt::format("coordinates below {:.0g} m", kFarthest));
     }
@@ -435,7 +438,7 @@ class Finisher {
       const bool is_finite =
           std::isfinite(material.youngs_modulus.value_or(0)) && std::isfinite(material.density.value_or(0));
       if (!is_finite)
-        raw_.fail(raw_.material_places[m], fmt::format("material '{}' with constants that overflow", material.name),
+        raw_.fail(raw_.material_locations[m], fmt::format("material '{}' with constants that overflow", material.name),
                   "constants in the consistent system of the length unit, newton and second");
     }
   }
@@ -447,7 +450,7 @@ class Finisher {
   std::unique_ptr<LabelIndex> element_index_;
   LabelIndex mark_index_;
   std::map<std::string, std::vector<int>> marks_of_;  // by set
-  std::vector<int> place_of_;                         // in mesh_.nodes, by place in raw_.nodes; -1: dropped
+  std::vector<int> node_index_of_;                    // index in mesh_.nodes, by index in raw_.nodes; -1: dropped
   std::vector<ElementFace> outer_;
   std::vector<Fault> faults_;
   Mesh mesh_;

@@ -6,7 +6,8 @@
 
 namespace hersey::fem {
 
-/// From the labels of a file to places in an array: a table where labels are dense, as they mostly are, else a map.
+/// Map from the labels of a file to indices in an array: a table where labels are dense, as they usually are, else a
+/// map.
 class LabelIndex {
  public:
   explicit LabelIndex(const std::vector<long>& labels) {
@@ -24,22 +25,22 @@ class LabelIndex {
     for (std::size_t k = 0; k < labels.size(); ++k) add(labels[k], static_cast<int>(k));
   }
 
-  /// The first place with this label; -1: none.
+  /// Returns the first index with this label; -1: none.
   [[nodiscard]] int find(long label) const {
     if (is_dense_) {
       const bool is_inside = label >= 0 && static_cast<std::size_t>(label) < table_.size();
       return is_inside ? table_[static_cast<std::size_t>(label)] : -1;
     }
-    const auto place = map_.find(label);
-    return place == map_.end() ? -1 : place->second;
+    const auto entry = map_.find(label);
+    return entry == map_.end() ? -1 : entry->second;
   }
 
  private:
-  void add(long label, int place) {
+  void add(long label, int index) {
     if (!is_dense_)
-      map_.try_emplace(label, place);
+      map_.try_emplace(label, index);
     else if (table_[static_cast<std::size_t>(label)] < 0)
-      table_[static_cast<std::size_t>(label)] = place;
+      table_[static_cast<std::size_t>(label)] = index;
   }
 
   bool is_dense_ = true;

@@ -4,8 +4,8 @@
 
 namespace hersey::fem {
 
-/// Renumbers solids whose corners are all left-handed, which Nastran takes as well as right-handed ones, so that they
-/// have a volume. Elements that are neither stay as they are, and are told by their quality.
+/// Renumbers solids whose corners are all left-handed, which Nastran accepts as well as right-handed ones, so that
+/// their volume is positive. Elements that are neither are not changed; the check of the mesh's quality reports them.
 void mirror_left_handed(RawMesh& raw);
 
 }  // namespace hersey::fem

@@ -62,7 +62,7 @@ class AbaqusReader {
   RawMesh read(std::string_view text, const std::string& name) {
     read_file(text, name, 0);
     parts_of_file_.require_found(raw_);
-    tell_of_passed_over();
+    warn_of_ignored_keywords();
     return std::move(raw_);
   }
 
@@ -70,7 +70,7 @@ class AbaqusReader {
   struct Keyword {
     std::string name;                               ///< upper case, without blanks: "SOLIDSECTION"
     std::map<std::string, std::string> parameters;  ///< by name in upper case; values as written
-    Place place;
+    FileLocation location;
 
     [[nodiscard]] bool has(const std::string& parameter) const { return parameters.contains(parameter); }
     [[nodiscard]] std::string value(const std::string& parameter) const {
@@ -79,7 +79,7 @@ class AbaqusReader {
     }
   };
 
-  [[nodiscard]] Place here() const { return {file_, lines_->number()}; }
+  [[nodiscard]] FileLocation here() const { return {file_, lines_->number()}; }
 
   [[noreturn]] void fail(std::string found, std::string expected, std::string suggestion = {}) const {
     raw_.fail(here(), std::move(found), std::move(expected), std::move(suggestion));
@@ -100,13 +100,13 @@ class AbaqusReader {
       current_ = keyword(line);
       read_block(depth);
     }
-    if (!lines.ends_with_line()) tell_of_last_line();
+    if (!lines.ends_with_line()) warn_of_last_line();
     lines_ = outer_lines;
     file_ = outer_file;
     last_line_ = outer_last;
   }
 
-  void tell_of_last_line() {
+  void warn_of_last_line() {
     if (is_blank(last_line_) || upper(trimmed(last_line_)).starts_with("*END")) return;
     raw_.warn(here(), fmt::format("a last line that does not end: '{}'", trimmed(last_line_).substr(0, 40)),
               "an end of line behind the last number", "the file may be cut short: compare it with its source");
@@ -128,7 +128,7 @@ class AbaqusReader {
   Keyword keyword(std::string_view line) {
     std::string whole(trimmed(line));
     Keyword result;
-    result.place = here();
+    result.location = here();
     result.name = upper(std::string_view(whole).substr(1, whole.find(',') - 1));
     std::erase_if(result.name, [](char c) { return c == ' ' || c == '\t'; });
     while (whole.ends_with(',') && next_line(line)) {
@@ -174,8 +174,9 @@ class AbaqusReader {
     const std::string& name = current_.name;
     if ((name == "NODE" || name == "ELEMENT") && current_.has("INPUT"))
       fail(fmt::format("*{} with INPUT", name), "its lines in this file, or *INCLUDE");
-    if (parts_of_file_.passes_over(raw_, name, current_.place, [this](const char* p) { return current_.value(p); })) {
-      if (parts_of_file_.is_told(name)) count_passed_over(name);
+    if (parts_of_file_.passes_over(raw_, name, current_.location,
+                                   [this](const char* p) { return current_.value(p); })) {
+      if (parts_of_file_.is_reported(name)) count_passed_over(name);
       return skip_data();
     }
     check_parameters();
@@ -210,7 +211,7 @@ class AbaqusReader {
 
   // The keyword read last with all of its data.
   AbaqusBlock block() {
-    AbaqusBlock all{current_.name, current_.place, {}, {}};
+    AbaqusBlock all{current_.name, current_.location, {}, {}};
     for (const auto& [name, value] : current_.parameters) {
       std::string without_blanks = name;
       std::erase_if(without_blanks, [](char c) { return c == ' ' || c == '\t'; });
@@ -238,19 +239,19 @@ class AbaqusReader {
       // A range read as a list, or a set made of another one's nodes, is another set.
       if (current_.name == "NSET" || current_.name == "ELSET" || current_.name == "NODE" ||
           current_.name == "ELEMENT" || current_.name == "TIE")
-        raw_.fail(current_.place, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
+        raw_.fail(current_.location, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
                   fmt::format("the parameters {}", fmt::join(*known, ", ")));
-      raw_.warn(current_.place, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
-                fmt::format("the parameters {}", fmt::join(*known, ", ")), "it is passed over");
+      raw_.warn(current_.location, fmt::format("*{} with {}", current_.name, name.substr(0, 40)),
+                fmt::format("the parameters {}", fmt::join(*known, ", ")), "it is ignored");
     }
   }
 
   void check_other(const std::string& name) {
     if (changes_the_mesh(name))
-      raw_.fail(current_.place, fmt::format("*{}", name), "nodes and elements written out, each on its line",
+      raw_.fail(current_.location, fmt::format("*{}", name), "nodes and elements written out, each on its line",
                 "let the program that made the file write its mesh out");
     if (name == "STEP") is_in_step_ = true;
-    if (name == "TRANSFORM" && current_.has("NSET")) raw_.turned_sets.push_back(spelled(current_.value("NSET")));
+    if (name == "TRANSFORM" && current_.has("NSET")) raw_.transformed_sets.push_back(spelled(current_.value("NSET")));
     if (name == "INSTANCE") return read_instance();
     if (is_in_step_ || concerns_no_mesh(name)) return;
     count_passed_over(name);
@@ -258,23 +259,23 @@ class AbaqusReader {
 
   void count_passed_over(const std::string& name) {
     PassedOver& passed = passed_over_[name];
-    if (passed.count++ == 0) passed.place = current_.place;
+    if (passed.count++ == 0) passed.location = current_.location;
   }
 
   void read_instance() {
-    if (instances_seen_++ > 0 && !parts_of_file_.is_chosen())
-      raw_.fail(current_.place, "a second *INSTANCE", "one body in one file",
+    if (instance_count_++ > 0 && !parts_of_file_.is_chosen())
+      raw_.fail(current_.location, "a second *INSTANCE", "one body in one file",
                 "write each instance to a file of its own, or all without parts and assemblies");
     if (data())
-      raw_.warn(current_.place, "an *INSTANCE with a position", "the part in its own axes",
+      raw_.warn(current_.location, "an *INSTANCE with a position", "the part in its own axes",
                 "the position is left out; place the body in the model file");
   }
 
-  void tell_of_passed_over() {
+  void warn_of_ignored_keywords() {
     for (const auto& [name, passed] : passed_over_)
-      raw_.warn(passed.place, fmt::format("{} *{}", passed.count, name.substr(0, 40)),
+      raw_.warn(passed.location, fmt::format("{} *{}", passed.count, name.substr(0, 40)),
                 "nodes, elements, sets, surfaces, sections, elastic constants and densities",
-                "passed over: what it says of the body is not in the mesh");
+                "ignored: what it says of the body is not in the mesh");
   }
 
   long integer(std::string_view text) const {
@@ -313,7 +314,7 @@ class AbaqusReader {
   RawSet* set_named(std::map<std::string, RawSet>& sets, const std::string& name) {
     if (name.empty()) return nullptr;
     const auto [set, is_new] = sets.try_emplace(spelled(name));
-    if (is_new) set->second.place = current_.place;
+    if (is_new) set->second.location = current_.location;
     return &set->second;
   }
 
@@ -323,11 +324,12 @@ class AbaqusReader {
     while (!name.empty() && std::isalpha(static_cast<unsigned char>(name.back())) != 0) name.pop_back();
     const auto type = abaqus_types().find(name);
     if (type != abaqus_types().end()) return type->second;
-    raw_.fail(current_.place, written.empty() ? "*ELEMENT without TYPE" : fmt::format("elements of type {}", written),
+    raw_.fail(current_.location,
+              written.empty() ? "*ELEMENT without TYPE" : fmt::format("elements of type {}", written),
               "C3D4, C3D10, C3D5, C3D6, C3D15, C3D8, C3D20 (also R, I, H), B31 or B32; shells only to mark faces");
   }
 
-  // What joins two points without a volume, or weighs a point, is written in the model file.
+  // Elements that join two points without a volume, or give a point a mass, belong into the model file.
   static bool is_of_no_volume(const std::string& type) {
     constexpr std::array beginnings = {"SPRING", "DASHPOT", "MASS",   "ROTARYI", "CONN3D",
                                        "GAP",    "ITS",     "JOINTC", "DCOUP"};
@@ -342,7 +344,7 @@ class AbaqusReader {
     RawSet* const set = set_named(raw_.element_sets, current_.value("ELSET"));
     std::vector<long> nodes;
     while (data()) {
-      const Place place = here();
+      const FileLocation location = here();
       const long label = integer(parts_[0]);
       nodes.clear();
       for (std::size_t k = 1; k < parts_.size(); ++k) nodes.push_back(integer(parts_[k]));
@@ -351,26 +353,26 @@ class AbaqusReader {
       // An Abaqus beam may name a further node that orients its section.
       const bool is_oriented = type.role == Role::beam && static_cast<int>(nodes.size()) == type.nodes + 1;
       if (static_cast<int>(nodes.size()) != type.nodes && !is_oriented)
-        raw_.fail(place, fmt::format("element {} with {} nodes", label, nodes.size()),
+        raw_.fail(location, fmt::format("element {} with {} nodes", label, nodes.size()),
                   fmt::format("{} nodes for {}", type.nodes, current_.value("TYPE")));
-      add_element(type, label, nodes, place);
+      add_element(type, label, nodes, location);
       if (set != nullptr) set->labels.push_back({label, label, 1});
     }
   }
 
-  void add_element(const AbaqusType& type, long label, const std::vector<long>& nodes, Place place) {
-    if (type.role == Role::solid) raw_.add_element(type.type, label, nodes, place);
-    if (type.role == Role::mark) raw_.add_mark(label, nodes, type.corners, place);
+  void add_element(const AbaqusType& type, long label, const std::vector<long>& nodes, FileLocation location) {
+    if (type.role == Role::solid) raw_.add_element(type.type, label, nodes, location);
+    if (type.role == Role::mark) raw_.add_mark(label, nodes, type.corners, location);
     if (type.role != Role::beam) return;
-    raw_.add_element(type.type, label, std::span(nodes).first(2), place);
+    raw_.add_element(type.type, label, std::span(nodes).first(2), location);
     if (type.nodes < 3) return;
-    raw_.add_element(type.type, label, std::span(nodes).subspan(1, 2), place);
+    raw_.add_element(type.type, label, std::span(nodes).subspan(1, 2), location);
     raw_.elements.back().continues_another = true;
   }
 
   void read_set(std::map<std::string, RawSet>& sets, const std::string& name) {
     RawSet* const set = set_named(sets, name);
-    if (set == nullptr) raw_.fail(current_.place, fmt::format("*{0} without {0}=name", current_.name), "a name");
+    if (set == nullptr) raw_.fail(current_.location, fmt::format("*{0} without {0}=name", current_.name), "a name");
     const bool generates = current_.has("GENERATE");
     while (data()) {
       if (generates)
@@ -399,12 +401,12 @@ class AbaqusReader {
 
   void read_surface() {
     const std::string name = current_.value("NAME");
-    if (name.empty()) raw_.fail(current_.place, "*SURFACE without NAME", "NAME=name");
+    if (name.empty()) raw_.fail(current_.location, "*SURFACE without NAME", "NAME=name");
     if (equal_ignoring_case(current_.value("TYPE"), "NODE")) return read_set(raw_.node_sets, name);
     std::vector<RawSurfacePart>& surface = raw_.surfaces[spelled(name)];
     while (data()) {
       RawSurfacePart part;
-      part.place = here();
+      part.location = here();
       if (!parse_integer(parts_[0], part.element)) part.element_set = spelled(std::string(parts_[0]));
       if (parts_of_file_.is_of_another(part.element_set)) continue;
       if (parts_.size() > 1 && !parts_[1].empty()) part.face = face(parts_[1]);
@@ -421,13 +423,13 @@ class AbaqusReader {
 
   void add_material() {
     const std::string name = current_.value("NAME");
-    if (name.empty()) raw_.fail(current_.place, "*MATERIAL without NAME", "NAME=name");
-    raw_.add_material(spelled(name), current_.place);
+    if (name.empty()) raw_.fail(current_.location, "*MATERIAL without NAME", "NAME=name");
+    raw_.add_material(spelled(name), current_.location);
   }
 
   MeshMaterial& material() {
     if (raw_.materials.empty())
-      raw_.fail(current_.place, fmt::format("*{} before any *MATERIAL", current_.name), "*MATERIAL first");
+      raw_.fail(current_.location, fmt::format("*{} before any *MATERIAL", current_.name), "*MATERIAL first");
     return raw_.materials.back();
   }
 
@@ -436,7 +438,7 @@ class AbaqusReader {
     if (target.youngs_modulus) refuse_second();
     const std::string type = current_.value("TYPE");
     if (!type.empty() && !equal_ignoring_case(type, "ISO") && !equal_ignoring_case(type, "ISOTROPIC"))
-      return raw_.warn(current_.place, fmt::format("*ELASTIC of type {}", type), "an isotropic material",
+      return raw_.warn(current_.location, fmt::format("*ELASTIC of type {}", type), "an isotropic material",
                        "give the body's material in the model file");
     if (!data() || parts_.size() < 2) fail("*ELASTIC without two numbers", "Young's modulus, Poisson's ratio");
     target.youngs_modulus = number(parts_[0]);
@@ -444,7 +446,7 @@ class AbaqusReader {
     if (!(*target.youngs_modulus > 0) || !(*target.poisson_ratio > -1 && *target.poisson_ratio < 0.5))
       fail(fmt::format("Young's modulus {}, Poisson's ratio {}", *target.youngs_modulus, *target.poisson_ratio),
            "a modulus > 0 and a ratio between -1 and 0.5");
-    tell_of_further_lines();
+    warn_of_further_lines();
   }
 
   void read_density() {
@@ -453,35 +455,35 @@ class AbaqusReader {
     if (!data()) fail("*DENSITY without a number", "a density");
     target.density = number(parts_[0]);
     if (!(*target.density > 0)) fail(fmt::format("density {}", *target.density), "a density > 0");
-    tell_of_further_lines();
+    warn_of_further_lines();
   }
 
   [[noreturn]] void refuse_second() {
-    raw_.fail(current_.place, fmt::format("a second *{} of material '{}'", current_.name, material().name),
+    raw_.fail(current_.location, fmt::format("a second *{} of material '{}'", current_.name, material().name),
               "each constant once");
   }
 
-  void tell_of_further_lines() {
+  void warn_of_further_lines() {
     if (data())
       raw_.warn(here(), fmt::format("a second line of *{} of material '{}'", current_.name, material().name),
                 "constants that do not depend on temperature", "the first line is taken");
   }
 
-  // The material of a section that names none is told where its elements would need it.
+  // A section without a material is reported where its elements need one.
   void read_section() {
     const std::string set = current_.value("ELSET"), name = current_.value("MATERIAL");
-    if (set.empty()) raw_.fail(current_.place, fmt::format("*{} without ELSET", current_.name), "ELSET=name");
-    raw_.sections.push_back({current_.place, spelled(set), name.empty() ? name : spelled(name)});
+    if (set.empty()) raw_.fail(current_.location, fmt::format("*{} without ELSET", current_.name), "ELSET=name");
+    raw_.sections.push_back({current_.location, spelled(set), name.empty() ? name : spelled(name)});
   }
 
   void read_include(int depth) {
     const std::string file = current_.value("INPUT");
-    const Place place = current_.place;
+    const FileLocation location = current_.location;
     std::string text;
     try {
       text = included_text(include_, file, depth);
     } catch (const std::runtime_error& error) {
-      raw_.fail(place, fmt::format("*INCLUDE of '{}': {}", file, error.what()),
+      raw_.fail(location, fmt::format("*INCLUDE of '{}': {}", file, error.what()),
                 fmt::format("INPUT={}", kIncludeExpected));
     }
     read_file(text, file, depth + 1);
@@ -491,12 +493,12 @@ class AbaqusReader {
   LineScanner* lines_ = nullptr;
   int file_ = 0;
   AbaqusParts parts_of_file_;
-  int instances_seen_ = 0;
+  int instance_count_ = 0;
   bool is_in_step_ = false;
   AbaqusSystem system_;
   std::string_view last_line_;
   struct PassedOver {
-    Place place;  ///< of the first
+    FileLocation location;  ///< location of the first
     int count = 0;
   };
   std::map<std::string, PassedOver> passed_over_;

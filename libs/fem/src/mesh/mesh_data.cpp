@@ -1,4 +1,4 @@
-// The mesh of a reduced body in its file: what loads on faces, pictures and stresses need.
+// The mesh of a reduced body in its file: the data for loads on faces, pictures and stresses.
 #include "mesh/mesh_data.h"
 
 #include <fmt/format.h>
@@ -35,15 +35,15 @@ void write_elements(Hdf5File& file, const Mesh& mesh) {
 }
 
 void write_sets(Hdf5File& file, const Mesh& mesh) {
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (const auto& [name, nodes] : mesh.node_sets) {
-    const std::string path = fmt::format("mesh/node_sets/{}/", place++);
+    const std::string path = fmt::format("mesh/node_sets/{}/", index++);
     file.write_text(path + "name", name);
     file.write(path + "nodes", integers(nodes, [](int n) { return n; }));
   }
-  place = 0;
+  index = 0;
   for (const auto& [name, faces] : mesh.surfaces) {
-    const std::string path = fmt::format("mesh/surfaces/{}/", place++);
+    const std::string path = fmt::format("mesh/surfaces/{}/", index++);
     file.write_text(path + "name", name);
     file.write(path + "elements", integers(faces, [](const ElementFace& f) { return f.element; }));
     file.write(path + "faces", integers(faces, [](const ElementFace& f) { return f.face; }));
@@ -80,13 +80,13 @@ void read_elements(const Hdf5File& file, Mesh& mesh) {
 }
 
 void read_sets(const Hdf5File& file, Mesh& mesh) {
-  for (std::size_t place = 0; file.has(fmt::format("mesh/node_sets/{}", place)); ++place) {
-    const std::string path = fmt::format("mesh/node_sets/{}/", place);
+  for (std::size_t index = 0; file.has(fmt::format("mesh/node_sets/{}", index)); ++index) {
+    const std::string path = fmt::format("mesh/node_sets/{}/", index);
     const Integers nodes = read_within(file, path + "nodes", 0, mesh.nodes.size());
     mesh.node_sets[file.read_text(path + "name")].assign(nodes.begin(), nodes.end());
   }
-  for (std::size_t place = 0; file.has(fmt::format("mesh/surfaces/{}", place)); ++place) {
-    const std::string path = fmt::format("mesh/surfaces/{}/", place);
+  for (std::size_t index = 0; file.has(fmt::format("mesh/surfaces/{}", index)); ++index) {
+    const std::string path = fmt::format("mesh/surfaces/{}/", index);
     const Integers elements = read_within(file, path + "elements", 0, mesh.elements.size());
     const Integers faces = read_within(file, path + "faces", 0, 6);
     require(elements.size() == faces.size(), fmt::format("data sets of '{}' differ in length", path));

@@ -19,13 +19,13 @@ constexpr const char* kIncludeAnywhere = "HERSEY_INCLUDE_ANYWHERE";
 constexpr int kDeepestInclude = 8;
 constexpr int kMostIncludes = 1000;
 
-/// Whether a name leads out of a folder: by its own words, or by a link.
+/// True if a name leads out of a folder, by its own path or by a link.
 bool leads_out_of(const std::filesystem::path& folder, const std::filesystem::path& name) {
   std::error_code error;
   const std::filesystem::path inside = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
-  const std::filesystem::path place = std::filesystem::weakly_canonical(inside / name, error);
+  const std::filesystem::path target = std::filesystem::weakly_canonical(inside / name, error);
   if (error) return true;
-  const std::filesystem::path from_there = place.lexically_relative(inside);
+  const std::filesystem::path from_there = target.lexically_relative(inside);
   return from_there.empty() || *from_there.begin() == "..";
 }
 
@@ -34,7 +34,7 @@ bool may_include_anywhere() {
   return allowed != nullptr && std::string_view(allowed) == "1";
 }
 
-/// Loads what a mesh file includes, as much as a mesh may be: files that include each other many times multiply.
+/// Loads the files that a mesh file includes, up to a limit: files that include each other repeatedly multiply.
 class FolderIncludes {
  public:
   explicit FolderIncludes(std::filesystem::path folder) : folder_(std::move(folder)) {}

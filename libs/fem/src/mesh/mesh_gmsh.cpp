@@ -19,9 +19,9 @@ constexpr long kMostTags = 1000;  // on one entity or element; more is no mesh
 struct GmshType {
   int dimension = 0;
   int nodes = 0;
-  int corners = 0;                   ///< of a surface
+  int corners = 0;                   ///< number of corners of a surface
   std::optional<ElementType> solid;  ///< none: serves to mark a surface, curve or point
-  std::vector<std::size_t> order;    ///< place in Gmsh's numbering of each node in Abaqus' order; empty: the same
+  std::vector<std::size_t> order;    ///< index in Gmsh's numbering of each node in Abaqus' order; empty: the same
 };
 
 const std::map<long, GmshType>& gmsh_types() {
@@ -65,7 +65,7 @@ class GmshReader {
   }
 
  private:
-  [[nodiscard]] Place here() const { return {0, lines_.number()}; }
+  [[nodiscard]] FileLocation here() const { return {0, lines_.number()}; }
 
   [[noreturn]] void fail(std::string found, std::string expected, std::string suggestion = {}) const {
     raw_.fail(here(), std::move(found), std::move(expected), std::move(suggestion));
@@ -120,7 +120,7 @@ class GmshReader {
     fail(fmt::format("'{}'", line.substr(0, 40)), std::string(name));
   }
 
-  // Fields, comments and periodicity say nothing of the mesh; of other sections nobody knows.
+  // Fields, comments and periodicity do not describe the mesh; other sections are unknown.
   void pass_over(std::string_view begin) {
     static constexpr std::array<std::string_view, 6> harmless = {
         "$Comments", "$Periodic", "$NodeData", "$ElementData", "$ElementNodeData", "$InterpolationScheme"};
@@ -129,7 +129,7 @@ class GmshReader {
            "save it with Mesh.PartitionSplitMeshFiles = 0 and one partition");
     if (std::find(harmless.begin(), harmless.end(), begin) == harmless.end())
       raw_.warn(here(), fmt::format("a section {}", begin.substr(0, 40)), "nodes, elements and physical groups",
-                "it is passed over");
+                "it is ignored");
     skip_section(begin);
   }
 
@@ -274,7 +274,7 @@ class GmshReader {
       label = add_solid(*type.solid, label, used, groups);
     else
       raw_.add_mark(label, used, type.dimension == 2 ? type.corners : 0, here());
-    if (type.dimension == 1) curve_places_.push_back(here());
+    if (type.dimension == 1) curve_locations_.push_back(here());
     for (const long group : groups)
       raw_.element_sets[group_name(type.dimension, std::abs(group))].labels.push_back({label, label, 1});
   }
@@ -310,12 +310,12 @@ class GmshReader {
     std::size_t curve = 0;
     for (const RawMark& mark : raw_.marks) {
       if (mark.corner_count > 0 || mark.node_count == 1) continue;
-      const Place place = curve_places_[curve++];
+      const FileLocation location = curve_locations_[curve++];
       const long first = mark.nodes[0], last = mark.nodes[1], middle = mark.nodes[2];
       const bool has_middle = mark.node_count == 3;
-      raw_.add_element(ElementType::beam2, mark.label, std::array{first, has_middle ? middle : last}, place);
+      raw_.add_element(ElementType::beam2, mark.label, std::array{first, has_middle ? middle : last}, location);
       if (!has_middle) continue;
-      raw_.add_element(ElementType::beam2, mark.label, std::array{middle, last}, place);
+      raw_.add_element(ElementType::beam2, mark.label, std::array{middle, last}, location);
       raw_.elements.back().continues_another = true;
     }
     std::erase_if(raw_.marks, [](const RawMark& m) { return m.corner_count == 0 && m.node_count > 1; });
@@ -330,11 +330,11 @@ class GmshReader {
   std::map<Key, std::string> names_;
   std::map<Key, std::vector<long>> entity_groups_;
   struct Grouped {
-    std::size_t element = 0;  ///< place in RawMesh::elements
+    std::size_t element = 0;  ///< index in RawMesh::elements
     long group = 0;
   };
   std::unordered_map<std::size_t, Grouped> grouped_;  ///< by a hash of the nodes
-  std::vector<Place> curve_places_;                   ///< of marks of one dimension
+  std::vector<FileLocation> curve_locations_;         ///< locations of the marks of one dimension
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace hersey::fem {
 namespace {
 
-constexpr std::size_t kMostLabels = 5;  // told in one message
+constexpr std::size_t kMostLabels = 5;  // listed in one message
 
 constexpr int kNone = -1, kUnknown = -2;
 
@@ -25,13 +25,13 @@ class Assignment {
     if (raw_.sections.empty() && names_.size() == 1) return take_the_only_one();
     for (const RawSection& section : raw_.sections) apply(section);
     for (std::size_t e = 0; e < material_.size(); ++e) mesh_.elements[e].material = std::max(material_[e], kNone);
-    if (!names_.empty() || !raw_.sections.empty()) tell_of_missing();
-    tell_of_unsound();
+    if (!names_.empty() || !raw_.sections.empty()) report_missing();
+    report_unsound();
   }
 
  private:
-  // A material that no element has is no matter.
-  void tell_of_unsound() {
+  // Faults of a material that no element has are ignored.
+  void report_unsound() {
     for (const auto& [material, fault] : raw_.unsound_materials)
       if (std::find(material_.begin(), material_.end(), material) != material_.end())
         raw_.material_faults.push_back(fault);
@@ -40,35 +40,35 @@ class Assignment {
   void take_the_only_one() {
     for (Element& element : mesh_.elements) element.material = 0;
     if (!raw_.unsound_materials.empty()) raw_.material_faults.push_back(raw_.unsound_materials.begin()->second);
-    raw_.warn(raw_.material_places[0], fmt::format("material '{}', which no section gives to elements", names_[0]),
+    raw_.warn(raw_.material_locations[0], fmt::format("material '{}', which no section gives to elements", names_[0]),
               "a section for the elements", "all elements are taken to be of it: the file has no other");
   }
 
   void apply(const RawSection& section) {
-    const int material = place_of(section);
+    const int material = index_of(section);
     const auto elements = mesh_.element_sets.find(section.element_set);
     if (elements == mesh_.element_sets.end()) {
-      if (!section.may_be_unused && !marks_.contains(section.element_set)) tell_of_set(section);
+      if (!section.may_be_unused && !marks_.contains(section.element_set)) report_set(section);
       return;
     }
-    if (material == kUnknown && !elements->second.empty()) tell_of_material(section);
-    bool is_told = false;
+    if (material == kUnknown && !elements->second.empty()) report_material(section);
+    bool is_reported = false;
     for (const int e : elements->second) {
       int& given = material_[static_cast<std::size_t>(e)];
       const bool has_another = given >= 0 && material >= 0 && given != material;
-      if (has_another && !is_told) tell_of_second(section, e);
-      is_told = is_told || has_another;
+      if (has_another && !is_reported) report_second(section, e);
+      is_reported = is_reported || has_another;
       given = material;
     }
   }
 
-  [[nodiscard]] int place_of(const RawSection& section) const {
+  [[nodiscard]] int index_of(const RawSection& section) const {
     const auto found = std::find(names_.begin(), names_.end(), section.material);
     return found == names_.end() ? kUnknown : static_cast<int>(found - names_.begin());
   }
 
-  void tell_of_material(const RawSection& section) {
-    add(section.place,
+  void report_material(const RawSection& section) {
+    add(section.location,
         section.material.empty()
             ? fmt::format("the section of '{}' names no material", section.element_set)
             : fmt::format("the section of '{}' names the material '{}', which the file does not define",
@@ -77,68 +77,68 @@ class Assignment {
         did_you_mean(section.material, names_));
   }
 
-  void tell_of_set(const RawSection& section) {
+  void report_set(const RawSection& section) {
     std::vector<std::string> sets;
     for (const auto& [name, elements] : mesh_.element_sets) sets.push_back(name);
-    add(section.place,
+    add(section.location,
         fmt::format("a section of the element set '{}', which the file does not define", section.element_set),
         sets.empty() ? "a set of elements; the file has none" : "a set of elements: " + one_of(sets),
         did_you_mean(section.element_set, sets));
   }
 
-  void tell_of_second(const RawSection& section, int element) {
+  void report_second(const RawSection& section, int element) {
     const auto e = static_cast<std::size_t>(element);
-    add(section.place,
+    add(section.location,
         fmt::format("element {} gets the material '{}', but has '{}' by another section", mesh_.elements[e].label,
                     section.material, names_[static_cast<std::size_t>(material_[e])]),
         "one material for each element");
   }
 
-  void tell_of_missing() {
+  void report_missing() {
     std::vector<long> labels;
-    Place first;
+    FileLocation first;
     for (std::size_t e = 0; e < material_.size(); ++e) {
       const bool is_solid = mesh_.elements[e].type != ElementType::beam2;
       if (material_[e] != kNone || !is_solid) continue;
-      if (labels.empty()) first = raw_.elements[e].place;
+      if (labels.empty()) first = raw_.elements[e].location;
       labels.push_back(mesh_.elements[e].label);
     }
     if (labels.empty()) return;
-    const std::size_t told = std::min(labels.size(), kMostLabels);
+    const std::size_t listed = std::min(labels.size(), kMostLabels);
     add(first,
         fmt::format("{} {} no material by any section: {}{}", labels.size(),
                     labels.size() == 1 ? "element has" : "elements have",
-                    fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(told), ", "),
-                    told < labels.size() ? ", ..." : ""),
+                    fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(listed), ", "),
+                    listed < labels.size() ? ", ..." : ""),
         "a section with a material for each element");
   }
 
-  void add(Place place, std::string found, std::string expected, std::string suggestion = {}) {
-    raw_.material_faults.push_back(raw_.fault(place, std::move(found), std::move(expected), std::move(suggestion)));
+  void add(FileLocation location, std::string found, std::string expected, std::string suggestion = {}) {
+    raw_.material_faults.push_back(raw_.fault(location, std::move(found), std::move(expected), std::move(suggestion)));
   }
 
   RawMesh& raw_;
   const std::map<std::string, std::vector<int>>& marks_;
   Mesh& mesh_;
   std::vector<std::string> names_;
-  std::vector<int> material_;  ///< by element: place in the file's materials, or why there is none
+  std::vector<int> material_;  ///< by element: index in the file's materials, or the reason why there is none
 };
 
 }  // namespace
 
 void drop_unused_materials(Mesh& mesh) {
-  std::vector<int> place(mesh.materials.size(), -1);
+  std::vector<int> kept_index(mesh.materials.size(), -1);
   for (const Element& element : mesh.elements)
-    if (element.material >= 0) place[static_cast<std::size_t>(element.material)] = 0;
+    if (element.material >= 0) kept_index[static_cast<std::size_t>(element.material)] = 0;
   std::vector<MeshMaterial> kept;
-  for (std::size_t m = 0; m < place.size(); ++m) {
+  for (std::size_t m = 0; m < kept_index.size(); ++m) {
     const MeshMaterial& material = mesh.materials[m];
-    if (place[m] < 0 && !(material.youngs_modulus && material.poisson_ratio && material.density)) continue;
-    place[m] = static_cast<int>(kept.size());
+    if (kept_index[m] < 0 && !(material.youngs_modulus && material.poisson_ratio && material.density)) continue;
+    kept_index[m] = static_cast<int>(kept.size());
     kept.push_back(material);
   }
   for (Element& element : mesh.elements)
-    if (element.material >= 0) element.material = place[static_cast<std::size_t>(element.material)];
+    if (element.material >= 0) element.material = kept_index[static_cast<std::size_t>(element.material)];
   mesh.materials = std::move(kept);
 }
 

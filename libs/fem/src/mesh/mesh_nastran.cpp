@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kSameModulus = 0.01;  // of G and E / (2 (1 + nu)), from which on Nastran warns too
 
-/// Of each entry the solids it may be, by their nodes.
+/// Types of solids of each entry, by their number of nodes.
 using NastranSolids = std::map<int, const ElementKind*>;
 
 const std::map<std::string_view, NastranSolids>& solids() {
@@ -43,7 +43,7 @@ std::string expected_nodes(const NastranSolids& shapes) {
                      shapes.rbegin()->first - shapes.begin()->first);
 }
 
-/// CORD1R, CORD2C and the like: whether it is by grid points, and of which kind.
+/// Kind of a coordinate system CORD1R, CORD2C and the like, and whether grid points define it.
 std::optional<std::pair<bool, NastranSystems::Kind>> system_of(const std::string& entry) {
   if (entry.size() != 6 || !entry.starts_with("CORD") || (entry[4] != '1' && entry[4] != '2')) return std::nullopt;
   const bool is_by_grids = entry[4] == '1';
@@ -71,7 +71,7 @@ class NastranReader {
     ties_.build(raw_, systems_);
     scale_densities();
     for (const auto& [kind, left] : left_out_)
-      raw_.warn(left.place, fmt::format("{} {}", left.count, kind.substr(0, 8)), "grid points, solids and beams",
+      raw_.warn(left.location, fmt::format("{} {}", left.count, kind.substr(0, 8)), "grid points, solids and beams",
                 "left out of the mesh; write masses, springs and couplings in the model file");
     return std::move(raw_);
   }
@@ -120,7 +120,7 @@ class NastranReader {
       select_equations(line, lines.number());
       if (word.starts_with("INCLUDE"))
         raw_.warn({file_, lines.number()}, "INCLUDE before BEGIN BULK", "INCLUDE in the bulk data",
-                  "passed over: sets of the case control section that it holds are not in the mesh");
+                  "ignored: the sets of the case control section in it are not in the mesh");
       if (!word.starts_with("SET ") || line.find('=') == std::string_view::npos) continue;
       NastranCard card;
       card.line = lines.number();
@@ -199,15 +199,14 @@ class NastranReader {
     if (card.name.starts_with("BEGIN")) require_no_superelement(card);
     if (card.name == "BAROR" || card.name == "BEAMOR") return read_default_property(card);
     if (is_axisymmetric(card.name))
-      fail(card, fmt::format("{}, an element of a section that turns about an axis", card.name), "solids",
-           "mesh the whole body with solids");
+      fail(card, fmt::format("{}, an axisymmetric element", card.name), "solids", "mesh the whole body with solids");
     if (changes_the_bulk(card.name))
       fail(card, card.name.substr(0, 20), "GRID, CTETRA, CPENTA, CPYRAM, CHEXA, CBAR or CBEAM, each written out",
            "mesh the body with these");
     if (is_other_material(card.name)) return read_other_material(card);
     if (concerns_no_bulk(card.name)) return;
     LeftOut& left = left_out_[card.name];
-    if (left.count++ == 0) left.place = {file_, card.line};
+    if (left.count++ == 0) left.location = {file_, card.line};
   }
 
   // ENDDATA, also shortened.
@@ -227,13 +226,13 @@ class NastranReader {
     if (!is_by_grids) {
       std::array<Vector3, 3> points;
       for (std::size_t k = 0; k < 9; ++k) points[k / 3][static_cast<Eigen::Index>(k % 3)] = fields.number(2 + k);
-      return systems_.add_by_points(fields.integer(0), kind, fields.integer_or(1, 0), points, fields.place());
+      return systems_.add_by_points(fields.integer(0), kind, fields.integer_or(1, 0), points, fields.location());
     }
-    for (const std::size_t first : {std::size_t{0}, std::size_t{4}})  // an entry may tell two
+    for (const std::size_t first : {std::size_t{0}, std::size_t{4}})  // an entry may define two
       if (first == 0 || !card.field(first).empty())
         systems_.add_by_grids(fields.integer(first), kind,
                               {fields.integer(first + 1), fields.integer(first + 2), fields.integer(first + 3)},
-                              fields.place());
+                              fields.location());
   }
 
   // The property of beams that name none; it stands before or behind them.
@@ -245,9 +244,9 @@ class NastranReader {
 
   void read_default_beams() {
     for (const auto& [property, beams] : {std::pair(default_bar_, &bars_), std::pair(default_beam_, &beams_)})
-      for (const auto& [label, place] : *beams) {
+      for (const auto& [label, location] : *beams) {
         RawSet& set = raw_.element_sets[property.empty() ? fmt::format("pid_{}", label) : property];
-        if (set.labels.empty()) set.place = place;
+        if (set.labels.empty()) set.location = location;
         set.labels.push_back({label, label, 1});
       }
   }
@@ -260,7 +259,7 @@ class NastranReader {
       fail(card, "BEGIN of a superelement", "one body in one file", "write its bulk data to a file of its own");
   }
 
-  // PARAM,WTMASS turns densities of weight into densities of mass.
+  // PARAM,WTMASS converts densities of weight into densities of mass.
   void read_mass_factor(const NastranCard& card) {
     mass_factor_ = number(card, 1);
     if (!(mass_factor_ > 0)) fail(card, fmt::format("WTMASS = {}", mass_factor_), "a factor > 0");
@@ -286,9 +285,9 @@ class NastranReader {
     };
     const long label = fields.integer(0);
     const Vector3 r(fields.number(2), fields.number(3), fields.number(4));
-    raw_.add_node(label, r, fields.place());
+    raw_.add_node(label, r, fields.location());
     const auto motion = system(5);
-    systems_.add_grid(label, r, system(1), motion && *motion < 0 ? 0 : motion, fields.place());  // -1: of a fluid
+    systems_.add_grid(label, r, system(1), motion && *motion < 0 ? 0 : motion, fields.location());  // -1: of a fluid
   }
 
   // A field counts up to the last that is not empty.
@@ -321,7 +320,7 @@ class NastranReader {
     if (!card.field(1).empty()) return add_element(card, ElementType::beam2, ends);
     const long label = integer(card, card.field(0));
     raw_.add_element(ElementType::beam2, label, ends, {file_, card.line});
-    (card.name == "CBAR" ? bars_ : beams_).emplace_back(label, Place{file_, card.line});
+    (card.name == "CBAR" ? bars_ : beams_).emplace_back(label, FileLocation{file_, card.line});
   }
 
   void add_element(const NastranCard& card, ElementType type, std::span<const long> nodes) {
@@ -332,7 +331,7 @@ class NastranReader {
 
   void add_to_property(const NastranCard& card, long label) {
     RawSet& set = raw_.element_sets[property_name(card)];
-    if (set.labels.empty()) set.place = {file_, card.line};
+    if (set.labels.empty()) set.location = {file_, card.line};
     set.labels.push_back({label, label, 1});
   }
 
@@ -356,11 +355,11 @@ class NastranReader {
     const bool has_nu = !card.field(3).empty();
     const double nu = has_nu ? number(card, 3) : G > 0 && E > 0 ? E / (2 * G) - 1 : 0;
     const double modulus = E > 0 ? E : 2 * G * (1 + nu);
-    const Place place{file_, card.line};
-    MeshMaterial& material = raw_.add_material(material_name(card, 0), place);
+    const FileLocation location{file_, card.line};
+    MeshMaterial& material = raw_.add_material(material_name(card, 0), location);
     const auto is_unsound = [&](std::string found, const char* expected) {
       raw_.unsound_materials.emplace(static_cast<int>(raw_.materials.size()) - 1,
-                                     raw_.fault(place, std::move(found), expected));
+                                     raw_.fault(location, std::move(found), expected));
     };
     if (!(modulus > 0) || !(nu > -1 && nu < 0.5))
       return is_unsound(fmt::format("MAT1 with E = {}, nu = {}", modulus, nu), "E > 0 and nu between -1 and 0.5");
@@ -370,20 +369,20 @@ class NastranReader {
     if (rho > 0) material.density = rho;
     const double G_isotropic = modulus / (2 * (1 + nu));
     if (G > 0 && std::abs(G - G_isotropic) > kSameModulus * G_isotropic)
-      raw_.warn(place, fmt::format("MAT1 with E = {}, G = {}, nu = {}", modulus, G, nu), "G = E / (2 (1 + nu))",
+      raw_.warn(location, fmt::format("MAT1 with E = {}, G = {}, nu = {}", modulus, G, nu), "G = E / (2 (1 + nu))",
                 "G is left out");
     if (!has_nu && !(E > 0 && G > 0))
-      raw_.warn(place, "MAT1 with one elastic constant", "two of E, G and nu", "nu is taken as 0");
+      raw_.warn(location, "MAT1 with one elastic constant", "two of E, G and nu", "nu is taken as 0");
     if (number(card, 7) != 0)
-      raw_.warn(place, "MAT1 with structural damping GE", "E, G, nu and the density",
+      raw_.warn(location, "MAT1 with structural damping GE", "E, G, nu and the density",
                 "it is left out; give the body's damping in the model file");
   }
 
-  // Its elements have no elastic constants then, which is told where they are needed.
+  // Elements of this material have no elastic constants; this is reported where they are needed.
   void read_other_material(const NastranCard& card) {
-    const Place place{file_, card.line};
-    raw_.add_material(material_name(card, 0), place);
-    raw_.warn(place, card.name, "MAT1, an isotropic material", "give the body's material in the model file");
+    const FileLocation location{file_, card.line};
+    raw_.add_material(material_name(card, 0), location);
+    raw_.warn(location, card.name, "MAT1, an isotropic material", "give the body's material in the model file");
   }
 
   std::string material_name(const NastranCard& card, std::size_t field) const {
@@ -399,7 +398,7 @@ class NastranReader {
                        true};
     const auto [first, is_new] = properties_.try_emplace(section.element_set, card.line);
     if (!is_new)
-      fail(card, fmt::format("property {} stands in line {} already", card.field(0), first->second),
+      fail(card, fmt::format("property {} is already defined in line {}", card.field(0), first->second),
            "each property once");
     raw_.sections.push_back(std::move(section));
   }
@@ -420,7 +419,7 @@ class NastranReader {
       return raw_.warn({file_, card.line}, fmt::format("'{}' in SET {}", *read.other, number_of_set),
                        "numbers of grid points or elements, also 1 THRU 10 EXCEPT 4", "the set is left out");
     RawSet set;
-    set.place = {file_, card.line};
+    set.location = {file_, card.line};
     set.is_of_either_kind = true;
     set.labels = std::move(read.labels);
     const std::string name = fmt::format("set_{}", number_of_set);
@@ -430,15 +429,15 @@ class NastranReader {
 
   const IncludeLoader& include_;
   int file_ = 0;
-  bool has_ended_ = false;                            ///< by ENDDATA
-  double mass_factor_ = 1;                            ///< PARAM,WTMASS
-  std::string default_bar_, default_beam_;            ///< properties of BAROR and BEAMOR
-  std::vector<std::pair<long, Place>> bars_, beams_;  ///< that name none
+  bool has_ended_ = false;                                   ///< true: ENDDATA was read
+  double mass_factor_ = 1;                                   ///< PARAM,WTMASS
+  std::string default_bar_, default_beam_;                   ///< properties of BAROR and BEAMOR
+  std::vector<std::pair<long, FileLocation>> bars_, beams_;  ///< beams that name no property
   NastranSystems systems_;
   NastranTies ties_;
   std::map<std::string, int> properties_;  ///< line of each by its name
   struct LeftOut {
-    Place place;  ///< of the first
+    FileLocation location;  ///< location of the first
     int count = 0;
   };
   std::map<std::string, LeftOut> left_out_;

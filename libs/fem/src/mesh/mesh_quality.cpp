@@ -17,12 +17,12 @@
 namespace hersey::fem {
 namespace {
 
-constexpr double kTouching = 1e-6;           // of the box's diagonal
-constexpr double kFlat = 0.02;               // shape below which a solver loses figures
-constexpr double kLargeBody = 10;            // [m]
-constexpr double kSmallBody = 1e-4;          // [m]
-constexpr double kHeavyBody = 1000;          // [kg]
-constexpr std::size_t kMostLabelsTold = 10;  // told in one message
+constexpr double kTouching = 1e-6;             // of the box's diagonal
+constexpr double kFlat = 0.02;                 // shape below which a solver loses figures
+constexpr double kLargeBody = 10;              // [m]
+constexpr double kSmallBody = 1e-4;            // [m]
+constexpr double kHeavyBody = 1000;            // [kg]
+constexpr std::size_t kMostLabelsListed = 10;  // listed in one message
 
 NodeColumns positions_of(const Mesh& mesh, const Element& element) {
   const int count = node_count(element.type);
@@ -40,7 +40,7 @@ double volume_of(ElementType type, const NodeColumns& x) {
 
 void add_shape(const Element& element, const NodeColumns& x, ElementQuality& quality) {
   double worst = 1, longest = 0, shortest = 1e300;
-  for (const std::array<int, 4>& corner : kind_of(element.type).judged_corners) {
+  for (const std::array<int, 4>& corner : kind_of(element.type).checked_corners) {
     Matrix3 edges;
     for (int k = 0; k < 3; ++k) {
       edges.col(k) = x.col(corner[static_cast<std::size_t>(k) + 1]) - x.col(corner[0]);
@@ -116,7 +116,7 @@ std::array<int, 4> midside_nodes(const Mesh& mesh, ElementFace face, const std::
   return midside;
 }
 
-// Elements that share a face's corners but not its midside nodes come apart, or into each other, between the corners.
+// Elements that share a face's corners but not its midside nodes separate or overlap between the corners.
 void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
   const auto curves = [](const Element& element) { return has_midside_nodes(element.type); };
   if (std::none_of(mesh.elements.begin(), mesh.elements.end(), curves)) return;
@@ -138,7 +138,7 @@ void find_mismatched(const Mesh& mesh, MeshQuality& quality) {
       quality.mismatched.emplace_back(sides[k - 1].label, sides[k].label);
 }
 
-/// Nodes that one tie goes through, the smaller place first.
+/// Nodes of one tie, in ascending order.
 std::set<std::pair<int, int>> tied_pairs(const Mesh& mesh) {
   std::set<std::pair<int, int>> tied;
   for (const MeshTie& tie : mesh.ties)
@@ -155,10 +155,10 @@ void find_touching(const Mesh& mesh, MeshQuality& quality) {
   std::vector<std::pair<Voxel, int>> cells;
   cells.reserve(mesh.nodes.size());
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    Voxel place{};
+    Voxel voxel{};
     for (std::size_t i = 0; i < 3; ++i)
-      place[i] = std::llround((mesh.nodes[n] - quality.lower)[static_cast<Eigen::Index>(i)] / cell);
-    cells.emplace_back(place, static_cast<int>(n));
+      voxel[i] = std::llround((mesh.nodes[n] - quality.lower)[static_cast<Eigen::Index>(i)] / cell);
+    cells.emplace_back(voxel, static_cast<int>(n));
   }
   std::sort(cells.begin(), cells.end());
   const std::set<std::pair<int, int>> tied = tied_pairs(mesh);
@@ -192,57 +192,57 @@ void find_parts(const Mesh& mesh, MeshQuality& quality) {
     std::pair<long, int>& part = parts[root_of(parents, *mesh.nodes_of(element))];
     if (part.second++ == 0) part.first = element.label;
   }
-  std::map<int, std::size_t> place_of_root;
+  std::map<int, std::size_t> part_of_root;
   for (const auto& [root, part] : parts) {
-    place_of_root[root] = quality.parts.size();
+    part_of_root[root] = quality.parts.size();
     quality.parts.push_back(part);
   }
   if (parts.size() < 2) return;
   quality.part_sets.resize(parts.size());
   for (const auto& [name, nodes] : mesh.node_sets) {
     std::set<std::size_t> of_parts;
-    for (const int node : nodes) of_parts.insert(place_of_root.at(root_of(parents, node)));
+    for (const int node : nodes) of_parts.insert(part_of_root.at(root_of(parents, node)));
     if (of_parts.size() == 1) quality.part_sets[*of_parts.begin()].push_back(name);
     if (of_parts.size() > 1 && nodes.size() < mesh.nodes.size()) quality.joining_sets.push_back(name);
   }
 }
 
 std::string listed(const std::vector<long>& labels) {
-  const std::size_t told = std::min(labels.size(), kMostLabelsTold);
-  return fmt::format("{}{}", fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(told), ", "),
-                     told < labels.size() ? fmt::format(", ... ({} in all)", labels.size()) : "");
+  const std::size_t shown = std::min(labels.size(), kMostLabelsListed);
+  return fmt::format("{}{}", fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                     shown < labels.size() ? fmt::format(", ... ({} in all)", labels.size()) : "");
 }
 
 std::string listed(const std::vector<std::pair<long, long>>& pairs) {
   std::vector<std::string> texts;
-  for (std::size_t k = 0; k < std::min(pairs.size(), kMostLabelsTold); ++k)
+  for (std::size_t k = 0; k < std::min(pairs.size(), kMostLabelsListed); ++k)
     texts.push_back(fmt::format("{} and {}", pairs[k].first, pairs[k].second));
   return fmt::format("{}{}", fmt::join(texts, ", "),
                      texts.size() < pairs.size() ? fmt::format(", ... ({} in all)", pairs.size()) : "");
 }
 
-std::string parts_told(const MeshQuality& quality) {
+std::string parts_text(const MeshQuality& quality) {
   std::vector<std::string> parts;
-  for (std::size_t k = 0; k < std::min(quality.parts.size(), kMostLabelsTold); ++k)
+  for (std::size_t k = 0; k < std::min(quality.parts.size(), kMostLabelsListed); ++k)
     parts.push_back(fmt::format("{} {} (one is {})", quality.parts[k].second,
                                 quality.parts[k].second == 1 ? "element" : "elements", quality.parts[k].first));
   return fmt::format("{} parts that share no node: {}", quality.parts.size(), fmt::join(parts, ", "));
 }
 
 std::string first_of(const std::vector<std::string>& names, std::size_t most) {
-  const std::size_t told = std::min(names.size(), most);
-  return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(told), ", "),
-                     told < names.size() ? ", ..." : "");
+  const std::size_t shown = std::min(names.size(), most);
+  return fmt::format("{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                     shown < names.size() ? ", ..." : "");
 }
 
-/// Which sets would join parts as a rigid frame, or by a tie.
-std::string sets_told(const MeshQuality& quality) {
+/// Describes the sets that would join parts as a rigid frame, or by a tie.
+std::string sets_text(const MeshQuality& quality) {
   constexpr std::size_t most_of_part = 3;
   if (!quality.joining_sets.empty())
-    return fmt::format("a rigid frame joins what it stands on; sets with nodes of several parts: {}",
-                       first_of(quality.joining_sets, kMostLabelsTold));
+    return fmt::format("a rigid frame joins the parts of its nodes; sets with nodes of several parts: {}",
+                       first_of(quality.joining_sets, kMostLabelsListed));
   std::vector<std::string> of_parts;
-  for (std::size_t k = 0; k < std::min(quality.part_sets.size(), kMostLabelsTold); ++k)
+  for (std::size_t k = 0; k < std::min(quality.part_sets.size(), kMostLabelsListed); ++k)
     of_parts.push_back(fmt::format("{} in that of element {}",
                                    quality.part_sets[k].empty() ? "none" : first_of(quality.part_sets[k], most_of_part),
                                    quality.parts[k].first));
@@ -296,10 +296,10 @@ std::vector<Fault> faults_of(const MeshQuality& quality, const std::string& file
                            "each element once", "delete the repeated ones: they count twice in stiffness and mass"));
   if (quality.parts.size() > 1 && parts_are == Parts::one)
     faults.push_back(fault(
-        file, parts_told(quality), "one connected body",
+        file, parts_text(quality), "one connected body",
         fmt::format("{}tie them in the mesh file (RBE2, *TIE and the like), write one file for each body, or say "
                     "`parts: apart` (--parts apart) where frames hold them; {}",
-                    quality.touching.empty() ? "" : "merge the nodes that lie on each other, ", sets_told(quality))));
+                    quality.touching.empty() ? "" : "merge the nodes that lie on each other, ", sets_text(quality))));
   return faults;
 }
 
@@ -316,7 +316,7 @@ std::optional<Fault> size_warning(const Vector3& box, const std::string& file, c
 std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& file, Parts parts_are) {
   std::vector<Fault> warnings;
   if (quality.parts.size() > 1 && parts_are == Parts::apart)
-    warnings.push_back(fault(file, parts_told(quality), "frames that hold each of them", sets_told(quality)));
+    warnings.push_back(fault(file, parts_text(quality), "frames that hold each of them", sets_text(quality)));
   const std::string more =
       fmt::format(", {:.4g} m^3{}", quality.volume, quality.mass ? fmt::format(", {:.4g} kg", *quality.mass) : "");
   const bool is_heavy = quality.mass.value_or(0) > kHeavyBody;
@@ -324,12 +324,12 @@ std::vector<Fault> warnings_of(const MeshQuality& quality, const std::string& fi
     warnings.push_back(std::move(*size));
   if (!quality.touching.empty())
     warnings.push_back(fault(file, fmt::format("nodes on each other: {}", listed(quality.touching)),
-                             "one node where elements are to hang together", "merge them unless the gap is meant"));
+                             "one node where elements are connected", "merge them unless the gap is meant"));
   if (!quality.mismatched.empty())
     warnings.push_back(fault(
         file, fmt::format("elements whose common face has not the same midside nodes: {}", listed(quality.mismatched)),
         "elements of one order, and one midside node on an edge that elements share",
-        "they hang together by the corners alone: mesh them anew in one order, or merge the nodes"));
+        "they are connected by the corners alone: mesh them anew in one order, or merge the nodes"));
   for (const auto& [type, of_type] : quality.types)
     if (of_type.smallest_shape < kFlat && type != ElementType::beam2)
       warnings.push_back(fault(

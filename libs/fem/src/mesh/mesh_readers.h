@@ -14,8 +14,8 @@ namespace hersey::fem {
                                   const std::string& part);
 [[nodiscard]] RawMesh read_nastran(std::string_view text, const std::string& name, const IncludeLoader& include);
 
-/// Text of an included file at a depth from 0.
-/// @throws std::runtime_error telling what there is instead
+/// Returns the text of an included file at a depth from 0.
+/// @throws std::runtime_error that says what was found instead
 [[nodiscard]] std::string included_text(const IncludeLoader& include, const std::string& name, int depth);
 
 inline constexpr const char* kIncludeExpected = "a file in the mesh's folder, at most 8 deep";

@@ -61,7 +61,7 @@ class TieMaker {
   // Rotations, and nodes of no element, are numbered behind the displacements of the mesh.
   int unknown_of(long node, bool is_rotation, int axis) {
     if (!is_rotation)
-      if (const int place = nodes_.place(node); place >= 0) return 3 * place + axis;
+      if (const int index = nodes_.index_of(node); index >= 0) return 3 * index + axis;
     const auto [number, is_new] =
         auxiliary_.try_emplace({node, is_rotation, axis}, first_auxiliary_ + static_cast<int>(auxiliary_.size()));
     return number->second;
@@ -77,17 +77,17 @@ class TieMaker {
     rows_.push_back(std::move(row));
   }
 
-  const Vector3& position_of(long node, Place place) const {
+  const Vector3& position_of(long node, FileLocation location) const {
     const Vector3* const r = nodes_.position(node);
     if (r == nullptr)
-      raw_.fail(place, fmt::format("node {}, which the file does not contain", node), "nodes of the file");
+      raw_.fail(location, fmt::format("node {}, which the file does not contain", node), "nodes of the file");
     return *r;
   }
 
-  const std::vector<int>& set_named(const std::string& name, Place place) const {
+  const std::vector<int>& set_named(const std::string& name, FileLocation location) const {
     const auto set = mesh_.node_sets.find(name);
     if (set == mesh_.node_sets.end())
-      raw_.fail(place, fmt::format("the set '{}', which the file does not define", name), "a set of its nodes");
+      raw_.fail(location, fmt::format("the set '{}', which the file does not define", name), "a set of its nodes");
     return set->second;
   }
 
@@ -95,67 +95,69 @@ class TieMaker {
     std::set<int> members;
     for (const std::string& name : {body.node_set, body.element_set})
       if (!name.empty()) {
-        const std::vector<int>& set = set_named(name, body.place);
+        const std::vector<int>& set = set_named(name, body.location);
         members.insert(set.begin(), set.end());
       }
     if (members.empty()) return;
     const long reference = raw_.new_reference();
-    const Vector3 origin = body.reference ? position_of(*body.reference, body.place)
+    const Vector3 origin = body.reference ? position_of(*body.reference, body.location)
                                           : mesh_.nodes[static_cast<std::size_t>(*members.begin())];
     const auto tie = [&](long label, const Vector3& r) {
       for (int axis = 0; axis < 3; ++axis)
-        raw_.add_rigid_tie(label, r, reference, origin, Vector3::Unit(axis), false, body.place);
+        raw_.add_rigid_tie(label, r, reference, origin, Vector3::Unit(axis), false, body.location);
     };
-    for (const int place : members)
-      tie(mesh_.node_labels[static_cast<std::size_t>(place)], mesh_.nodes[static_cast<std::size_t>(place)]);
-    if (body.reference && !members.contains(nodes_.place(*body.reference))) tie(*body.reference, origin);
+    for (const int n : members)
+      tie(mesh_.node_labels[static_cast<std::size_t>(n)], mesh_.nodes[static_cast<std::size_t>(n)]);
+    if (body.reference && !members.contains(nodes_.index_of(*body.reference))) tie(*body.reference, origin);
   }
 
-  // A term of a set stands for its nodes in turn, by their numbers; a single node goes with all of them.
+  // A term of a set represents its nodes one by one, in ascending order; a single node is combined with each of them.
   void add_equation(const RawEquation& equation) {
     std::vector<std::vector<long>> members;
     std::size_t count = 1;
     for (const RawEquation::Term& term : equation.terms) {
       std::vector<long>& of_term = members.emplace_back();
       if (term.set.empty()) {
-        (void)position_of(term.node, equation.place);
+        (void)position_of(term.node, equation.location);
         of_term.push_back(term.node);
         continue;
       }
-      for (const int place : set_named(term.set, equation.place))
-        of_term.push_back(mesh_.node_labels[static_cast<std::size_t>(place)]);
+      for (const int n : set_named(term.set, equation.location))
+        of_term.push_back(mesh_.node_labels[static_cast<std::size_t>(n)]);
       std::sort(of_term.begin(), of_term.end());
       if (count > 1 && of_term.size() > 1 && of_term.size() != count)
-        raw_.fail(equation.place, fmt::format("an equation between sets of {} and {} nodes", count, of_term.size()),
-                  "sets of as many nodes, which go together in turn");
+        raw_.fail(equation.location, fmt::format("an equation between sets of {} and {} nodes", count, of_term.size()),
+                  "sets of equally many nodes, which are paired one by one");
       count = std::max(count, of_term.size());
     }
     for (const std::vector<long>& of_term : members)
       if (of_term.empty()) return;
     for (std::size_t k = 0; k < count; ++k) {
-      RawTie tie{equation.place, {}};
+      RawTie tie{equation.location, {}};
       for (std::size_t t = 0; t < equation.terms.size(); ++t) {
         const RawEquation::Term& term = equation.terms[t];
         const long node = members[t][members[t].size() == 1 ? 0 : k];
-        refuse_own_axes(node, equation.place);
+        refuse_own_axes(node, equation.location);
         tie.terms.push_back({node, term.component >= 3, term.coefficient * Vector3::Unit(term.component % 3)});
       }
       raw_.ties.push_back(std::move(tie));
     }
   }
 
-  void refuse_own_axes(long node, Place place) const {
-    const int at = nodes_.place(node);
-    for (const std::string& name : raw_.turned_sets) {
+  void refuse_own_axes(long node, FileLocation location) const {
+    const int at = nodes_.index_of(node);
+    for (const std::string& name : raw_.transformed_sets) {
       const auto set = mesh_.node_sets.find(name);
       if (at >= 0 && set != mesh_.node_sets.end() && std::binary_search(set->second.begin(), set->second.end(), at))
-        raw_.fail(place, fmt::format("an equation of node {}, whose axes *TRANSFORM turns by the set '{}'", node, name),
+        raw_.fail(location,
+                  fmt::format("an equation of node {}, whose axes *TRANSFORM rotates by the set '{}'", node, name),
                   "equations in the axes of the mesh", "write the equation without *TRANSFORM");
     }
   }
 
   void add_straight(const StraightNode& node) {
-    const int middle = nodes_.place(node.node), a = nodes_.place(node.corners[0]), b = nodes_.place(node.corners[1]);
+    const int middle = nodes_.index_of(node.node), a = nodes_.index_of(node.corners[0]),
+              b = nodes_.index_of(node.corners[1]);
     if (middle < 0 || a < 0 || b < 0) return;
     for (int axis = 0; axis < 3; ++axis)
       rows_.push_back({{3 * middle + axis, 1}, {3 * a + axis, -0.5}, {3 * b + axis, -0.5}});
@@ -164,10 +166,10 @@ class TieMaker {
   void add_surface_tie(const RawSurfaceTie& tie) {
     const auto master = mesh_.surfaces.find(tie.master);
     if (master == mesh_.surfaces.end() || master->second.empty())
-      raw_.fail(tie.place, fmt::format("a tie to '{}', which has no faces", tie.master),
+      raw_.fail(tie.location, fmt::format("a tie to '{}', which has no faces", tie.master),
                 "a surface of faces of solids behind the comma: slave, master");
     const SurfaceTie made =
-        tie_to_faces(mesh_, set_named(tie.slave, tie.place), master->second, {tie.tolerance, tie.adjusts});
+        tie_to_faces(mesh_, set_named(tie.slave, tie.location), master->second, {tie.tolerance, tie.adjusts});
     for (const MeshTie& of_axis : made.ties) {
       TieRow row;
       for (const TieTerm& term : of_axis) row[3 * term.node + term.axis] += term.coefficient;
@@ -175,12 +177,12 @@ class TieMaker {
     }
     if (!made.loose.empty())
       raw_.warn(
-          tie.place,
+          tie.location,
           fmt::format("{} nodes of '{}' farther than {:.4g} from '{}'; the first is {}", made.loose.size(), tie.slave,
                       made.tolerance, tie.master, mesh_.node_labels[static_cast<std::size_t>(made.loose.front())]),
-          "nodes on the faces they are tied to", "they are not tied; POSITION TOLERANCE lets more in");
+          "nodes on the faces they are tied to", "they are not tied; a larger POSITION TOLERANCE ties them");
     if (made.moved > kMovedVisibly * size_)
-      raw_.warn(tie.place, fmt::format("nodes of '{}' up to {:.4g} beside '{}'", tie.slave, made.moved, tie.master),
+      raw_.warn(tie.location, fmt::format("nodes of '{}' up to {:.4g} beside '{}'", tie.slave, made.moved, tie.master),
                 "nodes on the faces they are tied to", "they are put there; ADJUST=NO leaves them where they are");
   }
 

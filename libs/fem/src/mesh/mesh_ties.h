@@ -8,14 +8,14 @@
 
 namespace hersey::fem {
 
-/// How ties find the nodes they name.
+/// Access to the nodes that ties name.
 struct TiedNodes {
-  std::function<int(long)> place;                ///< in the mesh by label; -1: of no element, or not in the file
-  std::function<const Vector3*(long)> position;  ///< in the file; null: it has no such node
+  std::function<int(long)> index_of;             ///< index in the mesh by label; -1: of no element, or not in the file
+  std::function<const Vector3*(long)> position;  ///< position in the file; null: it has no such node
 };
 
-/// Makes the mesh's ties of all that the file ties: equations, rigid bodies, surfaces, mid-side nodes on straight
-/// edges. Rotations and nodes of no element are eliminated; equations that follow from others are left out.
+/// Creates the mesh's ties from all ties of the file: equations, rigid bodies, surfaces, mid-side nodes on straight
+/// edges. Rotations and nodes of no element are eliminated; equations that follow from others are dropped.
 void add_ties(RawMesh& raw, Mesh& mesh, const TiedNodes& nodes, const std::vector<StraightNode>& straight);
 
 }  // namespace hersey::fem

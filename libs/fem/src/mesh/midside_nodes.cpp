@@ -15,7 +15,7 @@ namespace {
 using EdgeKey = std::array<long, 2>;  // labels of the corners, ascending
 using LocalEdge = std::array<std::size_t, 2>;
 
-/// Corners of each mid-side node, in turn.
+/// Corners of each mid-side node, one node after the other.
 std::vector<LocalEdge> edges_of_midside_nodes(const ElementKind& kind) {
   std::vector<LocalEdge> edges;
   const Eigen::Matrix3Xd& xi = kind.natural_nodes;
@@ -108,15 +108,15 @@ class MidsideNodes {
 
   long make(const EdgeKey& key, const RawElement& element, const LabelIndex& nodes) {
     if (last_ == std::numeric_limits<long>::max())
-      raw_.fail(element.place,
+      raw_.fail(element.location,
                 fmt::format("element {} without its mid-side nodes, and a node {}", element.label, last_),
                 "smaller numbers of nodes: those that are left out get the next ones");
     const int a = nodes.find(key[0]), b = nodes.find(key[1]);
-    Vector3 middle = Vector3::Zero();  // a corner that is missing is told with its element
+    Vector3 middle = Vector3::Zero();  // a missing corner is reported with its element
     if (a >= 0 && b >= 0)
       middle = (raw_.nodes[static_cast<std::size_t>(a)] + raw_.nodes[static_cast<std::size_t>(b)]) / 2;
-    if (made_++ == 0) first_ = element.place;
-    raw_.add_node(++last_, middle, element.place);
+    if (made_++ == 0) first_ = element.location;
+    raw_.add_node(++last_, middle, element.location);
     if (straight_edges_.contains(key)) straight_.push_back({last_, key});
     return last_;
   }
@@ -124,9 +124,9 @@ class MidsideNodes {
   RawMesh& raw_;
   std::map<ElementType, std::vector<LocalEdge>> edges_;
   std::map<EdgeKey, long> node_on_;
-  std::set<EdgeKey> straight_edges_;  ///< of elements of first order
+  std::set<EdgeKey> straight_edges_;  ///< edges of elements of first order
   std::vector<StraightNode> straight_;
-  Place first_;
+  FileLocation first_;
   long last_ = 0;
   int made_ = 0;
 };

@@ -92,7 +92,7 @@ void NastranCards::add_line(std::string_view line, NastranCard& card) {
     if (card.mistake.empty()) card.mistake = mistake, card.line_of_mistake = lines_.number();
   };
   const std::string_view named = without_sign(mark_), own = is_first ? std::string_view() : without_sign(first);
-  // The first letter of a name gives way to the sign: "P51" and "+51" are the same.
+  // The first letter of a name is replaced by the sign: "P51" and "+51" are the same.
   const bool is_the_one =
       equal_ignoring_case(named, own) || equal_ignoring_case(named.substr(std::min<std::size_t>(1, named.size())), own);
   if (!named.empty() && !own.empty() && !is_the_one) note("a continuation that is not the one its entry names");

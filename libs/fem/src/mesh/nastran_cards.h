@@ -26,7 +26,7 @@ class NastranCards {
   void add_line(std::string_view line, NastranCard& card);
 
   LineScanner& lines_;
-  std::string_view mark_;             ///< by which the line read last names its continuation; often empty
+  std::string_view mark_;             ///< continuation mark of the line read last; often empty
   std::deque<std::string> expanded_;  ///< lines of this entry whose tabs were replaced, fields that were replicated
   NastranReplication replication_;
 };

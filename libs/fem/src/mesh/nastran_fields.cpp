@@ -10,7 +10,7 @@
 namespace hersey::fem {
 
 void NastranFields::fail(std::string found, std::string expected, std::string suggestion) const {
-  raw_.fail(place_, std::move(found), std::move(expected), std::move(suggestion));
+  raw_.fail(location_, std::move(found), std::move(expected), std::move(suggestion));
 }
 
 long NastranFields::integer_in(std::string_view text) const {

@@ -12,7 +12,7 @@ namespace hersey::fem {
 class NastranFields {
  public:
   NastranFields(const RawMesh& raw, int file, const NastranCard& card)
-      : raw_(raw), card_(card), place_{file, card.line} {}
+      : raw_(raw), card_(card), location_{file, card.line} {}
 
   [[nodiscard]] long integer(std::size_t field) const { return integer_in(card_.field(field)); }
   /// Empty: none given.
@@ -23,13 +23,13 @@ class NastranFields {
   [[nodiscard]] long integer_in(std::string_view text) const;
   /// Digits from 1 to 6, as in "123", each once; "" and "0": none.
   [[nodiscard]] std::string components(std::size_t field) const;
-  [[nodiscard]] Place place() const { return place_; }
+  [[nodiscard]] FileLocation location() const { return location_; }
   [[noreturn]] void fail(std::string found, std::string expected, std::string suggestion = {}) const;
 
  private:
   const RawMesh& raw_;
   const NastranCard& card_;
-  Place place_;
+  FileLocation location_;
 };
 
 }  // namespace hersey::fem

@@ -9,14 +9,14 @@
 
 namespace hersey::fem {
 
-/// Entries written by their difference from the one before: "=" repeats a field, "==" all that follow, "*(2)" or "*2"
-/// adds to a number; "=(3)" or "=3" in place of a name repeats the step three times more.
+/// Entries written by their difference from the previous one: "=" repeats a field, "==" all that follow, "*(2)" or "*2"
+/// adds to a number; "=(3)" or "=3" instead of a name repeats the step three times more.
 class NastranReplication {
  public:
-  /// Whether an entry is written so.
+  /// True if an entry is written by its difference from the previous one.
   [[nodiscard]] static bool is_written_so(const NastranCard& card);
 
-  /// Puts what the entry stands for in its place; `storage` holds the text of its fields.
+  /// Replaces the entry by its expanded form; `storage` holds the text of its fields.
   void replace(NastranCard& card, std::deque<std::string>& storage);
 
   /// The next repetition, into `card`; false where none is left.
@@ -28,11 +28,11 @@ class NastranReplication {
  private:
   void step(NastranCard& card, std::deque<std::string>& storage);
 
-  std::string name_;                 ///< of the last entry
+  std::string name_;                 ///< name of the last entry
   std::vector<std::string> fields_;  ///< its fields
-  std::vector<std::string> steps_;   ///< of the last entry that was written so: "=", "*..." or a value
+  std::vector<std::string> steps_;   ///< steps of the last entry written by differences: "=", "*..." or a value
   long left_ = 0;                    ///< repetitions still to come
-  int line_ = 0;                     ///< of those
+  int line_ = 0;                     ///< line of the repetitions
   long made_ = 0;
 };
 

@@ -46,8 +46,8 @@ class Words {
   }
 
  private:
-  [[nodiscard]] bool is(std::size_t place, const char* word) const {
-    return place < words_.size() && equal_ignoring_case(words_[place], word);
+  [[nodiscard]] bool is(std::size_t index, const char* word) const {
+    return index < words_.size() && equal_ignoring_case(words_[index], word);
   }
 
   // "4" or "4 THRU 9".

@@ -9,7 +9,7 @@
 
 namespace hersey::fem {
 
-/// What the words behind a SET's number mean.
+/// Meaning of the words after a SET's number.
 struct NastranSetWords {
   std::vector<LabelRange> labels;
   /// A word that is no number: of a set of plots, of frequencies, or ALL.
@@ -23,7 +23,7 @@ struct NastranSetWords {
 /// Words between blanks and commas.
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view line);
 
-/// Whether a line ends the case control section: BEGIN BULK, also shortened (BEGIN BU).
+/// True if a line ends the case control section: BEGIN BULK, also shortened (BEGIN BU).
 [[nodiscard]] bool is_begin_bulk(std::string_view line);
 
 }  // namespace hersey::fem

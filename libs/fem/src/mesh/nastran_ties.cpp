@@ -14,10 +14,10 @@ namespace hersey::fem {
 namespace {
 
 constexpr const char* kAll = "123456";
-constexpr double kSingular = 1e-10;  // share of the largest eigenvalue
-constexpr double kUntold = 1e-6;     // share of a motion that the members do not see
+constexpr double kSingular = 1e-10;     // share of the largest eigenvalue
+constexpr double kUndetermined = 1e-6;  // share of a motion that the members do not determine
 
-const Vector3& position_of(const RawMesh& raw, const NastranSystems& systems, long grid, Place user) {
+const Vector3& position_of(const RawMesh& raw, const NastranSystems& systems, long grid, FileLocation user) {
   const Vector3* const r = systems.position(grid);
   if (r == nullptr)
     raw.fail(user, fmt::format("the grid point {}, which the file does not define", grid), "a grid point of the file");
@@ -58,7 +58,7 @@ void NastranTies::add(const RawMesh& raw, int file, const NastranCard& card) {
   if (card.name == "RBE2") return add_rbe2(raw, file, card);
   if (card.name == "RBE3") return add_rbe3(raw, file, card);
   if (card.name == "MPC") return add_mpc(raw, file, card);
-  if (card.name == "RROD") return rods_.push_back({fields.place(), fields.integer(1), fields.integer(2)});
+  if (card.name == "RROD") return rods_.push_back({fields.location(), fields.integer(1), fields.integer(2)});
   if (card.name == "MPCADD") {
     for (const std::size_t k : used(card, 1)) unions_[fields.integer(0)].push_back(fields.integer(k));
     return;
@@ -66,9 +66,9 @@ void NastranTies::add(const RawMesh& raw, int file, const NastranCard& card) {
   add_bar(raw, file, card);
 }
 
-void NastranTies::select(long set, Place place) {
+void NastranTies::select(long set, FileLocation location) {
   if (selected_ && *selected_ != set)
-    also_selected_ = {set, place};
+    also_selected_ = {set, location};
   else
     selected_ = set;
 }
@@ -76,7 +76,7 @@ void NastranTies::select(long set, Place place) {
 // EID, GN1, CN1, GN2, CN2, ..., "UM", GM1, CM1, ...
 void NastranTies::add_rbe1(const RawMesh& raw, int file, const NastranCard& card) {
   const NastranFields fields(raw, file, card);
-  Rigid rigid{fields.place(), {}, {}};
+  Rigid rigid{fields.location(), {}, {}};
   auto* target = &rigid.independent;
   const std::vector<std::size_t> given = used(card, 1);
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -98,7 +98,7 @@ void NastranTies::add_rbe1(const RawMesh& raw, int file, const NastranCard& card
 // EID, GN, CM, GM1, GM2, ..., ALPHA.
 void NastranTies::add_rbe2(const RawMesh& raw, int file, const NastranCard& card) {
   const NastranFields fields(raw, file, card);
-  Rigid rigid{fields.place(), {{fields.integer(1), kAll}}, {}};
+  Rigid rigid{fields.location(), {{fields.integer(1), kAll}}, {}};
   const std::string components = fields.components(2);
   const std::vector<std::size_t> given = used(card, 3);
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -115,7 +115,7 @@ void NastranTies::add_rbe2(const RawMesh& raw, int file, const NastranCard& card
 // EID, -, REFGRID, REFC, WT1, C1, G1, G2, ..., WT2, C2, ..., "UM", ..., "ALPHA", ...
 void NastranTies::add_rbe3(const RawMesh& raw, int file, const NastranCard& card) {
   const NastranFields fields(raw, file, card);
-  Average average{fields.place(), fields.integer(2), fields.components(3), {}};
+  Average average{fields.location(), fields.integer(2), fields.components(3), {}};
   Weighted member;
   const std::vector<std::size_t> given = used(card, 4);
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -137,7 +137,7 @@ void NastranTies::add_rbe3(const RawMesh& raw, int file, const NastranCard& card
 void NastranTies::add_bar(const RawMesh& raw, int file, const NastranCard& card) {
   const NastranFields fields(raw, file, card);
   const long a = fields.integer(1), b = fields.integer(2);
-  Rigid rigid{fields.place(), {}, {}};
+  Rigid rigid{fields.location(), {}, {}};
   if (card.name == "RBAR1") {
     rigid.independent = {{a, kAll}};
     rigid.dependent = {{b, fields.components(3)}};
@@ -153,7 +153,7 @@ void NastranTies::add_bar(const RawMesh& raw, int file, const NastranCard& card)
 // SID, G1, C1, A1, G2, C2, A2, -, -, G3, C3, A3, ...
 void NastranTies::add_mpc(const RawMesh& raw, int file, const NastranCard& card) {
   const NastranFields fields(raw, file, card);
-  Equation equation{fields.place(), {}};
+  Equation equation{fields.location(), {}};
   for (std::size_t line = 0; line < card.fields.size(); line += 8)
     for (const std::size_t first : {line + 1, line + 4}) {
       if (card.field(first).empty()) continue;
@@ -172,23 +172,24 @@ void NastranTies::build(RawMesh& raw, NastranSystems& systems) {
   build_equations(raw, systems);
 }
 
-// All that takes part moves as one body of six coordinates; those of the independent ones tell it, the others obey.
+// All grid points of the element move as one body with six coordinates; the independent components determine them, the
+// dependent ones follow.
 void NastranTies::build_rigid(RawMesh& raw, NastranSystems& systems, const Rigid& rigid) const {
   if (rigid.independent.empty() || rigid.dependent.empty()) return;
   std::size_t coordinates = 0;
   for (const auto& [grid, components] : rigid.independent) coordinates += components.size();
   if (coordinates < 6)
-    raw.fail(rigid.place, fmt::format("a rigid element with {} independent components", coordinates),
-             "six of them, which tell a rigid motion");
+    raw.fail(rigid.location, fmt::format("a rigid element with {} independent components", coordinates),
+             "six of them, which determine a rigid motion");
   const bool is_one = rigid.independent.size() == 1;
   const long body = is_one ? rigid.independent.front().first : raw.new_reference();
-  const Vector3 origin = position_of(raw, systems, rigid.independent.front().first, rigid.place);
+  const Vector3 origin = position_of(raw, systems, rigid.independent.front().first, rigid.location);
   const auto tie = [&](const std::vector<std::pair<long, Components>>& members) {
     for (const auto& [grid, components] : members) {
-      const Vector3 r = position_of(raw, systems, grid, rigid.place);
+      const Vector3 r = position_of(raw, systems, grid, rigid.location);
       for (const char component : components) {
         const auto [direction, is_rotation] = direction_of(raw, systems, grid, component);
-        raw.add_rigid_tie(grid, r, body, origin, direction, is_rotation, rigid.place);
+        raw.add_rigid_tie(grid, r, body, origin, direction, is_rotation, rigid.location);
       }
     }
   };
@@ -198,16 +199,16 @@ void NastranTies::build_rigid(RawMesh& raw, NastranSystems& systems, const Rigid
 
 // The reference moves as the rigid motion q nearest to its members, A q = sum w (P T)^T P u.
 void NastranTies::build_average(RawMesh& raw, NastranSystems& systems, const Average& average) const {
-  const Vector3 origin = position_of(raw, systems, average.grid, average.place);
+  const Vector3 origin = position_of(raw, systems, average.grid, average.location);
   double size = 0;
   for (const Weighted& member : average.members)
-    size = std::max(size, (position_of(raw, systems, member.grid, average.place) - origin).norm());
+    size = std::max(size, (position_of(raw, systems, member.grid, average.location) - origin).norm());
   if (!(size > 0)) size = 1;
   struct Row {
     long grid;
     bool is_rotation;
     Vector3 direction;
-    Vector6 of_motion;  ///< how far along it a rigid motion (d, size theta) goes
+    Vector6 of_motion;  ///< component along it of each rigid motion (d, size theta)
     double weight;
   };
   std::vector<Row> rows;
@@ -215,7 +216,7 @@ void NastranTies::build_average(RawMesh& raw, NastranSystems& systems, const Ave
   for (const Weighted& member : average.members)
     for (const char component : member.components) {
       const auto [direction, is_rotation] = direction_of(raw, systems, member.grid, component);
-      const Vector3 arm = position_of(raw, systems, member.grid, average.place) - origin;
+      const Vector3 arm = position_of(raw, systems, member.grid, average.location) - origin;
       Vector6 row = Vector6::Zero();
       row.head<3>() = is_rotation ? Vector3(Vector3::Zero()) : direction;
       row.tail<3>() = is_rotation ? direction : Vector3(arm.cross(direction) / size);
@@ -225,17 +226,18 @@ void NastranTies::build_average(RawMesh& raw, NastranSystems& systems, const Ave
     }
   const Eigen::SelfAdjointEigenSolver<Matrix6> of_A(A);
   const Vector6& lambda = of_A.eigenvalues();
-  const Eigen::Array<bool, 6, 1> is_told = lambda.array() > kSingular * lambda[5];
-  const Vector6 inverse_lambda = is_told.select(lambda.cwiseInverse(), Vector6(Vector6::Zero()));
+  const Eigen::Array<bool, 6, 1> is_determined = lambda.array() > kSingular * lambda[5];
+  const Vector6 inverse_lambda = is_determined.select(lambda.cwiseInverse(), Vector6(Vector6::Zero()));
   const Matrix6 inverse = of_A.eigenvectors() * inverse_lambda.asDiagonal() * of_A.eigenvectors().transpose();
   for (const char component : average.components) {
     const auto [direction, is_rotation] = direction_of(raw, systems, average.grid, component);
-    RawTie tie{average.place, {{average.grid, is_rotation, direction}}};
+    RawTie tie{average.location, {{average.grid, is_rotation, direction}}};
     Vector6 wanted = Vector6::Zero();
     wanted.segment<3>(is_rotation ? 3 : 0) = is_rotation ? Vector3(direction / size) : direction;
     const Vector6 share = inverse * wanted;
-    if (!((A * share - wanted).norm() < kUntold * wanted.norm()))
-      raw.fail(average.place, "an RBE3 whose grid points and components do not tell the motion of its reference",
+    if (!((A * share - wanted).norm() < kUndetermined * wanted.norm()))
+      raw.fail(average.location,
+               "an RBE3 whose grid points and components do not determine the motion of its reference",
                "at least three grid points that are not on one line, with components 123");
     for (const Row& row : rows)
       tie.terms.push_back({row.grid, row.is_rotation, -row.weight * share.dot(row.of_motion) * row.direction});
@@ -244,15 +246,15 @@ void NastranTies::build_average(RawMesh& raw, NastranSystems& systems, const Ave
 }
 
 void NastranTies::build_rod(RawMesh& raw, const NastranSystems& systems, const Rod& rod) const {
-  const Vector3 along = position_of(raw, systems, rod.b, rod.place) - position_of(raw, systems, rod.a, rod.place);
-  if (!(along.norm() > 0)) raw.fail(rod.place, "an RROD without length", "two grid points at different places");
+  const Vector3 along = position_of(raw, systems, rod.b, rod.location) - position_of(raw, systems, rod.a, rod.location);
+  if (!(along.norm() > 0)) raw.fail(rod.location, "an RROD without length", "two grid points at different positions");
   const Vector3 direction = along.normalized();
-  raw.ties.push_back({rod.place, {{rod.a, false, direction}, {rod.b, false, -direction}}});
+  raw.ties.push_back({rod.location, {{rod.a, false, direction}, {rod.b, false, -direction}}});
 }
 
 std::set<long> NastranTies::chosen_sets(RawMesh& raw) const {
   if (equations_.empty()) return {};
-  const Place first = equations_.begin()->second.front().place;
+  const FileLocation first = equations_.begin()->second.front().location;
   if (also_selected_)
     raw.warn(also_selected_->second, fmt::format("MPC = {} beside MPC = {}", also_selected_->first, *selected_),
              "the same equations in all subcases", fmt::format("the body has those of {}", *selected_));
@@ -283,13 +285,13 @@ void NastranTies::build_equations(RawMesh& raw, NastranSystems& systems) {
   for (const auto& [set, equations] : equations_) {
     if (!chosen.contains(set)) continue;
     for (const Equation& equation : equations) {
-      RawTie tie{equation.place, {}};
+      RawTie tie{equation.location, {}};
       for (const auto& [grid, component, factor] : equation.terms) {
         if (component == 0) {
           tie.terms.push_back({grid, false, factor * Vector3::UnitX()});
           continue;
         }
-        (void)position_of(raw, systems, grid, equation.place);
+        (void)position_of(raw, systems, grid, equation.location);
         const auto [direction, is_rotation] = direction_of(raw, systems, grid, static_cast<char>('0' + component));
         tie.terms.push_back({grid, is_rotation, factor * direction});
       }

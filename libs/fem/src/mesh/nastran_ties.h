@@ -17,13 +17,13 @@ namespace hersey::fem {
 /// coordinate systems are known.
 class NastranTies {
  public:
-  /// Whether it takes such an entry.
+  /// True if an entry defines a tie.
   [[nodiscard]] static bool takes(const std::string& entry);
 
   void add(const RawMesh& raw, int file, const NastranCard& card);
 
   /// `MPC = number` of the case control section.
-  void select(long set, Place place);
+  void select(long set, FileLocation location);
   /// There is a case control section: an MPC that it does not select is not meant.
   void set_selecting() { selects_ = true; }
 
@@ -33,7 +33,7 @@ class NastranTies {
  private:
   using Components = std::string;
   struct Rigid {
-    Place place;
+    FileLocation location;
     std::vector<std::pair<long, Components>> independent, dependent;
   };
   struct Weighted {
@@ -42,17 +42,17 @@ class NastranTies {
     long grid = 0;
   };
   struct Average {
-    Place place;
+    FileLocation location;
     long grid = 0;
     Components components;
     std::vector<Weighted> members;
   };
   struct Rod {
-    Place place;
+    FileLocation location;
     long a = 0, b = 0;
   };
   struct Equation {
-    Place place;
+    FileLocation location;
     struct Term {
       long grid, component;
       double factor;
@@ -77,7 +77,7 @@ class NastranTies {
   std::map<long, std::vector<Equation>> equations_;
   std::map<long, std::vector<long>> unions_;  ///< MPCADD
   std::optional<long> selected_;
-  std::optional<std::pair<long, Place>> also_selected_;
+  std::optional<std::pair<long, FileLocation>> also_selected_;
   bool selects_ = false;
 };
 

@@ -7,26 +7,26 @@
 #include <utility>
 
 namespace hersey::fem {
-void RawMesh::add_node(long label, const Vector3& r, Place place) {
+void RawMesh::add_node(long label, const Vector3& r, FileLocation location) {
   nodes.push_back(r);
   node_labels.push_back(label);
-  node_places.push_back(place);
+  node_locations.push_back(location);
 }
 
-void RawMesh::add_element(ElementType type, long label, std::span<const long> element_nodes, Place place) {
+void RawMesh::add_element(ElementType type, long label, std::span<const long> element_nodes, FileLocation location) {
   RawElement element;
   element.type = type;
   element.label = label;
-  element.place = place;
+  element.location = location;
   element.first = connectivity.size();
   elements.push_back(element);
   connectivity.insert(connectivity.end(), element_nodes.begin(), element_nodes.end());
 }
 
-void RawMesh::add_mark(long label, std::span<const long> mark_nodes, int corner_count, Place place) {
+void RawMesh::add_mark(long label, std::span<const long> mark_nodes, int corner_count, FileLocation location) {
   RawMark mark;
   mark.label = label;
-  mark.place = place;
+  mark.location = location;
   mark.node_count = static_cast<int>(mark_nodes.size());
   mark.corner_count = corner_count;
   std::copy(mark_nodes.begin(), mark_nodes.end(), mark.nodes.begin());
@@ -34,9 +34,9 @@ void RawMesh::add_mark(long label, std::span<const long> mark_nodes, int corner_
 }
 
 void RawMesh::add_rigid_tie(long node, const Vector3& r, long body, const Vector3& origin, const Vector3& direction,
-                            bool of_rotation, Place place) {
+                            bool of_rotation, FileLocation location) {
   if (node == body) return;
-  RawTie tie{place, {{node, of_rotation, direction}, {body, of_rotation, -direction}}};
+  RawTie tie{location, {{node, of_rotation, direction}, {body, of_rotation, -direction}}};
   // e . (theta x (r - o)) = theta . ((r - o) x e)
   if (!of_rotation) tie.terms.push_back({body, true, -(r - origin).cross(direction)});
   ties.push_back(std::move(tie));
@@ -44,30 +44,30 @@ void RawMesh::add_rigid_tie(long node, const Vector3& r, long body, const Vector
 
 long RawMesh::new_reference() { return std::numeric_limits<long>::min() + references_++; }
 
-MeshMaterial& RawMesh::add_material(const std::string& name, Place place) {
+MeshMaterial& RawMesh::add_material(const std::string& name, FileLocation location) {
   for (std::size_t m = 0; m < materials.size(); ++m)
     if (materials[m].name == name)
-      fail(place, fmt::format("material '{}' stands in line {} already", name, material_places[m].line),
+      fail(location, fmt::format("material '{}' is already defined in line {}", name, material_locations[m].line),
            "each material once");
-  material_places.push_back(place);
+  material_locations.push_back(location);
   materials.emplace_back().name = name;
   return materials.back();
 }
 
-Fault RawMesh::fault(Place place, std::string found, std::string expected, std::string suggestion) const {
-  return {{files[static_cast<std::size_t>(place.file)], place.line, 0},
+Fault RawMesh::fault(FileLocation location, std::string found, std::string expected, std::string suggestion) const {
+  return {{files[static_cast<std::size_t>(location.file)], location.line, 0},
           "",
           std::move(found),
           std::move(expected),
           std::move(suggestion)};
 }
 
-void RawMesh::warn(Place place, std::string found, std::string expected, std::string suggestion) {
-  warnings.push_back(fault(place, std::move(found), std::move(expected), std::move(suggestion)));
+void RawMesh::warn(FileLocation location, std::string found, std::string expected, std::string suggestion) {
+  warnings.push_back(fault(location, std::move(found), std::move(expected), std::move(suggestion)));
 }
 
-void RawMesh::fail(Place place, std::string found, std::string expected, std::string suggestion) const {
-  throw InputError(fault(place, std::move(found), std::move(expected), std::move(suggestion)));
+void RawMesh::fail(FileLocation location, std::string found, std::string expected, std::string suggestion) const {
+  throw InputError(fault(location, std::move(found), std::move(expected), std::move(suggestion)));
 }
 
 }  // namespace hersey::fem

@@ -70,16 +70,16 @@ std::vector<ElementFace> outer_faces(const Mesh& mesh) {
 Skin skin(const Mesh& mesh, const std::vector<ElementFace>& faces) {
   Skin result;
   for (const ElementFace& face : faces) add_triangles(mesh, face, result.triangles);
-  std::vector<int> place(mesh.nodes.size(), -1);
+  std::vector<int> index(mesh.nodes.size(), -1);
   for (const Triangle& triangle : result.triangles)
-    for (const int node : triangle) place[static_cast<std::size_t>(node)] = 0;
-  for (std::size_t n = 0; n < place.size(); ++n) {
-    if (place[n] < 0) continue;
-    place[n] = static_cast<int>(result.nodes.size());
+    for (const int node : triangle) index[static_cast<std::size_t>(node)] = 0;
+  for (std::size_t n = 0; n < index.size(); ++n) {
+    if (index[n] < 0) continue;
+    index[n] = static_cast<int>(result.nodes.size());
     result.nodes.push_back(static_cast<int>(n));
   }
   for (Triangle& triangle : result.triangles)
-    for (int& node : triangle) node = place[static_cast<std::size_t>(node)];
+    for (int& node : triangle) node = index[static_cast<std::size_t>(node)];
   return result;
 }
 

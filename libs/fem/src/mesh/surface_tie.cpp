@@ -29,7 +29,7 @@ struct Nearest {
   NodeValues N;
 };
 
-/// The nearest place within the face's natural square or triangle.
+/// Nearest point within the face's natural square or triangle.
 Eigen::Vector2d inside(Eigen::Vector2d xi, bool is_triangle) {
   if (!is_triangle) return xi.cwiseMax(-1).cwiseMin(1);
   const double beyond = xi.sum() - 1;

@@ -20,7 +20,7 @@ struct SurfaceTie {
 };
 
 /// Ties each of `nodes` to the nearest point of `faces`: it moves as that point of the face does, u = sum N_a u_a.
-/// Nodes that faces have themselves are passed over. Cost: nodes times faces, of which most are only looked at by their
+/// Nodes that faces have themselves are ignored. Cost: nodes times faces, of which most are only looked at by their
 /// boxes.
 [[nodiscard]] SurfaceTie tie_to_faces(Mesh& mesh, const std::vector<int>& nodes, const std::vector<ElementFace>& faces,
                                       const SurfaceTieOptions& options);

@@ -11,7 +11,7 @@ using TieRow = std::map<int, double>;
 
 struct EliminatedRows {
   std::vector<TieRow> rows;  ///< independent equations in which pivots stand once
-  std::vector<int> pivots;   ///< of each row: an unknown that no other row has
+  std::vector<int> pivots;   ///< for each row: an unknown that no other row has
   std::vector<TieRow> rest;  ///< equations that are left without an unknown that may be a pivot, and are not empty
 };
 

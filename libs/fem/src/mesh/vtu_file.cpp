@@ -33,7 +33,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// Of symmetric tensors; ParaView names the components of vectors itself.
+/// Names the components of symmetric tensors; ParaView names those of vectors itself.
 std::string component_names(int components) {
   constexpr std::array<const char*, 6> tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
   std::string text;
@@ -42,7 +42,7 @@ std::string component_names(int components) {
   return text;
 }
 
-/// The two halves of the file: XML that names arrays by their place, and the arrays, each behind its length.
+/// The two parts of the file: XML that names arrays by their offset, and the arrays, each after its length.
 class VtuText {
  public:
   void line(const std::string& text) { header_ += text + "\n"; }

@@ -27,7 +27,8 @@ struct Basis {
   [[nodiscard]] auto vectors() const { return Q.leftCols(used); }
   [[nodiscard]] auto products() const { return BQ.leftCols(used); }
 
-  /// Takes from W what lies in the basis and returns its components. Once leaves round-off, twice does not.
+  /// Removes the part of W that lies in the basis and returns its components. One pass leaves round-off; the second
+  /// pass removes it.
   MatrixXd remove_from(MatrixXd& W) const {
     if (used == 0) return {};
     MatrixXd taken = products().transpose() * W;
@@ -63,10 +64,10 @@ MatrixXd orthonormalise(const LanczosProblem& problem, const MatrixXd& W, Matrix
   return W * T;
 }
 
-/// Eigenpairs of the projection and what they leave over.
+/// Eigenpairs of the projection and their residuals.
 struct Ritz {
   VectorXd theta;     ///< ascending
-  MatrixXd vectors;   ///< in the basis
+  MatrixXd vectors;   ///< vectors in the basis
   VectorXd residual;  ///< ||A y - theta y||_B
 };
 
@@ -80,7 +81,7 @@ Ritz ritz_pairs(const LanczosProblem& problem, const MatrixXd& H, const MatrixXd
           (last.transpose() * gram * last).diagonal().cwiseMax(0).cwiseSqrt()};
 }
 
-/// How many pairs the caller asks for.
+/// Number of pairs that the caller requests.
 Index asked(const Ritz& ritz, int wanted, double smallest) {
   return std::min<Index>(wanted, (ritz.theta.array() >= smallest).count());
 }
@@ -88,7 +89,7 @@ Index asked(const Ritz& ritz, int wanted, double smallest) {
 bool is_converged(const Ritz& ritz, Index needed, double rtol) {
   const Index size = ritz.theta.size();
   if (size <= needed) return false;
-  // The first one beyond those asked for has to be known too, to a few digits: it might belong to them yet.
+  // The first pair beyond those requested must be known to a few digits, because it might still belong to them.
   for (Index i = 0; i <= needed; ++i) {
     const Index k = size - 1 - i;
     if (!(ritz.residual[k] <= (i < needed ? rtol : 1e-3) * std::abs(ritz.theta[k]))) return false;
@@ -144,7 +145,7 @@ LanczosResult block_lanczos(const LanczosProblem& problem, int wanted, double sm
       return result;
     }
     W = new_block(problem, basis, leaving, BW);
-    // A space that A keeps to itself: whatever else there is, is found from a new start.
+    // An invariant space of A: the remaining directions are found from a new start.
     if (W.cols() == 0) W = new_block(problem, basis, problem.A(random_block(problem.size, block, generator)), BW);
   }
   result.fail("the iteration for modes found no further direction");

@@ -1,6 +1,6 @@
 #include "hersey/fem/contact_modes.h"
 
-#include "hersey/fem/loads.h"
+#include "hersey/fem/load_vectors.h"
 
 namespace hersey::fem {
 

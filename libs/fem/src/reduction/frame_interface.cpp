@@ -13,14 +13,15 @@ using Eigen::MatrixXd;
 
 namespace {
 
-constexpr double kTorn =
+constexpr double kLargestTieResidual =
     0.1;  // of a frame's own displacement: two frames differ by all of it, a gap of a tie by little
 
 std::string tie_fault(const std::vector<InterfaceFrame>& frames, const Interface& interface) {
   for (std::size_t f = 0; f < frames.size(); ++f)
     for (Index k = 6 * static_cast<Index>(f); k < 6 * static_cast<Index>(f) + 6; ++k)
-      if (interface.torn.rows() > 0 &&
-          interface.torn.col(k).cwiseAbs().maxCoeff() > kTorn * interface.prescribed.col(k).cwiseAbs().maxCoeff())
+      if (interface.tie_residual.rows() > 0 &&
+          interface.tie_residual.col(k).cwiseAbs().maxCoeff() >
+              kLargestTieResidual * interface.prescribed.col(k).cwiseAbs().maxCoeff())
         return fmt::format(
             "frame '{}' and another one are both rigid and hold nodes that a tie of the mesh joins; take nodes that "
             "are "
@@ -37,8 +38,8 @@ std::string fault_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames
     if (frame.nodes.empty()) return fmt::format("frame '{}' sits on no node", frame.name);
     if (!nodes_span_rotations(mesh, frame))
       return fmt::format(
-          "the nodes of frame '{}' lie on one line, about which nothing would hold it; take a face or an edge that "
-          "bends, or the connection `average`, which turns with the elements around",
+          "the nodes of frame '{}' lie on one line, about which nothing would fix it; take a face or an edge that "
+          "bends, or the connection `average`, which rotates with the elements around",
           frame.name);
     if (frame.connection == Connection::average) continue;
     for (const int node : frame.nodes) {
@@ -66,8 +67,8 @@ Interface interface_of(const Mesh& mesh, const std::vector<InterfaceFrame>& fram
       for (const int node : frame.nodes)
         interface.prescribed.block<3, 6>(3 * node, first) =
             frame_to_node(frame, mesh.nodes[static_cast<std::size_t>(node)]);
-      const std::vector<int> held = dofs_of(frame.nodes);
-      interface.held.insert(interface.held.end(), held.begin(), held.end());
+      const std::vector<int> fixed_dofs = dofs_of(frame.nodes);
+      interface.fixed_dofs.insert(interface.fixed_dofs.end(), fixed_dofs.begin(), fixed_dofs.end());
       continue;
     }
     const Eigen::SparseMatrix<double> C = frame_motion(mesh, frame);
@@ -77,11 +78,11 @@ Interface interface_of(const Mesh& mesh, const std::vector<InterfaceFrame>& fram
     interface.motion.block<6, 6>(rows, first).setIdentity();
     rows += 6;
   }
-  const TieConstraints ties = tie_constraints(mesh, interface.held);
+  const TieConstraints ties = tie_constraints(mesh, interface.fixed_dofs);
   for (Index j = 0; j < ties.C.outerSize(); ++j)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(ties.C, j); entry; ++entry)
       entries.emplace_back(static_cast<int>(rows + entry.row()), static_cast<int>(j), entry.value());
-  interface.torn = ties.of_held * interface.prescribed;
+  interface.tie_residual = ties.on_fixed * interface.prescribed;
   const Index averages = rows;
   rows += ties.C.rows();
   interface.C.resize(rows, dofs);

@@ -11,21 +11,22 @@
 
 namespace hersey::fem {
 
-/// What the frames do to the mesh: nodes that follow a rigid frame, constraints that tie average ones.
+/// Constraints of the mesh by its frames: nodes that follow a rigid frame, constraints that tie average ones.
 struct Interface {
-  std::vector<int> held;          ///< degrees of freedom of rigid frames' nodes
-  Eigen::MatrixXd prescribed;     ///< (3 n, 6 frames): their displacement for unit motions of the frames
+  std::vector<int> fixed_dofs;    ///< degrees of freedom of rigid frames' nodes
+  Eigen::MatrixXd prescribed;     ///< (3 n, 6 frames): displacement of these nodes for unit motions of the frames
   Eigen::SparseMatrix<double> C;  ///< (6 average frames and ties of the mesh, 3 n)
   Eigen::MatrixXd motion;         ///< (rows of C, 6 frames): C u for unit motions of the frames; of ties zero
-  Eigen::MatrixXd torn;  ///< (rows, 6 frames): what unit motions leave of ties between held nodes, (elastic.31)
+  Eigen::MatrixXd tie_residual;   ///< (rows, 6 frames): violation of ties between fixed nodes by unit motions of the
+                                  ///< frames, (elastic.31)
 };
 
-/// Empty if the frames can be used; otherwise what is wrong with which.
+/// Returns an empty text if the frames can be used; otherwise the faulty frame and its fault.
 [[nodiscard]] std::string fault_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames);
 
 [[nodiscard]] Interface interface_of(const Mesh& mesh, const std::vector<InterfaceFrame>& frames);
 
-/// Displacements for unit motions of the frames, (3 n, 6 frames). @pre `stiffness` is factorised
+/// Returns the displacements for unit motions of the frames, (3 n, 6 frames). @pre `stiffness` is factorised
 [[nodiscard]] Eigen::MatrixXd constraint_modes(const ElasticBody& body, const Interface& interface,
                                                const ConstrainedStiffness& stiffness);
 

@@ -4,18 +4,18 @@
 #include <cmath>
 
 #include "hersey/core/contract.h"
-#include "hersey/fem/loads.h"
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
+#include "hersey/fem/load_vectors.h"
 #include "reduction/interface_motion.h"
 
 namespace hersey::fem {
 
 std::vector<double> face_weights(const Mesh& mesh, const std::vector<int>& nodes) {
-  std::vector<int> place(mesh.nodes.size(), -1);
-  for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
+  std::vector<int> index(mesh.nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) index[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
   const std::vector<ElementFace> faces = outer_faces(mesh, nodes);
   if (faces.empty()) return {};
-  return nodal_areas(mesh, faces, place, nodes.size());
+  return nodal_areas(mesh, faces, index, nodes.size());
 }
 
 Vector3 face_centre(const Mesh& mesh, const std::vector<int>& nodes) {

@@ -31,7 +31,7 @@ class Identifier {
   hid_t id_;
 };
 
-// HDF5 prints stacks of errors unless told not to; failures are told once, by exceptions.
+// HDF5 prints stacks of errors by default; this disables it, and failures are reported once, by exceptions.
 void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 [[noreturn]] void fail(const std::string& name, const char* what) {
@@ -51,7 +51,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path) {
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   Lock lock(hdf5_lock());
   be_quiet();
-  if (const auto trouble = unreadable(path)) throw std::runtime_error(*trouble);
+  if (const auto failure = unreadable(path)) throw std::runtime_error(*failure);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) throw std::runtime_error("is no HDF5 file that can be read");
   Hdf5File file(std::move(lock), id);
@@ -92,7 +92,7 @@ void Hdf5File::write(const std::string& name, const std::vector<long long>& valu
   write(name, H5T_STD_I64LE, H5T_NATIVE_LLONG, {values.size()}, values.data());
 }
 
-// Text is stored as its bytes: every language's HDF5 reads that alike.
+// Text is stored as bytes, which the HDF5 libraries of all languages read alike.
 void Hdf5File::write_text(const std::string& name, const std::string& text) {
   write(name, H5T_STD_U8LE, H5T_NATIVE_UCHAR, {text.size()}, text.data());
 }

@@ -12,9 +12,9 @@
 
 namespace hersey::fem {
 
-/// An open HDF5 file with the few kinds of data a body has. Data sets are named by their path, "frames/0/origin";
-/// groups on the way are made. Nothing is printed: what fails throws std::runtime_error with the data set's name.
-/// While it lives, its thread alone uses HDF5.
+/// An open HDF5 file with the few kinds of data of a body. Data sets are named by their path, "frames/0/origin"; groups
+/// on the path are created. Nothing is printed: failures throw std::runtime_error with the data set's name. While the
+/// object exists, its thread alone uses HDF5.
 class Hdf5File {
  public:
   static Hdf5File create(const std::filesystem::path& path);

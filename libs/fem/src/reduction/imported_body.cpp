@@ -50,7 +50,7 @@ Sparse scalar_mass(const Sparse& M, Eigen::Index nodes, const std::string& name)
         off = std::max(off, std::abs(entry.value() - m.coeff(entry.row() / 3, column / 3)));
   if (off > kEqual * largest)
     fail(name, "a mass matrix that differs between x, y and z", "the same mass in all three directions",
-         "solid elements only, degrees of freedom ordered x, y, z of each node in turn");
+         "solid elements only, degrees of freedom ordered x, y, z of one node after the other");
   return m;
 }
 

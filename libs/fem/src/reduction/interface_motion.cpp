@@ -26,7 +26,7 @@ bool nodes_span_rotations(const Mesh& mesh, const InterfaceFrame& frame) {
     const Vector3 r = mesh.nodes[static_cast<std::size_t>(frame.nodes[i])] - middle;
     S += weight_of(frame, i) * r * r.transpose();
   }
-  // Points on a line have one moment only: turning about the line moves none of them.
+  // Points on a line have one moment only: a rotation about the line moves none of them.
   const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(S, Eigen::EigenvaluesOnly).eigenvalues();
   return moments[1] > 1e-10 * moments[2];
 }

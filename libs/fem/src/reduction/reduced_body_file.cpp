@@ -19,16 +19,18 @@ constexpr const char* kFormat = "hersey reduced body 1";
 constexpr double kDefinite = 1e-6;   // of the largest eigenvalue: other programs write fewer figures
 constexpr double kSymmetric = 1e-9;  // of the largest entry: other programs write fewer figures
 
-std::string frame_path(std::size_t place, const char* what) { return fmt::format("frames/{}/{}", place, what); }
+std::string frame_path(std::size_t frame_index, const char* what) {
+  return fmt::format("frames/{}/{}", frame_index, what);
+}
 
 std::vector<double> numbers_of(const Eigen::VectorXd& values) { return {values.data(), values.data() + values.size()}; }
 
-void write_frame(Hdf5File& file, std::size_t place, const InterfaceFrame& frame) {
-  file.write_text(frame_path(place, "name"), frame.name);
-  file.write_text(frame_path(place, "connection"), frame.connection == Connection::rigid ? "rigid" : "average");
-  file.write(frame_path(place, "origin"), numbers_of(frame.origin));
-  file.write(frame_path(place, "nodes"), std::vector<long long>(frame.nodes.begin(), frame.nodes.end()));
-  if (!frame.weights.empty()) file.write(frame_path(place, "weights"), frame.weights);
+void write_frame(Hdf5File& file, std::size_t frame_index, const InterfaceFrame& frame) {
+  file.write_text(frame_path(frame_index, "name"), frame.name);
+  file.write_text(frame_path(frame_index, "connection"), frame.connection == Connection::rigid ? "rigid" : "average");
+  file.write(frame_path(frame_index, "origin"), numbers_of(frame.origin));
+  file.write(frame_path(frame_index, "nodes"), std::vector<long long>(frame.nodes.begin(), frame.nodes.end()));
+  if (!frame.weights.empty()) file.write(frame_path(frame_index, "weights"), frame.weights);
 }
 
 void write_mass(Hdf5File& file, const Eigen::SparseMatrix<double>& m) {
@@ -97,7 +99,7 @@ Eigen::SparseMatrix<double> read_mass(const Hdf5File& file, Eigen::Index nodes) 
   entries.reserve(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
     const bool is_inside = rows[k] >= 0 && rows[k] < nodes && columns[k] >= 0 && columns[k] < nodes;
-    require_content(is_inside && std::isfinite(values[k]), fmt::format("'mass' has an impossible entry, place {}", k));
+    require_content(is_inside && std::isfinite(values[k]), fmt::format("'mass' has an impossible entry, index {}", k));
     entries.emplace_back(static_cast<int>(rows[k]), static_cast<int>(columns[k]), values[k]);
   }
   Eigen::SparseMatrix<double> m(nodes, nodes);
@@ -108,24 +110,25 @@ Eigen::SparseMatrix<double> read_mass(const Hdf5File& file, Eigen::Index nodes) 
   return m;
 }
 
-InterfaceFrame read_frame(const Hdf5File& file, std::size_t place, std::size_t nodes) {
+InterfaceFrame read_frame(const Hdf5File& file, std::size_t frame_index, std::size_t nodes) {
   InterfaceFrame frame;
-  frame.name = file.read_text(frame_path(place, "name"));
-  const std::string connection = file.read_text(frame_path(place, "connection"));
+  frame.name = file.read_text(frame_path(frame_index, "name"));
+  const std::string connection = file.read_text(frame_path(frame_index, "connection"));
   require_content(
       connection == "rigid" || connection == "average",
       fmt::format("frame '{}' has the connection '{}': rigid or average is allowed", frame.name, connection));
   frame.connection = connection == "rigid" ? Connection::rigid : Connection::average;
-  const std::vector<double> origin = file.read_numbers(frame_path(place, "origin"));
+  const std::vector<double> origin = file.read_numbers(frame_path(frame_index, "origin"));
   require_content(origin.size() == 3, fmt::format("the origin of frame '{}' has no three numbers", frame.name));
   require_finite(origin, fmt::format("the origin of frame '{}'", frame.name));
   frame.origin = Vector3(origin[0], origin[1], origin[2]);
-  for (const long long node : file.read_integers(frame_path(place, "nodes"))) {
+  for (const long long node : file.read_integers(frame_path(frame_index, "nodes"))) {
     require_content(node >= 0 && static_cast<std::size_t>(node) < nodes,
                     fmt::format("frame '{}' has node {}, but there are {}, counted from 0", frame.name, node, nodes));
     frame.nodes.push_back(static_cast<int>(node));
   }
-  if (file.has(frame_path(place, "weights"))) frame.weights = file.read_numbers(frame_path(place, "weights"));
+  if (file.has(frame_path(frame_index, "weights")))
+    frame.weights = file.read_numbers(frame_path(frame_index, "weights"));
   require_content(
       frame.weights.empty() || frame.weights.size() == frame.nodes.size(),
       fmt::format("frame '{}' has {} weights for {} nodes", frame.name, frame.weights.size(), frame.nodes.size()));
@@ -160,7 +163,7 @@ ReducedBody read_body(const Hdf5File& file) {
   require_content(body.internal_first() <= body.size(),
                   fmt::format("{} frames need {} columns of Phi, which has {}", body.frames.size(),
                               body.internal_first(), body.size()));
-  // With all frames held: rigid motions store nothing but round-off, which may be negative.
+  // With all frames fixed: rigid motions store no energy except round-off, which may be negative.
   const Eigen::Index internal = body.size() - body.internal_first();
   if (internal > 0) require_no_negative_energy(body.K.bottomRightCorner(internal, internal), "K");
   body.internal_omega = read_vector(file, "internal_omega");
@@ -202,7 +205,7 @@ void write_reduced_body(const std::filesystem::path& path, const ReducedBody& bo
 
 ReducedBody read_reduced_body(const std::filesystem::path& path) {
   try {
-    // Before HDF5 sees it: the library trusts what it reads of a file's structure.
+    // Checked before HDF5 reads the file: the library trusts a file's structure.
     const Seal seal = check_seal(path);
     require_content(seal != Seal::broken, "has changed since it was written: its checksum is another");
     const UntrustedFile doubtful(seal == Seal::intact ? nullptr : path.c_str());

@@ -68,7 +68,7 @@ void project(const ElasticBody& body, ReducedBody& reduced) {
   const MatrixXd M = reduced.Phi.transpose() * mass_times(body.m, reduced.Phi);
   reduced.K = (K + K.transpose()) / 2;
   reduced.M = (M + M.transpose()) / 2;
-  // What is exact is written exactly.
+  // Exactly known values are written exactly.
   const Index b = reduced.internal_first(), i = reduced.size() - b;
   reduced.K.topRightCorner(b, i).setZero();
   reduced.K.bottomLeftCorner(i, b).setZero();
@@ -80,7 +80,7 @@ void project(const ElasticBody& body, ReducedBody& reduced) {
 
 FrameSupports frame_supports(const Mesh& mesh, const std::vector<InterfaceFrame>& frames) {
   Interface interface = interface_of(mesh, frames);
-  return {std::move(interface.held), interface.C};
+  return {std::move(interface.fixed_dofs), interface.C};
 }
 
 Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& frames, const ReductionOptions& options) {
@@ -88,7 +88,7 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
   if (frames.empty()) return no_answer<Reduction>("a reduced body needs a frame that something attaches to");
   if (std::string fault = fault_of(body.mesh, frames); !fault.empty()) return no_answer<Reduction>(std::move(fault));
   const Interface interface = interface_of(body.mesh, frames);
-  ConstrainedStiffness stiffness(body.K, body.m, interface.held, interface.C);
+  ConstrainedStiffness stiffness(body.K, body.m, interface.fixed_dofs, interface.C);
   if (const solver::FactorSummary summary = stiffness.factorise(); !summary.solved())
     return no_answer<Reduction>(summary.status == solver::FactorStatus::singular
                                     ? "a part of the body is not connected to the frames"
@@ -99,7 +99,8 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
   modes.omega.resize(0);
   modes.shapes.resize(body.size(), 0);
   if (options.modes > 0 && stiffness.freedom() > 0)
-    modes = natural_modes(body, interface.held, {.count = options.modes, .highest = options.highest}, interface.C);
+    modes =
+        natural_modes(body, interface.fixed_dofs, {.count = options.modes, .highest = options.highest}, interface.C);
   if (!modes.solved()) return no_answer<Reduction>(modes.message);
   const MatrixXd exact = options.loads.size() ? stiffness.solve(options.loads) : MatrixXd(body.size(), 0);
   const StaticShapes of_surfaces = static_shapes(stiffness, modes, options);

@@ -18,7 +18,7 @@ MatrixXd compliance_of(const ConstrainedStiffness& stiffness, const SurfaceMap& 
   return 0.5 * (C + C.transpose());
 }
 
-/// -M a of turning at 1 rad/s: what pulls the nodes outwards.
+/// Centrifugal forces -M a of a rotation at 1 rad/s.
 VectorXd centrifugal(const ElasticBody& body, const Vector3& centre, const Vector3& axis) {
   VectorXd a(body.size());
   for (Index n = 0; n < body.node_count(); ++n)
@@ -34,7 +34,7 @@ StaticAnswers static_answers(const ElasticBody& body, const std::vector<Interfac
   answers.message = fault_of(body.mesh, frames);
   if (!answers.message.empty()) return answers;
   const Interface interface = interface_of(body.mesh, frames);
-  ConstrainedStiffness stiffness(body.K, body.m, interface.held, interface.C);
+  ConstrainedStiffness stiffness(body.K, body.m, interface.fixed_dofs, interface.C);
   if (const solver::FactorSummary summary = stiffness.factorise(); !summary.solved()) {
     answers.message = summary.status == solver::FactorStatus::singular
                           ? "a part of the body is not connected to the frames"

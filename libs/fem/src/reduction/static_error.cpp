@@ -1,4 +1,4 @@
-// Modes that a surface under load needs beside the slow ones.
+// Static shapes that a loaded surface needs beside the vibration modes.
 #include "reduction/static_error.h"
 
 #include <algorithm>
@@ -11,11 +11,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A surface's pressures: what the kept shapes miss of their static displacements.
+/// The part of the static displacements under a surface's pressures that the kept shapes do not represent.
 struct Missing {
   const LoadedSurface* surface;
   MatrixXd residual;  ///< (3 n, shapes)
-  double size;        ///< of the largest of these displacements, on the surface
+  double size;        ///< norm of the largest of these displacements, on the surface
 };
 
 VectorXd sizes_on(const LoadedSurface& surface, const MatrixXd& u) {
@@ -25,7 +25,7 @@ VectorXd sizes_on(const LoadedSurface& surface, const MatrixXd& u) {
   return squares.cwiseSqrt();
 }
 
-/// Errors of all shapes; none where frames hold the whole surface.
+/// Errors of all shapes; none where frames fix the whole surface.
 VectorXd errors_of(const Missing& missing) {
   const VectorXd sizes = sizes_on(*missing.surface, missing.residual);
   if (!(missing.size > 0)) return VectorXd::Zero(sizes.size());
@@ -56,7 +56,7 @@ StaticShapes static_shapes(const ConstrainedStiffness& stiffness, const Vibratio
     if (worst == all.end() || !(largest_error(*worst) > options.static_error)) break;
     Index k = 0;
     errors_of(*worst).maxCoeff(&k);
-    // What is missing is K-orthogonal to all that is there: its energy is the work of its load.
+    // The missing part is K-orthogonal to all shapes: its energy is the work of its load.
     const double energy = worst->residual.col(k).dot(worst->surface->loads.col(k));
     if (!(energy > 0)) break;
     const VectorXd v = worst->residual.col(k) / std::sqrt(energy);

@@ -8,14 +8,14 @@
 
 namespace hersey::fem {
 
-/// What surfaces ask of a reduced body beside its modes.
+/// Static shapes of surfaces that a reduced body needs beside its modes.
 struct StaticShapes {
   Eigen::MatrixXd added;  ///< displacements (3 n, added), K-orthonormal and K-orthogonal to the modes
   std::vector<StaticError> errors;
 };
 
 /// Adds the static displacement with the largest error until none is larger than options.static_error, (elastic.16).
-/// @param stiffness  factorised, frames held
+/// @param stiffness  factorised, frames fixed
 [[nodiscard]] StaticShapes static_shapes(const ConstrainedStiffness& stiffness, const Vibration& modes,
                                          const ReductionOptions& options);
 

@@ -16,10 +16,10 @@ Eigen::SparseMatrix<double> matrix_of(const std::vector<TieRow>& rows, std::size
 
 }  // namespace
 
-TieConstraints tie_constraints(const Mesh& mesh, const std::vector<int>& held) {
+TieConstraints tie_constraints(const Mesh& mesh, const std::vector<int>& fixed_dofs) {
   const std::size_t dofs = 3 * mesh.nodes.size();
-  std::vector<char> is_held(dofs, 0);
-  for (const int dof : held) is_held[static_cast<std::size_t>(dof)] = 1;
+  std::vector<char> is_fixed(dofs, 0);
+  for (const int dof : fixed_dofs) is_fixed[static_cast<std::size_t>(dof)] = 1;
   std::vector<TieRow> rows;
   rows.reserve(mesh.ties.size());
   for (const MeshTie& tie : mesh.ties) {
@@ -27,7 +27,7 @@ TieConstraints tie_constraints(const Mesh& mesh, const std::vector<int>& held) {
     for (const TieTerm& term : tie) row[3 * term.node + term.axis] += term.coefficient;
   }
   const EliminatedRows left =
-      eliminated(std::move(rows), [&](int dof) { return is_held[static_cast<std::size_t>(dof)] == 0; });
+      eliminated(std::move(rows), [&](int dof) { return is_fixed[static_cast<std::size_t>(dof)] == 0; });
   return {matrix_of(left.rows, dofs), left.pivots, matrix_of(left.rest, dofs)};
 }
 

@@ -48,13 +48,13 @@ void point_upward(Eigen::MatrixXd& shapes) {
 
 }  // namespace
 
-Vibration natural_modes(const ElasticBody& body, const std::vector<int>& held, const VibrationOptions& options,
+Vibration natural_modes(const ElasticBody& body, const std::vector<int>& fixed_dofs, const VibrationOptions& options,
                         const Eigen::SparseMatrix<double>& constraints) {
   HERSEY_REQUIRE(options.count > 0 && options.rtol > 0, "some modes are wanted");
   if (!(body.mass > 0)) return no_answer<Vibration>("the body has no mass: give its material a density");
   const bool are_given = constraints.cols() > 0;
-  const Eigen::SparseMatrix<double> C = are_given ? constraints : tie_constraints(body.mesh, held).C;
-  ConstrainedStiffness stiffness(body.K, body.m, held, C);
+  const Eigen::SparseMatrix<double> C = are_given ? constraints : tie_constraints(body.mesh, fixed_dofs).C;
+  ConstrainedStiffness stiffness(body.K, body.m, fixed_dofs, C);
   const double estimate = lowest_estimate(body);
   const double shift = -shift_share * estimate;
   const solver::FactorSummary summary = stiffness.factorise(shift);

@@ -1,10 +1,10 @@
-// Which faces of a mesh a film lies on, and how finely they tell displacements apart.
+// Faces of a mesh on which a film lies, and the resolution of their displacements.
 #include <fmt/format.h>
 
 #include "hersey/core/contract.h"
 #include "hersey/fem/film_surface.h"
-#include "hersey/fem/surface_loads.h"
-#include "surface/cylinder_point.h"
+#include "hersey/fem/load_distributions.h"
+#include "surface/film_coordinates.h"
 
 namespace hersey::fem {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "hersey/fem/element_point.h"
 #include "hersey/fem/quadrature.h"
-#include "surface/cylinder_point.h"
+#include "surface/film_coordinates.h"
 
 namespace hersey::fem {
 namespace {
@@ -63,7 +63,7 @@ std::vector<FilmCorner> cut(const std::vector<FilmCorner>& polygon, double side,
 
 /// The points of one natural triangle.
 void visit_triangle(const NaturalTriangle& corners, const std::vector<int>& nodes, const NodeColumns& x,
-                    const FilmCylinder& cylinder, const std::function<void(const FilmPoint&)>& see) {
+                    const FilmCylinder& cylinder, const std::function<void(const FilmPoint&)>& visit) {
   const Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
   const double stretch = a.x() * b.y() - a.y() * b.x();
   for (const auto& [xi, weight] : face_points(3)) {
@@ -74,7 +74,7 @@ void visit_triangle(const NaturalTriangle& corners, const std::vector<int>& node
     const CylinderPoint point = cylinder_point(position);
     const Vector3 e_r(position.x() / point.radius, position.y() / point.radius, 0);
     const double phi_z = weight * stretch * normal.dot(e_r) / point.radius;  // dphi dz
-    see({nodes, shape.N, point.phi, point.z, cylinder.X.R * e_r, cylinder.R * phi_z});
+    visit({nodes, shape.N, point.phi, point.z, cylinder.X.R * e_r, cylinder.R * phi_z});
   }
 }
 
@@ -98,14 +98,14 @@ std::vector<std::array<FilmCorner, 3>> film_triangles(const Mesh& mesh, ElementF
 }
 
 void visit_film_points(const Mesh& mesh, ElementFace face, const FilmCylinder& cylinder, int parts,
-                       const std::function<void(const FilmPoint&)>& see) {
+                       const std::function<void(const FilmPoint&)>& visit) {
   const std::vector<int> nodes = nodes_of(mesh, face);
   const NodeColumns x = positions(mesh, nodes, cylinder.X.inverse());
   for (const std::array<FilmCorner, 3>& whole : film_triangles(mesh, face, cylinder, parts)) {
     std::vector<FilmCorner> polygon(whole.begin(), whole.end());
     for (const double side : {1.0, -1.0}) polygon = cut(polygon, side, cylinder.L / 2);
     for (std::size_t c = 2; c < polygon.size(); ++c)
-      visit_triangle({polygon[0].xi, polygon[c - 1].xi, polygon[c].xi}, nodes, x, cylinder, see);
+      visit_triangle({polygon[0].xi, polygon[c - 1].xi, polygon[c].xi}, nodes, x, cylinder, visit);
   }
 }
 

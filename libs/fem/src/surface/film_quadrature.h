@@ -12,17 +12,17 @@ namespace hersey::fem {
 
 /// One point of integration on a film's surface.
 struct FilmPoint {
-  const std::vector<int>& nodes;  ///< of its face, places in the mesh
+  const std::vector<int>& nodes;  ///< nodes of the face, indices in the mesh
   const NodeValues& N;            ///< their shape functions
   double phi = 0, z = 0;          ///< in the film's axes [rad], [m]
   Vector3 outward;                ///< e_r, away from the axis, in the mesh's axes
-  double area = 0;                ///< its share of R dphi dz; < 0 where the solid looks towards the axis [m^2]
+  double area = 0;                ///< its share of R dphi dz; < 0 where the face's normal points towards the axis [m^2]
 };
 
-/// Calls `see` at points on `face` where |z| <= L / 2, after dividing the face into `parts` along each edge and cutting
-/// what reaches beyond.
+/// Calls `visit` at points on `face` where |z| <= L / 2, after dividing the face into `parts` along each edge and
+/// cutting off the parts beyond the width.
 void visit_film_points(const Mesh& mesh, ElementFace face, const FilmCylinder& cylinder, int parts,
-                       const std::function<void(const FilmPoint&)>& see);
+                       const std::function<void(const FilmPoint&)>& visit);
 
 /// A corner of a piece of a face.
 struct FilmCorner {

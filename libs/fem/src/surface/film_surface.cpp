@@ -7,9 +7,9 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/fem/elastic_body.h"
-#include "hersey/fem/surface_loads.h"
-#include "surface/cylinder_point.h"
-#include "surface/film_cover.h"
+#include "hersey/fem/load_distributions.h"
+#include "surface/film_coordinates.h"
+#include "surface/film_coverage.h"
 #include "surface/film_quadrature.h"
 
 namespace hersey::fem {
@@ -68,7 +68,7 @@ FilmSurfaceResult no_faces(const Mesh& mesh, const FilmCylinder& cylinder) {
                  "a larger distance");
 }
 
-/// The radius that lies furthest off; none if all nodes are near enough.
+/// Returns the radius of the largest deviation; none if all nodes are within the tolerance.
 std::optional<double> off_radius(const Mesh& mesh, const std::vector<ElementFace>& faces, const FilmCylinder& cylinder,
                                  double tolerance) {
   const Pose to_cylinder = cylinder.X.inverse();
@@ -93,7 +93,7 @@ FilmSurfaceResult refused_radius(double worst, const FilmCylinder& cylinder) {
                  unit);
 }
 
-/// Where a face that looks the wrong way is; none if all are right.
+/// Returns the position of a face whose normal has the wrong direction; none if all are right.
 std::optional<CylinderPoint> wrong_face(const Mesh& mesh, const std::vector<ElementFace>& faces,
                                         const FilmCylinder& cylinder) {
   for (const ElementFace face : faces) {
@@ -111,8 +111,8 @@ std::optional<CylinderPoint> wrong_face(const Mesh& mesh, const std::vector<Elem
 /// Fills T and G.
 void integrate(const Mesh& mesh, int parts, FilmSurface& surface) {
   const std::vector<int> nodes = nodes_on(mesh, surface.faces);
-  std::vector<Index> place(mesh.nodes.size(), -1);
-  for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<Index>(i);
+  std::vector<Index> index(mesh.nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) index[static_cast<std::size_t>(nodes[i])] = static_cast<Index>(i);
   const Index count = surface.functions.count();
   MatrixXd T = MatrixXd::Zero(3 * static_cast<Index>(nodes.size()), count);
   surface.G = MatrixXd::Zero(count, count);
@@ -123,7 +123,7 @@ void integrate(const Mesh& mesh, int parts, FilmSurface& surface) {
       const double area = std::abs(point.area);
       for (const SurfaceTerm& term : terms) {
         for (std::size_t a = 0; a < point.nodes.size(); ++a)
-          T.block<3, 1>(3 * place[static_cast<std::size_t>(point.nodes[a])], term.index) +=
+          T.block<3, 1>(3 * index[static_cast<std::size_t>(point.nodes[a])], term.index) +=
               area * term.value * point.N[static_cast<Index>(a)] * point.outward;
         for (const SurfaceTerm& other : terms) surface.G(other.index, term.index) += area * term.value * other.value;
       }

@@ -4,7 +4,7 @@
 
 #include "element/block_pattern.h"
 #include "hersey/core/contract.h"
-#include "surface/face_points.h"
+#include "surface/face_quadrature.h"
 
 namespace hersey::fem {
 namespace {
@@ -22,13 +22,13 @@ NodeColumns element_positions(const Mesh& mesh, const Element& element) {
 
 /// Rows and columns of `nodes` alone; the lower triangle is enough.
 SparseMatrix lower_part_of(const SparseMatrix& A, const std::vector<int>& nodes) {
-  std::vector<int> place(static_cast<std::size_t>(A.rows()), -1);
-  for (std::size_t i = 0; i < nodes.size(); ++i) place[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
+  std::vector<int> index(static_cast<std::size_t>(A.rows()), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) index[static_cast<std::size_t>(nodes[i])] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(A.nonZeros() / 2 + A.rows()));
   for (Index j = 0; j < A.outerSize(); ++j)
     for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
-      const int row = place[static_cast<std::size_t>(entry.row())], column = place[static_cast<std::size_t>(j)];
+      const int row = index[static_cast<std::size_t>(entry.row())], column = index[static_cast<std::size_t>(j)];
       if (column >= 0 && row >= column) entries.emplace_back(row, column, entry.value());
     }
   SparseMatrix part(static_cast<Index>(nodes.size()), static_cast<Index>(nodes.size()));
@@ -72,11 +72,11 @@ HeatConduction::HeatConduction(const Mesh& mesh, const std::vector<ThermalMateri
   }
   cool(mesh);
   owner_.assign(mesh.nodes.size(), -1);
-  interface_wrench_ = VectorXd::Zero(A_.rows());
-  for (std::size_t s = 0; s < surroundings_.held.size(); ++s)
-    for (const int node : surroundings_.held[s].nodes) {
+  prescribed_T_ = VectorXd::Zero(A_.rows());
+  for (std::size_t s = 0; s < surroundings_.prescribed.size(); ++s)
+    for (const int node : surroundings_.prescribed[s].nodes) {
       owner_[static_cast<std::size_t>(node)] = static_cast<int>(s);
-      interface_wrench_[node] = surroundings_.held[s].T;
+      prescribed_T_[node] = surroundings_.prescribed[s].T;
     }
   for (std::size_t a = 0; a < owner_.size(); ++a)
     if (owner_[a] < 0) free_.push_back(static_cast<int>(a));
@@ -131,8 +131,8 @@ MatrixXd HeatConduction::rises(const MatrixXd& heat) const {
 }
 
 MatrixXd HeatConduction::temperatures(const MatrixXd& heat) const {
-  const VectorXd known = ambient_ - A_ * interface_wrench_;
-  return rises(heat.colwise() + known).colwise() + interface_wrench_;
+  const VectorXd known = ambient_ - A_ * prescribed_T_;
+  return rises(heat.colwise() + known).colwise() + prescribed_T_;
 }
 
 VectorXd HeatConduction::cooling(const VectorXd& T) const {
@@ -144,9 +144,9 @@ VectorXd HeatConduction::cooling(const VectorXd& T) const {
   return heat;
 }
 
-VectorXd HeatConduction::held_heat(const VectorXd& T, const VectorXd& heat) const {
+VectorXd HeatConduction::reaction_heat(const VectorXd& T, const VectorXd& heat) const {
   const VectorXd out = heat + ambient_ - A_ * T;
-  VectorXd sums = VectorXd::Zero(static_cast<Index>(surroundings_.held.size()));
+  VectorXd sums = VectorXd::Zero(static_cast<Index>(surroundings_.prescribed.size()));
   for (std::size_t a = 0; a < owner_.size(); ++a)
     if (owner_[a] >= 0) sums[owner_[a]] += out[static_cast<Index>(a)];
   return sums;

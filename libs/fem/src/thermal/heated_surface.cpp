@@ -8,7 +8,7 @@
 #include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/thermal_expansion.h"
 #include "hersey/fem/ties.h"
-#include "surface/cylinder_point.h"
+#include "surface/film_coordinates.h"
 #include "surface/film_quadrature.h"
 
 namespace hersey::fem {
@@ -68,9 +68,9 @@ MatrixXd heat_of_angles(const Mesh& mesh, const FilmSurface& surface, const std:
   return P * areas.cwiseInverse().asDiagonal();
 }
 
-/// The same of a unit of heat that is spread evenly over all of the surface (thermal.59).
+/// Returns the same for a unit of heat that is spread evenly over all of the surface (thermal.59).
 MatrixXd even_heat(const Mesh& mesh, const FilmSurface& surface) {
-  constexpr int pieces = 2;  // whose quadrature knows the polynomials of a face
+  constexpr int pieces = 2;  // its quadrature is exact for the polynomials of a face
   MatrixXd P = MatrixXd::Zero(static_cast<Index>(mesh.nodes.size()), 1);
   for (const ElementFace face : surface.faces)
     visit_film_points(mesh, face, surface.cylinder, pieces, [&](const FilmPoint& point) {
@@ -80,8 +80,8 @@ MatrixXd even_heat(const Mesh& mesh, const FilmSurface& surface) {
   return P / P.sum();
 }
 
-/// Takes off what of a radial displacement in the surface's functions is a rigid motion of the surface: across the axis
-/// and tilted against it.
+/// Subtracts from a radial displacement in the surface's functions its rigid motion: across the axis and tilted against
+/// it.
 MatrixXd without_rigid_motion(const FilmSurface& surface, const Mesh& mesh, const MatrixXd& shapes) {
   const Pose& X = surface.cylinder.X;
   MatrixXd U(3 * static_cast<Index>(mesh.nodes.size()), 4);
@@ -113,17 +113,17 @@ std::vector<int> statically_determinate(const Mesh& mesh) {
   const Vector3 along = (mesh.nodes[static_cast<std::size_t>(b)] - A).normalized();
   const int c = farthest([&](const Vector3& x) { return (x - A).cross(along).norm(); });
   const std::vector<int> dofs = dofs_of({a, b, c});
-  // The six that see the rigid motions best.
+  // The six degrees of freedom that determine the rigid motions best.
   MatrixXd motions = rigid_motions(mesh, A);
   motions.leftCols<3>() /= (mesh.nodes[static_cast<std::size_t>(b)] - A).norm();
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(MatrixXd(motions(dofs, Eigen::all)).transpose());
-  std::vector<int> held;
-  held.reserve(6);
-  for (int i = 0; i < 6; ++i) held.push_back(dofs[static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
-  return held;
+  std::vector<int> fixed_dofs;
+  fixed_dofs.reserve(6);
+  for (int i = 0; i < 6; ++i) fixed_dofs.push_back(dofs[static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
+  return fixed_dofs;
 }
 
-// A spline's functions around have all the same mean, and any turn of as many points meets it.
+// All functions of a spline around have the same mean; as many equally spaced points, at any angle, give it exactly.
 MatrixXd mean_around(const SurfaceFunctions& functions, const MatrixXd& shapes, const std::vector<double>& z) {
   HERSEY_REQUIRE(shapes.rows() == functions.count(), "shapes in the functions of this surface");
   MatrixXd mean = MatrixXd::Zero(static_cast<Index>(z.size()), shapes.cols());
@@ -155,11 +155,12 @@ HeatedSurface heated_surface(const ElasticBody& body, const std::vector<ThermalM
   if (!options.expands) return result;
   MatrixXd rises(P.rows(), P.cols() + 2);
   rises << result.rise_body, result.T_body0.array() - options.T_reference, VectorXd::Ones(P.rows());
-  const std::vector<int> held = options.held.empty() ? statically_determinate(body.mesh) : options.held;
-  ConstrainedStiffness stiffness(body.K, body.m, held, tie_constraints(body.mesh, held).C);
+  const std::vector<int> fixed_dofs =
+      options.fixed_dofs.empty() ? statically_determinate(body.mesh) : options.fixed_dofs;
+  ConstrainedStiffness stiffness(body.K, body.m, fixed_dofs, tie_constraints(body.mesh, fixed_dofs).C);
   const solver::FactorSummary summary = stiffness.factorise();
   if (summary.status == solver::FactorStatus::singular)
-    return no_answer<HeatedSurface>("what holds the body as it expands leaves it a motion");
+    return no_answer<HeatedSurface>("the supports of the expanding body leave it a rigid motion");
   if (!summary.solved()) return no_answer<HeatedSurface>(summary.message);
   MatrixXd shapes(surface.functions.count(), rises.cols());
   for (Index first = 0; first < rises.cols(); first += sources_at_once) {

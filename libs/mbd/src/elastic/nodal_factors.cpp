@@ -55,8 +55,14 @@ const NodalFactor* NodalFactors::of(const solver::Stage& stage, std::string& mes
 }
 
 bool NodalFactors::add(double shift, double scale, std::string& message) {
-  factors_.push_front(
-      {shift, scale, fem::ConstrainedStiffness(body_.K, body_.m, supports_.held, supports_.C), {}, {}, {}, {}, {}});
+  factors_.push_front({shift,
+                       scale,
+                       fem::ConstrainedStiffness(body_.K, body_.m, supports_.fixed_dofs, supports_.C),
+                       {},
+                       {},
+                       {},
+                       {},
+                       {}});
   return factorise(factors_.front(), shift, scale, message);
 }
 
@@ -113,10 +119,10 @@ VectorXd NodalFactors::solve(const NodalFactor& factor, const VectorXd& f) {
 }
 
 void NodalFactors::leave_to_frames(VectorXd& f) const {
-  for (const int dof : supports_.held) f[dof] = 0;
+  for (const int dof : supports_.fixed_dofs) f[dof] = 0;
   if (supports_.C.rows() == 0) return;
   f -= supports_.C.transpose() * (bearing_ * (supports_.C * f));
-  for (const int dof : supports_.held) f[dof] = 0;
+  for (const int dof : supports_.fixed_dofs) f[dof] = 0;
 }
 
 void NodalFactors::persist(Archive& archive) {

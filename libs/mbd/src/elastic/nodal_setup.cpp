@@ -55,7 +55,7 @@ ModalBodyData finite_data(const fem::ElasticBody& body, const fem::ReducedBody& 
   }
   if (further > 0) {
     const fem::FrameSupports supports = supports_of(body, reduced);
-    fem::ConstrainedStiffness constrained(body.K, body.m, supports.held, supports.C);
+    fem::ConstrainedStiffness constrained(body.K, body.m, supports.fixed_dofs, supports.C);
     HERSEY_REQUIRE(constrained.factorise().solved(), "the reduction has factorised this matrix");
     Psi -= constrained.solve(MatrixXd(body.K * Psi));
   }

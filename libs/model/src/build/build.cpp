@@ -9,7 +9,7 @@
 #include "build/build_flexible.h"
 #include "hersey/bearing/journal_bearing.h"
 #include "hersey/core/contract.h"
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
 #include "hersey/mbd/coordinate_laws.h"
 #include "hersey/model/wall_conduction.h"
 

@@ -75,7 +75,7 @@ fem::HeatedSurface heated(const Model& model, const Body& body, const fem::FilmS
   const BodyHeat& heat = *body.flexible->heat;
   const fem::HeatedSurfaceOptions options{.angles = std::move(angles),
                                           .T_reference = heat.T_reference,
-                                          .held = fem::dofs_of(heat.fixed),
+                                          .fixed_dofs = fem::dofs_of(heat.fixed),
                                           .expands = heat.material.expansion > 0};
   const std::vector<fem::ThermalMaterial> materials(body.flexible->materials.size(), heat.material);
   fem::HeatedSurface found =
@@ -94,7 +94,7 @@ void add_wall(const Model& model, const Body& body, const fem::FilmSurface& film
   print.add(heat.material.conductivity), print.add(heat.material.expansion), print.add(heat.T_reference);
   for (const fem::CooledFaces& cooled : surroundings_of(model, body).cooled)
     print.add(cooled.faces), print.add(cooled.transfer), print.add(cooled.T_ambient);
-  for (const fem::HeldNodes& prescribed : heat.surroundings.held) print.add(prescribed.nodes), print.add(prescribed.T);
+  for (const fem::PrescribedNodes& prescribed : heat.surroundings.prescribed) print.add(prescribed.nodes), print.add(prescribed.T);
   print.add(heat.fixed);
   print.add(film.cylinder.X.R), print.add(film.cylinder.X.r), print.add(film.cylinder.R), print.add(film.cylinder.L);
   print.add(film.functions.around()), print.add(film.functions.along()), print.add(film.faces);

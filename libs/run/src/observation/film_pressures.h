@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "hersey/fem/surface_pressure.h"
+#include "hersey/fem/film_pressure.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "observation/step_record.h"

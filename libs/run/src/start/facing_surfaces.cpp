@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "hersey/bearing/clearance.h"
-#include "hersey/fem/surface_radii.h"
+#include "hersey/fem/film_radii.h"
 
 namespace hersey::run {
 namespace {

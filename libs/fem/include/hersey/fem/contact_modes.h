@@ -7,9 +7,9 @@
 
 namespace hersey::fem {
 
-/// Static answers of a body to forces along the normals of faces at their nodes, the most compliant ones first: as
-/// film_modes, with a function for each node and G its share of the area.
-/// @param stiffness  factorised, its frames held
+/// Computes the static displacements of a body under forces along the normals of faces at their nodes, the most
+/// compliant ones first: as film_modes, with one function per node and the node's share of the area as G.
+/// @param stiffness  factorised, its frames fixed
 /// @cost one solution per node of the faces and one per mode
 /// @verified_by contact_modes_test.cpp
 [[nodiscard]] FilmModes contact_modes(const ConstrainedStiffness& stiffness, const Mesh& mesh,

@@ -10,8 +10,8 @@
 
 namespace hersey::fem {
 
-/// An elastic solid on a mesh: what every analysis starts from. Degree of freedom 3 a + i is the displacement of node a
-/// along axis i.
+/// Elastic solid on a mesh: the input of every analysis. Degree of freedom 3 a + i is the displacement of node a along
+/// axis i.
 struct ElasticBody {
   Mesh mesh;
   std::vector<SolidMaterial> materials;
@@ -19,40 +19,41 @@ struct ElasticBody {
   Eigen::SparseMatrix<double> K;      ///< stiffness (3 n, 3 n) [N/m], symmetric, both triangles
   Eigen::SparseMatrix<double> m;      ///< consistent mass (n, n) [kg], M = m (x) I3, (elastic.6)
   double mass = 0;                    ///< [kg]
-  Vector3 centre = Vector3::Zero();   ///< of mass [m]
-  Matrix3 inertia = Matrix3::Zero();  ///< about `centre`, in the mesh's axes [kg m^2]
+  Vector3 centre = Vector3::Zero();   ///< centre of mass [m]
+  Matrix3 inertia = Matrix3::Zero();  ///< inertia about `centre`, in the mesh's axes [kg m^2]
 
-  /// Nodes, n.
+  /// Number of nodes, n.
   [[nodiscard]] Eigen::Index node_count() const { return m.rows(); }
-  /// Degrees of freedom, 3 n.
+  /// Number of degrees of freedom, 3 n.
   [[nodiscard]] Eigen::Index size() const { return K.rows(); }
-  /// Of an element; the first where it names none.
+  /// Returns the material of an element: the first one where the element names none.
   [[nodiscard]] const SolidMaterial& material_of(const Element& element) const;
-  /// Of an element's nodes, undeformed, (3, nodes) [m].
+  /// Returns the undeformed positions of an element's nodes, (3, nodes) [m].
   [[nodiscard]] NodeColumns positions_of(const Element& element) const;
 };
 
-/// Assembles K and m of `mesh`, whose elements name their material by its place in `materials` (no material given: the
-/// first). The pattern of K and m depends on the mesh's connectivity only. Cost: about 1 s for 100,000 degrees of
-/// freedom.
+/// Assembles K and m of `mesh`, whose elements name their material by its index in `materials` (elements without a
+/// material take the first). The pattern of K and m depends on the mesh's connectivity only. Cost: about 1 s for
+/// 100,000 degrees of freedom.
 /// @throws InputError naming elements that are folded or beams, and nodes that belong to no element
 /// @throws ContractError if an element's material is not among `materials`
 /// @verified_by elastic_body_test.cpp
 [[nodiscard]] ElasticBody assemble(Mesh mesh, std::vector<SolidMaterial> materials,
                                    Integration integration = Integration::full);
 
-/// Mass, centre and inertia of `body` from its nodes and m.
+/// Computes mass, centre and inertia of `body` from its nodes and m.
 void find_inertia(ElasticBody& body);
 
-/// M u for u with any number of columns, (3 n, columns).
+/// Returns M u for u with any number of columns, (3 n, columns).
 [[nodiscard]] Eigen::MatrixXd mass_times(const Eigen::SparseMatrix<double>& m, const Eigen::MatrixXd& u);
 
-/// The six motions of a rigid body (3 n, 6): turned about the axes through `about`, then moved along them. Column order
-/// as in [omega; v].
+/// Returns the six motions of a rigid body (3 n, 6): rotations about the axes through `about`, then translations along
+/// the axes. The columns are ordered as in [omega; v].
 [[nodiscard]] Eigen::MatrixXd rigid_motions(const Mesh& mesh, const Vector3& about);
 
-/// Box [0, size] of `cells` hexahedra along each axis, cut in two wedges or six tetrahedra where `type` wants it, with
-/// node sets and surfaces x0, x1, y0, y1, z0, z1 on its sides: bodies for tests, benchmarks and first tries.
+/// Returns the mesh of a box [0, size] of `cells` hexahedra along each axis, each cut into two wedges or six tetrahedra
+/// if `type` requires it, with node sets and surfaces x0, x1, y0, y1, z0, z1 on its sides. It serves tests, benchmarks
+/// and first trials.
 [[nodiscard]] Mesh box_mesh(ElementType type, const Vector3& size, const std::array<int, 3>& cells);
 
 }  // namespace hersey::fem

@@ -4,12 +4,12 @@
 
 namespace hersey::fem {
 
-/// Where a film lies in a mesh: |z| <= L / 2 of a cylinder about the z-axis of `X`.
+/// Cylinder on which a film lies in a mesh: |z| <= L / 2 about the z-axis of `X`.
 struct FilmCylinder {
-  Pose X;               ///< of the film's axes in the mesh's, origin in the middle of the width [m]
+  Pose X;               ///< pose of the film's axes in the mesh's, origin in the middle of the width [m]
   double R = 0;         ///< radius [m], > 0
   double L = 0;         ///< width [m], > 0
-  bool is_bore = true;  ///< the solid lies around the film; false: within it, a journal
+  bool is_bore = true;  ///< true: the solid lies around the film (a bore); false: within it (a journal)
 };
 
 }  // namespace hersey::fem

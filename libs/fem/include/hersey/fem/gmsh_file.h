@@ -6,8 +6,8 @@
 
 namespace hersey::fem {
 
-/// Writes a mesh of solids as Gmsh does, format 2.2, ASCII, in metres: `read_mesh` with 1 m gives the same nodes,
-/// elements, sets and surfaces. Materials are left out, the format has none.
+/// Writes a mesh of solids in Gmsh's format 2.2, ASCII, in metres: `read_mesh` with 1 m returns the same nodes,
+/// elements, sets and surfaces. Materials are not written because the format has none.
 /// @pre no beams. @throws std::runtime_error where it cannot be written. @verified_by gmsh_file_test.cpp
 void write_gmsh(const std::filesystem::path& path, const Mesh& mesh);
 

@@ -5,8 +5,8 @@
 
 namespace hersey::fem {
 
-/// Content of a file that a mesh file includes, by the name it is included with.
-/// @throws std::runtime_error telling what is there instead: "no readable file"
+/// Returns the content of a file that a mesh file includes, by the name with which it is included.
+/// @throws std::runtime_error that says what was found instead: "no readable file"
 using IncludeLoader = std::function<std::string(const std::string& name)>;
 
 }  // namespace hersey::fem

@@ -8,12 +8,12 @@
 namespace hersey::fem {
 
 /// Reads a real or integer matrix of NIST's Matrix Market format: coordinate or array, general, symmetric or
-/// skew-symmetric; entries given twice are summed.
+/// skew-symmetric; entries that occur twice are summed.
 /// @throws InputError with file and line.
 /// @see Boisvert, Pozo, Remington (1996), The Matrix Market exchange formats, NISTIR 5935.
 [[nodiscard]] Eigen::SparseMatrix<double> read_matrix_market(const std::filesystem::path& path);
 
-/// The same from the text of a file called `name` in messages.
+/// Reads the matrix from the text of a file called `name` in messages.
 [[nodiscard]] Eigen::SparseMatrix<double> parse_matrix_market(std::string_view text, const std::string& name);
 
 }  // namespace hersey::fem

@@ -9,25 +9,26 @@
 
 namespace hersey::fem {
 
-/// Shapes of elements. Nodes are numbered as in Abaqus and CalculiX (corners first; midside nodes follow the corners'
-/// edges bottom, top, upright), faces as there too; readers of other formats renumber.
-/// Files of reduced bodies hold their places here: new ones come last.
+/// Types of elements. Nodes are numbered as in Abaqus and CalculiX (corners first; midside nodes follow the corners'
+/// edges bottom, top, upright), and so are faces; readers of other formats renumber them.
+/// Files of reduced bodies store the values of this enumeration: append new types at the end.
 enum class ElementType { tet4, tet10, wedge6, wedge15, hex8, hex20, beam2, pyramid5, pyramid13 };
 
-/// Nodes of an element, midside ones included.
+/// Returns the number of nodes of an element, midside nodes included.
 [[nodiscard]] int node_count(ElementType type);
 [[nodiscard]] int face_count(ElementType type);  ///< 0 for a beam
-/// "tet4".
+/// Returns the name of a type, such as "tet4".
 [[nodiscard]] const char* name_of(ElementType type);
 
-/// Nodes of one face, outward normal by the right hand: corners in turn, then the midside nodes of its edges in turn.
+/// Returns the nodes of one face, ordered so that the right-hand rule gives the outward normal: its corners, then the
+/// midside nodes of its edges in the same order.
 [[nodiscard]] const std::vector<int>& face_nodes(ElementType type, int face);
 
 struct Element {
   ElementType type = ElementType::tet4;
-  long label = 0;     ///< its number in the file it came from
-  int first = 0;      ///< place of its first node in Mesh::connectivity
-  int material = -1;  ///< place in Mesh::materials; -1: none given
+  long label = 0;     ///< number of the element in its file
+  int first = 0;      ///< index of its first node in Mesh::connectivity
+  int material = -1;  ///< index in Mesh::materials; -1: none given
 };
 
 /// Face `face` of element `element`, both counted from 0.
@@ -36,7 +37,7 @@ struct ElementFace {
   int face = 0;
 };
 
-/// What a mesh file says of a material; every number is optional because files often leave some out.
+/// Material as a mesh file gives it; every number is optional because files often omit some.
 struct MeshMaterial {
   std::string name;
   std::optional<double> youngs_modulus;  ///< in the file's units until the mesh is scaled
@@ -44,29 +45,29 @@ struct MeshMaterial {
   std::optional<double> density;
 };
 
-/// A share of a tie: the displacement of a node along an axis of the mesh, times a coefficient.
+/// Term of a tie: the displacement of a node along an axis of the mesh, times a coefficient.
 struct TieTerm {
   int node = 0, axis = 0;
   double coefficient = 0;
 };
 
-/// A linear equation that displacements obey, sum coefficient u = 0, (elastic.31). The first term's degree of freedom
-/// is in no other tie of the mesh.
+/// Linear equation between displacements, sum coefficient u = 0, (elastic.31). The degree of freedom of the first term
+/// occurs in no other tie of the mesh.
 using MeshTie = std::vector<TieTerm>;
 
 /// Nodes, elements and named sets of a body, in metres once scaled, in the body's own axes.
 struct Mesh {
   std::vector<Vector3> nodes;     ///< positions [m]
-  std::vector<long> node_labels;  ///< their numbers in the file
+  std::vector<long> node_labels;  ///< numbers of the nodes in the file
   std::vector<Element> elements;
-  std::vector<int> connectivity;  ///< places in `nodes`, element after element
+  std::vector<int> connectivity;  ///< indices in `nodes`, element after element
   std::vector<MeshMaterial> materials;
-  std::map<std::string, std::vector<int>> node_sets;     ///< places in `nodes`, ascending
-  std::map<std::string, std::vector<int>> element_sets;  ///< places in `elements`, ascending
+  std::map<std::string, std::vector<int>> node_sets;     ///< indices in `nodes`, ascending
+  std::map<std::string, std::vector<int>> element_sets;  ///< indices in `elements`, ascending
   std::map<std::string, std::vector<ElementFace>> surfaces;
   std::vector<MeshTie> ties;  ///< independent of each other
 
-  /// Places of its nodes in `nodes`, node_count(element.type) of them.
+  /// Returns the indices of an element's nodes in `nodes`, node_count(element.type) of them.
   [[nodiscard]] const int* nodes_of(const Element& element) const { return connectivity.data() + element.first; }
 };
 

@@ -13,21 +13,21 @@ struct QuadraturePoint {
       0;  ///< sum over a rule: the natural element's volume (1/6 tetrahedron, 1 wedge, 8 hexahedron, 4/3 pyramid)
 };
 
-/// Which points the stiffness is integrated with.
+/// Selects the integration points of the stiffness.
 enum class Integration {
   full,    ///< tet10 4, wedge15 9, hex20 27 points: as CalculiX's C3D10, C3D15, C3D20
   reduced  ///< hex20 with 8 points (C3D20R): softer, a single element has six modes without energy; others as full
 };
 
-/// Points for the stiffness.
+/// Returns the integration points of the stiffness.
 [[nodiscard]] const std::vector<QuadraturePoint>& stiffness_points(ElementType type,
                                                                    Integration rule = Integration::full);
 
-/// Points for the mass: exact for N_a N_b on straight elements, more points than nodes where that needs it, so that the
-/// mass matrix of every element is positive definite.
+/// Returns the integration points of the mass: exact for N_a N_b on straight elements, with more points than nodes
+/// where the mass matrix would otherwise not be positive definite.
 [[nodiscard]] const std::vector<QuadraturePoint>& mass_points(ElementType type);
 
-/// Points of a face with 3, 4, 6 or 8 nodes.
+/// Returns the integration points of a face with 3, 4, 6 or 8 nodes.
 [[nodiscard]] const std::vector<QuadraturePoint>& face_points(int nodes);
 
 }  // namespace hersey::fem

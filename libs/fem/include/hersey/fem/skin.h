@@ -7,28 +7,29 @@
 
 namespace hersey::fem {
 
-/// Corners of a face as places in Mesh::nodes, ascending; -1 last for a triangle. Equal for the two elements it parts.
+/// Corners of a face as indices in Mesh::nodes, ascending; -1 last for a triangle. The key is the same for both
+/// elements that share the face.
 using FaceKey = std::array<int, 4>;
-/// Of a face of a solid element.
+/// Returns the key of a face of a solid element.
 [[nodiscard]] FaceKey face_key(const Mesh& mesh, ElementFace face);
 
-/// Nodes of a face as places in Mesh::nodes, in the order of `face_nodes`.
+/// Returns the nodes of a face as indices in Mesh::nodes, in the order of `face_nodes`.
 [[nodiscard]] std::vector<int> nodes_of(const Mesh& mesh, ElementFace face);
 
-/// Faces that belong to one element only, by element and face.
+/// Returns the faces that belong to one element only, ordered by element and face.
 [[nodiscard]] std::vector<ElementFace> outer_faces(const Mesh& mesh);
 
-/// A surface of a mesh in flat triangles, for pictures: a face of n corners and n midside nodes gives one triangle per
-/// corner and n - 2 between the midside nodes.
+/// Surface of a mesh in flat triangles, for pictures: a face of n corners and n midside nodes is divided into one
+/// triangle per corner and n - 2 between the midside nodes.
 struct Skin {
-  std::vector<int> nodes;                     ///< places in Mesh::nodes, ascending
-  std::vector<std::array<int, 3>> triangles;  ///< places in `nodes`, counterclockwise seen from outside
+  std::vector<int> nodes;                     ///< indices in Mesh::nodes, ascending
+  std::vector<std::array<int, 3>> triangles;  ///< indices in `nodes`, counterclockwise seen from outside
 };
 
-/// The given faces in triangles.
+/// Returns the triangles of the given faces.
 [[nodiscard]] Skin skin(const Mesh& mesh, const std::vector<ElementFace>& faces);
 
-/// The whole outer surface in triangles.
+/// Returns the triangles of the whole outer surface.
 [[nodiscard]] Skin skin(const Mesh& mesh);
 
 }  // namespace hersey::fem

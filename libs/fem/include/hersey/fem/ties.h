@@ -7,15 +7,16 @@
 
 namespace hersey::fem {
 
-/// The ties of a mesh where some degrees of freedom are held.
+/// Ties of a mesh some of whose degrees of freedom are fixed.
 struct TieConstraints {
-  Eigen::SparseMatrix<double> C;  ///< (ties, 3 n), C u = 0, independent on the degrees of freedom that are not held
-  std::vector<int> pivots;        ///< of each: a degree of freedom that is not held and in no other of these ties
-  Eigen::SparseMatrix<double> of_held;  ///< (rows, 3 n): what ties ask of held degrees of freedom alone
+  Eigen::SparseMatrix<double> C;  ///< (ties, 3 n), C u = 0, independent on the free degrees of freedom
+  std::vector<int> pivots;        ///< for each tie: a free degree of freedom that occurs in no other of these ties
+  Eigen::SparseMatrix<double> on_fixed;  ///< (rows, 3 n): conditions of the ties on fixed degrees of freedom alone
 };
 
-/// @param held places of degrees of freedom, any order, repetitions allowed
+/// Returns the constraints of the mesh's ties.
+/// @param fixed_dofs indices of degrees of freedom, any order, repetitions allowed
 /// @verified_by tie_test.cpp
-[[nodiscard]] TieConstraints tie_constraints(const Mesh& mesh, const std::vector<int>& held);
+[[nodiscard]] TieConstraints tie_constraints(const Mesh& mesh, const std::vector<int>& fixed_dofs);
 
 }  // namespace hersey::fem

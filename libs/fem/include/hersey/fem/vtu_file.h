@@ -18,10 +18,10 @@ struct VtuField {
   Eigen::MatrixXd values;
 };
 
-/// What one .vtu file shows.
+/// Content of one .vtu file.
 struct VtuFrame {
-  Eigen::Matrix3Xd positions;         ///< of the nodes [m]; empty: those of the mesh
-  std::vector<VtuField> node_fields;  ///< such as displacement, stress averaged at nodes
+  Eigen::Matrix3Xd positions;         ///< positions of the nodes [m]; empty: those of the mesh
+  std::vector<VtuField> node_fields;  ///< fields such as displacement or stress averaged at nodes
   std::vector<VtuField> element_fields;
 };
 
@@ -31,15 +31,15 @@ struct VtuFrame {
 /// @see VTK File Formats (vtk.org), "XML File Formats". @verified_by vtu_file_test.cpp
 void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const VtuFrame& frame);
 
-/// A series of .vtu files over time that ParaView opens as one: a .pvd file and a folder of its name beside it.
+/// Series of .vtu files over time that ParaView opens as one: a .pvd file and a folder of its name beside it.
 class VtuSeries {
  public:
-  /// Makes the folder; the .pvd file is complete after every `add`.
+  /// Creates the folder; the .pvd file is complete after every `add`.
   explicit VtuSeries(std::filesystem::path pvd);
-  /// Writes the next file, of this time [s]. @throws std::runtime_error naming the file if it cannot be written
+  /// Writes the next file, for this time [s]. @throws std::runtime_error naming the file if it cannot be written
   void add(double time, const Mesh& mesh, const VtuFrame& frame);
 
-  /// Which files there are; those of later times are left out of the series when it is restored.
+  /// Saves or restores the list of files; on restoring, files of later times are removed from the series.
   void persist(Archive& archive);
 
  private:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
 #include "interpret/context/interpret.h"
 
 // Surfaces of bearings that lie on the mesh of a flexible body.

@@ -3,8 +3,9 @@
 #include <utility>
 
 #include "hersey/core/spelling.h"
+#include "hersey/fem/load_distributions.h"
 #include "hersey/fem/skin.h"
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
 #include "interpret/context/interpret.h"
 
 // How bodies conduct heat and expand.
@@ -33,7 +34,7 @@ bool is_known(const fem::Mesh& mesh, const std::string& name) {
 /// Outer faces that are not cooled otherwise and have a node whose temperature is not given.
 std::vector<fem::ElementFace> rest_of(const fem::Mesh& mesh, const fem::ThermalSurroundings& named) {
   std::vector<char> is_prescribed(mesh.nodes.size(), 0);
-  for (const fem::HeldNodes& prescribed : named.held)
+  for (const fem::PrescribedNodes& prescribed : named.prescribed)
     for (const int node : prescribed.nodes) is_prescribed[static_cast<std::size_t>(node)] = 1;
   std::set<std::pair<int, int>> taken;
   for (const fem::CooledFaces& cooled : named.cooled)
@@ -73,7 +74,7 @@ BodyHeat body_heat_of(Context& context, const Value& value, const fem::Mesh& mes
     heat.surroundings.cooled.push_back(std::move(cooled));
   }
   for (const auto& [name, T] : section(value, "temperatures"))
-    if (!T.broken) heat.surroundings.held.push_back({nodes_called(context, T, name, mesh), T.number});
+    if (!T.broken) heat.surroundings.prescribed.push_back({nodes_called(context, T, name, mesh), T.number});
   if (rest != nullptr) {
     heat.rest = heat.surroundings.cooled.size();
     heat.surroundings.cooled.push_back(
@@ -84,7 +85,7 @@ BodyHeat body_heat_of(Context& context, const Value& value, const fem::Mesh& mes
     const std::vector<int> nodes = nodes_called(context, name, name.text, mesh);
     heat.fixed.insert(heat.fixed.end(), nodes.begin(), nodes.end());
   }
-  if (transfer == 0 && heat.surroundings.held.empty() && !context.has_fault_in(value.path))
+  if (transfer == 0 && heat.surroundings.prescribed.empty() && !context.has_fault_in(value.path))
     context.fault_at_key(value, "a body whose heat has no path to the surroundings",
                          "`cooling` of one of its surfaces, or `temperatures` of some nodes",
                          "add `cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}`");

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "hersey/core/spelling.h"
-#include "hersey/fem/surface_loads.h"
+#include "hersey/fem/load_distributions.h"
 #include "interpret/context/interpret.h"
 #include "schema/machine_vocabulary.h"
 
