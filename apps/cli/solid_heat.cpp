@@ -95,7 +95,7 @@ void conduct(const SolidArguments& arguments, const fem::ElasticBody& body, Soli
     refuse_heat("--cooling", summary.message, "--cooling SURFACE=80W/m^2/K:20degC, or --temperature SET=80degC");
   if (!summary.solved()) throw std::runtime_error(summary.message);
   heat.T = conduction.temperatures(into);
-  const Eigen::VectorXd cooling = conduction.cooling(heat.T), heat_of_supports = conduction.held_heat(heat.T, into);
+  const Eigen::VectorXd cooling = conduction.cooling(heat.T), heat_of_supports = conduction.reaction_heat(heat.T, into);
   const auto name_of = [](const std::string& text) { return text.substr(0, text.find('=')); };
   for (std::size_t s = 0; s < arguments.cooling.size(); ++s)
     heat.leaving.push_back({name_of(arguments.cooling[s]), cooling[static_cast<Eigen::Index>(s)]});

@@ -223,9 +223,9 @@ TEST_CASE("Mistakes_InOilsAndHeat_AreReported") {
       reports(sheared("law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_ratio: 0.5, limit_viscosity: 5 mPa.s"),
               "", "two limits of the same oil"));
   CHECK(reports(sheared("law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 12 mPa.s"), "",
-              "a limit above the viscosity at rest, 10 mPa.s"));
+                "a limit above the viscosity at rest, 10 mPa.s"));
   CHECK(reports(sheared("law: cross, exponent: 2, critical_stress: 1 kPa, limit_ratio: 0.1"), "",
-              "an exponent of at most 1, or with this one a limit_ratio above 0.111"));
+                "an exponent of at most 1, or with this one a limit_ratio above 0.111"));
   // Layers share the film's stress; a film in one layer has its rate from its surfaces.
   const std::string stops = ", specific_heat: 1900 J/kg/K, conductivity: 0.14 W/m/K";
   for (const std::string law : {"law: carreau, exponent: 0.05", "law: cross, exponent: 1"}) {
@@ -235,10 +235,10 @@ TEST_CASE("Mistakes_InOilsAndHeat_AreReported") {
     const std::string risen = sheared(law + ", critical_stress: 1 kPa, limit_ratio: 1e-4") + stops;
     CHECK_NOTHROW(read_bearing(risen, "model: film, supply_temperature: 50 degC"));
   }
-  CHECK(
-      reports("grade: iso_vg_46, shear_thinning: {law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 5 "
-            "mPa.s}",
-            "model: isothermal, temperature: 50 degC", "a `temperature` of the lubricant, or a 'limit_ratio'"));
+  CHECK(reports(
+      "grade: iso_vg_46, shear_thinning: {law: cross, exponent: 0.8, critical_stress: 1 kPa, limit_viscosity: 5 "
+      "mPa.s}",
+      "model: isothermal, temperature: 50 degC", "a `temperature` of the lubricant, or a 'limit_ratio'"));
   CHECK(reports(
       "grade: iso_vg_46",
       "model: film, supply_temperature: 50 degC}\n    edge_pressure: closed\n    cavitation: {model: mass_conserving",

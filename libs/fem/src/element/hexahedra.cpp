@@ -31,7 +31,7 @@ Eigen::Matrix3Xd hexahedron_corners() {
 
 std::vector<ElementKind> hexahedra() {
   const std::vector<std::array<int, 4>> checked = {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7},
-                                                  {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}};
+                                                   {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}};
   const std::vector<QuadraturePoint> eight = cube_rule(gauss_2()), twenty_seven = cube_rule(gauss_3());
   return {{.type = ElementType::hex8,
            .name = "hex8",

@@ -94,7 +94,8 @@ void add_wall(const Model& model, const Body& body, const fem::FilmSurface& film
   print.add(heat.material.conductivity), print.add(heat.material.expansion), print.add(heat.T_reference);
   for (const fem::CooledFaces& cooled : surroundings_of(model, body).cooled)
     print.add(cooled.faces), print.add(cooled.transfer), print.add(cooled.T_ambient);
-  for (const fem::PrescribedNodes& prescribed : heat.surroundings.prescribed) print.add(prescribed.nodes), print.add(prescribed.T);
+  for (const fem::PrescribedNodes& prescribed : heat.surroundings.prescribed)
+    print.add(prescribed.nodes), print.add(prescribed.T);
   print.add(heat.fixed);
   print.add(film.cylinder.X.R), print.add(film.cylinder.X.r), print.add(film.cylinder.R), print.add(film.cylinder.L);
   print.add(film.functions.around()), print.add(film.functions.along()), print.add(film.faces);

@@ -5,7 +5,6 @@
 #include "hersey/core/spelling.h"
 #include "hersey/fem/load_distributions.h"
 #include "hersey/fem/skin.h"
-#include "hersey/fem/load_distributions.h"
 #include "interpret/context/interpret.h"
 
 // How bodies conduct heat and expand.
