@@ -110,7 +110,7 @@ void FlowBalance::show_border(const CavityBorder& border) {
 // An edge at p_cav has u = 0 whether the film beside it is full or broken: it is what the next node is.
 void FlowBalance::take_borders_to_edges() {
   const std::size_t count = borders_.size();  // in the order of their nodes
-  for (const int edge : interface_wrench_) {
+  for (const int edge : prescribed_edge_nodes_) {
     const int next = phase_node(edge);
     if (next == edge) continue;
     nodes_[edge].share = nodes_[next].share, nodes_[edge].other_share = nodes_[next].other_share;

@@ -77,7 +77,7 @@ void FlowBalance::lay_edges() {
     if (edge->kind == EdgeKind::closed) continue;
     at.kind = open_edge(model_, node) ? EdgeNode::Kind::open : EdgeNode::Kind::given;
     at.u = edge->pressure - model_.p_cav;
-    if (at.kind == EdgeNode::Kind::given) interface_wrench_.push_back(node);
+    if (at.kind == EdgeNode::Kind::given) prescribed_edge_nodes_.push_back(node);
   }
 }
 
@@ -333,7 +333,7 @@ void FlowBalance::replace_boundary_rows() {
     residual_[i] = (1 - held.chi) * (line_balance(i) + slack(i)) + given;
     throughput_[i] = std::max(throughput_[i], D0_ * std::abs(held.u));
   }
-  for (const int node : interface_wrench_) {
+  for (const int node : prescribed_edge_nodes_) {
     residual_[node] = D0_ * (u_[node] - edge_unknown(node));
     throughput_[node] = std::max(throughput_[node], D0_ * std::abs(edge_unknown(node)));
   }
@@ -374,7 +374,7 @@ void FlowBalance::assemble_jacobian() {
     values_[diagonal_slot_[i]] += t.k * slope + t.k_u * above;
     if (held.other >= 0) values_[slot_to_other(held)] += t.k_u_other * above;
   }
-  for (const int node : interface_wrench_) values_[diagonal_slot_[node]] = D0_;
+  for (const int node : prescribed_edge_nodes_) values_[diagonal_slot_[node]] = D0_;
 }
 
 void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
@@ -429,7 +429,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     dr[i] += k * above;
     dr[i] += t.k * draws_along(held, direction);
   }
-  for (const int node : interface_wrench_) dr[node] = 0;
+  for (const int node : prescribed_edge_nodes_) dr[node] = 0;
 }
 
 }  // namespace hersey::film

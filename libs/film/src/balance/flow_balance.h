@@ -429,9 +429,9 @@ class FlowBalance {
   RoughGapLaw rough_law_;
   GridGeometry geometry_;
   double D0_ = 0, unit_conductance_ = 0;
-  std::vector<EdgeNode> edges_;        ///< of every node
-  std::vector<int> interface_wrench_;  ///< nodes on edges whose pressure is given
-  std::vector<double> area_;           ///< of the control volumes [m^2]
+  std::vector<EdgeNode> edges_;             ///< of every node
+  std::vector<int> prescribed_edge_nodes_;  ///< nodes on edges whose pressure is given
+  std::vector<double> area_;                ///< of the control volumes [m^2]
   std::vector<Face> faces_;
   std::size_t first_axial_face_ = 0;
   std::vector<int> column_start_, row_index_, diagonal_slot_;
