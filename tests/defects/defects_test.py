@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Models that once gave a wrong number, or no words for it: each with what should come out, from formulas or from the
-stored fields alone. docs/decisions/0012-why-no-test-saw-it.md says which fault each is of."""
+stored fields alone. Comments number and name the faults; docs/random-models.md
+lists their kinds, docs/decisions/0012-tests-of-meaning.md says why such tests exist."""
 
 import json
 import math
