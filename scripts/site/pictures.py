@@ -210,6 +210,14 @@ def example_bearing_alone(program):
     return figure
 
 
+def report(program):
+    """The first screen of a report, photographed in headless Chromium: a picture of its own, nothing for matplotlib."""
+    page, picture = program.file("report.html"), os.path.join(PICTURES, "report.png")
+    program("bearing", "examples/hot_bearing/model.yaml", "--report", page)
+    subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--window-size=1180,850",
+                    "--virtual-time-budget=8000", f"--screenshot={picture}", f"file://{page}"], capture_output=True, check=True)
+
+
 def example_hot_bearing(program):
     figure, axes = plot.subplots(figsize=(4.8, 3))
     for model, colour, label in (("isothermal", GREY, "no heat"), ("global", GREEN, "one temperature"), ("model", RED, "film with temperature")):
@@ -287,13 +295,14 @@ def frame_signs(_):
     return signs.frame_signs()
 
 
-DRAWN = (first_bearing, first_bearing_sweep, big_end, engine, flexible_rod, rotor, mesh, example_bearing_alone, example_hot_bearing,
+DRAWN = (first_bearing, first_bearing_sweep, big_end, engine, flexible_rod, rotor, mesh, example_bearing_alone, report, example_hot_bearing,
          paper_case, benchmarks, finite_360, bearing_signs, frame_signs)
 SOURCES = {"first_bearing": ["docs/tutorial/first-bearing.md"], "first_bearing_sweep": ["docs/tutorial/first-bearing.md"],
            "big_end": ["examples/slider_crank/model.yaml"], "engine": ["examples/engine/model.yaml"],
            "flexible_rod": ["examples/slider_crank/flexible_rod.yaml", "examples/meshes/conrod.msh"],
            "rotor": ["examples/flexible_rotor/model.yaml"], "mesh": ["examples/meshes/conrod.msh"],
-           "example_bearing_alone": ["examples/bearing_alone/model.yaml"], "example_hot_bearing": ["examples/hot_bearing/model.yaml"],
+           "example_bearing_alone": ["examples/bearing_alone/model.yaml"], "report": ["examples/hot_bearing/model.yaml"],
+           "example_hot_bearing": ["examples/hot_bearing/model.yaml"],
            "paper_case": ["verification/data/paper_case.csv"], "finite_360": ["verification/data/finite_360.csv"],
            "benchmarks": ["verification/data/four_bar_n2.csv", "verification/data/flyball_governor.csv"],
            "bearing_signs": ["scripts/site/signs.py"], "frame_signs": ["scripts/site/signs.py"]}
@@ -308,11 +317,15 @@ def drawn_from(function):
     return text.hexdigest()[:16]
 
 
+def is_there(name):
+    return any(os.path.exists(os.path.join(PICTURES, name + ending)) for ending in (".svg", ".png"))
+
+
 def main():
     if sys.argv[1:] == ["--check"]:
         with open(LEDGER, encoding="utf-8") as file:
             ledger = json.load(file)
-        stale = [f.__name__ for f in DRAWN if ledger.get(f.__name__) != drawn_from(f) or not os.path.exists(os.path.join(PICTURES, f"{f.__name__}.svg"))]
+        stale = [f.__name__ for f in DRAWN if ledger.get(f.__name__) != drawn_from(f) or not is_there(f.__name__)]
         sys.exit(f"docs/pictures: {', '.join(stale)} no longer as drawn; run: make pictures" if stale else 0)
     names = sys.argv[2:]
     ledger = {}
@@ -326,9 +339,10 @@ def main():
             if names and name not in names or not names and ledger.get(name) == drawn_from(function):
                 continue
             figure = function(program)
-            figure.tight_layout()
-            figure.savefig(os.path.join(PICTURES, f"{name}.svg"), metadata={"Date": None})
-            plot.close(figure)
+            if figure is not None:
+                figure.tight_layout()
+                figure.savefig(os.path.join(PICTURES, f"{name}.svg"), metadata={"Date": None})
+                plot.close(figure)
             ledger[name] = drawn_from(function)
             print(name, flush=True)
             with open(LEDGER, "w", encoding="utf-8") as file:
