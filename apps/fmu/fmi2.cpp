@@ -225,11 +225,11 @@ HERSEY_EXPORT fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const 
                                                  fmi2FMUstate* state) {
   return with(component, [&](Component& one) {
     if (bytes == nullptr || state == nullptr) return one.instance->error("no bytes of a serialised state");
-    auto state =
+    auto restored =
         std::make_unique<InstanceState>(hersey::fmu::from_bytes(reinterpret_cast<const unsigned char*>(bytes), size));
     if (*state == nullptr) *state = new State;
     auto& kept = *static_cast<State*>(*state);
-    kept.state = std::move(state);
+    kept.state = std::move(restored);
     kept.bytes.clear();
     return CallStatus::ok;
   });

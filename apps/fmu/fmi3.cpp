@@ -303,10 +303,10 @@ HERSEY_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fm
                                                  fmi3FMUState* state) {
   return with(instance, [&](Instance& one) {
     if (bytes == nullptr || state == nullptr) return one.error("no bytes of a serialised state");
-    auto state = std::make_unique<InstanceState>(hersey::fmu::from_bytes(bytes, size));
+    auto restored = std::make_unique<InstanceState>(hersey::fmu::from_bytes(bytes, size));
     if (*state == nullptr) *state = new State;
     auto& kept = *static_cast<State*>(*state);
-    kept.state = std::move(state);
+    kept.state = std::move(restored);
     kept.bytes.clear();
     return CallStatus::ok;
   });

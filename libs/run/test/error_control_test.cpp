@@ -142,7 +142,7 @@ simulation: {duration: 2 s, step: 1 ms, spectral_radius: 0.8}
   model::Machine machine = model::build(model);
   solver::State state = starting_state(model, machine);
   const auto accept_all = [](const solver::State&, const Eigen::VectorXd&) { return true; };
-  for (const solver::StepJudge& check : {solver::StepJudge(), solver::StepJudge(accept_all)}) {
+  for (const solver::StepCheck& check : {solver::StepCheck(), solver::StepCheck(accept_all)}) {
     solver::GeneralizedAlpha integrator(
         {.spectral_radius = 0.8, .rtol = 1e-9, .chosen_by_error = false, .returns_to_constraints = true});
     for (int i = 0; i < 100; ++i) {
