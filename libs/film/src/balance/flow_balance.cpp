@@ -51,7 +51,7 @@ FlowBalance::FlowBalance(const FilmModel& model)
   for (auto* field : {&residual_, &balance_, &throughput_, &g_rate_, &w_start_, &u_}) field->setZero(n);
   content_start_.setOnes(n);
   cells_.resize(static_cast<std::size_t>(n));
-  tube_of_.assign(faces_.size(), -1);
+  flow_tube_of_.assign(faces_.size(), -1);
   line_shares_.resize(static_cast<std::size_t>(grid.n_z));
   held_index_.assign(n, -1);
   edge_index_.assign(n, -1);
@@ -200,9 +200,10 @@ void FlowBalance::take_motion(const SurfaceMotion& motion) {
   for (int j = 0; j < model_.grid.n_z; ++j) sliding_.push_back(sliding_of(slip(j).x(), slip(j).y()));
   if (relief_.is_empty()) return;
   relief_.place(motion.phi_journal, phi_start_, dt_, motion.u_journal);
-  std::fill(tube_of_.begin(), tube_of_.end(), -1);
-  pocket_flows_.resize(relief_.tubes().size());
-  for (std::size_t t = 0; t < relief_.tubes().size(); ++t) tube_of_[relief_.tubes()[t].face] = static_cast<int>(t);
+  std::fill(flow_tube_of_.begin(), flow_tube_of_.end(), -1);
+  pocket_flows_.resize(relief_.flow_tubes().size());
+  for (std::size_t t = 0; t < relief_.flow_tubes().size(); ++t)
+    flow_tube_of_[relief_.flow_tubes()[t].face] = static_cast<int>(t);
 }
 
 Eigen::Vector2d FlowBalance::slip(int j) const {
