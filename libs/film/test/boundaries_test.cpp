@@ -135,10 +135,10 @@ TEST_CASE("SurfacesThatAreNoNumbers_AreToldWithTheirPlace") {
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   const int node = m.grid.index(7, 3);
   for (Eigen::VectorXd SurfaceMotion::*member : {&SurfaceMotion::g, &SurfaceMotion::g_rate}) {
-    SurfaceMotion broken = sound;
-    (broken.*member)[node] = std::numeric_limits<double>::quiet_NaN();
+    SurfaceMotion cavitated = sound;
+    (cavitated.*member)[node] = std::numeric_limits<double>::quiet_NaN();
     Reynolds reynolds(m);
-    const FilmDomain domain = reynolds.linearise(broken, {}, u);
+    const FilmDomain domain = reynolds.linearise(cavitated, {}, u);
     CHECK(domain.trouble == Trouble::not_finite);
     CHECK(domain.node == node);
     CHECK(reynolds.linearise(sound, {}, u).is_inside());

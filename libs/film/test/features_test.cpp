@@ -47,7 +47,7 @@ TEST_CASE("FilmAtRestBetweenClosedEdges_TakesItsGroovesPressure") {
   }
 }
 
-// A broken film comes to a groove at p_s > p_cav, which fills it back to where the pressure has fallen:
+// A cavitated film comes to a groove at p_s > p_cav, which fills it back to where the pressure has fallen:
 // l = h^2 p_s/[6 mu U (1 - theta)], a sixth of a cell here. Its nodes lie beyond, so that theta h stays what it was,
 // and what P0 is has no part in it.
 TEST_CASE("FilmBeforeAGroove_IsFilledAsFarAsItsPressureCan") {

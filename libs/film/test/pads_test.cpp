@@ -59,8 +59,8 @@ TEST_CASE("PadsWithTheOtherSense_AreTheMirrorImage") {
   }
 }
 
-// Borders of cavities, where a film breaks before the end of its pad too, are no matter of the lines they lie between.
-// (A conserved film re-forms before such an end by whole cells.)
+// Borders of cavities, where a film cavitates before the end of its pad too, are no matter of the lines they lie
+// between. (A conserved film re-forms before such an end by whole cells.)
 TEST_CASE("CavitiesOfPads_DoNotAskForTheGrid") {
   for (const Cavitation cavitation : {Cavitation::guembel, Cavitation::reynolds}) {
     for (const bool mirrored : {false, true}) {

@@ -286,7 +286,7 @@ double FlowBalance::slack_u(int node) const {
   return u_[node] >= 0 || u_[node] < ambient_unknown(node) ? D0_ : 0;
 }
 
-// A film that does not conserve oil lacks some wherever it is broken: the half volumes on an edge do not draw it in.
+// A film that does not conserve oil lacks some wherever it is cavitated: the half volumes on an edge do not draw it in.
 bool FlowBalance::lets_nothing_in(int node) const {
   return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off_of_u();
 }
@@ -312,7 +312,7 @@ std::size_t FlowBalance::face_at_edge(int node) const {
   return edges_[node].of_patch ? face_after(i, j) : face_above(i, j);
 }
 
-// Oil that is lost where the film is broken comes from nowhere, but for the share that draws on the supply.
+// Oil that is lost where the film is cavitated comes from nowhere, but for the share that draws on the supply.
 double FlowBalance::supply_of_row(int node) const {
   const double land = over_land(node);
   if (!is_held(node)) return land;

@@ -112,8 +112,8 @@ class FlowBalance {
   void initialise_oil_balance(StepOilBalance& oil) const;
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
-  /// Share of a control volume in which the film is broken (film.62) [-].
-  [[nodiscard]] double broken_share(int node) const;
+  /// Share of a control volume in which the film is cavitated (film.62) [-].
+  [[nodiscard]] double cavitated_share(int node) const;
   /// Of a film without a fill fraction.
   [[nodiscard]] const std::vector<CavityBorder>& borders() const { return borders_; }
   [[nodiscard]] const std::vector<RoughGap>& rough_gaps() const { return rough_; }

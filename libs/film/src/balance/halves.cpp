@@ -22,10 +22,10 @@ void limit_active_set_changes(const FilmModel& model, const Eigen::VectorXd& bef
   if (!cavitation_law(model).has_fill()) return;
   constexpr double all_but_full = 1e-9;  // on its side of the border, however round-off falls
   for (Eigen::Index node = 0; node < u.size(); ++node) {
-    const bool was_broken = before[node] < 0;
-    if (was_broken == (u[node] < 0)) continue;
+    const bool was_cavitated = before[node] < 0;
+    if (was_cavitated == (u[node] < 0)) continue;
     if (is_heads(static_cast<std::uint32_t>(node), static_cast<std::uint32_t>(turn)))
-      u[node] = was_broken ? -all_but_full * fill_scale(model) : 0;
+      u[node] = was_cavitated ? -all_but_full * fill_scale(model) : 0;
   }
 }
 
