@@ -245,7 +245,7 @@ TEST_CASE("TemperaturesBySweeps_AreThoseOfTheFactorisedSystem") {
   }
 }
 
-// Of a finite bearing at L/D = 1, epsilon 0.6 with a stirred groove at the widest gap; numbers of an independent
+// Of a finite bearing at L/D = 1, epsilon 0.6 with a mixed groove at the widest gap; numbers of an independent
 // program (finite volumes, extrapolated over three grids).
 TEST_CASE("CopesBearing_IsThatOfAnIndependentProgram") {
   FilmModel model = bearing(0.05, 0.1, 50e-6, 120, 25);

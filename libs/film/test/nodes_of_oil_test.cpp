@@ -100,7 +100,7 @@ TEST_CASE("StepsWithASump_ConserveHeat") {
   CHECK(seen.heat[0] == relative(balance.to_oil).epsilon(1e-6));    // the film's residual
   CHECK(seen.heat[1] == relative(balance.to_shell).epsilon(1e-5));  // viscosities follow by a step
   CHECK(seen.to_fixed == relative(balance.power).epsilon(1e-5));    // likewise
-  CHECK(machine.film.heat.state().supplies[0] > seen.T[0]);         // stirred with what the film carries over
+  CHECK(machine.film.heat.state().supplies[0] > seen.T[0]);         // mixed with what the film carries over
   CHECK(seen.T[0] > 30 + zero_celsius + 1);
 }
 

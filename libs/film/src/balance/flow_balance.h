@@ -187,7 +187,7 @@ class FlowBalance {
   [[nodiscard]] double power_over_land(int node) const;  ///< [W]
   /// Whether line or feature have a part in a node's row.
   [[nodiscard]] bool is_held(int node) const { return held_index_[node] >= 0; }
-  /// Share of a node's oil that a supply has stirred [-]: 1 on line and features, on edges too where they reach these,
+  /// Share of a node's oil that a supply has mixed [-]: 1 on line and features, on edges too where they reach these,
   /// though the edge has its own pressure there.
   [[nodiscard]] double supplied_share(int node) const;
   [[nodiscard]] bool is_supplied(int node) const { return supplied_at(node) != nullptr; }
@@ -231,7 +231,7 @@ class FlowBalance {
     double chi = 0;            ///< share that the node's own balance loses [-]
     double chi_line = 0;       ///< with phi_supply [1/rad]
     double chi_journal = 0;    ///< with phi_journal [1/rad]
-    double stirred = 0;        ///< share of its oil [-]
+    double mixed_share = 0;    ///< share of its oil [-]
     double draws = 1;          ///< of the oil it lacks [-]
     double draws_line = 0;     ///< with phi_supply [1/rad]
     double draws_journal = 0;  ///< with phi_journal [1/rad]

@@ -26,7 +26,7 @@ const FlowBalance::HeldNode* FlowBalance::supplied_at(int node) const {
 
 double FlowBalance::supplied_share(int node) const {
   const HeldNode* supplied = supplied_at(node);
-  return supplied == nullptr ? 0 : supplied->stirred;
+  return supplied == nullptr ? 0 : supplied->mixed_share;
 }
 
 int FlowBalance::supplied_by(int node) const {
@@ -184,7 +184,7 @@ void FlowBalance::hold_line(double phi) {
     hold({.node = grid.index(here, j),
           .chi = 1 - way,
           .chi_line = -by_phi,
-          .stirred = 1 - way,
+          .mixed_share = 1 - way,
           .draws = (1 - way) * (1 - way),
           .draws_line = -2 * (1 - way) * by_phi,
           .u = u,
@@ -226,7 +226,7 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
       hold({.node = node.node,
             .chi = node.share,
             .chi_journal = node.share_phi,
-            .stirred = node.stirred,
+            .mixed_share = node.mixed_share,
             .draws = node.draws,
             .draws_journal = node.draws_phi,
             .feature = static_cast<int>(f),

@@ -17,7 +17,7 @@ namespace hersey::film {
 [[nodiscard]] HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, double T_oil, HeatState image);
 
 /// Energy equation of a film across and along its thickness (theory manual, chapter thermal): finite volumes, layers of
-/// equal thickness at each node, implicit in time, with the walls and the stirred oil of grooves as parts of one linear
+/// equal thickness at each node, implicit in time, with the walls and the mixed oil of grooves as parts of one linear
 /// system. Viscosities follow its temperatures through viscosity(); pressure and flow are the film's own and given.
 ///
 /// One object per film and thread.
