@@ -111,10 +111,10 @@ TEST_CASE("CavitatedShear_IsToldByTheChoiceThatWasMade") {
 }
 
 TEST_CASE("JournalThatKeepsItsShape_HasNoneOnAnyGrid") {
-  const JournalConduction plain{.T0 = 320, .rise = 0.1}, seen = on_grid(plain, {.n_z = 5}, {.n_z = 9});
-  CHECK(!seen.deforms());
-  CHECK(seen.rise == plain.rise);
-  CHECK(around({.n_phi = 6, .n_z = 5}, seen.shape0).size() == 0);
+  const JournalConduction plain{.T0 = 320, .rise = 0.1}, observed = on_grid(plain, {.n_z = 5}, {.n_z = 9});
+  CHECK(!observed.deforms());
+  CHECK(observed.rise == plain.rise);
+  CHECK(around({.n_phi = 6, .n_z = 5}, observed.shape0).size() == 0);
   const Eigen::VectorXd shape = Eigen::VectorXd::LinSpaced(5, 0, 4);
   CHECK(around({.n_phi = 6, .n_z = 5}, shape).segment(10, 5) == shape);
 }
@@ -179,8 +179,8 @@ TEST_CASE("CavityOfAWholePatch_EndsWhereThatEnds") {
   const SurfaceMotion motion = surfaces(m, {.omega_journal = 100});
   const double empty = -0.5 * fill_scale(m);
   const auto cavity = [&](const Eigen::VectorXd& u) {
-    const FilmObservables seen = observe_film(m, motion, {}, {0, 0}, u);
-    return std::array<double, 2>{seen.rupture_angle, seen.reformation_angle};
+    const FilmObservables observed = observe_film(m, motion, {}, {0, 0}, u);
+    return std::array<double, 2>{observed.rupture_angle, observed.reformation_angle};
   };
   Eigen::VectorXd u = Eigen::VectorXd::Constant(m.grid.size(), empty);
   const auto whole = cavity(u);  // that of the wider patch

@@ -421,9 +421,9 @@ TEST_CASE("CavityThatEndsAtAPeak_EndsInTheCellBeforeIt") {
   Eigen::VectorXd u = Eigen::VectorXd::Constant(grid.size(), 1e5);
   for (int i = 20; i < 30; ++i) u.segment(grid.index(i, 0), grid.n_z).setConstant(-0.5 * fill_scale(m));
   u.segment(grid.index(30, 0), grid.n_z).setConstant(3e5);
-  const FilmObservables seen = observe_film(m, surfaces(m, turning(m, 0.5, omega)), {}, {0, 0}, u);
-  CHECK(seen.reformation_angle >= grid.phi(29) - 1e-12);  // round-off
-  CHECK(seen.reformation_angle <= grid.phi(30) + 1e-12);  // likewise
+  const FilmObservables observed = observe_film(m, surfaces(m, turning(m, 0.5, omega)), {}, {0, 0}, u);
+  CHECK(observed.reformation_angle >= grid.phi(29) - 1e-12);  // round-off
+  CHECK(observed.reformation_angle <= grid.phi(30) + 1e-12);  // likewise
 }
 
 // A groove across the line holds its nodes, where the line has no part in their rows.

@@ -82,13 +82,13 @@ TEST_CASE("LandBeforeAnEdge_IsAsLongAsItIs") {
       m.features = {{.name = "groove", .arc = 2 * pi, .length = m.L - 2 * land, .pressure = 3e5}};
       const SolvedFilm film = solve_cold(m, Journal{});
       REQUIRE(film.summary.solved());
-      const FilmObservables& seen = film.observed;
+      const FilmObservables& observed = film.observed;
       const double drop = 3e5 - p_edge, side = m.c * m.c * m.c / (12 * m.lubricant.mu0) * 2 * pi * m.R * drop / land;
-      CHECK(seen.flow_left == relative(side).epsilon(kSolved));
-      CHECK(seen.flow_right == relative(side).epsilon(kSolved));
-      CHECK(seen.flow_features[0] == relative(2 * side).epsilon(kSolved));
-      CHECK(seen.mass_balance_error < kSolved);
-      CHECK(seen.power_oil == relative(-2 * side * drop).epsilon(kSolved));
+      CHECK(observed.flow_left == relative(side).epsilon(kSolved));
+      CHECK(observed.flow_right == relative(side).epsilon(kSolved));
+      CHECK(observed.flow_features[0] == relative(2 * side).epsilon(kSolved));
+      CHECK(observed.mass_balance_error < kSolved);
+      CHECK(observed.power_oil == relative(-2 * side * drop).epsilon(kSolved));
     }
   }
 }

@@ -25,11 +25,11 @@ struct Groups {
     Eigen::VectorXd u;
   };
   [[nodiscard]] Turn at(int turn) const {
-    Turn seen{.u = after};
-    limit_active_set_changes(model, before, turn, seen.u);
-    for (Eigen::Index node = 0; node < seen.u.size(); ++node)
-      seen.changed.push_back((seen.u[node] < 0) != (before[node] < 0));
-    return seen;
+    Turn observed{.u = after};
+    limit_active_set_changes(model, before, turn, observed.u);
+    for (Eigen::Index node = 0; node < observed.u.size(); ++node)
+      observed.changed.push_back((observed.u[node] < 0) != (before[node] < 0));
+    return observed;
   }
 
   FilmModel model;
@@ -42,14 +42,14 @@ TEST_CASE("OfNodesThatGoRound_AboutHalfChangeInEachTurn") {
   std::vector<bool> ever(static_cast<std::size_t>(groups.before.size()), false), always(ever.size(), true);
   constexpr int turns = 24;
   for (int turn = 7; turn < 7 + turns; ++turn) {
-    const Groups::Turn seen = groups.at(turn);
-    const auto changed = std::count(seen.changed.begin(), seen.changed.end(), true);
+    const Groups::Turn observed = groups.at(turn);
+    const auto changed = std::count(observed.changed.begin(), observed.changed.end(), true);
     CHECK(std::abs(static_cast<double>(changed) / static_cast<double>(would) - 0.5) < 0.1);  // four standard deviations
     for (std::size_t node = 0; node < ever.size(); ++node) {
-      ever[node] = ever[node] || seen.changed[node];
-      always[node] = always[node] && seen.changed[node];
+      ever[node] = ever[node] || observed.changed[node];
+      always[node] = always[node] && observed.changed[node];
     }
-    CHECK(seen.u == groups.at(turn).u);  // the same whenever it is asked for
+    CHECK(observed.u == groups.at(turn).u);  // the same whenever it is asked for
   }
   CHECK(std::count(ever.begin(), ever.end(), true) == would);
   CHECK(std::count(always.begin(), always.end(), true) == 0);
@@ -57,13 +57,13 @@ TEST_CASE("OfNodesThatGoRound_AboutHalfChangeInEachTurn") {
 
 TEST_CASE("NodesThatStayBehind_AreAtTheBorder") {
   const Groups groups(Cavitation::mass_conserving);
-  const Groups::Turn seen = groups.at(7);
-  for (Eigen::Index node = 0; node < seen.u.size(); ++node) {
+  const Groups::Turn observed = groups.at(7);
+  for (Eigen::Index node = 0; node < observed.u.size(); ++node) {
     const bool would = (groups.after[node] < 0) != (groups.before[node] < 0);
-    if (would && !seen.changed[static_cast<std::size_t>(node)])
-      CHECK(std::abs(seen.u[node]) <= 1e-9 * fill_scale(groups.model));  // what keeps it on its side
+    if (would && !observed.changed[static_cast<std::size_t>(node)])
+      CHECK(std::abs(observed.u[node]) <= 1e-9 * fill_scale(groups.model));  // what keeps it on its side
     else
-      CHECK(seen.u[node] == groups.after[node]);
+      CHECK(observed.u[node] == groups.after[node]);
   }
 }
 

@@ -501,10 +501,10 @@ TEST_CASE("FilmAtRest_StaysAsWarmAsItIs") {
   thermal.carry_over = 0.5;
   FilmOverTime film(model, thermal);
   for (int step = 0; step < 3; ++step) film.advance(1e-3);
-  const HeatObservables seen = film.heat.observables();
-  CHECK(std::abs(seen.T_max - thermal.T_supply) < 1e-9);        // K, round-off of 300
-  CHECK(std::abs(seen.T_film_mean - thermal.T_supply) < 1e-9);  // likewise
-  CHECK(seen.balance.power == 0);
+  const HeatObservables observed = film.heat.observables();
+  CHECK(std::abs(observed.T_max - thermal.T_supply) < 1e-9);        // K, round-off of 300
+  CHECK(std::abs(observed.T_film_mean - thermal.T_supply) < 1e-9);  // likewise
+  CHECK(observed.balance.power == 0);
 }
 
 // From a gap with next to no oil, which a hole begins to fill: heat of a film that is nearly nothing is kept as well.

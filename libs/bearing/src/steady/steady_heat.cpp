@@ -60,22 +60,22 @@ void balance(film::ThermalNetwork& network, film::FilmHeat& heat) {
 double celsius(double T) { return T - film::zero_celsius; }
 
 // Where the hottest oil is.
-std::string hottest_of(const film::HeatObservables& seen) {
-  return fmt::format("{:.0f} degC at {:.0f} deg, z = {:.3g} mm", celsius(seen.T_max),
-                     seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
+std::string hottest_of(const film::HeatObservables& observed) {
+  return fmt::format("{:.0f} degC at {:.0f} deg, z = {:.3g} mm", celsius(observed.T_max),
+                     observed.T_max_phi * 180 / std::numbers::pi, 1e3 * observed.T_max_z);
 }
 
 // A film that was there and is lost as its oil warms and thins, or heat that leaves only at temperatures of no oil:
 // told as what it is.
-void tell_runaway(const film::HeatObservables& seen, bool has_lost_film, SteadySummary& summary) {
+void tell_runaway(const film::HeatObservables& observed, bool has_lost_film, SteadySummary& summary) {
   if (has_lost_film) {
     summary.message = fmt::format("thermal runaway: oil that warms to {} is too thin for the film to stay; {}",
-                                  hottest_of(seen), summary.message);
-  } else if (seen.T_max > hottest_oil) {
+                                  hottest_of(observed), summary.message);
+  } else if (observed.T_max > hottest_oil) {
     summary.set_solved(false);
     summary.message = fmt::format(
         "thermal runaway: the film's heat leaves it with oil of {} only, and no oil is one above {:.0f} degC",
-        hottest_of(seen), celsius(hottest_oil));
+        hottest_of(observed), celsius(hottest_oil));
   }
 }
 

@@ -64,8 +64,8 @@ TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::Therm
 // By the walls as they are now (thermal.42).
 double TemperaturePath::called_for() const {
   if (per_metre_ == 0) return 0;
-  const film::HeatObservables& seen = heat_.observables();
-  return thermal_.expansion->growth(model_.R, seen.T_shell_wall, seen.T_journal_wall);
+  const film::HeatObservables& observed = heat_.observables();
+  return thermal_.expansion->growth(model_.R, observed.T_shell_wall, observed.T_journal_wall);
 }
 
 void TemperaturePath::fill(double T_oil) {
