@@ -16,17 +16,17 @@
 namespace hersey::film {
 namespace boundaries_test {
 
-using Trouble = FilmDomain::Trouble;
+using Violation = FilmDomain::Violation;
 
 TEST_CASE("TextOfADomain_NamesTheFaultAndItsPosition") {
   FilmModel m;
   const int node = m.grid.index(15, 12);  // a quarter around, on the edge
   CHECK(text(m, {}).empty());
-  CHECK(text(m, {Trouble::not_finite, -1}) == "the film has no finite pressure");
-  CHECK(text(m, {Trouble::not_finite, node}) == "the film has no finite pressure at 90.0 deg, z = 7.8 mm");
-  CHECK(text(m, {Trouble::pressure, node}) == "the film's pressure rises without bound at 90.0 deg, z = 7.8 mm");
+  CHECK(text(m, {Violation::not_finite, -1}) == "the film has no finite pressure");
+  CHECK(text(m, {Violation::not_finite, node}) == "the film has no finite pressure at 90.0 deg, z = 7.8 mm");
+  CHECK(text(m, {Violation::pressure, node}) == "the film's pressure rises without bound at 90.0 deg, z = 7.8 mm");
   m.surface = Plane{};
-  CHECK(text(m, {Trouble::closed, node}) == "the film closes at 35.3 mm, z = 7.8 mm");  // R pi/2
+  CHECK(text(m, {Violation::closed, node}) == "the film closes at 35.3 mm, z = 7.8 mm");  // R pi/2
 }
 
 TEST_CASE("UsualSolver_IsChosenBySize") {
@@ -139,7 +139,7 @@ TEST_CASE("SurfacesThatAreNoNumbers_AreToldWithTheirPlace") {
     (cavitated.*member)[node] = std::numeric_limits<double>::quiet_NaN();
     Reynolds reynolds(m);
     const FilmDomain domain = reynolds.linearise(cavitated, {}, u);
-    CHECK(domain.trouble == Trouble::not_finite);
+    CHECK(domain.violation == Violation::not_finite);
     CHECK(domain.node == node);
     CHECK(reynolds.linearise(sound, {}, u).is_inside());
   }

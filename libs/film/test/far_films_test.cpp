@@ -12,7 +12,7 @@
 namespace hersey::film {
 namespace far_films_test {
 
-using Trouble = FilmDomain::Trouble;
+using Violation = FilmDomain::Violation;
 
 constexpr double omega = 374;
 
@@ -90,7 +90,7 @@ TEST_CASE("GapsOfAnySize_AreFiniteOrTold") {
     motion.g.setConstant(size);
     const FilmDomain domain = reynolds.linearise(motion, {}, u);
     if (!domain.is_inside()) {
-      CHECK(domain.trouble == Trouble::not_finite);
+      CHECK(domain.violation == Violation::not_finite);
       ++told;
       continue;
     }
@@ -162,7 +162,7 @@ TEST_CASE("ChordThatLeadsOutOfTheFilm_IsToldAndLeavesNoFactor") {
   Reynolds reynolds(m);
   REQUIRE(reynolds.linearise(surfaces(m, turning(m, 0.7, omega)), {}, u).is_inside());
   reynolds.newton_increment(du);
-  CHECK(reynolds.chord_increment(surfaces(m, turning(m, 1.2, omega)), {}, u, du).trouble == Trouble::closed);
+  CHECK(reynolds.chord_increment(surfaces(m, turning(m, 1.2, omega)), {}, u, du).violation == Violation::closed);
   CHECK_FALSE(reynolds.has_factor());
   CHECK(reynolds.linearise(surfaces(m, turning(m, 0.7, omega)), {}, u).is_inside());
 }
@@ -448,7 +448,7 @@ TEST_CASE("SweepsInAClosedGap_TellWhere") {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   const FilmSolveSummary told = solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor}, u);
   CHECK_FALSE(told.solved());
-  CHECK(told.domain.trouble == Trouble::closed);
+  CHECK(told.domain.violation == Violation::closed);
   CHECK(motion.g[told.domain.node] <= 0);
 }
 

@@ -258,8 +258,8 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
       law_.evaluate(motion.g[i], u[i], i, sliding, viscosity_of(i), nodes_[i]);
     else
       law_.evaluate(motion.g[i], u[i], i, sliding, nodes_[i]);
-    if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
-    if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
+    if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Violation::not_finite, i};
+    if (nodes_[i].h <= 0) return {FilmDomain::Violation::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;
     rough_[i] = rough_law_.state(nodes_[i].h);
     if (is_layered()) skew(viscosity_.skew[i], nodes_[i].h, rough_[i]);

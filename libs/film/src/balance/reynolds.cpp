@@ -183,7 +183,7 @@ FilmDomain Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& h
   impl_->linearised = impl_->summed = false;
   if (const FilmDomain domain = impl_->balance.evaluate(motion, history, u); !domain.is_inside()) return domain;
   impl_->balance.assemble_jacobian();
-  if (!impl_->is_finite()) return {FilmDomain::Trouble::not_finite, -1};
+  if (!impl_->is_finite()) return {FilmDomain::Violation::not_finite, -1};
   impl_->factorised = impl_->set_up = impl_->condensed = false;
   SurfaceMotion& speeds = impl_->speeds;
   speeds.u_shell = motion.u_shell, speeds.u_journal = motion.u_journal;
