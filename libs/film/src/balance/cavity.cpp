@@ -74,8 +74,8 @@ Cavity widest_cavity(const FlowBalance& balance, const Eigen::VectorXd& u, bool 
     const double low =
         row.ends(first - 1) ? row.angle(first) : row.angle(first - 1) + row.reach(first - 1, +1, !backwards);
     const double high = row.ends(last) ? row.angle(last) : row.angle(last + 1) - row.reach(last + 1, -1, backwards);
-    cavity.rupture = balance.geometry().told(backwards ? high : low);
-    cavity.reformation = balance.geometry().told(backwards ? low : high);
+    cavity.rupture = balance.geometry().reported_angle(backwards ? high : low);
+    cavity.reformation = balance.geometry().reported_angle(backwards ? low : high);
   }
   return cavity;
 }

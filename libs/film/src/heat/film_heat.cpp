@@ -100,7 +100,8 @@ struct FilmHeat::Impl {
   void thin();
   [[nodiscard]] bool holds_walls() const { return thermal.walls == WallMotion::held; }
   void show_rest();
-  /// What is to be seen of the last answer, worked out when it is asked for: turns of film and heat do not look.
+  /// What is to be seen of the last answer, worked out when it is asked for: iterations of film and heat do not need
+  /// it.
   void observe();
   [[nodiscard]] const HeatObservables& look();
   void show_surfaces(const CarryingFilm& film);
@@ -156,7 +157,7 @@ HeatState FilmHeat::Impl::start() const {
   return first;
 }
 
-/// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them in turn: they are worked out once.
+/// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them alternately: they are worked out once.
 const Eigen::VectorXd& FilmHeat::Impl::viscosities_at_rest() {
   if (T_of_mu.size() == state.film.size() && T_of_mu == state.film) return mu_at_rest;
   const TemperatureLaw& law = flow.model().lubricant.temperature_law;

@@ -70,7 +70,7 @@ class PeakFinder {
     const Vertex along = around(i, [&](int k) { return at(k, j); });
     const bool inside = j > 0 && j < grid_.n_z - 1;
     const Vertex across = inside ? vertex(at(i, j - 1), at(i, j), at(i, j + 1), at_.dz[j - 1], at_.dz[j]) : Vertex{};
-    const double phi = at_.told(at_.phi[i] + along.offset / at_.R);
+    const double phi = at_.reported_angle(at_.phi[i] + along.offset / at_.R);
     return {at(i, j) + along.rise + across.rise, phi, at_.z[j] + across.offset};
   }
 

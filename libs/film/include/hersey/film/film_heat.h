@@ -11,9 +11,9 @@
 
 namespace hersey::film {
 
-/// A start for film and heat in turn: what is left of temperatures `image`, found with the viscosity at T_oil [K]
-/// everywhere, once the oil thins as it warms (theory manual, thermal.29). Of an adiabatic film between walls a
-/// constant distance apart exactly: there exp(beta rise) - 1 is beta times the rise at the viscosity of the supply.
+/// Start of the alternate solution of film and heat: what is left of temperatures `image`, found with the viscosity at
+/// T_oil [K] everywhere, once the oil thins as it warms (theory manual, thermal.29). Of an adiabatic film between walls
+/// a constant distance apart exactly: there exp(beta rise) - 1 is beta times the rise at the viscosity of the supply.
 [[nodiscard]] HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, double T_oil, HeatState image);
 
 /// Energy equation of a film across and along its thickness (theory manual, chapter thermal): finite volumes, layers of

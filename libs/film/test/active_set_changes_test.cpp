@@ -1,4 +1,4 @@
-#include "balance/halves.h"
+#include "balance/active_set_changes.h"
 
 #include <doctest/doctest.h>
 
@@ -36,7 +36,7 @@ struct Groups {
   Eigen::VectorXd before, after;
 };
 
-TEST_CASE("OfNodesThatGoRound_AboutHalfChangeInEachTurn") {
+TEST_CASE("AntiCycling_ChangesAboutHalfOfTheNodesInEachIteration") {
   const Groups groups(Cavitation::mass_conserving);
   const auto would = 3 * groups.before.size() / 4;
   std::vector<bool> ever(static_cast<std::size_t>(groups.before.size()), false), always(ever.size(), true);
@@ -55,7 +55,7 @@ TEST_CASE("OfNodesThatGoRound_AboutHalfChangeInEachTurn") {
   CHECK(std::count(always.begin(), always.end(), true) == 0);
 }
 
-TEST_CASE("NodesThatStayBehind_AreAtTheBorder") {
+TEST_CASE("AntiCycling_LeavesNodesAtTheBorder") {
   const Groups groups(Cavitation::mass_conserving);
   const Groups::Turn observed = groups.at(7);
   for (Eigen::Index node = 0; node < observed.u.size(); ++node) {
