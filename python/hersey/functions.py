@@ -100,7 +100,7 @@ def surface_profile(function: Callable[[float, float], float], width: Any, file:
     """An entry of a bearing's `shape` from a function of angle [rad] and z [m] that says how far a surface is open [m].
 
     Writes `file`, a table that the solver interpolates by monotone cubics around and linearly along; `width` is the bearing's
-    [m]. Name the file as seen from the model's folder.
+    [m]. Name the file as observed from the model's folder.
     """
     path, width = Path(os.fspath(file)), to_si(width, "m")
     with open(path, "w", newline="", encoding="utf-8") as out:

@@ -37,7 +37,7 @@ class Model:
     def __init__(self, checked: "_core.CheckedModel", solver: Optional["_core.BearingSolver"] = None,
                  is_dictionary: bool = False):
         self._checked = checked
-        self._solver = solver or _core.BearingSolver()  # knows the bodies it has seen
+        self._solver = solver or _core.BearingSolver()  # knows the bodies it has observed
         self._functions: dict[str, Function] = {}
         self._is_dictionary = is_dictionary  # no file: messages name keys, not lines
 

@@ -108,7 +108,7 @@ def study(model: Union[Model, PathLike], output: Optional[PathLike] = None, *, j
     `model` is a file, or a `Model` of one with its changes; `values` replace parameters as in `Model.load`. `output` is
     the study's folder (studies/NAME where it is left out). `jobs` runs are at work at the same time (0: one for each
     processor), `again` does failed runs again, `on` is "local" or "slurm", `runner` a command that answers the runs in
-    the solver's place, `progress=True` lets the program's table be seen.
+    the solver's place, `progress=True` lets the program's table be observed.
 
     Raises `InputError` for a study that cannot be done, `RunError` where no run has an answer, `Stopped` at Ctrl-C: every
     finished run is kept then, and the same call goes on. Runs that fail stop nothing, see `Study.failed`.

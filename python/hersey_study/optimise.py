@@ -30,7 +30,7 @@ class _Runs:
         self.study, self.parameters = study, study.settings["parameters"]
         self.low = np.array([p["distribution"]["low"] for p in self.parameters])
         self.range = np.array([p["distribution"]["high"] for p in self.parameters]) - self.low
-        self.known, self.seen, self.looked_at = _known(study), [], set()
+        self.known, self.observed, self.looked_at = _known(study), [], set()
         self.names = [study.settings["objectives"][0]["name"], *(c["name"] for c in study.settings["constraints"])]
 
     def at(self, x, slopes=False):
@@ -38,7 +38,7 @@ class _Runs:
         study = self.study
         texts = [distributions.text(p, v) for p, v in zip(self.parameters, self.low + x * self.range)]
         run = study.identity(texts)
-        self.seen.append(texts)
+        self.observed.append(texts)
         self.looked_at.add(run)
         record = self.known.get(run)
         is_asked = slopes and record is not None and record["status"] == "completed" and not (
@@ -155,12 +155,12 @@ def search(study, jobs):
         run(nlopt.LD_SLSQP, x, 10 * budget, with_slopes=True)
         if not trouble:
             study.search = {"methods": [*before, "SLSQP"], "derivatives": "exact", "reason": "", "runs": len(runs.looked_at)}
-            return runs.seen
+            return runs.observed
         why, before = trouble[0], [*before, "SLSQP"]
         x = _best_of(study, runs, x)
     run(nlopt.LN_COBYLA, x, budget)
     study.search = {"methods": [*before, "COBYLA"], "derivatives": "none", "reason": why, "runs": len(runs.looked_at)}
-    return runs.seen
+    return runs.observed
 
 
 def _start(parameters, low, extent):
@@ -184,7 +184,7 @@ def _best_of(study, runs, otherwise):
     settings = study.settings
     objective = settings["objectives"][0]
     best, where = math.inf, otherwise
-    for texts in runs.seen:
+    for texts in runs.observed:
         record = runs.known[study.identity(texts)]
         if record["status"] != "completed":
             continue

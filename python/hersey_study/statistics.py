@@ -16,7 +16,7 @@ MOST_DEGREES = 14
 # are beside them would cost minutes and change the third digit.
 MOST_FITTED, MOST_FITTED_PER_PARAMETER = 1024, 100
 # Errors as shares of the variance: below the first a higher degree is not worth its time, and above the second lower
-# ones have not yet seen what there is to see.
+# ones have not yet observed what there is to see.
 SMALL_ERROR, LARGE_ERROR = 1e-6, 0.1
 
 
@@ -43,7 +43,7 @@ def surrogate(settings, inputs, values):
     """Polynomial chaos by OpenTURNS: least squares on a sparse basis, chosen by cross-validation.
 
     Returns Sobol indices (they follow from its coefficients), first-order sensitivities at the centre, its curves over
-    each parameter, and its error on runs that it has not seen: None without enough runs.
+    each parameter, and its error on runs that it has not observed: None without enough runs.
     """
     count = len(settings["parameters"])
     good = np.flatnonzero(np.isfinite(values))[: max(MOST_FITTED, MOST_FITTED_PER_PARAMETER * count)]

@@ -45,15 +45,15 @@ def test_drive_by_python_turns_as_its_derivative_says(machine, tmp_path):
 
 def test_controller_is_a_function_of_coordinates_and_rates(machine, tmp_path):
     model = hersey.Model.from_dict(machine)
-    seen = []
+    observed = []
 
     def hold(y, rate):
-        seen.append((y, rate))
+        observed.append((y, rate))
         return -500 - 1e6 * y - 200 * rate
 
     model[PATH] = hersey.Function(hold, of=["free.y", "free.y_rate"], unit="N")
     results = model.run(tmp_path)
-    assert results.status == "completed" and np.ptp([y for y, _ in seen]) > 1e-6
+    assert results.status == "completed" and np.ptp([y for y, _ in observed]) > 1e-6
 
 
 def test_cost_is_told(machine, tmp_path):

@@ -143,12 +143,12 @@ TEST_CASE("FloatingRod_SettlesWhereTheFilmCarriesTheLoad") {
   const double load = 1000;
   Rig rig(small_film(), load, {.initial_dt = 2e-4});
   rig.march(2e-4, 500);
-  const BearingObservation seen = rig.observe();
-  const Vector3 force = seen.wrench_on_shell.tail<3>();
+  const BearingObservation observed = rig.observe();
+  const Vector3 force = observed.wrench_on_shell.tail<3>();
   // What is left of the motion after six turns: the force balance holds to the rod's acceleration, 1e-3 of the load.
   CHECK(force.y() == doctest::Approx(load).epsilon(1e-3));
   CHECK(std::abs(force.x()) < 1e-3 * load);
-  CHECK(seen.film.mass_balance_error < 1e-6);  // steps are solved to 1e-8
+  CHECK(observed.film.mass_balance_error < 1e-6);  // steps are solved to 1e-8
 }
 
 TEST_CASE("LinerIsAtRest_InTheFilmOfTheStart") {

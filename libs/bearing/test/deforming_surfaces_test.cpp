@@ -226,7 +226,7 @@ TEST_CASE("TorqueOnADeformedBore_IsThatOfTheSurface") {
   JournalBearing bearing("b", model, {.shell_surface = big_end_bore(model.L)});
   mbd::RelativeMotion motion = turning_journal(2);
   motion.s << 1e-6, -1e-6;
-  const BearingObservation seen = observed(bearing, motion);
+  const BearingObservation observed = observed(bearing, motion);
   const film::FilmFields fields = bearing.fields();
   const double dphi = 2 * std::numbers::pi / grid.n_phi, dz = model.L / (grid.n_z - 1);
   const double slip = model.R * motion.V_AB_A[2];
@@ -248,9 +248,9 @@ TEST_CASE("TorqueOnADeformedBore_IsThatOfTheSurface") {
                fields.d_shell[grid.index((i + grid.n_phi - 1) % grid.n_phi, j)]);
   }
   CHECK(std::abs(slopes) > 0.01 * std::abs(torque));
-  CHECK(seen.film.torque_journal == doctest::Approx(torque).epsilon(2e-3));
-  CHECK(-seen.power_into_bodies == doctest::Approx(seen.film.power_taken()).epsilon(2e-3));
-  CHECK(-seen.power_into_bodies == doctest::Approx(-torque * 300).epsilon(2e-3));
+  CHECK(observed.film.torque_journal == doctest::Approx(torque).epsilon(2e-3));
+  CHECK(-observed.power_into_bodies == doctest::Approx(observed.film.power_taken()).epsilon(2e-3));
+  CHECK(-observed.power_into_bodies == doctest::Approx(-torque * 300).epsilon(2e-3));
 }
 
 // Everything moves: what the bodies put in by wrench and forces on shapes is what the film's integrals say.
@@ -273,9 +273,9 @@ TEST_CASE("PowerPutInByBodiesThatDeform_IsWhatTheFilmTakes") {
     motion.V_AB_A += (Vector6() << 0.1, -0.2, 0, 4e-3, -9e-3, 0).finished();
     motion.s << 0.5e-6, -0.6e-6, 0.2e-6, 0.3e-6;
     motion.s_rate << 1e-3, 4e-4, -1e-3, 3e-4;
-    const BearingObservation seen = observed(bearing, motion);
-    CHECK(seen.film.power_asperity > 0.1);
-    CHECK(-seen.power_into_bodies == doctest::Approx(seen.film.power_taken()).epsilon(5e-3));
+    const BearingObservation observed = observed(bearing, motion);
+    CHECK(observed.film.power_asperity > 0.1);
+    CHECK(-observed.power_into_bodies == doctest::Approx(observed.film.power_taken()).epsilon(5e-3));
   }
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("GridErrorOfHeat_CoversAFinerGrid") {
   const GridError told = solved_on(60, 13, coarse);
   solved_on(120, 25, fine);
   REQUIRE(told.known);
-  const film::HeatObservables &a = coarse.heat->seen, &b = fine.heat->seen;
+  const film::HeatObservables &a = coarse.heat->observed, &b = fine.heat->observed;
   CHECK(std::abs(a.T_journal - b.T_journal) < 2 * told.T_journal);
   CHECK(std::abs(a.T_max - b.T_max) < 2 * told.T_max);
   CHECK(std::abs(a.T_shell_mean - b.T_shell_mean) < 2 * told.T_shell_mean);

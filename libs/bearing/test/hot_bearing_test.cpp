@@ -163,16 +163,16 @@ TEST_CASE("BoreThatHeatWidens_IsOneOfLargerClearance") {
   REQUIRE(grown.thermal_shape.size() == model.grid.size());
   const double growth = grown.thermal_shape[0];
   CHECK(growth > 3e-6);  // a share of the clearance of 50 um that matters
-  CHECK(growth == relative(5e-8 * grown.heat->seen.balance.to_shell).epsilon(1e-7));  // 1e-8 of temperatures
-  CHECK(grown.heat->seen.T_body_max - grown.heat->T_body[0] == 0);
-  CHECK(grown.heat->T_body[0] == relative(313.15 + 0.1 * grown.heat->seen.balance.to_shell).epsilon(1e-12));  // eps
+  CHECK(growth == relative(5e-8 * grown.heat->observed.balance.to_shell).epsilon(1e-7));  // 1e-8 of temperatures
+  CHECK(grown.heat->observed.T_body_max - grown.heat->T_body[0] == 0);
+  CHECK(grown.heat->T_body[0] == relative(313.15 + 0.1 * grown.heat->observed.balance.to_shell).epsilon(1e-12));  // eps
   model.c += growth;
   options.thermal->shell = even_body(model.grid, 0.1, 0);
   SteadyState wide;
   REQUIRE(solve_steady(model, point(), options, wide).solved());
   CHECK((grown.e - wide.e).norm() < 1e-6 * model.c);  // 1e-8 of temperatures, by the slope of the position
   CHECK(grown.film.p_max == relative(wide.film.p_max).epsilon(1e-5));                         // as well
-  CHECK(grown.heat->seen.T_max == relative(wide.heat->seen.T_max).epsilon(1e-7));             // as well
+  CHECK(grown.heat->observed.T_max == relative(wide.heat->observed.T_max).epsilon(1e-7));     // as well
   CHECK(steady_fields(model, wide).h.minCoeff() == relative(wide.film.h_min).epsilon(1e-2));  // nodes, and between them
   const GridError error = estimate_grid_error(model, wide, options);
   CHECK(error.known);
@@ -212,27 +212,27 @@ TEST_CASE("JournalThatHeatGrows_IsOneInASmallerClearance") {
   CHECK(summary.heat_iterations <= 25);
   REQUIRE(grown.journal_shape.size() == model.grid.size());
   CHECK(grown.thermal_shape.size() == 0);
-  const film::HeatObservables& seen = grown.heat->seen;
-  CHECK(seen.balance.error() < 1e-8);  // what the last change of temperature leaves
+  const film::HeatObservables& observed = grown.heat->observed;
+  CHECK(observed.balance.error() < 1e-8);  // what the last change of temperature leaves
   const double growth = grown.journal_shape[0];
   CHECK(growth > 3e-6);  // a share of the clearance of 50 um that matters
-  CHECK(growth == relative(2e-8 * seen.balance.to_journal).epsilon(1e-7));  // 1e-8 of temperatures
-  CHECK(grown.heat->T_journal_body[0] == relative(313.15 + 0.1 * seen.balance.to_journal).epsilon(1e-12));  // eps
-  CHECK(seen.T_journal_body_max == grown.heat->T_journal_body[0]);
+  CHECK(growth == relative(2e-8 * observed.balance.to_journal).epsilon(1e-7));  // 1e-8 of temperatures
+  CHECK(grown.heat->T_journal_body[0] == relative(313.15 + 0.1 * observed.balance.to_journal).epsilon(1e-12));  // eps
+  CHECK(observed.T_journal_body_max == grown.heat->T_journal_body[0]);
   CHECK(steady_fields(model, grown).h.minCoeff() == relative(grown.film.h_min).epsilon(1e-2));  // nodes, and between
   model.c -= growth;
   REQUIRE(solve_steady(model, point(), options_with(even_journal(model.grid, 0.1, 0)), small).solved());
   CHECK(small.journal_shape.size() == 0);
   CHECK((grown.e - small.e).norm() < 1e-6 * model.c);                   // 1e-8 of temperatures, by the position's slope
   CHECK(grown.film.p_max == relative(small.film.p_max).epsilon(1e-5));  // as well
-  CHECK(seen.T_max == relative(small.heat->seen.T_max).epsilon(1e-7));  // as well
+  CHECK(observed.T_max == relative(small.heat->observed.T_max).epsilon(1e-7));  // as well
   SteadyOptions by_node = options_with({});
   by_node.thermal->journal = film::NodeWall{.T = 313.15, .node = 0};
   by_node.network = film::ThermalNetworkModel{.nodes = {{"shaft", 1e3, 313.15, false}, {"room", 0, 313.15, true}},
                                               .paths = {{"stub", 0, 1, 1 / 0.1}}};
   REQUIRE(solve_steady(model, point(), by_node, lumped).solved());
-  CHECK(lumped.heat->seen.T_journal == relative(small.heat->seen.T_journal).epsilon(1e-7));  // as well
-  CHECK(lumped.film.p_max == relative(small.film.p_max).epsilon(1e-5));                      // as well
+  CHECK(lumped.heat->observed.T_journal == relative(small.heat->observed.T_journal).epsilon(1e-7));  // as well
+  CHECK(lumped.film.p_max == relative(small.film.p_max).epsilon(1e-5));                              // as well
   const GridError error = estimate_grid_error(model, small, options_with(even_journal(model.grid, 0.1, 0)));
   CHECK(error.known);
 }
@@ -280,11 +280,11 @@ TEST_CASE("HotBearing_CarriesItsLoadAndBalances") {
   REQUIRE(hot.heat);
   CHECK((hot.load - *point().load).norm() < 1e-9 * point().load->norm());  // the solver's tolerance of 1e-10
   CHECK(summary.heat_iterations <= 20);
-  CHECK(hot.heat->seen.balance.error() < 1e-8);  // what the last change of temperature leaves
+  CHECK(hot.heat->observed.balance.error() < 1e-8);  // what the last change of temperature leaves
   // The oil leaves warmer than it comes, and what it takes along is all but what the ring does.
-  CHECK(hot.heat->seen.T_side > 323.15 + 5);
-  CHECK(hot.heat->seen.balance.power == relative(hot.film.power_film).epsilon(1e-9));
-  CHECK(std::abs(hot.heat->seen.balance.to_journal) < 1e-6 * hot.heat->seen.balance.power);
+  CHECK(hot.heat->observed.T_side > 323.15 + 5);
+  CHECK(hot.heat->observed.balance.power == relative(hot.film.power_film).epsilon(1e-9));
+  CHECK(std::abs(hot.heat->observed.balance.to_journal) < 1e-6 * hot.heat->observed.balance.power);
   // Warm oil is thin: against the bearing that has the supply's temperature everywhere.
   REQUIRE(solve_steady(model, point(), {}, cold).solved());
   CHECK(hot.film.h_min < 0.9 * cold.film.h_min);
@@ -306,7 +306,7 @@ TEST_CASE("ThinningLayers_AgreeWithTheTangentViscosity") {
   REQUIRE(summary.solved());
   CHECK(summary.heat_iterations <= 20);
   CHECK((layered.load - *point().load).norm() < 1e-9 * point().load->norm());  // the solver's tolerance of 1e-10
-  CHECK(layered.heat->seen.balance.error() < 1e-8);                            // what the last change leaves
+  CHECK(layered.heat->observed.balance.error() < 1e-8);                        // what the last change leaves
   REQUIRE(solve_steady(model, point(), {}, tangent).solved());
   REQUIRE(solve_steady(newtonian, point(), {}, plain).solved());
   CHECK(tangent.film.power_film < 0.7 * plain.film.power_film);
@@ -410,8 +410,8 @@ TEST_CASE("HotBearing_TurnedOrMirrored_IsTheSame") {
   constexpr double tolerance = 1e-6;  // of films and temperatures found to 1e-8 on their own ways
   for (const SteadyState* state : {&turned, &mirrored}) {
     CHECK(state->film.h_min == relative(first.film.h_min).epsilon(tolerance));
-    CHECK(state->heat->seen.T_max - 323.15 == relative(first.heat->seen.T_max - 323.15).epsilon(tolerance));
-    CHECK(state->heat->seen.balance.to_shell == relative(first.heat->seen.balance.to_shell).epsilon(tolerance));
+    CHECK(state->heat->observed.T_max - 323.15 == relative(first.heat->observed.T_max - 323.15).epsilon(tolerance));
+    CHECK(state->heat->observed.balance.to_shell == relative(first.heat->observed.balance.to_shell).epsilon(tolerance));
   }
 }
 
@@ -440,12 +440,13 @@ TEST_CASE("ClearanceAtTemperature_IsThatOfItsWalls") {
       const SteadySummary summary = solve_steady(model, at, options, hot);
       REQUIRE(summary.solved());
       CHECK(summary.heat_iterations <= 25);
-      const film::HeatObservables& seen = hot.heat->seen;
-      const double growth = 0.05 * (23e-6 * (seen.T_shell_wall - 293.15) - 12e-6 * (seen.T_journal_wall - 293.15));
+      const film::HeatObservables& observed = hot.heat->observed;
+      const double growth =
+          0.05 * (23e-6 * (observed.T_shell_wall - 293.15) - 12e-6 * (observed.T_journal_wall - 293.15));
       CHECK(hot.point.growth ==
             relative(growth).epsilon(1e-6));  // 1e-8 of the largest rise, 30 K, over both walls' 10 K
       CHECK(growth > 10e-6);
-      if (journal.index() == 2) CHECK(seen.T_journal_wall == seen.T_journal);
+      if (journal.index() == 2) CHECK(observed.T_journal_wall == observed.T_journal);
       // The same clearance given cold, of walls that keep their size.
       film::FilmModel grown = model;
       grown.c += hot.point.growth;
@@ -454,7 +455,7 @@ TEST_CASE("ClearanceAtTemperature_IsThatOfItsWalls") {
       REQUIRE(solve_steady(grown, at, keeps, same).solved());
       constexpr double ways = 1e-6;  // of films and temperatures found to 1e-8 on two ways
       CHECK(hot.film.h_min == relative(same.film.h_min).epsilon(ways));
-      CHECK(seen.T_max - 323.15 == relative(same.heat->seen.T_max - 323.15).epsilon(ways));
+      CHECK(observed.T_max - 323.15 == relative(same.heat->observed.T_max - 323.15).epsilon(ways));
       CHECK(hot.film.flow_left == relative(same.film.flow_left).epsilon(ways));
       const BearingNumbers a = bearing_numbers(model, hot), b = bearing_numbers(grown, same);
       CHECK(a.eccentricity_ratio == relative(b.eccentricity_ratio).epsilon(ways));
@@ -521,14 +522,14 @@ TEST_CASE("WallsOfANetwork_AreInBalance") {
     const SteadySummary summary = solve_steady(model, point(), options, hot);
     REQUIRE(summary.solved());
     CHECK(summary.heat_iterations <= 20);
-    const film::NetworkObservables& seen = hot.heat->network;
-    CHECK(std::abs(seen.error()) < 1e-10);  // round-off
-    const film::HeatBalance& balance = hot.heat->seen.balance;
+    const film::NetworkObservables& observed = hot.heat->network;
+    CHECK(std::abs(observed.error()) < 1e-10);  // round-off
+    const film::HeatBalance& balance = hot.heat->observed.balance;
     CHECK(balance.error() < 1e-8);  // what the last change of temperature leaves
-    const double block = seen.T[0], shaft = seen.T[1];
+    const double block = observed.T[0], shaft = observed.T[1];
     CHECK(hot.heat->state.shell[5] == relative(block).epsilon(1e-12));  // round-off
     // Likewise.
-    CHECK(hot.heat->state.journal == relative(seen.T[static_cast<Eigen::Index>(journal)]).epsilon(1e-12));
+    CHECK(hot.heat->state.journal == relative(observed.T[static_cast<Eigen::Index>(journal)]).epsilon(1e-12));
     const double to_shaft = journal == 1 ? balance.to_journal : 0;
     CHECK(balance.to_shell + balance.to_journal - to_shaft ==
           relative(8 * (block - 298.15) + (block - shaft)).epsilon(1e-8));  // round-off of both sums
@@ -539,8 +540,9 @@ TEST_CASE("WallsOfANetwork_AreInBalance") {
     held.thermal->shell = film::WallAtTemperature{.T = block};
     held.thermal->journal = film::WallAtTemperature{.T = hot.heat->state.journal};
     REQUIRE(solve_steady(model, point(), held, given).solved());
-    CHECK(given.heat->seen.T_max - 323.15 == relative(hot.heat->seen.T_max - 323.15).epsilon(1e-6));  // on two ways
-    CHECK(given.heat->seen.balance.to_shell == relative(balance.to_shell).epsilon(1e-5));             // likewise
+    CHECK(given.heat->observed.T_max - 323.15 ==
+          relative(hot.heat->observed.T_max - 323.15).epsilon(1e-6));                          // on two ways
+    CHECK(given.heat->observed.balance.to_shell == relative(balance.to_shell).epsilon(1e-5));  // likewise
   }
 }
 
@@ -562,24 +564,25 @@ TEST_CASE("SumpAndBlockOfANetwork_AreInBalance") {
   CAPTURE(summary.message);
   REQUIRE(summary.solved());
   CHECK(summary.heat_iterations <= 25);
-  const film::NetworkObservables& seen = hot.heat->network;
-  const film::HeatBalance& balance = hot.heat->seen.balance;
-  CHECK(std::abs(seen.error()) < 1e-10);                            // round-off
-  CHECK(balance.error() < 1e-8);                                    // what the last change of temperature leaves
-  CHECK(seen.heat[0] == relative(balance.to_oil).epsilon(1e-6));    // as much oil comes as leaves: film's residual
-  CHECK(seen.heat[1] == relative(balance.to_shell).epsilon(1e-6));  // likewise
-  CHECK(seen.to_fixed == relative(balance.power).epsilon(1e-6));    // likewise
-  CHECK(std::abs(seen.T[0] - 323.15) > 1);
+  const film::NetworkObservables& observed = hot.heat->network;
+  const film::HeatBalance& balance = hot.heat->observed.balance;
+  CHECK(std::abs(observed.error()) < 1e-10);                            // round-off
+  CHECK(balance.error() < 1e-8);                                        // what the last change of temperature leaves
+  CHECK(observed.heat[0] == relative(balance.to_oil).epsilon(1e-6));    // as much oil comes as leaves: film's residual
+  CHECK(observed.heat[1] == relative(balance.to_shell).epsilon(1e-6));  // likewise
+  CHECK(observed.to_fixed == relative(balance.power).epsilon(1e-6));    // likewise
+  CHECK(std::abs(observed.T[0] - 323.15) > 1);
   SteadyOptions held = options;
   held.network.reset();
   held.thermal->oil = {};
-  held.thermal->T_supply = held.thermal->T_edges = seen.T[0];
-  held.thermal->T_features.assign(model.features.size(), seen.T[0]);
+  held.thermal->T_supply = held.thermal->T_edges = observed.T[0];
+  held.thermal->T_features.assign(model.features.size(), observed.T[0]);
   auto& same = std::get<film::RingWall>(held.thermal->shell);
-  same.surroundings.reset(), same.T_ambient = seen.T[1];
+  same.surroundings.reset(), same.T_ambient = observed.T[1];
   REQUIRE(solve_steady(model, point(), held, given).solved());
-  CHECK(given.heat->seen.T_max - seen.T[0] == relative(hot.heat->seen.T_max - seen.T[0]).epsilon(1e-5));  // on two ways
-  CHECK(given.heat->seen.balance.power == relative(balance.power).epsilon(1e-6));                         // likewise
+  CHECK(given.heat->observed.T_max - observed.T[0] ==
+        relative(hot.heat->observed.T_max - observed.T[0]).epsilon(1e-5));             // on two ways
+  CHECK(given.heat->observed.balance.power == relative(balance.power).epsilon(1e-6));  // likewise
 }
 
 }  // namespace hot_bearing_test

@@ -140,10 +140,10 @@ TEST_CASE("LineHeldOverAStep_IsShownWhereItWasHeld") {
     mbd::RelativeMotion end = motion;
     end.dt = 0;
     bearing.accept_step(end);
-    const BearingObservation seen = bearing.observe(end);
+    const BearingObservation observed = bearing.observe(end);
     CAPTURE(step);
     // Both are integrals over a kink of the pressure within a cell, 2 % apart on this grid; of a line elsewhere, 150 %.
-    CHECK(std::abs(seen.power_into_bodies + seen.film.power_taken()) <= 0.04 * seen.film.power_film);
+    CHECK(std::abs(observed.power_into_bodies + observed.film.power_taken()) <= 0.04 * observed.film.power_film);
   }
 }
 
@@ -178,11 +178,11 @@ TEST_CASE("TurningPocket_ConservesOil") {
     for (int k = 0; k < 15; ++k) bearing.evaluate(motion, true, response);
     REQUIRE(bearing.internal_residual() < 1e-10);  // the tolerance of a film
     bearing.accept_step(motion);
-    const film::FilmObservables seen = bearing.observe(motion).film;
-    const double came = dt * (seen.flow_supply - seen.flow_left - seen.flow_right);
+    const film::FilmObservables observed = bearing.observe(motion).film;
+    const double came = dt * (observed.flow_supply - observed.flow_left - observed.flow_right);
     // Of what is there: a film solved to 1e-10 of its throughput.
-    CHECK(std::abs(seen.oil_volume - before - came) < 1e-9 * seen.oil_volume);
-    before = seen.oil_volume;
+    CHECK(std::abs(observed.oil_volume - before - came) < 1e-9 * observed.oil_volume);
+    before = observed.oil_volume;
   }
 }
 

@@ -33,7 +33,7 @@ std::vector<Parameter> parameters() {
           {"tilt", [](BearingBeside& b, double x) { b.point.tilt.x() += 1e-4 * x; }}};
 }
 
-// Fed from a line, smooth, its film broken over a third of the bearing.
+// Fed from a line, smooth, its film cavitated over a third of the bearing.
 BearingBeside smooth_bearing() {
   BearingBeside bearing{.model = {.R = 0.025, .L = 0.03, .c = 30e-6, .grid = {36, 9}}, .point = {}};
   bearing.model.lubricant.mu0 = 0.02;

@@ -71,11 +71,11 @@ TEST_CASE("TwoPadsOfOilThatWarms_AreThoseOfAnotherProgram") {
   const SteadyState state =
       compare({112794.082, 0.6113515627, 0.8050309532, 8380.12216, 3.682903391e-4, 7.569878371e-5}, options);
   CHECK(state.film.p_max == relative(2801826.2).epsilon(0.01));
-  const film::HeatObservables& seen = state.heat->seen;
-  CHECK(std::abs(seen.T_supplies[0] - 335.7128195) < 0.3);  // K, of 12.7 that the oil has warmed
-  CHECK(std::abs(seen.T_supplies[1] - 329.3165990) < 0.3);
-  CHECK(std::abs(seen.T_shell_max - 345.1406072) < 0.3);
-  CHECK(std::abs(seen.T_journal - 336.6145241) < 0.3);
+  const film::HeatObservables& observed = state.heat->observed;
+  CHECK(std::abs(observed.T_supplies[0] - 335.7128195) < 0.3);  // K, of 12.7 that the oil has warmed
+  CHECK(std::abs(observed.T_supplies[1] - 329.3165990) < 0.3);
+  CHECK(std::abs(observed.T_shell_max - 345.1406072) < 0.3);
+  CHECK(std::abs(observed.T_journal - 336.6145241) < 0.3);
 }
 
 // Borders of grooves on nodes or midway between them: the same oil is renewed.
@@ -89,7 +89,7 @@ TEST_CASE("RenewedOil_DoesNotDependOnWhereBordersLie") {
     const film::FilmModel model = scaled_for(two_pads(midway ? 270 : 180), point);
     SteadyState state;
     REQUIRE(solve_steady(model, point, options, state).solved());
-    T[midway ? 1 : 0] = state.heat->seen.T_supplies;
+    T[midway ? 1 : 0] = state.heat->observed.T_supplies;
   }
   // K, of 12 that the oil has warmed: of first order, 0.03 K where cells are a quarter.
   CHECK((T[0] - T[1]).cwiseAbs().maxCoeff() < 0.1);

@@ -180,8 +180,8 @@ TEST_CASE("JournalOverCycles_ResumesToTheSameNumbers") {
   resumed.persist(archive);
   CHECK(archive.unread().empty());
   CHECK(resumed.journal_growth_in_time() == machine.heat.journal_growth_in_time());
-  const WallExchange seen = resumed.mean_exchange();
-  CHECK(machine.settle() == resumed.settle_walls(seen.T).largest);
+  const WallExchange observed = resumed.mean_exchange();
+  CHECK(machine.settle() == resumed.settle_walls(observed.T).largest);
   CHECK(machine.heat.state().journal == resumed.state().journal);
   CHECK(machine.heat.state().journal_heat == resumed.state().journal_heat);
 }
@@ -212,12 +212,12 @@ TEST_CASE("JournalOnAnotherGrid_HasTheSameShape") {
   const JournalConduction body = *shaft(model.grid, 0.5).conduction;
   const Grid coarse = resampled(model.grid, 12, 4), fine = resampled(model.grid, 24, 13);
   for (const Grid& grid : {coarse, fine}) {
-    const JournalConduction seen = on_grid(body, model.grid, grid);
-    CHECK(seen.rise == body.rise);
+    const JournalConduction observed = on_grid(body, model.grid, grid);
+    CHECK(observed.rise == body.rise);
     for (int j = 0; j < grid.n_z; ++j)  // a straight line, which straight lines meet
-      CHECK(seen.shape(10)[j] ==
+      CHECK(observed.shape(10)[j] ==
             relative(2e-7 / 1.5 * (1.5 + grid.z_over_L(j)) * (10 + 0.5 * 10)).epsilon(1e-12));  // round-off
-    CHECK(around(grid, seen.shape0)[grid.index(3, 2)] == seen.shape0[2]);
+    CHECK(around(grid, observed.shape0)[grid.index(3, 2)] == observed.shape0[2]);
   }
 }
 

@@ -116,8 +116,8 @@ TEST_CASE("BodyOverCycles_ResumesToTheSameNumbers") {
   resumed.persist(archive);
   CHECK(archive.unread().empty());
   CHECK(resumed.shell_opening_in_time() == machine.heat.shell_opening_in_time());
-  const WallExchange seen = resumed.mean_exchange();
-  CHECK(machine.settle().largest == resumed.settle_walls(seen.T).largest);
+  const WallExchange observed = resumed.mean_exchange();
+  CHECK(machine.settle().largest == resumed.settle_walls(observed.T).largest);
   CHECK(machine.heat.state().shell == resumed.state().shell);
   CHECK(machine.heat.state().wall_heat == resumed.state().wall_heat);
 }

@@ -147,19 +147,19 @@ TEST_CASE("BodyOnACoarserGrid_IsTheSameBody") {
       wall.shape_by_heat.row(fine.index(i, j)).setConstant(1e-8 * (2 + std::cos(fine.phi(i)) + fine.z_over_L(j)));
   wall.shape0.setConstant(fine.size(), 1e-6);
   wall.shape_by_rise.setConstant(fine.size(), 6e-7);
-  const WallConduction seen = on_grid(wall, fine, coarse);
+  const WallConduction observed = on_grid(wall, fine, coarse);
   constexpr double round_off = 1e-12;  // of sums over angles
-  CHECK((seen.T0.array() - 300).abs().maxCoeff() < 300 * round_off);
-  CHECK((seen.rise - seen.rise.transpose()).cwiseAbs().maxCoeff() < round_off);
+  CHECK((observed.T0.array() - 300).abs().maxCoeff() < 300 * round_off);
+  CHECK((observed.rise - observed.rise.transpose()).cwiseAbs().maxCoeff() < round_off);
   const Eigen::VectorXd even = Eigen::VectorXd::Ones(24);
-  CHECK(seen.temperatures(even)[3] ==
+  CHECK(observed.temperatures(even)[3] ==
         relative(wall.temperatures(0.5 * Eigen::VectorXd::Ones(48))[6]).epsilon(round_off));
   Eigen::VectorXd wave(24), fine_wave(48);
   for (int i = 0; i < 24; ++i) wave[i] = std::cos(coarse.phi(i));
   for (int i = 0; i < 48; ++i) fine_wave[i] = 0.5 * std::cos(fine.phi(i));
   const double rise = wall.temperatures(fine_wave)[0] - 300;
-  CHECK(seen.temperatures(wave)[0] - 300 == relative(rise).epsilon(std::pow(2 * pi / 24, 2) / 3));
-  CHECK(seen.shape(even)[coarse.index(6, 2)] ==
+  CHECK(observed.temperatures(wave)[0] - 300 == relative(rise).epsilon(std::pow(2 * pi / 24, 2) / 3));
+  CHECK(observed.shape(even)[coarse.index(6, 2)] ==
         relative(wall.shape(0.5 * Eigen::VectorXd::Ones(48))[fine.index(12, 4)]).epsilon(round_off));
 }
 

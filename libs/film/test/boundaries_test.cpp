@@ -16,17 +16,17 @@
 namespace hersey::film {
 namespace boundaries_test {
 
-using Trouble = FilmDomain::Trouble;
+using Violation = FilmDomain::Violation;
 
 TEST_CASE("TextOfADomain_NamesTheFaultAndItsPosition") {
   FilmModel m;
   const int node = m.grid.index(15, 12);  // a quarter around, on the edge
   CHECK(text(m, {}).empty());
-  CHECK(text(m, {Trouble::not_finite, -1}) == "the film has no finite pressure");
-  CHECK(text(m, {Trouble::not_finite, node}) == "the film has no finite pressure at 90.0 deg, z = 7.8 mm");
-  CHECK(text(m, {Trouble::pressure, node}) == "the film's pressure rises without bound at 90.0 deg, z = 7.8 mm");
+  CHECK(text(m, {Violation::not_finite, -1}) == "the film has no finite pressure");
+  CHECK(text(m, {Violation::not_finite, node}) == "the film has no finite pressure at 90.0 deg, z = 7.8 mm");
+  CHECK(text(m, {Violation::pressure, node}) == "the film's pressure rises without bound at 90.0 deg, z = 7.8 mm");
   m.surface = Plane{};
-  CHECK(text(m, {Trouble::closed, node}) == "the film closes at 35.3 mm, z = 7.8 mm");  // R pi/2
+  CHECK(text(m, {Violation::closed, node}) == "the film closes at 35.3 mm, z = 7.8 mm");  // R pi/2
 }
 
 TEST_CASE("UsualSolver_IsChosenBySize") {
@@ -111,10 +111,10 @@ TEST_CASE("CavitatedShear_IsToldByTheChoiceThatWasMade") {
 }
 
 TEST_CASE("JournalThatKeepsItsShape_HasNoneOnAnyGrid") {
-  const JournalConduction plain{.T0 = 320, .rise = 0.1}, seen = on_grid(plain, {.n_z = 5}, {.n_z = 9});
-  CHECK(!seen.deforms());
-  CHECK(seen.rise == plain.rise);
-  CHECK(around({.n_phi = 6, .n_z = 5}, seen.shape0).size() == 0);
+  const JournalConduction plain{.T0 = 320, .rise = 0.1}, observed = on_grid(plain, {.n_z = 5}, {.n_z = 9});
+  CHECK(!observed.deforms());
+  CHECK(observed.rise == plain.rise);
+  CHECK(around({.n_phi = 6, .n_z = 5}, observed.shape0).size() == 0);
   const Eigen::VectorXd shape = Eigen::VectorXd::LinSpaced(5, 0, 4);
   CHECK(around({.n_phi = 6, .n_z = 5}, shape).segment(10, 5) == shape);
 }
@@ -135,11 +135,11 @@ TEST_CASE("SurfacesThatAreNoNumbers_AreToldWithTheirPlace") {
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   const int node = m.grid.index(7, 3);
   for (Eigen::VectorXd SurfaceMotion::*member : {&SurfaceMotion::g, &SurfaceMotion::g_rate}) {
-    SurfaceMotion broken = sound;
-    (broken.*member)[node] = std::numeric_limits<double>::quiet_NaN();
+    SurfaceMotion cavitated = sound;
+    (cavitated.*member)[node] = std::numeric_limits<double>::quiet_NaN();
     Reynolds reynolds(m);
-    const FilmDomain domain = reynolds.linearise(broken, {}, u);
-    CHECK(domain.trouble == Trouble::not_finite);
+    const FilmDomain domain = reynolds.linearise(cavitated, {}, u);
+    CHECK(domain.violation == Violation::not_finite);
     CHECK(domain.node == node);
     CHECK(reynolds.linearise(sound, {}, u).is_inside());
   }
@@ -179,8 +179,8 @@ TEST_CASE("CavityOfAWholePatch_EndsWhereThatEnds") {
   const SurfaceMotion motion = surfaces(m, {.omega_journal = 100});
   const double empty = -0.5 * fill_scale(m);
   const auto cavity = [&](const Eigen::VectorXd& u) {
-    const FilmObservables seen = observe_film(m, motion, {}, {0, 0}, u);
-    return std::array<double, 2>{seen.rupture_angle, seen.reformation_angle};
+    const FilmObservables observed = observe_film(m, motion, {}, {0, 0}, u);
+    return std::array<double, 2>{observed.rupture_angle, observed.reformation_angle};
   };
   Eigen::VectorXd u = Eigen::VectorXd::Constant(m.grid.size(), empty);
   const auto whole = cavity(u);  // that of the wider patch

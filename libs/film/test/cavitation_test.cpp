@@ -91,9 +91,9 @@ TEST_CASE("TimeSteps_ConserveOil") {
 }
 
 // Pure squeeze with cavitation that opens and closes again (Ausas, Jai and Buscaglia 2009): plates of length 1 with
-// h(t) = 0.125 cos(4 pi t) + 0.375 and p = 0.025 at both ends, d/dx(h^3 p_x) = 2 d(theta h)/dt. As the film breaks, its
-// front W has p = p_x = 0, so that W^2 = 0.025 h^3/h'. From the turning point on oil flows past it,
-// (1 - theta) h W' = (0.025 h^3/W - h' W)/2, where theta h is what stayed behind as the front passed on its way in.
+// h(t) = 0.125 cos(4 pi t) + 0.375 and p = 0.025 at both ends, d/dx(h^3 p_x) = 2 d(theta h)/dt. As the film cavitates,
+// its front W has p = p_x = 0, so that W^2 = 0.025 h^3/h'. From the turning point on oil flows past it, (1 - theta) h
+// W' = (0.025 h^3/W - h' W)/2, where theta h is what stayed behind as the front passed on its way in.
 class SqueezeFront {
  public:
   static double gap(double t) { return 0.125 * std::cos(4 * pi * t) + 0.375; }
@@ -257,9 +257,9 @@ TEST_CASE("AmbientFill_IsDrawnIn") {
   const SolvedFilm flooded = solved(m.p_cav + 1e-3, 0), oil = solved(m.p_cav, 1);
   // An edge 1e-3 Pa above p_cav.
   CHECK((flooded.wrench - oil.wrench).norm() < 1e-6 * oil.wrench.norm());
-  // Side flows are apart by 1.2e-3 of themselves: beside the broken film both edges are not quite alike.
+  // Side flows are apart by 1.2e-3 of themselves: beside the cavitated film both edges are not quite alike.
   CHECK(flooded.observed.flow_left == relative(oil.observed.flow_left).epsilon(2e-3));
-  CHECK(oil.fields.theta[m.grid.index(45, 0)] == 1);  // where the film is broken inside
+  CHECK(oil.fields.theta[m.grid.index(45, 0)] == 1);  // where the film is cavitated inside
 
   const SolvedFilm air = solved(m.p_cav, 0), mist = solved(m.p_cav, 0.9);
   double least_air = 1, least_mist = 1;
@@ -269,7 +269,7 @@ TEST_CASE("AmbientFill_IsDrawnIn") {
   }
   CHECK(least_air < 0.9);
   CHECK(least_mist == 0.9);
-  // The more comes in beside the broken film, the less leaves in all.
+  // The more comes in beside the cavitated film, the less leaves in all.
   CHECK(air.observed.flow_left > 1.001 * mist.observed.flow_left);
   CHECK(mist.observed.flow_left > 1.001 * oil.observed.flow_left);
   const SolvedFilm sor = solved(m.p_cav, 0.9, FilmSolver::sor);
@@ -328,7 +328,7 @@ TEST_CASE("SupplyLine_WorksBetweenNodes") {
     REQUIRE(film.summary.solved());
     CHECK(film.wrench.segment<2>(3).norm() == doctest::Approx(on_node).epsilon(0.5 * cell * cell));
     CHECK(film.fields.theta[m.grid.index(1, 6)] > 0.998);               // the first node downstream
-    CHECK(film.fields.theta[m.grid.index(m.grid.n_phi - 1, 6)] < 0.9);  // upstream the film is broken
+    CHECK(film.fields.theta[m.grid.index(m.grid.n_phi - 1, 6)] < 0.9);  // upstream the film is cavitated
   }
 }
 

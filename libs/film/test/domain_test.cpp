@@ -9,7 +9,7 @@
 namespace hersey::film {
 namespace domain_test {
 
-using Trouble = FilmDomain::Trouble;
+using Violation = FilmDomain::Violation;
 
 FilmModel big_end() {
   FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = {60, 13}};
@@ -29,19 +29,19 @@ TEST_CASE("TrialsOutsideTheDomain_AreOutcomes") {
   REQUIRE(reynolds.linearise(open, {}, u).is_inside());
 
   const FilmDomain closed = reynolds.linearise(overlapping, {}, u);
-  CHECK(closed.trouble == Trouble::closed);
+  CHECK(closed.violation == Violation::closed);
   CHECK(overlapping.g[closed.node] <= 0);
   CHECK(text(m, closed).find("the film closes at ") == 0);
   CHECK_THROWS_AS(reynolds.newton_increment(u), ContractError);  // there is nothing to go on from
 
   u[100] = 1.1e9;  // alpha p = 22
   const FilmDomain stiff = reynolds.linearise(open, {}, u);
-  CHECK(stiff.trouble == Trouble::pressure);
+  CHECK(stiff.violation == Violation::pressure);
   CHECK(stiff.node == 100);
   CHECK(text(m, stiff).find("viscosity") != std::string::npos);
 
   u[100] = std::numeric_limits<double>::quiet_NaN();
-  CHECK(reynolds.linearise(open, {}, u).trouble == Trouble::not_finite);
+  CHECK(reynolds.linearise(open, {}, u).violation == Violation::not_finite);
   CHECK(reynolds.linearise(open, {}, none).is_inside());
 }
 

@@ -12,7 +12,7 @@
 namespace hersey::film {
 namespace far_films_test {
 
-using Trouble = FilmDomain::Trouble;
+using Violation = FilmDomain::Violation;
 
 constexpr double omega = 374;
 
@@ -90,7 +90,7 @@ TEST_CASE("GapsOfAnySize_AreFiniteOrTold") {
     motion.g.setConstant(size);
     const FilmDomain domain = reynolds.linearise(motion, {}, u);
     if (!domain.is_inside()) {
-      CHECK(domain.trouble == Trouble::not_finite);
+      CHECK(domain.violation == Violation::not_finite);
       ++told;
       continue;
     }
@@ -162,7 +162,7 @@ TEST_CASE("ChordThatLeadsOutOfTheFilm_IsToldAndLeavesNoFactor") {
   Reynolds reynolds(m);
   REQUIRE(reynolds.linearise(surfaces(m, turning(m, 0.7, omega)), {}, u).is_inside());
   reynolds.newton_increment(du);
-  CHECK(reynolds.chord_increment(surfaces(m, turning(m, 1.2, omega)), {}, u, du).trouble == Trouble::closed);
+  CHECK(reynolds.chord_increment(surfaces(m, turning(m, 1.2, omega)), {}, u, du).violation == Violation::closed);
   CHECK_FALSE(reynolds.has_factor());
   CHECK(reynolds.linearise(surfaces(m, turning(m, 0.7, omega)), {}, u).is_inside());
 }
@@ -421,9 +421,9 @@ TEST_CASE("CavityThatEndsAtAPeak_EndsInTheCellBeforeIt") {
   Eigen::VectorXd u = Eigen::VectorXd::Constant(grid.size(), 1e5);
   for (int i = 20; i < 30; ++i) u.segment(grid.index(i, 0), grid.n_z).setConstant(-0.5 * fill_scale(m));
   u.segment(grid.index(30, 0), grid.n_z).setConstant(3e5);
-  const FilmObservables seen = observe_film(m, surfaces(m, turning(m, 0.5, omega)), {}, {0, 0}, u);
-  CHECK(seen.reformation_angle >= grid.phi(29) - 1e-12);  // round-off
-  CHECK(seen.reformation_angle <= grid.phi(30) + 1e-12);  // likewise
+  const FilmObservables observed = observe_film(m, surfaces(m, turning(m, 0.5, omega)), {}, {0, 0}, u);
+  CHECK(observed.reformation_angle >= grid.phi(29) - 1e-12);  // round-off
+  CHECK(observed.reformation_angle <= grid.phi(30) + 1e-12);  // likewise
 }
 
 // A groove across the line holds its nodes, where the line has no part in their rows.
@@ -448,7 +448,7 @@ TEST_CASE("SweepsInAClosedGap_TellWhere") {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   const FilmSolveSummary told = solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor}, u);
   CHECK_FALSE(told.solved());
-  CHECK(told.domain.trouble == Trouble::closed);
+  CHECK(told.domain.violation == Violation::closed);
   CHECK(motion.g[told.domain.node] <= 0);
 }
 

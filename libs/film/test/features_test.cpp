@@ -47,7 +47,7 @@ TEST_CASE("FilmAtRestBetweenClosedEdges_TakesItsGroovesPressure") {
   }
 }
 
-// A broken film comes to a groove at p_s > p_cav, which fills it back to where the pressure has fallen:
+// A cavitated film comes to a groove at p_s > p_cav, which fills it back to where the pressure has fallen:
 // l = h^2 p_s/[6 mu U (1 - theta)], a sixth of a cell here. Its nodes lie beyond, so that theta h stays what it was,
 // and what P0 is has no part in it.
 TEST_CASE("FilmBeforeAGroove_IsFilledAsFarAsItsPressureCan") {
@@ -82,13 +82,13 @@ TEST_CASE("LandBeforeAnEdge_IsAsLongAsItIs") {
       m.features = {{.name = "groove", .arc = 2 * pi, .length = m.L - 2 * land, .pressure = 3e5}};
       const SolvedFilm film = solve_cold(m, Journal{});
       REQUIRE(film.summary.solved());
-      const FilmObservables& seen = film.observed;
+      const FilmObservables& observed = film.observed;
       const double drop = 3e5 - p_edge, side = m.c * m.c * m.c / (12 * m.lubricant.mu0) * 2 * pi * m.R * drop / land;
-      CHECK(seen.flow_left == relative(side).epsilon(kSolved));
-      CHECK(seen.flow_right == relative(side).epsilon(kSolved));
-      CHECK(seen.flow_features[0] == relative(2 * side).epsilon(kSolved));
-      CHECK(seen.mass_balance_error < kSolved);
-      CHECK(seen.power_oil == relative(-2 * side * drop).epsilon(kSolved));
+      CHECK(observed.flow_left == relative(side).epsilon(kSolved));
+      CHECK(observed.flow_right == relative(side).epsilon(kSolved));
+      CHECK(observed.flow_features[0] == relative(2 * side).epsilon(kSolved));
+      CHECK(observed.mass_balance_error < kSolved);
+      CHECK(observed.power_oil == relative(-2 * side * drop).epsilon(kSolved));
     }
   }
 }

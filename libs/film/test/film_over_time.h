@@ -55,9 +55,9 @@ class FilmOverTime {
   /// walls that are held take theirs.
   void settle(ThermalNetwork& network) {
     const FilmTerminals at = terminals_of(heat.thermal());
-    const WallExchange seen = heat.mean_exchange();
-    network.advance(0, {{at, seen}});
-    (void)heat.settle_walls(network.walls(at, seen.T));
+    const WallExchange observed = heat.mean_exchange();
+    network.advance(0, {{at, observed}});
+    (void)heat.settle_walls(network.walls(at, observed.T));
   }
   /// Likewise, with nodes where they are.
   WallCorrection settle() { return heat.settle_walls(heat.mean_exchange().T); }

@@ -47,8 +47,8 @@ TEST_CASE("FiniteBearing_MeetsTheTable") {
   }
 }
 
-// The same with oil that is conserved, and a broken film that rubs by its fill: Sommerfeld number, attitude, friction,
-// side flow.
+// The same with oil that is conserved, and a cavitated film that rubs by its fill: Sommerfeld number, attitude,
+// friction, side flow.
 TEST_CASE("BearingsOfOneViscosity_HaveTheTabledNumbers") {
   int rows = 0;
   for (const CsvRow& row : read_csv(data + "isoviscous_numbers.csv")) {

@@ -245,7 +245,7 @@ TEST_CASE("TemperaturesBySweeps_AreThoseOfTheFactorisedSystem") {
   }
 }
 
-// Of a finite bearing at L/D = 1, epsilon 0.6 with a stirred groove at the widest gap; numbers of an independent
+// Of a finite bearing at L/D = 1, epsilon 0.6 with a mixed groove at the widest gap; numbers of an independent
 // program (finite volumes, extrapolated over three grids).
 TEST_CASE("CopesBearing_IsThatOfAnIndependentProgram") {
   FilmModel model = bearing(0.05, 0.1, 50e-6, 120, 25);
@@ -501,10 +501,10 @@ TEST_CASE("FilmAtRest_StaysAsWarmAsItIs") {
   thermal.carry_over = 0.5;
   FilmOverTime film(model, thermal);
   for (int step = 0; step < 3; ++step) film.advance(1e-3);
-  const HeatObservables seen = film.heat.observables();
-  CHECK(std::abs(seen.T_max - thermal.T_supply) < 1e-9);        // K, round-off of 300
-  CHECK(std::abs(seen.T_film_mean - thermal.T_supply) < 1e-9);  // likewise
-  CHECK(seen.balance.power == 0);
+  const HeatObservables observed = film.heat.observables();
+  CHECK(std::abs(observed.T_max - thermal.T_supply) < 1e-9);        // K, round-off of 300
+  CHECK(std::abs(observed.T_film_mean - thermal.T_supply) < 1e-9);  // likewise
+  CHECK(observed.balance.power == 0);
 }
 
 // From a gap with next to no oil, which a hole begins to fill: heat of a film that is nearly nothing is kept as well.

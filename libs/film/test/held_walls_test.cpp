@@ -160,8 +160,8 @@ TEST_CASE("HeldWalls_ResumeToTheSameNumbers") {
   Archive archive(saved.content());
   resumed.persist(archive);
   CHECK(archive.unread().empty());
-  const WallExchange seen = resumed.mean_exchange();
-  CHECK(machine.film.settle().largest == resumed.settle_walls(seen.T).largest);
+  const WallExchange observed = resumed.mean_exchange();
+  CHECK(machine.film.settle().largest == resumed.settle_walls(observed.T).largest);
   CHECK(machine.film.heat.state().shell == resumed.state().shell);
   CHECK(machine.film.heat.state().journal == resumed.state().journal);
 }
@@ -267,16 +267,16 @@ TEST_CASE("HeldWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
 // A film at rest does not ask what walls would do over time.
 TEST_CASE("SteadyFilmWithHeldNodes_IsTheSteadyFilm") {
   const FilmModel model = bearing();
-  std::array<WallExchange, 2> seen;
+  std::array<WallExchange, 2> observed;
   for (const bool held : {false, true}) {
     ThermalModel thermal = walls(held ? WallMotion::held : WallMotion::by_their_heat);
     thermal.journal = NodeWall{.T = 40 + zero_celsius, .node = 0, .name = "journal"};
     FilmOverTime film(model, thermal, turning(model, 0.5, 300));
     film.advance(0);
-    seen[held ? 1 : 0] = film.heat.exchange();
+    observed[held ? 1 : 0] = film.heat.exchange();
   }
-  CHECK(seen[1].heat == seen[0].heat);
-  CHECK(seen[1].by_T == seen[0].by_T);
+  CHECK(observed[1].heat == observed[0].heat);
+  CHECK(observed[1].by_T == observed[0].by_T);
 }
 
 // What goes elsewhere than foretold tells nothing of the pace.

@@ -31,7 +31,7 @@ void compare_midplane(const Case& c, const HotFilm& hot) {
     CHECK(std::abs(at(hot.temperatures.middle) - zero_celsius - number(row, "T_mean")) < c.bars.T);
     CHECK(std::abs(at(hot.temperatures.shell) - zero_celsius - number(row, "T_shell")) < c.bars.T);
     CHECK(std::abs(at(hot.fields.p) - number(row, "p")) < c.bars.p_max * c.expected.p_max);
-    CHECK(std::abs(at(hot.fields.theta) - number(row, "theta")) < 0.02);  // of first order where the film breaks
+    CHECK(std::abs(at(hot.fields.theta) - number(row, "theta")) < 0.02);  // of first order where the film cavitates
     ++points;
   }
   CHECK(points == 11);

@@ -48,7 +48,7 @@ void check_order(const std::vector<Errors>& on, const std::map<std::string, doub
 }
 
 struct Solution {
-  FilmObservables seen;
+  FilmObservables observed;
   FilmFields fields;
 };
 
@@ -65,14 +65,14 @@ Solution solve(const ManufacturedFilm& exact, const Grid& grid) {
 }
 
 Errors errors_of(const ManufacturedFilm& exact, const Grid& grid) {
-  const auto [seen, fields] = solve(exact, grid);
-  REQUIRE(seen.cavitated_share == 0);
+  const auto [observed, fields] = solve(exact, grid);
+  REQUIRE(observed.cavitated_share == 0);
   Errors errors;
   const auto at_nodes = [&](auto field) { return exact.at_nodes(grid, field); };
   const auto p = [&](double phi, double z) { return exact.p(phi, z); };
   errors["pressure"] = {{"nodes", (fields.p - at_nodes(p)).cwiseAbs().maxCoeff() / exact.p_rise},
-                        {"largest", (seen.p_max - exact.p(exact.peak_phi, exact.peak_z())) / exact.p_rise}};
-  const Vector6 wrench = exact.wrench_on_shell(), missing = seen.wrench_on_shell - wrench;
+                        {"largest", (observed.p_max - exact.p(exact.peak_phi, exact.peak_z())) / exact.p_rise}};
+  const Vector6 wrench = exact.wrench_on_shell(), missing = observed.wrench_on_shell - wrench;
   const double load = wrench.tail<3>().norm();
   errors["load"] = {{"x", missing[3] / load},
                     {"y", missing[4] / load},
@@ -81,15 +81,15 @@ Errors errors_of(const ManufacturedFilm& exact, const Grid& grid) {
   const double torque =
       -wrench[2] - exact.tilt.dot(wrench.head<2>()) + exact.e.x() * wrench[4] - exact.e.y() * wrench[3];
   errors["friction"] = {{"on the shell", missing[2] / torque},
-                        {"on the journal", seen.torque_journal / torque - 1},
+                        {"on the journal", observed.torque_journal / torque - 1},
                         {"along the axis", missing[5] * exact.R / torque},
-                        {"power", seen.power_film / exact.power() - 1}};
+                        {"power", observed.power_film / exact.power() - 1}};
   const auto density_of_oil = [&](double phi, double z) { return exact.rho(phi, z) * exact.h(phi, z); };
   const auto rate_of_oil = [&](double phi, double z) { return exact.rho(phi, z) * exact.g_rate(phi, z); };
-  errors["flow"] = {{"left", seen.flow_left / exact.outflow(-1) - 1},
-                    {"right", seen.flow_right / exact.outflow(1) - 1},
-                    {"stored", (seen.storage_rate - exact.over_area(rate_of_oil)) / exact.outflow(1)},
-                    {"oil", seen.oil_volume / exact.over_area(density_of_oil) - 1}};
+  errors["flow"] = {{"left", observed.flow_left / exact.outflow(-1) - 1},
+                    {"right", observed.flow_right / exact.outflow(1) - 1},
+                    {"stored", (observed.storage_rate - exact.over_area(rate_of_oil)) / exact.outflow(1)},
+                    {"oil", observed.oil_volume / exact.over_area(density_of_oil) - 1}};
   return errors;
 }
 

@@ -57,19 +57,19 @@ TEST_CASE("AnswerToNodes_IsThatOfFiniteDifferences") {
       REQUIRE(at.outside() == 3);  // block, drain, oil
       FilmOverTime film(model, thermal, loaded);
       film.advance(dt);
-      const WallExchange seen = film.heat.exchange();
-      REQUIRE(seen.T.size() == 5);
+      const WallExchange observed = film.heat.exchange();
+      REQUIRE(observed.T.size() == 5);
       for (const int place : {2, 3, 4}) {
         CAPTURE(place);
-        Eigen::VectorXd T = seen.T;
+        Eigen::VectorXd T = observed.T;
         T[place] += 10;
         FilmOverTime other(model, thermal, loaded);
         HeatState begin = other.heat.state();
         begin.outside = T.tail(3);
         other.heat.set_state(begin);
         other.advance(dt);
-        const Eigen::VectorXd expected = seen.heat + seen.by_T * (T - seen.T);
-        const double scale = seen.heat.cwiseAbs().maxCoeff() + (expected - seen.heat).cwiseAbs().maxCoeff();
+        const Eigen::VectorXd expected = observed.heat + observed.by_T * (T - observed.T);
+        const double scale = observed.heat.cwiseAbs().maxCoeff() + (expected - observed.heat).cwiseAbs().maxCoeff();
         // A steady film's linear systems are solved to 1e-4 of what is missing, a step's to 1e-7 of an answer.
         CHECK((other.heat.exchange().heat - expected).norm() < (dt > 0 ? 1e-6 : 1e-3) * scale);
         FilmOverTime same(model, thermal, loaded);
@@ -96,12 +96,12 @@ TEST_CASE("StepsWithASump_ConserveHeat") {
   }
   // At rest as much oil comes as leaves: the sump takes all that oil carries away, the block what the ring passes on.
   const HeatBalance balance = machine.film.heat.observables().balance;
-  const NetworkObservables& seen = machine.network.observables();
-  CHECK(seen.heat[0] == relative(balance.to_oil).epsilon(1e-6));    // the film's residual
-  CHECK(seen.heat[1] == relative(balance.to_shell).epsilon(1e-5));  // viscosities follow by a step
-  CHECK(seen.to_fixed == relative(balance.power).epsilon(1e-5));    // likewise
-  CHECK(machine.film.heat.state().supplies[0] > seen.T[0]);         // stirred with what the film carries over
-  CHECK(seen.T[0] > 30 + zero_celsius + 1);
+  const NetworkObservables& observed = machine.network.observables();
+  CHECK(observed.heat[0] == relative(balance.to_oil).epsilon(1e-6));    // the film's residual
+  CHECK(observed.heat[1] == relative(balance.to_shell).epsilon(1e-5));  // viscosities follow by a step
+  CHECK(observed.to_fixed == relative(balance.power).epsilon(1e-5));    // likewise
+  CHECK(machine.film.heat.state().supplies[0] > observed.T[0]);         // mixed with what the film carries over
+  CHECK(observed.T[0] > 30 + zero_celsius + 1);
 }
 
 // A ring in surroundings that keep their temperature is the ring in a node that does.
@@ -149,12 +149,13 @@ TEST_CASE("MeanAnswerToNodes_IsThatOfTheirHeat") {
       for (int k = 0; k < 5; ++k) film.advance(0.1);
       return film.heat.mean_exchange();
     };
-    const WallExchange seen = mean_over_a_cycle(0), other = mean_over_a_cycle(10);
-    const double scale = seen.by_T.cwiseAbs().maxCoeff();
+    const WallExchange observed = mean_over_a_cycle(0), other = mean_over_a_cycle(10);
+    const double scale = observed.by_T.cwiseAbs().maxCoeff();
     CHECK(scale > 1);  // W/K, of a flow of some grams per second
-    CHECK((other.heat - seen.heat - 10 * seen.by_T.col(drain)).norm() < 1e-10 * seen.heat.norm());  // round-off
+    CHECK((other.heat - observed.heat - 10 * observed.by_T.col(drain)).norm() <
+          1e-10 * observed.heat.norm());  // round-off
     // W/K; of the film's storage the mean keeps a millionth.
-    if (has_block) CHECK(seen.by_T.rowwise().sum().norm() < 1e-5 * scale);
+    if (has_block) CHECK(observed.by_T.rowwise().sum().norm() < 1e-5 * scale);
   }
 }
 
@@ -186,9 +187,9 @@ TEST_CASE("NodesOfOil_SettleOverCycles") {
       FilmHeat same(model, thermal);
       Archive again(saved.content());
       same.persist(again);
-      const WallExchange seen = resumed.mean_exchange(), other = same.mean_exchange();
-      CHECK(seen.heat == other.heat);
-      CHECK(seen.by_T == other.by_T);
+      const WallExchange observed = resumed.mean_exchange(), other = same.mean_exchange();
+      CHECK(observed.heat == other.heat);
+      CHECK(observed.by_T == other.by_T);
     }
     machine.film.settle(machine.network);
   }

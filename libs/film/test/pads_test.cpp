@@ -59,24 +59,24 @@ TEST_CASE("PadsWithTheOtherSense_AreTheMirrorImage") {
   }
 }
 
-// Borders of cavities, where a film breaks before the end of its pad too, are no matter of the lines they lie between.
-// (A conserved film re-forms before such an end by whole cells.)
+// Borders of cavities, where a film cavitates before the end of its pad too, are no matter of the lines they lie
+// between. (A conserved film re-forms before such an end by whole cells.)
 TEST_CASE("CavitiesOfPads_DoNotAskForTheGrid") {
   for (const Cavitation cavitation : {Cavitation::guembel, Cavitation::reynolds}) {
     for (const bool mirrored : {false, true}) {
       CAPTURE(static_cast<int>(cavitation));
       CAPTURE(mirrored);
-      std::array<FilmObservables, 2> seen;
+      std::array<FilmObservables, 2> observed;
       for (const int k : {0, 1}) {
         Pads p = pads(mirrored, cavitation, k == 0 ? 17 : 65, k == 0 ? 9 : 33);
         p.model.features.clear();  // holes have edges of their own
         const SolvedFilm film = solve_cold(p.model, p.journal);
         REQUIRE(film.summary.solved());
-        seen[static_cast<std::size_t>(k)] = film.observed;
+        observed[static_cast<std::size_t>(k)] = film.observed;
       }
       constexpr double of_second_order = 1.5e-2;  // some (1/16)^2 of films with slopes around five
-      CHECK(seen[0].torque_journal == relative(seen[1].torque_journal).epsilon(of_second_order));
-      CHECK(seen[0].power_film == relative(seen[1].power_film).epsilon(of_second_order));
+      CHECK(observed[0].torque_journal == relative(observed[1].torque_journal).epsilon(of_second_order));
+      CHECK(observed[0].power_film == relative(observed[1].power_film).epsilon(of_second_order));
     }
   }
 }

@@ -72,9 +72,9 @@ TEST_CASE("WallsThatKeepTheirShape_HaveNone") {
   bodies.set_state(state);
   CHECK((bodies.body_temperatures() - Eigen::Vector2d(305 + 2.4, 310 + 2.4)).norm() < 310 * round_off);
   CHECK((bodies.journal_body_temperatures() - Eigen::Vector2d(305.5, 311)).norm() < 310 * round_off);
-  const WallConduction seen = on_grid(*wall, model.grid, resampled(model.grid, 12, 5));
-  CHECK(!seen.deforms());
-  CHECK((seen.body(Eigen::VectorXd::Constant(12, 4)) - bodies.body_temperatures()).norm() < 310 * round_off);
+  const WallConduction observed = on_grid(*wall, model.grid, resampled(model.grid, 12, 5));
+  CHECK(!observed.deforms());
+  CHECK((observed.body(Eigen::VectorXd::Constant(12, 4)) - bodies.body_temperatures()).norm() < 310 * round_off);
 }
 
 // The hottest of a body's nodes by the heat that has settled it; before, as warm everywhere.
@@ -103,8 +103,8 @@ TEST_CASE("NodeBesideAShellWithoutHeat_TakesTheFilmAlong") {
   thermal.journal = NodeWall{.T = 320, .node = 0, .name = "shaft"};
   FilmOverTime film(model, thermal, loaded), other(model, thermal, loaded);
   film.advance(1e-3);
-  const WallExchange seen = film.heat.exchange();
-  Eigen::VectorXd T = seen.T;
+  const WallExchange observed = film.heat.exchange();
+  Eigen::VectorXd T = observed.T;
   T[1] += 10;
   film.heat.move_walls(T);
   HeatState begin = other.heat.state();

@@ -104,7 +104,7 @@ TEST_CASE("FilmAheadOfATurningGroove_DoesNotSeeWhereLinesLie") {
     m.features = {groove, feed};
     const SolvedFilm film = solve_cold(m, turning(m, 0, 100));
     REQUIRE(film.summary.solved());
-    // Of a tube with the end in it I_2/I_3 is up to 1 % more than h (film.26), and so is what goes on.
+    // Of a flow tube with the end in it I_2/I_3 is up to 1 % more than h (film.26), and so is what goes on.
     CHECK(film.fields.theta[m.grid.index(30, 2)] == doctest::Approx(340.0 / 640).epsilon(0.01));
   }
 }

@@ -65,8 +65,8 @@ struct PocketErrors {
   double flow = 0, front = 0, peak = 0;  // of the flow, reformation [cells] and peak pressure
 };
 
-// A slider with a pocket (Fowell et al. 2007; Giacopini et al. 2010): the film breaks at the pocket's leading edge and
-// re-forms within it.
+// A slider with a pocket (Fowell et al. 2007; Giacopini et al. 2010): the film cavitates at the pocket's leading edge
+// and re-forms within it.
 PocketErrors pocket(int n) {
   const auto gap = [](double x) { return 1.05e-6 - 5e-6 * x; };
   const SolvedSlider s = solve({10e-3, 1, 0.01, 1e5, gap, 2e-3, 5e-3, 1e-6}, n);

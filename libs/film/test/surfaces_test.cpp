@@ -211,7 +211,7 @@ TEST_CASE("PatchesOfOneFilm_HaveOneAnswer") {
         of_fields * by_newton.observed.p_max);
 }
 
-// A journal that swings between two pads, part of them broken, whatever the step: oil at the end is oil at the start
+// A journal that swings between two pads, part of them cavitated, whatever the step: oil at the end is oil at the start
 // and what has come in, to round-off; no fill fraction leaves [0, 1].
 TEST_CASE("OilOfPads_IsConservedAtAnyStep") {
   FilmModel m = bore(patch_grid({{.from = 0.2, .to = 2.8, .lines = 26}, {.from = 3.4, .to = 6, .lines = 25}}, 9));

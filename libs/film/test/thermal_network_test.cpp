@@ -126,17 +126,17 @@ TEST_CASE("StepsOfAnyLength_ConserveHeat") {
     first.advance(dt), second.advance(dt);
     network.advance(dt, {first.at_nodes(), second.at_nodes()});
     first.follow(network), second.follow(network);
-    const NetworkObservables& seen = network.observables();
-    CHECK(std::abs(seen.error()) < 1e-9);  // round-off
-    CHECK(seen.heat.sum() ==
+    const NetworkObservables& observed = network.observables();
+    CHECK(std::abs(observed.error()) < 1e-9);  // round-off
+    CHECK(observed.heat.sum() ==
           relative(first.heat.observables().balance.to_shell + first.heat.observables().balance.to_journal +
                    second.heat.observables().balance.to_shell + second.heat.observables().balance.to_journal)
               .epsilon(1e-9));  // round-off of sums over nodes
     CHECK(first.heat.state().journal == relative(second.heat.state().journal).epsilon(1e-14));  // one body
-    CHECK(seen.T.minCoeff() > 280);
-    CHECK(seen.T.maxCoeff() < 420);
-    CHECK(seen.T[3] == 295);
-    CHECK(seen.T[4] == relative(333).epsilon(1e-12));  // round-off: nothing leads there
+    CHECK(observed.T.minCoeff() > 280);
+    CHECK(observed.T.maxCoeff() < 420);
+    CHECK(observed.T[3] == 295);
+    CHECK(observed.T[4] == relative(333).epsilon(1e-12));  // round-off: nothing leads there
   }
   // At rest: what films give goes to the room, and a balance without time says the same.
   CHECK(network.observables().to_fixed ==

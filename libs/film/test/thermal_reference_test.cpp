@@ -27,7 +27,7 @@ void compare_midplane(const Case& c, const HotFilm& hot) {
     const auto at = [&](const Eigen::VectorXd& field) { return at_mid_width(c.model.grid, field, phi); };
     CHECK(std::abs(at(hot.temperatures.middle) - zero_celsius - number(row, "T")) < c.bars.T);
     CHECK(std::abs(at(hot.fields.p) - number(row, "p")) < c.bars.p_max * c.expected.p_max);
-    // Of first order: on 120 cells the program itself is off by 0.03 where the film breaks and by less beyond.
+    // Of first order: on 120 cells the program itself is off by 0.03 where the film cavitates and by less beyond.
     CHECK(std::abs(at(hot.fields.theta) - number(row, "theta")) < 0.03);
     ++points;
   }

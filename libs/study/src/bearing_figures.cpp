@@ -364,14 +364,14 @@ Group heat() {
   const auto has_heat = [](const Solution& s) { return s.state.heat.has_value(); };
   const auto has_one = [](const Solution& s) { return s.state.effective.has_value(); };
   const auto celsius = [](double Heat::*T) {
-    return [T](const Solution& s) { return s.state.heat->seen.*T - film::zero_celsius; };
+    return [T](const Solution& s) { return s.state.heat->observed.*T - film::zero_celsius; };
   };
   const auto of_heat = [](double Heat::*member) {
-    return [member](const Solution& s) { return s.state.heat->seen.*member; };
+    return [member](const Solution& s) { return s.state.heat->observed.*member; };
   };
   const auto balance = [](double Balance::*member) {
     return [member](const Solution& s) {
-      const Balance& b = s.state.heat->seen.balance;
+      const Balance& b = s.state.heat->observed.balance;
       return without_round_off(b.*member, b.power);
     };
   };
@@ -455,7 +455,7 @@ Group heat() {
         "temperature in <name>",
         kCelsius,
         [](const Solution& s, std::size_t k) {
-          return s.state.heat->seen.T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+          return s.state.heat->observed.T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
         },
         {.only = has_heat, .each = supply_names}},
        {"heat_dissipated", "heat made", kWatt, balance(&Balance::power), {.only = has_heat}},
@@ -465,7 +465,7 @@ Group heat() {
        {"heat_balance_error",
         "  error of the balance of heat",
         kNone,
-        [](const Solution& s) { return s.state.heat->seen.balance.error(); },
+        [](const Solution& s) { return s.state.heat->observed.balance.error(); },
         {.only = has_heat}},
        {"T_node_<name>",
         "temperature of <name>, with the heat of this bearing alone",

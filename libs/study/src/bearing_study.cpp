@@ -103,7 +103,7 @@ void require_way_out(const model::Model& model, const model::Bearing& bearing, c
 
 std::vector<std::string> warnings_of(const model::Bearing& bearing, const bearing::SteadyState& state) {
   double T = std::numeric_limits<double>::quiet_NaN();
-  if (state.heat) T = state.heat->seen.T_max;
+  if (state.heat) T = state.heat->observed.T_max;
   if (state.effective) T = state.effective->T;
   std::vector<std::string> warnings = model::film_warnings(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
   for (std::string& warning : model::surface_warnings(bearing, state.film.p_max, state.film.h_min))

@@ -104,7 +104,7 @@ void FilmForce::report_contact() {
 
 // A film that closes where the undeformed surfaces overlap is a journal that touches.
 void FilmForce::report(const film::FilmDomain& domain) {
-  if (domain.trouble == film::FilmDomain::Trouble::closed && smallest_gap() <= 0) return report_contact();
+  if (domain.violation == film::FilmDomain::Violation::closed && smallest_gap() <= 0) return report_contact();
   domain_error_ = film::text(model(), domain);
 }
 
@@ -253,7 +253,7 @@ void FilmForce::move_walls(const Eigen::VectorXd& T) {
   thermal_->change_target();
 }
 
-std::string FilmForce::thermal_trouble(double closed) const {
+std::string FilmForce::thermal_failure(double closed) const {
   if (heat() == nullptr) return {};
   const film::HeatObservables& observed = heat()->observables();
   const HotClearance hot =

@@ -41,14 +41,14 @@ HotClearance hot_clearance(const film::FilmModel& model, double growth, const Ei
   return hot;
 }
 
-std::string seizure_text(const film::FilmModel& model, const HotClearance& hot, const film::HeatObservables& seen,
+std::string seizure_text(const film::FilmModel& model, const HotClearance& hot, const film::HeatObservables& observed,
                          const std::string& place) {
   const auto celsius = [](double T) { return T - film::zero_celsius; };
   return fmt::format(
       "a seizure: the clearance of {:.4g} um closes to {:.4g} um{} with the shell at {:.0f} degC and the journal at "
       "{:.0f} degC{}",
       1e6 * clearance(model), 1e6 * hot.smallest, hot.has_shape ? fmt::format(" at z = {:.3g} mm", 1e3 * hot.z) : "",
-      celsius(seen.T_shell_wall), celsius(seen.T_journal_wall), place.empty() ? "" : " (" + place + ")");
+      celsius(observed.T_shell_wall), celsius(observed.T_journal_wall), place.empty() ? "" : " (" + place + ")");
 }
 
 }  // namespace hersey::bearing

@@ -22,6 +22,6 @@ struct HotClearance {
 
 /// Walls that have grown into each other, in words. @param place  where the journal is; empty: left out
 [[nodiscard]] std::string seizure_text(const film::FilmModel& model, const HotClearance& hot,
-                                       const film::HeatObservables& seen, const std::string& place = {});
+                                       const film::HeatObservables& observed, const std::string& place = {});
 
 }  // namespace hersey::bearing

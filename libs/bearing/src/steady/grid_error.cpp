@@ -37,9 +37,9 @@ Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
             .K = along_load.K,
             .C = along_load.C};
   if (!state.heat) return f;
-  const film::HeatObservables& seen = state.heat->seen;
-  f.T_max = seen.T_max, f.T_shell_max = seen.T_shell_max, f.T_shell_mean = seen.T_shell_mean;
-  f.T_journal = seen.T_journal, f.T_film = seen.T_film_mean, f.T_side = seen.T_side;
+  const film::HeatObservables& observed = state.heat->observed;
+  f.T_max = observed.T_max, f.T_shell_max = observed.T_shell_max, f.T_shell_mean = observed.T_shell_mean;
+  f.T_journal = observed.T_journal, f.T_film = observed.T_film_mean, f.T_side = observed.T_side;
   return f;
 }
 

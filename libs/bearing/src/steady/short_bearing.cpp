@@ -13,7 +13,7 @@ namespace {
 // No first guess thins the oil by more than this.
 constexpr double kThinnestGuess = 0.2;
 
-// Turns in which the guess finds its own viscosity, each half of the way.
+// Iterations in which the guess finds its own viscosity, each half of the way.
 constexpr int kTurnsOfGuess = 12;
 
 }  // namespace

@@ -95,7 +95,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     rise = std::clamp(mixing.next(x, image)[0], coldest_trial - from, hottest_trial - from);
   }
   summary.set_solved(false);
-  summary.message = fmt::format("the balance of heat finds no temperature in {} turns; last {:.0f} degC",
+  summary.message = fmt::format("the balance of heat finds no temperature in {} iterations; last {:.0f} degC",
                                 most_iterations, from + rise - film::zero_celsius);
   return from + rise > hottest_oil ? judged(summary, from + rise) : summary;
 }

@@ -23,8 +23,8 @@ constexpr double kThinnest = 0.3, kThickest = 5;
 // Shares of a step below this are none.
 constexpr double kSmallestShare = 1e-6;
 
-// Iterations on film and deformation together without getting nearer by half, after which they are taken in turn, and
-// iterations of either at most.
+// Iterations on film and deformation together without getting nearer by half, after which they are solved alternately,
+// and iterations of either at most.
 constexpr int kFilmPatience = 8, kMostIterations = 40;
 
 // Residual of a film from which on it is found anew at the deformation of the step.
@@ -249,7 +249,7 @@ film::FilmSolveSummary SteadyFilm::solve_in_turn(const Eigen::Vector2d& e, Vecto
     }
     if (!nearer) break;
   }
-  summary.message = "film and deformation of the surfaces do not come together";
+  summary.message = "film and deformation of the surfaces do not converge";
   return finish();
 }
 

@@ -15,26 +15,27 @@
 #include "steady/steady_search.h"
 #include "steady/temperature_path.h"
 
-// Film and temperature in turn (thermal.16).
+// Film and temperature are solved alternately (thermal.16).
 namespace hersey::bearing {
 namespace {
 
-// Turns of film and temperature, and the change of temperatures over the largest rise (plus 1 K) at which they end.
+// Iterations of film and temperature, and the change of temperatures over the largest rise (plus 1 K) at which they
+// end.
 constexpr int kMostHeatIterations = 300;
 constexpr double kHeatTolerance = 1e-8;
 
-// Temperatures that still change by more than this share of their rise after so many turns, and have at each of them,
-// go round for ever: where oil stands in a cell, its heat, and with that its viscosity, may be anything.
+// Temperatures that still change by more than this share of their rise after so many iterations, and have at each of
+// them, go round for ever: where oil stands in a cell, its heat, and with that its viscosity, may be anything.
 constexpr int kTurnsToComeNear = 80;
 constexpr double kFarApart = 0.5;
 
 // Where more heat passes through the film than is made in it, the balance asks for more: for this error of it, if so
-// many further turns come to it.
+// many further iterations come to it.
 constexpr double kBalanceTolerance = 5e-8;
 constexpr int kTurnsForTheBalance = 40;
 
-// Of turns that lead away from temperatures as near as this, those are taken: waves of temperature along a long film
-// change its answer by so little that the last of them are lost in what the film's solver leaves.
+// Of iterations that lead away from temperatures as near as this, those are taken: waves of temperature along a long
+// film change its answer by so little that the last of them are lost in what the film's solver leaves.
 constexpr double kLastTolerance = 1e-6;
 
 // On half the grid they come as near as its films are to those on the whole one.
@@ -43,8 +44,8 @@ constexpr double kHalfGridTolerance = 0.1;
 // The film is solved to this share of how far its temperatures still move.
 constexpr double kShareOfDistance = 0.1;
 
-// Of the clearance between bodies a turn leaves at least this share: films that close too far on the way make heat that
-// no answer has.
+// An iteration leaves at least this share of the clearance between bodies: films that close too far on the way make
+// heat that no answer has.
 constexpr double kLeastLeft = 0.4;
 
 // No film is solved less well than this: none at all would do.
@@ -60,33 +61,34 @@ void balance(film::ThermalNetwork& network, film::FilmHeat& heat) {
 double celsius(double T) { return T - film::zero_celsius; }
 
 // Where the hottest oil is.
-std::string hottest_of(const film::HeatObservables& seen) {
-  return fmt::format("{:.0f} degC at {:.0f} deg, z = {:.3g} mm", celsius(seen.T_max),
-                     seen.T_max_phi * 180 / std::numbers::pi, 1e3 * seen.T_max_z);
+std::string hottest_of(const film::HeatObservables& observed) {
+  return fmt::format("{:.0f} degC at {:.0f} deg, z = {:.3g} mm", celsius(observed.T_max),
+                     observed.T_max_phi * 180 / std::numbers::pi, 1e3 * observed.T_max_z);
 }
 
 // A film that was there and is lost as its oil warms and thins, or heat that leaves only at temperatures of no oil:
 // told as what it is.
-void tell_runaway(const film::HeatObservables& seen, bool has_lost_film, SteadySummary& summary) {
+void tell_runaway(const film::HeatObservables& observed, bool has_lost_film, SteadySummary& summary) {
   if (has_lost_film) {
     summary.message = fmt::format("thermal runaway: oil that warms to {} is too thin for the film to stay; {}",
-                                  hottest_of(seen), summary.message);
-  } else if (seen.T_max > hottest_oil) {
+                                  hottest_of(observed), summary.message);
+  } else if (observed.T_max > hottest_oil) {
     summary.set_solved(false);
     summary.message = fmt::format(
         "thermal runaway: the film's heat leaves it with oil of {} only, and no oil is one above {:.0f} degC",
-        hottest_of(seen), celsius(hottest_oil));
+        hottest_of(observed), celsius(hottest_oil));
   }
 }
 
-// Of the film in the next turn: all that was asked for where that may be the last, as a turn brings temperatures nearer
-// by a factor of ten or so.
+// Of the film in the next iteration: all that was asked for where that may be the last, as an iteration brings
+// temperatures nearer by a factor of ten or so.
 double film_tolerance(const SteadyOptions& options, double relative_distance) {
   const double near = kShareOfDistance * relative_distance;
   return near <= 10 * kHeatTolerance ? options.rtol : std::max(options.rtol, std::min(kCoarsest, near));
 }
 
-// Film and temperature in turn until the film's temperatures, and the clearance with those of its walls, stay.
+// Solves film and temperature alternately until temperatures, and the clearance at those of the walls, no longer
+// change.
 // @param network  of walls that are nodes; null: none is
 SteadySummary iterate_film_and_heat(const film::FilmModel& model, const SteadyOptions& options,
                                     double relative_distance, SteadySearch& search, TemperaturePath& path,
@@ -140,13 +142,14 @@ SteadySummary iterate_film_and_heat(const film::FilmModel& model, const SteadyOp
     }
   }
   summary.set_solved(false);
-  summary.message = fmt::format("film and temperature do not come together in {} turns; hottest oil {}",
+  summary.message = fmt::format("film and temperature do not converge in {} iterations; hottest oil {}",
                                 summary.heat_iterations, hottest_of(path.heat().observables()));
   tell_runaway(path.heat().observables(), false, summary);
   return summary;
 }
 
-// From the same film on half the nodes each way, where a turn costs a quarter. Without an answer there, all stays.
+// From the same film on half the nodes each way, where an iteration costs a quarter. Without an answer there, all
+// stays.
 void begin_on_half_grid(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
                         SteadySearch& search, TemperaturePath& path) {
   if (options.start_heat || options.elasticity || !film::can_be_coarsened(model.grid)) return;

@@ -13,7 +13,7 @@ namespace {
 // One Newton step may turn the journal by this angle [rad].
 constexpr double kLargestTurn = 0.3;
 
-// Iterations on film and position together without getting nearer by half, after which they are taken in turn.
+// Iterations on film and position together without getting nearer by half, after which they are solved alternately.
 constexpr int kPatience = 6;
 
 // Share of the load below which a force has no size to compare with.
@@ -22,7 +22,7 @@ constexpr double kForceFloor = 1e-6;
 // What Newton's method leaves of a small residual is this many times its square.
 constexpr double kCurvature = 3;
 
-// Steps of the chord method in one turn at most, and what may be missing for a first one.
+// Steps of the chord method in one iteration at most, and what may be missing for a first one.
 constexpr int kMostOnChord = 3;
 constexpr double kFarOnChord = 0.01;
 

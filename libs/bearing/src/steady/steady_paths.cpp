@@ -150,9 +150,9 @@ std::vector<double> SteadySearch::distances() {
 
 void SteadySearch::look_at(double r, Bounds& bounds) {
   Position at{r, bounds.angle, {}};
-  const Look seen = turn_to_load(at);
-  if (seen == Look::across) return;
-  if (seen == Look::no_film) {
+  const Look observed = turn_to_load(at);
+  if (observed == Look::across) return;
+  if (observed == Look::no_film) {
     limit_.why = summary_.message;
     limit_.is_unsolved = is_unsolved_;
     bounds.outer = r;
@@ -160,8 +160,8 @@ void SteadySearch::look_at(double r, Bounds& bounds) {
   }
   if (force_.norm() > limit_.force) limit_.force = force_.norm(), limit_.r = r;
   bounds.angle = at.angle;
-  (seen == Look::strong ? bounds.outer : bounds.inner) = r;
-  if (seen == Look::strong) bounds.strong = at;
+  (observed == Look::strong ? bounds.outer : bounds.inner) = r;
+  if (observed == Look::strong) bounds.strong = at;
 }
 
 bool SteadySearch::from_inside_out() {

@@ -40,10 +40,10 @@ bool SteadySearch::film_at(const Eigen::Vector2d& e) {
 }
 
 bool SteadySearch::is_unsolved(const film::FilmSolveSummary& solved) const {
-  using Trouble = film::FilmDomain::Trouble;
+  using Violation = film::FilmDomain::Violation;
   if (solved.domain.is_inside()) return solved.relative_residual > rtol_;
   const bool stiffens = !std::holds_alternative<film::ConstantViscosity>(model_.lubricant.viscosity_law);
-  return solved.domain.trouble != Trouble::closed && !(solved.domain.trouble == Trouble::pressure && stiffens);
+  return solved.domain.violation != Violation::closed && !(solved.domain.violation == Violation::pressure && stiffens);
 }
 
 bool SteadySearch::flows() {
@@ -51,7 +51,7 @@ bool SteadySearch::flows() {
   const double p = film_.film_of(x_).maxCoeff(&node);
   if (film_.yields() || film::log_viscosity_ratio(model_.lubricant, p).value < kSolid) return true;
   summary_.message =
-      film::text(model_, {.trouble = film::FilmDomain::Trouble::pressure, .node = static_cast<int>(node)});
+      film::text(model_, {.violation = film::FilmDomain::Violation::pressure, .node = static_cast<int>(node)});
   return false;
 }
 

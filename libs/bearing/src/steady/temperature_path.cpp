@@ -10,20 +10,21 @@
 namespace hersey::bearing {
 namespace {
 
-// What turns are remembered: of axial waves of temperature in a long film there are many, and each makes the next
-// turn's ten times as large as long as it is not known. Films are solved far nearer than temperatures have to come.
+// What iterations are remembered: of axial waves of temperature in a long film there are many, and each makes the next
+// iteration's ten times as large as long as it is not known. Films are solved far nearer than temperatures have to
+// come.
 constexpr solver::ChangesKept kTurnsKept{.most = 60, .noise = 1e-11};
 
-// After so many turns what none of them resembles goes this share of its way only.
+// After so many iterations what none of them resembles goes this share of its way only.
 struct Caution {
-  int turn;
+  int iteration;
   double share;
 };
 constexpr std::array kCaution{Caution{15, 0.3}, Caution{30, 0.1}, Caution{60, 0.03}};
 
-// Where the answer has a kink, what turns on either side of it have shown leads astray: after so many this share of all
-// of the way, from the nearest that was found.
-constexpr int kTurnsOfAcceleration = 120;
+// Where the answer has a kink, what iterations on either side of it have shown leads astray: after so many this share
+// of all of the way, from the nearest that was found.
+constexpr int kAcceleratedIterations = 120;
 constexpr double kSlowShare = 0.3;
 
 // These lead away where they end so many times further from what they make.
@@ -64,8 +65,8 @@ TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::Therm
 // By the walls as they are now (thermal.42).
 double TemperaturePath::called_for() const {
   if (per_metre_ == 0) return 0;
-  const film::HeatObservables& seen = heat_.observables();
-  return thermal_.expansion->growth(model_.R, seen.T_shell_wall, seen.T_journal_wall);
+  const film::HeatObservables& observed = heat_.observables();
+  return thermal_.expansion->growth(model_.R, observed.T_shell_wall, observed.T_journal_wall);
 }
 
 void TemperaturePath::fill(double T_oil) {
@@ -132,14 +133,14 @@ void TemperaturePath::take() {
     nearest_ = {last_, image_, relative_distance_};
 }
 
-void TemperaturePath::step_on(int turn) {
+void TemperaturePath::step_on(int iteration) {
   for (const Caution& caution : kCaution) {
-    if (turn == caution.turn) mixing_.set_share_of_unknown(caution.share);
+    if (iteration == caution.iteration) mixing_.set_share_of_unknown(caution.share);
   }
   if (T_oil_) {
     try_next(film::first_guess(model_, thermal_, *T_oil_, heat_.state()), called_for());
     nearest_ = {};
-  } else if (turn == kTurnsOfAcceleration) {
+  } else if (iteration == kAcceleratedIterations) {
     mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
     is_accelerated_ = false;
     try_next(mixing_.next(nearest_.x, nearest_.image));

@@ -34,16 +34,16 @@ class TemperaturePath {
   [[nodiscard]] const film::FilmHeat& heat() const { return heat_; }
   /// Of the clearance, to be tried with them [m]; 0 where walls keep their size.
   [[nodiscard]] double growth() const { return growth_; }
-  /// Largest change of the last turn over the largest rise (plus 1 K).
+  /// Largest change of the last iteration over the largest rise (plus 1 K).
   [[nodiscard]] double relative_distance() const { return relative_distance_; }
 
   /// Whether a film has been found at one of the temperatures tried.
   [[nodiscard]] bool has_film() const { return last_.size() > 0; }
   /// heat() has been advanced with the film of the temperatures tried.
   void take();
-  /// To the next temperatures, after `turn` others.
-  void step_on(int turn);
-  /// Whether turns that are no longer accelerated lead away from the nearest temperatures found.
+  /// To the next temperatures, after `iteration` others.
+  void step_on(int iteration);
+  /// Whether iterations that are no longer accelerated lead away from the nearest temperatures found.
   [[nodiscard]] bool leads_away() const;
   /// To be tried once more.
   void return_to_nearest() { try_next(nearest_.x); }
@@ -76,11 +76,11 @@ class TemperaturePath {
   /// their shapes and the growth of the clearance as if they were more of them [K]: being tried; those with which a
   /// film was found last; what that made.
   Eigen::VectorXd tried_, last_, image_;
-  struct Turn {
+  struct Iterate {
     Eigen::VectorXd x, image;
     double relative_distance = 1;
   };
-  Turn nearest_;                 ///< of all turns so far
+  Iterate nearest_;              ///< of all iterations so far
   std::optional<double> T_oil_;  ///< one temperature that all oil has at first [K]
   int steps_back_ = 0;
   bool is_accelerated_ = true;

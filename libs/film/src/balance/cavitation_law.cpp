@@ -15,8 +15,9 @@ class Guembel final : public CavitationLaw {
     return "guembel (half Sommerfeld: negative pressures dropped from the forces)";
   }
   [[nodiscard]] FilmPhase phase(double u, const CavitationScales& /*scales*/) const override { return {.p = {u, 1}}; }
-  [[nodiscard]] double broken_unknown(const BrokenRow& /*row*/, const CavitationScales& /*scales*/) const override {
-    HERSEY_REQUIRE(false, "a film that bears tension is never broken");
+  [[nodiscard]] double cavitated_unknown(const CavitatedRow& /*row*/,
+                                         const CavitationScales& /*scales*/) const override {
+    HERSEY_REQUIRE(false, "a film that bears tension is never cavitated");
     return 0;
   }
   [[nodiscard]] bool has_tension() const override { return true; }
@@ -31,7 +32,7 @@ class ReynoldsCondition final : public CavitationLaw {
     return {.p = positive_part(u)};
   }
   [[nodiscard]] ValueAndSlope slack(double u) const override { return u < 0 ? ValueAndSlope{u, 1} : ValueAndSlope{}; }
-  [[nodiscard]] double broken_unknown(const BrokenRow& row, const CavitationScales& /*scales*/) const override {
+  [[nodiscard]] double cavitated_unknown(const CavitatedRow& row, const CavitationScales& /*scales*/) const override {
     return std::min(0.0, -row.full / (row.slack + row.drawn));
   }
 };
@@ -45,7 +46,7 @@ class MassConserving final : public CavitationLaw {
     if (u >= 0) return {.p = {u, 1}};
     return {.p = {}, .theta = {1 + u / scales.fill, 1 / scales.fill}};
   }
-  [[nodiscard]] double broken_unknown(const BrokenRow& row, const CavitationScales& scales) const override {
+  [[nodiscard]] double cavitated_unknown(const CavitatedRow& row, const CavitationScales& scales) const override {
     const double slope = row.transport / scales.fill + row.drawn;
     return slope > 0 ? std::min(0.0, -row.full / slope) : 0;
   }

@@ -31,14 +31,14 @@ class MiddleRow {
   /// itself.
   [[nodiscard]] double reach(int i, int sense, bool is_rupture) const {
     if (balance_.balance_share(node(i)) < 1 || ends(sense > 0 ? i - 1 : i)) return 0;
-    const int broken = i + sense;
+    const int cavitated = i + sense;
     const double gap = step(sense > 0 ? i : i - 1), back = step(sense > 0 ? i - 1 : i);
     const double last = std::max(value(i), 0.0), before = std::max(value(i - sense), 0.0);
     const CavitationLaw& law = cavitation_law(balance_.model());
-    if (law.has_tension()) return gap * last / (last - value(broken));
+    if (law.has_tension()) return gap * last / (last - value(cavitated));
     if (is_rupture || law.loses_oil()) {
-      const double volume = 0.5 * (step(broken - 1) + step(broken));
-      return 0.5 * gap + (1 - balance_.broken_share(node(broken))) * volume;
+      const double volume = 0.5 * (step(cavitated - 1) + step(cavitated));
+      return 0.5 * gap + (1 - balance_.cavitated_share(node(cavitated))) * volume;
     }
     const double rise = before / std::max(last, 1e-300) - 1;
     return rise > 0 ? std::min(back / rise, gap) : gap;
@@ -74,8 +74,8 @@ Cavity widest_cavity(const FlowBalance& balance, const Eigen::VectorXd& u, bool 
     const double low =
         row.ends(first - 1) ? row.angle(first) : row.angle(first - 1) + row.reach(first - 1, +1, !backwards);
     const double high = row.ends(last) ? row.angle(last) : row.angle(last + 1) - row.reach(last + 1, -1, backwards);
-    cavity.rupture = balance.geometry().told(backwards ? high : low);
-    cavity.reformation = balance.geometry().told(backwards ? low : high);
+    cavity.rupture = balance.geometry().reported_angle(backwards ? high : low);
+    cavity.reformation = balance.geometry().reported_angle(backwards ? low : high);
   }
   return cavity;
 }

@@ -3,7 +3,7 @@
 
 #include "balance/flow_balance.h"
 
-// Where the border of a cavity cuts control volumes of a film without a fill fraction: counted as full or broken as
+// Where the border of a cavity cuts control volumes of a film without a fill fraction: counted as full or cavitated as
 // their nodes are, the shear of the film would be of the first order.
 namespace hersey::film {
 namespace {
@@ -65,7 +65,7 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   return border;
 }
 
-// In a broken volume -D0 u is missing; what pressure presses in fills its share of what would be missing without
+// In a cavitated volume -D0 u is missing; what pressure presses in fills its share of what would be missing without
 // (film.61).
 CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const Grid& grid = model_.grid;
@@ -107,7 +107,7 @@ void FlowBalance::show_border(const CavityBorder& border) {
   if (border.share > 0 && border.share < 1) borders_.push_back(border);
 }
 
-// An edge at p_cav has u = 0 whether the film beside it is full or broken: it is what the next node is.
+// An edge at p_cav has u = 0 whether the film beside it is full or cavitated: it is what the next node is.
 void FlowBalance::take_borders_to_edges() {
   const std::size_t count = borders_.size();  // in the order of their nodes
   for (const int edge : prescribed_edge_nodes_) {
@@ -125,7 +125,7 @@ void FlowBalance::take_borders_to_edges() {
 }
 
 // Where oil is conserved, what pressure presses in fills a share of what would be missing without it.
-double FlowBalance::broken_share(int node) const {
+double FlowBalance::cavitated_share(int node) const {
   const Node& at = nodes_[node];
   if (!cavitation_.has_fill()) return 1 - (model_.cavitated_shear == CavitatedShear::full ? at.other_share : at.share);
   if (u_[node] >= -round_off_of_u()) return 0;

@@ -73,10 +73,10 @@ void FlowBalance::roughen(std::size_t f, FaceGap& gap) const {
 
 // Over pockets (film.26, film.28).
 void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap) {
-  const auto t = static_cast<std::size_t>(tube_of_[f]);
-  const PocketTube& tube = relief_.tubes()[t];
+  const auto t = static_cast<std::size_t>(flow_tube_of_[f]);
+  const PocketFlowTube& flow_tube = relief_.flow_tubes()[t];
   const Face& face = faces_[f];
-  const TubeGap deep = relief_.gap(tube, h);
+  const FlowTubeGap deep = relief_.gap(flow_tube, h);
   const double factor = gap.cube / (h * h * h);
   const double cube_h = gap.cube_h - 3 * factor * h * h;  // what roughness itself changes
   gap.cube_at[0] *= deep.cube.value / (h * h * h), gap.cube_at[1] *= deep.cube.value / (h * h * h);
@@ -85,10 +85,10 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap) {
   gap.cube_journal = factor * deep.cube.journal;
 
   // Past a step the oil is carried at the surfaces' mean speed relative to the step.
-  const double past = entrainment(f) - step_speed(f, tube);
-  gap.full += past * (deep.carry.value - h) + tube.swept / face.width;
+  const double past = entrainment(f) - step_speed(f, flow_tube);
+  gap.full += past * (deep.carry.value - h) + flow_tube.swept / face.width;
   gap.full_h += past * (deep.carry.h - 1);
-  gap.full_journal = past * deep.carry.journal + tube.swept_journal / face.width;
+  gap.full_journal = past * deep.carry.journal + flow_tube.swept_journal / face.width;
   const double mu = 2 / (flow_of(face.a, f).value + flow_of(face.b, f).value), volume = face.width * face.length;
   const double drop = nodes_[face.b].wall - nodes_[face.a].wall, drag = 12 * mu * volume;
   pocket_flows_[t].recirculation = drag * past * past * deep.excess.value;
@@ -122,9 +122,10 @@ void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
   const double speed = entrainment(f), half_slip = this->half_slip(f), journal = faces_[f].stretch * speeds_.u_journal;
   const RoughGap& rough = rough_[gap.from];
   const int k = axial(f) ? 1 : 0;
-  const bool is_deep = tube_of_[f] >= 0;
-  const PocketTube* tube = is_deep ? &relief_.tubes()[static_cast<std::size_t>(tube_of_[f])] : nullptr;
-  const double swept = is_deep ? tube->swept / faces_[f].width : 0;
+  const bool is_deep = flow_tube_of_[f] >= 0;
+  const PocketFlowTube* flow_tube =
+      is_deep ? &relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])] : nullptr;
+  const double swept = is_deep ? flow_tube->swept / faces_[f].width : 0;
   const double little = held_upstream(f, gap.from, {speed, half_slip, journal}) + swept;
   if (little * gap.full <= 0 || (is_deep && std::abs(little) <= std::abs(gap.full))) return;
   const double ratio = little / gap.full;
@@ -136,7 +137,7 @@ void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
   gap.little = little;
   gap.little_h = speed * cells_[gap.from].gap_h + half_slip * rough.drag_h[k];
   gap.little_excess = speed * cells_[gap.from].gap_excess;
-  if (is_deep) gap.little_journal = tube->swept_journal / faces_[f].width;
+  if (is_deep) gap.little_journal = flow_tube->swept_journal / faces_[f].width;
   if (relief_.has_pockets() && passes_steps(f)) {
     gap.little_journal += (axial(f) ? speed : speed - journal) * relief_.depth_by_journal()[gap.from];
   }
@@ -147,8 +148,8 @@ std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
   return {0.5, axial(f) ? 0.0 : 1.0};
 }
 
-double FlowBalance::step_speed(std::size_t f, const PocketTube& tube) const {
-  return axial(f) ? 0 : step_of(tube, entrainment(f), faces_[f].stretch * speeds_.u_journal);
+double FlowBalance::step_speed(std::size_t f, const PocketFlowTube& flow_tube) const {
+  return axial(f) ? 0 : step_of(flow_tube, entrainment(f), faces_[f].stretch * speeds_.u_journal);
 }
 
 // The line's rows count so much of what comes half-way to it.
@@ -181,7 +182,7 @@ void FlowBalance::add_face(std::size_t f) {
   const double fluidity = is_cut(f) ? 0 : 0.5 * (at_a.value + at_b.value);
   FaceGap gap = smooth_gap(f, h);
   roughen(f, gap);
-  flow.is_deep = tube_of_[f] >= 0;
+  flow.is_deep = flow_tube_of_[f] >= 0;
   if (flow.is_deep) deepen(f, h, gap);
   carry_little(f, gap);
 
@@ -237,11 +238,11 @@ std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speed
   double full = speeds.mean * h + 0.5 * (speeds.mean * (a.mean - nodes_[face.a].h + b.mean - nodes_[face.b].h) +
                                          speeds.half_slip * (a.drag[k] + b.drag[k]));
   double swept = 0;
-  if (tube_of_[f] >= 0) {
-    const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
-    const double step = axial(f) ? 0 : step_of(tube, speeds.mean, speeds.journal);
-    swept = tube.swept_speed * speeds.journal / face.width;
-    full += (speeds.mean - step) * (relief_.gap(tube, h).carry.value - h) + swept;
+  if (flow_tube_of_[f] >= 0) {
+    const PocketFlowTube& flow_tube = relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])];
+    const double step = axial(f) ? 0 : step_of(flow_tube, speeds.mean, speeds.journal);
+    swept = flow_tube.swept_speed * speeds.journal / face.width;
+    full += (speeds.mean - step) * (relief_.gap(flow_tube, h).carry.value - h) + swept;
   }
   const FaceFlow& flow = flows_[f];
   const int from = flow.couette >= 0 ? face.a : face.b;

@@ -13,13 +13,13 @@ FilmDomain check_unknowns(const FilmModel& model, const Eigen::VectorXd& u) {
   int highest = -1;
   double most = 0;
   for (int node = 0; node < u.size(); ++node) {
-    if (!std::isfinite(u[node])) return {FilmDomain::Trouble::not_finite, node};
+    if (!std::isfinite(u[node])) return {FilmDomain::Violation::not_finite, node};
     // On an edge at p_cav, u > 0 is oil that leaves, not pressure.
     if (u[node] > most && !open_edge(model, node)) most = u[node], highest = node;
   }
   const bool is_meant =
       most < largest_pressure && log_viscosity_ratio(model.lubricant, most).value <= largest_log_viscosity;
-  return is_meant ? FilmDomain{} : FilmDomain{FilmDomain::Trouble::pressure, highest};
+  return is_meant ? FilmDomain{} : FilmDomain{FilmDomain::Violation::pressure, highest};
 }
 
 std::string place_of_node(const FilmModel& model, int node) {
@@ -31,11 +31,11 @@ std::string place_of_node(const FilmModel& model, int node) {
 }
 
 std::string text(const FilmModel& model, const FilmDomain& domain) {
-  using Trouble = FilmDomain::Trouble;
+  using Violation = FilmDomain::Violation;
   if (domain.is_inside()) return {};
   const std::string where = domain.node < 0 ? "" : " at " + place_of_node(model, domain.node);
-  if (domain.trouble == Trouble::closed) return "the film closes" + where;
-  if (domain.trouble == Trouble::not_finite) return "the film has no finite pressure" + where;
+  if (domain.violation == Violation::closed) return "the film closes" + where;
+  if (domain.violation == Violation::not_finite) return "the film has no finite pressure" + where;
   const bool stiffens = !std::holds_alternative<ConstantViscosity>(model.lubricant.viscosity_law);
   if (!stiffens) return "the film's pressure rises without bound" + where;
   return fmt::format(

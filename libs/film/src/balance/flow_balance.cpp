@@ -51,7 +51,7 @@ FlowBalance::FlowBalance(const FilmModel& model)
   for (auto* field : {&residual_, &balance_, &throughput_, &g_rate_, &w_start_, &u_}) field->setZero(n);
   content_start_.setOnes(n);
   cells_.resize(static_cast<std::size_t>(n));
-  tube_of_.assign(faces_.size(), -1);
+  flow_tube_of_.assign(faces_.size(), -1);
   line_shares_.resize(static_cast<std::size_t>(grid.n_z));
   held_index_.assign(n, -1);
   edge_index_.assign(n, -1);
@@ -200,9 +200,10 @@ void FlowBalance::take_motion(const SurfaceMotion& motion) {
   for (int j = 0; j < model_.grid.n_z; ++j) sliding_.push_back(sliding_of(slip(j).x(), slip(j).y()));
   if (relief_.is_empty()) return;
   relief_.place(motion.phi_journal, phi_start_, dt_, motion.u_journal);
-  std::fill(tube_of_.begin(), tube_of_.end(), -1);
-  pocket_flows_.resize(relief_.tubes().size());
-  for (std::size_t t = 0; t < relief_.tubes().size(); ++t) tube_of_[relief_.tubes()[t].face] = static_cast<int>(t);
+  std::fill(flow_tube_of_.begin(), flow_tube_of_.end(), -1);
+  pocket_flows_.resize(relief_.flow_tubes().size());
+  for (std::size_t t = 0; t < relief_.flow_tubes().size(); ++t)
+    flow_tube_of_[relief_.flow_tubes()[t].face] = static_cast<int>(t);
 }
 
 Eigen::Vector2d FlowBalance::slip(int j) const {
@@ -257,8 +258,8 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
       law_.evaluate(motion.g[i], u[i], i, sliding, viscosity_of(i), nodes_[i]);
     else
       law_.evaluate(motion.g[i], u[i], i, sliding, nodes_[i]);
-    if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Trouble::not_finite, i};
-    if (nodes_[i].h <= 0) return {FilmDomain::Trouble::closed, i};
+    if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Violation::not_finite, i};
+    if (nodes_[i].h <= 0) return {FilmDomain::Violation::closed, i};
     if (liner_rests_) w_start_[i] = nodes_[i].w;
     rough_[i] = rough_law_.state(nodes_[i].h);
     if (is_layered()) skew(viscosity_.skew[i], nodes_[i].h, rough_[i]);
@@ -285,7 +286,7 @@ double FlowBalance::slack_u(int node) const {
   return u_[node] >= 0 || u_[node] < ambient_unknown(node) ? D0_ : 0;
 }
 
-// A film that does not conserve oil lacks some wherever it is broken: the half volumes on an edge do not draw it in.
+// A film that does not conserve oil lacks some wherever it is cavitated: the half volumes on an edge do not draw it in.
 bool FlowBalance::lets_nothing_in(int node) const {
   return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off_of_u();
 }
@@ -311,7 +312,7 @@ std::size_t FlowBalance::face_at_edge(int node) const {
   return edges_[node].of_patch ? face_after(i, j) : face_above(i, j);
 }
 
-// Oil that is lost where the film is broken comes from nowhere, but for the share that draws on the supply.
+// Oil that is lost where the film is cavitated comes from nowhere, but for the share that draws on the supply.
 double FlowBalance::supply_of_row(int node) const {
   const double land = over_land(node);
   if (!is_held(node)) return land;

@@ -54,11 +54,11 @@ struct FaceFlow {
   [[nodiscard]] Carried carried(double theta) const;
 };
 
-/// What pockets under a tube do beside its flow.
+/// What pockets under a flow tube do beside its flow.
 struct PocketFlow {
   double recirculation = 0;  ///< power of the oil that turns in them [W]
-  /// What they add to the integral of h dp over the tube and its width [N], with derivatives by the thickness on the
-  /// face, the mean of 1/mu, the drop of the walls' pressure, the speed past the pockets' steps and phi_journal.
+  /// What they add to the integral of h dp over the flow tube and its width [N], with derivatives by the thickness on
+  /// the face, the mean of 1/mu, the drop of the walls' pressure, the speed past the pockets' steps and phi_journal.
   struct Moment {
     double value = 0, h = 0, fluidity = 0, drop = 0, past = 0, journal = 0;
   };
@@ -112,16 +112,16 @@ class FlowBalance {
   void initialise_oil_balance(StepOilBalance& oil) const;
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
-  /// Share of a control volume in which the film is broken (film.62) [-].
-  [[nodiscard]] double broken_share(int node) const;
+  /// Share of a control volume in which the film is cavitated (film.62) [-].
+  [[nodiscard]] double cavitated_share(int node) const;
   /// Of a film without a fill fraction.
   [[nodiscard]] const std::vector<CavityBorder>& borders() const { return borders_; }
   [[nodiscard]] const std::vector<RoughGap>& rough_gaps() const { return rough_; }
   [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
   [[nodiscard]] const std::vector<FaceFlow>& flows() const { return flows_; }
-  [[nodiscard]] const PocketFlow& pocket_flow(std::size_t tube) const { return pocket_flows_[tube]; }
+  [[nodiscard]] const PocketFlow& pocket_flow(std::size_t flow_tube) const { return pocket_flows_[flow_tube]; }
   [[nodiscard]] double recirculation(std::size_t f) const {  ///< power of the oil that turns in pockets there [W]
-    return tube_of_[f] < 0 ? 0 : pocket_flows_[static_cast<std::size_t>(tube_of_[f])].recirculation;
+    return flow_tube_of_[f] < 0 ? 0 : pocket_flows_[static_cast<std::size_t>(flow_tube_of_[f])].recirculation;
   }
   [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
   /// Outflow plus storage of every control volume, boundary nodes included: there it is the oil fed from outside.
@@ -181,13 +181,13 @@ class FlowBalance {
   [[nodiscard]] PowerBeyond power_beyond(int node) const;
   [[nodiscard]] int feature_at(int node) const;  ///< the feature that feeds this node; -1 for none
   /// Of what a feature feeds at an edge, and what leaves there, that which flows straight over the land between its end
-  /// and the edge, beyond what the tube from the next node carries (film.22) [m^3/s].
+  /// and the edge, beyond what the flow tube from the next node carries (film.22) [m^3/s].
   [[nodiscard]] double over_land(int node) const;
   [[nodiscard]] double drop_over_land(int node) const;   ///< of pressure, on that way [Pa]
   [[nodiscard]] double power_over_land(int node) const;  ///< [W]
   /// Whether line or feature have a part in a node's row.
   [[nodiscard]] bool is_held(int node) const { return held_index_[node] >= 0; }
-  /// Share of a node's oil that a supply has stirred [-]: 1 on line and features, on edges too where they reach these,
+  /// Share of a node's oil that a supply has mixed [-]: 1 on line and features, on edges too where they reach these,
   /// though the edge has its own pressure there.
   [[nodiscard]] double supplied_share(int node) const;
   [[nodiscard]] bool is_supplied(int node) const { return supplied_at(node) != nullptr; }
@@ -231,7 +231,7 @@ class FlowBalance {
     double chi = 0;            ///< share that the node's own balance loses [-]
     double chi_line = 0;       ///< with phi_supply [1/rad]
     double chi_journal = 0;    ///< with phi_journal [1/rad]
-    double stirred = 0;        ///< share of its oil [-]
+    double mixed_share = 0;    ///< share of its oil [-]
     double draws = 1;          ///< of the oil it lacks [-]
     double draws_line = 0;     ///< with phi_supply [1/rad]
     double draws_journal = 0;  ///< with phi_journal [1/rad]
@@ -242,22 +242,22 @@ class FlowBalance {
     double near = 1, far = 0,
            bend = 0;  ///< line: weights by which h on the way to it follows from here, there and bend
     double near_line = 0, bend_line = 0;  ///< line: with phi_supply [1/rad]
-    double conductance = 0;               ///< line: width/(12 length of the tube) [-]
-    double way = 0;                       ///< line: to it, as a share of the tube [-]
+    double conductance = 0;               ///< line: width/(12 length of the flow tube) [-]
+    double way = 0;                       ///< line: to it, as a share of the flow tube [-]
     double way_line = 0;                  ///< with phi_supply [1/rad]
   };
   static constexpr double as_written = 1e-9;  ///< of a length that a model's author has written
   /// A node of an edge within a cell of which a feature ends.
   struct Land {
     int node = 0, inside = 0, feature = 0;
-    double conductance = 0;  ///< of the land beyond that of the tube, per 1/12 of h^3/mu [-]
+    double conductance = 0;  ///< of the land beyond that of the flow tube, per 1/12 of h^3/mu [-]
     double u = 0;            ///< of the feature [Pa]
   };
   /// A part of a feature's end before such a node, around from it [m].
   struct LandStrip {
     int node = 0, inside = 0, feature = 0;
     double from = 0, to = 0;
-    double gain = 0;  ///< 1/land - 1/tube [1/m]
+    double gain = 0;  ///< 1/land - 1/flow tube [1/m]
     double u = 0;
   };
   /// What ties a held node to its u [m^3/(Pa s)], with derivatives.
@@ -266,7 +266,7 @@ class FlowBalance {
     double k_u_other = 0, k_g_other = 0, k_bend = 0, k_line = 0, k_journal = 0;
     double k_rate = 0, k_turn = 0;  ///< with what SlidingChange tells
   };
-  /// Where a supply line cuts the tubes between two columns of nodes.
+  /// Where a supply line cuts the flow tubes between two columns of nodes.
   struct Line {
     bool cuts = false;
     int column = 0;     ///< the nodes before it
@@ -338,7 +338,7 @@ class FlowBalance {
   [[nodiscard]] CarriedShare share_towards_line(int node, const TowardsLine& t) const;
   [[nodiscard]] double share_along(std::size_t f, const CarriedShare& share, const MotionDirection& direction) const;
   [[nodiscard]] double thickness_towards_line(const HeldNode& held) const;
-  [[nodiscard]] TubeGap gap_towards_line(const HeldNode& held, double h) const;
+  [[nodiscard]] FlowTubeGap gap_towards_line(const HeldNode& held, double h) const;
   [[nodiscard]] ByGap carried_in_pockets(const HeldNode& held) const;
   [[nodiscard]] double strip_area(const HeldNode& held) const;  ///< beyond the middle of the way to the line [m^2]
   void add_line_by_u(const HeldNode& held);
@@ -348,11 +348,11 @@ class FlowBalance {
   [[nodiscard]] double draws_along(const HeldNode& held, const MotionDirection& direction) const;
   [[nodiscard]] int slot_to_other(const HeldNode& held) const;
   void add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const;
-  [[nodiscard]] double step_speed(std::size_t f, const PocketTube& tube) const;  ///< of a pocket's steps [m/s]
+  [[nodiscard]] double step_speed(std::size_t f, const PocketFlowTube& flow_tube) const;  ///< of a pocket's steps [m/s]
   /// The same around the bearing, from the mean speed and the journal's; linear, so that it serves for changes as well.
-  [[nodiscard]] static double step_of(const PocketTube& tube, double mean, double journal) {
-    if (!tube.in_journal) return 0;
-    return tube.in_shell ? mean : journal;
+  [[nodiscard]] static double step_of(const PocketFlowTube& flow_tube, double mean, double journal) {
+    if (!flow_tube.in_journal) return 0;
+    return flow_tube.in_shell ? mean : journal;
   }
   /// Whether oil that a pocket of the journal holds comes past its step over face f.
   [[nodiscard]] bool passes_steps(std::size_t f) const;
@@ -450,8 +450,8 @@ class FlowBalance {
   mutable Eigen::VectorXd direction_bends_, direction_excesses_, direction_rate_excesses_;
   mutable std::vector<SlidingChange> direction_sliding_;  ///< of the rows
   std::vector<Cell> cells_;
-  std::vector<int> tube_of_;              ///< of every face its pocket tube, -1 for none
-  std::vector<PocketFlow> pocket_flows_;  ///< of the tubes
+  std::vector<int> flow_tube_of_;         ///< of every face its pocket flow tube, -1 for none
+  std::vector<PocketFlow> pocket_flows_;  ///< of the flow tubes
   Line line_;
   std::vector<CarriedShare> line_shares_;  ///< of the faces that it cuts, by their axial row
   SurfaceMotion speeds_;

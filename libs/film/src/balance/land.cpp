@@ -17,9 +17,10 @@ void FlowBalance::find_strips(int f, double phi, double u) {
   const double half = 0.5 * feature.length;
   for (const int j : {0, grid.n_z - 1}) {
     const int next = j == 0 ? 1 : j - 1;
-    const double tube = std::abs(geometry_.z[next] - geometry_.z[j]);
+    const double flow_tube = std::abs(geometry_.z[next] - geometry_.z[j]);
     const double land = std::abs(geometry_.z[j] - feature.z) - half;
-    if (land <= as_written * feature.length || land >= tube || std::abs(geometry_.z[next] - feature.z) > half) continue;
+    if (land <= as_written * feature.length || land >= flow_tube || std::abs(geometry_.z[next] - feature.z) > half)
+      continue;
     const double R = model_.R * geometry_.stretch[j];
     for (int i = 0; i < grid.n_phi; ++i) {
       const int node = grid.index(i, j), before = grid.before(i);
@@ -30,7 +31,7 @@ void FlowBalance::find_strips(int f, double phi, double u) {
       for (const double image : {-two_pi * R, 0.0, two_pi * R}) {
         const double from = std::max(-back, middle + image - reach), to = std::min(ahead, middle + image + reach);
         if (from >= to) continue;
-        strips_.push_back({node, grid.index(i, next), f, from, to, 1 / land - 1 / tube, u});
+        strips_.push_back({node, grid.index(i, next), f, from, to, 1 / land - 1 / flow_tube, u});
         touches = true;
       }
       if (touches) hold({.node = node, .feature = f, .u = u, .inwards = -land / half}, true);

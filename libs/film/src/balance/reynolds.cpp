@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "balance/active_set_changes.h"
 #include "balance/flow_balance.h"
-#include "balance/halves.h"
 #include "balance/rupture_front.h"
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
@@ -183,7 +183,7 @@ FilmDomain Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& h
   impl_->linearised = impl_->summed = false;
   if (const FilmDomain domain = impl_->balance.evaluate(motion, history, u); !domain.is_inside()) return domain;
   impl_->balance.assemble_jacobian();
-  if (!impl_->is_finite()) return {FilmDomain::Trouble::not_finite, -1};
+  if (!impl_->is_finite()) return {FilmDomain::Violation::not_finite, -1};
   impl_->factorised = impl_->set_up = impl_->condensed = false;
   SurfaceMotion& speeds = impl_->speeds;
   speeds.u_shell = motion.u_shell, speeds.u_journal = motion.u_journal;
@@ -239,8 +239,8 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
 
 void Reynolds::advance_rupture_front(Eigen::VectorXd& u) const { film::advance_rupture_front(impl_->balance, u); }
 
-void Reynolds::limit_active_set_changes(const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) const {
-  film::limit_active_set_changes(impl_->balance.model(), before, turn, u);
+void Reynolds::limit_active_set_changes(const Eigen::VectorXd& before, int iteration, Eigen::VectorXd& u) const {
+  film::limit_active_set_changes(impl_->balance.model(), before, iteration, u);
 }
 
 void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial) {

@@ -26,7 +26,7 @@ const FlowBalance::HeldNode* FlowBalance::supplied_at(int node) const {
 
 double FlowBalance::supplied_share(int node) const {
   const HeldNode* supplied = supplied_at(node);
-  return supplied == nullptr ? 0 : supplied->stirred;
+  return supplied == nullptr ? 0 : supplied->mixed_share;
 }
 
 int FlowBalance::supplied_by(int node) const {
@@ -75,7 +75,7 @@ double FlowBalance::power_of_tie(int node) const {
   return tie(*held).k / (nodes_[node].density * (1 - held->chi)) * drop * acting;
 }
 
-// The pressure falls evenly along the way to the line; the node's control volume ends half a tube from it.
+// The pressure falls evenly along the way to the line; the node's control volume ends half a flow tube from it.
 FlowBalance::PowerBeyond FlowBalance::power_beyond(int node) const {
   const HeldNode* held = held_at(node);
   if (held == nullptr || held->other < 0) return {node, 0};
@@ -170,8 +170,8 @@ void FlowBalance::hold(const HeldNode& held, bool only_oil) {
   if (is_open(held.node)) nodes[index].u = 0;
 }
 
-// The line cuts the tubes between two columns of nodes. Each side is tied to it by what of the tube lies on its side,
-// K/t at a share t of the way; the row counts t times, so that a line on a node is a given pressure there.
+// The line cuts the flow tubes between two columns of nodes. Each side is tied to it by what of the flow tube lies on
+// its side, K/t at a share t of the way; the row counts t times, so that a line on a node is a given pressure there.
 void FlowBalance::hold_line(double phi) {
   const Grid& grid = model_.grid;
   const auto place = geometry_.place_of(phi);
@@ -184,7 +184,7 @@ void FlowBalance::hold_line(double phi) {
     hold({.node = grid.index(here, j),
           .chi = 1 - way,
           .chi_line = -by_phi,
-          .stirred = 1 - way,
+          .mixed_share = 1 - way,
           .draws = (1 - way) * (1 - way),
           .draws_line = -2 * (1 - way) * by_phi,
           .u = u,
@@ -226,7 +226,7 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
       hold({.node = node.node,
             .chi = node.share,
             .chi_journal = node.share_phi,
-            .stirred = node.stirred,
+            .mixed_share = node.mixed_share,
             .draws = node.draws,
             .draws_journal = node.draws_phi,
             .feature = static_cast<int>(f),
@@ -267,18 +267,18 @@ double FlowBalance::thickness_towards_line(const HeldNode& held) const {
          held.bend * bends_[static_cast<Eigen::Index>(line_face(held))];
 }
 
-// A pocket that the line crosses is as deep beside it as in the tube that the line cuts.
-TubeGap FlowBalance::gap_towards_line(const HeldNode& held, double h) const {
-  const int tube = tube_of_[line_face(held)];
-  if (tube < 0) return {.cube = {h * h * h, 3 * h * h, 0}, .carry = {h, 1, 0}, .excess = {}};
-  return relief_.gap(relief_.tubes()[static_cast<std::size_t>(tube)], h);
+// A pocket that the line crosses is as deep beside it as in the flow tube that the line cuts.
+FlowTubeGap FlowBalance::gap_towards_line(const HeldNode& held, double h) const {
+  const int flow_tube = flow_tube_of_[line_face(held)];
+  if (flow_tube < 0) return {.cube = {h * h * h, 3 * h * h, 0}, .carry = {h, 1, 0}, .excess = {}};
+  return relief_.gap(relief_.flow_tubes()[static_cast<std::size_t>(flow_tube)], h);
 }
 
 /// What the surfaces carry in pockets there beside what they carry in the gap, per width [m^2/s].
 ByGap FlowBalance::carried_in_pockets(const HeldNode& held) const {
   const std::size_t f = line_face(held);
-  if (tube_of_[f] < 0) return {};
-  const double past = entrainment(f) - step_speed(f, relief_.tubes()[static_cast<std::size_t>(tube_of_[f])]);
+  if (flow_tube_of_[f] < 0) return {};
+  const double past = entrainment(f) - step_speed(f, relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])]);
   const double h = thickness_towards_line(held);
   const ByGap carry = gap_towards_line(held, h).carry;
   return {past * (carry.value - h), past * (carry.h - 1), past * carry.journal};
@@ -298,7 +298,8 @@ FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
   t.full = sign * density * face.width *
            (held.near * at(node) + held.far * at(held.other) +
             held.bend * entrainment(f) * bends_[static_cast<Eigen::Index>(f)] + carried_in_pockets(held).value);
-  if (tube_of_[f] >= 0) t.full += sign * density * relief_.tubes()[static_cast<std::size_t>(tube_of_[f])].swept;
+  if (flow_tube_of_[f] >= 0)
+    t.full += sign * density * relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])].swept;
   t.from_node = t.full >= 0;
   t.strip = density * strip_area(held) * g_rate_[node];
   return t;
@@ -397,10 +398,10 @@ double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& 
                                  carried(held.other, entrainment(f), half_slip(f)) +
                                  deeper.h * (nodes_[held.node].h - nodes_[held.other].h)) +
                held.bend_line * (entrainment(f) + deeper.h) * bends_[bend]);
-  if (tube_of_[f] >= 0) {
-    const PocketTube& tube = relief_.tubes()[static_cast<std::size_t>(tube_of_[f])];
-    q += (tube.swept_journal * direction.phi_journal + tube.swept_speed * journal) / face.width;
-    const double h = thickness_towards_line(held), step = step_of(tube, speed, journal);
+  if (flow_tube_of_[f] >= 0) {
+    const PocketFlowTube& flow_tube = relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])];
+    q += (flow_tube.swept_journal * direction.phi_journal + flow_tube.swept_speed * journal) / face.width;
+    const double h = thickness_towards_line(held), step = step_of(flow_tube, speed, journal);
     q += (speed - step) * (gap_towards_line(held, h).carry.value - h) + deeper.journal * direction.phi_journal;
   }
   double row = scale * q + t.full * share_along(f, share, direction);

@@ -139,7 +139,7 @@ Share covered(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Sur
 
 /// Of a control volume that a feature covers in part, or, where the feature is the smaller around the bearing, of what
 /// goes around there.
-Share stirred_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
+Share mixed_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
   if (feature.arc >= two_pi) return {1, 0};
   const double smaller = std::min(s.back + s.ahead, feature.arc);
   const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
@@ -154,22 +154,22 @@ Share drawn(double share, double share_phi) {
 
 // What is there of oil that passes a node's control volume, and of oil that it lacks (film.22, thermal.14).
 
-void stir(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
-  const Share around = stirred_rectangle(feature, s);
+void mix(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
+  const Share around = mixed_rectangle(feature, s);
   const double along = overlap_along(feature, s), higher = std::max(1.0, (s.below + s.above) / feature.length);
   const Share draws = drawn(around.value, around.phi);
   const double draws_along = s.is_on_edge() ? 1 : drawn(higher * along, 0).value;
-  node.stirred = around.value * along;
+  node.mixed_share = around.value * along;
   node.draws = draws.value * draws_along, node.draws_phi = draws.phi * draws_along;
 }
 
-void stir(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
+void mix(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
   const double wider = std::max(1.0, (s.back + s.ahead) / feature.arc);
   const Share covered = ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length);
   const double higher = std::max(1.0, (s.below + s.above) / feature.length);
   const Share draws =
       s.is_on_edge() ? Share{1, 0} : drawn(wider * higher * covered.value, wider * higher * covered.phi);
-  node.stirred = std::min(1.0, wider * covered.value);
+  node.mixed_share = std::min(1.0, wider * covered.value);
   node.draws = draws.value, node.draws_phi = draws.phi;
 }
 
@@ -205,7 +205,7 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
       CoveredNode& node = nodes.emplace_back();
       node = {.node = grid.index(i, j), .share = share.value, .share_phi = share.phi, .inwards = inwards};
       const Surroundings inside = within_film(s, grid, i, j);
-      std::visit([&](const auto& shape) { stir(shape, feature, inside, node); }, feature.shape);
+      std::visit([&](const auto& shape) { mix(shape, feature, inside, node); }, feature.shape);
       if (!travels) node.share_phi = node.draws_phi = 0;
     }
   }

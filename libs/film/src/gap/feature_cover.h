@@ -12,9 +12,9 @@ struct CoveredNode {
   int node = 0;
   double share = 0;
   double share_phi = 0;
-  double inwards = 0;  ///< how near to the feature's middle, 1, from its border, 0 [-]; below 0 outside
-  double stirred = 0;  ///< share of the oil passing the node's control volume that passes the feature in it [-]
-  double draws = 0;    ///< of the oil that is missing there, what the feature gives [-], and its derivative
+  double inwards = 0;      ///< how near to the feature's middle, 1, from its border, 0 [-]; below 0 outside
+  double mixed_share = 0;  ///< share of the oil passing the node's control volume that passes the feature in it [-]
+  double draws = 0;        ///< of the oil that is missing there, what the feature gives [-], and its derivative
   double draws_phi = 0;
 };
 

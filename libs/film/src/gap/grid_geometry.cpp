@@ -123,7 +123,7 @@ double GridGeometry::from_to(double from, double to) const {
   return closes(surface) ? std::remainder(to - from, two_pi) : to - from;
 }
 
-double GridGeometry::told(double angle) const {
+double GridGeometry::reported_angle(double angle) const {
   return closes(surface) ? std::fmod(std::fmod(angle, two_pi) + two_pi, two_pi) : angle;
 }
 

@@ -42,7 +42,7 @@ struct GridGeometry {
   /// The way from one angle to another, the shorter one around a surface that closes [rad].
   [[nodiscard]] double from_to(double from, double to) const;
   /// An angle as one tells it: on a surface that closes from 0 to 2 pi [rad].
-  [[nodiscard]] double told(double phi) const;
+  [[nodiscard]] double reported_angle(double phi) const;
 
   /// The node before `angle` in the direction of growing phi, and the share of the way to the next, in [0, 1). Beside
   /// patches, that nearest to it.

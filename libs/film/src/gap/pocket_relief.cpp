@@ -112,12 +112,12 @@ void PocketRelief::place(double phi_journal, double phi_start, double dt, double
     add_cells(pocket, turns && dt > 0 ? phi_start : phi_journal, depth_start_, nullptr);
     if (turns) add_cells(pocket, phi_journal, turning_depth_, nullptr);
   }
-  place_tubes(phi_journal);
+  locate_flow_tubes(phi_journal);
   sweep(phi_journal, phi_start, dt, speed);
 }
 
-void PocketRelief::place_tubes(double phi_journal) {
-  tubes_.clear(), strips_.clear(), segments_.clear();
+void PocketRelief::locate_flow_tubes(double phi_journal) {
+  flow_tubes_.clear(), strips_.clear(), segments_.clear();
   const Grid& grid = model_.grid;
   const auto half_turn_from = [this](double middle, double phi) { return middle + geometry_.from_to(middle, phi); };
   std::vector<Extent> around, along;
@@ -142,16 +142,17 @@ void PocketRelief::place_tubes(double phi_journal) {
     if (around.empty()) continue;
     for (int j = 0; j < grid.n_z; ++j) {
       const double z = geometry_.z[j], low = j > 0 ? z - 0.5 * geometry_.dz[j - 1] : z;
-      if (next >= 0) add_tube(static_cast<std::size_t>(grid.index(i, j)), around, low, geometry_.width_z[j], phi, step);
+      if (next >= 0)
+        add_flow_tube(static_cast<std::size_t>(grid.index(i, j)), around, low, geometry_.width_z[j], phi, step);
       if (j + 1 == grid.n_z) continue;
       const auto face = static_cast<std::size_t>(grid.size() + i * (grid.n_z - 1) + j);
-      add_tube(face, along, phi - back, back + ahead, z, geometry_.dz[j]);
+      add_flow_tube(face, along, phi - back, back + ahead, z, geometry_.dz[j]);
     }
   }
 }
 
-void PocketRelief::add_tube(std::size_t face, const std::vector<Extent>& extents, double across, double width,
-                            double along, double length) {
+void PocketRelief::add_flow_tube(std::size_t face, const std::vector<Extent>& extents, double across, double width,
+                                 double along, double length) {
   std::vector<Extent> near;
   for (const Extent& e : extents) {
     const bool beside = e.across + e.half_across <= across || e.across - e.half_across >= across + width;
@@ -159,11 +160,11 @@ void PocketRelief::add_tube(std::size_t face, const std::vector<Extent>& extents
     if (!beside && !beyond) near.push_back(e);
   }
   if (near.empty()) return;
-  PocketTube tube{.face = face, .first_strip = static_cast<int>(strips_.size())};
+  PocketFlowTube flow_tube{.face = face, .first_strip = static_cast<int>(strips_.size())};
   std::vector<Border> borders{{across, 0}, {across + width, 0}};
   bool all_straight = true;
   for (const Extent& e : near) {
-    (e.in_journal ? tube.in_journal : tube.in_shell) = true;
+    (e.in_journal ? flow_tube.in_journal : flow_tube.in_shell) = true;
     const bool is_straight = std::visit([](const auto& shape) { return shape.has_straight_ends; }, e.shape);
     all_straight = all_straight && is_straight;
     if (!is_straight) continue;
@@ -185,8 +186,8 @@ void PocketRelief::add_tube(std::size_t face, const std::vector<Extent>& extents
       over_gauss_points(strip);
     }
   }
-  tube.strips = static_cast<int>(strips_.size()) - tube.first_strip;
-  tubes_.push_back(tube);
+  flow_tube.strips = static_cast<int>(strips_.size()) - flow_tube.first_strip;
+  flow_tubes_.push_back(flow_tube);
 }
 
 void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, double y_rate, double share,
@@ -229,9 +230,9 @@ void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, doubl
   strips_.push_back(strip);
 }
 
-TubeGap PocketRelief::gap(const PocketTube& tube, double h) const {
-  TubeGap sum;
-  for (int s = tube.first_strip; s < tube.first_strip + tube.strips; ++s) {
+FlowTubeGap PocketRelief::gap(const PocketFlowTube& flow_tube, double h) const {
+  FlowTubeGap sum;
+  for (int s = flow_tube.first_strip; s < flow_tube.first_strip + flow_tube.strips; ++s) {
     const Strip& strip = strips_[s];
     // I_1 to I_4 and what phi_journal does to I_2 and I_3.
     std::array<double, 5> I{};
@@ -265,11 +266,11 @@ TubeGap PocketRelief::gap(const PocketTube& tube, double h) const {
 void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double speed) {
   if (!any_turns_) return;
   const Grid& grid = model_.grid;
-  // A pocket may have passed a face in the step and cover no tube there any more: every face of the pocket's rows is
-  // asked. Tubes come in the order of faces of one kind, not of all.
+  // A pocket may have passed a face in the step and cover no flow tube there any more: every face of the pocket's rows
+  // is asked. Tubes come in the order of faces of one kind, not of all.
   std::vector<int> tube_of(static_cast<std::size_t>(grid.size()), -1);
-  for (std::size_t t = 0; t < tubes_.size(); ++t) {
-    if (tubes_[t].face < tube_of.size()) tube_of[tubes_[t].face] = static_cast<int>(t);
+  for (std::size_t t = 0; t < flow_tubes_.size(); ++t) {
+    if (flow_tubes_[t].face < tube_of.size()) tube_of[flow_tubes_[t].face] = static_cast<int>(t);
   }
   for (int i = 0; i < grid.n_phi; ++i) {
     const double face = geometry_.phi[i] + 0.5 * geometry_.dphi(i);
@@ -295,15 +296,15 @@ void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double
       if (swept == 0 && swept_journal == 0) continue;
       int& at = tube_of[static_cast<std::size_t>(grid.index(i, j))];
       if (at < 0) {
-        at = static_cast<int>(tubes_.size());
-        tubes_.push_back({.face = static_cast<std::size_t>(grid.index(i, j)), .in_journal = true});
-        tubes_.back().first_strip = static_cast<int>(strips_.size());
-        tubes_.back().strips = 1;
+        at = static_cast<int>(flow_tubes_.size());
+        flow_tubes_.push_back({.face = static_cast<std::size_t>(grid.index(i, j)), .in_journal = true});
+        flow_tubes_.back().first_strip = static_cast<int>(strips_.size());
+        flow_tubes_.back().strips = 1;
         strips_.push_back({1, 0, static_cast<int>(segments_.size()), 1});
         segments_.push_back({1, 0, 0});
       }
-      PocketTube& tube = tubes_[static_cast<std::size_t>(at)];
-      tube.swept = swept, tube.swept_journal = swept_journal, tube.swept_speed = swept_speed;
+      PocketFlowTube& flow_tube = flow_tubes_[static_cast<std::size_t>(at)];
+      flow_tube.swept = swept, flow_tube.swept_journal = swept_journal, flow_tube.swept_speed = swept_speed;
     }
   }
 }

@@ -15,17 +15,17 @@ struct ByGap {
   double value = 0, h = 0, journal = 0;
 };
 
-/// What a tube between two nodes is to the flow through it where pockets cover a part of it, per width (film.26,
-/// film.28): with the integrals I_n of 1/h^n over the tube's length, per length,
-struct TubeGap {
+/// What a flow tube between two nodes is to the flow through it where pockets cover a part of it, per width (film.26,
+/// film.28): with the integrals I_n of 1/h^n over the flow tube's length, per length,
+struct FlowTubeGap {
   ByGap cube;    ///< 1/I_3, in place of h^3 [m^3]
   ByGap carry;   ///< I_2/I_3, in place of h where surfaces carry oil past the pocket's steps [m]
   ByGap excess;  ///< I_1 - I_2^2/I_3: recirculation in the pockets, 0 without steps [1/m]
 };
 
-/// A tube from one node to the next that pockets cover in part. It is cut into strips along the flow and these into
-/// segments of one depth each: flow passes strips side by side and segments one after the other.
-struct PocketTube {
+/// A flow tube from one node to the next that pockets cover in part. It is cut into strips along the flow and these
+/// into segments of one depth each: flow passes strips side by side and segments one after the other.
+struct PocketFlowTube {
   std::size_t face = 0;
   int first_strip = 0, strips = 0;
   bool in_shell = false, in_journal = false;  ///< whose pockets
@@ -55,8 +55,8 @@ class PocketRelief {
 
   [[nodiscard]] bool is_empty() const { return pockets_.empty() && fed_.empty(); }
   [[nodiscard]] bool has_pockets() const { return !pockets_.empty(); }
-  [[nodiscard]] const std::vector<PocketTube>& tubes() const { return tubes_; }
-  [[nodiscard]] TubeGap gap(const PocketTube& tube, double h) const;
+  [[nodiscard]] const std::vector<PocketFlowTube>& flow_tubes() const { return flow_tubes_; }
+  [[nodiscard]] FlowTubeGap gap(const PocketFlowTube& flow_tube, double h) const;
 
   // Mean depth of pockets over each control volume (film.27) now and at the start of the step [m], and by how much it
   // changes with phi_journal [m/rad]; empty where there are no pockets.
@@ -76,7 +76,7 @@ class PocketRelief {
     double share = 0, share_journal = 0;
     int first_segment = 0, segments = 0;
   };
-  /// A feature's extent seen from a tube: across and along the flow, with the rate at which it turns.
+  /// A feature's extent seen from a flow tube: across and along the flow, with the rate at which it turns.
   struct Extent;
   /// What `place` was last asked for.
   struct Placement {
@@ -84,9 +84,9 @@ class PocketRelief {
     bool operator==(const Placement&) const = default;
   };
 
-  void place_tubes(double phi_journal);
-  void add_tube(std::size_t face, const std::vector<Extent>& extents, double across, double width, double along,
-                double length);
+  void locate_flow_tubes(double phi_journal);
+  void add_flow_tube(std::size_t face, const std::vector<Extent>& extents, double across, double width, double along,
+                     double length);
   void add_strip(const std::vector<Extent>& extents, double y, double y_rate, double share, double share_rate,
                  double along, double length);
   void sweep(double phi_journal, double phi_start, double dt, double speed);
@@ -97,7 +97,7 @@ class PocketRelief {
   std::vector<SurfaceFeature> pockets_, fed_;
   bool any_turns_ = false;
   std::optional<Placement> placed_;
-  std::vector<PocketTube> tubes_;
+  std::vector<PocketFlowTube> flow_tubes_;
   std::vector<Strip> strips_;
   std::vector<Segment> segments_;
   Eigen::VectorXd depth_, depth_start_, depth_journal_, turning_depth_;

@@ -91,7 +91,7 @@ class Search {
     const double found = both > 0 ? both : here;
     if (found >= best.value) return;
     best.value = found, best.z = at_.z[j] + along.place;
-    best.phi = at_.told(at_.phi[lowest_node] + around.place / (at_.R * at_.stretch[j]));
+    best.phi = at_.reported_angle(at_.phi[lowest_node] + around.place / (at_.R * at_.stretch[j]));
   }
 
   // Two parabolas reach between two nodes, one from either side. Where the film is smooth they agree; where it has a
@@ -159,7 +159,7 @@ class Search {
     if (std::abs(z) > 0.5 * model_.L * (1 + sliver) || !is_on_land(phi, z)) return;
     const double value = between(phi, std::clamp(z, at_.z[0], at_.z[grid_.n_z - 1]));
     if (value >= best.value) return;
-    best.value = value, best.phi = at_.told(phi), best.z = z;
+    best.value = value, best.phi = at_.reported_angle(phi), best.z = z;
   }
 
   [[nodiscard]] bool is_on_land(double phi, double z) const {

@@ -100,7 +100,8 @@ struct FilmHeat::Impl {
   void thin();
   [[nodiscard]] bool holds_walls() const { return thermal.walls == WallMotion::held; }
   void show_rest();
-  /// What is to be seen of the last answer, worked out when it is asked for: turns of film and heat do not look.
+  /// What is to be seen of the last answer, worked out when it is asked for: iterations of film and heat do not need
+  /// it.
   void observe();
   [[nodiscard]] const HeatObservables& look();
   void show_surfaces(const CarryingFilm& film);
@@ -123,7 +124,7 @@ struct FilmHeat::Impl {
   HeatState by_shell, by_journal;  // changes of the state with temperatures of nodes, per kelvin
   std::vector<HeatState> by_outside;
   WallExchange exchange;
-  HeatObservables seen;
+  HeatObservables observed;
   TemperatureFields shown;
   Eigen::VectorXd mu_at_rest, T_of_mu;  ///< viscosities_at_rest() and the temperatures that have them
 };
@@ -156,7 +157,7 @@ HeatState FilmHeat::Impl::start() const {
   return first;
 }
 
-/// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them in turn: they are worked out once.
+/// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them alternately: they are worked out once.
 const Eigen::VectorXd& FilmHeat::Impl::viscosities_at_rest() {
   if (T_of_mu.size() == state.film.size() && T_of_mu == state.film) return mu_at_rest;
   const TemperatureLaw& law = flow.model().lubricant.temperature_law;
@@ -199,24 +200,24 @@ void FilmHeat::Impl::show_rest() {
   if (conducts(thermal.journal)) shown.journal.setConstant(state.journal);
   for (int node = 0; conducts(thermal.shell) && node < flow.size(); ++node)
     shown.shell[node] = state.shell[node / flow.model().grid.n_z];
-  seen = {};
-  seen.T_supplies = state.supplies;
-  seen.T_film_mean = seen.T_side = thermal.T_supply;
-  seen.T_shell_mean = shown.shell.mean();
-  seen.T_journal = shown.journal.mean();
+  observed = {};
+  observed.T_supplies = state.supplies;
+  observed.T_film_mean = observed.T_side = thermal.T_supply;
+  observed.T_shell_mean = shown.shell.mean();
+  observed.T_journal = shown.journal.mean();
   find_hottest();
   average_walls();
 }
 
 // A ring's angles count by their length; its temperature is the mean over its thickness.
 void FilmHeat::Impl::average_walls() {
-  seen.T_shell_wall = seen.T_shell_mean, seen.T_journal_wall = seen.T_journal;
-  if (conducts(thermal.journal)) seen.T_journal_wall = state.journal;
+  observed.T_shell_wall = observed.T_shell_mean, observed.T_journal_wall = observed.T_journal;
+  if (conducts(thermal.journal)) observed.T_journal_wall = state.journal;
   if (!conducts(thermal.shell)) return;
   double around = 0, sum = 0;
   for (int i = 0; i < flow.model().grid.n_phi; ++i)
     around += flow.geometry().width_phi[i], sum += flow.geometry().width_phi[i] * state.shell[i];
-  seen.T_shell_wall = sum / around;
+  observed.T_shell_wall = sum / around;
 }
 
 FilmHeat::FilmHeat(const FilmModel& model, const ThermalModel& thermal)
@@ -404,20 +405,20 @@ WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
 
 const HeatObservables& FilmHeat::Impl::look() {
   if (!is_observed) observe();
-  return seen;
+  return observed;
 }
 
 void FilmHeat::Impl::observe() {
   const CarryingFilm film = carrying();
   is_observed = true;
-  seen = {};
-  seen.balance = equations.balance(film, start_of_step, end_of_step);
-  seen.T_supplies = end_of_step.supplies;
+  observed = {};
+  observed.balance = equations.balance(film, start_of_step, end_of_step);
+  observed.T_supplies = end_of_step.supplies;
   if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
-    seen.T_body_max = dt > 0 && !held_walls.have_settled() ? end_of_step.shell.maxCoeff()
-                                                           : wall->body(end_of_step.wall_heat).maxCoeff();
+    observed.T_body_max = dt > 0 && !held_walls.have_settled() ? end_of_step.shell.maxCoeff()
+                                                               : wall->body(end_of_step.wall_heat).maxCoeff();
   if (const JournalConduction* body = conduction_of(thermal.journal); body != nullptr && body->T_body0.size() > 0)
-    seen.T_journal_body_max =
+    observed.T_journal_body_max =
         dt > 0 && !held_walls.have_settled() ? end_of_step.journal : body->body(end_of_step.journal_heat).maxCoeff();
   show_surfaces(film);
   find_hottest();
@@ -455,10 +456,10 @@ void FilmHeat::Impl::find_hottest() {
   const GridGeometry& at = flow.geometry();
   const int n_z = flow.model().grid.n_z;
   Eigen::Index node = 0;
-  seen.T_max = shown.hottest.maxCoeff(&node);
-  seen.T_max_phi = at.phi[node / n_z], seen.T_max_z = at.z[node % n_z];
-  seen.T_shell_max = shown.shell.maxCoeff(&node);
-  seen.T_shell_max_phi = at.phi[node / n_z];
+  observed.T_max = shown.hottest.maxCoeff(&node);
+  observed.T_max_phi = at.phi[node / n_z], observed.T_max_z = at.z[node % n_z];
+  observed.T_shell_max = shown.shell.maxCoeff(&node);
+  observed.T_shell_max_phi = at.phi[node / n_z];
 }
 
 void FilmHeat::Impl::average(const CarryingFilm& film) {
@@ -466,17 +467,17 @@ void FilmHeat::Impl::average(const CarryingFilm& film) {
   for (int node = 0; node < flow.size(); ++node) {
     const double a = flow.area(node), volume = a * std::max(flow.nodes()[node].content, 0.0) * flow.oil_gap(node);
     area += a, oil += volume;
-    seen.T_shell_mean += a * shown.shell[node];
-    seen.T_journal += a * shown.journal[node];
-    seen.T_film_mean += volume * shown.middle[node];
+    observed.T_shell_mean += a * shown.shell[node];
+    observed.T_journal += a * shown.journal[node];
+    observed.T_film_mean += volume * shown.middle[node];
     const double leaves = std::max(flow.outflow(node), 0.0);
     out += leaves;
     for (int l = 0; l < thermal.layers; ++l)
-      seen.T_side += leaves * film.flows.leaving_share(node, l) * end_of_step.film[node * thermal.layers + l];
+      observed.T_side += leaves * film.flows.leaving_share(node, l) * end_of_step.film[node * thermal.layers + l];
   }
-  seen.T_shell_mean /= area, seen.T_journal /= area;
-  seen.T_film_mean = oil > 0 ? seen.T_film_mean / oil : std::numeric_limits<double>::quiet_NaN();
-  seen.T_side = out > 0 ? seen.T_side / out : std::numeric_limits<double>::quiet_NaN();
+  observed.T_shell_mean /= area, observed.T_journal /= area;
+  observed.T_film_mean = oil > 0 ? observed.T_film_mean / oil : std::numeric_limits<double>::quiet_NaN();
+  observed.T_side = out > 0 ? observed.T_side / out : std::numeric_limits<double>::quiet_NaN();
 }
 
 TemperatureFields FilmHeat::fields() const {

@@ -121,10 +121,10 @@ HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::s
   }
   const FlowBalance& b = film.balance;
   if (b.nodes()[behind].content < 1e-3) return way;
-  // By what a line does not stir of both: nothing jumps as it passes over a node. Beside a feature not at all.
+  // By what a line does not mix of both: nothing jumps as it passes over a node. Beside a feature not at all.
   const auto own = [&b](int node) {
-    const double stirred = b.supplied_share(node);
-    return stirred > 0 && b.supplied_by(node) >= 0 ? 0.0 : 1 - stirred;
+    const double mixed_share = b.supplied_share(node);
+    return mixed_share > 0 && b.supplied_by(node) >= 0 ? 0.0 : 1 - mixed_share;
   };
   way.slope_share = own(from) * own(behind) * 0.5 * face.length / length;
   return way;
@@ -291,7 +291,7 @@ void HeatEquations::add_walls_of_film(const CarryingFilm& film, const HeatState&
 }
 
 // A line has no width: what is dissipated at its nodes warms the film's oil at its place, and not all that the line
-// stirs; as much in all layers, which it stirs as well.
+// mixes; as much in all layers, which it mixes as well.
 void HeatEquations::add_film_on_line(const CarryingFilm& film, const Held& held, const Eigen::VectorXd& taken_on) {
   double heat = 0;
   for (int l = 0; l < layers(); ++l) heat += held.chi * film.flows.dissipation(held.node, l);
@@ -334,11 +334,11 @@ void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& star
   }
 }
 
-// Of a node's oil the supply has stirred what it gives, its share of what passes, and what has been stirred before:
+// Of a node's oil the supply has mixed what it gives, its share of what passes, and what has been mixed before:
 // beside nodes that it has wholly two passes find all of it.
-void HeatEquations::find_stirred(const CarryingFilm& film) {
+void HeatEquations::find_mixed_shares(const CarryingFilm& film) {
   const auto& faces = film.balance.faces();
-  stirred_.setZero(system_.size());
+  mixed_share_.setZero(system_.size());
   Eigen::VectorXd came(system_.size());
   for (int pass = 0; pass < 2; ++pass) {
     came.setZero();
@@ -347,7 +347,7 @@ void HeatEquations::find_stirred(const CarryingFilm& film) {
         const double q = film.flows.over_face(f, l);
         const int from = q > 0 ? faces[f].a : faces[f].b, to = q > 0 ? faces[f].b : faces[f].a;
         if (supply_of_[to] == supply_of_[from])
-          came[system_.row(to, l)] += std::abs(q) * stirred_[system_.row(from, l)];
+          came[system_.row(to, l)] += std::abs(q) * mixed_share_[system_.row(from, l)];
       }
     }
     for (const Held& held : held_) {
@@ -355,18 +355,18 @@ void HeatEquations::find_stirred(const CarryingFilm& film) {
         const int row = system_.row(held.node, l);
         const double given = std::max(held.flow, 0.0) * width(l), passing = inflow_[row];
         const double own = given + held.chi * passing + (1 - held.chi) * came[row];
-        stirred_[row] = passing + given > 0 ? std::min(1.0, own / (passing + given)) : 1;
+        mixed_share_[row] = passing + given > 0 ? std::min(1.0, own / (passing + given)) : 1;
       }
     }
   }
 }
 
 // Of the film's oil that comes to a supply, a share is not carried over but replaced: of what comes to a node, what the
-// supply stirs there and takes away. Of a node's oil a part may be the supply's own: the film's heat lies above that.
+// supply mixes there and takes away. Of a node's oil a part may be the supply's own: the film's heat lies above that.
 void HeatEquations::renew(const CarryingFilm& film) {
   renewals_.clear();
   if (thermal_.carry_over == 1) return;
-  find_stirred(film);
+  find_mixed_shares(film);
   std::vector<const Held*> held_at(static_cast<std::size_t>(model_.grid.size()), nullptr);
   for (const Held& held : held_) held_at[static_cast<std::size_t>(held.node)] = &held;
   const double replaced = (1 - thermal_.carry_over) * rc_;
@@ -381,11 +381,11 @@ void HeatEquations::renew(const CarryingFilm& film) {
       const double taken =
           std::min(1.0, std::max(-held->flow, 0.0) * film.flows.leaving_share(held->node, l) / inflow_[to]);
       const double heat = replaced * (held->chi + (1 - held->chi) * taken) * std::abs(q);
-      const double stirred = stirred_[system_.row(from, l)];
-      // What another supply has stirred is its own matter.
+      const double mixed_share = mixed_share_[system_.row(from, l)];
+      // What another supply has mixed is its own matter.
       const bool is_same = supply_of_[from] == held->supply;
       renewals_.push_back(
-          {held->supply, system_.row(from, l), is_same ? heat : (1 - stirred) * heat, is_same ? stirred : 0});
+          {held->supply, system_.row(from, l), is_same ? heat : (1 - mixed_share) * heat, is_same ? mixed_share : 0});
     }
   }
 }
@@ -434,7 +434,7 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
     known_[journal + 1 + supply] += heat * fresh(supply, outside_);
     if (const Eigen::Index place = oil_of(supply); place >= 0) by_outside_(journal + 1 + supply, place) += heat;
   };
-  for (const Renewal& renewal : renewals_) give(renewal.supply, renewal.heat * (1 - renewal.stirred));
+  for (const Renewal& renewal : renewals_) give(renewal.supply, renewal.heat * (1 - renewal.mixed_share));
   supply_self_.assign(flow.size(), 0.0);
   for (int s = 0; s < supplies(); ++s) {
     supply_self_[s] = rc_ * std::max(-flow[s], 0.0) + thread;

@@ -143,7 +143,7 @@ double HeatEquations::renewed(const HeatState& state, int supply) const {
   for (const Renewal& renewal : renewals_) {
     if (renewal.supply != supply) continue;
     const double T = fresh(supply, state.outside), above = state.film[renewal.row] - T;
-    heat += renewal.heat * (above - renewal.stirred * (state.supplies[supply] - T));
+    heat += renewal.heat * (above - renewal.mixed_share * (state.supplies[supply] - T));
   }
   return heat;
 }

@@ -139,7 +139,7 @@ class HeatEquations {
   void add_walls_of_film(const CarryingFilm& film, const HeatState& start, int node, double chi);
   void add_film_on_line(const CarryingFilm& film, const Held& held, const Eigen::VectorXd& taken_on);
   void add_supplies(const CarryingFilm& film, const HeatState& start);
-  void find_stirred(const CarryingFilm& film);
+  void find_mixed_shares(const CarryingFilm& film);
   void renew(const CarryingFilm& film);
   [[nodiscard]] double renewed(const HeatState& state, int supply) const;
   void add_journal_row(const CarryingFilm& film, const HeatState& start);
@@ -190,8 +190,8 @@ class HeatEquations {
   /// Oil of a layer that a supply replaces by its own; of a node in which it has a part itself, but for that part.
   struct Renewal {
     int supply = 0, row = 0;
-    double heat = 0;     ///< by its temperature [W/K]
-    double stirred = 0;  ///< share that is the supply's own oil already [-]
+    double heat = 0;         ///< by its temperature [W/K]
+    double mixed_share = 0;  ///< share that is the supply's own oil already [-]
   };
   std::vector<Renewal> renewals_;
   MeanHeat mean_;
@@ -199,8 +199,8 @@ class HeatEquations {
   solver::Gmres gmres_;
   int most_iterations_ = 120;
   std::vector<Held> held_;
-  Eigen::VectorXd inflow_;   ///< of each layer over its faces and edges [m^3/s]
-  Eigen::VectorXd stirred_;  ///< share of each layer's oil that the supply of its node has stirred [-]
+  Eigen::VectorXd inflow_;       ///< of each layer over its faces and edges [m^3/s]
+  Eigen::VectorXd mixed_share_;  ///< share of each layer's oil that the supply of its node has mixed [-]
 };
 
 }  // namespace hersey::film

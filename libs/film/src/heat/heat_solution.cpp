@@ -97,7 +97,7 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   for (const Renewal& renewal : renewals_) {
     const int row = rows + 1 + renewal.supply;
     entries.emplace_back(row, renewal.row, renewal.heat);
-    entries.emplace_back(row, row, -renewal.heat * renewal.stirred);
+    entries.emplace_back(row, row, -renewal.heat * renewal.mixed_share);
   }
   Eigen::SparseMatrix<double> A(known_.size(), known_.size());
   A.setFromTriplets(entries.begin(), entries.end());
@@ -139,7 +139,7 @@ std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& f
     if (flow[s] < 0) oil.emplace_back(system_.size() + 1 + s, -rc_ * flow[s]);
   for (const Renewal& renewal : renewals_) {
     oil.emplace_back(renewal.row, renewal.heat);
-    oil.emplace_back(system_.size() + 1 + renewal.supply, -renewal.heat * renewal.stirred);
+    oil.emplace_back(system_.size() + 1 + renewal.supply, -renewal.heat * renewal.mixed_share);
   }
   return oil;
 }
@@ -204,7 +204,7 @@ void HeatEquations::multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd
   }
   for (const Renewal& renewal : renewals_) {
     const int row = rows + 1 + renewal.supply;
-    y[row] += renewal.heat * (x[renewal.row] - renewal.stirred * x[row]);
+    y[row] += renewal.heat * (x[renewal.row] - renewal.mixed_share * x[row]);
   }
 }
 

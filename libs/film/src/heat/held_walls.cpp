@@ -72,7 +72,7 @@ OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std
   return mean;
 }
 
-// As if nothing were stirred: a supply may go round with the journal, and the mean of what it stirs is none. Without
+// As if nothing were mixed: a supply may go round with the journal, and the mean of what it mixes is none. Without
 // storage; fresh oil comes at its temperature; and where oil is warmer, less heat is made: at a given speed in
 // proportion to its viscosity.
 void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatState& start) {

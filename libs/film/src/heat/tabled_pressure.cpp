@@ -14,7 +14,7 @@ std::size_t end_of_interval(const std::vector<double>& axis, double at) {
 
 }  // namespace
 
-// Rows are told by their viscosity at p = 0, which falls from row to row; beyond the first and the last row pressure
+// Rows are found by their viscosity at p = 0, which falls from row to row; beyond the first and the last row pressure
 // does what it does there.
 ValueAndSlope TabledPressure::log_ratio(double at, double mu0) const {
   const std::size_t columns = p.size(), rows = log_mu.size() / columns;

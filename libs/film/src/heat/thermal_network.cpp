@@ -68,12 +68,12 @@ void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {
     A(i, j) -= path.conductance, A(j, i) -= path.conductance;
   }
   for (const FilmAtNodes& film : films) {
-    const WallExchange& seen = film.exchange;
-    const Eigen::VectorXd heat = seen.heat + seen.by_T * (walls(film.at, seen.T) - seen.T);
+    const WallExchange& observed = film.exchange;
+    const Eigen::VectorXd heat = observed.heat + observed.by_T * (walls(film.at, observed.T) - observed.T);
     for (const auto& [row, i] : film.at.nodes()) {
       b[i] += heat[row];
-      if (seen.by_T(row, row) != 0) holds[static_cast<std::size_t>(i)] = true;
-      for (const auto& [column, j] : film.at.nodes()) A(i, j) -= seen.by_T(row, column);
+      if (observed.by_T(row, row) != 0) holds[static_cast<std::size_t>(i)] = true;
+      for (const auto& [column, j] : film.at.nodes()) A(i, j) -= observed.by_T(row, column);
     }
   }
   for (std::size_t k = 0; k < n; ++k)
@@ -97,8 +97,8 @@ void ThermalNetwork::observe(double dt, const Eigen::VectorXd& change, const std
   seen_.heat.setZero();
   seen_.to_fixed = seen_.stored = 0;
   for (const FilmAtNodes& film : films) {
-    const WallExchange& seen = film.exchange;
-    const Eigen::VectorXd heat = seen.heat + seen.by_T * (walls(film.at, seen.T) - seen.T);
+    const WallExchange& observed = film.exchange;
+    const Eigen::VectorXd heat = observed.heat + observed.by_T * (walls(film.at, observed.T) - observed.T);
     for (const auto& [row, i] : film.at.nodes()) seen_.heat[i] += heat[row];
   }
   for (std::size_t k = 0; k < model_.nodes.size(); ++k) {

@@ -12,7 +12,7 @@ class WallPace {
  public:
   /// @param missing  now, of any quantities, shape (n). @param per_kelvin  of each, > 0, shape (n)
   void learn(const Eigen::VectorXd& missing, const Eigen::VectorXd& per_kelvin);
-  /// Between 1/2 and 1; 1 until two corrections have told.
+  /// Between 1/2 and 1; 1 until two corrections are known.
   [[nodiscard]] double share() const { return share_; }
   /// By how much the missing is to fall before learn() is called again, at a share of one, shape (n).
   void foretell(const Eigen::VectorXd& fall) { foretold_ = fall; }

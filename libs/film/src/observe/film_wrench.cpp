@@ -131,26 +131,26 @@ void FilmWrench::take_relief(const FlowBalance& balance) {
 void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_gradient) {
   const Grid& grid = model_.grid;
   pushes_.clear();
-  for (std::size_t t = 0; t < balance.relief().tubes().size(); ++t) {
-    const PocketTube& tube = balance.relief().tubes()[t];
-    const Face& face = balance.faces()[tube.face];
+  for (std::size_t t = 0; t < balance.relief().flow_tubes().size(); ++t) {
+    const PocketFlowTube& flow_tube = balance.relief().flow_tubes()[t];
+    const Face& face = balance.faces()[flow_tube.face];
     const PocketFlow::Moment& moment = balance.pocket_flow(t).moment;
-    if (tube.in_shell == tube.in_journal) continue;
-    const bool axial = tube.face >= static_cast<std::size_t>(grid.size());
+    if (flow_tube.in_shell == flow_tube.in_journal) continue;
+    const bool axial = flow_tube.face >= static_cast<std::size_t>(grid.size());
     const Basis at_a = basis(face.a / grid.n_z, face.a % grid.n_z), at_b = basis(face.b / grid.n_z, face.b % grid.n_z);
-    const double sign = tube.in_shell ? 1 : -1;
+    const double sign = flow_tube.in_shell ? 1 : -1;
     const Vector6 direction =
         0.25 * sign *
         (axial ? Vector6(at_a.shear_across + at_b.shear_across) : Vector6(at_a.shear_along + at_b.shear_along));
     shear_ += moment.value * direction;
     if (!want_gradient) continue;
-    const auto [by_node, by_bend] = balance.thickness_shares(tube.face);
-    WallPush push{.face = tube.face,
+    const auto [by_node, by_bend] = balance.thickness_shares(flow_tube.face);
+    WallPush push{.face = flow_tube.face,
                   .row = face.a % grid.n_z,
                   .direction = direction,
                   .by_bend = by_bend * moment.h,
                   .by_past = moment.past,
-                  .in_journal = tube.in_journal};
+                  .in_journal = flow_tube.in_journal};
     for (const int k : {face.a, face.b}) {
       const Node& node = balance.nodes()[k];
       const double drop = k == face.a ? -moment.drop : moment.drop;

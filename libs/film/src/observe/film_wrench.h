@@ -77,7 +77,7 @@ class FilmWrench {
   std::vector<GridLine> lines_;
   Vector6 total_, pressure_, shear_, asperity_;
   NormalForces normal_;
-  /// What the walls of the pockets in a tube do as surfaces move.
+  /// What the walls of the pockets in a flow tube do as surfaces move.
   struct WallPush {
     std::size_t face = 0;
     int row = 0;        ///< of the grid

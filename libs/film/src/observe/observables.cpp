@@ -70,7 +70,7 @@ class PeakFinder {
     const Vertex along = around(i, [&](int k) { return at(k, j); });
     const bool inside = j > 0 && j < grid_.n_z - 1;
     const Vertex across = inside ? vertex(at(i, j - 1), at(i, j), at(i, j + 1), at_.dz[j - 1], at_.dz[j]) : Vertex{};
-    const double phi = at_.told(at_.phi[i] + along.offset / at_.R);
+    const double phi = at_.reported_angle(at_.phi[i] + along.offset / at_.R);
     return {at(i, j) + along.rise + across.rise, phi, at_.z[j] + across.offset};
   }
 
@@ -109,7 +109,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
       o.storage_rate += balance.storage(k);
       o.oil_volume += area * node.content * balance.oil_gap(k);
       total += area;
-      cavitated += area * balance.broken_share(k);
+      cavitated += area * balance.cavitated_share(k);
       balance.flow_over_edge(o, k) += balance.acting_outflow(k);
       outflow += balance.outflow(k);
       gross += std::abs(balance.outflow(k)) + std::abs(balance.storage(k));

@@ -138,11 +138,11 @@ FilmDomain enter_domain(Reynolds& reynolds, const SurfaceMotion& motion, const F
                         const Eigen::VectorXd& before, Eigen::VectorXd& u) {
   FilmDomain domain = reynolds.linearise(motion, history, u);
   if (u == before) return domain;
-  for (int k = 0; domain.trouble == FilmDomain::Trouble::closed && k < most_halvings; ++k) {
+  for (int k = 0; domain.violation == FilmDomain::Violation::closed && k < most_halvings; ++k) {
     u = 0.5 * (before + u);
     domain = reynolds.linearise(motion, history, u);
   }
-  if (domain.trouble != FilmDomain::Trouble::pressure) return domain;
+  if (domain.violation != FilmDomain::Violation::pressure) return domain;
   Eigen::VectorXd du;
   (void)reynolds.linearise(motion, history, before);
   reynolds.regularised_increment(du);

@@ -222,24 +222,24 @@ void Sor::relax(int i, int j) {
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
   if (u >= 0 || cavitation_.has_tension()) return place(node, u);
 
-  const auto broken = [&](double theta) {
+  const auto cavitated = [&](double theta) {
     const ValueAndSlope leaves = r.at(theta);
-    return BrokenRow{.full = own * (r.known + leaves.value + leaves.slope * (1 - theta)) - supplied,
-                     .transport = own * leaves.slope,
-                     .slack = own * balance_.conductance_scale(),
-                     .drawn = tie * balance_.draws(node)};
+    return CavitatedRow{.full = own * (r.known + leaves.value + leaves.slope * (1 - theta)) - supplied,
+                        .transport = own * leaves.slope,
+                        .slack = own * balance_.conductance_scale(),
+                        .drawn = tie * balance_.draws(node)};
   };
   // Newton's method for the fill fraction, from that of the last sweep (film.28).
   double theta = theta_[node], filling = 0;
   for (int k = 0; k < most_of_a_node; ++k) {
-    filling = cavitation_.broken_unknown(broken(theta), scales_);
+    filling = cavitation_.cavitated_unknown(cavitated(theta), scales_);
     const double last = std::exchange(theta, std::max(0.0, cavitation_.phase(filling, scales_).theta.value));
     if (std::abs(theta - last) <= near_enough) break;
   }
   const double ambient = balance_.ambient_unknown(node);
   if (!open || filling >= ambient) return place(node, filling);
   // Emptier than what lies outside: u is the inflow that keeps it as full (film.19).
-  const BrokenRow drawing = broken(cavitation_.phase(ambient, scales_).theta.value);
+  const CavitatedRow drawing = cavitated(cavitation_.phase(ambient, scales_).theta.value);
   const double lack = drawing.full + (drawing.transport / scales_.fill + drawing.drawn) * ambient;
   place(node, std::min(ambient, ambient - lack / (drawing.slack + drawing.drawn)));
 }

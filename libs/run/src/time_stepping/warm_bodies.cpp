@@ -40,7 +40,7 @@ void settle_walls(model::Machine& machine) {
 std::string thermal_failure(const model::Machine& machine, bool has_failed) {
   constexpr double all_but_closed = 0.3;  // of the clearance as given
   for (const model::BuiltBearing& built : machine.bearings)
-    if (const std::string why = built.bearing->thermal_trouble(has_failed ? all_but_closed : bearing::seized);
+    if (const std::string why = built.bearing->thermal_failure(has_failed ? all_but_closed : bearing::seized);
         !why.empty())
       return "bearing " + built.bearing->name() + ": " + why;
   return {};

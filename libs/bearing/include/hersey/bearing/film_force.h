@@ -103,7 +103,7 @@ class FilmForce : public mbd::TwoBodyForce {
   /// What temperatures have come to at the state last accepted, where no film goes on from there: a clearance that they
   /// close, or oil that warms without bound, and where. Empty: nothing of that.
   /// @param closed  share of the clearance as given below which it counts as closed [-]
-  [[nodiscard]] std::string thermal_trouble(double closed) const;
+  [[nodiscard]] std::string thermal_failure(double closed) const;
 
   /// Everything to report at the state last accepted (or initialised).
   [[nodiscard]] BearingObservation observe(const mbd::RelativeMotion& motion) const;

@@ -30,7 +30,7 @@ struct DynamicCoefficients {
 /// Temperatures of a solved operating point.
 struct SteadyHeat {
   film::HeatState state;
-  film::HeatObservables seen;
+  film::HeatObservables observed;
   film::TemperatureFields fields;
   Eigen::VectorXd T_body;          ///< of the body the shell is in, at the nodes of its mesh [K]; empty: it is in none
   Eigen::VectorXd T_journal_body;  ///< likewise of the journal's body [K]

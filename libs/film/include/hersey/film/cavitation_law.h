@@ -26,7 +26,7 @@ struct FilmPhase {
 };
 
 /// A row of the balance at u <= 0, everything but its own unknown known: full + what u gives = 0.
-struct BrokenRow {
+struct CavitatedRow {
   double full = 0;       ///< what leaves with the gap full and at p_cav [m^3/s]
   double transport = 0;  ///< with the fill fraction, of it [m^3/s]
   double slack = 0;      ///< with the slack [m^3/(Pa s)]
@@ -46,14 +46,14 @@ class CavitationLaw {
   [[nodiscard]] virtual FilmPhase phase(double u, const CavitationScales& scales) const = 0;
   /// What the row carries beside the balance of oil, over the slack's conductance [Pa] (film.20).
   [[nodiscard]] virtual ValueAndSlope slack(double u) const;
-  /// The u <= 0 that solves a row of a broken film [Pa].
-  [[nodiscard]] virtual double broken_unknown(const BrokenRow& row, const CavitationScales& scales) const = 0;
+  /// The u <= 0 that solves a row of a cavitated film [Pa].
+  [[nodiscard]] virtual double cavitated_unknown(const CavitatedRow& row, const CavitationScales& scales) const = 0;
 
   /// Whether the gap may be filled in part, so that oil is conserved in cavities too.
   [[nodiscard]] virtual bool has_fill() const { return false; }
   /// Whether the balance of flows knows tension, which forces then leave out.
   [[nodiscard]] virtual bool has_tension() const { return false; }
-  /// Whether a broken film simply lacks oil: then flows over the edges and from the supply do not balance.
+  /// Whether a cavitated film simply lacks oil: then flows over the edges and from the supply do not balance.
   [[nodiscard]] bool loses_oil() const { return !has_fill() && !has_tension(); }
 };
 

@@ -10,17 +10,17 @@ namespace hersey::film {
 /// Whether the film's equations mean anything at a trial (film.32). A trial outside is an outcome, not an error:
 /// whoever made it takes a shorter step.
 struct FilmDomain {
-  enum class Trouble {
+  enum class Violation {
     none,
     closed,      ///< the film thickness is not positive
     pressure,    ///< a pressure beyond any that a law of viscosity means
     not_finite,  ///< an unknown, a gap or what follows from them is no finite number
   };
-  Trouble trouble = Trouble::none;
+  Violation violation = Violation::none;
   int node = -1;  ///< where; -1: nowhere, or everywhere
 
   /// Whether the trial is a film.
-  [[nodiscard]] bool is_inside() const { return trouble == Trouble::none; }
+  [[nodiscard]] bool is_inside() const { return violation == Violation::none; }
 };
 
 /// No film has such a pressure above that of cavitation [Pa]; steel does not bear a tenth of it.

@@ -11,13 +11,13 @@
 
 namespace hersey::film {
 
-/// A start for film and heat in turn: what is left of temperatures `image`, found with the viscosity at T_oil [K]
-/// everywhere, once the oil thins as it warms (theory manual, thermal.29). Of an adiabatic film between walls a
-/// constant distance apart exactly: there exp(beta rise) - 1 is beta times the rise at the viscosity of the supply.
+/// Start of the alternate solution of film and heat: what is left of temperatures `image`, found with the viscosity at
+/// T_oil [K] everywhere, once the oil thins as it warms (theory manual, thermal.29). Of an adiabatic film between walls
+/// a constant distance apart exactly: there exp(beta rise) - 1 is beta times the rise at the viscosity of the supply.
 [[nodiscard]] HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, double T_oil, HeatState image);
 
 /// Energy equation of a film across and along its thickness (theory manual, chapter thermal): finite volumes, layers of
-/// equal thickness at each node, implicit in time, with the walls and the stirred oil of grooves as parts of one linear
+/// equal thickness at each node, implicit in time, with the walls and the mixed oil of grooves as parts of one linear
 /// system. Viscosities follow its temperatures through viscosity(); pressure and flow are the film's own and given.
 ///
 /// One object per film and thread.

@@ -63,7 +63,7 @@ struct HeatObservables {
   double T_side = 0;                             ///< of the oil that leaves over the edges; NaN where none does
   /// Means of the walls themselves, with which they expand; of one without heat, of its surface.
   double T_shell_wall = 0, T_journal_wall = 0;
-  Eigen::VectorXd T_supplies;  ///< of line and features, stirred; the line first if there is one
+  Eigen::VectorXd T_supplies;  ///< of line and features, mixed; the line first if there is one
   HeatBalance balance;
 };
 

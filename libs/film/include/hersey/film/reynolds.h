@@ -92,9 +92,9 @@ class Reynolds {
   /// Empties the nodes downstream of those that the step to `u` from the last linearisation has emptied, as far as they
   /// live on their oil: fronts then follow in one iteration instead of one per node.
   void advance_rupture_front(Eigen::VectorXd& u) const;
-  /// Of the nodes that break or fill between the unknowns `before` and `u`, about half stay as they were, another half
-  /// for each `turn`: steps that go round and round find their way so.
-  void limit_active_set_changes(const Eigen::VectorXd& before, int turn, Eigen::VectorXd& u) const;
+  /// Anti-cycling: of the nodes that would cavitate or fill between the unknowns `before` and `u`, about half keep
+  /// their state; the half alternates with `iteration`.
+  void limit_active_set_changes(const Eigen::VectorXd& before, int iteration, Eigen::VectorXd& u) const;
 
   /// Answer to a change of the surfaces (film.39): `du` = -J^{-1} dr/d(parameter), and the wrench's *partial*
   /// derivative at fixed u. The total derivative is  partial + wrench_gradient(du).
@@ -135,7 +135,7 @@ class Reynolds {
   /// J^{-T} of each column, in its place. `direct` only.
   void solve_transposed(Eigen::MatrixXd& columns);
 
-  /// The oil of a film at `u` with which a run starts: no step has led there, and no flow is told.
+  /// The oil of a film at `u` with which a run starts: no step has led there; flows are undefined.
   void initialise_oil_balance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
                               StepOilBalance& oil);
 
