@@ -193,7 +193,7 @@ std::shared_ptr<const ElasticSurface> big_end_bore(double width) {
 }
 
 /// The film's answer to `motion`, held for a step.
-BearingObservation observed(JournalBearing& bearing, mbd::RelativeMotion motion) {
+BearingObservation observation_of(JournalBearing& bearing, mbd::RelativeMotion motion) {
   mbd::ForceResponse response;
   const double dt = std::exchange(motion.dt, 0.0);
   bearing.evaluate(motion, false, response);
@@ -226,7 +226,7 @@ TEST_CASE("TorqueOnADeformedBore_IsThatOfTheSurface") {
   JournalBearing bearing("b", model, {.shell_surface = big_end_bore(model.L)});
   mbd::RelativeMotion motion = turning_journal(2);
   motion.s << 1e-6, -1e-6;
-  const BearingObservation observed = observed(bearing, motion);
+  const BearingObservation observed = observation_of(bearing, motion);
   const film::FilmFields fields = bearing.fields();
   const double dphi = 2 * std::numbers::pi / grid.n_phi, dz = model.L / (grid.n_z - 1);
   const double slip = model.R * motion.V_AB_A[2];
@@ -273,7 +273,7 @@ TEST_CASE("PowerPutInByBodiesThatDeform_IsWhatTheFilmTakes") {
     motion.V_AB_A += (Vector6() << 0.1, -0.2, 0, 4e-3, -9e-3, 0).finished();
     motion.s << 0.5e-6, -0.6e-6, 0.2e-6, 0.3e-6;
     motion.s_rate << 1e-3, 4e-4, -1e-3, 3e-4;
-    const BearingObservation observed = observed(bearing, motion);
+    const BearingObservation observed = observation_of(bearing, motion);
     CHECK(observed.film.power_asperity > 0.1);
     CHECK(-observed.power_into_bodies == doctest::Approx(observed.film.power_taken()).epsilon(5e-3));
   }
