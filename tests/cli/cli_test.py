@@ -460,7 +460,7 @@ class CommandLine(unittest.TestCase):
         block = os.path.join(HERE, "../../libs/fem/test/data/block_22.msh")
         steel = ("--youngs-modulus", "210GPa", "--poisson-ratio", "0.3")
         for arguments, words in (
-                (("stress", mesh, "--gravity", "0,0,-9.81"), ("not held", "--hold")),
+                (("stress", mesh, "--gravity", "0,0,-9.81"), ("not supported", "--hold")),
                 (("stress", mesh, "--hold", "FIX"), ("--pressure", "--gravity")),
                 (("stress", mesh, "--hold", "FXI", "--gravity", "0,0,-1"), ("--hold", "FXI", "did you mean 'FIX'")),
                 (("stress", mesh, "--hold", "FIX:xw", "--gravity", "0,0,-1"), ("--hold", "x, y and z")),
