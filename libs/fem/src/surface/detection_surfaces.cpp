@@ -1,10 +1,9 @@
-#include "hersey/fem/surface_detection.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "hersey/fem/load_distributions.h"
+#include "hersey/fem/surface_detection.h"
 #include "surface/detection_names.h"
 #include "surface/detection_regions.h"
 
