@@ -396,6 +396,7 @@ void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& s
   const int journal = system_.size();
   const auto* free = std::get_if<FreeJournal>(&thermal_.journal);
   const JournalConduction* body = conduction_of(thermal_.journal);
+  const double heat_capacity = free != nullptr ? free->heat_capacity : 0;
   journal_moves_ = free != nullptr || (body != nullptr && body->rise > 0 && film.dt == 0);
   journal_self_ = 0;
   into_journal_.assign(static_cast<std::size_t>(model_.grid.size()), {});
@@ -409,8 +410,8 @@ void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& s
       journal_self_ += 1 / body->rise;
       known_[journal] += body->T0 / body->rise;
     } else if (film.dt > 0 && !holds_walls(film)) {
-      journal_self_ += free->heat_capacity / film.dt;
-      known_[journal] += free->heat_capacity / film.dt * start.journal;
+      journal_self_ += heat_capacity / film.dt;
+      known_[journal] += heat_capacity / film.dt * start.journal;
     }
   }
   if (journal_self_ == 0) hold_journal(body != nullptr && film.dt == 0 ? body->T0 : start.journal);
