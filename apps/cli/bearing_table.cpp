@@ -308,7 +308,7 @@ nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<s
     if (f.grid_error >= 0) entry["grid_error"] = f.si * f.grid_error;
     if (!f.words.empty()) entry["value"] = nullptr, entry["words"] = f.words;
   }
-  const auto rows = [](const Eigen::Matrix4d& M) {
+  const auto rows = [](const bearing::DynamicCoefficients::Matrix& M) {
     nlohmann::json list = nlohmann::json::array();
     for (Eigen::Index i = 0; i < 4; ++i) list.push_back({M(i, 0), M(i, 1), M(i, 2), M(i, 3)});
     return list;

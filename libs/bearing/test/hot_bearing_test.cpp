@@ -471,7 +471,7 @@ TEST_CASE("PositionThatIsGiven_KeepsItsRatioAsTheClearanceGrows") {
   SteadyOptions options{.thermal = ring_at_50()};
   options.thermal->expansion = film::ThermalExpansion{.shell = 23e-6, .journal = 12e-6, .T_reference = 293.15};
   OperatingPoint at{.journal_speed = 300};
-  at.e = {0, -0.6 * model.c};
+  at.e = Eigen::Vector2d(0, -0.6 * model.c);
   SteadyState hot;
   REQUIRE(solve_steady(model, at, options, hot).solved());
   CHECK(hot.point.growth > 10e-6);

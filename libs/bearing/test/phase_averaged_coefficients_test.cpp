@@ -73,7 +73,8 @@ TEST_CASE("CoefficientsOfAFullFilm_AreThoseOfItsGrid") {
   film::FilmModel model = film_on(48);
   model.edge_left.pressure = model.edge_right.pressure = 1e9;  // no cavity
   SteadyState state;
-  REQUIRE(solve_steady(model, {.journal_speed = 374, .e = {0.3 * model.c, -0.5 * model.c}}, {}, state).solved());
+  REQUIRE(solve_steady(model, {.journal_speed = 374, .e = Eigen::Vector2d(0.3 * model.c, -0.5 * model.c)}, {}, state)
+              .solved());
   const DynamicCoefficients mean = phase_averaged_coefficients(state, turned_films(model, state, {}));
   constexpr double between_grids = 1e-5;  // of both, whose errors of second order are nearly the same
   CHECK((mean.stiffness - state.coefficients.stiffness).norm() < between_grids * mean.stiffness.norm());

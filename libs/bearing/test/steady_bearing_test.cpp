@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hersey/bearing/bearing_numbers.h"
+#include "kinds/journal/short_bearing.h"
 #include "source_dir.h"
-#include "steady/short_bearing.h"
 
 namespace hersey::bearing {
 namespace steady_bearing_test {
@@ -231,11 +231,11 @@ TEST_CASE("DampingOfAFullFilm_IsSymmetricAndPositive") {
   model.edge_left.pressure = model.edge_right.pressure = 1e9;  // far above anything that could cavitate
   model.shear_force = film::ShearForce::torque_only;
   OperatingPoint point{.journal_speed = 100};
-  point.e = {0.4 * model.c, -0.3 * model.c};
+  point.e = Eigen::Vector2d(0.4 * model.c, -0.3 * model.c);
   point.tilt = {1e-4, 2e-4};
   const SteadyState state = solved(model, point);
   CHECK(state.film.cavitated_share == 0);
-  const Eigen::Matrix4d& C = state.coefficients.damping;
+  const Eigen::Matrix4d C = state.coefficients.damping;
   const Eigen::Matrix2d radial = C.topLeftCorner<2, 2>();
   // The quadrature across the width differs from the control volumes by its end corrections, of fourth order.
   CHECK((radial - radial.transpose()).norm() <= 1e-4 * radial.norm());
@@ -338,7 +338,7 @@ TEST_CASE("JournalAtRest_StandsOnItsAsperities") {
 TEST_CASE("NearlyTouchingJournal_CarriesItsLoad") {
   const film::FilmModel model = flooded_film(120, 13);
   OperatingPoint placed{.journal_speed = 100};
-  placed.e = {0, -0.99 * model.c};
+  placed.e = Eigen::Vector2d(0, -0.99 * model.c);
   const SteadyState state = solved(model, placed);
   OperatingPoint loaded{.journal_speed = 100};
   loaded.load = state.load;
@@ -450,7 +450,7 @@ TEST_CASE("LobesThatTurn_MakeOneFilmOnEitherSurface") {
   model.supply = {film::SupplyKind::fixed_angle, 2, 1e5};
   model.profiles = {{film::Lobes{.count = 3, .offset = 15e-6, .angle = 0.3}, film::Surface::shell}};
   OperatingPoint point{.journal_speed = -100, .shell_speed = 300};
-  point.e = {0, -20e-6};
+  point.e = Eigen::Vector2d(0, -20e-6);
   const SteadyState on_shell = solved(model, point);
   model.profiles.front().surface = film::Surface::journal;
   std::swap(point.journal_speed, point.shell_speed);
@@ -493,8 +493,8 @@ TEST_CASE("PureSqueeze_MeetsTheShortBearing") {
   for (const double epsilon : {0.0, 0.3, 0.7}) {
     CAPTURE(epsilon);
     OperatingPoint point;
-    point.e = {epsilon * model.c, 0};
-    point.e_rate = {2e-3, 0};
+    point.e = Eigen::Vector2d(epsilon * model.c, 0);
+    point.e_rate = Eigen::Vector2d(2e-3, 0);
     const SteadyState state = solved(model, point);
     constexpr int n = 4000;
     double integral = 0;
@@ -516,8 +516,8 @@ TEST_CASE("PureSqueeze_MeetsTheShortBearing") {
 TEST_CASE("CoefficientsOfSqueeze_AreDifferencesOfForces") {
   film::FilmModel model = rough_elastic_film();
   OperatingPoint point{.journal_speed = 50};
-  point.e = {0.6 * model.c, -0.2 * model.c};
-  point.e_rate = {4e-3, 1e-3};
+  point.e = Eigen::Vector2d(0.6 * model.c, -0.2 * model.c);
+  point.e_rate = Eigen::Vector2d(4e-3, 1e-3);
   const SteadyState state = solved(model, point);
   for (int k = 0; k < 2; ++k) {
     const auto force = [&](double e, double rate) {

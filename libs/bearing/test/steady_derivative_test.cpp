@@ -78,7 +78,7 @@ std::vector<double> figures(const BearingBeside& bearing, const SteadyState& sta
                           n.eccentricity_ratio,
                           n.attitude,
                           n.load};
-  for (const Eigen::Matrix4d& M : {state.coefficients.stiffness, state.coefficients.damping})
+  for (const DynamicCoefficients::Matrix& M : {state.coefficients.stiffness, state.coefficients.damping})
     for (const auto& [i, j] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}}) all.push_back(M(i, j));
   return all;
 }
@@ -141,7 +141,7 @@ TEST_CASE("ForceAtAGivenPosition_IsProportionalToTheViscosity") {
   BearingBeside bearing = smooth_bearing();
   bearing.model.supply.pressure = 0;
   bearing.point.load.reset();
-  bearing.point.e = {10e-6, -12e-6};
+  bearing.point.e = Eigen::Vector2d(10e-6, -12e-6);
   const SteadyState state = solved(bearing);
   SteadyDerivative derivative(bearing.model, state);
   std::array sides{bearing, bearing};
@@ -159,7 +159,7 @@ TEST_CASE("FilmWithoutSupply_HasNoDerivative") {
   BearingBeside bearing = smooth_bearing();
   bearing.model.supply = {};
   bearing.point.load.reset();
-  bearing.point.e = {10e-6, -12e-6};
+  bearing.point.e = Eigen::Vector2d(10e-6, -12e-6);
   SteadyDerivative derivative(bearing.model, solved(bearing));
   bearing.model.c *= 1 + 1e-4;
   CHECK_FALSE(derivative.beside(bearing).has_value());

@@ -184,13 +184,13 @@ TEST_CASE("PatchesOfOneFilm_AreEachOnItsOwn") {
   for (const Patch& one : pads) {
     const SolvedFilm alone = solved({one});
     REQUIRE(alone.summary.solved());
-    sum += alone.wrench, ends += alone.observed.flow_ends;
+    sum += alone.wrench, ends += alone.observed.flow_ends();
     const auto n = alone.fields.p.size();
     CHECK((all.fields.p.segment(first, n) - alone.fields.p).cwiseAbs().maxCoeff() < of_fields * all.observed.p_max);
     first += static_cast<int>(n);
   }
   CHECK((all.wrench - sum).norm() < of_sums * sum.norm());
-  CHECK(all.observed.flow_ends == relative(ends).epsilon(of_fields));
+  CHECK(all.observed.flow_ends() == relative(ends).epsilon(of_fields));
 }
 
 // By every way of solving.
@@ -246,7 +246,7 @@ TEST_CASE("OilOfPads_IsConservedAtAnyStep") {
             history.by_gap = false;
           }
           worst = std::max(worst, std::abs(oil.volume - volume - dt * (oil.flow_supply - oil.flow_out())));
-          passed += dt * std::max(std::abs(oil.flow_ends), std::abs(oil.flow_left + oil.flow_right));
+          passed += dt * std::max(std::abs(oil.flow_ends()), std::abs(oil.flow_left + oil.flow_right));
         }
         volume = oil.volume;
         CHECK(oil.content.minCoeff() >= 0);

@@ -86,12 +86,9 @@ double FilmForce::smallest_gap() const {
 void FilmForce::report_contact() {
   Eigen::Index node = 0;
   surfaces_.g.minCoeff(&node);
-  const film::Grid& grid = model().grid;
-  const int i = static_cast<int>(node) / grid.n_z, j = static_cast<int>(node) % grid.n_z;
   domain_error_ =
-      fmt::format("the journal touches the shell (smallest undeformed gap {:.4g} um at {:.0f} deg, z = {:.3g} mm; {})",
-                  1e6 * smallest_gap(), grid.phi(i) * 180 / std::numbers::pi, 1e3 * model().L * grid.z_over_L(j),
-                  gap_->position_text());
+      fmt::format("{} (smallest undeformed gap {:.4g} um at {}; {})", gap_->contact_text(), 1e6 * smallest_gap(),
+                  film::place_of_node(model(), static_cast<int>(node)), gap_->position_text());
   const HotClearance hot = hot_clearance(model(), thermal_->growth(), thermal_->shell(), thermal_->journal());
   if (hot.has_shape || thermal_->growth() != 0)
     domain_error_ += fmt::format("; its clearance of {:.4g} um is {:.4g} um at the temperatures of its walls",
@@ -273,7 +270,7 @@ std::string FilmForce::name_of_internal_residual() const {
 
 BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   BearingObservation shown{.position = gap_->position(motion)};
-  shown.film = film_->observe(accepted_surfaces_, shown.position.e, shown.position.tilt);
+  shown.film = film_->observe(accepted_surfaces_, axis_offset(shown.position.e), shown.position.tilt);
   if (heat() != nullptr) shown.heat = heat()->observables();
   shown.walls = walls_;
   shown.oil = film_->oil().of_run();

@@ -27,11 +27,13 @@ void OilBalance::accumulate(double dt) {
 
 void OilBalance::report_flows(double dt, double sliding_flow, film::FilmObservables& film) const {
   if (step_.flow_features.size() != film.flow_features.size() || dt == 0) return;
-  film.flow_left = step_.flow_left, film.flow_right = step_.flow_right, film.flow_ends = step_.flow_ends;
+  film.flow_left = step_.flow_left, film.flow_right = step_.flow_right, film.flow_first = step_.flow_first,
+  film.flow_last = step_.flow_last;
   film.flow_supply = step_.flow_supply, film.flow_features = step_.flow_features;
   film.storage_rate = step_.flow_supply - step_.flow_out() + run_.step_error / dt;
-  double scale = std::max({std::abs(step_.flow_left), std::abs(step_.flow_right), std::abs(step_.flow_supply),
-                           std::abs(film.storage_rate), sliding_flow});
+  double scale =
+      std::max({std::abs(step_.flow_left), std::abs(step_.flow_right), std::abs(step_.flow_first),
+                std::abs(step_.flow_last), std::abs(step_.flow_supply), std::abs(film.storage_rate), sliding_flow});
   if (step_.flow_features.size() > 0) scale = std::max(scale, step_.flow_features.cwiseAbs().maxCoeff());
   film.mass_balance_error = scale > 0 ? std::abs(run_.step_error) / (scale * dt) : 0;
 }

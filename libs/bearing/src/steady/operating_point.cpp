@@ -19,14 +19,13 @@ OperatingPoint with_growth(OperatingPoint point, const film::FilmModel& model, d
   return point;
 }
 
-film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
-                                    const Eigen::Vector2d& e) {
+film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point, const Coordinates& e) {
   RigidSurfaces surfaces(model);
   return steady_surfaces(surfaces, model, point, e);
 }
 
 film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmModel& model, const OperatingPoint& point,
-                                    const Eigen::Vector2d& e) {
+                                    const Coordinates& e) {
   film::SurfaceMotion motion;
   surfaces.set_clearance_change(point.growth, 0);
   surfaces.place(parameters_of(model, point, e), motion);
@@ -47,7 +46,7 @@ void add_to_journal(const Eigen::VectorXd& shape, film::SurfaceMotion& motion) {
   if (shape.size() > 0) motion.g -= shape;
 }
 
-ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point, const Eigen::Vector2d& e) {
+ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point, const Coordinates& e) {
   ParameterVector parameters = ParameterVector::Zero();
   parameters.segment<2>(kEx) = e;
   parameters.segment<2>(kTx) = point.tilt;

@@ -68,8 +68,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     model.lubricant = film::at_temperature(model.lubricant, from + rise);
     const OperatingPoint at =
         heat.expansion ? with_growth(point, model, heat.expansion->growth(model.R, from + rise)) : point;
-    const ParameterVector place = parameters_of(model, at, at.load ? Eigen::Vector2d::Zero() : at.e);
-    if (clearance(model, at) <= seized * clearance(model) || smallest_gap(model, place, at.growth) <= 0)
+    if (clearance(model, at) <= seized * clearance(model) || gap_at_first(model, at, options) <= 0)
       return seizure(model, at, from + rise);
     summary = solve_steady(model, at, next, state);
     linearisations += summary.iterations;

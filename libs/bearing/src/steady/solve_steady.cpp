@@ -1,4 +1,4 @@
-#include "hersey/bearing/rigid_surfaces.h"
+#include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/core/contract.h"
 #include "steady/steady_heat.h"
@@ -6,14 +6,18 @@
 
 namespace hersey::bearing {
 
+double gap_at_first(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options) {
+  const std::unique_ptr<SteadyCoordinates> coordinates =
+      (options.kind ? options.kind : journal_kind())->steady_coordinates(model);
+  return coordinates->smallest_gap(point, point.load ? coordinates->widest() : point.e);
+}
+
 SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
                            SteadyState& state) {
   HERSEY_REQUIRE(!point.load || point.load->norm() > 0, "a load that is not zero");
   HERSEY_REQUIRE(point.film_speed(clearance(model)) > 0 || model.asperities.model != film::AsperityModel::none,
                  "speeds that move oil in the gap, or asperities");
-  const ParameterVector first = parameters_of(model, point, point.load ? Eigen::Vector2d::Zero() : point.e);
-  const double gap = smallest_gap(model, first, point.growth);
-  HERSEY_REQUIRE(gap > 0, "a journal inside its bore");
+  HERSEY_REQUIRE(gap_at_first(model, point, options) > 0, "a journal inside its bore");
   if (options.thermal) return solve_with_heat(model, point, options, state);
   SteadySearch search(model, point, options);
   const SteadySummary summary = search.solve();
@@ -24,7 +28,7 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
 film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& state) {
   OperatingPoint loaded = state.point;
   loaded.tilt = state.tilt;
-  film::SurfaceMotion motion = steady_surfaces(model, loaded, state.e);
+  film::SurfaceMotion motion = state.kind->steady_coordinates(model)->surfaces(loaded, state.e);
   add_to_shell(state.thermal_shape, motion);
   add_to_journal(state.journal_shape, motion);
   if (state.d_shell.size() > 0) motion.g += state.d_shell;

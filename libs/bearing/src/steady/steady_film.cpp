@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/clearance.h"
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
@@ -66,6 +67,7 @@ film::LinearSolver linear_solver(const SteadyOptions& options) {
 SteadyFilm::SteadyFilm(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
     : model_(model),
       point_(point),
+      coordinates_((options.kind ? options.kind : journal_kind())->steady_coordinates(model)),
       deforming_(model, options.elasticity ? surface_of(options.elasticity->shell) : nullptr,
                  options.elasticity ? surface_of(options.elasticity->journal) : nullptr),
       reynolds_(model, linear_solver(options)) {
@@ -112,30 +114,30 @@ void SteadyFilm::gather_flexibility(const SteadyElasticity& elasticity) {
 
 /// A tilt opens the gap at z by -z t . e_r.
 void SteadyFilm::lay_openings() {
-  film::SurfaceMotion motion = steady_surfaces(model_, point_, Eigen::Vector2d::Zero());
+  const Index count = coordinates_->count();
+  film::SurfaceMotion motion = coordinates_->surfaces(point_, coordinates_->widest());
   deforming_.place(s_0_, VectorXd::Zero(amplitudes()), {.angle = point_.journal_angle}, motion);
   positions_.assign(deforming_.directions().begin(), deforming_.directions().begin() + amplitudes());
   all_openings_ = deforming_.openings();
-  for (const int k : {kTx, kTy}) {
-    positions_.push_back(surface_direction(model_, k));
-    all_openings_ += positions_.back().g * tilt_by_s_.row(k - kTx);
-  }
+  for (const film::MotionDirection& tilt : coordinates_->directions(coordinates_->widest(), count, 2))
+    positions_.push_back(tilt);
+  for (const Index k : {0, 1})
+    all_openings_ += positions_[static_cast<std::size_t>(amplitudes() + k)].g * tilt_by_s_.row(k);
 }
 
-film::SurfaceMotion SteadyFilm::rigid_surfaces(const OperatingPoint& point, const Eigen::Vector2d& e) const {
-  film::SurfaceMotion motion = steady_surfaces(model_, point, e);
+film::SurfaceMotion SteadyFilm::rigid_surfaces(const OperatingPoint& point, const Coordinates& e) const {
+  film::SurfaceMotion motion = coordinates_->surfaces(point, e);
   add_to_shell(thermal_shape_, motion);
   add_to_journal(journal_shape_, motion);
   return motion;
 }
 
-double SteadyFilm::undeformed_gap(const Eigen::Vector2d& e) const {
+double SteadyFilm::undeformed_gap(const Coordinates& e) const {
   const bool has_shape = thermal_shape_.size() > 0 || journal_shape_.size() > 0;
-  return has_shape ? rigid_surfaces(point_, e).g.minCoeff()
-                   : smallest_gap(model_, parameters_of(model_, point_, e), point_.growth);
+  return has_shape ? rigid_surfaces(point_, e).g.minCoeff() : coordinates_->smallest_gap(point_, e);
 }
 
-film::SurfaceMotion SteadyFilm::surfaces(const Eigen::Vector2d& e, const VectorXd& x) {
+film::SurfaceMotion SteadyFilm::surfaces(const Coordinates& e, const VectorXd& x) {
   if (!deforms()) return rigid_surfaces(point_, e);
   OperatingPoint tilted = point_;
   tilted.tilt = tilt(x);
@@ -175,7 +177,7 @@ film::FilmSolveSummary SteadyFilm::solve_film(const film::SurfaceMotion& motion,
   return solved;
 }
 
-film::FilmSolveSummary SteadyFilm::solve(const Eigen::Vector2d& e, VectorXd& x) {
+film::FilmSolveSummary SteadyFilm::solve(const Coordinates& e, VectorXd& x) {
   if (!deforms()) return solve_film(surfaces(e, x), x);
   film::FilmSolveSummary solved;
   const VectorXd start = x;
@@ -200,7 +202,7 @@ film::FilmSolveSummary SteadyFilm::solve(const Eigen::Vector2d& e, VectorXd& x) 
 }
 
 /// Newton on film and deformation at once.
-film::FilmSolveSummary SteadyFilm::solve_together(const Eigen::Vector2d& e, VectorXd& x) {
+film::FilmSolveSummary SteadyFilm::solve_together(const Coordinates& e, VectorXd& x) {
   film::FilmSolveSummary summary;
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0, idle = 0; k < kMostIterations && idle < kFilmPatience; ++k) {
@@ -218,7 +220,7 @@ film::FilmSolveSummary SteadyFilm::solve_together(const Eigen::Vector2d& e, Vect
 }
 
 /// Newton on the deformation with the film solved at each; a step that does not bring the deformation nearer is halved.
-film::FilmSolveSummary SteadyFilm::solve_in_turn(const Eigen::Vector2d& e, VectorXd& x) {
+film::FilmSolveSummary SteadyFilm::solve_in_turn(const Coordinates& e, VectorXd& x) {
   film::FilmSolveSummary summary;
   int iterations = 0;
   const auto film_at = [&](VectorXd& at) {
@@ -253,13 +255,13 @@ film::FilmSolveSummary SteadyFilm::solve_in_turn(const Eigen::Vector2d& e, Vecto
   return finish();
 }
 
-VectorXd SteadyFilm::cut(const Eigen::Vector2d& e, const VectorXd& x, const VectorXd& dx) {
+VectorXd SteadyFilm::cut(const Coordinates& e, const VectorXd& x, const VectorXd& dx) {
   double share = 1;
   while (share > kSmallestShare && !reuses_film(e, x, e, x + share * dx)) share *= 0.7;
   return share * dx;
 }
 
-bool SteadyFilm::reuses_film(const Eigen::Vector2d& e, const VectorXd& x, const Eigen::Vector2d& e_next,
+bool SteadyFilm::reuses_film(const Coordinates& e, const VectorXd& x, const Coordinates& e_next,
                              const VectorXd& x_next) {
   const VectorXd u = film_of(x), u_next = film_of(x_next);
   if (!film::check_unknowns(model_, u_next).is_inside()) return false;
@@ -269,14 +271,14 @@ bool SteadyFilm::reuses_film(const Eigen::Vector2d& e, const VectorXd& x, const 
   return !yields() || (after.array() <= kThickest * before.array()).all();
 }
 
-film::FilmDomain SteadyFilm::linearise(const Eigen::Vector2d& e, const VectorXd& x) {
+film::FilmDomain SteadyFilm::linearise(const Coordinates& e, const VectorXd& x) {
   const film::FilmDomain domain = reynolds_.linearise(surfaces(e, x), history_, film_of(x));
   if (!domain.is_inside()) return domain;
   VectorXd du;
   reynolds_.newton_increment(du);
   wrench_ = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du);
   dx_ = du;
-  force_ = wrench_.segment<2>(3);
+  force_ = force_of(wrench_);
   if (!deforms()) return domain;
   turn_ = turn(x);
   turn_in_body_ = turn_in_body_by_s_.dot(amplitudes_of(x));
@@ -293,16 +295,21 @@ film::FilmDomain SteadyFilm::linearise(const Eigen::Vector2d& e, const VectorXd&
   dx_ << du + u_by_s_ * ds, ds;
   wrench_ += W_by_s_ * ds;
   turn_ += turn_by_s_.dot(ds);
-  force_ = (about_z(turn_) * wrench_).segment<2>(3);
+  force_ = force_of(about_z(turn_) * wrench_);
   return domain;
 }
 
-film::FilmDomain SteadyFilm::chord_about(const Eigen::Vector2d& e, const VectorXd& x) {
+film::FilmDomain SteadyFilm::chord_about(const Coordinates& e, const VectorXd& x) {
   const film::FilmDomain domain = reynolds_.chord_increment(surfaces(e, x), history_, x, dx_);
   if (!domain.is_inside()) return domain;
   wrench_ = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(dx_);
-  force_ = wrench_.segment<2>(3);
+  force_ = force_of(wrench_);
   return domain;
+}
+
+/// The part of wrenches on the fixed surface that works on the position.
+MatrixXd SteadyFilm::force_of(const Eigen::Ref<const MatrixXd>& wrench) const {
+  return coordinates_->force_rows().topRows(coordinates_->count()) * wrench;
 }
 
 /// The shell's body takes its wrench in its own axes, in which a frame of it may turn.
@@ -315,9 +322,9 @@ MatrixXd SteadyFilm::wrench_by_amplitudes() const {
   return about_z(turn_in_body_) * (W_by_s_ + turning(wrench_) * turn_in_body_by_s_);
 }
 
-Eigen::Matrix2Xd SteadyFilm::change_of_force(const MatrixXd& dx, const Columns& dW) const {
-  if (!deforms()) return dW.middleRows<2>(3);
-  return (about_z(turn_) * (dW + turning(wrench_) * (turn_by_s_ * dx.bottomRows(amplitudes())))).middleRows<2>(3);
+MatrixXd SteadyFilm::change_of_force(const MatrixXd& dx, const Columns& dW) const {
+  if (!deforms()) return force_of(dW);
+  return force_of(about_z(turn_) * (dW + turning(wrench_) * (turn_by_s_ * dx.bottomRows(amplitudes()))));
 }
 
 /// Changes of the forces on shapes with changes of the film's unknowns and of the gap, column by column.
@@ -342,7 +349,7 @@ void SteadyFilm::eliminate_deformation() {
   condensed_.compute(A);
 }
 
-int SteadyFilm::linearise_near(const Eigen::Vector2d& e, VectorXd& x) {
+int SteadyFilm::linearise_near(const Coordinates& e, VectorXd& x) {
   if (!linearise(e, x).is_inside()) return 0;
   if (!deforms() || reynolds_.relative_residual() < kFarFilm) return 1;
   VectorXd u = film_of(x);
@@ -376,10 +383,10 @@ void SteadyFilm::respond(std::span<const film::MotionDirection> directions, Matr
   dW += W_by_s_ * ds;
 }
 
-double SteadyFilm::depth(const Eigen::Vector2d& load) {
+double SteadyFilm::depth(const Coordinates& load) {
   if (!deforms()) return 0;
   // Under a pressure that falls from the load's side around the bearing like a cosine and bears the load.
-  const Eigen::Vector2d along = load.normalized();
+  const Eigen::Vector2d along = axis_offset(load).normalized();
   VectorXd forces = VectorXd::Zero(reynolds_.size());
   double borne = 0;
   for (int k = 0; k < forces.size(); ++k) {

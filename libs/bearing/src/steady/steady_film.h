@@ -8,6 +8,7 @@
 
 #include "force/deforming_surfaces.h"
 #include "hersey/bearing/operating_point.h"
+#include "hersey/bearing/steady_coordinates.h"
 #include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_solver.h"
 #include "hersey/film/reynolds.h"
@@ -35,7 +36,7 @@ class SteadyFilm {
   [[nodiscard]] auto amplitudes_of(const Eigen::VectorXd& x) const { return x.tail(amplitudes()); }
 
   /// Surfaces with the journal at `e` and deformed as x says.
-  [[nodiscard]] film::SurfaceMotion surfaces(const Eigen::Vector2d& e, const Eigen::VectorXd& x);
+  [[nodiscard]] film::SurfaceMotion surfaces(const Coordinates& e, const Eigen::VectorXd& x);
 
   /// Viscosities by the oil's temperatures from now on.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
@@ -52,19 +53,19 @@ class SteadyFilm {
   [[nodiscard]] const film::FilmHistory& history() const { return history_; }
 
   /// Smallest gap of the surfaces with the journal at `e` before anything but temperature deforms them [m].
-  [[nodiscard]] double undeformed_gap(const Eigen::Vector2d& e) const;
+  [[nodiscard]] double undeformed_gap(const Coordinates& e) const;
 
   /// No film known, the bodies deformed by their spin alone.
   [[nodiscard]] Eigen::VectorXd start() const;
 
   /// The film and the deformation at `e`, from x. On failure x is the last iterate.
-  [[nodiscard]] film::FilmSolveSummary solve(const Eigen::Vector2d& e, Eigen::VectorXd& x);
+  [[nodiscard]] film::FilmSolveSummary solve(const Coordinates& e, Eigen::VectorXd& x);
 
   /// Linearises about x; the members below refer to it.
-  [[nodiscard]] film::FilmDomain linearise(const Eigen::Vector2d& e, const Eigen::VectorXd& x);
+  [[nodiscard]] film::FilmDomain linearise(const Coordinates& e, const Eigen::VectorXd& x);
   /// The same, the film found first at this deformation where a step has moved its fronts far: else Newton runs after
   /// them. @return linearisations, 0 where there is no film
-  [[nodiscard]] int linearise_near(const Eigen::Vector2d& e, Eigen::VectorXd& x);
+  [[nodiscard]] int linearise_near(const Coordinates& e, Eigen::VectorXd& x);
   /// After a step of Newton's method from the last linearisation, of a film between surfaces that do not deform: fronts
   /// it has moved go all the way.
   void advance_rupture_front(Eigen::VectorXd& x) const {
@@ -73,26 +74,26 @@ class SteadyFilm {
   /// Whether the last linearisation has a factor for chord_about().
   [[nodiscard]] bool has_factor() const { return !deforms() && reynolds_.has_factor(); }
   /// Residual, increment and force at a state nearby, with the derivatives of the last linearisation. @pre has_factor()
-  [[nodiscard]] film::FilmDomain chord_about(const Eigen::Vector2d& e, const Eigen::VectorXd& x);
+  [[nodiscard]] film::FilmDomain chord_about(const Coordinates& e, const Eigen::VectorXd& x);
   /// Of the film, and of the deformation as the largest error of the gap over the clearance.
   [[nodiscard]] double relative_residual() const;
   /// Newton's increment of x at a fixed journal, and the force on the shell after it, in the bearing's axes as they
   /// stand without load.
   [[nodiscard]] const Eigen::VectorXd& increment() const { return dx_; }
-  [[nodiscard]] const Eigen::Vector2d& force() const { return force_; }
+  [[nodiscard]] const Coordinates& force() const { return force_; }
 
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces (bearing.28).
   void respond(std::span<const film::MotionDirection> directions, Eigen::MatrixXd& dx, Columns& dW);
   /// Of the force in the axes of force(), by those of x and of the wrench.
-  [[nodiscard]] Eigen::Matrix2Xd change_of_force(const Eigen::MatrixXd& dx, const Columns& dW) const;
+  [[nodiscard]] Eigen::MatrixXd change_of_force(const Eigen::MatrixXd& dx, const Columns& dW) const;
 
   /// Whether from x at e the step to x_next at e_next thins or thickens no film by more than Newton may.
-  [[nodiscard]] bool reuses_film(const Eigen::Vector2d& e, const Eigen::VectorXd& x, const Eigen::Vector2d& e_next,
+  [[nodiscard]] bool reuses_film(const Coordinates& e, const Eigen::VectorXd& x, const Coordinates& e_next,
                                  const Eigen::VectorXd& x_next);
 
   /// How far the surfaces of elastic bodies give way to a load [m], roughly.
-  [[nodiscard]] double depth(const Eigen::Vector2d& load);
+  [[nodiscard]] double depth(const Coordinates& load);
 
   /// By which amplitudes open the gap at the nodes, frames turned included [m].
   [[nodiscard]] Eigen::VectorXd opening(const Eigen::VectorXd& s) const { return all_openings_ * s; }
@@ -106,17 +107,20 @@ class SteadyFilm {
   [[nodiscard]] Eigen::VectorXd shell_displacement(const Eigen::VectorXd& x) const;
   [[nodiscard]] Eigen::VectorXd journal_displacement(const Eigen::VectorXd& x) const;
 
+  /// Coordinates of the moving surface.
+  [[nodiscard]] SteadyCoordinates& coordinates() const { return *coordinates_; }
   [[nodiscard]] const film::Reynolds& reynolds() const { return reynolds_; }
 
  private:
   void gather_flexibility(const SteadyElasticity& elasticity);
   [[nodiscard]] film::FilmSolveSummary solve_film(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
   [[nodiscard]] film::FilmSolveSummary solve_by_factorisation(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
-  [[nodiscard]] film::FilmSolveSummary solve_together(const Eigen::Vector2d& e, Eigen::VectorXd& x);
-  [[nodiscard]] film::FilmSolveSummary solve_in_turn(const Eigen::Vector2d& e, Eigen::VectorXd& x);
-  [[nodiscard]] Eigen::VectorXd cut(const Eigen::Vector2d& e, const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
+  [[nodiscard]] film::FilmSolveSummary solve_together(const Coordinates& e, Eigen::VectorXd& x);
+  [[nodiscard]] film::FilmSolveSummary solve_in_turn(const Coordinates& e, Eigen::VectorXd& x);
+  [[nodiscard]] Eigen::VectorXd cut(const Coordinates& e, const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
   void eliminate_deformation();
-  [[nodiscard]] film::SurfaceMotion rigid_surfaces(const OperatingPoint& point, const Eigen::Vector2d& e) const;
+  [[nodiscard]] film::SurfaceMotion rigid_surfaces(const OperatingPoint& point, const Coordinates& e) const;
+  [[nodiscard]] Eigen::MatrixXd force_of(const Eigen::Ref<const Eigen::MatrixXd>& wrench) const;
   [[nodiscard]] Eigen::VectorXd answer(const Eigen::VectorXd& Q, const Vector6& W) const;
   [[nodiscard]] Eigen::MatrixXd wrench_by_amplitudes() const;
   void lay_openings();
@@ -124,6 +128,7 @@ class SteadyFilm {
 
   const film::FilmModel& model_;
   const OperatingPoint& point_;
+  std::unique_ptr<SteadyCoordinates> coordinates_;
   film::FilmSolveOptions film_options_;
   DeformingSurfaces deforming_;
   film::Reynolds reynolds_;
@@ -141,7 +146,7 @@ class SteadyFilm {
   // At the state last linearised: residual of the deformation, answers of film, wrench and deformation to the
   // amplitudes, and the factor of what is left for these.
   Eigen::VectorXd r_s_, dx_;
-  Eigen::Vector2d force_ = Eigen::Vector2d::Zero();
+  Coordinates force_;
   Vector6 wrench_ = Vector6::Zero();  // on the shell, its present axes
   double turn_ = 0, turn_in_body_ = 0;
   Eigen::MatrixXd C_W_now_;  // of the shell's body as it is deformed

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "hersey/film/film_solver.h"
+#include "steady/angle_between.h"
 #include "steady/steady_search.h"
 
 // Newton's method on film and position (bearing.18).
@@ -34,26 +35,26 @@ constexpr double kSmallStep = 0.05;
 
 }  // namespace
 
-Eigen::Vector2d SteadySearch::missing(const Eigen::Vector2d& target) const {
+Coordinates SteadySearch::missing(const Coordinates& target) const {
   const double F = force_.norm(), W = target.norm();
-  const double turn = std::atan2(force_.x() * target.y() - force_.y() * target.x(), force_.dot(target));
+  const double turn = angle_between(force_, target);
   if (F < kForceFloor * W || std::abs(turn) > 0.5 * std::numbers::pi) return target - force_;
-  return std::log(W / F) * force_ + turn * Eigen::Vector2d(-force_.y(), force_.x());
+  Coordinates missing = std::log(W / F) * force_;
+  if (turn != 0) missing += turn * Eigen::Vector2d(-force_.y(), force_.x());
+  return missing;
 }
 
-double SteadySearch::distance_to(const Eigen::Vector2d& target) const {
+double SteadySearch::distance_to(const Coordinates& target) const {
   const double F = std::max(force_.norm(), 1e-300), W = target.norm();
-  const double turn = std::atan2(force_.x() * target.y() - force_.y() * target.x(), force_.dot(target));
+  const double turn = angle_between(force_, target);
   return std::hypot(std::log(W / F), turn);
 }
 
-SteadySearch::Step SteadySearch::newton_step(const Eigen::Vector2d& target) {
-  Columns dW;
-  respond(2, dx_de_, dW);
-  const Eigen::Matrix2d K = film_.change_of_force(dx_de_, dW);
+SteadySearch::Step SteadySearch::newton_step(const Coordinates& target) {
+  const Eigen::MatrixXd K = force_by_position();
   Step step{K.fullPivLu().solve(missing(target)), film_.increment()};
   if (!step.de.allFinite()) step.de.setZero();
-  step.de *= std::min(1.0, 0.5 * clearance() / std::max(step.de.norm(), 1e-300));
+  step.de *= std::min(1.0, 0.5 * coordinates_of().scale(point_, e_) / std::max(step.de.norm(), 1e-300));
   if (!film_.yields()) step.de *= share_of_gap(step.de);
   step.dx += dx_de_ * step.de;
   double share = 1;
@@ -63,19 +64,18 @@ SteadySearch::Step SteadySearch::newton_step(const Eigen::Vector2d& target) {
   return step;
 }
 
-double SteadySearch::share_of_gap(const Eigen::Vector2d& de) const {
+double SteadySearch::share_of_gap(const Coordinates& de) const {
   const double gap = gap_at(e_), tiny = 1e-3;
   const double x = (gap - gap_at(e_ + tiny * de)) / (tiny * gap);
   return std::abs(x) < 1e-6 ? 1 : std::min(2.0, -std::expm1(-x) / x);
 }
 
-bool SteadySearch::turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+bool SteadySearch::turns_far(const Coordinates& from, const Coordinates& to) const {
   if (model_.supply.kind != film::SupplyKind::widest_gap) return false;
-  const double turn = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
-  return std::abs(turn) > kLargestTurn;
+  return std::abs(angle_between(from, to)) > kLargestTurn;
 }
 
-bool SteadySearch::holds(const Eigen::Vector2d& target) {
+bool SteadySearch::holds(const Coordinates& target) {
   summary_.force_error = (force_ - target).norm() / target.norm();
   return summary_.force_error <= rtol_ && film_.relative_residual() <= rtol_;
 }
@@ -87,14 +87,12 @@ bool SteadySearch::settle() {
   return true;
 }
 
-bool SteadySearch::one_step(const Eigen::Vector2d& target) {
+bool SteadySearch::one_step(const Coordinates& target) {
   if (is_swept()) return false;
   const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());
   if (kCurvature * off * off > rtol_) return false;
-  Columns dW;
-  respond(2, dx_de_, dW);
-  K_ = film_.change_of_force(dx_de_, dW);
-  const Eigen::Vector2d de = K_.fullPivLu().solve(target - force_);
+  K_ = force_by_position();
+  const Coordinates de = K_.fullPivLu().solve(target - force_);
   if (!(de.norm() < kSmallStep * gap_at(e_))) return false;
   e_ += de;
   x_ += film_.increment() + dx_de_ * de;
@@ -103,14 +101,14 @@ bool SteadySearch::one_step(const Eigen::Vector2d& target) {
 }
 
 // (thermal.31)
-bool SteadySearch::on_chord(const Eigen::Vector2d& target) {
+bool SteadySearch::on_chord(const Coordinates& target) {
   if (!changed_) return false;
-  const Eigen::Vector2d e = e_;
+  const Coordinates e = e_;
   const Eigen::VectorXd x = x_;
   for (int k = 0; k < kMostOnChord && film_.chord_about(e_, x_).is_inside(); ++k) {
     force_ = film_.force();
     const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());
-    const Eigen::Vector2d de = K_.fullPivLu().solve(target - force_);
+    const Coordinates de = K_.fullPivLu().solve(target - force_);
     if (!(off < kFarOnChord && de.norm() < kSmallStep * gap_at(e))) break;
     e_ += de;
     x_ += film_.increment() + dx_de_ * de;
@@ -123,7 +121,7 @@ bool SteadySearch::on_chord(const Eigen::Vector2d& target) {
   return false;
 }
 
-bool SteadySearch::together(const Eigen::Vector2d& target) {
+bool SteadySearch::together(const Coordinates& target) {
   if (is_swept()) return false;
   double best = std::numeric_limits<double>::infinity();
   int idle = 0;
@@ -136,7 +134,7 @@ bool SteadySearch::together(const Eigen::Vector2d& target) {
     idle = now < 0.5 * best ? 0 : idle + 1;
     best = std::min(best, now);
     const Step step = newton_step(target);
-    const Eigen::Vector2d from = e_;
+    const Coordinates from = e_;
     e_ += step.de;
     const Eigen::VectorXd film = x_;
     x_ += step.dx;
@@ -148,10 +146,10 @@ bool SteadySearch::together(const Eigen::Vector2d& target) {
   return false;
 }
 
-bool SteadySearch::in_turn(const Eigen::Vector2d& target) {
+bool SteadySearch::in_turn(const Coordinates& target) {
   for (int k = 0; k < options_.max_iterations && !is_tired(); ++k) {
     if (holds(target) && settle()) return true;
-    const Eigen::Vector2d e = e_;
+    const Coordinates e = e_;
     const Eigen::VectorXd x = x_;
     const double distance = distance_to(target);
     const Step step = newton_step(target);

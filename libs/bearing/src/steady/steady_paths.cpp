@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "steady/short_bearing.h"
+#include "steady/angle_between.h"
 #include "steady/steady_search.h"
 
 // Ways to the load where Newton's method does not arrive from the start (bearing.19, bearing.20), and what they have
@@ -32,14 +32,13 @@ std::string SteadySearch::why_not() const {
   if (!limit_.why.empty() && 0 < limit_.force && limit_.force < point_.load->norm()) {
     if (limit_.is_unsolved) return not_found_further_out();
     return fmt::format(
-        "no equilibrium: along this load of {:.4g} N the film bears at most about {:.4g} N, at eccentricity ratio "
-        "{:.4f}; further out {}{}",
-        point_.load->norm(), limit_.force, limit_.r / clearance(), limit_.why, what_to_try());
+        "no equilibrium: along this load of {:.4g} N the film bears at most about {:.4g} N, at {}; "
+        "further out {}{}",
+        point_.load->norm(), limit_.force, limit_.where, limit_.why, what_to_try());
   }
-  std::string text = fmt::format(
-      "no equilibrium found in {} linearisations: force off by {:.2g} of the load at eccentricity ratio {:.4f}",
-      summary_.iterations, summary_.force_error, e_.norm() / clearance());
-  if (gap_at(e_) > kTouching * clearance()) return text;
+  std::string text = fmt::format("no equilibrium found in {} linearisations: force off by {:.2g} of the load at {}",
+                                 summary_.iterations, summary_.force_error, position_text());
+  if (gap_at(e_) > kTouching * coordinates_of().scale(point_, e_)) return text;
   const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
   if (is_smooth && film_.yields())
     return text + "; the surfaces touch at the edges, where no film pressure parts them: give asperities";
@@ -50,9 +49,9 @@ std::string SteadySearch::why_not() const {
 std::string SteadySearch::not_found_further_out() const {
   const std::string other = film_.deforms() ? "" : is_swept() ? "; `solver: newton` may" : "; `solver: sor` may";
   return fmt::format(
-      "no equilibrium found: along this load of {:.4g} N the film bears {:.4g} N at eccentricity ratio {:.4f} and "
+      "no equilibrium found: along this load of {:.4g} N the film bears {:.4g} N at {} and "
       "perhaps more; further out the solver does not find it ({}){}",
-      point_.load->norm(), limit_.force, limit_.r / clearance(), limit_.why, other);
+      point_.load->norm(), limit_.force, limit_.where, limit_.why, other);
 }
 
 std::string SteadySearch::what_to_try() const {
@@ -63,9 +62,9 @@ std::string SteadySearch::what_to_try() const {
 }
 
 bool SteadySearch::from_here() {
-  const Eigen::Vector2d here = e_;
+  const Coordinates here = e_;
   if (!film_at_start()) return false;
-  const Eigen::Vector2d start = e_;
+  const Coordinates start = e_;
   const Eigen::VectorXd film = x_;
   const double distance = distance_to(*point_.load);
   if (!film_at(here) || distance_to(*point_.load) > distance) {
@@ -75,11 +74,12 @@ bool SteadySearch::from_here() {
   return in_turn(*point_.load);
 }
 
-Eigen::Vector2d SteadySearch::between(const Eigen::Vector2d& from, double share) const {
-  const Eigen::Vector2d& W = *point_.load;
-  const double turn = std::atan2(from.x() * W.y() - from.y() * W.x(), from.dot(W));
+Coordinates SteadySearch::between(const Coordinates& from, double share) const {
+  const Coordinates& W = *point_.load;
+  const double turn = angle_between(from, W);
   const double size = std::exp(share * std::log(W.norm() / from.norm()));
-  return size * (Eigen::Rotation2Dd(share * turn) * from);
+  if (from.size() != 2) return size * from;
+  return size * (Eigen::Rotation2Dd(share * turn) * Eigen::Vector2d(from));
 }
 
 bool SteadySearch::from_light_load() {
@@ -88,16 +88,16 @@ bool SteadySearch::from_light_load() {
     OperatingPoint light = point_;
     light.load = share * *point_.load;
     x_ = film_.start();
-    if (film_at(ocvirk_position(model_, light)) && follow(*light.load) && change_load()) return true;
+    if (film_at(coordinates_of().start(light)) && follow(*light.load) && change_load()) return true;
   }
   return false;
 }
 
 bool SteadySearch::change_load() {
-  const Eigen::Vector2d from = force_;
+  const Coordinates from = force_;
   double reached = 0, step = 0.25;
   while (reached < 1 && !is_tired()) {
-    const Eigen::Vector2d e = e_;
+    const Coordinates e = e_;
     const Eigen::VectorXd x = x_;
     const double next = std::min(1.0, reached + step);
     if (follow(next == 1 ? *point_.load : between(from, next))) {
@@ -113,9 +113,9 @@ bool SteadySearch::change_load() {
   return reached >= 1;
 }
 
-bool SteadySearch::follow(const Eigen::Vector2d& target) {
+bool SteadySearch::follow(const Coordinates& target) {
   if (!film_.deforms()) return in_turn(target);
-  const Eigen::Vector2d e = e_;
+  const Coordinates e = e_;
   const Eigen::VectorXd x = x_;
   if (together(target)) return true;
   x_ = x;
@@ -123,12 +123,12 @@ bool SteadySearch::follow(const Eigen::Vector2d& target) {
 }
 
 SteadySearch::Look SteadySearch::turn_to_load(Position& at) {
-  const Eigen::Vector2d& W = *point_.load;
+  const Coordinates& W = *point_.load;
   double turn = std::numbers::pi;
   for (int k = 0; k < kMostTurns && !is_tired(); ++k) {
     if (std::abs(turn) > kFreshTurn) x_.head(model_.grid.size()).setZero();
-    if (!film_at(at.r * Eigen::Vector2d(std::cos(at.angle), std::sin(at.angle)))) return Look::no_film;
-    turn = std::atan2(force_.x() * W.y() - force_.y() * W.x(), force_.dot(W));
+    if (!film_at(coordinates_of().at(point_, at.r, at.angle))) return Look::no_film;
+    turn = angle_between(force_, W);
     if (std::abs(turn) < kAligned) {
       at.x = x_;
       return force_.norm() < W.norm() ? Look::too_weak : Look::strong;
@@ -136,16 +136,6 @@ SteadySearch::Look SteadySearch::turn_to_load(Position& at) {
     at.angle += turn;
   }
   return Look::across;
-}
-
-std::vector<double> SteadySearch::distances() {
-  const double c = clearance(), room = std::max(0.1, 1 - 0.5 * model_.L * point_.tilt.norm() / c) * c;
-  const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
-  std::vector<double> result;
-  for (double gap = 0.5; gap > (is_smooth ? 1 : 0.1) * kTouching; gap /= 2) result.push_back((1 - gap) * room);
-  const double depth = model_.compliance * point_.load->norm() / (model_.R * model_.L) + film_.depth(*point_.load);
-  for (double share = 0.25; depth > 0 && share <= 8; share *= 2) result.push_back(room + share * depth);
-  return result;
 }
 
 void SteadySearch::look_at(double r, Bounds& bounds) {
@@ -158,24 +148,26 @@ void SteadySearch::look_at(double r, Bounds& bounds) {
     bounds.outer = r;
     return;
   }
-  if (force_.norm() > limit_.force) limit_.force = force_.norm(), limit_.r = r;
+  if (force_.norm() > limit_.force) limit_.force = force_.norm(), limit_.where = position_text();
   bounds.angle = at.angle;
-  (observed == Look::strong ? bounds.outer : bounds.inner) = r;
-  if (observed == Look::strong) bounds.strong = at;
+  if (observed == Look::strong)
+    bounds.outer = r, bounds.strong = at;
+  else
+    bounds.inner = r;
 }
 
 bool SteadySearch::from_inside_out() {
-  const Eigen::Vector2d start = ocvirk_position(model_, point_);
-  Bounds bounds{.angle = std::atan2(start.y(), start.x())};
-  for (const double r : distances()) {
-    if (bounds.outer > 0 || is_tired()) break;
+  const Coordinates start = coordinates_of().start(point_);
+  Bounds bounds{.angle = start.size() == 2 ? std::atan2(start.y(), start.x()) : 0};
+  for (const double r : coordinates_of().distances(point_, film_.depth(*point_.load))) {
+    if (bounds.outer || is_tired()) break;
     look_at(r, bounds);
   }
-  for (int k = 0; k < kMostHalvings && bounds.outer > 0 && !is_tired(); ++k) {
+  for (int k = 0; k < kMostHalvings && bounds.outer && !is_tired(); ++k) {
     if (is_reached(bounds)) return true;
-    look_at(0.5 * (bounds.inner + bounds.outer), bounds);
+    look_at(0.5 * (bounds.inner + *bounds.outer), bounds);
   }
-  if (bounds.outer == 0 && !is_tired()) limit_.why = "the surfaces all but touch";
+  if (!bounds.outer && !is_tired()) limit_.why = "the surfaces all but touch";
   return is_reached(bounds);
 }
 
@@ -184,7 +176,7 @@ bool SteadySearch::is_reached(const Bounds& bounds) {
   const Position& from = *bounds.strong;
   const auto back = [&] {
     x_ = from.x;
-    return film_at(from.r * Eigen::Vector2d(std::cos(from.angle), std::sin(from.angle)));
+    return film_at(coordinates_of().at(point_, from.r, from.angle));
   };
   return (back() && in_turn(*point_.load)) || (back() && change_load());
 }

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <variant>
 
+#include "hersey/bearing/bearing_kind.h"
 #include "hersey/film/observables.h"
 #include "hersey/film/reynolds.h"
-#include "steady/short_bearing.h"
 
 // What is asked of a film and its position, and what they are once found.
 namespace hersey::bearing {
@@ -25,10 +25,10 @@ constexpr double kShareOfSearch = 0.6;
 
 SteadySearch::SteadySearch(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
     : model_(model), point_(point), options_(options), film_(model, point_, options), x_(film_.start()) {
-  for (int k = 0; k <= kTyRate; ++k) directions_.push_back(surface_direction(model, k));
+  e_ = force_ = Coordinates::Zero(coordinates_of().count());
 }
 
-bool SteadySearch::film_at(const Eigen::Vector2d& e) {
+bool SteadySearch::film_at(const Coordinates& e) {
   e_ = e;
   is_unsolved_ = false;
   if (!stands_inside()) return false;
@@ -61,7 +61,7 @@ SteadySummary SteadySearch::solve() {
   return point_.load ? under_load() : at_given_position();
 }
 
-void SteadySearch::begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u, const Eigen::VectorXd& s) {
+void SteadySearch::begin_at(const Coordinates& e, const Eigen::VectorXd& u, const Eigen::VectorXd& s) {
   e_ = e;
   x_.head(u.size()) = u;
   x_.tail(s.size()) = s;
@@ -97,7 +97,7 @@ SteadySummary SteadySearch::under_load() {
 SteadySummary SteadySearch::retry() {
   if (!point_.load) return at_given_position();
   budget_ = summary_.iterations + options_.max_linearisations;
-  const Eigen::Vector2d e = e_;
+  const Coordinates e = e_;
   const Eigen::VectorXd x = x_;
   summary_.set_solved(on_chord(*point_.load) || (linearise() && (one_step(*point_.load) || together(*point_.load))));
   if (!summary_.solved()) {
@@ -120,7 +120,7 @@ bool SteadySearch::is_settled() {
 }
 
 void SteadySearch::set_growth(double growth) {
-  e_ *= bearing::clearance(model_, growth) / clearance();
+  e_ *= clearance(model_, growth) / clearance(model_, point_);
   point_ = with_growth(point_, model_, growth);
 }
 
@@ -132,22 +132,15 @@ void SteadySearch::set_tolerance(double rtol) {
 DynamicCoefficients SteadySearch::coefficients() {
   Eigen::MatrixXd dx;
   Columns by_position, by_rate;
-  respond(4, dx, by_position);
-  std::vector<film::MotionDirection> rates(directions_.begin() + 4, directions_.end());
-  for (Eigen::Index a = 0; film_.deforms() && a < 4; ++a) {
+  const Eigen::Index count = e_.size() + 2;
+  film_.respond(coordinates_of().directions(e_, 0, count), dx, by_position);
+  std::vector<film::MotionDirection> rates = coordinates_of().directions(e_, count, count);
+  for (Eigen::Index a = 0; film_.deforms() && a < count; ++a) {
     film::MotionDirection& rate = rates[static_cast<std::size_t>(a)];
     rate.g_rate += film_.opening(film_.amplitudes_of(dx.col(a)));
   }
   film_.respond(rates, dx, by_rate);
-  DynamicCoefficients result;
-  const auto generalised = [](const Columns& wrench) {
-    Eigen::Matrix4d rows;
-    rows << wrench.row(3), wrench.row(4), wrench.row(1), -wrench.row(0);
-    return rows;
-  };
-  result.stiffness = generalised(by_position);
-  result.damping = generalised(by_rate);
-  return result;
+  return {coordinates_of().force_rows() * by_position, coordinates_of().force_rows() * by_rate};
 }
 
 SteadyState SteadySearch::state() {
@@ -162,8 +155,10 @@ SteadyState SteadySearch::state() {
   state.d_journal = film_.journal_displacement(x_);
   state.thermal_shape = film_.thermal_shape();
   state.journal_shape = film_.journal_shape();
-  state.film = film::observe_film(model_, film_.surfaces(e_, x_), film_.history(), e_, state.u, state.tilt);
-  state.load = state.film.wrench_on_shell.segment<2>(3);
+  state.film =
+      film::observe_film(model_, film_.surfaces(e_, x_), film_.history(), axis_offset(e_), state.u, state.tilt);
+  state.kind = options_.kind ? options_.kind : journal_kind();
+  state.load = coordinates_of().force_rows().topRows(e_.size()) * state.film.wrench_on_shell;
   state.viscosity = film_.history().viscosity;
   state.coefficients = coefficients();
   return state;
@@ -171,8 +166,8 @@ SteadyState SteadySearch::state() {
 
 bool SteadySearch::bears_nothing() {
   const film::FilmFields fields = film::film_fields(model_, film_.surfaces(e_, x_), film_.film_of(x_));
-  const double scale = model_.lubricant.mu0 * point_.film_speed(bearing::clearance(model_)) *
-                       std::pow(model_.R / bearing::clearance(model_), 2);
+  const double scale =
+      model_.lubricant.mu0 * point_.film_speed(clearance(model_)) * std::pow(model_.R / clearance(model_), 2);
   return fields.p.maxCoeff() - fields.p.minCoeff() <= 1e-9 * scale &&
          model_.asperities.model == film::AsperityModel::none;
 }
@@ -185,21 +180,18 @@ bool SteadySearch::linearise() {
   return linearisations > 0;
 }
 
-void SteadySearch::respond(int count, Eigen::MatrixXd& dx, Columns& dW) {
-  std::vector<film::MotionDirection> wanted(directions_.begin(), directions_.begin() + count);
-  if (model_.supply.kind == film::SupplyKind::widest_gap && e_.norm() > 1e-6 * clearance()) {
-    wanted[kEx].phi_supply = -e_.y() / e_.squaredNorm();
-    wanted[kEy].phi_supply = e_.x() / e_.squaredNorm();
-  }
-  film_.respond(wanted, dx, dW);
+Eigen::MatrixXd SteadySearch::force_by_position() {
+  Columns dW;
+  film_.respond(coordinates_of().directions(e_, 0, e_.size()), dx_de_, dW);
+  return film_.change_of_force(dx_de_, dW);
 }
 
 bool SteadySearch::film_at_start() {
-  const Eigen::Vector2d start = options_.start.value_or(ocvirk_position(model_, point_));
+  const Coordinates start = options_.start ? *options_.start : coordinates_of().start(point_);
   for (int k = 0; k < kMostStarts; ++k) {
     x_ = film_.start();
     if (k == 0) take_start();
-    if (film_at(std::exp2(-k) * start)) return true;
+    if (film_at(coordinates_of().opened(point_, start, k))) return true;
   }
   return false;
 }

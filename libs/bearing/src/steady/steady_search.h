@@ -23,7 +23,7 @@ class SteadySearch {
   SteadySearch(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options);
 
   /// The film at `e`, from the film there is.
-  [[nodiscard]] bool film_at(const Eigen::Vector2d& e);
+  [[nodiscard]] bool film_at(const Coordinates& e);
 
   [[nodiscard]] bool is_swept() const { return options_.solver == film::FilmSolver::sor && !film_.deforms(); }
 
@@ -36,7 +36,7 @@ class SteadySearch {
   [[nodiscard]] SteadySummary solve();
 
   /// A film and a position to go on from, with the amplitudes `s` of surfaces that deform.
-  void begin_at(const Eigen::Vector2d& e, const Eigen::VectorXd& u, const Eigen::VectorXd& s = {});
+  void begin_at(const Coordinates& e, const Eigen::VectorXd& u, const Eigen::VectorXd& s = {});
   [[nodiscard]] bool has_film() const { return has_film_; }
 
   [[nodiscard]] SteadySummary at_given_position();
@@ -67,7 +67,7 @@ class SteadySearch {
   /// linearisation. What a motion of the journal does to surfaces that deform, they do at its rate (bearing.29).
   [[nodiscard]] DynamicCoefficients coefficients();
 
-  [[nodiscard]] const Eigen::Vector2d& position() const { return e_; }
+  [[nodiscard]] const Coordinates& position() const { return e_; }
   [[nodiscard]] Eigen::VectorXd film() const { return film_.film_of(x_); }
 
   [[nodiscard]] SteadyState state();
@@ -75,19 +75,21 @@ class SteadySearch {
  private:
   /// A position whose force points along the load.
   struct Position {
-    double r = 0, angle = 0;  // from the bearing's centre [m, rad]
+    double r = 0, angle = 0;  // of SteadyCoordinates::at() [m, rad]
     Eigen::VectorXd x;
   };
 
   /// Of the search from the inside out: the load is too much at `inner`, and at `outer` it is not, or there is no film.
   struct Bounds {
-    double angle = 0, inner = 0, outer = 0;
+    double angle = 0, inner = 0;
+    std::optional<double> outer = {};
     std::optional<Position> strong = {};  // the last one with more force than the load
   };
 
   /// The largest force along the load that has been seen, where, and what is further out: no film, or none found.
   struct Limit {
-    double force = 0, r = 0;
+    double force = 0;
+    std::string where;
     std::string why;
     bool is_unsolved = false;
   };
@@ -105,8 +107,8 @@ class SteadySearch {
 
   [[nodiscard]] bool linearise();
 
-  /// Answers dx and dW (total derivatives) to the first `count` directions; a supply at the widest gap follows e.
-  void respond(int count, Eigen::MatrixXd& dx, Columns& dW);
+  /// Returns K, the change of the force with the position, and sets dx_de_.
+  [[nodiscard]] Eigen::MatrixXd force_by_position();
 
   /// Where the film at the given start cannot be found, it is sought nearer to the centre, where it is thicker.
   [[nodiscard]] bool film_at_start();
@@ -115,57 +117,58 @@ class SteadySearch {
 
   /// What is missing from the force to the target, as if the force followed a power of the film thickness: the
   /// logarithm of the ratio along the force and the angle across it, to first order their difference.
-  [[nodiscard]] Eigen::Vector2d missing(const Eigen::Vector2d& target) const;
+  [[nodiscard]] Coordinates missing(const Coordinates& target) const;
 
   /// The same as one number: 0 at the target.
-  [[nodiscard]] double distance_to(const Eigen::Vector2d& target) const;
+  [[nodiscard]] double distance_to(const Coordinates& target) const;
 
   /// A step of position, and of film and deformation.
   struct Step {
-    Eigen::Vector2d de;
+    Coordinates de;
     Eigen::VectorXd dx;
   };
 
   /// Newton's step (bearing.18) at the present linearisation towards `target`, cut to where the linear film may be
   /// trusted.
-  [[nodiscard]] Step newton_step(const Eigen::Vector2d& target);
+  [[nodiscard]] Step newton_step(const Coordinates& target);
 
   /// Rigid surfaces: the force follows a power of the gap, so its logarithm is what a step changes in proportion.
-  [[nodiscard]] double share_of_gap(const Eigen::Vector2d& de) const;
+  [[nodiscard]] double share_of_gap(const Coordinates& de) const;
 
-  [[nodiscard]] double gap_at(const Eigen::Vector2d& e) const { return film_.undeformed_gap(e); }
+  [[nodiscard]] double gap_at(const Coordinates& e) const { return film_.undeformed_gap(e); }
 
-  [[nodiscard]] double clearance() const { return bearing::clearance(model_, point_); }
+  [[nodiscard]] SteadyCoordinates& coordinates_of() const { return film_.coordinates(); }
+  [[nodiscard]] std::string position_text() const { return coordinates_of().position_text(point_, e_); }
 
   /// Whether the journal stands inside its bore, as far as a rigid one must.
   [[nodiscard]] bool stands_inside() const { return film_.yields() || gap_at(e_) > 0; }
 
   /// A supply at the widest gap turns with the position: after a large turn the film is another one.
-  [[nodiscard]] bool turns_far(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  [[nodiscard]] bool turns_far(const Coordinates& from, const Coordinates& to) const;
 
   /// Whether film and force are within their tolerance.
-  [[nodiscard]] bool holds(const Eigen::Vector2d& target);
+  [[nodiscard]] bool holds(const Coordinates& target);
   /// The last increment, unless it leaves less than no oil somewhere: the equations hold there, but that is no film.
   [[nodiscard]] bool settle();
 
   /// Near the answer one step of Newton's method from the present linearisation is enough, and known to be.
-  [[nodiscard]] bool one_step(const Eigen::Vector2d& target);
+  [[nodiscard]] bool one_step(const Coordinates& target);
 
   /// Likewise by steps of the chord method, from where the last such step has led, with its linearisation: what they
   /// leave is what is missing times all that has changed since. Not where nodes fill or empty.
-  [[nodiscard]] bool on_chord(const Eigen::Vector2d& target);
+  [[nodiscard]] bool on_chord(const Coordinates& target);
 
   /// Newton on film and position at once: one linearisation per iteration.
-  [[nodiscard]] bool together(const Eigen::Vector2d& target);
+  [[nodiscard]] bool together(const Coordinates& target);
 
   /// Newton on the position with the film solved at each; a step that does not bring the force nearer is halved.
-  [[nodiscard]] bool in_turn(const Eigen::Vector2d& target);
+  [[nodiscard]] bool in_turn(const Coordinates& target);
 
   /// Where the joint iteration has left off, if its position is nearer to the load than the start, else from there.
   [[nodiscard]] bool from_here();
 
   /// A force on the way from `from` to the load: turning at an even rate and growing by an even factor.
-  [[nodiscard]] Eigen::Vector2d between(const Eigen::Vector2d& from, double share) const;
+  [[nodiscard]] Coordinates between(const Coordinates& from, double share) const;
 
   /// Between surfaces that deform: from a share of the load at which they hardly do.
   [[nodiscard]] bool from_light_load();
@@ -177,17 +180,13 @@ class SteadySearch {
 
   /// To a force near the present one. Soft bodies give way under a load that is held, but not where the journal is
   /// held: position and deformation then go together.
-  [[nodiscard]] bool follow(const Eigen::Vector2d& target);
+  [[nodiscard]] bool follow(const Coordinates& target);
 
   enum class Look { no_film, across, too_weak, strong };
 
   /// Turns the journal about the bearing's centre, at the distance at.r from it, until the force points along the load.
   /// A round bearing without features needs one turn: its force turns with it.
   [[nodiscard]] Look turn_to_load(Position& at);
-
-  /// Distances from the centre to look at: each halves what is left of the clearance; surfaces that give way overlap
-  /// beyond it by up to a few times what the load deforms them.
-  [[nodiscard]] std::vector<double> distances();
 
   /// One look further out, or half-way between the last two: moves one of the bounds, and keeps what has been borne.
   void look_at(double r, Bounds& bounds);
@@ -205,12 +204,11 @@ class SteadySearch {
   OperatingPoint point_;
   const SteadyOptions& options_;
   SteadyFilm film_;
-  std::vector<film::MotionDirection> directions_;
-  Eigen::Vector2d e_ = Eigen::Vector2d::Zero(), force_ = Eigen::Vector2d::Zero();
+  Coordinates e_, force_;
   Eigen::VectorXd x_;  // film and deformation
   Eigen::MatrixXd dx_de_;
-  Eigen::Matrix2d K_ = Eigen::Matrix2d::Zero();  // change of the force with the position in the last one_step()
-  std::optional<double> changed_;                // by how much of itself the film has since; unset: there is none
+  Eigen::MatrixXd K_;              // change of the force with the position in the last one_step()
+  std::optional<double> changed_;  // by how much of itself the film has since; unset: there is none
   SteadySummary summary_;
   Limit limit_;
   double rtol_ = options_.rtol;

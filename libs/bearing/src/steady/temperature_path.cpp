@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "steady/short_bearing.h"
+#include "kinds/journal/short_bearing.h"
 
 namespace hersey::bearing {
 namespace {

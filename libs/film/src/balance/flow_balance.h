@@ -159,7 +159,9 @@ class FlowBalance {
   /// Among those that tell them, the flow over the edge on which a node lies.
   template <class Flows>
   [[nodiscard]] double& flow_over_edge(Flows& flows, int node) const {
-    return edges_[node].of_patch ? flows.flow_ends : node % model_.grid.n_z == 0 ? flows.flow_left : flows.flow_right;
+    if (edges_[node].of_patch)
+      return model_.grid.begins_patch(node / model_.grid.n_z) ? flows.flow_first : flows.flow_last;
+    return node % model_.grid.n_z == 0 ? flows.flow_left : flows.flow_right;
   }
   [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
   /// The same by the pressure that acts: of a film that bears tension not what that draws in (film.55) [m^3/s].

@@ -119,7 +119,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
   }
   o.cavitated_share = cavitated / total;
   const double fastest = std::max(std::abs(motion.u_journal), std::abs(motion.u_shell));
-  double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_ends),
+  double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_first), std::abs(o.flow_last),
                            std::abs(o.flow_supply), std::abs(o.storage_rate), fastest * model.c * model.L});
   if (o.flow_features.size() > 0) scale = std::max(scale, o.flow_features.cwiseAbs().maxCoeff());
   // Where flows cancel, as in a pure squeeze, what each node gives and takes says what is round-off.

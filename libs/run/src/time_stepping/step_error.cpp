@@ -11,6 +11,7 @@ StepError::StepError(const model::Model& model, model::Machine& machine)
 const Eigen::VectorXd& StepError::measure(const solver::State& end, const Eigen::VectorXd& error) {
   const Eigen::Index coordinates = error.size();
   errors_.resize(coordinates + 2 * static_cast<Eigen::Index>(machine_.bearings.size()));
+  errors_.setZero();  // kinds with fewer coordinates leave places
   errors_.head(coordinates) = error.cwiseQuotient(scales_);
   worst_bearing_ = -1;
   of_coordinates_ = coordinates > 0 ? errors_.head(coordinates).cwiseAbs().maxCoeff(&worst_coordinate_) : 0;
@@ -20,9 +21,9 @@ const Eigen::VectorXd& StepError::measure(const solver::State& end, const Eigen:
   machine_.mechanism->retract(end.q, error, moved_.q);
   for (std::size_t i = 0; i < machine_.bearings.size(); ++i) {
     const mbd::ForceId force = machine_.bearings[i].force;
-    const Eigen::Vector2d share = machine_.bearings[i].bearing->gap().relative_shift(
+    const Eigen::VectorXd share = machine_.bearings[i].bearing->gap().relative_shift(
         machine_.mechanism->relative_motion(end, force).X_AB, machine_.mechanism->relative_motion(moved_, force).X_AB);
-    errors_.segment<2>(coordinates + 2 * static_cast<Eigen::Index>(i)) = share;
+    errors_.segment(coordinates + 2 * static_cast<Eigen::Index>(i), share.size()) = share;
     if (share.norm() <= largest_) continue;
     largest_ = share.norm();
     worst_bearing_ = static_cast<int>(i);

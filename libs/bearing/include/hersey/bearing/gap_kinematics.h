@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <string>
 
+#include "hersey/bearing/coordinates.h"
 #include "hersey/core/archive.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/reynolds.h"
@@ -10,13 +11,13 @@
 
 namespace hersey::bearing {
 
-/// Where a bearing's moving surface is: its own measures, for whoever watches, compares or records them.
+/// Position of a bearing's moving surface in the measures of its kind, for records and comparisons.
 struct GapPosition {
-  Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< its axis at z = 0 in the bearing frame [m]
-  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of its axis [-]
-  double speed = 0;  ///< angular velocity about the bearing's axis against the other [rad/s]
-  Eigen::VectorXd
-      relative;  ///< how far it is off its middle place, over the clearance; of length 1 where it touches [-]
+  Coordinates e = Eigen::Vector2d::Zero();         ///< of a journal its axis at z = 0 in the bearing frame [m]
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of a journal's axis, of a slider's runner [-]
+  double speed = 0;  ///< of a journal about the bearing's axis, relative to the shell [rad/s]; of a runner [m/s]
+  /// Distance from the position with the widest film over the clearance, of length 1 where the surfaces touch [-].
+  Eigen::VectorXd relative;
 
   /// Length of `relative`: for a journal the eccentricity ratio [-].
   [[nodiscard]] double ratio() const { return relative.norm(); }
@@ -59,6 +60,8 @@ class GapKinematics {
   [[nodiscard]] virtual bool is_angle(Index parameter) const = 0;
   /// Smallest gap of the rigid surfaces [m].
   [[nodiscard]] virtual double smallest_gap() const = 0;
+  /// Says which surface touches which: "the journal touches the shell".
+  [[nodiscard]] virtual std::string contact_text() const = 0;
   /// Where B's surface is, in words of this kind of bearing.
   [[nodiscard]] virtual std::string position_text() const = 0;
 

@@ -22,6 +22,7 @@ class JournalGap final : public GapKinematics {
   [[nodiscard]] const film::MotionDirection& direction(Index parameter) const override;
   [[nodiscard]] bool is_angle(Index parameter) const override;
   [[nodiscard]] double smallest_gap() const override { return surfaces_.smallest_gap(); }
+  [[nodiscard]] std::string contact_text() const override { return "the journal touches the shell"; }
   [[nodiscard]] std::string position_text() const override;
   [[nodiscard]] Turning turning() const override;
   [[nodiscard]] GapPosition position(const mbd::RelativeMotion& motion) const override;

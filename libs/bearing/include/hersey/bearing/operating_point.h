@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "hersey/bearing/clearance.h"
+#include "hersey/bearing/coordinates.h"
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_heat.h"
@@ -15,14 +16,17 @@
 
 namespace hersey::bearing {
 
-/// What acts on a bearing by itself. Bearing axes rest; angles count from x towards y.
+class BearingKind;
+
+/// What acts on a bearing by itself, in the coordinates of its kind. Bearing axes rest; angles count from x towards y.
+/// Words and sizes below are those of a journal, position and force (x, y).
 struct OperatingPoint {
   double journal_speed = 0;  ///< angular velocity of the journal about z [rad/s]
   double shell_speed = 0;    ///< angular velocity of the shell about z [rad/s]
   /// On the journal [N], not zero, in the bearing's axes while nothing deforms; without it the position is given.
-  std::optional<Eigen::Vector2d> load;
-  Eigen::Vector2d e = Eigen::Vector2d::Zero();          ///< position of the journal, where no load is given [m]
-  Eigen::Vector2d e_rate = Eigen::Vector2d::Zero();     ///< velocity of the journal's centre [m/s]
+  std::optional<Coordinates> load;
+  Coordinates e = Eigen::Vector2d::Zero();              ///< position of the journal, where no load is given [m]
+  Coordinates e_rate = Eigen::Vector2d::Zero();         ///< velocity of the journal's centre [m/s]
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();       ///< slope of the journal's axis while nothing deforms [-]
   Eigen::Vector2d tilt_rate = Eigen::Vector2d::Zero();  ///< at which it changes [1/s]
   double journal_angle = 0;                             ///< by which the journal, with its holes, stands turned [rad]
@@ -46,8 +50,9 @@ struct OperatingPoint {
 [[nodiscard]] OperatingPoint with_growth(OperatingPoint point, const film::FilmModel& model, double growth);
 
 struct SteadyOptions {
-  double rtol = 1e-10;      ///< on the film's relative residual, and on force over load, > 0
-  int max_iterations = 40;  ///< of one Newton iteration on film and position
+  std::shared_ptr<const BearingKind> kind = {};  ///< null: a journal in a bore
+  double rtol = 1e-10;                           ///< on the film's relative residual, and on force over load, > 0
+  int max_iterations = 40;                       ///< of one Newton iteration on film and position
   int max_linearisations =
       1000;  ///< of the film on paths from the start; the search from inside out adds 0.6 of it; > 0
   /// Of the film; `sor` solves it anew at every position. Between surfaces that deform always `newton`.
@@ -55,8 +60,8 @@ struct SteadyOptions {
   std::shared_ptr<const SteadyElasticity> elasticity = {};  ///< of the surfaces; null: both rigid
   std::optional<film::ThermalModel> thermal = {};  ///< of a film with temperatures; unset: one temperature, the model's
   std::optional<film::ThermalNetworkModel> network = {};  ///< of walls that are nodes; in balance with this film alone
-  std::optional<Eigen::Vector2d> start;  ///< where the search begins [m]; unset: where Ocvirk's short bearing lies
-  Eigen::VectorXd start_film = {};       ///< the film's unknowns there; empty: none known
+  std::optional<Coordinates> start;  ///< where the search begins [m]; unset: where the kind's own estimate lies
+  Eigen::VectorXd start_film = {};   ///< the film's unknowns there; empty: none known
   std::optional<film::HeatState> start_heat = {};  ///< temperatures there; unset: those of the supply
   Eigen::VectorXd start_deformation = {};          ///< amplitudes of the surfaces' bodies there; empty: none known
 };
@@ -65,20 +70,20 @@ struct SteadyOptions {
 /// slowest (film.6).
 [[nodiscard]] film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point);
 
-/// Surfaces of the film with the journal at `e`.
+/// Surfaces of a film around a journal at `e`.
 [[nodiscard]] film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
-                                                  const Eigen::Vector2d& e);
+                                                  const Coordinates& e);
 /// The same of `surfaces`, made for `model`, where they are placed more than once.
 [[nodiscard]] film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmModel& model,
-                                                  const OperatingPoint& point, const Eigen::Vector2d& e);
+                                                  const OperatingPoint& point, const Coordinates& e);
 
 /// The shell lies further out at the nodes by `shape` [m]; an empty one changes nothing.
 void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
 /// Likewise the journal.
 void add_to_journal(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
 
-/// Where the bodies of rigid surfaces stand and how they move with the journal at `e`.
+/// Position of rigid bodies and their motion with the journal at `e`.
 [[nodiscard]] ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point,
-                                            const Eigen::Vector2d& e);
+                                            const Coordinates& e);
 
 }  // namespace hersey::bearing

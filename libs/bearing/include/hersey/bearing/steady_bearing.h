@@ -23,8 +23,9 @@ struct [[nodiscard]] SteadySummary : Outcome {
 /// stiffness dQ/ds, damping dQ/ds' (theory manual, chapter bearing). Moments about the bearing's origin are those that
 /// work on the tilt. Units N/m, N (s) for the force rows against e and t; N and N m against e and t in the moment rows.
 struct DynamicCoefficients {
-  Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();
-  Eigen::Matrix4d damping = Eigen::Matrix4d::Zero();
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+  Matrix stiffness = Eigen::Matrix4d::Zero();
+  Matrix damping = Eigen::Matrix4d::Zero();
 };
 
 /// Temperatures of a solved operating point.
@@ -39,9 +40,10 @@ struct SteadyHeat {
 
 /// A solved operating point.
 struct SteadyState {
+  std::shared_ptr<const BearingKind> kind;         ///< never null once solved
   OperatingPoint point;                            ///< between walls as they have grown
-  Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
-  Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< that the film carries: its force on the shell [N]
+  Coordinates e = Eigen::Vector2d::Zero();         ///< position of the moving surface [m]
+  Coordinates load = Eigen::Vector2d::Zero();      ///< that the film carries: its force on the fixed surface [N]
   Eigen::Vector2d tilt = Eigen::Vector2d::Zero();  ///< slope of the journal's axis, both frames turned by the load [-]
   double turn = 0;    ///< of the shell's frame, whose axes all of this is in, about z under the load [rad]
   Eigen::VectorXd u;  ///< the film's unknowns
@@ -73,6 +75,11 @@ struct SteadyState {
 /// oil is left at that temperature
 [[nodiscard]] SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, const GlobalHeat& heat,
                                          const SteadyOptions& options, SteadyState& state);
+
+/// Smallest gap between the rigid surfaces where a search may begin: at the position that is given, or where a kind's
+/// surfaces are furthest apart [m].
+[[nodiscard]] double gap_at_first(const film::FilmModel& model, const OperatingPoint& point,
+                                  const SteadyOptions& options);
 
 /// Fields of a film found, with the depth of its features.
 [[nodiscard]] film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& state);

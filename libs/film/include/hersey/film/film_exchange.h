@@ -29,8 +29,9 @@ struct StepOilBalance {
   Eigen::VectorXd gap;      ///< that volume per area, without pockets [m], shape (n)
   double volume = 0;  ///< in the film, every control volume counted as no emptier than empty, no fuller than full [m^3]
   double flow_left = 0, flow_right = 0;  ///< out over the edges z = -L/2, +L/2 [m^3/s]
-  double flow_ends = 0;                  ///< out over the ends of patches [m^3/s]
-  [[nodiscard]] double flow_out() const { return flow_left + flow_right + flow_ends; }  ///< [m^3/s]
+  double flow_first = 0, flow_last = 0;  ///< out over the first and the last ends of patches [m^3/s]
+  [[nodiscard]] double flow_ends() const { return flow_first + flow_last; }               ///< [m^3/s]
+  [[nodiscard]] double flow_out() const { return flow_left + flow_right + flow_ends(); }  ///< [m^3/s]
   double flow_supply = 0;         ///< in through line and features [m^3/s]
   Eigen::VectorXd flow_features;  ///< in through each feature [m^3/s]
   /// Largest share of a control volume that the linear way through the film left over [-]; 1 where some found no place.

@@ -52,8 +52,9 @@ struct FilmObservables {
   /// All of the power that the bodies put into the film, by integrals over its fields (theory manual, film.54) [W].
   [[nodiscard]] double power_taken() const { return power_film + power_asperity + power_stored + power_oil; }
   double flow_left = 0, flow_right = 0;  ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]
-  double flow_ends = 0;                  ///< and over the ends of patches [m^3/s]
-  [[nodiscard]] double flow_out() const { return flow_left + flow_right + flow_ends; }  ///< [m^3/s]
+  double flow_first = 0, flow_last = 0;  ///< and over the first and the last ends of patches [m^3/s]
+  [[nodiscard]] double flow_ends() const { return flow_first + flow_last; }               ///< [m^3/s]
+  [[nodiscard]] double flow_out() const { return flow_left + flow_right + flow_ends(); }  ///< [m^3/s]
   double flow_supply = 0;         ///< oil entering through supply line and features [m^3/s]
   Eigen::VectorXd flow_features;  ///< oil entering through each feature [m^3/s]
   double storage_rate = 0;        ///< rate of change of the oil volume in the film [m^3/s]

@@ -1,4 +1,4 @@
-#include "steady/short_bearing.h"
+#include "kinds/journal/short_bearing.h"
 
 #include <algorithm>
 #include <cmath>

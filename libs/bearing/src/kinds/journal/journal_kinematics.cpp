@@ -3,33 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/varied.h"
 #include "hersey/core/contract.h"
 
 namespace hersey::bearing {
 namespace {
-
-using Row6 = Eigen::Matrix<double, 1, 6>;
-using Map36 = Eigen::Matrix<double, 3, 6>;
-
-// A quantity with its variation under a twist xi of the journal relative to the bearing.
-struct Varied {
-  double value;
-  Row6 d;
-};
-
-Varied operator-(const Varied& a, const Varied& b) { return {a.value - b.value, a.d - b.d}; }
-Varied operator*(const Varied& a, const Varied& b) { return {a.value * b.value, a.value * b.d + b.value * a.d}; }
-Varied operator/(const Varied& a, const Varied& b) {
-  const double q = a.value / b.value;
-  return {q, (a.d - q * b.d) / b.value};
-}
-
-// A vector carried by the journal frame and its variation map.
-struct VariedVector {
-  Vector3 value;
-  Map36 d;
-  [[nodiscard]] Varied operator[](int i) const { return {value[i], d.row(i)}; }
-};
 
 // The axis in the mid-plane frame: slope t = d_xy/d_z and piercing point e = r_xy - t r_z (bearing.1). The same
 // expressions, differentiated along V, give the rates (bearing.3); hence rates and twists share one linear map.
@@ -69,10 +47,7 @@ bool is_aligned(const Pose& X_AB) { return std::abs(X_AB.R(2, 2)) > 0.1; }
 
 JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, double R, double e_floor) {
   const Vector3 omega = V_AB_A.head<3>(), velocity = V_AB_A.tail<3>();
-  VariedVector r{X_AB.r, Map36::Zero()};
-  r.d << -skew(r.value), Matrix3::Identity();
-  VariedVector d{X_AB.R.col(2), Map36::Zero()};
-  d.d << -skew(d.value), Matrix3::Zero();
+  const VariedVector r = varied_origin(X_AB.r), d = varied_direction(X_AB.R.col(2));
   HERSEY_REQUIRE(is_aligned(X_AB), "the journal's axis must point along the bearing's");
 
   const VariedVector r_rate{velocity + omega.cross(r.value), skew(omega) * r.d};
@@ -101,9 +76,7 @@ JournalKinematics journal_kinematics(const Pose& X_AB, const Vector6& V_AB_A, do
   k.d_dX.row(kAxialSpeed) = omega.x() * k.d_dX.row(kEy) - omega.y() * k.d_dX.row(kEx);
 
   widest_gap(e_floor, k);
-  VariedVector x_axis{X_AB.R.col(0), Map36::Zero()};
-  x_axis.d << -skew(x_axis.value), Matrix3::Zero();
-  rotation(x_axis, k);
+  rotation(varied_direction(X_AB.R.col(0)), k);
   return k;
 }
 
