@@ -16,6 +16,7 @@
 #include "hersey/core/write_file.h"
 #include "hersey/fem/vtu_file.h"
 #include "hersey/model/read.h"
+#include "hersey/model/short_names.h"
 #include "hersey/results/error.h"
 #include "hersey/study/sensitivity.h"
 #include "output_file.h"
@@ -27,21 +28,8 @@ namespace {
 // Short names of the parameters that are varied most, with the key paths of the present bearing.
 class ShortNames {
  public:
-  ShortNames(const model::Model& model, const model::Bearing& bearing) : model_(model) {
-    const std::string path = "bearings." + bearing.name + ".", point = path + "operating_point.";
-    const bool is_diametral = model.positions.contains(path + "diametral_clearance");
-    paths_ = {{"speed", point + "journal_speed"},
-              {"shell_speed", point + "shell_speed"},
-              {"load", point + "load"},
-              {"load_angle", point + "load_angle"},
-              {"eccentricity_ratio", point + "eccentricity_ratio"},
-              {"eccentricity_angle", point + "eccentricity_angle"},
-              {"radial_velocity", point + "radial_velocity"},
-              {"clearance", path + (is_diametral ? "diametral_clearance" : "radial_clearance")},
-              {"width", path + "width"},
-              {"diameter", path + "diameter"},
-              {"viscosity", "lubricants." + bearing.lubricant + ".viscosity"}};
-  }
+  ShortNames(const model::Model& model, const model::Bearing& bearing)
+      : model_(model), names_(model::short_names(model, bearing)) {}
 
   // A parameter of the model comes before a short name; any other name is a key path already.
   [[nodiscard]] std::string path_of(const std::string& name) const {
@@ -51,13 +39,17 @@ class ShortNames {
   }
 
   [[nodiscard]] std::string key_path(const std::string& name) const {
-    const auto found = std::find_if(paths_.begin(), paths_.end(), [&](const auto& pair) { return pair.first == name; });
-    return found == paths_.end() ? name : found->second;
+    const auto& paths = names_.paths;
+    const auto found = std::find_if(paths.begin(), paths.end(), [&](const auto& pair) { return pair.first == name; });
+    return found == paths.end() ? name : found->second;
   }
+
+  // The two names of which one is given.
+  [[nodiscard]] const std::pair<std::string, std::string>& load_or_position() const { return names_.load_or_position; }
 
  private:
   const model::Model& model_;
-  std::vector<std::pair<std::string, std::string>> paths_;
+  model::ShortNames names_;
 };
 
 // Operating points to be solved, from the command line and the file.
@@ -76,12 +68,10 @@ void replace_other(const ShortNames& names, const model::Bearing& bearing, Plan&
     return by_option || std::any_of(plan.sweeps.begin(), plan.sweeps.end(),
                                     [&](const model::StudyParameter& sweep) { return sweep.name == path; });
   };
-  if (is_set("eccentricity_ratio") && !is_set("load") && bearing.operating_point->load) {
-    plan.overrides.push_back(names.key_path("load") + "=none");
-  }
-  if (is_set("load") && !is_set("eccentricity_ratio") && bearing.operating_point->eccentricity_ratio) {
-    plan.overrides.push_back(names.key_path("eccentricity_ratio") + "=none");
-  }
+  const auto& [load, position] = names.load_or_position();
+  const bool has_load = std::visit([](const auto& point) { return point.load.has_value(); }, *bearing.operating_point);
+  if (is_set(position) && !is_set(load) && has_load) plan.overrides.push_back(names.key_path(load) + "=none");
+  if (is_set(load) && !is_set(position) && !has_load) plan.overrides.push_back(names.key_path(position) + "=none");
 }
 
 Plan plan_of(const BearingArguments& arguments) {

@@ -25,6 +25,7 @@ void add_fields(const BearingSolution& solution, PageSolution& page) {
   const film::FilmFields fields = bearing::steady_fields(model, state);
   page.phi.resize(model.grid.n_phi);
   page.z.resize(model.grid.n_z);
+  page.is_plane = !film::is_round(model.surface);
   for (int i = 0; i < model.grid.n_phi; ++i) page.phi[i] = model.grid.phi(i);
   for (int j = 0; j < model.grid.n_z; ++j) page.z[j] = model.L * model.grid.z_over_L(j);
   for (const run::FilmField& field : run::film_fields())
@@ -53,9 +54,11 @@ PageSolution page_of(const BearingSolution& solution) {
   }
   if (!solution.solved()) return page;
   page.remark = whirl_remark(solution);
-  page.clearance = bearing::clearance(solution.model, solution.state.point);
-  page.e = solution.state.e;
-  page.load = solution.state.load;
+  if (solution.state.kind->has_axis()) {
+    page.clearance = bearing::clearance(solution.model, solution.state.point);
+    page.e = solution.state.e;
+    page.load = solution.state.load;
+  }
   for (const study::BearingFigure& f : study::figures_of(solution)) {
     page.figures.push_back({f.key, f.group, f.name, f.unit, f.value, f.grid_error, f.words});
   }

@@ -52,6 +52,8 @@ std::string pressures_of(const film::FilmModel& film) {
     const bool is_open = edge.kind == film::EdgeKind::pressure && edge.pressure <= film.p_cav;
     if (is_open && edge.ambient_fill > 0) text += fmt::format(", {} one in {:.3g} of oil", name, edge.ambient_fill);
   };
+  for (const film::PatchEnds& end : film.ends)
+    text += fmt::format(", ends {} and {}", outside(end.first), outside(end.last));
   fill("left", film.edge_left);
   fill("right", film.edge_right);
   return film.pressures == film::PressureScale::absolute ? text + " (absolute)" : text;
@@ -140,17 +142,20 @@ std::string bearing_comparison_text(const std::vector<BearingSolution>& solution
                                                           {"h_min", "h_min"},
                                                           {"p_max", "p_max"},
                                                           {"friction_journal", "friction"},
+                                                          {"friction_runner", "friction"},
                                                           {"asperity_share", "contact"},
                                                           {"side_flow", "side flow"},
-                                                          {"sommerfeld_S", "S"}};
-  // Of films with temperatures, where all have them.
-  for (const auto& [key, heading] : {std::pair{"T_effective", "oil"}, {"T_max", "hottest oil"}}) {
-    const bool all_have = std::all_of(solutions.begin(), solutions.end(), [&, key = key](const BearingSolution& s) {
-      const std::vector<BearingFigure> figures = s.solved() ? study::figures_of(s) : std::vector<BearingFigure>{};
-      return !s.solved() ||
-             std::any_of(figures.begin(), figures.end(), [&](const BearingFigure& f) { return f.key == key; });
+                                                          {"sommerfeld_S", "S"},
+                                                          {"load_number", "load number"},
+                                                          {"T_effective", "oil"},
+                                                          {"T_max", "hottest oil"}};
+  // Kinds of bearing and models of heat differ in their figures: those are compared that all have.
+  for (const BearingSolution& solution : solutions) {
+    if (!solution.solved()) continue;
+    const std::vector<BearingFigure> figures = study::figures_of(solution);
+    std::erase_if(wanted, [&](const auto& one) {
+      return std::none_of(figures.begin(), figures.end(), [&](const BearingFigure& f) { return f.key == one.first; });
     });
-    if (all_have) wanted.emplace_back(key, heading);
   }
   std::vector<std::vector<std::string>> lines;
   for (const BearingSolution& solution : solutions) {
@@ -212,7 +217,9 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
   const film::FilmFields fields = bearing::steady_fields(model, state);
   std::vector<const run::FilmField*> shown;
   std::vector<Eigen::VectorXd> columns;
-  std::string text = "angle [deg], z [mm]";
+  const bool is_round = film::is_round(model.surface);
+  const double shown_per_phi = is_round ? 180 / std::numbers::pi : 1e3 * model.R;
+  std::string text = is_round ? "angle [deg], z [mm]" : "y [mm], z [mm]";
   for (const run::FilmField& field : run::film_fields()) {
     Eigen::VectorXd values = field.values(fields);
     if (values.size() == 0) continue;
@@ -223,8 +230,7 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
   text += "\n";
   for (int i = 0; i < model.grid.n_phi; ++i) {
     for (int j = 0; j < model.grid.n_z; ++j) {
-      text += fmt::format("{:.8g}, {:.8g}", 180 / std::numbers::pi * model.grid.phi(i),
-                          1e3 * model.L * model.grid.z_over_L(j));
+      text += fmt::format("{:.8g}, {:.8g}", shown_per_phi * model.grid.phi(i), 1e3 * model.L * model.grid.z_over_L(j));
       for (std::size_t k = 0; k < columns.size(); ++k)
         text += fmt::format(", {:.8g}", shown[k]->shown_per_si * columns[k][model.grid.index(i, j)]);
       text += "\n";
@@ -310,7 +316,10 @@ nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<s
   }
   const auto rows = [](const bearing::DynamicCoefficients::Matrix& M) {
     nlohmann::json list = nlohmann::json::array();
-    for (Eigen::Index i = 0; i < 4; ++i) list.push_back({M(i, 0), M(i, 1), M(i, 2), M(i, 3)});
+    for (Eigen::Index i = 0; i < M.rows(); ++i) {
+      const Eigen::VectorXd row = M.row(i);
+      list.push_back(std::vector<double>(row.begin(), row.end()));
+    }
     return list;
   };
   if (solution.has_temperatures()) {

@@ -29,7 +29,7 @@ json datasets(const PageSolution& solution, const std::string& bearing) {
   const std::string fields = "/bearings/" + bearing + "/fields/";
   json result;
   result[fields + "time"] = dataset(Eigen::VectorXd::Zero(1), {1}, "s");
-  result[fields + "phi"] = dataset(solution.phi, {n_phi}, "rad");
+  result[fields + (solution.is_plane ? "y" : "phi")] = dataset(solution.phi, {n_phi}, solution.is_plane ? "m" : "rad");
   result[fields + "z"] = dataset(solution.z, {n_z}, "m");
   for (const PageField& field : solution.fields)
     result[fields + field.name] = dataset(field.values, {1, n_phi, n_z}, field.unit, field.text);
@@ -48,16 +48,14 @@ json figures(const PageSolution& solution) {
 }
 
 json solution_data(const PageSolution& solution, const std::string& bearing) {
-  json data{{"label", solution.label},
-            {"values", pairs(solution.values)},
-            {"error", solution.message},
-            {"remark", solution.remark},
-            {"figures", figures(solution)},
-            {"clearance", solution.clearance},
-            {"e", {solution.e.x(), solution.e.y()}},
-            {"load", {solution.load.x(), solution.load.y()}},
-            {"features", json::array()},
+  json data{{"label", solution.label},   {"values", pairs(solution.values)}, {"error", solution.message},
+            {"remark", solution.remark}, {"figures", figures(solution)},     {"features", json::array()},
             {"datasets", json::object()}};
+  if (!solution.is_plane) {
+    data["clearance"] = solution.clearance;
+    data["e"] = {solution.e.x(), solution.e.y()};
+    data["load"] = {solution.load.x(), solution.load.y()};
+  }
   for (const PageFeature& f : solution.features) {
     data["features"].push_back(
         {{"name", f.name}, {"round", f.is_round}, {"phi", f.phi}, {"z", f.z}, {"arc", f.arc}, {"length", f.length}});

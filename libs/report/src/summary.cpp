@@ -186,13 +186,17 @@ class Summary {
 
   /// The largest value of the last cycle's map, and where.
   void largest_of_map(const std::string& name, const std::string& map, double factor, const std::string& unit) {
-    const std::vector<double> phi = values("fields/phi"), z = values("fields/z"), all = cycle(map);
+    const bool is_plane = reader_.has(path_ + "fields/y");
+    const std::vector<double> phi = values(is_plane ? "fields/y" : "fields/phi"), z = values("fields/z"),
+                              all = cycle(map);
     const std::size_t n = phi.size() * z.size();
     if (n == 0 || all.size() < n) return;
     const auto last = all.end() - static_cast<std::ptrdiff_t>(n), most = std::max_element(last, all.end());
     const auto k = static_cast<std::size_t>(most - last);
     add(name, factor * *most, unit,
-        fmt::format("φ = {:.1f}°, z = {:.2f} mm", phi[k / z.size()] * degrees, z[k % z.size()] * 1e3));
+        (is_plane ? fmt::format("y = {:.2f} mm", phi[k / z.size()] * 1e3)
+                  : fmt::format("φ = {:.1f}°", phi[k / z.size()] * degrees)) +
+            fmt::format(", z = {:.2f} mm", z[k % z.size()] * 1e3));
   }
 
   /// The stored instant at time t, if there is one.
@@ -422,6 +426,8 @@ class Summary {
     const std::vector<double> phi = values(series + "_phi"), z = values(series + "_z");
     std::string text;
     if (row < phi.size()) text += fmt::format(", φ = {:.1f}°", phi[row] * degrees);
+    if (const std::vector<double> y = values(series + "_y"); row < y.size())
+      text += fmt::format(", y = {:.2f} mm", y[row] * 1e3);
     if (row < z.size()) text += fmt::format(", z = {:.2f} mm", z[row] * 1e3);
     return text;
   }

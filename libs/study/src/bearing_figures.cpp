@@ -7,109 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "figure_table.h"
 #include "hersey/bearing/clearance.h"
 #include "hersey/study/bearing_study.h"
 #include "hersey/study/shear_remarks.h"
 
 namespace hersey::study {
 namespace {
-
-/// The unit that people use, its name in SI and its size there.
-struct Unit {
-  const char* name;
-  const char* si;
-  double size;
-};
-constexpr Unit kNone{"", "", 1}, kNewton{"N", "N", 1}, kNewtonMetre{"N.m", "N.m", 1}, kWatt{"W", "W", 1};
-constexpr Unit kKilogram{"kg", "kg", 1}, kStiffness{"N/m", "N/m", 1}, kDamping{"N.s/m", "N.s/m", 1};
-constexpr Unit kDegree{"deg", "rad", std::numbers::pi / 180}, kRpm{"rpm", "rad/s", std::numbers::pi / 30};
-constexpr Unit kMillimetrePerSecond{"mm/s", "m/s", 1e-3};
-constexpr Unit kMicrometre{"um", "m", 1e-6}, kMillimetre{"mm", "m", 1e-3}, kMegapascal{"MPa", "Pa", 1e6};
-constexpr Unit kMicrometrePerMetre{"um/m", "1", 1e-6};
-constexpr Unit kCelsius{"degC", "degC", 1};
-constexpr Unit kFlow{"mm^3/s", "m^3/s", 1e-9}, kVolume{"mm^3", "m^3", 1e-9};
-
-using Solution = BearingSolution;
-
-/// Properties that only some figures have.
-struct More {
-  /// Estimated error of the grid; negative: none. Empty: the figure has none.
-  std::function<double(const Solution&)> grid_error = {};
-  /// True if a solution has the figure; empty: every one has it.
-  std::function<bool(const Solution&)> only = {};
-  /// Text in place of a value that is not a number.
-  std::function<std::string(const Solution&)> words = {};
-  /// Replacements of <...> in key and name, for a family.
-  std::function<std::vector<std::string>(const Solution&)> each = {};
-  /// Of a family: the grid's error of each.
-  std::function<double(const Solution&, std::size_t)> grid_error_of = {};
-};
-
-/// A line of the table: a figure, or a family of them.
-struct Line {
-  template <class Get>
-  Line(std::string key_, std::string name_, Unit unit_, Get get, More more_ = {})
-      : key(std::move(key_)), name(std::move(name_)), unit(unit_), more(std::move(more_)) {
-    value = [get](const Solution& s, [[maybe_unused]] std::size_t k) -> double {
-      if constexpr (std::is_invocable_v<Get, const Solution&, std::size_t>)
-        return std::invoke(get, s, k);
-      else
-        return std::invoke(get, s);
-    };
-  }
-
-  std::string key, name;
-  Unit unit;
-  std::function<double(const Solution&, std::size_t)> value;  ///< in SI
-  More more;
-};
-
-/// Figures that stand together.
-struct Group {
-  std::string name;
-  std::vector<Line> lines;
-};
-
-template <class Member>
-auto film(Member member) {
-  return [member](const Solution& s) -> double { return std::invoke(member, s.state.film); };
-}
-
-template <class Member>
-auto numbers(Member member) {
-  return [member](const Solution& s) -> double { return std::invoke(member, s.numbers); };
-}
-
-template <class Member>
-auto point(Member member) {
-  return [member](const Solution& s) -> double { return std::invoke(member, s.state.point); };
-}
-
-template <class Member>
-auto whirl(Member member) {
-  return [member](const Solution& s) -> double { return std::invoke(member, s.whirl); };
-}
-
-auto error_of(double bearing::GridError::*member) {
-  return [member](const Solution& s) { return s.grid_error.*member; };
-}
-
-// A quantity that is zero by symmetry comes out as the round-off of its parts, which is meaningless.
-double without_round_off(double value, double parts) { return std::abs(value) < 1e-12 * parts ? 0.0 : value; }
-
-bool is_load_given(const Solution& s) { return s.state.point.load.has_value(); }
-bool squeezes(const Solution& s) { return s.state.point.e_rate.norm() > 0; }
-
-/// @param axis  of the moment on the shell; what is round-off beside the load over the width is zero
-auto moment(int axis) {
-  return [axis](const Solution& s) {
-    return without_round_off(s.state.film.wrench_on_shell[axis], s.numbers.load * s.model.L);
-  };
-}
-
-auto height(double film::FilmObservables::*z) {
-  return [z](const Solution& s) { return without_round_off(s.state.film.*z, s.model.L); };
-}
 
 Group operating_point() {
   using Number = bearing::BearingNumbers;
@@ -230,8 +134,11 @@ double power_put_in(const Solution& s) {
          s.state.load.dot(s.state.point.e_rate);
 }
 
-/// The film is cavitated somewhere, so that it matters over how much of the gap it is sheared there.
+}  // namespace
+
 bool shears_differ(const Solution& s) { return s.state.film.power_film_other_shear != s.state.film.power_film; }
+
+namespace {
 
 Group friction() {
   using Film = film::FilmObservables;
@@ -280,6 +187,8 @@ Group friction() {
            {"film_ratio", "film ratio h_min/sigma", kNone, numbers(&Number::film_ratio)}}};
 }
 
+}  // namespace
+
 std::vector<std::string> feature_names(const Solution& s) {
   std::vector<std::string> names;
   for (Eigen::Index f = 0; f < s.state.film.flow_features.size(); ++f)
@@ -287,9 +196,9 @@ std::vector<std::string> feature_names(const Solution& s) {
   return names;
 }
 
-/// Reynolds' condition loses oil where the film ruptures and creates it where it reforms: this imbalance is not an
-/// error of the solution.
 bool conserves_oil(const Solution& s) { return !film::cavitation_law(s.model).loses_oil(); }
+
+namespace {
 
 Group oil() {
   using Film = film::FilmObservables;
@@ -546,12 +455,26 @@ Group stability() {
         {.words = if_stable("none: stable at every speed")}}}};
 }
 
-/// The table of all figures, in the order in which they are reported.
-const std::vector<Group>& table() {
+/// The table of a journal bearing's figures, in the order in which they are reported.
+const std::vector<Group>& journal_table() {
   static const std::vector<Group> groups{operating_point(), film_figures(), deformation(), dimensionless(),
                                          friction(),        oil(),          heat(),        dynamics(),
                                          stability()};
   return groups;
+}
+
+/// Tables by the name of the kind. A new kind is a line here, and a file with its table beside this one.
+const std::vector<std::pair<std::string, std::vector<Group>>>& tables() {
+  static const std::vector<std::pair<std::string, std::vector<Group>>> all{{"journal", journal_table()},
+                                                                           {"plane_slider", plane_slider_figures()}};
+  return all;
+}
+
+const std::vector<Group>& table_of(const BearingSolution& solution) {
+  const auto found = std::find_if(tables().begin(), tables().end(),
+                                  [&](const auto& entry) { return entry.first == solution.state.kind->name(); });
+  HERSEY_REQUIRE(found != tables().end(), "every kind of bearing has a table of figures");
+  return found->second;
 }
 
 /// Returns `text` with `name` in place of the part in angle brackets.
@@ -564,14 +487,16 @@ std::string filled_in(const std::string& text, const std::string& name) {
 
 std::vector<std::string> figure_keys() {
   std::vector<std::string> keys;
-  for (const Group& group : table())
-    for (const Line& line : group.lines) keys.push_back(line.key);
+  for (const auto& [kind, table] : tables())
+    for (const Group& group : table)
+      for (const Line& line : group.lines)
+        if (std::find(keys.begin(), keys.end(), line.key) == keys.end()) keys.push_back(line.key);
   return keys;
 }
 
 std::vector<BearingFigure> figures_of(const BearingSolution& solution) {
   std::vector<BearingFigure> figures;
-  for (const Group& group : table()) {
+  for (const Group& group : table_of(solution)) {
     for (const Line& line : group.lines) {
       if (line.more.only && !line.more.only(solution)) continue;
       const std::vector<std::string> names = line.more.each ? line.more.each(solution) : std::vector<std::string>{""};

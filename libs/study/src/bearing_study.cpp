@@ -170,7 +170,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   solution.expands = bearing.expansion.has_value();
   solution.model = bearing::scaled_for(bearing.film, point);
   solution.elasticity = bodies.elasticity(model, bearing);
-  bearing::SteadyOptions steady{.solver = bearing.solver, .elasticity = solution.elasticity};
+  bearing::SteadyOptions steady{.kind = bearing.kind, .solver = bearing.solver, .elasticity = solution.elasticity};
   if (start != nullptr) {
     steady.start = start->e;
     if (start->u.size() == bearing.film.grid.size()) steady.start_film = start->u;
@@ -203,11 +203,13 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
       solution.state, bearing::turned_films(solution.model, solution.state, steady));
   solution.state.coefficients = frozen;
   if (!solve_heat(bearing, options, steady, solution)) return;
-  const double omega = std::abs(point.entraining_speed());
-  solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
-  solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
-  solution.whirl = bearing::whirl_stability(
-      solution.coefficients, bearing::clearance(solution.model, solution.state.point), solution.numbers.load, omega);
+  if (bearing.kind->has_axis()) {
+    solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
+    solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
+    solution.whirl =
+        bearing::whirl_stability(solution.coefficients, bearing::clearance(solution.model, solution.state.point),
+                                 solution.numbers.load, std::abs(point.entraining_speed()));
+  }
   if (options.grid_error) {
     const bearing::DynamicCoefficients shown = std::exchange(solution.state.coefficients, frozen);
     solution.grid_error = bearing::estimate_grid_error(solution.model, solution.state, steady);
@@ -327,8 +329,7 @@ const model::Bearing& bearing_called(const model::Model& model, const std::strin
 namespace {
 
 // Refuses deforming surfaces in motions that their compliance at rest does not describe.
-void require_rest(const model::Bearing& bearing) {
-  const model::OperatingPoint& point = *bearing.operating_point;
+void require_rest(const model::Bearing& bearing, const model::JournalPoint& point) {
   const std::string path = "bearings." + bearing.name + ".operating_point.";
   const std::string rigid = "`--set bearings." + bearing.name + ".";
   const bool is_elastic = bearing.shell_surface || bearing.journal_surface;
@@ -364,6 +365,38 @@ void require_rest(const model::Bearing& bearing) {
                            "and features"});
 }
 
+bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model::JournalPoint& given) {
+  require_rest(bearing, given);
+  bearing::OperatingPoint point{.journal_speed = given.journal_speed, .shell_speed = given.shell_speed};
+  point.journal_angle = given.journal_angle;
+  point.tilt = {std::tan(given.tilt_x), std::tan(given.tilt_y)};
+  if (given.load) {
+    point.load = polar(*given.load, given.load_angle);
+  } else {
+    point.e = polar(*given.eccentricity_ratio * bearing::clearance(bearing.film),
+                    given.eccentricity_angle);  // of the given clearance
+    point.e_rate = polar(given.radial_velocity, given.eccentricity_angle);
+  }
+  return with_growth(point, bearing.film, bearing.growth);
+}
+
+// A load presses the runner against the pad, a film thickness is the smallest gap of the undeformed surfaces.
+bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model::SliderPoint& given) {
+  bearing::OperatingPoint point{.journal_speed = given.speed};
+  point.tilt = {given.tilt_along, given.tilt_across};
+  point.e = bearing::Coordinates::Zero(1);
+  point.e_rate = bearing::Coordinates::Constant(1, given.approach_speed);
+  if (given.load) {
+    point.load = bearing::Coordinates::Constant(1, *given.load);
+    return point;
+  }
+  const std::unique_ptr<bearing::SteadyCoordinates> coordinates = bearing.kind->steady_coordinates(bearing.film);
+  const bearing::Coordinates widest = coordinates->widest();
+  point.e =
+      bearing::Coordinates::Constant(1, widest[0] + coordinates->smallest_gap(point, widest) - *given.film_thickness);
+  return point;
+}
+
 }  // namespace
 
 void require_coefficients(const model::Bearing& bearing, ThermalCoefficients coefficients) {
@@ -382,9 +415,11 @@ void require_coefficients(const model::Bearing& bearing, ThermalCoefficients coe
 bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
   if (!bearing.operating_point) {
     throw InputError(Fault{bearing.position, "bearings." + bearing.name, "no operating point",
-                           "an 'operating_point' in the file, or --speed with --load or --eccentricity-ratio", ""});
+                           bearing.kind->has_axis()
+                               ? "an 'operating_point' in the file, or --speed with --load or --eccentricity-ratio"
+                               : "an 'operating_point' in the file, or --speed with --load",
+                           ""});
   }
-  require_rest(bearing);
   for (std::size_t f = 0; f < bearing.feature_pressures.size(); ++f) {
     const model::Function& pressure = bearing.feature_pressures[f];
     if (pressure.is_constant()) continue;
@@ -393,18 +428,7 @@ bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
                            "--set bearings." + bearing.name + ".features." + bearing.film.features[f].name +
                                ".pressure='2 bar' takes its place"});
   }
-  const model::OperatingPoint& given = *bearing.operating_point;
-  bearing::OperatingPoint point{.journal_speed = given.journal_speed, .shell_speed = given.shell_speed};
-  point.journal_angle = given.journal_angle;
-  point.tilt = {std::tan(given.tilt_x), std::tan(given.tilt_y)};
-  if (given.load) {
-    point.load = polar(*given.load, given.load_angle);
-  } else {
-    point.e = polar(*given.eccentricity_ratio * bearing::clearance(bearing.film),
-                    given.eccentricity_angle);  // of the given clearance
-    point.e_rate = polar(given.radial_velocity, given.eccentricity_angle);
-  }
-  return with_growth(point, bearing.film, bearing.growth);
+  return std::visit([&](const auto& given) { return steady_point(bearing, given); }, *bearing.operating_point);
 }
 
 std::vector<BearingSolution> solve_bearings(const ModelReader& read, const std::vector<model::StudyRun>& runs,

@@ -18,6 +18,12 @@ bool depends_on_choice(const BearingSolution& solution) {
   return solution.solved() && film.power_film > 0 && film.power_film_other_shear != film.power_film;
 }
 
+/// "1.2 N.m and ", of kinds whose moving surface turns.
+std::string torque_with_other_shear(const BearingSolution& solution) {
+  if (!solution.state.kind->has_axis()) return "";
+  return fmt::format("{:.4g} N.m and ", std::abs(solution.state.film.torque_journal_other_shear));
+}
+
 /// Change of the film's power by the other choice [%].
 double change(const BearingSolution& solution) {
   return 100 * (solution.state.film.power_film_other_shear / solution.state.film.power_film - 1);
@@ -26,6 +32,7 @@ double change(const BearingSolution& solution) {
 }  // namespace
 
 double load_on_shear(const BearingSolution& solution) {
+  if (solution.state.load.size() != 2) return 0;  // shear acts across the load of a slider
   const Eigen::Vector2d force = solution.state.film.force_shear.head<2>(), &load = solution.state.load;
   return load.squaredNorm() > 0 ? force.dot(load) / load.squaredNorm() : 0;
 }
@@ -34,10 +41,10 @@ std::vector<std::pair<std::string, std::string>> shear_remarks(const BearingSolu
   std::vector<std::pair<std::string, std::string>> remarks;
   const film::FilmObservables& film = solution.state.film;
   if (depends_on_choice(solution))
-    remarks.emplace_back("cavitated shear", fmt::format("{} this film would take {:.4g} N.m and {:.4g} W ({:+.3g} %)",
-                                                        film::choice_in_words(solution.model.cavitated_shear),
-                                                        std::abs(film.torque_journal_other_shear),
-                                                        film.power_film_other_shear, change(solution)));
+    remarks.emplace_back("cavitated shear",
+                         fmt::format("{} this film would take {}{:.4g} W ({:+.3g} %)",
+                                     film::choice_in_words(solution.model.cavitated_shear),
+                                     torque_with_other_shear(solution), film.power_film_other_shear, change(solution)));
   if (const double share = load_on_shear(solution); std::abs(share) > kNoticeableShare)
     remarks.emplace_back(
         "shear force",

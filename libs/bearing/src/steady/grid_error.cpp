@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/bearing_numbers.h"
 #include "hersey/bearing/phase_averaged_coefficients.h"
 #include "hersey/film/grid_transfer.h"
@@ -19,7 +20,27 @@ struct Figures {
   Eigen::Matrix2d stiffness, damping, K, C;
 };
 
+/// Figures of a kind without an axis: no attitude, no coefficients along the load.
+Figures plain_figures_of(const SteadyState& state) {
+  return {
+      .h_min = state.film.h_min,
+      .p_max = state.film.p_max,
+      .eccentricity_ratio = 0,
+      .attitude = 0,
+      .load = state.load.norm(),
+      .friction_journal = std::abs(state.film.wrench_on_shell[4] + state.tilt.x() * state.load[0]) / state.load.norm(),
+      .side_flow = state.film.flow_left + state.film.flow_right,
+      .torque_journal = 0,
+      .torque_shell = 0,
+      .power_film = state.film.power_film,
+      .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
+      .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
+      .K = Eigen::Matrix2d::Zero(),
+      .C = Eigen::Matrix2d::Zero()};
+}
+
 Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
+  if (!state.kind->has_axis()) return plain_figures_of(state);
   const BearingNumbers n = bearing_numbers(model, state);
   const LoadAxesCoefficients along_load = in_load_axes(model, state);
   Figures f{.h_min = state.film.h_min,

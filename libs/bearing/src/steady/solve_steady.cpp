@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/core/contract.h"
@@ -15,8 +17,10 @@ double gap_at_first(const film::FilmModel& model, const OperatingPoint& point, c
 SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
                            SteadyState& state) {
   HERSEY_REQUIRE(!point.load || point.load->norm() > 0, "a load that is not zero");
-  HERSEY_REQUIRE(point.film_speed(clearance(model)) > 0 || model.asperities.model != film::AsperityModel::none,
-                 "speeds that move oil in the gap, or asperities");
+  const bool is_fed = std::any_of(model.features.begin(), model.features.end(), [](const auto& f) { return f.is_fed; });
+  HERSEY_REQUIRE(
+      point.film_speed(clearance(model)) > 0 || model.asperities.model != film::AsperityModel::none || is_fed,
+      "speeds that move oil in the gap, a feed, or asperities");
   HERSEY_REQUIRE(gap_at_first(model, point, options) > 0, "a journal inside its bore");
   if (options.thermal) return solve_with_heat(model, point, options, state);
   SteadySearch search(model, point, options);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/clearance.h"
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
@@ -73,8 +74,8 @@ double SteadyDerivative::amplification() {
 }
 
 bool SteadyDerivative::is_of_film_alone(const SteadyState& state) {
-  return !state.heat && !state.effective && state.s.size() == 0 && state.thermal_shape.size() == 0 &&
-         state.journal_shape.size() == 0;
+  return state.kind->has_axis() && !state.heat && !state.effective && state.s.size() == 0 &&
+         state.thermal_shape.size() == 0 && state.journal_shape.size() == 0;
 }
 
 std::vector<film::MotionDirection> SteadyDerivative::directions(const RigidSurfaces& surfaces,

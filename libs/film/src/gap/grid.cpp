@@ -95,11 +95,15 @@ Grid patch_grid(const std::vector<Patch>& patches, int n_z) {
 }
 
 Grid resampled(const Grid& grid, int n_phi, int n_z) {
-  HERSEY_REQUIRE(grid.closes() || n_phi == grid.n_phi, "a ring: patches keep their lines");
+  HERSEY_REQUIRE(grid.patches.size() <= 1 || n_phi == grid.n_phi, "a ring or one patch: several keep their lines");
   Grid other{.n_phi = n_phi, .n_z = n_z};
   other.patches = grid.patches;
-  if (!grid.closes()) {
+  if (!grid.closes() && n_phi == grid.n_phi) {
     other.angles = grid.angles;
+  } else if (!grid.closes()) {
+    for (int i = 0; i < n_phi; ++i)
+      other.angles.push_back(between(grid.angles, static_cast<double>(i) * (grid.n_phi - 1) / (n_phi - 1)));
+    other.angles.back() = grid.angles.back();
   } else if (!grid.angles.empty()) {
     std::vector<double> whole_turn = grid.angles;
     whole_turn.push_back(grid.angles.front() + two_pi);

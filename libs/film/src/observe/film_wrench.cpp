@@ -262,7 +262,8 @@ void FilmWrench::add_borders(const FlowBalance& balance) {
 // uniform pressure. Contact ends at the edges. Sums over the intervals between nodes give exactly nothing where p or d
 // is the same everywhere.
 void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradient) {
-  HERSEY_REQUIRE(std::holds_alternative<Cylinder>(model_.surface), "openings of a shell around an axis");
+  HERSEY_REQUIRE(!std::holds_alternative<Annulus>(model_.surface), "openings of a bore or of a plane pad");
+  const bool is_plane = std::holds_alternative<Plane>(model_.surface);
   const Grid& grid = model_.grid;
   // Adds to the entry `row` of the wrench what the interval from node a to node b gives, `arm` its width and lever.
   const auto add = [&](int row, int a, int b, double arm) {
@@ -279,12 +280,18 @@ void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradie
     by_opening_(row, a) += rise + contact;
     by_opening_(row, b) += rise - contact;
   };
-  constexpr int moment_z = 2, force_z = 5;
+  constexpr int moment_x = 0, moment_z = 2, force_y = 4, force_z = 5;
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
       const int node = grid.index(i, j), next = grid.next(i);
-      if (next >= 0) add(moment_z, node, grid.index(next, j), model_.R * geometry_.weight_z[j]);
-      if (j + 1 < grid.n_z) add(force_z, node, node + 1, geometry_.weight_phi[i]);
+      if (next >= 0 && !is_plane) add(moment_z, node, grid.index(next, j), model_.R * geometry_.weight_z[j]);
+      if (next >= 0 && is_plane) {
+        add(force_y, node, grid.index(next, j), geometry_.weight_z[j]);
+        add(moment_x, node, grid.index(next, j), -geometry_.z[j] * geometry_.weight_z[j]);
+      }
+      if (j + 1 >= grid.n_z) continue;
+      add(force_z, node, node + 1, geometry_.weight_phi[i]);
+      if (is_plane) add(moment_x, node, node + 1, model_.R * geometry_.phi[i] * geometry_.weight_phi[i]);
     }
   }
 }

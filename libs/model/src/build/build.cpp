@@ -407,7 +407,8 @@ class Builder {
       surfaces.b = machine_.flexibles[flexible_called(bearing.journal.body)].elastic;
       built.journal = kept_.at(&*bearing.journal_surface);
     }
-    built.bearing = std::make_shared<bearing::JournalBearing>(bearing.name, bearing.film, options);
+    built.bearing = std::make_shared<bearing::FilmForce>(
+        bearing.name, bearing.film, bearing.kind->gap(bearing.film, options.journal_surface != nullptr), options);
     built.force = mechanism_.add_force("bearing " + bearing.name, frame(bearing.shell), frame(bearing.journal),
                                        built.bearing, surfaces);
     machine_.bearings.push_back(std::move(built));

@@ -171,9 +171,10 @@ class SchemaWriter {
   }
 
   /// A mapping with the given keys, and `first` before them among the properties.
-  Json object_schema(const Type& type, const std::vector<Key>& keys, Json first) {
+  Json object_schema(const Type& type, const std::vector<Key>& keys, Json first, bool is_first_required = true) {
     Json required = Json::array();
-    for (const auto& [name, schema] : first.items()) required.push_back(name);
+    for (const auto& [name, schema] : first.items())
+      if (is_first_required) required.push_back(name);
     for (const Key& key : keys) {
       if (key.required) required.push_back(key.name);
     }
@@ -219,7 +220,7 @@ class SchemaWriter {
       const Json tag = {{"const", variant.tag}, {"description", variant.description}};
       const bool stands_alone = std::none_of(keys.begin(), keys.end(), [](const Key& key) { return key.required; });
       if (stands_alone) alternatives.push_back(tag);
-      Json schema = object_schema(type, keys, {{type.tag, tag}});
+      Json schema = object_schema(type, keys, {{type.tag, tag}}, variant.tag != type.default_tag);
       schema["description"] = variant.description;
       alternatives.push_back(std::move(schema));
     }

@@ -92,7 +92,8 @@ class ReferenceWriter {
   void write_variant(const std::string& path, const Type& type) {
     page_ += "\nThe key " + code(type.tag) + " decides:\n\n";
     for (const Variant& variant : type.variants) {
-      page_ += "- " + code(type.tag + ": " + variant.tag) + ": " + variant.description + "\n";
+      page_ += "- " + code(type.tag + ": " + variant.tag) + ": " + variant.description +
+               (variant.tag == type.default_tag ? " (the default)" : "") + "\n";
     }
     if (is_shorthand_useful(type)) {
       page_ += "\nWhere nothing else is to be said, the word alone will do (" + code(type.variants.front().tag) +

@@ -209,6 +209,12 @@ TypePtr with_id(const TypePtr& type, std::string id) {
   return copy;
 }
 
+TypePtr with_default_tag(const TypePtr& type, std::string tag) {
+  auto copy = copy_of(type);
+  copy->default_tag = std::move(tag);
+  return copy;
+}
+
 TypePtr with_exactly_one(const TypePtr& type, std::vector<std::string> keys) {
   auto copy = copy_of(type);
   copy->exactly_one.push_back(std::move(keys));

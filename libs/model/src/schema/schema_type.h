@@ -85,6 +85,7 @@ struct Type {
   std::vector<std::vector<std::string>> together;     ///< groups of keys given all or not at all
   std::string tag;                                    ///< variant
   std::vector<Variant> variants;                      ///< variant
+  std::string default_tag;                            ///< variant: where the tag is left out; empty: it is required
   std::vector<TypePtr> alternatives;                  ///< any_of
 
   /// Description of the expected value, for messages: "a length > 0, such as 45 mm".
@@ -112,6 +113,8 @@ struct Type {
 [[nodiscard]] TypePtr any_of(std::string title, std::vector<TypePtr> alternatives);
 [[nodiscard]] TypePtr part(std::string title, std::string example, std::string id);
 [[nodiscard]] TypePtr with_id(const TypePtr& type, std::string id);
+/// A variant whose tag may be left out.
+[[nodiscard]] TypePtr with_default_tag(const TypePtr& type, std::string tag);
 [[nodiscard]] TypePtr with_exactly_one(const TypePtr& type, std::vector<std::string> keys);
 [[nodiscard]] TypePtr with_together(const TypePtr& type, std::vector<std::string> keys);
 

@@ -15,6 +15,9 @@ auto of_cycle(Member member) {
   return [member](const CycleRow& row) { return std::invoke(member, row.cycle); };
 }
 
+bool is_of_axis(const model::Bearing& bearing) { return bearing.kind->has_axis(); }
+bool is_of_plane(const model::Bearing& bearing) { return !is_of_axis(bearing); }
+
 /// Energy over the cycle's duration.
 auto mean_power(double BearingCycle::*energy) {
   return [energy](const CycleRow& row) {
@@ -31,7 +34,12 @@ void add_extreme(const std::string& name, const char* unit, const char* text, Fi
   };
   table.push_back({name, unit, text, of(&FilmExtreme::value), {.summary_entries = {summary_entry}}});
   table.push_back({name + "_time", "s", "when", of(&FilmExtreme::t)});
-  table.push_back({name + "_phi", "rad", "where: bearing angle", of(&FilmExtreme::phi)});
+  table.push_back({name + "_phi", "rad", "where: bearing angle", of(&FilmExtreme::phi), {.only = is_of_axis}});
+  table.push_back({name + "_y",
+                   "m",
+                   "where: along the sliding direction",
+                   of(&FilmExtreme::phi),
+                   {.note = "of a plane slider", .only = is_of_plane}});
   table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z)});
 }
 
@@ -46,7 +54,11 @@ CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::
                       [](const model::Bearing& bearing, std::size_t /*k*/) {
                         return std::vector{bearing.film.grid.n_phi, bearing.film.grid.n_z};
                       },
-                      {"../../fields/phi", "../../fields/z"}},
+                      {"../../fields/phi", "../../fields/z"},
+                      [](const model::Bearing& bearing) {
+                        return std::vector<std::string>{is_of_axis(bearing) ? "../../fields/phi" : "../../fields/y",
+                                                        "../../fields/z"};
+                      }},
            .summary_entries = std::move(summary_entries)}};
 }
 

@@ -72,9 +72,12 @@ std::string RunRecord::thin_films() const {
     const double h = extremes_[i].last_thickness();
     if (h > thin * bearing::clearance(film) || film.asperities.model != film::AsperityModel::none) continue;
     text += fmt::format(
-        "; the film of bearing {} is {:.3g} um at its thinnest (eccentricity ratio {:.3f}), and nothing else parts its "
-        "smooth surfaces: `asperities` let them touch{}",
-        model_.bearings[i].name, 1e6 * h, extremes_[i].summary().eccentricity_ratio,
+        "; the film of bearing {} is {:.3g} um at its thinnest{}, and nothing else parts its smooth surfaces: "
+        "`asperities` let them touch{}",
+        model_.bearings[i].name, 1e6 * h,
+        model_.bearings[i].kind->has_axis()
+            ? fmt::format(" (eccentricity ratio {:.3f})", extremes_[i].summary().eccentricity_ratio)
+            : "",
         film.compliance > 0 ? "" : ", a `compliance` spreads the pressure");
   }
   return text;

@@ -51,6 +51,10 @@ double power_error(const BearingRow& row) {
   return -row.observation.power_into_bodies - row.observation.film.power_taken();
 }
 
+bool has_axis(const BearingPlan& plan) { return plan.bearing.kind->has_axis(); }
+
+bool is_plane(const BearingPlan& plan) { return !has_axis(plan); }
+
 bool has_depth(const BearingPlan& plan) {
   const std::vector<film::SurfaceFeature>& features = plan.bearing.film.features;
   return std::any_of(features.begin(), features.end(), [](const film::SurfaceFeature& f) { return f.depth > 0; });
@@ -129,6 +133,7 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       {"fields/phi"}};
   static const std::string of_film_heat = "this and the following: of films with `thermal: {model: film}`";
   static const std::string per_angle = "four bytes a number";
+  static const std::string of_plane = "of a plane slider";
   static const QuantityTable<BearingRow, BearingPlan> table{
       {"h_min",
        "m",
@@ -137,7 +142,12 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        {.symbol = "h_min",
         .summary_entries = {{Statistic::smallest, "minimum film thickness (MOFT)", "µm", true},
                             {Statistic::at_end, "minimum film thickness at the end", "µm"}}}},
-      {"h_min_phi", "rad", "where: bearing angle", of_film(&Film::h_min_phi)},
+      {"h_min_phi", "rad", "where: bearing angle", of_film(&Film::h_min_phi), {.only = has_axis}},
+      {"h_min_y",
+       "m",
+       "where: along the sliding direction",
+       of_film(&Film::h_min_phi),
+       {.note = of_plane, .only = is_plane}},
       {"h_min_z", "m", "where: axial", of_film(&Film::h_min_z)},
       {"h_min_centre",
        "m",
@@ -156,7 +166,12 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        {.symbol = "p_max",
         .summary_entries = {{Statistic::largest, "peak film pressure (POFP)", "MPa", true},
                             {Statistic::at_end, "peak film pressure at the end", "MPa"}}}},
-      {"p_max_phi", "rad", "where: bearing angle", of_film(&Film::p_max_phi)},
+      {"p_max_phi", "rad", "where: bearing angle", of_film(&Film::p_max_phi), {.only = has_axis}},
+      {"p_max_y",
+       "m",
+       "where: along the sliding direction",
+       of_film(&Film::p_max_phi),
+       {.note = of_plane, .only = is_plane}},
       {"p_max_z", "m", "where: axial", of_film(&Film::p_max_z)},
       {"p_max_node", "Pa", "largest nodal film pressure", of_film(&Film::p_max_node)},
       {"force",
@@ -171,13 +186,21 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       {"eccentricity",
        "m",
        "journal axis from bore axis at z = 0, bearing frame",
-       of_position(&bearing::GapPosition::e),
-       {.symbol = "e"}},
+       [](const BearingRow& row) -> Eigen::Vector2d { return row.observation.position.e; },
+       {.symbol = "e", .only = has_axis}},
+      {"film_thickness",
+       "m",
+       "distance of the runner from the middle of the pad's face",
+       [](const BearingRow& row) { return -row.observation.position.e[0]; },
+       {.note = of_plane,
+        .only = is_plane,
+        .summary_entries = {{Statistic::at_end, "film thickness at the pad's middle at the end", "µm"}}}},
       {"eccentricity_ratio",
        "1",
        "eccentricity over radial clearance (at temperature)",
        of_position(&bearing::GapPosition::ratio),
        {.symbol = "epsilon",
+        .only = has_axis,
         .summary_entries = {{Statistic::largest, "largest eccentricity ratio"},
                             {Statistic::at_end, "eccentricity ratio at the end"}}}},
       {"clearance",
@@ -217,13 +240,28 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        "angle between load and line of centres",
        attitude,
        {.note = "from the load to the line of centres",
+        .only = has_axis,
         .summary_entries = {{Statistic::at_end, "attitude angle at the end", "°"}}}},
-      {"tilt", "1", "slope of the journal's axis in the bearing frame", of_position(&bearing::GapPosition::tilt)},
+      {"tilt",
+       "1",
+       "slope of the journal's axis in the bearing frame",
+       of_position(&bearing::GapPosition::tilt),
+       {.only = has_axis}},
+      {"slope",
+       "1",
+       "slopes of the runner along and across the sliding direction, in the pad's frame",
+       of_position(&bearing::GapPosition::tilt),
+       {.note = of_plane, .only = is_plane}},
       {"speed",
        "rad/s",
        "journal's angular velocity relative to the shell",
        of_position(&bearing::GapPosition::speed),
-       {.symbol = "omega"}},
+       {.symbol = "omega", .only = has_axis}},
+      {"sliding_speed",
+       "m/s",
+       "speed of the runner along the pad's y-axis",
+       of_position(&bearing::GapPosition::speed),
+       {.symbol = "U", .note = of_plane, .only = is_plane}},
       {"power_film",
        "W",
        "viscous dissipation in the film",
@@ -254,8 +292,26 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        "N.m",
        "friction torque on the journal about its own axis",
        of_film(&Film::torque_journal),
-       {.summary_entries = {{Statistic::mean, "mean friction torque on the journal", "N·mm"}}}},
-      {"torque_shell", "N.m", "friction torque on the shell about its own axis", of_film(&Film::torque_shell)},
+       {.only = has_axis, .summary_entries = {{Statistic::mean, "mean friction torque on the journal", "N·mm"}}}},
+      {"torque_shell",
+       "N.m",
+       "friction torque on the shell about its own axis",
+       of_film(&Film::torque_shell),
+       {.only = has_axis}},
+      {"flow_leading",
+       "m^3/s",
+       "oil leaving over the leading end, mean of the step; negative: it comes in",
+       of_film(&Film::flow_first),
+       {.note = of_plane,
+        .only = is_plane,
+        .summary_entries = {{Statistic::mean, "mean flow out over the leading end", "mm³/s"}}}},
+      {"flow_trailing",
+       "m^3/s",
+       "oil leaving over the trailing end, mean of the step",
+       of_film(&Film::flow_last),
+       {.note = of_plane,
+        .only = is_plane,
+        .summary_entries = {{Statistic::mean, "mean flow out over the trailing end", "mm³/s"}}}},
       {"flow_left",
        "m^3/s",
        "oil leaving over the edge z = -L/2, mean of the step",
@@ -297,8 +353,22 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        "rad",
        "where the film at mid-width ruptures; NaN where it is whole",
        of_film(&Film::rupture_angle),
-       {.note = "with the flow, of its widest cavity"}},
-      {"reformation_angle", "rad", "where it re-forms; NaN where it is whole", of_film(&Film::reformation_angle)},
+       {.note = "with the flow, of its widest cavity", .only = has_axis}},
+      {"reformation_angle",
+       "rad",
+       "where it re-forms; NaN where it is whole",
+       of_film(&Film::reformation_angle),
+       {.only = has_axis}},
+      {"rupture_y",
+       "m",
+       "where the film at mid-width ruptures; NaN where it is whole",
+       of_film(&Film::rupture_angle),
+       {.note = of_plane, .only = is_plane}},
+      {"reformation_y",
+       "m",
+       "where it re-forms; NaN where it is whole",
+       of_film(&Film::reformation_angle),
+       {.note = of_plane, .only = is_plane}},
       {"T_max",
        "degC",
        "temperature of the hottest oil",
@@ -391,12 +461,12 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
        "m",
        "smallest film thickness over the width at each angle of fields/phi",
        h_min_around,
-       {.note = per_angle, .extent = around, .precision = results::Precision::float32}},
+       {.note = per_angle, .only = has_axis, .extent = around, .precision = results::Precision::float32}},
       {"p_max_around",
        "Pa",
        "largest film pressure over the width at each angle of fields/phi",
        p_max_around,
-       {.note = per_angle, .extent = around, .precision = results::Precision::float32}},
+       {.note = per_angle, .only = has_axis, .extent = around, .precision = results::Precision::float32}},
   };
   return table;
 }
@@ -404,12 +474,16 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
 /// The lines of film_fields() as series.
 const QuantityTable<FilmInstant, BearingPlan>& film_field_quantities() {
   static const QuantityTable<FilmInstant, BearingPlan> table = [] {
-    const Extent<BearingPlan> nodes{"n_phi, n_z",
-                                    [](const BearingPlan& plan, std::size_t /*k*/) {
-                                      const film::Grid& grid = plan.bearing.film.grid;
-                                      return std::vector{grid.n_phi, grid.n_z};
-                                    },
-                                    {"fields/phi", "fields/z"}};
+    const Extent<BearingPlan> nodes{
+        "n_phi, n_z",
+        [](const BearingPlan& plan, std::size_t /*k*/) {
+          const film::Grid& grid = plan.bearing.film.grid;
+          return std::vector{grid.n_phi, grid.n_z};
+        },
+        {"fields/phi", "fields/z"},
+        [](const BearingPlan& plan) {
+          return std::vector<std::string>{has_axis(plan) ? "fields/phi" : "fields/y", "fields/z"};
+        }};
     QuantityTable<FilmInstant, BearingPlan> lines{{"fields/time", "s", "time of the fields", &FilmInstant::t}};
     for (const FilmField& field : film_fields())
       lines.push_back({"fields/" + field.name,
@@ -428,13 +502,30 @@ const QuantityTable<FilmInstant, BearingPlan>& film_field_quantities() {
 /// Positions of the nodes: the dimensions of all fields.
 const std::vector<Constant<BearingPlan>>& film_nodes() {
   static const std::vector<Constant<BearingPlan>> table{
-      {"fields/phi", "rad", "bearing angle of the nodes", "[n_phi]",
+      {"fields/phi",
+       "rad",
+       "bearing angle of the nodes",
+       "[n_phi]",
        [](const BearingPlan& plan) {
          const film::Grid& grid = plan.bearing.film.grid;
          std::vector<double> phi(static_cast<std::size_t>(grid.n_phi));
          for (int i = 0; i < grid.n_phi; ++i) phi[static_cast<std::size_t>(i)] = grid.phi(i);
          return phi;
-       }},
+       },
+       {},
+       {.only = has_axis}},
+      {"fields/y",
+       "m",
+       "position of the nodes along the sliding direction",
+       "[n_phi]",
+       [](const BearingPlan& plan) {
+         const film::FilmModel& film = plan.bearing.film;
+         std::vector<double> y(static_cast<std::size_t>(film.grid.n_phi));
+         for (int i = 0; i < film.grid.n_phi; ++i) y[static_cast<std::size_t>(i)] = film.R * film.grid.phi(i);
+         return y;
+       },
+       {},
+       {.note = "of a plane slider", .only = is_plane}},
       {"fields/z", "m", "axial position of the nodes", "[n_z]",
        [](const BearingPlan& plan) {
          const film::FilmModel& film = plan.bearing.film;
@@ -465,9 +556,21 @@ const std::vector<Attribute<BearingPlan>>& bearing_attributes() {
     return all;
   };
   static const std::vector<Attribute<BearingPlan>> table{
-      {"radius", "m", "of the bore", of_model(&film::FilmModel::R), {.symbol = "R"}},
+      {"radius", "m", "of the bore", of_model(&film::FilmModel::R), {.symbol = "R", .only = has_axis}},
+      {"length",
+       "m",
+       "of the pad along the sliding direction",
+       [](const BearingPlan& plan) {
+         const film::FilmModel& film = plan.bearing.film;
+         return film.R * (film.grid.phi(film.grid.n_phi - 1) - film.grid.phi(0));
+       },
+       {.symbol = "B", .note = "of a plane slider", .only = is_plane}},
       {"width", "m", "of the bearing", of_model(&film::FilmModel::L), {.symbol = "L"}},
-      {"radial_clearance", "m", "of the bearing, as given (cold)", of_model(&film::FilmModel::c), {.symbol = "c"}},
+      {"radial_clearance",
+       "m",
+       "of the bearing, as given (cold)",
+       of_model(&film::FilmModel::c),
+       {.symbol = "c", .only = has_axis}},
       {"n_phi", "1", "nodes around", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_phi; }},
       {"n_z", "1", "nodes along", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_z; }},
       {"<assumption>",

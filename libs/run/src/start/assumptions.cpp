@@ -62,8 +62,13 @@ struct ShapeDescription {
   const char* operator()(const film::Ellipse& /*shape*/) const { return "hole"; }
 };
 
-std::string described(const film::SurfaceFeature& feature) {
+std::string described(const film::FilmModel& film, const film::SurfaceFeature& feature) {
   const std::string depth = feature.depth > 0 ? fmt::format(", {:.4g} um deep", 1e6 * feature.depth) : "";
+  if (!film::is_round(film.surface))
+    return fmt::format("{} in the pad at y = {:.4g} mm, z = {:.4g} mm, {:.4g} mm x {:.4g} mm{}{}",
+                       std::visit(ShapeDescription{feature.is_fed}, feature.shape), 1e3 * film.R * feature.phi,
+                       1e3 * feature.z, 1e3 * film.R * feature.arc, 1e3 * feature.length, depth,
+                       feature.is_fed ? "" : ", not fed");
   return fmt::format("{} in the {} at {:.4g} deg, z = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
                      std::visit(ShapeDescription{feature.is_fed}, feature.shape),
                      feature.surface == film::Surface::shell ? "shell" : "journal",
@@ -273,6 +278,8 @@ std::string expansion(const model::Bearing& bearing) {
 
 std::string grid(const film::FilmModel& film) {
   const film::Grid& g = film.grid;
+  if (!film::is_round(film.surface))
+    return fmt::format("{} x {} nodes (along and across the sliding direction, borders included)", g.n_phi, g.n_z);
   std::string text = fmt::format("{} x {} nodes (circumferential x axial, edges included)", g.n_phi, g.n_z);
   if (g.is_uniform()) return text;
   double narrowest = g.phi(0) + 2 * std::numbers::pi - g.phi(g.n_phi - 1), lowest = 1;
@@ -319,13 +326,19 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
                                                              : "its torque only (`shear_force: torque_only`)"));
   row("pressures",
       film.pressures == film::PressureScale::absolute ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
+  for (const film::PatchEnds& end : film.ends) {
+    row("edge pressure leading", edge(film, end.first));
+    row("edge pressure trailing", edge(film, end.last));
+  }
   row("edge pressure left", edge(film, film.edge_left));
   row("edge pressure right", edge(film, film.edge_right));
-  row("supply", supply(film));
+  if (bearing.kind->has_axis()) row("supply", supply(film));
   for (const film::SurfaceFeature& feature : film.features)
-    row(("feature " + feature.name).c_str(), described(feature));
-  row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral){}", 1e6 * bearing::clearance(film),
-                               2e6 * bearing::clearance(film), expansion(bearing)));
+    row(("feature " + feature.name).c_str(), described(film, feature));
+  for (const auto& [name, text] : bearing.kind->description(film)) row(name.c_str(), text);
+  if (bearing.kind->has_axis())
+    row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral){}", 1e6 * bearing::clearance(film),
+                                 2e6 * bearing::clearance(film), expansion(bearing)));
   if (!film.profiles.empty()) {
     const Eigen::VectorXd opening = film::gap_opening(film);
     row("shape", fmt::format("{} profile(s): the gap differs from that of cylinders by {:.4g} to {:.4g} um",

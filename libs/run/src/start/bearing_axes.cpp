@@ -112,7 +112,9 @@ std::vector<Fault> axis_warnings(const model::Model& model, const model::Machine
   const mbd::MechanismSpec& spec = machine.mechanism->spec();
   AxisCheck check(model, spec, start);
   for (std::size_t i = 0; i < model.bearings.size(); ++i)
-    check.look_at(model.bearings[i], spec.forces[static_cast<std::size_t>(machine.bearings[i].force.index)], warnings);
+    if (model.bearings[i].kind->has_axis())
+      check.look_at(model.bearings[i], spec.forces[static_cast<std::size_t>(machine.bearings[i].force.index)],
+                    warnings);
   return warnings;
 }
 

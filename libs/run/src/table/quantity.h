@@ -29,6 +29,7 @@ struct Extent {
   std::function<std::vector<int>(const Plan&, std::size_t k)> shape = {};
   std::vector<std::string> dimensions = {};  ///< path relative to the thing's group, one for each number; empty: the
                                              ///< numbers themselves
+  std::function<std::vector<std::string>(const Plan&)> dimensions_of = {};  ///< those of a plan; empty: `dimensions`
 };
 
 /// Properties that only some quantities have.
@@ -115,7 +116,8 @@ class Quantity {
     const std::string unit = more_.unit ? more_.unit(plan) : info_.unit;
     const std::vector<int> shape = columns_ > 0 ? std::vector<int>{columns_} : more_.extent.shape(plan, k);
     std::vector<std::string> dimensions;
-    for (const std::string& dimension : more_.extent.dimensions)
+    const Extent<Plan>& extent = more_.extent;
+    for (const std::string& dimension : extent.dimensions_of ? extent.dimensions_of(plan) : extent.dimensions)
       dimensions.push_back(below(group, filled_in(dimension, name)));
     dimensions.resize(shape.size());
     if (shape.size() == 2) return writer.field(path, {shape[0], shape[1]}, unit, text, {dimensions[0], dimensions[1]});

@@ -33,7 +33,8 @@ const Eigen::VectorXd& StepError::measure(const solver::State& end, const Eigen:
 
 std::string StepError::worst() const {
   if (worst_bearing_ >= 0) {
-    return "the journal in bearing " + model_.bearings[static_cast<std::size_t>(worst_bearing_)].name;
+    const model::Bearing& bearing = model_.bearings[static_cast<std::size_t>(worst_bearing_)];
+    return "the " + bearing.kind->moving_surface() + " in bearing " + bearing.name;
   }
   return machine_.mechanism->name_of_row(worst_coordinate_);
 }

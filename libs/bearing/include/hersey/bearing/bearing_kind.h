@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/bearing/steady_coordinates.h"
@@ -17,10 +19,16 @@ class BearingKind {
 
   /// Name of the kind in the model file: "journal".
   [[nodiscard]] virtual std::string name() const = 0;
+  /// True of kinds whose moving surface has an axis in a bore: position and force lie in the plane across it, with an
+  /// attitude, coefficients along the load and a whirl.
+  [[nodiscard]] virtual bool has_axis() const = 0;
   /// Names of the fixed and of the moving surface in messages: "shell" and "journal".
   [[nodiscard]] virtual std::string fixed_surface() const = 0;
   /// See fixed_surface().
   [[nodiscard]] virtual std::string moving_surface() const = 0;
+  /// Returns what a report states of the kind's own geometry: name and text of each statement.
+  [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> description(
+      const film::FilmModel& model) const = 0;
   /// Returns the gap of a film between two moving bodies.
   /// @param moving_surface_deforms  its deformation travels over the grid with it
   [[nodiscard]] virtual std::unique_ptr<GapKinematics> gap(const film::FilmModel& model,

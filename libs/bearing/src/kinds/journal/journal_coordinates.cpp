@@ -21,8 +21,13 @@ constexpr double kLeastGap = 3e-3;
 class JournalKind final : public BearingKind {
  public:
   [[nodiscard]] std::string name() const override { return "journal"; }
+  [[nodiscard]] bool has_axis() const override { return true; }
   [[nodiscard]] std::string fixed_surface() const override { return "shell"; }
   [[nodiscard]] std::string moving_surface() const override { return "journal"; }
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> description(
+      const film::FilmModel& /*model*/) const override {
+    return {};  // clearance and shape are stated with the temperatures of the walls
+  }
   [[nodiscard]] std::unique_ptr<GapKinematics> gap(const film::FilmModel& model,
                                                    bool moving_surface_deforms) const override {
     return std::make_unique<JournalGap>(model, moving_surface_deforms);

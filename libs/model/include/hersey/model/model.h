@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/global_heat.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/scalar_function.h"
@@ -206,8 +207,8 @@ struct Coupling {
   int max_iterations = 50;                                                 ///< partitioned: exchanges per step
 };
 
-/// Conditions of a single bearing without a machine. Either the load or the position is given.
-struct OperatingPoint {
+/// Conditions of a journal bearing without a machine. Either the load or the position is given.
+struct JournalPoint {
   double journal_speed = 0,
          shell_speed = 0;      ///< about the bearing's axis [rad/s]; of smooth surfaces at rest their sum is not 0
   std::optional<double> load;  ///< on the journal [N], > 0
@@ -220,6 +221,20 @@ struct OperatingPoint {
   SourcePosition position;
 };
 
+/// Conditions of a plane slider without a machine. Either the load or the film thickness is given.
+struct SliderPoint {
+  double speed = 0;                      ///< of the runner along the pad's y-axis [m/s]
+  std::optional<double> load;            ///< that presses runner and pad together [N], > 0
+  std::optional<double> film_thickness;  ///< smallest distance of the undeformed surfaces [m], > 0
+  double approach_speed = 0;             ///< of runner and pad towards each other [m/s]; 0 where a load is given
+  double tilt_along = 0;   ///< slope of the runner against the pad: the gap is wider at the leading end [-]
+  double tilt_across = 0;  ///< slope across the sliding direction: the gap is narrower at z > 0 [-]
+  SourcePosition position;
+};
+
+/// Conditions of a single bearing without a machine, by its kind.
+using OperatingPoint = std::variant<JournalPoint, SliderPoint>;
+
 /// A bearing's surface that lies on the mesh of its flexible body.
 struct DeformingSurface {
   std::shared_ptr<const fem::FilmSurface> surface;  ///< in the axes of the bearing's frame; never null
@@ -229,7 +244,8 @@ struct DeformingSurface {
 
 struct Bearing {
   std::string name;
-  FrameName shell, journal;  ///< empty in a model of bearings alone
+  std::shared_ptr<const bearing::BearingKind> kind = bearing::journal_kind();  ///< never null
+  FrameName shell, journal;  ///< of the fixed and of the moving surface; empty in a model of bearings alone
   std::string lubricant;
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
   Heat heat;             ///< none: one temperature

@@ -321,6 +321,8 @@ class Checker {
     std::vector<std::string> tags;
     for (const Variant& variant : type.variants) tags.push_back(variant.tag);
     const Node* tag = node.find(type.tag);
+    const Node usual{.kind = Node::Kind::scalar, .position = node.position, .text = type.default_tag};
+    if (tag == nullptr && !type.default_tag.empty()) tag = &usual;
     if (tag == nullptr) {
       report_missing(value, type.tag, one_of(tags));
       return false;

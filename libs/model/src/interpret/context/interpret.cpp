@@ -4,6 +4,7 @@
 
 #include "hersey/core/spelling.h"
 #include "hersey/mbd/joint.h"
+#include "schema/bearing_keys.h"
 
 namespace hersey::model {
 
@@ -126,14 +127,18 @@ void check_completeness(Context& context) {
   if (!has_machine || context.root.broken) return;
   const auto require = [&](const Value& parent, const std::string& key) {
     if (parent.broken || parent.find(key) != nullptr) return;
-    const TypePtr& type = find_key(parent.type->keys, key)->type;
-    context.fault_at_key(parent, "missing key '" + key + "'", type->expectation());
+    for (const Key* known : all_keys(*parent.type))
+      if (known->name == key)
+        return context.fault_at_key(parent, "missing key '" + key + "'", known->type->expectation());
   };
   require(context.root, "bodies");
   require(context.root, "simulation");
   for (const auto& [name, bearing] : section(context.root, "bearings")) {
-    require(bearing, "shell");
-    require(bearing, "journal");
+    for (const BearingKindFormat& kind : bearing_kind_formats()) {
+      if (kind.tag != bearing.text) continue;
+      require(bearing, kind.surfaces.fixed);
+      require(bearing, kind.surfaces.moving);
+    }
     const Value* thermal = bearing.find("thermal");
     if (thermal != nullptr && !thermal->broken && thermal->text == "global") {
       context.fault_at_key(*thermal, "one effective temperature by a balance of heat, in a machine",

@@ -26,7 +26,7 @@ void check_grid(Context& context, const Bearing& bearing) {
   const Value* const value = at_path(context.root, "bearings", bearing.name);
   const Value* const grid = value == nullptr ? nullptr : value->find("grid");
   if (grid == nullptr || grid->broken) return;
-  const double nodes = 1.0 * integer_of(*grid, "circumferential") * integer_of(*grid, "axial");
+  const double nodes = 1.0 * bearing.film.grid.n_phi * bearing.film.grid.n_z;
   const double needed = kBytesPerNode * nodes, usable = usable_memory();
   if (needed <= usable) return;
   context.fault_at_key(*grid, fmt::format("{:.4g} nodes, which need at least {:.3g} GB of memory", nodes, needed / 1e9),

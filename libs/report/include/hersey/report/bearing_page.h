@@ -42,7 +42,8 @@ struct [[nodiscard]] PageSolution : Outcome {
   double clearance = 0;                            ///< radial [m]
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< on the journal [N]
-  Eigen::VectorXd phi, z;                          ///< positions of the nodes [rad, m]
+  bool is_plane = false;                           ///< a slider: no clearance, position and load as vectors
+  Eigen::VectorXd phi, z;                          ///< positions of the nodes [rad, m]; of a slider [m, m]
   std::vector<PageField> fields;
 };
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "hersey/bearing/gap_kinematics.h"
+#include "kinds/plane_slider/slider_surfaces.h"
+
+namespace hersey::bearing {
+
+/// The gap between a pad, whose face is the plane x = 0 of frame A, and a runner, the plane x = 0 of frame B.
+class SliderGap final : public GapKinematics {
+ public:
+  SliderGap(const PlaneSlider& slider, const film::FilmModel& model);
+
+  [[nodiscard]] std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
+  [[nodiscard]] const film::MotionDirection& direction(Index parameter) const override {
+    return surfaces_.direction(parameter);
+  }
+  [[nodiscard]] bool is_angle(Index /*parameter*/) const override { return false; }
+  [[nodiscard]] double smallest_gap() const override { return surfaces_.smallest_gap(); }
+  [[nodiscard]] std::string contact_text() const override { return "the runner touches the pad"; }
+  [[nodiscard]] std::string position_text() const override;
+  [[nodiscard]] Turning turning() const override;
+  [[nodiscard]] GapPosition position(const mbd::RelativeMotion& motion) const override;
+  [[nodiscard]] Eigen::VectorXd relative_shift(const Pose& before, const Pose& after) const override;
+
+ private:
+  double c_;
+  SliderSurfaces surfaces_;
+};
+
+}  // namespace hersey::bearing

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "hersey/model/short_names.h"
+#include "interpret/context/interpret.h"
+
+namespace hersey::model {
+
+/// Reader of one kind of bearing. A new kind is a file beside this one, and its line in bearing_kinds().
+struct KindReader {
+  std::string_view kind;
+  /// Reads frames, film and surfaces of a bearing.
+  void (*read)(Context& context, const Value& value, Bearing& bearing);
+  /// Reads its operating point, once solver and coupling are known.
+  void (*read_point)(Context& context, const Value& value, Bearing& bearing);
+  /// Returns its short names.
+  ShortNames (*short_names)(const Model& model, const Bearing& bearing);
+};
+
+// A journal in a bore.
+void read_journal(Context& context, const Value& value, Bearing& bearing);
+void read_journal_point(Context& context, const Value& value, Bearing& bearing);
+[[nodiscard]] ShortNames journal_short_names(const Model& model, const Bearing& bearing);
+
+// A pad on a plane runner.
+void read_plane_slider(Context& context, const Value& value, Bearing& bearing);
+void read_plane_slider_point(Context& context, const Value& value, Bearing& bearing);
+[[nodiscard]] ShortNames plane_slider_short_names(const Model& model, const Bearing& bearing);
+
+/// All kinds.
+[[nodiscard]] inline std::vector<KindReader> bearing_kinds() {
+  return {{"journal", read_journal, read_journal_point, journal_short_names},
+          {"plane_slider", read_plane_slider, read_plane_slider_point, plane_slider_short_names}};
+}
+
+}  // namespace hersey::model

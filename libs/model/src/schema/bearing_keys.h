@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schema/format.h"
+
+namespace hersey::model {
+
+/// Keys of the two surfaces of a kind of bearing, with a sentence on each.
+struct SurfaceKeys {
+  std::string fixed = "shell", of_fixed = "The bore.";
+  std::string moving = "journal", of_moving = "The journal.";
+};
+
+/// A pressure.
+[[nodiscard]] TypePtr bearing_pressure();
+/// Pressure outside an edge of the film, or a wall there.
+[[nodiscard]] TypePtr edge_format();
+
+/// Keys that every kind of bearing has.
+[[nodiscard]] std::vector<Key> shared_bearing_keys();
+/// Keys of every kind that name its surfaces: roughness and materials.
+[[nodiscard]] std::vector<Key> surface_keys(const SurfaceKeys& surfaces);
+
+/// How one kind of bearing is written. A new kind is a line in bearing_kind_formats().
+struct BearingKindFormat {
+  std::string tag, description;
+  SurfaceKeys surfaces;
+  std::vector<Key> keys;
+};
+/// All kinds, the default one first.
+[[nodiscard]] const std::vector<BearingKindFormat>& bearing_kind_formats();
+
+// Keys of the kinds, one file each in schema/kinds.
+[[nodiscard]] std::vector<Key> journal_keys();
+[[nodiscard]] std::vector<Key> plane_slider_keys();
+
+}  // namespace hersey::model
