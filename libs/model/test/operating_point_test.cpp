@@ -20,12 +20,14 @@ bearings:
       load: 500 N
 )";
 
+JournalPoint journal_point(const Model& model) { return std::get<JournalPoint>(*model.bearings.at(0).operating_point); }
+
 TEST_CASE("BearingAlone_NeedsNoMachine") {
   const Model model = read_text(bearing_alone, "m.yaml");
   CHECK(model.is_of_bearings_alone());
   REQUIRE(model.bearings.size() == 1);
   REQUIRE(model.bearings[0].operating_point);
-  const OperatingPoint& point = *model.bearings[0].operating_point;
+  const JournalPoint point = journal_point(model);
   CHECK(point.journal_speed == doctest::Approx(100 * std::numbers::pi));
   CHECK(point.shell_speed == 0);
   CHECK(point.load == 500);
@@ -172,8 +174,8 @@ TEST_CASE("LoadAndPosition_ExcludeEachOther") {
   const Model model =
       read_text(bearing_alone, "m.yaml",
                 {"bearings.main.operating_point.load=none", "bearings.main.operating_point.eccentricity_ratio=0.5"});
-  CHECK_FALSE(model.bearings[0].operating_point->load);
-  CHECK(model.bearings[0].operating_point->eccentricity_ratio == 0.5);
+  CHECK_FALSE(journal_point(model).load);
+  CHECK(journal_point(model).eccentricity_ratio == 0.5);
 }
 
 TEST_CASE("ImpossibleOperatingPoints_AreFaults") {
@@ -204,7 +206,7 @@ TEST_CASE("EccentricitiesAboveOne_AreReadWhereTheGapStaysOpen") {
 TEST_CASE("RadialVelocity_NeedsAPosition") {
   const std::string squeeze = edited(edited(bearing_alone, "journal_speed: 3000 rpm", "journal_speed: 0 rpm"),
                                      "load: 500 N", "eccentricity_ratio: 0.5\n      radial_velocity: 20 mm/s");
-  CHECK(read_text(squeeze, "m.yaml").bearings[0].operating_point->radial_velocity == doctest::Approx(0.02));
+  CHECK(journal_point(read_text(squeeze, "m.yaml")).radial_velocity == doctest::Approx(0.02));
   CHECK(
       faults_of(edited(bearing_alone, "load: 500 N", "load: 500 N\n      radial_velocity: 20 mm/s"))
           .find("a velocity along a position that is sought; expected a radial_velocity with an eccentricity_ratio") !=

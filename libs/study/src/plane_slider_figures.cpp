@@ -12,7 +12,7 @@ bool bears(const Solution& s) { return load_of(s) > 0; }
 double speed_of(const Solution& s) { return s.state.point.journal_speed; }
 
 /// Drag on the runner along its own surface, against its motion: the film's force on the pad, seen along the tangent of
-/// the tilted runner (theory manual, bearing.42).
+/// the tilted runner (theory manual, slider.6).
 double drag(const Solution& s) {
   const Vector6& on_pad = s.state.film.wrench_on_shell;
   return on_pad[4] + s.state.tilt.x() * on_pad[3];

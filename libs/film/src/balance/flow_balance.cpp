@@ -77,6 +77,10 @@ void FlowBalance::lay_edges() {
     if (edge->kind == EdgeKind::closed) continue;
     at.kind = open_edge(model_, node) ? EdgeNode::Kind::open : EdgeNode::Kind::given;
     at.u = edge->pressure - model_.p_cav;
+    if (!grid.closes() && !at.of_patch && grid.is_end(i)) {
+      const PatchEnds& ends = model_.ends[static_cast<std::size_t>(grid.patch_of(i))];
+      at.is_corner = (grid.begins_patch(i) ? ends.first : ends.last).kind == EdgeKind::pressure;
+    }
     if (at.kind == EdgeNode::Kind::given) prescribed_edge_nodes_.push_back(node);
   }
 }
@@ -305,6 +309,16 @@ double FlowBalance::acting_outflow(int node) const {
   const int inside = edges_[node].inside;
   if (nodes_[inside].p >= -round_off_of_u()) return outflow(node);
   return over_land(node) - flows_[face_at_edge(node)].K * edge_unknown(node);
+}
+
+double FlowBalance::flow_along_side(int node) const {
+  const Grid& grid = model_.grid;
+  const int i = node / grid.n_z, j = node % grid.n_z;
+  const bool is_first = grid.begins_patch(i);
+  const std::size_t f = face_after(is_first ? i : grid.before(i), j);
+  const FaceFlow& flow = flows_[f];
+  const double q = flow.K * (nodes_[faces_[f].a].p - nodes_[faces_[f].b].p) + flow.carried(upstream(f).theta).value;
+  return is_first ? -q : q;
 }
 
 std::size_t FlowBalance::face_at_edge(int node) const {

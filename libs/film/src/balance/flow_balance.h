@@ -156,12 +156,19 @@ class FlowBalance {
   [[nodiscard]] bool is_open(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
   /// u at which an edge at p_cav is as full as what lies outside; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
-  /// Among those that tell them, the flow over the edge on which a node lies.
+  /// Returns the flow, of several, over the edge on which a node lies.
   template <class Flows>
   [[nodiscard]] double& flow_over_edge(Flows& flows, int node) const {
-    if (edges_[node].of_patch)
-      return model_.grid.begins_patch(node / model_.grid.n_z) ? flows.flow_first : flows.flow_last;
+    if (edges_[node].of_patch) return flow_over_end(flows, node);
     return node % model_.grid.n_z == 0 ? flows.flow_left : flows.flow_right;
+  }
+  /// Adds what leaves at a node to the flow over its edge. At a corner between a side and an end, both open, that which
+  /// comes along the side leaves over the end.
+  template <class Flows>
+  void add_flow_over_edge(Flows& flows, int node, double flow) const {
+    const double along = edges_[node].is_corner ? flow_along_side(node) : 0;
+    if (along != 0) flow_over_end(flows, node) += along;
+    flow_over_edge(flows, node) += flow - along;
   }
   [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
   /// The same by the pressure that acts: of a film that bears tension not what that draws in (film.55) [m^3/s].
@@ -306,10 +313,11 @@ class FlowBalance {
   struct EdgeNode {
     enum class Kind { none, wall, given, open };
     Kind kind = Kind::none;
-    bool of_patch = false;  ///< that of a patch's end
-    int inside = 0;         ///< the next node from the edge
-    double u = 0;           ///< given [Pa]
-    double ambient = 0;     ///< [Pa]
+    bool of_patch = false;   ///< that of a patch's end
+    bool is_corner = false;  ///< that of a row, where an open end of a patch meets it
+    int inside = 0;          ///< the next node from the edge
+    double u = 0;            ///< given [Pa]
+    double ambient = 0;      ///< [Pa]
   };
 
   /// Share of a full gap's flow that the surfaces carry over a face that the line cuts, with derivatives: by the fill
@@ -318,6 +326,12 @@ class FlowBalance {
     double value = 1, theta = 0, h_a = 0, h_b = 0, bend = 0, excess = 0, journal = 0;
   };
 
+  template <class Flows>
+  [[nodiscard]] double& flow_over_end(Flows& flows, int node) const {
+    return model_.grid.begins_patch(node / model_.grid.n_z) ? flows.flow_first : flows.flow_last;
+  }
+  /// Flow that comes to the corner of a patch along its side [m^3/s].
+  [[nodiscard]] double flow_along_side(int node) const;
   [[nodiscard]] std::size_t face_at_edge(int node) const;  ///< from it to the next node from the edge
   /// Oil entering by the row of this node [m^3/s].
   [[nodiscard]] double supply_of_row(int node) const;

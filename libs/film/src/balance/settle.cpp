@@ -46,7 +46,7 @@ void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {
     const double coming = (end - start) / dt_ + leaving[i];
     if (is_given(i)) out = lets_nothing_in(i) ? 0 : -coming;
     const double land = over_land(i), fed = (is_held(i) ? coming + out : 0) + land;
-    flow_over_edge(oil, i) += out + land;
+    add_flow_over_edge(oil, i, out + land);
     oil.flow_supply += fed;
     if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] += fed;
     oil.content[i] = end / whole;

@@ -110,7 +110,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
       o.oil_volume += area * node.content * balance.oil_gap(k);
       total += area;
       cavitated += area * balance.cavitated_share(k);
-      balance.flow_over_edge(o, k) += balance.acting_outflow(k);
+      balance.add_flow_over_edge(o, k, balance.acting_outflow(k));
       outflow += balance.outflow(k);
       gross += std::abs(balance.outflow(k)) + std::abs(balance.storage(k));
       o.flow_supply += balance.supply(k);

@@ -6,7 +6,7 @@
 
 namespace hersey::bearing {
 
-/// Parameters through which the plane of a runner opens the gap below a pad, in this order (theory manual, bearing.39).
+/// Parameters through which the plane of a runner opens the gap below a pad, in this order (theory manual, slider.1).
 /// In the pad's frame, whose plane x = 0 faces the runner, the runner's plane is x = e + t_y y + t_z z.
 enum SliderParameter : int {
   kSliderE,   ///< e, negative: minus the film thickness at the pad's origin [m]

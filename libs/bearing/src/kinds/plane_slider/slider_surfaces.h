@@ -11,7 +11,7 @@ namespace hersey::bearing {
 
 using SliderParameters = Eigen::Matrix<double, kSliderParameterCount, 1>;
 
-/// The gap between a rigid pad and a rigid runner (theory manual, bearing.39). One object per bearing and thread; no
+/// The gap between a rigid pad and a rigid runner (theory manual, slider.1). One object per bearing and thread; no
 /// allocation after the first call.
 class SliderSurfaces {
  public:
