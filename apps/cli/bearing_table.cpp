@@ -50,7 +50,9 @@ std::string pressures_of(const film::FilmModel& film) {
   }
   const auto fill = [&](const char* name, const film::Edge& edge) {
     const bool is_open = edge.kind == film::EdgeKind::pressure && edge.pressure <= film.p_cav;
-    if (is_open && edge.ambient_fill > 0) text += fmt::format(", {} one in {:.3g} of oil", name, edge.ambient_fill);
+    if (is_open && edge.ambient_fill == 1) text += fmt::format(", {} one flooded", name);
+    if (is_open && edge.ambient_fill > 0 && edge.ambient_fill < 1)
+      text += fmt::format(", {} one in {:.3g} of oil", name, edge.ambient_fill);
   };
   for (const film::PatchEnds& end : film.ends)
     text += fmt::format(", ends {} and {}", outside(end.first), outside(end.last));

@@ -105,10 +105,19 @@ class ReferenceWriter {
     }
     write_variants_keys(type);
     std::vector<Key> children = type.keys;
-    for (const Key* key : all_keys(type)) {
-      if (find_key(children, key->name) == nullptr) children.push_back(*key);
+    std::vector<std::pair<std::string, Key>> others;  // of a variant, with the name of another's key
+    for (const Variant& variant : type.variants) {
+      for (const Key& key : variant.keys) {
+        const Key* known = find_key(children, key.name);
+        if (known == nullptr) {
+          children.push_back(key);
+        } else if (known->type != key.type && has_section(*key.type) && known->description != key.description) {
+          others.emplace_back(" (" + type.tag + ": " + variant.tag + ")", key);
+        }
+      }
     }
     write_children(path, children);
+    for (const auto& [which, key] : others) section("", path + "." + key.name + which, *key.type);
   }
 
   /// Variants with the same keys share a table.
