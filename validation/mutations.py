@@ -107,10 +107,10 @@ FAULTS = [
           r"^(film|bearing)\."),
     Fault("bearing: force on the journal is that on the shell", "bearing/src/force/film_force.cpp",
           "response.W_B_A = -film.wrench;", "response.W_B_A = film.wrench;"),
-    Fault("bearing: relative velocity along z off the centre", "bearing/src/gap/journal_kinematics.cpp",
+    Fault("bearing: relative velocity along z off the centre", "bearing/src/kinds/journal/journal_kinematics.cpp",
           "velocity.z() + omega.x() * k.value[kEy] - omega.y() * k.value[kEx];",
           "velocity.z() - omega.x() * k.value[kEy] + omega.y() * k.value[kEx];"),
-    Fault("bearing: a journal's shape turns backwards", "bearing/src/gap/rigid_surfaces.cpp",
+    Fault("bearing: a journal's shape turns backwards", "bearing/src/kinds/journal/rigid_surfaces.cpp",
           "motion.g_rate += omega * first_;", "motion.g_rate -= omega * first_;"),
     Fault("bearing: damping over the load without the speed", "bearing/src/steady/bearing_numbers.cpp",
           "(c * omega / W);", "(c * (omega / omega) / W);"),
@@ -149,7 +149,7 @@ FAULTS = [
     Fault("model: products of inertia change places", "model/src/interpret/machine/interpret_mechanism.cpp",
           "(Matrix3() << xx, xy, zx, xy, yy, yz, zx, yz, zz).finished();",
           "(Matrix3() << xx, zx, xy, zx, yy, yz, xy, yz, zz).finished();"),
-    Fault("model: diametral clearance is taken for radial", "model/src/interpret/bearings/interpret_bearing.cpp",
+    Fault("model: diametral clearance is taken for radial", "model/src/interpret/bearings/kinds/journal.cpp",
           'number_of(value_, "diametral_clearance") / 2', 'number_of(value_, "diametral_clearance")'),
     # -- run, results, study
     Fault("run: a checkpoint forgets the last step's length", "run/src/time_stepping/time_stepper.cpp",
@@ -159,7 +159,7 @@ FAULTS = [
           "cycle_.energy_film += dt * (last_.power_film + next.power_film);"),
     Fault("results: unit of the oil's volume", "run/src/series/bearing_record.cpp",
           '{"oil_volume", "m^3",', '{"oil_volume", "m^3/s",', r"^run\."),
-    Fault("study: revolutions per minute", "study/src/bearing_figures.cpp",
+    Fault("study: revolutions per minute", "study/src/figure_table.h",
           'kRpm{"rpm", "rad/s", std::numbers::pi / 30};', 'kRpm{"rpm", "rad/s", std::numbers::pi / 60};'),
 ]
 

@@ -33,6 +33,8 @@ RUNS = {
     "examples/flexible_rotor/modes.yaml": [],
     "examples/hot_pedestal/with_shaft.yaml": ["--set", "simulation.duration=0.2ms", "--set", "bearings.main.grid.circumferential=36",
                                               "--set", "bearings.main.grid.axial=7"],
+    "examples/plane_slider/carriage.yaml": ["--set", "simulation.duration=2ms", "--set",
+                                            "simulation.cycle={period: 1 ms, most: 2}"],
     "tests/results_file/every_line.yaml": ["--step-error", "--set", "simulation.duration=0.5ms"],
 }
 # Lines that no run of seconds has: films on elastic surfaces, modes of meshed bodies, meshes as shapes of ground.

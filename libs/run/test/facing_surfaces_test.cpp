@@ -201,7 +201,7 @@ TEST_CASE("AxesThatCross_DoNotFaceEachOther") {
 
 TEST_CASE("JournalTouchingAtTheStart_IsReportedWithLocation") {
   const Fault moved = fault_of(rig_with("initial: {x: 0 um}", "initial: {x: 40 um}"));
-  CHECK(contains(moved.found, "the journal touches the shell (smallest undeformed gap -6 um at 180 deg"));
+  CHECK(contains(moved.found, "the journal touches the shell (smallest undeformed gap -6 um at 180.0 deg"));
   const Fault tilted = fault_of(edited(
       rig_with("  pin: {mass: 1 kg,", "  pin: {frames: {askew: {rotation: {axis: x, angle: 1 deg}}}, mass: 1 kg,"),
       "journal: pin", "journal: pin.askew"));

@@ -111,13 +111,28 @@ class ReferenceWriter {
         const Key* known = find_key(children, key.name);
         if (known == nullptr) {
           children.push_back(key);
-        } else if (known->type != key.type && has_section(*key.type) && known->description != key.description) {
-          others.emplace_back(" (" + type.tag + ": " + variant.tag + ")", key);
+        } else if (!type.default_tag.empty() && has_section(*key.type) &&
+                   !have_the_same_keys(*known->type, *key.type)) {
+          others.emplace_back(variant.tag, key);
         }
       }
     }
     write_children(path, children);
-    for (const auto& [which, key] : others) section("", path + "." + key.name + which, *key.type);
+    for (const auto& [tag, key] : others) write_children(of_tag(path, tag), {key});
+  }
+
+  static bool have_the_same_keys(const Type& a, const Type& b) {
+    if (&a == &b) return true;
+    if (a.kind != b.kind || a.title != b.title) return false;
+    const std::vector<const Key*> of_a = all_keys(a), of_b = all_keys(b);
+    return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                      [](const Key* x, const Key* y) { return x->name == y->name; });
+  }
+
+  /// "bearings.<plane_slider>" of "bearings.<name>": the path to keys that another variant has, too.
+  static std::string of_tag(const std::string& path, const std::string& tag) {
+    const std::size_t name = path.rfind("<name>");
+    return name == std::string::npos ? path : path.substr(0, name) + "<" + tag + ">" + path.substr(name + 6);
   }
 
   /// Variants with the same keys share a table.

@@ -41,11 +41,11 @@ std::vector<std::pair<std::string, std::string>> PlaneSlider::description(const 
 
 std::unique_ptr<GapKinematics> PlaneSlider::gap(const film::FilmModel& model, bool moving_surface_deforms) const {
   HERSEY_REQUIRE(!moving_surface_deforms, "a runner is rigid");
-  return std::make_unique<SliderGap>(*this, model);
+  return std::make_unique<SliderGap>(model, opening(model));
 }
 
 std::unique_ptr<SteadyCoordinates> PlaneSlider::steady_coordinates(const film::FilmModel& model) const {
-  return std::make_unique<SliderCoordinates>(*this, model);
+  return std::make_unique<SliderCoordinates>(model, length_, opening(model));
 }
 
 Eigen::VectorXd PlaneSlider::opening(const film::FilmModel& model) const {

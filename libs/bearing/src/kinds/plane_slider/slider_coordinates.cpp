@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hersey::bearing {
 namespace {
 
-// Load of a long plane slider near its best inclination over 6 mu U L (B/h)^2 (Lamb; Hamrock, ch. 8).
+// Load of a long plane slider near its best inclination over 6 mu U L (B/h)^2 (slider.7).
 constexpr double kLongSlider = 0.0267;
 
 // The search for a load goes from this many times the estimated gap down to its share below.
@@ -27,9 +28,9 @@ SliderParameters parameters_of(const OperatingPoint& point, const Coordinates& e
 
 }  // namespace
 
-SliderCoordinates::SliderCoordinates(const PlaneSlider& slider, const film::FilmModel& model)
-    : model_(model), length_(slider.length()), surfaces_(slider, model), force_rows_(ForceRows::Zero(3, 6)) {
-  // F_x, and the moments that work on the slopes: -M_z along, M_y across.
+SliderCoordinates::SliderCoordinates(const film::FilmModel& model, double length, Eigen::VectorXd opening)
+    : model_(model), length_(length), surfaces_(model, std::move(opening)), force_rows_(ForceRows::Zero(3, 6)) {
+  // F_x, and the moments that work on the slopes (slider.5): -M_z along, M_y across.
   force_rows_(0, 3) = force_rows_(2, 1) = 1;
   force_rows_(1, 2) = -1;
 }

@@ -8,8 +8,8 @@ namespace hersey::bearing {
 /// The single coordinate e of a runner below a pad: minus the film thickness at the pad's middle.
 class SliderCoordinates final : public SteadyCoordinates {
  public:
-  /// Keeps a reference to `model`.
-  SliderCoordinates(const PlaneSlider& slider, const film::FilmModel& model);
+  /// Keeps a reference to `model`. @param length  of the pad [m] @param opening  as SliderSurfaces
+  SliderCoordinates(const film::FilmModel& model, double length, Eigen::VectorXd opening);
 
   [[nodiscard]] Index count() const override { return 1; }
   [[nodiscard]] const ForceRows& force_rows() const override { return force_rows_; }

@@ -4,11 +4,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "hersey/bearing/clearance.h"
 
 namespace hersey::bearing {
 
-SliderGap::SliderGap(const PlaneSlider& slider, const film::FilmModel& model)
-    : c_(clearance(model)), surfaces_(slider, model) {
+SliderGap::SliderGap(const film::FilmModel& model, Eigen::VectorXd opening)
+    : c_(clearance(model)), surfaces_(model, std::move(opening)) {
   parameters_ = Eigen::VectorXd::Zero(kSliderParameterCount);
   d_dX_ = d_dV_ = Jacobian::Zero(kSliderParameterCount, 6);
 }

@@ -8,7 +8,8 @@ namespace hersey::bearing {
 /// The gap between a pad, whose face is the plane x = 0 of frame A, and a runner, the plane x = 0 of frame B.
 class SliderGap final : public GapKinematics {
  public:
-  SliderGap(const PlaneSlider& slider, const film::FilmModel& model);
+  /// As SliderSurfaces.
+  SliderGap(const film::FilmModel& model, Eigen::VectorXd opening);
 
   [[nodiscard]] std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
   [[nodiscard]] const film::MotionDirection& direction(Index parameter) const override {

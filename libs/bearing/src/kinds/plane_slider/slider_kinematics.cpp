@@ -18,8 +18,8 @@ SliderKinematics slider_kinematics(const Pose& X_AB, const Vector6& V_AB_A) {
   const VariedVector r_rate{velocity + omega.cross(r.value), skew(omega) * r.d};
   const VariedVector n_rate{omega.cross(n.value), skew(omega) * n.d};
 
-  // The plane through r at right angles to n (slider.2), and its rates along the relative motion: rates and twists
-  // share one linear map.
+  // The plane through r at right angles to n (slider.2), and its rates (slider.3) along the relative motion: rates and
+  // twists share one linear map.
   const Varied zero{0, Eigen::Matrix<double, 1, 6>::Zero()};
   const Varied t_y = zero - n[1] / n[0], t_z = zero - n[2] / n[0];
   const Varied e = r[0] - t_y * r[1] - t_z * r[2];

@@ -1,9 +1,11 @@
 #include "kinds/plane_slider/slider_surfaces.h"
 
+#include <utility>
+
 namespace hersey::bearing {
 
-SliderSurfaces::SliderSurfaces(const PlaneSlider& slider, const film::FilmModel& model)
-    : y_(model.grid.size()), z_(model.grid.size()), openings_(slider.opening(model)) {
+SliderSurfaces::SliderSurfaces(const film::FilmModel& model, Eigen::VectorXd opening)
+    : y_(model.grid.size()), z_(model.grid.size()), opening_(std::move(opening)) {
   const film::Grid& grid = model.grid;
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
@@ -20,9 +22,9 @@ SliderSurfaces::SliderSurfaces(const PlaneSlider& slider, const film::FilmModel&
 
 void SliderSurfaces::evaluate(const SliderParameters& p, double growth, double growth_rate,
                               film::SurfaceMotion& motion) {
-  motion.g = openings_.array() + growth - p[kSliderE] - p[kSliderTy] * y_.array() - p[kSliderTz] * z_.array();
+  motion.g = opening_.array() + growth - p[kSliderE] - p[kSliderTy] * y_.array() - p[kSliderTz] * z_.array();
   motion.g_rate = growth_rate - p[kSliderERate] - p[kSliderTyRate] * y_.array() - p[kSliderTzRate] * z_.array();
-  motion.shell_opening = openings_;
+  motion.shell_opening = opening_;
   motion.u_shell = motion.w_shell = 0;
   motion.u_journal = p[kSliderSpeed];
   motion.w_journal = p[kSliderSideSpeed];

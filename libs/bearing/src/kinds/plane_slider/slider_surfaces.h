@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <array>
 
-#include "hersey/bearing/plane_slider.h"
+#include "hersey/film/film_model.h"
 #include "hersey/film/reynolds.h"
 #include "kinds/plane_slider/slider_kinematics.h"
 
@@ -11,11 +11,12 @@ namespace hersey::bearing {
 
 using SliderParameters = Eigen::Matrix<double, kSliderParameterCount, 1>;
 
-/// The gap between a rigid pad and a rigid runner (theory manual, slider.1). One object per bearing and thread; no
+/// The gap between a rigid pad and a rigid runner (theory manual, slider.4). One object per bearing and thread; no
 /// allocation after the first call.
 class SliderSurfaces {
  public:
-  SliderSurfaces(const PlaneSlider& slider, const film::FilmModel& model);
+  /// @param opening  of the gap by the pad's shapes at the nodes [m], shape (grid.size())
+  SliderSurfaces(const film::FilmModel& model, Eigen::VectorXd opening);
 
   /// Writes gap, rate and speeds at these parameters into `motion`.
   /// @param growth,growth_rate  by which the surfaces move apart everywhere [m, m/s]
@@ -28,8 +29,8 @@ class SliderSurfaces {
   [[nodiscard]] double smallest_gap() const { return smallest_gap_; }
 
  private:
-  Eigen::VectorXd y_, z_;     // of every node [m]
-  Eigen::VectorXd openings_;  // of the pad's shapes [m]
+  Eigen::VectorXd y_, z_;    // of every node [m]
+  Eigen::VectorXd opening_;  // of the pad's shapes [m]
   std::array<film::MotionDirection, kSliderParameterCount> directions_;
   double smallest_gap_ = 0;
 };

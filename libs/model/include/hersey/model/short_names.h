@@ -13,6 +13,7 @@ struct ShortNames {
   std::vector<std::pair<std::string, std::string>> paths;  ///< "load", "bearings.main.operating_point.load"
   std::pair<std::string, std::string> load_or_position;    ///< of which one is given: "load", "eccentricity_ratio"
 };
+/// Returns the short names of a bearing of `model`.
 [[nodiscard]] ShortNames short_names(const Model& model, const Bearing& bearing);
 
 }  // namespace hersey::model

@@ -335,14 +335,19 @@ class Checker {
       return false;
     }
     value.text = *chosen;
-    for (const Key& key : type.variants[static_cast<std::size_t>(chosen - tags.begin())].keys) keys.push_back(&key);
+    std::vector<const Key*> own;
+    for (const Key& key : type.variants[static_cast<std::size_t>(chosen - tags.begin())].keys) own.push_back(&key);
+    // Where a tag may be left out, the keys of the variant say more of it than those that all have.
+    keys.insert(type.default_tag.empty() ? keys.end() : keys.begin(), own.begin(), own.end());
     return true;
   }
 
   void check_keys(const Node& node, Value& value, const std::vector<const Key*>& keys) {
     std::vector<std::string> names;
-    if (value.type->kind == Kind::variant) names.push_back(value.type->tag);
+    const bool is_tag_required = value.type->default_tag.empty();
+    if (value.type->kind == Kind::variant && is_tag_required) names.push_back(value.type->tag);
     for (const Key* key : keys) names.push_back(key->name);
+    if (!is_tag_required) names.push_back(value.type->tag);
     for (const Entry& entry : node.entries) {
       positions_[joined(value.path, entry.key)] = entry.position;
       if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
