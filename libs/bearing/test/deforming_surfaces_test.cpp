@@ -136,7 +136,7 @@ TEST_CASE("GapOfElasticSurfaces_ChangesAtItsRate") {
   const auto gap_at = [&](double t) {
     film::SurfaceMotion motion;
     motion.g = motion.g_rate = VectorXd::Zero(model.grid.size());
-    surfaces.place(s + t * rate, rate, {.angle = phi + t * omega, .speed = omega}, motion);
+    surfaces.add_displacements(s + t * rate, rate, {.angle = phi + t * omega, .speed = omega}, motion);
     return motion;
   };
   const VectorXd numeric = (gap_at(dt).g - gap_at(-dt).g) / (2 * dt);

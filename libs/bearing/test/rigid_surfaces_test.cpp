@@ -24,7 +24,7 @@ TEST_CASE("Gap_IsDistanceOfCylinders") {
   model.grid = {.n_phi = 24, .n_z = 5};
   const Pose X{rotation_exp({4e-4, -3e-4, 0.2}).toRotationMatrix(), {20e-6, -13e-6, 4e-3}};
   film::SurfaceMotion motion;
-  place_surfaces(model, value(X, Vector6::Zero()), motion);
+  evaluate_surfaces(model, value(X, Vector6::Zero()), motion);
   const double journal_radius = model.R - model.c;
   // (bearing.2) drops e^2/(2R) and the journal's ellipse R tilt^2/2: together some 20 nm of 60 um here.
   const ParameterVector s0 = value(X, Vector6::Zero());
@@ -56,9 +56,9 @@ TEST_CASE("Profiles_WidenTheGap") {
   model.grid = {.n_phi = 24, .n_z = 5};
   const ParameterVector parameters = value(some_pose(), Vector6::Zero());
   film::SurfaceMotion round, shaped;
-  place_surfaces(model, parameters, round);
+  evaluate_surfaces(model, parameters, round);
   model.profiles = {{film::Ovality{3e-6, 0}}, {film::Taper{2e-6}}};
-  place_surfaces(model, parameters, shaped);
+  evaluate_surfaces(model, parameters, shaped);
   CHECK((shaped.g - round.g)[model.grid.index(6, 4)] == doctest::Approx(-3e-6 + 1e-6));
   CHECK(smallest_gap(model, parameters) == shaped.g.minCoeff());
 }
@@ -69,11 +69,11 @@ TEST_CASE("SupplyLine_StaysOrFollowsTheWidestGap") {
   parameters[kSupplyAngle] = 2;
   film::SurfaceMotion motion;
   model.supply = {.kind = film::SupplyKind::fixed_angle, .phi = 0.5, .pressure = 0};
-  place_surfaces(model, parameters, motion);
+  evaluate_surfaces(model, parameters, motion);
   CHECK(motion.phi_supply == 0.5);
   CHECK(RigidSurfaces(model).direction(kSupplyAngle).phi_supply == 0);
   model.supply.kind = film::SupplyKind::widest_gap;
-  place_surfaces(model, parameters, motion);
+  evaluate_surfaces(model, parameters, motion);
   CHECK(motion.phi_supply == 2);
   CHECK(RigidSurfaces(model).direction(kSupplyAngle).phi_supply == 1);
   CHECK(RigidSurfaces(model).direction(kEx).phi_supply == 0);
@@ -97,13 +97,13 @@ TEST_CASE("SurfaceDirections_MatchFiniteDifferences") {
   RigidSurfaces surfaces(shaped_journal());
   const ParameterVector p = some_parameters();
   film::SurfaceMotion motion, before, after;
-  surfaces.place(p, motion);
+  surfaces.evaluate(p, motion);
   for (int k = 0; k < kParameterCount; ++k) {
     CAPTURE(k);
     const double step = 1e-6 * std::max(1e-4, std::abs(p[k]));
-    surfaces.place(p - step * ParameterVector::Unit(k), before);
-    surfaces.place(p + step * ParameterVector::Unit(k), after);
-    surfaces.place(p, motion);
+    surfaces.evaluate(p - step * ParameterVector::Unit(k), before);
+    surfaces.evaluate(p + step * ParameterVector::Unit(k), after);
+    surfaces.evaluate(p, motion);
     const film::MotionDirection& direction = surfaces.direction(k);
     const Eigen::VectorXd g = (after.g - before.g) / (2 * step), rate = (after.g_rate - before.g_rate) / (2 * step);
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(g.size());
@@ -124,12 +124,12 @@ TEST_CASE("TurningShape_ChangesTheGapAtItsRate") {
   p.segment<4>(kExRate).setZero();
   const double omega = p[kJournalSpeed] / model.R, dt = 1e-7;
   film::SurfaceMotion now, before, after;
-  surfaces.place(p, now);
+  surfaces.evaluate(p, now);
   ParameterVector turned = p;
   turned[kRotation] -= omega * dt;
-  surfaces.place(turned, before);
+  surfaces.evaluate(turned, before);
   turned[kRotation] += 2 * omega * dt;
-  surfaces.place(turned, after);
+  surfaces.evaluate(turned, after);
   // Differences of step 1e-7 s: round-off over it.
   CHECK(((after.g - before.g) / (2 * dt) - now.g_rate).cwiseAbs().maxCoeff() < 1e-5 * now.g_rate.cwiseAbs().maxCoeff());
 }

@@ -59,8 +59,8 @@ void DeformingSurfaces::turn_journal(double phi) {
   curvatures_ = -(fields[2] * journal_->D);
 }
 
-void DeformingSurfaces::place(const VectorXd& s, const VectorXd& s_rate, const GapKinematics::Turning& turning,
-                              film::SurfaceMotion& motion) {
+void DeformingSurfaces::add_displacements(const VectorXd& s, const VectorXd& s_rate,
+                                          const GapKinematics::Turning& turning, film::SurfaceMotion& motion) {
   if (!deform()) return;
   const double omega = turning.speed;
   if (journal_) turn_journal(turning.angle);

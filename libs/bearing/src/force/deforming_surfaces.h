@@ -13,9 +13,9 @@
 
 namespace hersey::bearing {
 
-/// What deforming surfaces add to the gap of rigid ones: the shell's displacement away from the axis opens it, the
-/// journal's closes it (theory manual, bearing.12 to bearing.14). The film's grid is fixed to the shell; over it the
-/// journal's deformation turns with the journal.
+/// Change of the gap by surfaces that deform: the shell's displacement away from the axis opens it, the journal's
+/// closes it (theory manual, bearing.12 to bearing.14). The film's grid is fixed to the shell; the journal's
+/// deformation rotates over it with the journal.
 class DeformingSurfaces {
  public:
   /// A null surface is rigid.
@@ -28,18 +28,18 @@ class DeformingSurfaces {
   [[nodiscard]] bool shell_deforms() const { return shell_ != nullptr; }
   [[nodiscard]] bool journal_deforms() const { return journal_ != nullptr; }
 
-  /// Adds to gap and rate in `motion`.
-  void place(const Eigen::VectorXd& s, const Eigen::VectorXd& s_rate, const GapKinematics::Turning& turning,
-             film::SurfaceMotion& motion);
+  /// Adds the displacements by the amplitudes `s` to gap and rate in `motion`.
+  void add_displacements(const Eigen::VectorXd& s, const Eigen::VectorXd& s_rate, const GapKinematics::Turning& turning,
+                         film::SurfaceMotion& motion);
 
-  /// Gap opened by unit amplitudes at the journal's angle last placed, (nodes, amplitudes), and how it changes in time.
+  /// Gap opened by unit amplitudes at the journal's last angle, shape (nodes, amplitudes).
   [[nodiscard]] const Eigen::MatrixXd& openings() const { return openings_; }
-  /// What unit changes of the amplitudes, then of their rates, do to the surfaces.
+  /// Change of the surfaces with a unit of each amplitude, then of each rate.
   [[nodiscard]] const std::vector<film::MotionDirection>& directions() const { return directions_; }
 
-  /// What the journal's deformation adds to the directions of the gap's parameters: it turns with the journal.
+  /// Adds to the directions of the gap's parameters that the journal's deformation rotates with the journal.
   void add_turning(const GapKinematics::Turning& turning, std::vector<film::MotionDirection>& of_parameters) const;
-  /// What it adds to the derivative of forces on amplitudes with the journal's angle, a column of `Q_ds`.
+  /// Adds the same to the derivative of forces on amplitudes with the journal's angle, a column of `Q_ds`.
   void add_turning_forces(const GapKinematics::Turning& turning, const Eigen::VectorXd& normal_forces,
                           Eigen::MatrixXd& Q_ds) const;
 
@@ -49,7 +49,7 @@ class DeformingSurfaces {
 
  private:
   using Functions = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< (nodes, functions)
-  /// Values at the nodes and first and second derivatives with phi of a surface's functions turned by `phi`.
+  /// Values at the nodes and first and second derivatives with phi of a surface's functions rotated by `phi`.
   [[nodiscard]] std::array<Functions, 3> at_nodes(const SurfaceFunctions& functions, double phi) const;
   void turn_journal(double phi);
   [[nodiscard]] Eigen::Index shell_count() const { return shell_ ? shell_->D.cols() : 0; }

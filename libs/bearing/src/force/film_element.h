@@ -81,7 +81,7 @@ class FilmElement {
   /// Temperatures of the step accepted last have changed: the next step sees their viscosities.
   void update_viscosity() { history_start_.viscosity = heat_->viscosity(); }
 
-  /// What the film shows at the state accepted last, whose surfaces are given.
+  /// Observes the film at the state accepted last, whose surfaces are given.
   [[nodiscard]] film::FilmObservables observe(const film::SurfaceMotion& accepted, const Eigen::Vector2d& e,
                                               const Eigen::Vector2d& tilt) const;
   /// Fields at the nodes at that state.
@@ -111,7 +111,7 @@ class FilmElement {
   bool has_layer_shear_ = false;  // the layers' shear at the start has been found
   int iterations_ = 0;
 
-  // What a rejected step returns to.
+  // State to which a rejected step returns.
   Eigen::VectorXd u_start_;
   film::FilmHistory history_;           // of the step being solved
   film::FilmHistory history_start_;     // what the next step starts from

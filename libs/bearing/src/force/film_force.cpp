@@ -54,16 +54,16 @@ const film::FilmModel& FilmForce::model() const { return film_->model(); }
 
 const film::FilmHeat* FilmForce::heat() const { return film_->heat(); }
 
-void FilmForce::place(const mbd::RelativeMotion& motion) {
+void FilmForce::evaluate_surfaces(const mbd::RelativeMotion& motion) {
   thermal_->set_clearance_change(*gap_);
-  domain_error_ = gap_->place(motion, surfaces_);
+  domain_error_ = gap_->evaluate(motion, surfaces_);
   if (!domain_error_.empty()) return;
   HERSEY_REQUIRE(motion.s.size() == deforming_->amplitudes(), "the amplitudes of both surfaces' bodies");
   parameters_.head(gap_parameter_count_) = gap_->parameters();
   parameters_.segment(gap_parameter_count_, motion.s.size()) = motion.s;
   parameters_.tail(motion.s.size()) = motion.s_rate;
   thermal_->add_to(surfaces_);
-  deforming_->place(motion.s, motion.s_rate, gap_->turning(), surfaces_);
+  deforming_->add_displacements(motion.s, motion.s_rate, gap_->turning(), surfaces_);
   feed(motion.t);
   // A liner may be pushed beyond its undeformed surface; surfaces without one may not meet.
   const double gap = smallest_gap();
@@ -122,7 +122,7 @@ void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {
 void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
   response.set_zero(deforming_->amplitudes());
   film_->reset_oil();
-  place(motion);
+  evaluate_surfaces(motion);
   if (!domain_error_.empty()) return;
   const bool is_start = motion.dt == 0;
   if (is_start) {
@@ -217,12 +217,12 @@ bool FilmForce::is_step_consistent() {
   return film_->is_step_consistent(surfaces_);
 }
 
-// What is reported and warmed is the film that was solved: where a step fixes its supply line, with the line there.
+// The film that was solved is reported and warmed: where a step fixes its supply line, with the line there.
 void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   const bool is_step = film_->has_started();
   mbd::RelativeMotion solved = end;
   solved.dt = is_step ? film_->dt() : 0;
-  place(solved);
+  evaluate_surfaces(solved);
   accepted_surfaces_ = surfaces_;
   accepted_s_ = end.s;
   accepted_iterations_ = film_->iterations();
@@ -296,8 +296,8 @@ film::FilmFields FilmForce::fields() const {
   return fields;
 }
 
-// What begin_step returns to, and the last step: where the integrator starts afresh, accelerations at the step's end
-// follow from it. What the step showed is not kept: it has been observed.
+// Saves the state to which begin_step returns, and the last step: where the integrator starts afresh, accelerations at
+// the step's end follow from it. Observations of the step are not saved; they have been recorded.
 void FilmForce::persist(Archive& archive) {
   film_->persist(archive);
   {

@@ -19,7 +19,7 @@ class WrenchExchange {
 
   /// Starts a step from what the last accepted one exchanged.
   void begin_step();
-  /// Whether the steps that follow an exchange without convergence are still solved as one system.
+  /// True if the steps that follow an exchange without convergence are still solved as one system.
   [[nodiscard]] bool is_suspended() const { return monolithic_steps_left_ > 0; }
 
   /// False for the first surfaces of a step: these are a prediction, no answer to any wrench yet.

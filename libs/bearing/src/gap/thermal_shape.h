@@ -37,7 +37,7 @@ class ThermalShape {
   /// At the end of the step [m], and its rate in the step [m/s].
   [[nodiscard]] const Eigen::VectorXd& now() const { return now_; }
   [[nodiscard]] const Eigen::VectorXd& rate() const { return rate_; }
-  /// Whether it has ever been called to.
+  /// True if a target has ever been set.
   [[nodiscard]] bool moves() const { return over_ > 0 && now_.size() > 0; }
 
   /// All of it.

@@ -84,7 +84,7 @@ bool is_fine_enough(const film::Grid& grid) {
   return grid.n_phi >= kFewestNodesAround && grid.n_z >= kFewestNodesAcross;
 }
 
-// What a figure has no error of: oil that does not leave has no temperature.
+// Error of a figure that has none: oil that does not leave has no temperature.
 constexpr double kNone = -1;
 
 // Richardson's error of `fine`. Steps of opposite sign or growing ones are no order at all: then, and without a third

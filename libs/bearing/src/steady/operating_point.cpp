@@ -28,7 +28,7 @@ film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmMod
                                     const Coordinates& e) {
   film::SurfaceMotion motion;
   surfaces.set_clearance_change(point.growth, 0);
-  surfaces.place(parameters_of(model, point, e), motion);
+  surfaces.evaluate(parameters_of(model, point, e), motion);
   motion.u_shell = model.R * point.shell_speed;
   // The bearing's axes rest: a shell that turns takes its shape along.
   if (point.shell_speed != 0) motion.g_rate -= point.shell_speed * film::GapShape(model).shell_slope();

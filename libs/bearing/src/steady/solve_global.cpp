@@ -28,7 +28,7 @@ EffectiveTemperature balance(const film::Lubricant& oil, const GlobalHeat& heat,
   return {heat.T_supply + 0.5 * rise, heat.T_supply + rise};
 }
 
-/// What there is to say of walls that leave no clearance with oil of temperature T.
+/// Describes walls that leave no clearance with oil of temperature T.
 SteadySummary seizure(const film::FilmModel& model, const OperatingPoint& at, double T) {
   SteadySummary summary;
   summary.message = fmt::format("a seizure: the clearance of {:.4g} um closes to {:.4g} um with oil of {:.0f} degC",
@@ -37,14 +37,14 @@ SteadySummary seizure(const film::FilmModel& model, const OperatingPoint& at, do
 }
 
 /// Of a film that cold oil has kept and oil of temperature T does not.
-SteadySummary lost(SteadySummary summary, double T) {
+SteadySummary runaway(SteadySummary summary, double T) {
   summary.message = fmt::format("thermal runaway: oil that warms to {:.0f} degC is too thin for the film to stay; {}",
                                 T - film::zero_celsius, summary.message);
   return summary;
 }
 
 /// An answer, unless oil of temperature T is none.
-SteadySummary judged(SteadySummary summary, double T) {
+SteadySummary checked(SteadySummary summary, double T) {
   if (T <= hottest_oil) return summary;
   summary.set_solved(false);
   summary.message = fmt::format(
@@ -75,7 +75,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     summary.iterations = linearisations, summary.heat_iterations = k;
     if (!summary.solved()) {
       if (k == 1) return summary;
-      if (++steps_back > most_steps_back) return lost(summary, from + rise);
+      if (++steps_back > most_steps_back) return runaway(summary, from + rise);
       rise = 0.5 * (rise + carried);
       mixing.begin_step();
       continue;
@@ -88,7 +88,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     }
     state.effective = balance(model.lubricant, heat, state.film);
     const double found = state.effective->T - from;
-    if (std::abs(found - rise) <= tolerance * (1 + std::abs(found))) return judged(summary, state.effective->T_out);
+    if (std::abs(found - rise) <= tolerance * (1 + std::abs(found))) return checked(summary, state.effective->T_out);
     next.start = state.e, next.start_film = state.u, next.start_deformation = state.s;
     const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, rise), image = Eigen::VectorXd::Constant(1, found);
     rise = std::clamp(mixing.next(x, image)[0], coldest_trial - from, hottest_trial - from);
@@ -96,7 +96,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
   summary.set_solved(false);
   summary.message = fmt::format("the balance of heat finds no temperature in {} iterations; last {:.0f} degC",
                                 most_iterations, from + rise - film::zero_celsius);
-  return from + rise > hottest_oil ? judged(summary, from + rise) : summary;
+  return from + rise > hottest_oil ? checked(summary, from + rise) : summary;
 }
 
 }  // namespace hersey::bearing

@@ -116,7 +116,7 @@ void SteadyFilm::gather_flexibility(const SteadyElasticity& elasticity) {
 void SteadyFilm::lay_openings() {
   const Index count = coordinates_->count();
   film::SurfaceMotion motion = coordinates_->surfaces(point_, coordinates_->widest());
-  deforming_.place(s_0_, VectorXd::Zero(amplitudes()), {.angle = point_.journal_angle}, motion);
+  deforming_.add_displacements(s_0_, VectorXd::Zero(amplitudes()), {.angle = point_.journal_angle}, motion);
   positions_.assign(deforming_.directions().begin(), deforming_.directions().begin() + amplitudes());
   all_openings_ = deforming_.openings();
   for (const film::MotionDirection& tilt : coordinates_->directions(coordinates_->widest(), count, 2))
@@ -142,8 +142,8 @@ film::SurfaceMotion SteadyFilm::surfaces(const Coordinates& e, const VectorXd& x
   OperatingPoint tilted = point_;
   tilted.tilt = tilt(x);
   film::SurfaceMotion motion = rigid_surfaces(tilted, e);
-  // What rests in the bearing's axes opens the gap at no rate, a journal that turns beneath its deformation included.
-  deforming_.place(amplitudes_of(x), VectorXd::Zero(amplitudes()), {.angle = point_.journal_angle}, motion);
+  // A deformation at rest in the bearing's axes opens the gap at no rate, even where the journal rotates beneath it.
+  deforming_.add_displacements(amplitudes_of(x), VectorXd::Zero(amplitudes()), {.angle = point_.journal_angle}, motion);
   return motion;
 }
 
@@ -181,11 +181,11 @@ film::FilmSolveSummary SteadyFilm::solve(const Coordinates& e, VectorXd& x) {
   if (!deforms()) return solve_film(surfaces(e, x), x);
   film::FilmSolveSummary solved;
   const VectorXd start = x;
-  if (!x.head(reynolds_.size()).isZero(0)) solved = solve_together(e, x);
+  if (!x.head(reynolds_.size()).isZero(0)) solved = solve_jointly(e, x);
   if (!solved.solved()) {
     const int before = solved.iterations;
     x = start;
-    solved = solve_in_turn(e, x);
+    solved = solve_nested(e, x);
     solved.iterations += before;
   }
   if (!solved.solved()) {
@@ -194,7 +194,7 @@ film::FilmSolveSummary SteadyFilm::solve(const Coordinates& e, VectorXd& x) {
     solved.relative_residual = std::max(1.0, solved.relative_residual);
     return solved;
   }
-  // What is to be said of a film found, such as that it is starved.
+  // One more solve of the film found reports its state, such as starvation.
   VectorXd u = film_of(x);
   film::FilmSolveSummary judged = solve_film(surfaces(e, x), u);
   judged.iterations += solved.iterations;
@@ -202,7 +202,7 @@ film::FilmSolveSummary SteadyFilm::solve(const Coordinates& e, VectorXd& x) {
 }
 
 /// Newton on film and deformation at once.
-film::FilmSolveSummary SteadyFilm::solve_together(const Coordinates& e, VectorXd& x) {
+film::FilmSolveSummary SteadyFilm::solve_jointly(const Coordinates& e, VectorXd& x) {
   film::FilmSolveSummary summary;
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0, idle = 0; k < kMostIterations && idle < kFilmPatience; ++k) {
@@ -214,13 +214,13 @@ film::FilmSolveSummary SteadyFilm::solve_together(const Coordinates& e, VectorXd
     if (summary.solved()) return summary;
     idle = summary.relative_residual < 0.5 * best ? 0 : idle + 1;
     best = std::min(best, summary.relative_residual);
-    x += cut(e, x, dx_);
+    x += limit_step(e, x, dx_);
   }
   return summary;
 }
 
 /// Newton on the deformation with the film solved at each; a step that does not bring the deformation nearer is halved.
-film::FilmSolveSummary SteadyFilm::solve_in_turn(const Coordinates& e, VectorXd& x) {
+film::FilmSolveSummary SteadyFilm::solve_nested(const Coordinates& e, VectorXd& x) {
   film::FilmSolveSummary summary;
   int iterations = 0;
   const auto film_at = [&](VectorXd& at) {
@@ -242,7 +242,7 @@ film::FilmSolveSummary SteadyFilm::solve_in_turn(const Coordinates& e, VectorXd&
     summary.relative_residual = relative_residual();
     summary.set_solved(summary.relative_residual <= film_options_.rtol);
     if (summary.solved()) return finish();
-    const VectorXd from = x, dx = cut(e, x, dx_);
+    const VectorXd from = x, dx = limit_step(e, x, dx_);
     const double missing = r_s_.norm();
     bool nearer = false;
     for (double share = 1; !nearer && share > 1e-3; share /= 2) {
@@ -255,7 +255,7 @@ film::FilmSolveSummary SteadyFilm::solve_in_turn(const Coordinates& e, VectorXd&
   return finish();
 }
 
-VectorXd SteadyFilm::cut(const Coordinates& e, const VectorXd& x, const VectorXd& dx) {
+VectorXd SteadyFilm::limit_step(const Coordinates& e, const VectorXd& x, const VectorXd& dx) {
   double share = 1;
   while (share > kSmallestShare && !reuses_film(e, x, e, x + share * dx)) share *= 0.7;
   return share * dx;
@@ -268,7 +268,7 @@ bool SteadyFilm::reuses_film(const Coordinates& e, const VectorXd& x, const Coor
   const VectorXd before = film::film_fields(model_, surfaces(e, x), u).h;
   const VectorXd after = film::film_fields(model_, surfaces(e_next, x_next), u_next).h;
   if (!(after.array() >= kThinnest * before.array()).all()) return false;
-  return !yields() || (after.array() <= kThickest * before.array()).all();
+  return !may_overlap() || (after.array() <= kThickest * before.array()).all();
 }
 
 film::FilmDomain SteadyFilm::linearise(const Coordinates& e, const VectorXd& x) {

@@ -24,58 +24,58 @@ namespace hersey::bearing {
 /// that of `film::solve_film`.
 class SteadyFilm {
  public:
-  /// What keeps references to `model`, `point` and `options` alive is the caller's.
+  /// Keeps references to `model` and `point`.
   SteadyFilm(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options);
 
   [[nodiscard]] bool deforms() const { return amplitudes() > 0; }
-  /// Whether the surfaces may overlap before the film parts them.
-  [[nodiscard]] bool yields() const { return deforms() || model_.compliance > 0; }
+  /// True if the undeformed surfaces may overlap, since pressure parts them.
+  [[nodiscard]] bool may_overlap() const { return deforms() || model_.compliance > 0; }
   [[nodiscard]] Eigen::Index amplitudes() const { return deforming_.amplitudes(); }
   [[nodiscard]] Eigen::Index size() const { return reynolds_.size() + amplitudes(); }
   [[nodiscard]] auto film_of(const Eigen::VectorXd& x) const { return x.head(reynolds_.size()); }
   [[nodiscard]] auto amplitudes_of(const Eigen::VectorXd& x) const { return x.tail(amplitudes()); }
 
-  /// Surfaces with the journal at `e` and deformed as x says.
+  /// Returns the surfaces with the moving one at `e`, deformed by the amplitudes in x.
   [[nodiscard]] film::SurfaceMotion surfaces(const Coordinates& e, const Eigen::VectorXd& x);
 
-  /// Viscosities by the oil's temperatures from now on.
+  /// Sets the viscosities by the oil's temperatures.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
-  /// How far shell and journal lie outside their cylinders at the nodes by temperature from now on [m] (thermal.36,
+  /// Sets how far shell and journal lie outside their cylinders at the nodes by temperature [m] (thermal.36,
   /// thermal.61); empty: nowhere.
   void set_thermal_shapes(Eigen::VectorXd shell, Eigen::VectorXd journal) {
     thermal_shape_ = std::move(shell), journal_shape_ = std::move(journal);
   }
   [[nodiscard]] const Eigen::VectorXd& thermal_shape() const { return thermal_shape_; }
   [[nodiscard]] const Eigen::VectorXd& journal_shape() const { return journal_shape_; }
-  /// On the film's relative residual, instead of SteadyOptions::rtol.
+  /// Sets the tolerance on the film's relative residual, instead of SteadyOptions::rtol.
   void set_tolerance(double rtol) { film_options_.rtol = rtol; }
-  /// Of a steady film, with its viscosities.
+  /// History of a steady film, with its viscosities.
   [[nodiscard]] const film::FilmHistory& history() const { return history_; }
 
   /// Smallest gap of the surfaces with the journal at `e` before anything but temperature deforms them [m].
   [[nodiscard]] double undeformed_gap(const Coordinates& e) const;
 
-  /// No film known, the bodies deformed by their spin alone.
+  /// Returns unknowns without a film, the bodies deformed by their spin alone.
   [[nodiscard]] Eigen::VectorXd start() const;
 
-  /// The film and the deformation at `e`, from x. On failure x is the last iterate.
+  /// Solves film and deformation at `e` from x. On failure x is the last iterate.
   [[nodiscard]] film::FilmSolveSummary solve(const Coordinates& e, Eigen::VectorXd& x);
 
   /// Linearises about x; the members below refer to it.
   [[nodiscard]] film::FilmDomain linearise(const Coordinates& e, const Eigen::VectorXd& x);
-  /// The same, the film found first at this deformation where a step has moved its fronts far: else Newton runs after
-  /// them. @return linearisations, 0 where there is no film
+  /// Linearises, after solving the film at this deformation where a step has moved its rupture front far: Newton's
+  /// method would otherwise follow it node by node. @return linearisations, 0 where there is no film
   [[nodiscard]] int linearise_near(const Coordinates& e, Eigen::VectorXd& x);
-  /// After a step of Newton's method from the last linearisation, of a film between surfaces that do not deform: fronts
-  /// it has moved go all the way.
+  /// Advances the rupture front all the way after a Newton step from the last linearisation; between surfaces that do
+  /// not deform.
   void advance_rupture_front(Eigen::VectorXd& x) const {
     if (!deforms()) reynolds_.advance_rupture_front(x);
   }
-  /// Whether the last linearisation has a factor for chord_about().
+  /// True if the last linearisation has a factor for chord_about().
   [[nodiscard]] bool has_factor() const { return !deforms() && reynolds_.has_factor(); }
   /// Residual, increment and force at a state nearby, with the derivatives of the last linearisation. @pre has_factor()
   [[nodiscard]] film::FilmDomain chord_about(const Coordinates& e, const Eigen::VectorXd& x);
-  /// Of the film, and of the deformation as the largest error of the gap over the clearance.
+  /// Residual of the film, or of the deformation as the largest error of the gap over the clearance if that is larger.
   [[nodiscard]] double relative_residual() const;
   /// Newton's increment of x at a fixed journal, and the force on the shell after it, in the bearing's axes as they
   /// stand without load.
@@ -85,21 +85,22 @@ class SteadyFilm {
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces (bearing.28).
   void respond(std::span<const film::MotionDirection> directions, Eigen::MatrixXd& dx, Columns& dW);
-  /// Of the force in the axes of force(), by those of x and of the wrench.
+  /// Change of force() by changes of x and of the wrench.
   [[nodiscard]] Eigen::MatrixXd change_of_force(const Eigen::MatrixXd& dx, const Columns& dW) const;
 
-  /// Whether from x at e the step to x_next at e_next thins or thickens no film by more than Newton may.
+  /// True if the step from x at e to x_next at e_next thins or thickens the film nowhere by more than a Newton step
+  /// may.
   [[nodiscard]] bool reuses_film(const Coordinates& e, const Eigen::VectorXd& x, const Coordinates& e_next,
                                  const Eigen::VectorXd& x_next);
 
-  /// How far the surfaces of elastic bodies give way to a load [m], roughly.
+  /// Returns roughly how far the surfaces of elastic bodies yield to a load [m].
   [[nodiscard]] double depth(const Coordinates& load);
 
-  /// By which amplitudes open the gap at the nodes, frames turned included [m].
+  /// Returns the opening of the gap at the nodes by amplitudes, rotation of the frames included [m].
   [[nodiscard]] Eigen::VectorXd opening(const Eigen::VectorXd& s) const { return all_openings_ * s; }
 
-  /// Slope of the journal's axis against the shell's, both as loaded [-], and the angle about z by which the shell's
-  /// frame has turned under the load [rad].
+  /// Slope of the journal's axis relative to the shell's under load [-], and rotation of the shell's frame about z
+  /// under the load [rad].
   [[nodiscard]] Eigen::Vector2d tilt(const Eigen::VectorXd& x) const;
   [[nodiscard]] double turn(const Eigen::VectorXd& x) const;
 
@@ -115,9 +116,9 @@ class SteadyFilm {
   void gather_flexibility(const SteadyElasticity& elasticity);
   [[nodiscard]] film::FilmSolveSummary solve_film(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
   [[nodiscard]] film::FilmSolveSummary solve_by_factorisation(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
-  [[nodiscard]] film::FilmSolveSummary solve_together(const Coordinates& e, Eigen::VectorXd& x);
-  [[nodiscard]] film::FilmSolveSummary solve_in_turn(const Coordinates& e, Eigen::VectorXd& x);
-  [[nodiscard]] Eigen::VectorXd cut(const Coordinates& e, const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
+  [[nodiscard]] film::FilmSolveSummary solve_jointly(const Coordinates& e, Eigen::VectorXd& x);
+  [[nodiscard]] film::FilmSolveSummary solve_nested(const Coordinates& e, Eigen::VectorXd& x);
+  [[nodiscard]] Eigen::VectorXd limit_step(const Coordinates& e, const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
   void eliminate_deformation();
   [[nodiscard]] film::SurfaceMotion rigid_surfaces(const OperatingPoint& point, const Coordinates& e) const;
   [[nodiscard]] Eigen::MatrixXd force_of(const Eigen::Ref<const Eigen::MatrixXd>& wrench) const;
@@ -138,7 +139,7 @@ class SteadyFilm {
   Eigen::VectorXd s_0_;                             // what the spin of the bodies does
   Eigen::MatrixXd offset_by_s_, by_offset_moment_;  // of the shell's body, SurfaceFlexibility
   Eigen::MatrixXd tilt_by_s_;                       // of the journal's axis against the shell's, (2, amplitudes)
-  // Of the shell's frame about z against where its body is held, and against that body's axes.
+  // Rotation of the shell's frame about z relative to where its body is fixed, and to that body's axes.
   Eigen::RowVectorXd turn_by_s_, turn_in_body_by_s_;
   Eigen::MatrixXd all_openings_;                  // of the gap by amplitudes, frames turned included
   std::vector<film::MotionDirection> positions_;  // of the amplitudes, then of the tilt

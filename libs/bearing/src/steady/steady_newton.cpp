@@ -20,7 +20,7 @@ constexpr int kPatience = 6;
 // Share of the load below which a force has no size to compare with.
 constexpr double kForceFloor = 1e-6;
 
-// What Newton's method leaves of a small residual is this many times its square.
+// Newton's method leaves of a small residual this many times its square.
 constexpr double kCurvature = 3;
 
 // Steps of the chord method in one iteration at most, and what may be missing for a first one.
@@ -35,7 +35,7 @@ constexpr double kSmallStep = 0.05;
 
 }  // namespace
 
-Coordinates SteadySearch::missing(const Coordinates& target) const {
+Coordinates SteadySearch::force_deficit(const Coordinates& target) const {
   const double F = force_.norm(), W = target.norm();
   const double turn = angle_between(force_, target);
   if (F < kForceFloor * W || std::abs(turn) > 0.5 * std::numbers::pi) return target - force_;
@@ -52,10 +52,10 @@ double SteadySearch::distance_to(const Coordinates& target) const {
 
 SteadySearch::Step SteadySearch::newton_step(const Coordinates& target) {
   const Eigen::MatrixXd K = force_by_position();
-  Step step{K.fullPivLu().solve(missing(target)), film_.increment()};
+  Step step{K.fullPivLu().solve(force_deficit(target)), film_.increment()};
   if (!step.de.allFinite()) step.de.setZero();
   step.de *= std::min(1.0, 0.5 * coordinates_of().scale(point_, e_) / std::max(step.de.norm(), 1e-300));
-  if (!film_.yields()) step.de *= share_of_gap(step.de);
+  if (!film_.may_overlap()) step.de *= share_of_gap(step.de);
   step.dx += dx_de_ * step.de;
   double share = 1;
   while (share > 1e-6 && !film_.reuses_film(e_, x_, e_ + share * step.de, x_ + share * step.dx)) share *= 0.7;
@@ -70,24 +70,24 @@ double SteadySearch::share_of_gap(const Coordinates& de) const {
   return std::abs(x) < 1e-6 ? 1 : std::min(2.0, -std::expm1(-x) / x);
 }
 
-bool SteadySearch::turns_far(const Coordinates& from, const Coordinates& to) const {
+bool SteadySearch::rotates_far(const Coordinates& from, const Coordinates& to) const {
   if (model_.supply.kind != film::SupplyKind::widest_gap) return false;
   return std::abs(angle_between(from, to)) > kLargestTurn;
 }
 
-bool SteadySearch::holds(const Coordinates& target) {
+bool SteadySearch::is_converged(const Coordinates& target) {
   summary_.force_error = (force_ - target).norm() / target.norm();
   return summary_.force_error <= rtol_ && film_.relative_residual() <= rtol_;
 }
 
-bool SteadySearch::settle() {
+bool SteadySearch::take_last_increment() {
   const Eigen::VectorXd x = x_ + film_.increment();
   if (film::lowest_fill_node(model_, film_.film_of(x)) >= 0) return false;
   x_ = x;
   return true;
 }
 
-bool SteadySearch::one_step(const Coordinates& target) {
+bool SteadySearch::take_one_step(const Coordinates& target) {
   if (is_swept()) return false;
   const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());
   if (kCurvature * off * off > rtol_) return false;
@@ -101,7 +101,7 @@ bool SteadySearch::one_step(const Coordinates& target) {
 }
 
 // (thermal.31)
-bool SteadySearch::on_chord(const Coordinates& target) {
+bool SteadySearch::take_chord_steps(const Coordinates& target) {
   if (!changed_) return false;
   const Coordinates e = e_;
   const Eigen::VectorXd x = x_;
@@ -121,13 +121,13 @@ bool SteadySearch::on_chord(const Coordinates& target) {
   return false;
 }
 
-bool SteadySearch::together(const Coordinates& target) {
+bool SteadySearch::solve_jointly(const Coordinates& target) {
   if (is_swept()) return false;
   double best = std::numeric_limits<double>::infinity();
   int idle = 0;
   for (int k = 0; k < options_.max_iterations && idle < kPatience; ++k) {
-    if (holds(target)) {
-      if (settle()) return true;
+    if (is_converged(target)) {
+      if (take_last_increment()) return true;
       if (!film_at(e_)) return false;  // which knows a way out
     }
     const double now = distance_to(target) + film_.relative_residual();
@@ -139,22 +139,22 @@ bool SteadySearch::together(const Coordinates& target) {
     const Eigen::VectorXd film = x_;
     x_ += step.dx;
     film_.advance_rupture_front(x_);
-    if (stands_inside() && !turns_far(from, e_) && linearise()) continue;
+    if (has_open_gap() && !rotates_far(from, e_) && linearise()) continue;
     x_ = film;
     if (!film_at(e_)) return false;
   }
   return false;
 }
 
-bool SteadySearch::in_turn(const Coordinates& target) {
-  for (int k = 0; k < options_.max_iterations && !is_tired(); ++k) {
-    if (holds(target) && settle()) return true;
+bool SteadySearch::solve_nested(const Coordinates& target) {
+  for (int k = 0; k < options_.max_iterations && !is_over_budget(); ++k) {
+    if (is_converged(target) && take_last_increment()) return true;
     const Coordinates e = e_;
     const Eigen::VectorXd x = x_;
     const double distance = distance_to(target);
     const Step step = newton_step(target);
     bool nearer = false;
-    for (double share = 1; !nearer && share > 1e-4 && !is_tired(); share /= 2) {
+    for (double share = 1; !nearer && share > 1e-4 && !is_over_budget(); share /= 2) {
       x_ = x + share * step.dx;
       if (!film::check_unknowns(model_, film_.film_of(x_)).is_inside()) x_ = x;
       nearer = film_at(e + share * step.de) && distance_to(target) < distance;

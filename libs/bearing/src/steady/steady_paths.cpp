@@ -28,25 +28,25 @@ constexpr double kFreshTurn = 0.2;
 
 }  // namespace
 
-std::string SteadySearch::why_not() const {
+std::string SteadySearch::failure_message() const {
   if (!limit_.why.empty() && 0 < limit_.force && limit_.force < point_.load->norm()) {
-    if (limit_.is_unsolved) return not_found_further_out();
+    if (limit_.is_unsolved) return unsolved_message();
     return fmt::format(
         "no equilibrium: along this load of {:.4g} N the film bears at most about {:.4g} N, at {}; "
         "further out {}{}",
-        point_.load->norm(), limit_.force, limit_.where, limit_.why, what_to_try());
+        point_.load->norm(), limit_.force, limit_.where, limit_.why, suggestion());
   }
   std::string text = fmt::format("no equilibrium found in {} linearisations: force off by {:.2g} of the load at {}",
                                  summary_.iterations, summary_.force_error, position_text());
   if (gap_at(e_) > kTouching * coordinates_of().scale(point_, e_)) return text;
   const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
-  if (is_smooth && film_.yields())
+  if (is_smooth && film_.may_overlap())
     return text + "; the surfaces touch at the edges, where no film pressure parts them: give asperities";
   if (is_smooth) return text + "; the film would be thinner than any surface is smooth: give asperities";
-  return film_.yields() ? text : text + "; more than the asperities of rigid surfaces bear: give a compliance";
+  return film_.may_overlap() ? text : text + "; more than the asperities of rigid surfaces bear: give a compliance";
 }
 
-std::string SteadySearch::not_found_further_out() const {
+std::string SteadySearch::unsolved_message() const {
   const std::string other = film_.deforms() ? "" : is_swept() ? "; `solver: newton` may" : "; `solver: sor` may";
   return fmt::format(
       "no equilibrium found: along this load of {:.4g} N the film bears {:.4g} N at {} and "
@@ -54,14 +54,14 @@ std::string SteadySearch::not_found_further_out() const {
       point_.load->norm(), limit_.force, limit_.where, limit_.why, other);
 }
 
-std::string SteadySearch::what_to_try() const {
+std::string SteadySearch::suggestion() const {
   const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
   std::string text = is_smooth ? "; `asperities` would bear what the film does not" : "";
-  if (!film_.yields()) text += "; surfaces that give way (`compliance`) spread the pressure";
+  if (!film_.may_overlap()) text += "; surfaces that give way (`compliance`) spread the pressure";
   return text;
 }
 
-bool SteadySearch::from_here() {
+bool SteadySearch::continue_nested() {
   const Coordinates here = e_;
   if (!film_at_start()) return false;
   const Coordinates start = e_;
@@ -71,7 +71,7 @@ bool SteadySearch::from_here() {
     x_ = film;
     if (!film_at(start)) return false;
   }
-  return in_turn(*point_.load);
+  return solve_nested(*point_.load);
 }
 
 Coordinates SteadySearch::between(const Coordinates& from, double share) const {
@@ -82,13 +82,13 @@ Coordinates SteadySearch::between(const Coordinates& from, double share) const {
   return size * (Eigen::Rotation2Dd(share * turn) * Eigen::Vector2d(from));
 }
 
-bool SteadySearch::from_light_load() {
+bool SteadySearch::raise_from_light_load() {
   for (const double share : {1.0 / 16, 1.0 / 128}) {
-    if (!film_.deforms() || is_tired()) return false;
+    if (!film_.deforms() || is_over_budget()) return false;
     OperatingPoint light = point_;
     light.load = share * *point_.load;
     x_ = film_.start();
-    if (film_at(coordinates_of().start(light)) && follow(*light.load) && change_load()) return true;
+    if (film_at(coordinates_of().start(light)) && track(*light.load) && change_load()) return true;
   }
   return false;
 }
@@ -96,11 +96,11 @@ bool SteadySearch::from_light_load() {
 bool SteadySearch::change_load() {
   const Coordinates from = force_;
   double reached = 0, step = 0.25;
-  while (reached < 1 && !is_tired()) {
+  while (reached < 1 && !is_over_budget()) {
     const Coordinates e = e_;
     const Eigen::VectorXd x = x_;
     const double next = std::min(1.0, reached + step);
-    if (follow(next == 1 ? *point_.load : between(from, next))) {
+    if (track(next == 1 ? *point_.load : between(from, next))) {
       reached = next;
       step *= 2;
       continue;
@@ -113,19 +113,19 @@ bool SteadySearch::change_load() {
   return reached >= 1;
 }
 
-bool SteadySearch::follow(const Coordinates& target) {
-  if (!film_.deforms()) return in_turn(target);
+bool SteadySearch::track(const Coordinates& target) {
+  if (!film_.deforms()) return solve_nested(target);
   const Coordinates e = e_;
   const Eigen::VectorXd x = x_;
-  if (together(target)) return true;
+  if (solve_jointly(target)) return true;
   x_ = x;
-  return film_at(e) && in_turn(target);
+  return film_at(e) && solve_nested(target);
 }
 
-SteadySearch::Look SteadySearch::turn_to_load(Position& at) {
+SteadySearch::Look SteadySearch::rotate_to_load(Position& at) {
   const Coordinates& W = *point_.load;
   double turn = std::numbers::pi;
-  for (int k = 0; k < kMostTurns && !is_tired(); ++k) {
+  for (int k = 0; k < kMostTurns && !is_over_budget(); ++k) {
     if (std::abs(turn) > kFreshTurn) x_.head(model_.grid.size()).setZero();
     if (!film_at(coordinates_of().at(point_, at.r, at.angle))) return Look::no_film;
     turn = angle_between(force_, W);
@@ -140,7 +140,7 @@ SteadySearch::Look SteadySearch::turn_to_load(Position& at) {
 
 void SteadySearch::look_at(double r, Bounds& bounds) {
   Position at{r, bounds.angle, {}};
-  const Look observed = turn_to_load(at);
+  const Look observed = rotate_to_load(at);
   if (observed == Look::across) return;
   if (observed == Look::no_film) {
     limit_.why = summary_.message;
@@ -156,18 +156,18 @@ void SteadySearch::look_at(double r, Bounds& bounds) {
     bounds.inner = r;
 }
 
-bool SteadySearch::from_inside_out() {
+bool SteadySearch::search_outwards() {
   const Coordinates start = coordinates_of().start(point_);
   Bounds bounds{.angle = start.size() == 2 ? std::atan2(start.y(), start.x()) : 0};
   for (const double r : coordinates_of().distances(point_, film_.depth(*point_.load))) {
-    if (bounds.outer || is_tired()) break;
+    if (bounds.outer || is_over_budget()) break;
     look_at(r, bounds);
   }
-  for (int k = 0; k < kMostHalvings && bounds.outer && !is_tired(); ++k) {
+  for (int k = 0; k < kMostHalvings && bounds.outer && !is_over_budget(); ++k) {
     if (is_reached(bounds)) return true;
     look_at(0.5 * (bounds.inner + *bounds.outer), bounds);
   }
-  if (!bounds.outer && !is_tired()) limit_.why = "the surfaces all but touch";
+  if (!bounds.outer && !is_over_budget()) limit_.why = "the surfaces all but touch";
   return is_reached(bounds);
 }
 
@@ -178,7 +178,7 @@ bool SteadySearch::is_reached(const Bounds& bounds) {
     x_ = from.x;
     return film_at(coordinates_of().at(point_, from.r, from.angle));
   };
-  return (back() && in_turn(*point_.load)) || (back() && change_load());
+  return (back() && solve_nested(*point_.load)) || (back() && change_load());
 }
 
 }  // namespace hersey::bearing

@@ -7,7 +7,7 @@
 #include "hersey/film/observables.h"
 #include "hersey/film/reynolds.h"
 
-// What is asked of a film and its position, and what they are once found.
+// Entry points of the search, and the state that it has found.
 namespace hersey::bearing {
 namespace {
 
@@ -31,12 +31,12 @@ SteadySearch::SteadySearch(const film::FilmModel& model, const OperatingPoint& p
 bool SteadySearch::film_at(const Coordinates& e) {
   e_ = e;
   is_unsolved_ = false;
-  if (!stands_inside()) return false;
+  if (!has_open_gap()) return false;
   const film::FilmSolveSummary solved = film_.solve(e, x_);
   (is_swept() ? summary_.film_iterations : summary_.iterations) += solved.iterations;
   summary_.message = solved.message;
   is_unsolved_ = is_unsolved(solved);
-  return solved.solved() && flows() && linearise();
+  return solved.solved() && is_fluid() && linearise();
 }
 
 bool SteadySearch::is_unsolved(const film::FilmSolveSummary& solved) const {
@@ -46,10 +46,10 @@ bool SteadySearch::is_unsolved(const film::FilmSolveSummary& solved) const {
   return solved.domain.violation != Violation::closed && !(solved.domain.violation == Violation::pressure && stiffens);
 }
 
-bool SteadySearch::flows() {
+bool SteadySearch::is_fluid() {
   Eigen::Index node = 0;
   const double p = film_.film_of(x_).maxCoeff(&node);
-  if (film_.yields() || film::log_viscosity_ratio(model_.lubricant, p).value < kSolid) return true;
+  if (film_.may_overlap() || film::log_viscosity_ratio(model_.lubricant, p).value < kSolid) return true;
   summary_.message =
       film::text(model_, {.violation = film::FilmDomain::Violation::pressure, .node = static_cast<int>(node)});
   return false;
@@ -76,17 +76,17 @@ SteadySummary SteadySearch::at_given_position() {
 
 SteadySummary SteadySearch::under_load() {
   if (!film_at_start()) return summary_;
-  if (bears_nothing()) {
+  if (carries_no_load()) {
     summary_.message =
         "the film bears no load: it has no pressure anywhere. Where edges at the cavitation pressure "
         "and no supply let no oil in, there is no other film";
     return summary_;
   }
   budget_ = options_.max_linearisations;
-  const bool found = together(*point_.load) || from_light_load() || from_here() || raise_load();
+  const bool found = solve_jointly(*point_.load) || raise_from_light_load() || continue_nested() || raise_load();
   budget_ = summary_.iterations + static_cast<int>(kShareOfSearch * options_.max_linearisations);
-  if (!found && !from_inside_out()) {
-    summary_.message = why_not();
+  if (!found && !search_outwards()) {
+    summary_.message = failure_message();
     return summary_;
   }
   summary_.set_solved(true);
@@ -99,10 +99,11 @@ SteadySummary SteadySearch::retry() {
   budget_ = summary_.iterations + options_.max_linearisations;
   const Coordinates e = e_;
   const Eigen::VectorXd x = x_;
-  summary_.set_solved(on_chord(*point_.load) || (linearise() && (one_step(*point_.load) || together(*point_.load))));
+  summary_.set_solved(take_chord_steps(*point_.load) ||
+                      (linearise() && (take_one_step(*point_.load) || solve_jointly(*point_.load))));
   if (!summary_.solved()) {
     x_ = x;
-    summary_.set_solved(film_at(e) && together(*point_.load));
+    summary_.set_solved(film_at(e) && solve_jointly(*point_.load));
   }
   if (!summary_.solved()) return under_load();
   summary_.message.clear();
@@ -164,7 +165,7 @@ SteadyState SteadySearch::state() {
   return state;
 }
 
-bool SteadySearch::bears_nothing() {
+bool SteadySearch::carries_no_load() {
   const film::FilmFields fields = film::film_fields(model_, film_.surfaces(e_, x_), film_.film_of(x_));
   const double scale =
       model_.lubricant.mu0 * point_.film_speed(clearance(model_)) * std::pow(model_.R / clearance(model_), 2);

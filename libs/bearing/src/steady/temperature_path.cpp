@@ -10,9 +10,9 @@
 namespace hersey::bearing {
 namespace {
 
-// What iterations are remembered: of axial waves of temperature in a long film there are many, and each makes the next
-// iteration's ten times as large as long as it is not known. Films are solved far nearer than temperatures have to
-// come.
+// Number of iterations that are remembered: of axial waves of temperature in a long film there are many, and each makes
+// the next iteration's ten times as large as long as it is not known. Films are solved far nearer than temperatures
+// have to come.
 constexpr solver::ChangesKept kTurnsKept{.most = 60, .noise = 1e-11};
 
 // After so many iterations what none of them resembles goes this share of its way only.

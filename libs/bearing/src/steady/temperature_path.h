@@ -20,7 +20,7 @@ inline constexpr double coldest_trial = 200, hottest_trial = 800;
 /// nearer to the last ones that had a film where they have none, and step by step where acceleration goes round.
 class TemperaturePath {
  public:
-  /// What keeps `model` and `thermal` alive is the caller's. @param start  unset: one temperature of all oil that is
+  /// Keeps references to `model` and `thermal`. @param start  unset: one temperature of all oil that is
   /// likely at `point` (thermal.30)
   TemperaturePath(const film::FilmModel& model, const film::ThermalModel& thermal, const OperatingPoint& point,
                   const std::optional<film::HeatState>& start);
@@ -37,13 +37,13 @@ class TemperaturePath {
   /// Largest change of the last iteration over the largest rise (plus 1 K).
   [[nodiscard]] double relative_distance() const { return relative_distance_; }
 
-  /// Whether a film has been found at one of the temperatures tried.
+  /// True if a film has been found at one of the temperatures tried.
   [[nodiscard]] bool has_film() const { return last_.size() > 0; }
   /// heat() has been advanced with the film of the temperatures tried.
   void take();
   /// To the next temperatures, after `iteration` others.
   void step_on(int iteration);
-  /// Whether iterations that are no longer accelerated lead away from the nearest temperatures found.
+  /// True if iterations that are no longer accelerated lead away from the nearest temperatures found.
   [[nodiscard]] bool leads_away() const;
   /// To be tried once more.
   void return_to_nearest() { try_next(nearest_.x); }

@@ -48,9 +48,8 @@ class FilmElement;
 class ThermalSurfaces;
 class WrenchExchange;
 
-/// An oil film between the surfaces of a shell frame A and of a journal frame B (theory manual, chapter bearing), where
-/// GapKinematics says how those lie to each other. The surfaces are rigid, or belong to elastic bodies whose shapes
-/// move them.
+/// An oil film between the surfaces of a shell frame A and of a journal frame B (theory manual, chapter bearing), whose
+/// gap is that of a GapKinematics. The surfaces are rigid, or belong to elastic bodies whose shapes move them.
 ///
 /// Monolithic: `evaluate` takes one Newton step of the film together with the bodies. The film's unknowns u follow the
 /// change of the surfaces since the last call through the last linearisation, u += du0 + (du/ds) (s - s_last), are
@@ -67,13 +66,13 @@ class FilmForce : public mbd::TwoBodyForce {
             const BearingOptions& options = {});
   ~FilmForce() override;
 
-  /// As it stands in messages and results.
+  /// Name of the bearing in messages and results.
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// How its surfaces lie to each other; at the motion evaluated last.
+  /// Kinematics of its surfaces, at the motion evaluated last.
   [[nodiscard]] const GapKinematics& gap() const { return *gap_; }
-  /// Of the film; constant.
+  /// The film's constant data.
   [[nodiscard]] const film::FilmModel& model() const;
-  /// As asked for; a step may be taken as one system all the same.
+  /// The coupling of the options. A single step may be monolithic in a partitioned coupling, too.
   [[nodiscard]] Coupling coupling() const { return options_.coupling; }
 
   /// With motion.dt = 0 (start of a run) the film is solved to the end instead: freshly filled, theta = 1 before a step
@@ -92,27 +91,27 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }
   void persist(Archive& archive) override;
 
-  /// A cycle of the machine has ended with the step last accepted: as film::FilmHeat::mean_exchange().
+  /// Returns film::FilmHeat::mean_exchange() of the cycle of the machine that ended with the step last accepted.
   const film::WallExchange& mean_exchange();
-  /// Likewise film::FilmHeat::settle_walls().
+  /// Calls film::FilmHeat::settle_walls() at the end of a cycle.
   void settle_walls(const Eigen::VectorXd& T_nodes);
-  /// Of a film with temperatures; null: it has one.
+  /// Temperatures of the film; null: it has one given temperature.
   [[nodiscard]] const film::FilmHeat* heat() const;
-  /// After a step has been accepted: likewise film::FilmHeat::move_walls().
+  /// Calls film::FilmHeat::move_walls() after a step has been accepted.
   void move_walls(const Eigen::VectorXd& T);
-  /// What temperatures have come to at the state last accepted, where no film goes on from there: a clearance that they
-  /// close, or oil that warms without bound, and where. Empty: nothing of that.
+  /// Describes, at the state last accepted, a clearance that temperatures close, or oil that warms without bound, and
+  /// where; empty if neither is the case.
   /// @param closed  share of the clearance as given below which it counts as closed [-]
   [[nodiscard]] std::string thermal_failure(double closed) const;
 
-  /// Everything to report at the state last accepted (or initialised).
+  /// Returns all figures of the state last accepted (or initialised).
   [[nodiscard]] BearingObservation observe(const mbd::RelativeMotion& motion) const;
 
-  /// Fields at the nodes at the state last accepted.
+  /// Returns the fields at the nodes at the state last accepted.
   [[nodiscard]] film::FilmFields fields() const;
 
  private:
-  void place(const mbd::RelativeMotion& motion);
+  void evaluate_surfaces(const mbd::RelativeMotion& motion);
   void feed(double t);
   void report_contact();
   void report(const film::FilmDomain& domain);
@@ -133,7 +132,7 @@ class FilmForce : public mbd::TwoBodyForce {
   std::unique_ptr<WrenchExchange> exchange_;
   bool is_monolithic_step_ = true;
 
-  // The surfaces, and what moves them: parameters of the gap, amplitudes of the surfaces' shapes, their rates.
+  // The surfaces, and the parameters that move them: those of the gap, amplitudes of the surfaces' shapes, their rates.
   film::SurfaceMotion surfaces_;
   Eigen::Index gap_parameter_count_;
   Eigen::VectorXd parameters_;

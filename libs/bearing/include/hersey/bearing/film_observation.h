@@ -9,7 +9,7 @@
 
 namespace hersey::bearing {
 
-/// Oil in a film over a run: what is there, what has passed, and what nobody can explain (theory manual, film.15).
+/// Balance of a film's oil over a run: content, flow, and the unexplained rest (theory manual, film.15).
 struct CumulativeOilBalance {
   double volume = 0;        ///< in the film [m^3]
   double through_flow = 0;  ///< volume that has passed: the larger of what came in and what left, step by step [m^3]
@@ -17,9 +17,9 @@ struct CumulativeOilBalance {
   double step_error = 0;    ///< the last step's share of that [m^3]
 };
 
-/// What one bearing shows at an accepted state.
+/// Observation of one bearing at an accepted state.
 struct BearingObservation {
-  GapPosition position;                       ///< of the journal, or what moves in its place
+  GapPosition position;                       ///< of the moving surface
   Vector6 wrench_on_shell = Vector6::Zero();  ///< [moment about the bearing's origin; force], bearing frame
   double power_into_bodies = 0;  ///< of wrench, forces on shapes and growing walls [W]; negative: the film takes power
   double power_of_growth = 0;    ///< its part on walls that grow with their temperature [W]
@@ -29,7 +29,7 @@ struct BearingObservation {
   double bore_growth = 0, journal_growth = 0, clearance_of_bodies = 0;
   film::FilmObservables film;
   std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
-  film::WallCorrection walls;                 ///< of held walls, when they settled last
+  film::WallCorrection walls;                 ///< of fixed walls, when they were last corrected
   CumulativeOilBalance oil;
   int film_iterations = 0;  ///< film linearisations in the last step
   int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step

@@ -23,9 +23,9 @@ struct GapPosition {
   [[nodiscard]] double ratio() const { return relative.norm(); }
 };
 
-/// A kind of bearing as its film sees it: the parameters through which two rigid surfaces, of frames A and B, act on
-/// the gap, with their derivatives, and how they place the surfaces. A film between them is a FilmForce. One object per
-/// bearing and thread; no allocation after the first call.
+/// Kinematics of the gap of one kind of bearing: the parameters through which two rigid surfaces, of frames A and B,
+/// act on the gap, their derivatives with the relative motion, and the surfaces at these parameters. A film between
+/// them is a FilmForce. One object per bearing and thread; no allocation after the first call.
 class GapKinematics {
  public:
   using Index = Eigen::Index;
@@ -33,50 +33,51 @@ class GapKinematics {
 
   virtual ~GapKinematics() = default;
 
-  /// Both surfaces together have moved apart and move apart everywhere, as their bodies grow [m, m/s]; what is placed
-  /// next has it, and positions are over the gap as it then is.
+  /// Sets by how much, and how fast, both surfaces together move apart everywhere as their bodies grow [m, m/s]. Later
+  /// evaluations include it, and positions are relative to the gap as it then is.
   void set_clearance_change(double growth, double rate) { growth_ = growth, growth_rate_ = rate; }
 
-  /// A step begins at this motion: what it cannot follow within a step stays as it is here until the next call.
+  /// Begins a step at this motion. What a step cannot follow stays as it is here until the next call.
   virtual void begin_step(const mbd::RelativeMotion& /*start*/) {}
-  /// And has ended at this one.
+  /// Ends the step at this motion.
   virtual void end_step(const mbd::RelativeMotion& /*end*/) {}
-  /// What both keep.
+  /// Saves or restores what begin_step() and end_step() keep.
   virtual void persist(Archive& /*archive*/) {}
 
-  /// Writes the surfaces at a motion of B relative to A into `surfaces`: gap, rate, speeds, angles. What follows refers
-  /// to this motion. Not empty: why the surfaces are none, for the user; they are then not placed.
-  [[nodiscard]] virtual std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) = 0;
+  /// Writes the surfaces at a motion of B relative to A into `surfaces`: gap, rate, speeds, angles. The members below
+  /// refer to this motion.
+  /// @return empty, or for the user why the bodies do not face each other; `surfaces` then stays as it was
+  [[nodiscard]] virtual std::string evaluate(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) = 0;
 
-  /// The parameters that act, constant in number.
+  /// Parameters that act on the gap, constant in number.
   [[nodiscard]] const Eigen::VectorXd& parameters() const { return parameters_; }
-  /// Their derivatives with the twist that moves B in A, and with V_AB_A, shape (parameters, 6).
+  /// Derivatives of the parameters with the twist that moves B in A, shape (parameters, 6).
   [[nodiscard]] const Jacobian& d_dX() const { return d_dX_; }
-  /// See d_dX.
+  /// Derivatives of the parameters with V_AB_A, same shape.
   [[nodiscard]] const Jacobian& d_dV() const { return d_dV_; }
-  /// What a unit change of a parameter does to the surfaces.
+  /// Change of the surfaces with a unit of a parameter.
   [[nodiscard]] virtual const film::MotionDirection& direction(Index parameter) const = 0;
-  /// Whether a parameter is an angle, the same after a whole turn.
+  /// True if a parameter is an angle, the same after a revolution.
   [[nodiscard]] virtual bool is_angle(Index parameter) const = 0;
   /// Smallest gap of the rigid surfaces [m].
   [[nodiscard]] virtual double smallest_gap() const = 0;
   /// Says which surface touches which: "the journal touches the shell".
   [[nodiscard]] virtual std::string contact_text() const = 0;
-  /// Where B's surface is, in words of this kind of bearing.
+  /// Says where B's surface is, in the measures of this kind of bearing.
   [[nodiscard]] virtual std::string position_text() const = 0;
 
-  /// How B's surface turns over the film's grid: by what angle [rad], how fast [rad/s], and which parameters these are,
-  /// the speed's being that of a surface with this radius [m].
+  /// Rotation of B's surface over the film's grid: angle [rad], speed [rad/s], and the indices of the parameters that
+  /// these are; the speed's parameter is that of a surface with this radius [m].
   struct Turning {
     double angle = 0, speed = 0, radius = 1;
     Index of_angle = 0, of_speed = 0;
   };
-  /// Only where that surface deforms or has features or a shape of its own.
+  /// Returns that rotation. Only surfaces that deform, or have features or a shape of their own, need it.
   [[nodiscard]] virtual Turning turning() const = 0;
 
-  /// Of any motion, whatever was placed last.
+  /// Returns the position at any motion, independent of the motion evaluated last.
   [[nodiscard]] virtual GapPosition position(const mbd::RelativeMotion& motion) const = 0;
-  /// By how much of the clearance B is elsewhere in `after` than in `before` [-].
+  /// Returns the displacement of B from `before` to `after` over the clearance [-].
   [[nodiscard]] virtual Eigen::VectorXd relative_shift(const Pose& before, const Pose& after) const = 0;
 
  protected:

@@ -8,17 +8,18 @@
 
 namespace hersey::bearing {
 
-/// The gap between a journal, whose axis is B's z-axis, and the bore it turns in, whose axis is A's.
+/// The gap between a journal, whose axis is the z-axis of frame B, and its bore, whose axis is that of frame A.
 class JournalGap final : public GapKinematics {
  public:
-  /// @param journal_deforms  its shape turns with it, as features and profiles of the journal do
+  /// @param journal_deforms  its deformation rotates with it, as features and profiles of the journal do
   JournalGap(const film::FilmModel& model, bool journal_deforms);
 
-  /// After a step that ended near the centre the widest gap, and with it a supply there, stays where it is.
+  /// After a step that ended near the centre, the widest gap, and with it a supply there, keeps its angle over the
+  /// step.
   void begin_step(const mbd::RelativeMotion& start) override;
   void end_step(const mbd::RelativeMotion& end) override;
   void persist(Archive& archive) override;
-  [[nodiscard]] std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
+  [[nodiscard]] std::string evaluate(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
   [[nodiscard]] const film::MotionDirection& direction(Index parameter) const override;
   [[nodiscard]] bool is_angle(Index parameter) const override;
   [[nodiscard]] double smallest_gap() const override { return surfaces_.smallest_gap(); }
@@ -32,8 +33,8 @@ class JournalGap final : public GapKinematics {
   double R_, L_, c_;
   RigidSurfaces surfaces_;
   JournalKinematics kinematics_;
-  bool is_near_centre_ = false;        ///< as the last step ended
-  std::optional<double> held_supply_;  ///< angle of the widest gap over the step [rad]
+  bool is_near_centre_ = false;         ///< as the last step ended
+  std::optional<double> fixed_supply_;  ///< angle of the widest gap over the step [rad]
 };
 
 }  // namespace hersey::bearing

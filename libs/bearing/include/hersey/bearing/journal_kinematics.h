@@ -8,8 +8,9 @@
 
 namespace hersey::bearing {
 
-/// The numbers through which rigid surfaces act on a film, in this order. `e` is where the journal's axis pierces the
-/// bearing's mid-plane z = 0, `t` its slope d e/dz, both in the bearing frame (theory manual, chapter bearing).
+/// Parameters through which a rigid journal acts on a film, in this order. `e` is the point in which the journal's axis
+/// pierces the bearing's mid-plane z = 0, `t` its slope d e/dz, both in the bearing frame (theory manual, chapter
+/// bearing).
 enum Parameter : int {
   kEx,
   kEy,
@@ -22,7 +23,7 @@ enum Parameter : int {
   kJournalSpeed,  ///< circumferential speed of the journal surface relative to the shell [m/s]
   kAxialSpeed,    ///< axial speed of the journal relative to the shell [m/s]
   kSupplyAngle,   ///< angle of the widest gap at z = 0 [rad]
-  kRotation,      ///< by which the journal has turned about the bearing's axis [rad], -pi to pi
+  kRotation,      ///< rotation of the journal about the bearing's axis [rad], -pi to pi
   kParameterCount
 };
 
@@ -42,8 +43,7 @@ struct JournalKinematics {
   [[nodiscard]] Eigen::Vector2d tilt() const { return value.segment<2>(kTx); }
 };
 
-/// Whether the journal's axis is far enough from the bearing's mid-plane to pierce it: within 84 degrees of the
-/// bearing's axis.
+/// True if the journal's axis is within 84 degrees of the bearing's, so that it pierces the mid-plane.
 [[nodiscard]] bool is_aligned(const Pose& X_AB);
 
 /// @param X_AB,V_AB_A  journal relative to bearing, as in mbd::RelativeMotion.

@@ -18,7 +18,7 @@ namespace hersey::bearing {
 
 class BearingKind;
 
-/// What acts on a bearing by itself, in the coordinates of its kind. Bearing axes rest; angles count from x towards y.
+/// Conditions of a bearing by itself, in the coordinates of its kind. Bearing axes rest; angles count from x towards y.
 /// Words and sizes below are those of a journal, position and force (x, y).
 struct OperatingPoint {
   double journal_speed = 0;  ///< angular velocity of the journal about z [rad/s]
@@ -34,8 +34,8 @@ struct OperatingPoint {
 
   /// Sum of both speeds, which drags the oil [rad/s].
   [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed; }
-  /// What the film's fill scales with: the entraining speed, or where the journal is pressed outwards twice the speed
-  /// of the eccentricity ratio, if that is more (in Reynolds' equation it counts so) [rad/s].
+  /// Speed by which the fill fraction is scaled: the entraining speed, or twice the speed of the eccentricity ratio if
+  /// that is larger, as it counts in Reynolds' equation [rad/s].
   [[nodiscard]] double film_speed(double c) const {
     return std::max(std::abs(entraining_speed()), 2 * e_rate.norm() / c);
   }
@@ -46,7 +46,7 @@ struct OperatingPoint {
   return clearance(model, point.growth);
 }
 
-/// The same point between walls that have grown otherwise: a position that is given keeps its eccentricity ratio.
+/// Returns the point with another growth of the clearance; a position that is given keeps its eccentricity ratio.
 [[nodiscard]] OperatingPoint with_growth(OperatingPoint point, const film::FilmModel& model, double growth);
 
 struct SteadyOptions {
@@ -66,20 +66,20 @@ struct SteadyOptions {
   Eigen::VectorXd start_deformation = {};          ///< amplitudes of the surfaces' bodies there; empty: none known
 };
 
-/// The same film with its fill fraction scaled for the speed of the point, which keeps the search short down to the
-/// slowest (film.6).
+/// Returns the film with its fill fraction scaled for the speed of the point, which keeps the search short down to the
+/// slowest speeds (film.6).
 [[nodiscard]] film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point);
 
 /// Surfaces of a film around a journal at `e`.
 [[nodiscard]] film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
                                                   const Coordinates& e);
-/// The same of `surfaces`, made for `model`, where they are placed more than once.
+/// Returns the same by an object made for `model`, for repeated use.
 [[nodiscard]] film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmModel& model,
                                                   const OperatingPoint& point, const Coordinates& e);
 
-/// The shell lies further out at the nodes by `shape` [m]; an empty one changes nothing.
+/// Moves the shell outwards at the nodes by `shape` [m]; an empty one changes nothing.
 void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
-/// Likewise the journal.
+/// Moves the journal outwards in the same way.
 void add_to_journal(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
 
 /// Position of rigid bodies and their motion with the journal at `e`.

@@ -12,20 +12,21 @@ namespace hersey::bearing {
 /// chapter bearing). One object per bearing and thread; no allocation after the first call.
 class RigidSurfaces {
  public:
-  /// Of a bearing whose journal has no place yet: place() comes first.
+  /// The position of the journal is undefined until evaluate() is called.
   explicit RigidSurfaces(const film::FilmModel& model);
 
-  /// The clearance has grown and grows with the temperatures of its walls [m, m/s]; what is placed next has it.
+  /// Sets by how much, and how fast, the clearance grows with the temperatures of its walls [m, m/s]; later evaluations
+  /// include it.
   void set_clearance_change(double growth, double rate) { growth_ = growth, growth_rate_ = rate; }
 
   /// Writes the gap of two cylinders, g = c - (e + t z) . e_r(phi) (bearing.2), widened by profiles, its rate at fixed
-  /// grid points (bearing.3), the speeds, the place of the supply line and the journal's angle into `motion`.
-  void place(const ParameterVector& parameters, film::SurfaceMotion& motion);
+  /// grid points (bearing.3), the speeds, the angle of the supply line and the journal's angle into `motion`.
+  void evaluate(const ParameterVector& parameters, film::SurfaceMotion& motion);
 
-  /// What a unit change of one Parameter does to the surfaces last placed.
+  /// Change of the surfaces last evaluated with a unit of one Parameter.
   [[nodiscard]] const film::MotionDirection& direction(int parameter) const { return directions_[parameter]; }
 
-  /// Smallest gap over the film's width at the parameters last placed [m]: exact in phi for cylinders, otherwise the
+  /// Smallest gap over the film's width at the parameters last evaluated [m]: exact in phi for cylinders, otherwise the
   /// smallest at a node.
   [[nodiscard]] double smallest_gap() const { return smallest_gap_; }
 
@@ -43,13 +44,12 @@ class RigidSurfaces {
   Eigen::VectorXd opening_, first_, second_;
 };
 
-// The same for a single use.
-/// RigidSurfaces::place for a single use. @param growth  of the clearance [m]
-void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion,
-                    double growth = 0);
-/// RigidSurfaces::smallest_gap at these parameters [m]. @param growth  of the clearance [m]
+/// Calls RigidSurfaces::evaluate once. @param growth  of the clearance [m]
+void evaluate_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion,
+                       double growth = 0);
+/// Returns RigidSurfaces::smallest_gap at these parameters [m]. @param growth  of the clearance [m]
 [[nodiscard]] double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters, double growth = 0);
-/// Of a parameter that does not turn the journal.
+/// Returns RigidSurfaces::direction of a parameter that does not rotate the journal.
 [[nodiscard]] film::MotionDirection surface_direction(const film::FilmModel& model, int parameter);
 
 }  // namespace hersey::bearing

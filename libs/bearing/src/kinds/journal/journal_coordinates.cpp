@@ -70,7 +70,7 @@ std::vector<film::MotionDirection> JournalCoordinates::directions(const Coordina
 double JournalCoordinates::smallest_gap(const OperatingPoint& point, const Coordinates& e) {
   film::SurfaceMotion motion;
   surfaces_.set_clearance_change(point.growth, 0);
-  surfaces_.place(parameters_of(model_, point, e), motion);
+  surfaces_.evaluate(parameters_of(model_, point, e), motion);
   return surfaces_.smallest_gap();
 }
 

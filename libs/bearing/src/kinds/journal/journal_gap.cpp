@@ -42,9 +42,9 @@ JournalGap::JournalGap(const film::FilmModel& model, bool journal_deforms)
 }
 
 void JournalGap::begin_step(const mbd::RelativeMotion& start) {
-  held_supply_.reset();
+  fixed_supply_.reset();
   if (is_near_centre_ && is_aligned(start.X_AB))
-    held_supply_ = journal_kinematics(start.X_AB, start.V_AB_A, R_, direction_floor * c_).value[kSupplyAngle];
+    fixed_supply_ = journal_kinematics(start.X_AB, start.V_AB_A, R_, direction_floor * c_).value[kSupplyAngle];
 }
 
 void JournalGap::end_step(const mbd::RelativeMotion& end) {
@@ -52,21 +52,21 @@ void JournalGap::end_step(const mbd::RelativeMotion& end) {
 }
 
 void JournalGap::persist(Archive& archive) {
-  archive.io("is_near_centre", is_near_centre_), archive.io("held_supply", held_supply_);
+  archive.io("is_near_centre", is_near_centre_), archive.io("held_supply", fixed_supply_);
 }
 
-std::string JournalGap::place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) {
+std::string JournalGap::evaluate(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) {
   if (!is_aligned(motion.X_AB)) {
     return fmt::format("the surfaces do not face each other: the journal's z-axis stands at {:.0f} deg to the shell's",
                        std::acos(std::abs(motion.X_AB.R(2, 2))) * degrees_per_radian);
   }
   kinematics_ = journal_kinematics(motion.X_AB, motion.V_AB_A, R_, direction_floor * c_);
-  if (held_supply_ && motion.dt > 0) {
-    kinematics_.value[kSupplyAngle] = *held_supply_;
+  if (fixed_supply_ && motion.dt > 0) {
+    kinematics_.value[kSupplyAngle] = *fixed_supply_;
     kinematics_.d_dX.row(kSupplyAngle).setZero();
   }
   surfaces_.set_clearance_change(growth_, growth_rate_);
-  surfaces_.place(kinematics_.value, surfaces);
+  surfaces_.evaluate(kinematics_.value, surfaces);
   parameters_ = kinematics_.value.head(parameters_.size());
   d_dX_ = kinematics_.d_dX.topRows(parameters_.size());
   d_dV_ = kinematics_.d_dV.topRows(parameters_.size());

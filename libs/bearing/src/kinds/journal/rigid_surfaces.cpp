@@ -35,7 +35,7 @@ void RigidSurfaces::lay_directions() {
   directions_[kRotation].phi_journal = 1;
 }
 
-void RigidSurfaces::place(const ParameterVector& p, film::SurfaceMotion& motion) {
+void RigidSurfaces::evaluate(const ParameterVector& p, film::SurfaceMotion& motion) {
   const double c = clearance(model_, growth_);
   motion.g = shape_.still().array() + c - (p[kEx] + p[kTx] * z_.array()) * cosine_.array() -
              (p[kEy] + p[kTy] * z_.array()) * sine_.array();
@@ -69,18 +69,18 @@ void RigidSurfaces::add_turning(double phi_journal, double omega, film::SurfaceM
   speed.g_rate = first_ / model_.R;
 }
 
-void place_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion,
-                    double growth) {
+void evaluate_surfaces(const film::FilmModel& model, const ParameterVector& parameters, film::SurfaceMotion& motion,
+                       double growth) {
   RigidSurfaces surfaces(model);
   surfaces.set_clearance_change(growth, 0);
-  surfaces.place(parameters, motion);
+  surfaces.evaluate(parameters, motion);
 }
 
 double smallest_gap(const film::FilmModel& model, const ParameterVector& parameters, double growth) {
   RigidSurfaces surfaces(model);
   surfaces.set_clearance_change(growth, 0);
   film::SurfaceMotion motion;
-  surfaces.place(parameters, motion);
+  surfaces.evaluate(parameters, motion);
   return surfaces.smallest_gap();
 }
 

@@ -16,7 +16,7 @@ SliderGap::SliderGap(const film::FilmModel& model, Eigen::VectorXd opening)
   d_dX_ = d_dV_ = Jacobian::Zero(kSliderParameterCount, 6);
 }
 
-std::string SliderGap::place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) {
+std::string SliderGap::evaluate(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) {
   if (!faces_pad(motion.X_AB)) {
     return fmt::format("the surfaces do not face each other: the runner's x-axis is at {:.0f} deg to the pad's",
                        std::acos(std::abs(motion.X_AB.R(0, 0))) * 180 / std::numbers::pi);

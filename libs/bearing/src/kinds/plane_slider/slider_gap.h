@@ -11,7 +11,7 @@ class SliderGap final : public GapKinematics {
   /// As SliderSurfaces.
   SliderGap(const film::FilmModel& model, Eigen::VectorXd opening);
 
-  [[nodiscard]] std::string place(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
+  [[nodiscard]] std::string evaluate(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
   [[nodiscard]] const film::MotionDirection& direction(Index parameter) const override {
     return surfaces_.direction(parameter);
   }
