@@ -73,6 +73,7 @@ struct CavityBorder {
   double share = 0;
   double by_u = 0, by_h = 0;          ///< with u and film thickness at `of`
   double by_rate = 0, by_turn = 0;    ///< with what SlidingChange tells
+  double by_line = 0;                 ///< with phi_supply [1/rad]
   std::array<int, 4> beside{};        ///< nodes around `of`; -1: none
   std::array<double, 4> by_beside{};  ///< with their u
 };
