@@ -8,8 +8,8 @@
 namespace hersey::film {
 namespace {
 
-// Tension and missing oil below these shares of their scales do not break a film: a journal at the centre has no
-// cavity, and one near it no torque that jumps.
+// Tension and missing oil below these shares of what sliding at the film's speed makes do not break a film: a journal
+// at the centre has no cavity, and one near it no torque that jumps.
 constexpr double kLeastTension = 5e-4, kLeastSlack = 1e-3;
 
 /// Nodes before and after along phi, then along z; -1: none.
@@ -46,13 +46,18 @@ struct PressedIn {
 
 }  // namespace
 
+// P0 (film.6) goes by a speed that a machine's film need not have.
+double FlowBalance::sliding_share(int j) const {
+  return sliding_[static_cast<std::size_t>(j)].speed / (model_.R * model_.fill_speed);
+}
+
 // Of a film that bears tension u is a pressure on both sides of the border (film.60).
 CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j);
   CavityBorder border{.node = k, .of = k};
   border.beside = nodes_beside(grid, i, j);
-  const double least = kLeastTension * fill_scale(model_);
+  const double least = kLeastTension * sliding_share(j) * fill_scale(model_);
   double range = 2 * least, range_own = 0, middle = u_[k] + least, middle_own = 1;
   std::array<double, 4> range_by{}, middle_by{};
   for (const std::size_t pair : {0U, 2U}) {
@@ -75,6 +80,7 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   if (share <= 0 || share >= 1) return border;
   const auto slope = [&](double of_middle, double of_range) { return (of_middle - middle / range * of_range) / range; };
   border.by_u = slope(middle_own, range_own);
+  border.by_rate = least * slope(1, 2);
   for (std::size_t side = 0; side < 4; ++side) border.by_beside[side] = slope(middle_by[side], range_by[side]);
   return border;
 }
@@ -104,7 +110,8 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   per_pressure.add(line.conductance, node.h, node.flow[0]);
   const double lack = -u_[k], of_line = std::max(line.u, 0.0), drawn = line.draws * lack;
   double in = line.way * by_nodes.value + of_line * per_pressure.value;
-  const double missing = line.way * D0_ * lack + drawn * per_pressure.value, least = kLeastSlack * D0_ * scales_.slack;
+  const double missing = line.way * D0_ * lack + drawn * per_pressure.value,
+               least = kLeastSlack * sliding_share(j) * D0_ * scales_.slack;
   const bool is_little = missing < least;
   if (is_little) in += least - missing;
   border.share = in / (in + missing);
@@ -116,7 +123,7 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   };
   border.by_u = -by_missing * (line.way * D0_ + line.draws * per_pressure.value);
   border.by_h = change(by_nodes.h, per_pressure.h);
-  border.by_rate = change(by_nodes.rate, per_pressure.rate);
+  border.by_rate = change(by_nodes.rate, per_pressure.rate) + (is_little ? by_in * least : 0);
   border.by_turn = change(by_nodes.turn, per_pressure.turn);
   border.by_line = (by_in * by_nodes.value + by_missing * D0_ * lack) * line.way_line +
                    by_missing * line.draws_line * lack * per_pressure.value;

@@ -376,6 +376,8 @@ class FlowBalance {
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
   /// A line or groove at p_cav holds u = 0 to this, of either sign [Pa].
   [[nodiscard]] double round_off_of_u() const { return 1e-9 * fill_scale(model_); }
+  /// Speed at which the surfaces slide in a row of the grid, as a share of that in P0 [-].
+  [[nodiscard]] double sliding_share(int j) const;
   void find_borders();
   [[nodiscard]] CavityBorder cut_by_tension(int i, int j) const;
   [[nodiscard]] CavityBorder filled_by_pressure(int i, int j) const;
