@@ -459,6 +459,25 @@ TEST_CASE("SmallestFilmBetweenNodes_IsThatOfTheNodeWhereParabolasDipBelowNothing
   }
 }
 
+// Of two dips of a gap the one that is deeper between nodes counts, though the lowest node lies in the other: where
+// both are as deep, as in a lemon bore, round-off says which node is lowest.
+TEST_CASE("SmallestFilm_IsThatOfTheDeeperOfTwoDips") {
+  FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}};
+  for (const bool is_first : {true, false}) {
+    CAPTURE(is_first);
+    Eigen::VectorXd h = Eigen::VectorXd::Constant(m.grid.size(), 1e-4);
+    const auto set = [&](int i, double thickness) { h.segment(m.grid.index(i, 0), 5).setConstant(thickness); };
+    const int node = is_first ? 40 : 10, between = is_first ? 10 : 40;
+    set(node - 1, 2e-5), set(node, 1e-5), set(node + 1, 2e-5);
+    set(between - 1, 2e-5), set(between, 1.02e-5), set(between + 1, 1.02e-5), set(between + 2, 2e-5);
+    const Thinnest found = thinnest_film(m, GridGeometry(m), h, 0);
+    const double dip = 1.02e-5 - (2e-5 - 1.02e-5) / 8;          // of a parabola half-way between two equal nodes
+    CHECK(found.value == relative(dip).epsilon(1e-9));          // round-off
+    CHECK(found.in_the_middle == relative(dip).epsilon(1e-9));  // round-off
+    CHECK(found.phi == doctest::Approx(m.grid.phi(between) + pi / 60).epsilon(1e-9));  // round-off
+  }
+}
+
 // Between two rows only places count where neither lies in a groove.
 TEST_CASE("SmallestFilmInTheMiddle_IsThatBesideTheGroove") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 6}};

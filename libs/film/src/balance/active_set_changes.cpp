@@ -30,4 +30,17 @@ void limit_active_set_changes(const FilmModel& model, const Eigen::VectorXd& bef
   }
 }
 
+void press_filled_nodes(const FlowBalance& balance, const Eigen::VectorXd& u, Eigen::VectorXd& du) {
+  HERSEY_REQUIRE(u.size() == du.size(), "a state of a film and a step from it");
+  if (!cavitation_law(balance.model()).loses_oil()) return;
+  for (int node = 0; node < balance.size(); ++node) {
+    const double after = u[node] + du[node];
+    if (u[node] >= 0 || after <= 0) continue;
+    double conductance = balance.conductance_scale();
+    for (const int f : balance.faces_around(node))
+      if (f >= 0) conductance += balance.flows()[static_cast<std::size_t>(f)].K;
+    du[node] = balance.conductance_scale() / conductance * after - u[node];
+  }
+}
+
 }  // namespace hersey::film

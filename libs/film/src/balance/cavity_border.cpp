@@ -8,8 +8,8 @@
 namespace hersey::film {
 namespace {
 
-// Tension and missing oil below these shares of their scales do not break a film: a journal at the centre has no
-// cavity, and one near it no torque that jumps.
+// Tension and missing oil below these shares of what sliding at the film's speed makes do not break a film: a journal
+// at the centre has no cavity, and one near it no torque that jumps.
 constexpr double kLeastTension = 5e-4, kLeastSlack = 1e-3;
 
 /// Nodes before and after along phi, then along z; -1: none.
@@ -30,7 +30,26 @@ Fall fall_over_volume(int before, int after) {
   return {(before >= 0 ? 0.5 : 0) - (after >= 0 ? 0.5 : 0), {before >= 0 ? -0.5 : 0, after >= 0 ? 0.5 : 0}};
 }
 
+/// Oil that pressure presses into a volume, with derivatives [m^3/s].
+struct PressedIn {
+  double value = 0, h = 0;    ///< with film thickness
+  double rate = 0, turn = 0;  ///< with what SlidingChange tells
+
+  /// By a pressure over a flow tube, their product with width/(12 length).
+  void add(double pressed, double thickness, const Fluidity& flow) {
+    const double cube = thickness * thickness * thickness;
+    value += pressed * cube * flow.value;
+    h += pressed * (3 * thickness * thickness * flow.value + cube * flow.h);
+    rate += pressed * cube * flow.rate, turn += pressed * cube * flow.turn;
+  }
+};
+
 }  // namespace
+
+// P0 (film.6) goes by a speed that a machine's film need not have.
+double FlowBalance::sliding_share(int j) const {
+  return sliding_[static_cast<std::size_t>(j)].speed / (model_.R * model_.fill_speed);
+}
 
 // Of a film that bears tension u is a pressure on both sides of the border (film.60).
 CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
@@ -38,7 +57,7 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   const int k = grid.index(i, j);
   CavityBorder border{.node = k, .of = k};
   border.beside = nodes_beside(grid, i, j);
-  const double least = kLeastTension * fill_scale(model_);
+  const double least = kLeastTension * sliding_share(j) * fill_scale(model_);
   double range = 2 * least, range_own = 0, middle = u_[k] + least, middle_own = 1;
   std::array<double, 4> range_by{}, middle_by{};
   for (const std::size_t pair : {0U, 2U}) {
@@ -61,43 +80,54 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   if (share <= 0 || share >= 1) return border;
   const auto slope = [&](double of_middle, double of_range) { return (of_middle - middle / range * of_range) / range; };
   border.by_u = slope(middle_own, range_own);
+  border.by_rate = least * slope(1, 2);
   for (std::size_t side = 0; side < 4; ++side) border.by_beside[side] = slope(middle_by[side], range_by[side]);
   return border;
 }
 
-// In a cavitated volume -D0 u is missing; what pressure presses in fills its share of what would be missing without
-// (film.61).
+// In a cavitated volume oil is missing; what pressure presses in fills its share of what would be missing without
+// (film.61). Beside a supply line the node's row tells both: the line presses in what a node in its place would.
 CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
-  const Grid& grid = model_.grid;
-  const int k = grid.index(i, j);
+  const int k = model_.grid.index(i, j);
   const bool is_full = u_[k] >= -round_off_of_u();
+  const HeldNode* held = held_at(k);
   CavityBorder border{.node = k, .of = k, .share = is_full ? 1.0 : 0.0};
-  if (is_full || is_held(k) || is_given(k)) return border;
-  border.beside = nodes_beside(grid, i, j);
+  if (is_full || is_given(k) || (held != nullptr && held->other < 0)) return border;
+  const HeldNode line = held == nullptr ? HeldNode{.draws = 0, .way = 1} : *held;
+  border.beside = nodes_beside(model_.grid, i, j);
   const std::array<int, 4> faces = faces_around(k);
   const Node& node = nodes_[k];
-  const double cube = node.h * node.h * node.h;
-  double in = 0, in_by_h = 0, in_by_rate = 0, in_by_turn = 0;
-  std::array<double, 4> in_by{};
+  PressedIn by_nodes, per_pressure;
   for (std::size_t side = 0; side < 4; ++side) {
-    const int other = border.beside[side];
-    if (other < 0 || u_[other] <= 0) continue;
-    const Face& face = faces_[faces[side]];  // which no line cuts: it would hold the node
+    const int other = border.beside[side], f = faces[side];
+    if (other < 0 || u_[other] <= 0 || is_cut(static_cast<std::size_t>(f))) continue;
+    const Face& face = faces_[f];
     const Fluidity& flow = node.flow[side < 2 ? 0 : 1];
-    const double unit = face.width / (12 * face.length), pressed = unit * u_[other];
-    in_by[side] = unit * cube * flow.value;
-    in += in_by[side] * u_[other];
-    in_by_h += pressed * (3 * node.h * node.h * flow.value + cube * flow.h);
-    in_by_rate += pressed * cube * flow.rate, in_by_turn += pressed * cube * flow.turn;
+    const double unit = face.width / (12 * face.length);
+    border.by_beside[side] = line.way * unit * node.h * node.h * node.h * flow.value;
+    by_nodes.add(unit * u_[other], node.h, flow);
   }
-  const double missing = -D0_ * u_[k], least = kLeastSlack * D0_ * scales_.slack;
-  if (missing < least) in += least - missing;
+  per_pressure.add(line.conductance, node.h, node.flow[0]);
+  const double lack = -u_[k], of_line = std::max(line.u, 0.0), drawn = line.draws * lack;
+  double in = line.way * by_nodes.value + of_line * per_pressure.value;
+  const double missing = line.way * D0_ * lack + drawn * per_pressure.value,
+               least = kLeastSlack * sliding_share(j) * D0_ * scales_.slack;
+  const bool is_little = missing < least;
+  if (is_little) in += least - missing;
   border.share = in / (in + missing);
   if (in == 0) return border;
-  const double whole = in + missing, by_in = missing / (whole * whole), by_missing = -in / (whole * whole);
-  border.by_u = -D0_ * (by_missing - (missing < least ? by_in : 0)), border.by_h = by_in * in_by_h;
-  border.by_rate = by_in * in_by_rate, border.by_turn = by_in * in_by_turn;
-  for (std::size_t side = 0; side < 4; ++side) border.by_beside[side] = by_in * in_by[side];
+  const double whole = in + missing, by_in = missing / (whole * whole),
+               by_missing = -in / (whole * whole) - (is_little ? by_in : 0);
+  const auto change = [&](double of_nodes, double of_tie) {
+    return by_in * (line.way * of_nodes + of_line * of_tie) + by_missing * drawn * of_tie;
+  };
+  border.by_u = -by_missing * (line.way * D0_ + line.draws * per_pressure.value);
+  border.by_h = change(by_nodes.h, per_pressure.h);
+  border.by_rate = change(by_nodes.rate, per_pressure.rate) + (is_little ? by_in * least : 0);
+  border.by_turn = change(by_nodes.turn, per_pressure.turn);
+  border.by_line = (by_in * by_nodes.value + by_missing * D0_ * lack) * line.way_line +
+                   by_missing * line.draws_line * lack * per_pressure.value;
+  for (double& by_beside : border.by_beside) by_beside *= by_in;
   return border;
 }
 

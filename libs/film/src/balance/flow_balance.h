@@ -73,6 +73,7 @@ struct CavityBorder {
   double share = 0;
   double by_u = 0, by_h = 0;          ///< with u and film thickness at `of`
   double by_rate = 0, by_turn = 0;    ///< with what SlidingChange tells
+  double by_line = 0;                 ///< with phi_supply [1/rad]
   std::array<int, 4> beside{};        ///< nodes around `of`; -1: none
   std::array<double, 4> by_beside{};  ///< with their u
 };
@@ -391,6 +392,8 @@ class FlowBalance {
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
   /// A line or groove at p_cav holds u = 0 to this, of either sign [Pa].
   [[nodiscard]] double round_off_of_u() const { return 1e-9 * fill_scale(model_); }
+  /// Speed at which the surfaces slide in a row of the grid, as a share of that in P0 [-].
+  [[nodiscard]] double sliding_share(int j) const;
   void find_borders();
   [[nodiscard]] CavityBorder cut_by_tension(int i, int j) const;
   [[nodiscard]] CavityBorder filled_by_pressure(int i, int j) const;

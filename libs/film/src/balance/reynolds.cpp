@@ -239,6 +239,10 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
 
 void Reynolds::advance_rupture_front(Eigen::VectorXd& u) const { film::advance_rupture_front(impl_->balance, u); }
 
+void Reynolds::press_filled_nodes(const Eigen::VectorXd& u, Eigen::VectorXd& du) const {
+  film::press_filled_nodes(impl_->balance, u, du);
+}
+
 void Reynolds::limit_active_set_changes(const Eigen::VectorXd& before, int iteration, Eigen::VectorXd& u) const {
   film::limit_active_set_changes(impl_->balance.model(), before, iteration, u);
 }

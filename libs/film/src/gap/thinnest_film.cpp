@@ -75,23 +75,35 @@ class Search {
     return outside_[static_cast<std::size_t>(grid_.index(wrapped(i), j))] != 0;
   }
 
+  // Between nodes each dip of the row counts: which of two nodes is lower tells only what round-off, or the place of
+  // the nodes, says of two dips that are as deep.
   void search_row(int j, Thinnest& best) const {
-    int lowest_node = -1;
     for (int i = 0; i < grid_.n_phi; ++i) {
-      if (outside(i, j) && (lowest_node < 0 || value(i, j) < value(lowest_node, j))) lowest_node = i;
+      if (outside(i, j)) search_dip(i, j, best);
     }
-    if (lowest_node < 0) return;
-    const Low around = between_nodes([&](int k) { return value(lowest_node + k, j); },
-                                     [&](int k) { return at_.step(wrapped(lowest_node + (k < 0 ? k : k - 1)), j); },
-                                     [&](int k) { return is_patch_of(lowest_node, k) && outside(lowest_node + k, j); });
-    const auto in_row = [&](int k) { return j + k >= 0 && j + k < grid_.n_z && outside(lowest_node, j + k); };
-    const Low along = between_nodes([&](int k) { return value(lowest_node, j + k); },
+  }
+
+  void search_dip(int i, int j, Thinnest& best) const {
+    const auto around_node = [&](int k) { return value(i + k, j); };
+    const auto counts_around = [&](int k) { return is_patch_of(i, k) && outside(i + k, j); };
+    if (!is_lowest(around_node, counts_around)) return;
+    const Low around = between_nodes(
+        around_node, [&](int k) { return at_.step(wrapped(i + (k < 0 ? k : k - 1)), j); }, counts_around);
+    const auto in_row = [&](int k) { return j + k >= 0 && j + k < grid_.n_z && outside(i, j + k); };
+    const Low along = between_nodes([&](int k) { return value(i, j + k); },
                                     [&](int k) { return at_.dz[k < 0 ? j + k : j + k - 1]; }, in_row);
-    const double here = value(lowest_node, j), both = around.value + along.value - here;
+    const double here = value(i, j), both = around.value + along.value - here;
     const double found = both > 0 ? both : here;
     if (found >= best.value) return;
     best.value = found, best.z = at_.z[j] + along.place;
-    best.phi = at_.reported_angle(at_.phi[lowest_node] + around.place / (at_.R * at_.stretch[j]));
+    best.phi = at_.reported_angle(at_.phi[i] + around.place / (at_.R * at_.stretch[j]));
+  }
+
+  /// Whether a node lies no higher than those beside it that count.
+  template <class Value, class Counts>
+  [[nodiscard]] static bool is_lowest(Value&& at, Counts&& counts) {
+    const auto is_lower = [&](int k) { return counts(k) && at(k) < at(0); };
+    return !is_lower(-1) && !is_lower(1);
   }
 
   // Two parabolas reach between two nodes, one from either side. Where the film is smooth they agree; where it has a
@@ -122,15 +134,16 @@ class Search {
                  t = std::abs(place - std::round(place)) < 1e-9 ? std::round(place) : place;
     const auto middle = [&](int i) { return (1 - t) * value(i, low) + t * value(i, low + 1); };
     const auto counts = [&](int i) { return (t == 1 || outside(i, low)) && (t == 0 || outside(i, low + 1)); };
-    int lowest_node = -1;
+    double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < grid_.n_phi; ++i) {
-      if (counts(i) && (lowest_node < 0 || middle(i) < middle(lowest_node))) lowest_node = i;
+      if (!counts(i)) continue;
+      const auto around = [&](int k) { return middle(i + k); };
+      const auto counts_around = [&](int k) { return is_patch_of(i, k) && counts(i + k); };
+      if (!is_lowest(around, counts_around)) continue;
+      const auto step = [&](int k) { return at_.dx[wrapped(i + (k < 0 ? k : k - 1))]; };
+      least = std::min(least, between_nodes(around, step, counts_around).value);
     }
-    if (lowest_node < 0) return in_features();  // a groove all around
-    return between_nodes([&](int k) { return middle(lowest_node + k); },
-                         [&](int k) { return at_.dx[wrapped(lowest_node + (k < 0 ? k : k - 1))]; },
-                         [&](int k) { return is_patch_of(lowest_node, k) && counts(lowest_node + k); })
-        .value;
+    return std::isfinite(least) ? least : in_features();  // a groove all around
   }
 
   void search_border(const SurfaceFeature& f, Thinnest& best) const {

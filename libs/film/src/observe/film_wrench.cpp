@@ -94,7 +94,7 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
   opening_ = motion.shell_opening;
   if (want_gradient) {
     for (auto* gradient : {&by_u_, &by_g_, &by_opening_}) gradient->setZero(6, grid.size());
-    by_slip_.setZero(), by_journal_.setZero();
+    by_slip_.setZero(), by_journal_.setZero(), by_supply_.setZero();
   }
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
@@ -247,6 +247,7 @@ void FilmWrench::add_borders(const FlowBalance& balance) {
     const Node& telling = balance.nodes()[border.of];
     by_u_.col(border.of) += (border.by_u + border.by_h * telling.h_u) * whole;
     by_g_.col(border.of) += border.by_h * telling.h_g * whole;
+    by_supply_ += border.by_line * whole;
     for (std::size_t side = 0; side < 4; ++side)
       if (border.beside[side] >= 0) by_u_.col(border.beside[side]) += border.by_beside[side] * whole;
     for (const int k : {0, 1}) {
@@ -366,7 +367,8 @@ Vector6 FilmWrench::more_of_other_shear(const FlowBalance& balance) const {
 
 Vector6 FilmWrench::along(const MotionDirection& direction) const {
   const Eigen::Vector2d slip(direction.u_journal - direction.u_shell, direction.w_journal - direction.w_shell);
-  Vector6 d = by_slip_ * slip + direction.phi_journal * by_journal_ + pushes_along(direction);
+  Vector6 d = by_slip_ * slip + direction.phi_journal * by_journal_ + direction.phi_supply * by_supply_ +
+              pushes_along(direction);
   if (direction.g.size() != 0) d += by_g_ * direction.g;
   if (direction.shell_share == 0) return d;
   HERSEY_REQUIRE(opening_.size() != 0, "what the shell's surface opens the gap by comes with the motion");

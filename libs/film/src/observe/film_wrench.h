@@ -88,6 +88,7 @@ class FilmWrench {
   };
   std::vector<WallPush> pushes_;
   Vector6 by_journal_;                  ///< with phi_journal, of pockets that turn
+  Vector6 by_supply_;                   ///< with phi_supply, of borders of cavities beside the line
   std::vector<double> relief_journal_;  ///< of the factor below [1/rad]
   std::vector<ValueAndSlope> relief_;   ///< factor of Couette shear where features have depth [-, 1/m]; empty: 1
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_, by_opening_;

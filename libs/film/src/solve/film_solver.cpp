@@ -171,6 +171,7 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
     reynolds.newton_increment(du, linear_tolerance(options.rtol, summary.relative_residual, last));
     last = summary.relative_residual;
     before = u;
+    reynolds.press_filled_nodes(u, du);
     u += step_share(reynolds.model(), motion, u, du) * du;
     reynolds.advance_rupture_front(u);
     u = u.cwiseMax(least);

@@ -92,6 +92,9 @@ class Reynolds {
   /// Empties the nodes downstream of those that the step to `u` from the last linearisation has emptied, as far as they
   /// live on their oil: fronts then follow in one iteration instead of one per node.
   void advance_rupture_front(Eigen::VectorXd& u) const;
+  /// Of nodes that a Newton step `du` from the last linearisation fills, steps to a pressure in place of what is too
+  /// much of the oil that was missing (film.31).
+  void press_filled_nodes(const Eigen::VectorXd& u, Eigen::VectorXd& du) const;
   /// Anti-cycling: of the nodes that would cavitate or fill between the unknowns `before` and `u`, about half keep
   /// their state; the half alternates with `iteration`.
   void limit_active_set_changes(const Eigen::VectorXd& before, int iteration, Eigen::VectorXd& u) const;
