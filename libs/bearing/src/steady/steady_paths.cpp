@@ -36,8 +36,9 @@ std::string SteadySearch::failure_message() const {
         "further out {}{}",
         point_.load->norm(), limit_.force, limit_.where, limit_.why, suggestion());
   }
-  std::string text = fmt::format("no equilibrium found in {} linearisations: force off by {:.2g} of the load at {}",
-                                 summary_.iterations, summary_.force_error, position_text());
+  std::string text =
+      fmt::format("no equilibrium found in {} linearisations: force off by {:.2g} of the load at {}",
+                  summary_.iterations, (force_ - *point_.load).norm() / point_.load->norm(), position_text());
   if (gap_at(e_) > kTouching * coordinates_of().scale(point_, e_)) return text;
   const bool is_smooth = model_.asperities.model == film::AsperityModel::none;
   if (is_smooth && film_.may_overlap())
