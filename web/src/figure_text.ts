@@ -8,7 +8,7 @@ import { format, shownUnit } from "./units";
 export function valueText(f: FigureText | undefined): string {
   if (f?.words) return f.words;
   if (!f || f.value === null) return "–";
-  if (!f.grid_error || f.grid_error > Math.abs(f.value)) return format(f.value);
+  if (!f.grid_error || f.grid_error > Math.abs(f.value) || Math.abs(f.value) >= 1e6) return format(f.value);
   const decimals = Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(f.grid_error))));
   return f.value.toFixed(decimals).replace("-", "−");
 }

@@ -76,5 +76,5 @@ export function axisLabel(label: string, unit: string): string {
 
 /** Units of a bearing by itself as they are printed. */
 export function shownUnit(unit: string): string {
-  return unit.replace("mm^3/s", "mm³/s").replace("mm^3", "mm³").replace(/^deg$/, "°").replace(/^um(?=$|\/)/, "µm").replace("N.m", "N·m").replace("N.s", "N·s");
+  return unit.replace("mm^3/s", "mm³/s").replace("mm^3", "mm³").replace(/^deg$/, "°").replace(/^um(?=$|\/)/, "µm").replace("N.m", "N·m").replace("m.s", "m·s").replace("N.s", "N·s");
 }
