@@ -7,9 +7,9 @@ const nodesAlong = 26;
 
 /** What a figure saves as a table: its head, and rows of numbers. */
 async function table(page, kind) {
-  const waiting = page.waitForEvent("download");
-  await page.locator(`[data-figure="${kind}"]`).first().getByRole("button", { name: /as CSV$/ }).click();
-  const [head, ...rows] = (await readFile(await (await waiting).path())).toString().split("\n");
+  const button = page.locator(`[data-figure="${kind}"]`).first().getByRole("button", { name: /as CSV$/ });
+  const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
+  const [head, ...rows] = (await readFile(await download.path())).toString().split("\n");
   return { head, rows: rows.map((row) => row.split(",").map(Number)) };
 }
 
