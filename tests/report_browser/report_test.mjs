@@ -5,6 +5,7 @@ import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { bearingReport, besideReport, everyReport, comparisonReport, machineReport, runReport, runUpReport, spectraReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
+import { padReport, padRunReport, padSweepReport } from "./pad_checks.mjs";
 import { samplingReport } from "./sampling_checks.mjs";
 
 const flags = [
@@ -159,7 +160,9 @@ async function testReport(browser, file) {
   const isSampling = (await page.locator('[data-figure="parallel"]').count()) > 0;
   const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : runReport), ...(isStudy && !isComparison ? spectraReport : {}), ...everyReport };
   const ofBearing = { ...(isStudy ? sweepReport : {}), ...bearingReport };
-  const tests = isSampling ? samplingReport : isRunUp ? runUpReport : hasMore ? besideReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
+  const isPad = (await page.locator("h1").innerText()).startsWith("A pad");
+  const ofPad = isBearing ? { ...(isStudy ? padSweepReport : {}), ...padReport } : padRunReport;
+  const tests = isPad ? ofPad : isSampling ? samplingReport : isRunUp ? runUpReport : hasMore ? besideReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
   for (const [name, test] of Object.entries(tests)) await findings.check(name, () => test(page));
   await testAccess(page, findings);
   await findings.check("nothing on the console and nothing over the network", async () => {

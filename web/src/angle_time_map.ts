@@ -1,4 +1,4 @@
-// A quantity around one bearing over the whole run: time or crank angle to the right, bearing angle upwards.
+// A quantity along the motion of one film over the whole run: time or crank angle to the right, the place upwards.
 
 import { Drawing, ticks } from "./canvas";
 import { colourTable } from "./colormap";
@@ -6,6 +6,7 @@ import { line, paintColourBar, verticalText, type Box } from "./colour_bar";
 import type { Numbers, Run } from "./data";
 import { extent, type FieldKind } from "./film_fields";
 import type { Axis } from "./series";
+import { FilmAxis, surfaceOf, told } from "./surface";
 import { palette } from "./theme";
 import { axisLabel, format, megapascal, micrometre, withUnit } from "./units";
 
@@ -25,7 +26,7 @@ export class AngleTimeMap extends Drawing {
 
   private constructor(
     private readonly fields: Map<string, Numbers>,
-    private readonly phi: Numbers,
+    private readonly along: FilmAxis,
     private readonly x: Float64Array,
     private readonly axis: { label: string; unit: string },
     pick: (row: number) => void,
@@ -42,21 +43,22 @@ export class AngleTimeMap extends Drawing {
 
   /** The maps of one bearing, or null where the file has none or but one instant; `pick` is told a row of the maps. */
   static of(run: Run, bearing: string, axis: Axis, pick: (rowOfSeries: number) => void): AngleTimeMap | null {
-    const phi = run.dataset(`/bearings/${bearing}/fields/phi`)?.values;
+    const { along } = surfaceOf(run, bearing);
+    const nodes = run.dataset(`/bearings/${bearing}/fields/${along.key}`)?.values;
     const fields = new Map<string, Numbers>();
     let rows = 0;
     for (const { key } of kinds) {
       const dataset = run.dataset(`/bearings/${bearing}/${key}`);
-      if (!phi || dataset?.width !== phi.length) continue;
+      if (!nodes || dataset?.width !== nodes.length) continue;
       fields.set(key, dataset.values);
       rows = dataset.shape[0]!;
     }
     const all = axis.x.values;
     // Rows are thinned more than those of the series, both counted from the last one.
     const row = (k: number) => all.length - 1 - (rows - 1 - k) * run.aroundStride;
-    if (!phi || rows < 2 || row(0) < 0) return null;
+    if (!nodes || rows < 2 || row(0) < 0) return null;
     const x = Float64Array.from({ length: rows }, (_, k) => all[row(k)]!);
-    return new AngleTimeMap(fields, phi, x, axis.x, (k) => pick(row(k)));
+    return new AngleTimeMap(fields, new FilmAxis(along, nodes), x, axis.x, (k) => pick(row(k)));
   }
 
   choose(kind: FieldKind): void {
@@ -70,12 +72,14 @@ export class AngleTimeMap extends Drawing {
     this.draw();
   }
 
-  /** The map shown as a table: a row for each instant, a column for each angle. */
+  /** The map shown as a table: a row for each instant, a column for each place. */
   numbers(): (string | number)[][] {
-    const { phi, x, kind, axis } = this;
+    const { x, kind, axis } = this;
+    const { nodes, coordinate } = this.along;
     const values = this.fields.get(kind.key)!;
-    const head = [axisLabel(axis.label, axis.unit), ...Array.from(phi, (angle) => `${kind.label} [${kind.display.unit}] at ${format((180 / Math.PI) * angle)}°`)];
-    return [head, ...Array.from(x, (at, k) => [at, ...Array.from(phi, (_, i) => values[k * phi.length + i]! * kind.display.factor)])];
+    const { factor, unit } = coordinate.display;
+    const head = [axisLabel(axis.label, axis.unit), ...Array.from(nodes, (place) => `${kind.label} [${kind.display.unit}] at ${withUnit(place * factor, unit)}`)];
+    return [head, ...Array.from(x, (at, k) => [at, ...Array.from(nodes, (_, i) => values[k * nodes.length + i]! * kind.display.factor)])];
   }
 
   protected heightFor(width: number): number {
@@ -96,10 +100,10 @@ export class AngleTimeMap extends Drawing {
     const [u, v] = [(px - box.left) / box.width, 1 - (py - box.top) / box.height];
     if (u < 0 || u > 1 || v < 0 || v > 1) return null;
     const { label, display } = this.kind;
-    const value = this.sample(this.rowAt(this.valueAt(u)), this.placeAt(2 * Math.PI * v));
+    const value = this.sample(this.rowAt(this.valueAt(u)), this.along.index(v));
     return [
       `${label} ${withUnit(value * display.factor, display.unit)}`,
-      `φ ${format(360 * v, 4)}°, ${this.axis.label} ${withUnit(this.valueAt(u), this.axis.unit, 5)}`,
+      `${told(this.along.coordinate, this.along.valueAt(v))}, ${this.axis.label} ${withUnit(this.valueAt(u), this.axis.unit, 5)}`,
     ];
   }
 
@@ -137,24 +141,15 @@ export class AngleTimeMap extends Drawing {
     return span === 0 ? high : low + Math.min(1, Math.max(0, (value - x[low]!) / span));
   }
 
-  /** Fractional index around at an angle within the turn; grids may be graded. */
-  private placeAt(angle: number): number {
-    const phi = this.phi;
-    const n = phi.length;
-    let k = n - 1;
-    while (k > 0 && phi[k]! > angle) k--;
-    const next = k + 1 < n ? phi[k + 1]! : phi[0]! + 2 * Math.PI;
-    return k + Math.min(1, Math.max(0, (angle - phi[k]!) / (next - phi[k]!)));
-  }
-
   private sample(row: number, place: number): number {
     const values = this.fields.get(this.kind.key)!;
-    const n = this.phi.length;
+    const { along } = this;
+    const n = along.nodes.length;
     const r = Math.min(this.x.length - 2, Math.floor(row));
-    const i = Math.floor(place);
+    const i = Math.min(along.cells - 1, Math.floor(place));
     const [s, t] = [row - r, place - i];
-    const around = (k: number) => values[k * n + (i % n)]! * (1 - t) + values[k * n + ((i + 1) % n)]! * t;
-    return around(r) * (1 - s) + around(r + 1) * s;
+    const at = (k: number) => values[k * n + along.node(i)]! * (1 - t) + values[k * n + along.node(i + 1)]! * t;
+    return at(r) * (1 - s) + at(r + 1) * s;
   }
 
   private paintImage([low, high]: [number, number], width: number, height: number): void {
@@ -166,7 +161,7 @@ export class AngleTimeMap extends Drawing {
     const factor = 255 / (high - low);
     const rows = Array.from({ length: width }, (_, column) => this.rowAt(this.valueAt((column + 0.5) / width)));
     for (let y = 0; y < height; y++) {
-      const place = this.placeAt(2 * Math.PI * (1 - (y + 0.5) / height));
+      const place = this.along.index(1 - (y + 0.5) / height);
       for (let column = 0; column < width; column++) {
         const value = (this.sample(rows[column]!, place) - low) * factor;
         words[y * width + column] = colourTable[value <= 0 ? 0 : value >= 255 ? 255 : Math.round(value)]!;
@@ -192,12 +187,12 @@ export class AngleTimeMap extends Drawing {
     context.fillText(`${this.axis.label} [${this.axis.unit}]`, box.left + box.width / 2, box.top + box.height + 23);
     context.textAlign = "right";
     context.textBaseline = "middle";
-    for (let angle = 0; angle <= 360; angle += 90) {
-      const y = box.top + (1 - angle / 360) * box.height;
+    for (const { share, text } of this.along.ticks(0, 4)) {
+      const y = box.top + (1 - share) * box.height;
       line(context, box.left - 4, y, box.left, y);
-      context.fillText(String(angle), box.left - 7, y);
+      context.fillText(text, box.left - 7, y);
     }
-    verticalText(context, "bearing angle φ [°]", 12, box.top + box.height / 2);
+    verticalText(context, this.along.label(), 12, box.top + box.height / 2);
     if (this.at === null) return;
     // Dark under white: visible on every colour of the map.
     for (const [colour, width] of [["rgb(0 0 0 / 0.6)", 3], ["#ffffff", 1.4]] as const) {

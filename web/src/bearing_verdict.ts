@@ -5,25 +5,29 @@ import type { BearingText, FigureText, SolutionText } from "./data";
 import { h } from "./dom";
 import { place, spaced, tile } from "./key_figures";
 import { capital } from "./summary_table";
-import { format, shownUnit, withUnit } from "./units";
+import type { Surface } from "./surface";
+import { shownUnit, withUnit } from "./units";
 import { judgementList, worstLevel, type Judgement } from "./verdict";
 
 /** Where an extreme lies on the film, "φ = 194.2°, z = 0 mm". */
-export function placeOf(solution: SolutionText, key: string): string {
+export function placeOf({ along, across }: Surface, solution: SolutionText, key: string): string {
   const value = (name: string) => figureOf(solution, name)?.value ?? null;
-  const [angle, z] = [value(`${key}_angle`), value(`${key}_z`)];
-  return angle === null || z === null ? "" : `φ\u00a0=\u00a0${format(angle, 4)}°, z\u00a0=\u00a0${format(z, 3)}\u00a0mm`;
+  const places = [along, across].map(({ figure, symbol, display, digits }) => {
+    const at = value(`${key}_${figure}`);
+    return at === null ? "" : `${symbol} = ${withUnit(at, display.unit, digits)}`.replaceAll(" ", "\u00a0");
+  });
+  return places.every((text) => text) ? places.join(", ") : "";
 }
 
-export function bearingVerdict(bearing: BearingText, sweep: Sweep): HTMLElement {
+export function bearingVerdict(bearing: BearingText, surface: Surface, sweep: Sweep): HTMLElement {
   const list = judged(bearing);
   const sweeps = bearing.solutions.length > 1;
   return h(
     "section",
     { class: `verdict ${worstLevel(list)}`, "aria-label": "Verdict" },
-    sentence(bearing, sweep, sweeps),
+    sentence(bearing, surface, sweep, sweeps),
     judgementList(list),
-    sweeps ? h("div", { class: "tiles key-tiles" }, ...tiles(bearing, sweep)) : null,
+    sweeps ? h("div", { class: "tiles key-tiles" }, ...tiles(bearing, surface, sweep)) : null,
   );
 }
 
@@ -52,16 +56,16 @@ function worst(bearing: BearingText, key: string, worse: (a: number, b: number) 
 const below = (a: number, b: number) => a < b;
 const above = (a: number, b: number) => a > b;
 
-function sentence(bearing: BearingText, sweep: Sweep, sweeps: boolean): HTMLElement | null {
+function sentence(bearing: BearingText, surface: Surface, sweep: Sweep, sweeps: boolean): HTMLElement | null {
   const thinnest = worst(bearing, "h_min", below);
   if (!thinnest) return null;
   const { figure, index } = thinnest;
-  const at = placeOf(bearing.solutions[index]!, "h_min");
+  const at = placeOf(surface, bearing.solutions[index]!, "h_min");
   const who = sweeps ? sweep.label(index) : spaced(bearing.name);
   return h("p", { class: "verdict-line" }, sweeps ? `Thinnest film of ${bearing.solutions.length} operating points: ` : "Thinnest film: ", h("strong", {}, who), `, ${withUnit(figure.value, shownUnit(figure.unit))}${at ? ` at ${place(at)}` : ""}`);
 }
 
-function tiles(bearing: BearingText, sweep: Sweep): HTMLElement[] {
+function tiles(bearing: BearingText, surface: Surface, sweep: Sweep): HTMLElement[] {
   const asked: [string, string, typeof below][] = [
     ["Thinnest film", "h_min", below],
     ["Peak film pressure", "p_max", above],
@@ -72,6 +76,6 @@ function tiles(bearing: BearingText, sweep: Sweep): HTMLElement[] {
   ];
   return asked.flatMap(([label, key, worse]) => {
     const found = worst(bearing, key, worse);
-    return found ? [tile({ label, value: found.figure.value, unit: shownUnit(found.figure.unit), owner: sweep.label(found.index), where: placeOf(bearing.solutions[found.index]!, key) })] : [];
+    return found ? [tile({ label, value: found.figure.value, unit: shownUnit(found.figure.unit), owner: sweep.label(found.index), where: placeOf(surface, bearing.solutions[found.index]!, key) })] : [];
   });
 }

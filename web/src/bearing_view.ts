@@ -10,10 +10,12 @@ import { furtherFigures } from "./further_series";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Orbit } from "./orbit";
 import { Axis, curve, magnitude, scaled, type Abscissa } from "./series";
-import { cubicMillimetrePerSecond, degree, megapascal, micrometre, newtonMillimetre, percent, plain } from "./units";
+import { axisName, surfaceOf, type Surface } from "./surface";
+import { cubicMillimetrePerSecond, degree, megapascal, micrometre, micrometrePerMetre, millimetre, newtonMillimetre, percent, plain, type Display } from "./units";
 
 const newton = { factor: 1, unit: "N" };
 const watt = { factor: 1, unit: "W" };
+const metrePerSecond = { factor: 1, unit: "m/s" };
 
 /** Figures of a bearing that follow the instant shown. */
 export class BearingView {
@@ -21,6 +23,7 @@ export class BearingView {
   /** Folded. */
   readonly further = h("div", { class: "sections" });
   readonly fields: FilmFields | null;
+  private readonly surface: Surface;
   private readonly axis: Axis;
   private readonly followers: ((time: number, instant: number) => void)[] = [];
   private time: number | null = null;
@@ -33,6 +36,7 @@ export class BearingView {
     private readonly hoverRow: (row: number | null) => void,
   ) {
     this.axis = new Axis(run, abscissa);
+    this.surface = surfaceOf(run, bearing);
     this.fields = FilmFields.of(run, bearing);
     this.addOrbit();
     this.addMap();
@@ -81,40 +85,39 @@ export class BearingView {
       segmented("Colour scale", [{ value: "run", label: "Scale of the run" }, { value: "instant", label: "of the instant" }], "run", (s) => map.rescale(s as "run" | "instant")),
     );
     this.element.append(
-      figure("map", "The film on the unwrapped bearing at the instant shown. White line: edge of the full film; cross: peak pressure; ring: smallest film thickness.", tableButton(`${this.bearing}-film`, () => map.numbers()), controls, map.element),
+      figure("map", `The film on ${this.surface.map} at the instant shown. White line: edge of the full film; cross: peak pressure; ring: smallest film thickness.`, tableButton(`${this.bearing}-film`, () => map.numbers()), controls, map.element),
     );
   }
 
   /** Where a quantity has its extreme at a time. */
   private mark(series: string, symbol: Mark["symbol"], at: number): Mark[] {
     const time = this.run.column("/time");
-    const phi = this.run.column(this.path(`${series}_phi`));
-    const z = this.run.column(this.path(`${series}_z`));
-    if (!time || !phi || !z) return [];
+    const along = this.run.column(this.path(`${series}_${this.surface.along.key}`));
+    const across = this.run.column(this.path(`${series}_${this.surface.across.key}`));
+    if (!time || !along || !across) return [];
     const row = nearest(time, at);
-    return [{ phi: phi[row]!, z: z[row]!, symbol }];
+    return [{ along: along[row]!, across: across[row]!, symbol }];
   }
 
   private addMidplane(): void {
     const fields = this.fields;
     if (!fields || !fields.at("pressure", 0)) return;
-    const n = fields.phi.length;
-    const closed = (values: Float64Array, factor: number) => Array.from({ length: n + 1 }, (_, i) => values[i % n]! * factor);
+    const { along } = fields;
     const curves = (instant: number): Curve[] => [
-      { label: "pressure", y: closed(fields.midplane("pressure", instant)!, megapascal.factor), unit: "MPa", fill: true },
+      { label: "pressure", y: fields.midplane("pressure", instant, megapascal.factor)!, unit: "MPa", fill: true },
       ...(fields.at("thickness", instant)
-        ? [{ label: "film thickness", y: closed(fields.midplane("thickness", instant)!, micrometre.factor), unit: "µm", axis: "right" as const }]
+        ? [{ label: "film thickness", y: fields.midplane("thickness", instant, micrometre.factor)!, unit: "µm", axis: "right" as const }]
         : []),
     ];
     const plot = new LinePlot({
       name: `${this.bearing}-midplane`,
-      x: { label: "bearing angle φ", unit: "°", values: fields.degrees() },
+      x: { label: axisName(along.coordinate), unit: along.coordinate.display.unit, values: along.shown() },
       left: { label: "pressure at z = 0", unit: "MPa", fromZero: true },
       ...(fields.at("thickness", 0) ? { right: { label: "film thickness", unit: "µm", fromZero: true } } : {}),
       curves: curves(0),
     });
     this.followers.push((_t, instant) => plot.update(curves(instant).map((c) => c.y)));
-    this.element.append(figure("midplane", "Pressure and film thickness along the middle of the bearing at the instant shown.", plot.tools, plot.element));
+    this.element.append(figure("midplane", `Pressure and film thickness along the middle of ${this.surface.whole} at the instant shown.`, plot.tools, plot.element));
   }
 
   private addAround(): void {
@@ -125,7 +128,7 @@ export class BearingView {
     const choices = map.kinds.map(({ key, label }) => ({ value: key, label }));
     const controls = h("div", { class: "controls" }, segmented("Map over time", choices, choices[0]!.value, (key) => map.choose(map.kinds.find((kind) => kind.key === key)!)));
     this.element.append(
-      figure("around", "Extremes over the bearing’s width, around the bore and over the run. White line: the instant shown; a click shows another.", tableButton(`${this.bearing}-around`, () => map.numbers()), controls, map.element),
+      figure("around", `Extremes over ${this.surface.whole}’s width, ${this.surface.way} and over the run. White line: the instant shown; a click shows another.`, tableButton(`${this.bearing}-around`, () => map.numbers()), controls, map.element),
     );
   }
 
@@ -148,7 +151,7 @@ export class BearingView {
 
   /** Whatever else the file holds of the film, drawn when it is asked for. */
   private addFurther(shown: ReadonlySet<string>): void {
-    const figures = furtherFigures(this.run, `/bearings/${this.bearing}`, shown, micrometre);
+    const figures = furtherFigures(this.run, `/bearings/${this.bearing}`, shown, (name) => (/_[yz]$/.test(name) ? millimetre : micrometre));
     if (figures.length === 0) return;
     this.further.replaceChildren(
       section("Further quantities of the film", false, (body) => {
@@ -158,21 +161,22 @@ export class BearingView {
   }
 
   private addSeries(): void {
-    const { run } = this;
+    const { run, surface } = this;
     // The orbit shows the first, figures of the solution the others.
     const shown = new Set(["eccentricity", "film_iterations", "mass_balance_error"]);
     const of = (name: string, label: string, display: typeof newton, extra: Parameters<typeof curve>[4] = {}) => {
       shown.add(name);
       return curve(run, this.path(name), label, display, extra);
     };
-    this.add("thickness", "Smallest film thickness, edges included, and along the middle of the bearing.", { label: "film thickness", unit: "µm", fromZero: true }, [
+    this.add("thickness", surface.thickness, { label: "film thickness", unit: "µm", fromZero: true }, [
       ...of("h_min", "smallest", micrometre),
       ...of("h_min_centre", "smallest at z = 0", micrometre, { dash: [6, 4] }),
+      ...of("film_thickness", `at ${surface.whole}’s middle`, micrometre, { dash: [2, 3] }),
     ]);
     this.add("peak-pressure", "Peak film pressure.", { label: "peak pressure", unit: "MPa", fromZero: true }, of("p_max", "peak pressure", megapascal));
     const size = magnitude(run, this.path("force"));
     const force = run.dataset(this.path("force"));
-    this.add("force", "Force of the film and the asperities on the shell, in the bearing’s axes.", { label: "force on the shell", unit: "N" }, [
+    this.add("force", `Force of the film and the asperities on the ${surface.held}, ${surface.axes}.`, { label: `force on the ${surface.held}`, unit: "N" }, [
       ...(size ? [{ label: "magnitude", y: size, unit: "N" }] : []),
       ...["x", "y", "z"].flatMap((label, column) =>
         force && column < force.width && !negligible(run.column(this.path("force"), column)!, size)
@@ -192,22 +196,39 @@ export class BearingView {
       ...of("torque_journal", "on the journal", newtonMillimetre),
       ...of("torque_shell", "on the shell", newtonMillimetre),
     ]);
-    this.add("flow", "Oil leaving over the two edges, and entering at the supply and through its holes and grooves.", { label: "flow", unit: "mm³/s", fromZero: true }, [
+    this.add("flow", surface.flow, { label: "flow", unit: "mm³/s", fromZero: true }, [
       ...of("flow_left", "side flow, left", cubicMillimetrePerSecond),
       ...of("flow_right", "side flow, right", cubicMillimetrePerSecond, { dash: [6, 4] }),
+      ...of("flow_leading", "leading end", cubicMillimetrePerSecond),
+      ...of("flow_trailing", "trailing end", cubicMillimetrePerSecond, { dash: [6, 4] }),
       ...of("flow_supply", "supply", cubicMillimetrePerSecond),
       ...run
         .namesAfter(this.path("flow_feature_"))
         .flatMap((name) => of(`flow_feature_${name}`, name, cubicMillimetrePerSecond, { dash: [2, 3] })),
     ]);
-    this.add("cavitated", "Share of the bearing’s surface where the film is cavitated.", { label: "cavitated share", unit: "%", fromZero: true }, of("cavitated_share", "cavitated share", percent));
+    this.add("cavitated", `Share of ${surface.whole}’s surface where the film is cavitated.`, { label: "cavitated share", unit: "%", fromZero: true }, of("cavitated_share", "cavitated share", percent));
     const tilt = run.dataset(this.path("tilt"));
     if (tilt && extent(scaled(tilt.values, 1)).some((v) => Math.abs(v) > 1e-9))
       this.add("tilt", "Tilt of the journal against the shell.", { label: "tilt", unit: "mrad" }, [
         ...of("tilt", "about x", { factor: 1e3, unit: "mrad" }, { column: 0 }),
         ...of("tilt", "about y", { factor: 1e3, unit: "mrad" }, { column: 1 }),
       ]);
+    this.addSlides(of);
     this.addFurther(shown);
+  }
+
+  /** Of films on planes. */
+  private addSlides(of: (name: string, label: string, display: Display, extra?: Parameters<typeof curve>[4]) => Curve[]): void {
+    const { moving, whole, held } = this.surface;
+    const slope = this.run.dataset(this.path("slope"));
+    if (slope && slope.values.some((v) => Math.abs(v) > 1e-9))
+      this.add("slope", `Slopes of the ${moving} along and across the sliding direction, in the ${held}’s frame.`, { label: "slope", unit: "µm/m" }, [
+        ...of("slope", "along", micrometrePerMetre, { column: 0 }),
+        ...of("slope", "across", micrometrePerMetre, { column: 1, dash: [6, 4] }),
+      ]);
+    this.add("sliding-speed", `Speed of the ${moving} along the ${held}’s y-axis.`, { label: "sliding speed", unit: "m/s", fromZero: true }, of("sliding_speed", "sliding speed", metrePerSecond));
+    const bounds = [...of("rupture_y", "ruptures", millimetre, { points: true }), ...of("reformation_y", "re-forms", millimetre, { points: true })];
+    this.add("rupture", `Where the film at mid-width ruptures and re-forms along ${whole}; gaps: it is whole.`, { label: "y", unit: "mm" }, bounds.some(({ y }) => Array.from(y).some((v) => v !== null && Number.isFinite(v))) ? bounds : []);
   }
 }
 

@@ -4,6 +4,7 @@ import type { Dataset, Run } from "./data";
 import { figure, h, segmented, tableButton } from "./dom";
 import { FieldMap, type Mark } from "./field_map";
 import { FilmFields, type FieldKind } from "./film_fields";
+import { capital } from "./summary_table";
 import { degree, format, megapascal, micrometre, type Display } from "./units";
 
 const wattPerSquareMillimetre: Display = { factor: 1e-6, unit: "W/mm²" };
@@ -33,21 +34,21 @@ export function cycleMaps(run: Run, bearing: string): HTMLElement | null {
   if (!film || kinds.length === 0) return null;
 
   const marks = (["pofp", "moft"] as const).flatMap((name): Mark[] => {
-    const [phi, z] = [last(`${name}_phi`), last(`${name}_z`)];
-    return phi === undefined || z === undefined ? [] : [{ phi, z, symbol: name === "pofp" ? "cross" : "ring" }];
+    const [along, across] = [last(`${name}_${film.surface.along.key}`), last(`${name}_${film.surface.across.key}`)];
+    return along === undefined || across === undefined ? [] : [{ along, across, symbol: name === "pofp" ? "cross" : "ring" }];
   });
   const map = new FieldMap(film, kinds[0]!);
   map.show(0, marks);
   const choices = kinds.map(({ key, label }) => ({ value: key, label }));
   const controls = h("div", { class: "controls" }, segmented("Map shown", choices, kinds[0]!.key, (key) => map.choose(kinds.find((k) => k.key === key)!)));
-  return figure("cycle", caption(last("complete") === 1, run.column(path("begin"))!.length, begin, end, kinds), tableButton(`${bearing}-cycle`, () => map.numbers()), controls, map.element);
+  return figure("cycle", caption(film.surface.whole, last("complete") === 1, run.column(path("begin"))!.length, begin, end, kinds), tableButton(`${bearing}-cycle`, () => map.numbers()), controls, map.element);
 }
 
-function caption(isCycle: boolean, count: number, begin: number, end: number, kinds: FieldKind[]): string {
+function caption(whole: string, isCycle: boolean, count: number, begin: number, end: number, kinds: FieldKind[]): string {
   const span = `t = ${format(1e3 * begin)} to ${format(1e3 * end)} ms`;
   const over = isCycle ? `the last of ${count === 1 ? "one cycle" : `${count} cycles`}, ${span}` : `the whole run, ${span}`;
   const wear = kinds.some(({ key }) => key === "wear_load") ? " Wear load: contact pressure times sliding speed, averaged." : "";
-  return `The bearing over ${over}. Cross: peak pressure; ring: smallest film thickness.${wear}`;
+  return `${capital(whole)} over ${over}. Cross: peak pressure; ring: smallest film thickness.${wear}`;
 }
 
 /** How instants within the cycle are told: by the crank's angle where there is one, else by the time since its beginning. */

@@ -88,6 +88,7 @@ export interface FigureText {
   words?: string;
 }
 
+/** A hole or groove in the film; `phi` and `arc` are along the motion, in SI: angles of a bore, lengths on a plane. Without an arc it is a line. */
 export interface FeatureText {
   name: string;
   round: boolean;
@@ -104,9 +105,10 @@ export interface SolutionText {
   remark: string;
   figures: FigureText[];
   features: FeatureText[];
-  clearance: number;
-  e: [number, number];
-  load: [number, number];
+  /** Of a journal in a bore. */
+  clearance?: number;
+  e?: [number, number];
+  load?: [number, number];
   datasets: Record<string, DatasetText>;
 }
 

@@ -1,28 +1,20 @@
-// A field on the unwrapped bearing: angle to the right, axial position upwards, one colour scale for the whole run.
+// A field on the unwrapped surface of a film: along the motion to the right, across it upwards, one colour scale for the whole run.
 
-import { Drawing, ticks } from "./canvas";
+import { Drawing } from "./canvas";
 import { colourTable } from "./colormap";
 import { line, paintColourBar, verticalText, type Box } from "./colour_bar";
+import type { FeatureText } from "./data";
 import type { FieldKind, FilmFields } from "./film_fields";
 import { extent } from "./film_fields";
+import { told } from "./surface";
 import { palette } from "./theme";
-import { axisLabel, format, withUnit } from "./units";
+import { axisLabel, withUnit } from "./units";
 
 /** A place on the film worth marking. */
 export interface Mark {
-  phi: number;
-  z: number;
+  along: number;
+  across: number;
   symbol: "cross" | "ring";
-}
-
-/** A hole or groove in the film, drawn as its outline; one without extent is a line. */
-export interface Outline {
-  name: string;
-  round: boolean;
-  phi: number;
-  z: number;
-  arc: number;
-  length: number;
 }
 
 const margin = { left: 52, right: 92, top: 10, bottom: 40 };
@@ -36,9 +28,9 @@ export class FieldMap extends Drawing {
     private readonly fields: FilmFields,
     private kind: FieldKind,
     private scale: "run" | "instant" = "run",
-    private readonly outlines: Outline[] = [],
+    private readonly outlines: FeatureText[] = [],
   ) {
-    super("Field on the unwrapped bearing");
+    super(`Field on ${fields.surface.map}`);
     this.element.classList.add("field-map");
   }
 
@@ -60,11 +52,13 @@ export class FieldMap extends Drawing {
 
   /** The field shown as a table, a row for each node. */
   numbers(): (string | number)[][] {
-    const { phi, z } = this.fields;
+    const { along, across } = this.fields;
     const { label, display } = this.kind;
     const field = this.fields.at(this.kind.key, this.instant) ?? [];
-    const rows = Array.from(phi, (angle, i) => Array.from(z, (height, j) => [(180 / Math.PI) * angle, 1e3 * height, field[i * z.length + j]! * display.factor]));
-    return [["bearing angle [°]", "z [mm]", axisLabel(label, display.unit)], ...rows.flat()];
+    const n = across.nodes.length;
+    const [u, v] = [along.coordinate.display.factor, across.coordinate.display.factor];
+    const rows = Array.from(along.nodes, (x, i) => Array.from(across.nodes, (y, j) => [u * x, v * y, field[i * n + j]! * display.factor]));
+    return [[along.heading(), across.heading(), axisLabel(label, display.unit)], ...rows.flat()];
   }
 
   protected heightFor(width: number): number {
@@ -90,12 +84,11 @@ export class FieldMap extends Drawing {
     const [u, v] = [(x - box.left) / box.width, 1 - (y - box.top) / box.height];
     const field = this.fields.at(this.kind.key, this.instant);
     if (u < 0 || u > 1 || v < 0 || v > 1 || !field) return null;
-    const z = this.fields.z;
-    const height = z[0]! + v * (z[z.length - 1]! - z[0]!);
+    const { along, across } = this.fields;
     const { label, display } = this.kind;
     return [
-      `${label} ${withUnit(this.sample(field, this.fields.indexAround(u), this.fields.indexAlong(v)) * display.factor, display.unit)}`,
-      `φ ${format(360 * u, 4)}°, z ${withUnit(1e3 * height, "mm", 3)}`,
+      `${label} ${withUnit(this.sample(field, along.index(u), across.index(v)) * display.factor, display.unit)}`,
+      `${told(along.coordinate, along.valueAt(u))}, ${told(across.coordinate, across.valueAt(v))}`,
     ];
   }
 
@@ -118,14 +111,21 @@ export class FieldMap extends Drawing {
     return high > bottom ? [bottom, high] : [bottom, bottom + 1];
   }
 
-  /** Bilinear between the nodes; x and y are fractional indices around and along the bearing. */
+  /** Where a place is drawn. */
+  private mapped(box: Box, along: number, across: number): [number, number] {
+    const { low, high } = this.fields.along;
+    return [box.left + ((along - low) / (high - low || 1)) * box.width, box.top + (1 - this.fields.across.share(across)) * box.height];
+  }
+
+  /** Bilinear between the nodes; x and y are fractional indices along and across the motion. */
   private sample(field: ArrayLike<number>, x: number, y: number): number {
-    const [n, nz] = [this.fields.phi.length, this.fields.z.length];
-    const i = Math.floor(x);
+    const { along, across } = this.fields;
+    const nz = across.nodes.length;
+    const i = Math.min(along.cells - 1, Math.floor(x));
     const j = Math.min(nz - 2, Math.floor(y));
     const [s, t] = [x - i, y - j];
-    const low = (i % n) * nz + j;
-    const high = ((i + 1) % n) * nz + j;
+    const low = along.node(i) * nz + j;
+    const high = along.node(i + 1) * nz + j;
     const left = field[low]! * (1 - t) + field[low + 1]! * t;
     const right = field[high]! * (1 - t) + field[high + 1]! * t;
     return left * (1 - s) + right * s;
@@ -138,11 +138,11 @@ export class FieldMap extends Drawing {
     const pixels = context.createImageData(width, height);
     const words = new Uint32Array(pixels.data.buffer);
     const factor = 255 / (high - low);
-    const around = Array.from({ length: width }, (_, column) => this.fields.indexAround((column + 0.5) / width));
+    const places = Array.from({ length: width }, (_, column) => this.fields.along.index((column + 0.5) / width));
     for (let row = 0; row < height; row++) {
-      const along = this.fields.indexAlong(1 - (row + 0.5) / height);
+      const across = this.fields.across.index(1 - (row + 0.5) / height);
       for (let column = 0; column < width; column++) {
-        const value = (this.sample(field, around[column]!, along) - low) * factor;
+        const value = (this.sample(field, places[column]!, across) - low) * factor;
         words[row * width + column] = colourTable[value <= 0 ? 0 : value >= 255 ? 255 : Math.round(value)]!;
       }
     }
@@ -153,29 +153,30 @@ export class FieldMap extends Drawing {
   private paintRupture(context: CanvasRenderingContext2D): void {
     const fill = this.fields.at("fill", this.instant);
     if (!fill) return;
-    const [n, nz] = [this.fields.phi.length, this.fields.z.length];
+    const { along, across } = this.fields;
+    const nz = across.nodes.length;
     const box = this.box();
     const level = 0.995;
     context.save();
     context.strokeStyle = "rgb(255 255 255 / 0.7)";
     context.lineWidth = 1.2;
     context.beginPath();
-    for (let i = 0; i < n; i++)
+    for (let i = 0; i < along.cells; i++)
       for (let j = 0; j < nz - 1; j++) {
         const corners: [number, number][] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
         const crossings: [number, number][] = [];
         corners.forEach(([ia, ja], k) => {
           const [ib, jb] = corners[(k + 1) % 4]!;
-          const a = fill[(ia % n) * nz + ja]! - level;
-          const b = fill[(ib % n) * nz + jb]! - level;
+          const a = fill[along.node(ia) * nz + ja]! - level;
+          const b = fill[along.node(ib) * nz + jb]! - level;
           if (a < 0 === b < 0) return;
           const t = a / (a - b);
           crossings.push([ia + t * (ib - ia), ja + t * (jb - ja)]);
         });
         for (let k = 0; k + 1 < crossings.length; k += 2)
           [crossings[k]!, crossings[k + 1]!].forEach(([x, y], end) => {
-            const px = box.left + this.fields.shareAround(x) * box.width;
-            const py = box.top + (1 - this.fields.shareAlong(y)) * box.height;
+            const px = box.left + along.shareOf(x) * box.width;
+            const py = box.top + (1 - across.shareOf(y)) * box.height;
             if (end === 0) context.moveTo(px, py);
             else context.lineTo(px, py);
           });
@@ -186,26 +187,22 @@ export class FieldMap extends Drawing {
 
   private paintOutlines(context: CanvasRenderingContext2D): void {
     const box = this.box();
-    const z = this.fields.z;
-    const [low, high] = [z[0]!, z[z.length - 1]!];
-    const x = (phi: number) => box.left + (phi / (2 * Math.PI)) * box.width;
-    const y = (height: number) => box.top + (1 - (height - low) / (high - low)) * box.height;
+    const { along, across } = this.fields;
     context.save();
     context.beginPath();
     context.rect(box.left, box.top, box.width, box.height);
     context.clip();
     for (const o of this.outlines) {
-      const middle = o.phi - 2 * Math.PI * Math.floor(o.phi / (2 * Math.PI));
-      // Once more a turn to the left and right: an outline may cross the seam of the map.
-      for (const phi of [middle - 2 * Math.PI, middle, middle + 2 * Math.PI]) {
-        const [w, hgt] = [(o.arc / (2 * Math.PI)) * box.width, (o.length / (high - low)) * box.height];
+      for (const middle of along.repeated(o.phi)) {
+        const [x, y] = this.mapped(box, middle, o.z);
+        const [w, hgt] = [(o.arc / (along.high - along.low)) * box.width, (o.length / (across.high - across.low)) * box.height];
         for (const [colour, width] of [["rgb(0 0 0 / 0.6)", 3.5], ["#ffffff", 1.6]] as const) {
           context.strokeStyle = colour;
           context.lineWidth = width;
           context.setLineDash(o.arc === 0 ? [6, 4] : []);
           context.beginPath();
-          if (o.round) context.ellipse(x(phi), y(o.z), w / 2, hgt / 2, 0, 0, 2 * Math.PI);
-          else context.rect(x(phi) - w / 2, y(o.z) - hgt / 2, w, hgt);
+          if (o.round) context.ellipse(x, y, w / 2, hgt / 2, 0, 0, 2 * Math.PI);
+          else context.rect(x - w / 2, y - hgt / 2, w, hgt);
           context.stroke();
         }
       }
@@ -215,12 +212,11 @@ export class FieldMap extends Drawing {
 
   private paintMarks(context: CanvasRenderingContext2D): void {
     const box = this.box();
-    const z = this.fields.z;
-    const [low, high] = [z[0]!, z[z.length - 1]!];
+    const { along, across } = this.fields;
     for (const mark of this.marks) {
-      const turn = mark.phi / (2 * Math.PI);
-      const x = box.left + (turn - Math.floor(turn)) * box.width;
-      const y = box.top + (1 - (mark.z - low) / (high - low)) * box.height;
+      if (!Number.isFinite(mark.along) || !Number.isFinite(mark.across)) continue;
+      const x = box.left + along.share(mark.along) * box.width;
+      const y = box.top + (1 - across.share(mark.across)) * box.height;
       // Dark under white: visible on every colour of the map.
       for (const [colour, width] of [["rgb(0 0 0 / 0.7)", 4], ["#ffffff", 2]] as const) {
         context.strokeStyle = colour;
@@ -245,22 +241,20 @@ export class FieldMap extends Drawing {
     context.strokeRect(box.left + 0.5, box.top + 0.5, box.width - 1, box.height - 1);
     context.textAlign = "center";
     context.textBaseline = "top";
-    const step = box.width < 360 ? 90 : 45;
-    for (let angle = 0; angle <= 360; angle += step) {
-      const x = box.left + (angle / 360) * box.width;
+    const { along, across } = this.fields;
+    for (const { share, text } of along.ticks(box.width, Math.max(3, box.width / 90))) {
+      const x = box.left + share * box.width;
       line(context, x, box.top + box.height, x, box.top + box.height + 4);
-      context.fillText(String(angle), x, box.top + box.height + 6);
+      context.fillText(text, x, box.top + box.height + 6);
     }
-    context.fillText("bearing angle φ [°]", box.left + box.width / 2, box.top + box.height + 23);
-    const z = this.fields.z;
-    const [bottom, top] = [1e3 * z[0]!, 1e3 * z[z.length - 1]!];
+    context.fillText(along.label(), box.left + box.width / 2, box.top + box.height + 23);
     context.textAlign = "right";
     context.textBaseline = "middle";
-    for (const value of ticks(bottom, top, 4)) {
-      const y = box.top + (1 - (value - bottom) / (top - bottom)) * box.height;
+    for (const { share, text } of across.ticks(box.height, 4)) {
+      const y = box.top + (1 - share) * box.height;
       line(context, box.left - 4, y, box.left, y);
-      context.fillText(format(value, 3), box.left - 7, y);
+      context.fillText(text, box.left - 7, y);
     }
-    verticalText(context, "z [mm]", 12, box.top + box.height / 2);
+    verticalText(context, across.label(), 12, box.top + box.height / 2);
   }
 }

@@ -1,6 +1,8 @@
-// The fields of one bearing's film at its stored instants, on the unwrapped bearing.
+// The fields of one bearing's film at its stored instants, on its surface.
 
 import type { Dataset, Numbers, Run } from "./data";
+import { capital } from "./summary_table";
+import { FilmAxis, surfaceOf, type Surface } from "./surface";
 import { displayOf, megapascal, micrometre, percent, type Display } from "./units";
 
 export interface FieldKind {
@@ -10,52 +12,68 @@ export interface FieldKind {
 }
 
 /** Fields with units of their own, in the order in which they are shown; others follow as their file describes them. */
-const fieldKinds: FieldKind[] = [
+const fieldKinds = ({ held, moving }: Surface): FieldKind[] => [
   { key: "pressure", label: "Film pressure", display: megapascal },
   { key: "thickness", label: "Film thickness", display: micrometre },
   { key: "fill", label: "Fill fraction", display: percent },
   { key: "asperity_pressure", label: "Asperity pressure", display: megapascal },
-  { key: "shell_displacement", label: "Shell displacement", display: micrometre },
-  { key: "journal_displacement", label: "Journal displacement", display: micrometre },
+  { key: "shell_displacement", label: `${capital(held)} displacement`, display: micrometre },
+  { key: "journal_displacement", label: `${capital(moving)} displacement`, display: micrometre },
 ];
 
+/** The nodes of a bearing's film; null where the file tells none. */
+function nodesOf(run: Run, bearing: string): { surface: Surface; along: FilmAxis; across: FilmAxis } | null {
+  const surface = surfaceOf(run, bearing);
+  const [along, across] = [surface.along, surface.across].map((coordinate) => {
+    const nodes = run.dataset(`/bearings/${bearing}/fields/${coordinate.key}`)?.values;
+    return nodes && nodes.length > 1 ? new FilmAxis(coordinate, nodes) : null;
+  });
+  return along && across ? { surface, along, across } : null;
+}
+
 export class FilmFields {
+  readonly surface: Surface;
+  readonly along: FilmAxis;
+  readonly across: FilmAxis;
+
   private constructor(
     readonly time: Numbers,
-    readonly phi: Numbers,
-    readonly z: Numbers,
+    nodes: { surface: Surface; along: FilmAxis; across: FilmAxis },
     private readonly fields: Map<string, Dataset>,
-  ) {}
+  ) {
+    this.surface = nodes.surface;
+    this.along = nodes.along;
+    this.across = nodes.across;
+  }
 
   static of(run: Run, bearing: string): FilmFields | null {
     const path = (name: string) => `/bearings/${bearing}/fields/${name}`;
     const time = run.dataset(path("time"))?.values;
-    const phi = run.dataset(path("phi"))?.values;
-    const z = run.dataset(path("z"))?.values;
-    if (!time || !phi || !z) return null;
+    const nodes = nodesOf(run, bearing);
+    if (!time || !nodes) return null;
     const fields = new Map<string, Dataset>();
     for (const key of run.namesAfter(path(""))) {
       const dataset = run.dataset(path(key));
-      if (dataset && dataset.width === phi.length * z.length) fields.set(key, dataset);
+      if (dataset && dataset.width === nodes.along.nodes.length * nodes.across.nodes.length) fields.set(key, dataset);
     }
-    return fields.size > 0 ? new FilmFields(time, phi, z, fields) : null;
+    return fields.size > 0 ? new FilmFields(time, nodes, fields) : null;
   }
 
   /** Other fields of one instant on the nodes of a bearing's film. */
   static with(run: Run, bearing: string, fields: Map<string, Dataset>): FilmFields | null {
-    const phi = run.dataset(`/bearings/${bearing}/fields/phi`)?.values;
-    const z = run.dataset(`/bearings/${bearing}/fields/z`)?.values;
-    const fit = phi && z && [...fields.values()].every(({ width }) => width === phi.length * z.length);
-    return fit ? new FilmFields(Float64Array.of(0), phi, z, fields) : null;
+    const nodes = nodesOf(run, bearing);
+    const fit = nodes && [...fields.values()].every(({ width }) => width === nodes.along.nodes.length * nodes.across.nodes.length);
+    return fit ? new FilmFields(Float64Array.of(0), nodes, fields) : null;
   }
 
   /** The kinds of field stored, without an asperity pressure that is zero throughout. */
   kinds(): FieldKind[] {
-    const known = fieldKinds.filter(({ key }) => {
+    const all = fieldKinds(this.surface);
+    const known = all.filter(({ key }) => {
       const dataset = this.fields.get(key);
       return dataset !== undefined && (key !== "asperity_pressure" || dataset.values.some((v) => v > 0));
     });
-    const others = [...this.fields].filter(([key]) => !fieldKinds.some((kind) => kind.key === key));
+    const others = [...this.fields].filter(([key]) => !all.some((kind) => kind.key === key));
     return [...known, ...others.map(([key, { description, unit }]) => ({ key, label: description, display: displayOf(unit) }))];
   }
 
@@ -63,7 +81,7 @@ export class FilmFields {
     return this.time.length;
   }
 
-  /** The field at one instant, index i z.length + j for angle i and axial position j. */
+  /** The field at one instant, index i n + j for node i along and j of n across. */
   at(key: string, instant: number): Numbers | null {
     const dataset = this.fields.get(key);
     if (!dataset) return null;
@@ -74,67 +92,22 @@ export class FilmFields {
     return extent(this.fields.get(key)?.values ?? []);
   }
 
-  /** Angles of the nodes in degrees, closed at 360. */
-  degrees(): number[] {
-    return [...Array.from(this.phi, (phi) => (180 / Math.PI) * phi), 360 + (180 / Math.PI) * this.phi[0]!];
-  }
-
-  /** Index of the node at or before the share u of a turn, with the share of the way to the next. Grids may be graded. */
-  indexAround(u: number): number {
-    const turn = 2 * Math.PI;
-    const n = this.phi.length;
-    const angle = u * turn < this.phi[0]! ? (u + 1) * turn : u * turn;
-    const i = lastNotAbove(this.phi, angle);
-    const next = i + 1 < n ? this.phi[i + 1]! : this.phi[0]! + turn;
-    return i + (angle - this.phi[i]!) / (next - this.phi[i]!);
-  }
-
-  /** Likewise for the share v of the width. */
-  indexAlong(v: number): number {
-    const last = this.z.length - 1;
-    const height = this.z[0]! + v * (this.z[last]! - this.z[0]!);
-    const j = Math.min(last - 1, lastNotAbove(this.z, height));
-    return j + (height - this.z[j]!) / (this.z[j + 1]! - this.z[j]!);
-  }
-
-  /** Shares of a turn and of the width at a fractional index. */
-  shareAround(index: number): number {
-    const i = Math.floor(index);
-    const at = (k: number) => (k < this.phi.length ? this.phi[k]! : this.phi[0]! + 2 * Math.PI);
-    return (at(i) + (index - i) * (at(i + 1) - at(i))) / (2 * Math.PI);
-  }
-
-  shareAlong(index: number): number {
-    const last = this.z.length - 1;
-    const j = Math.min(last - 1, Math.floor(index));
-    return (this.z[j]! + (index - j) * (this.z[j + 1]! - this.z[j]!) - this.z[0]!) / (this.z[last]! - this.z[0]!);
-  }
-
-  /** The field along the angle at z = 0, between two rows if none lies there. */
-  midplane(key: string, instant: number): Float64Array | null {
+  /** The field along the middle, z = 0, between two rows if none lies there; once more at the end where the film closes. */
+  midplane(key: string, instant: number, factor = 1): number[] | null {
     const field = this.at(key, instant);
     if (!field) return null;
-    const nz = this.z.length;
+    const z = this.across.nodes;
+    const nz = z.length;
     let below = 0;
-    while (below < nz - 2 && this.z[below + 1]! <= 1e-12) below++;
-    const [low, high] = [this.z[below]!, this.z[below + 1] ?? this.z[below]!];
+    while (below < nz - 2 && z[below + 1]! <= 1e-12) below++;
+    const [low, high] = [z[below]!, z[below + 1] ?? z[below]!];
     const t = high > low ? Math.min(1, Math.max(0, -low / (high - low))) : 0;
-    return Float64Array.from(this.phi, (_, i) => {
+    const row = Float64Array.from(this.along.nodes, (_, i) => {
       const at = i * nz + below;
       return t === 0 ? field[at]! : (1 - t) * field[at]! + t * field[at + 1]!;
     });
+    return this.along.closed(row, factor);
   }
-}
-
-function lastNotAbove(ascending: Numbers, value: number): number {
-  let low = 0;
-  let high = ascending.length;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (ascending[middle]! <= value) low = middle;
-    else high = middle;
-  }
-  return low;
 }
 
 export function extent(values: ArrayLike<number>): [number, number] {

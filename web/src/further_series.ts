@@ -23,21 +23,21 @@ const axes: Record<number, string[]> = { 2: ["x", "y"], 3: ["x", "y", "z"], 4: [
 
 /**
  * @param shown  names of those that have figures of their own
- * @param length  how lengths are shown; as `displayOf` says where it is not given
+ * @param length  how the length of a name is shown; as `displayOf` says where it is not given
  */
-export function furtherFigures(run: Run, group: string, shown: ReadonlySet<string>, length?: Display): FurtherFigure[] {
+export function furtherFigures(run: Run, group: string, shown: ReadonlySet<string>, length?: (name: string) => Display): FurtherFigure[] {
+  const display = ({ name, unit }: SeriesText) => (unit === "m" && length ? length(name) : displayOf(unit));
   const families = new Map<string, SeriesText[]>();
   for (const series of run.growingIn(group)) {
     if (shown.has(series.name) || series.width > widest || !run.dataset(`${group}/${series.name}`)) continue;
-    const family = series.width > 1 ? series.name : `${series.name.split("_")[0]} ${series.unit}`;
+    const family = series.width > 1 ? series.name : `${series.name.split("_")[0]} ${display(series).unit}`;
     families.set(family, [...(families.get(family) ?? []), series]);
   }
-  return [...families.values()].map((family) => figureOf(run, group, family, length));
+  return [...families.values()].map((family) => figureOf(run, group, family, display(family[0]!)));
 }
 
-function figureOf(run: Run, group: string, family: SeriesText[], length?: Display): FurtherFigure {
-  const { name, unit, width } = family[0]!;
-  const display = unit === "m" && length ? length : displayOf(unit);
+function figureOf(run: Run, group: string, family: SeriesText[], display: Display): FurtherFigure {
+  const { name, width } = family[0]!;
   const columns = run.dataset(`${group}/${name}`)?.columns ?? [];
   const labels = columns.length > 0 ? columns : (axes[width] ?? []);
   const curves =

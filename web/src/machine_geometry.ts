@@ -4,7 +4,9 @@ import { Matrix4, Quaternion, Vector3 } from "three";
 import type { Numbers, Run } from "./data";
 import { Deformation } from "./deformed_mesh";
 import { FilmFields } from "./film_fields";
+import type { Frame } from "./film_mesh";
 import type { ShapeData } from "./shape_data";
+import { surfaceOf, type Size, type Surface } from "./surface";
 
 export interface BodyMotion {
   name: string;
@@ -61,8 +63,22 @@ export class MachineGeometry {
     return vector(this.run.dataset(`/bodies/${body}/centre_of_mass`)?.values);
   }
 
-  bearingSize(name: string): { radius: number; width: number } {
-    return { radius: this.run.number(`/bearings/${name}`, "radius") ?? 0, width: this.run.number(`/bearings/${name}`, "width") ?? 0 };
+  bearingSize(name: string): Size {
+    const number = (key: string) => this.run.number(`/bearings/${name}`, key) ?? 0;
+    return { radius: number("radius"), length: number("length"), width: number("width") };
+  }
+
+  surface(name: string): Surface {
+    return surfaceOf(this.run, name);
+  }
+
+  /** The pads that a body has, with their frames. */
+  pads(body: string): { surface: Surface; frame: Frame; size: Size }[] {
+    return this.bearings.flatMap((link) => {
+      const size = this.bearingSize(link.name);
+      const frame = frameOf(link);
+      return link.inboard === body && size.length > 0 && frame ? [{ surface: this.surface(link.name), frame, size }] : [];
+    });
   }
 
   /** The pressures in a bearing's film, where they are stored. */
@@ -134,6 +150,12 @@ export class MachineGeometry {
       return [{ name, kind: kind(name), inboard, outboard, inboardPlace: place("inboard_origin"), outboardPlace: place("outboard_origin"), axis: place("axis"), start: place("x_axis") }];
     });
   }
+}
+
+/** Of a bearing; nothing where the file does not tell. */
+export function frameOf({ inboardPlace, axis, start }: Link): Frame | null {
+  if (axis.lengthSq() === 0 || start.lengthSq() === 0) return null;
+  return { centre: inboardPlace, axis: axis.clone().normalize(), start: start.clone().normalize() };
 }
 
 function vector(values: ArrayLike<number> | undefined): Vector3 {

@@ -20,12 +20,13 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Run } from "./data";
 import { DeformedMesh, roundEnlargement } from "./deformed_mesh";
 import { figure, h } from "./dom";
-import { MachineGeometry, type BodyMotion, type Link } from "./machine_geometry";
+import { frameOf, MachineGeometry, type BodyMotion, type Link } from "./machine_geometry";
 import type { FilmFields } from "./film_fields";
+import { faceMesh, FilmMesh, pose as poseOf, type Frame } from "./film_mesh";
 import { ball, bar, material, rod, shapeMesh } from "./shape_mesh";
+import type { Size } from "./surface";
 import { onThemeChange, palette } from "./theme";
 import { format } from "./units";
-import { WrappedFilm } from "./wrapped_film";
 
 /** A small motion of a body, in ground's axes. */
 export interface Increment {
@@ -57,7 +58,7 @@ export class MachineView {
   private readonly skins = new Map<string, DeformedMesh>();
   private enlargement = 1;
   private readonly deformationNote = h("span", { class: "chip" });
-  private readonly films: WrappedFilm[] = [];
+  private readonly films: FilmMesh[] = [];
   private areFilmsShown = true;
   private readonly forceLines: { link: Link; line: Line }[] = [];
   private renderer: WebGLRenderer | null = null;
@@ -80,18 +81,20 @@ export class MachineView {
       toggle.setAttribute("aria-pressed", String(this.paths.visible));
       this.render();
     });
-    const films = h("button", { type: "button", class: "quiet", "aria-pressed": "true" }, "Films");
-    films.addEventListener("click", () => {
+    const filmButton = h("button", { type: "button", class: "quiet", "aria-pressed": "true" }, "Films");
+    filmButton.addEventListener("click", () => {
       this.areFilmsShown = !this.areFilmsShown;
-      films.setAttribute("aria-pressed", String(this.areFilmsShown));
+      filmButton.setAttribute("aria-pressed", String(this.areFilmsShown));
       this.repaint();
     });
     const home = h("button", { type: "button", class: "quiet" }, "Reset view");
     home.addEventListener("click", () => this.lookFromStart());
-    const hasFilms = geometry.bearings.some(({ name, start }) => start.lengthSq() > 0 && geometry.film(name));
-    const wrapped = hasFilms ? " Films are wrapped on their bearings, pressure as colour; bodies are see-through while they are shown." : "";
+    const films = geometry.bearings.flatMap((link) => (frameOf(link) ? (geometry.film(link.name) ?? []) : []));
+    const hasFilms = films.length > 0;
+    const lie = films.every(({ surface }) => surface.along.period !== undefined) ? "are wrapped on" : "lie in";
+    const wrapped = hasFilms ? ` Films ${lie} their bearings, pressure as colour; bodies are see-through while they are shown.` : "";
     const caption = `The machine at the instant shown. Drag or arrow keys turn it, wheel or + and − come nearer, right button shifts it.${wrapped}`;
-    this.element = figure("machine", caption, h("span", { class: "tools" }, hasFilms ? films : null, toggle, home), this.holder, this.legend);
+    this.element = figure("machine", caption, h("span", { class: "tools" }, hasFilms ? filmButton : null, toggle, home), this.holder, this.legend);
     this.holder.addEventListener("keydown", (event) => this.turnByKey(event));
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.holder);
@@ -243,13 +246,18 @@ export class MachineView {
   }
 
   private corners(body: string): Vector3[] {
-    return this.geometry.shapes(body).flatMap((shape) => {
+    const pads = this.geometry.pads(body).flatMap(({ surface, frame, size }) => {
+      const ends = [-0.5, 0.5].flatMap((x) => [-0.5, 0.5].map((y) => surface.point(x * size.length, y * size.width, size)));
+      return ends.map((place) => new Vector3(...place).applyMatrix4(poseOf(frame)));
+    });
+    const shapes = this.geometry.shapes(body).flatMap((shape) => {
       const mesh = shape.kind === "half_space" ? null : shapeMesh(shape, material("#000"), 1);
       if (!mesh) return [];
       mesh.updateMatrix();
       const box = new Box3().setFromObject(mesh);
       return [box.min, box.max];
     });
+    return [...pads, ...shapes];
   }
 
   private build(): void {
@@ -326,7 +334,7 @@ export class MachineView {
   /** Bodies hide no film that is shown. */
   private seeThrough(): number {
     const { geometry } = this;
-    return this.areFilmsShown && geometry.bearings.some(({ name, start }) => start.lengthSq() > 0 && geometry.film(name)) ? 0.35 : 1;
+    return this.areFilmsShown && geometry.bearings.some((link) => frameOf(link) && geometry.film(link.name)) ? 0.35 : 1;
   }
 
   /** Bars from the middle of a body's joints to each of them; a ball where its mass lies. */
@@ -354,19 +362,25 @@ export class MachineView {
       group.add(rod(joint.inboardPlace.clone().sub(end), joint.inboardPlace.clone().add(end), size, paint));
   }
 
-  /** The shell, see-through and a little wider than the bore. */
+  /** The film; where it is not shown the shell, see-through and a little wider than the bore, or the face of the pad. */
   private addBearing(bearing: Link, colour: string): void {
-    const { radius, width } = this.geometry.bearingSize(bearing.name);
+    const size = this.geometry.bearingSize(bearing.name);
+    const { radius, width, length } = size;
     const group = this.groups.get(bearing.inboard);
-    if (!group || radius === 0 || bearing.axis.lengthSq() === 0) return;
-    const film = this.areFilmsShown && bearing.start.lengthSq() > 0 ? this.geometry.film(bearing.name) : null;
-    if (film) return this.addFilm(film, bearing, radius, group);
+    if (!group || (radius === 0 && length === 0) || bearing.axis.lengthSq() === 0) return;
+    const frame = frameOf(bearing);
+    const film = this.areFilmsShown && frame ? this.geometry.film(bearing.name) : null;
+    if (film && frame) return this.addFilm(film, bearing.name, frame, size, group);
+    if (radius === 0) {
+      if (frame) group.add(faceMesh(this.geometry.surface(bearing.name), frame, size, material(colour, 0.45)));
+      return;
+    }
     const half = bearing.axis.clone().normalize().multiplyScalar(0.5 * width);
     group.add(rod(bearing.inboardPlace.clone().sub(half), bearing.inboardPlace.clone().add(half), 1.12 * radius, material(colour, 0.45), true));
   }
 
-  private addFilm(fields: FilmFields, { name, axis, start, inboardPlace }: Link, radius: number, group: Group): void {
-    const film = new WrappedFilm(fields, { centre: inboardPlace, axis: axis.clone().normalize(), start: start.clone().normalize(), radius });
+  private addFilm(fields: FilmFields, name: string, frame: Frame, size: Size, group: Group): void {
+    const film = new FilmMesh(fields, frame, size);
     this.films.push(film);
     group.add(film.mesh);
     const scale = h("i", { class: "film-scale" });

@@ -260,10 +260,12 @@ function choicesOf(run: Run): Choice[] {
   });
 }
 
-/** What shakes: a journal in its bearing, else the body that moves most. */
+/** What shakes: a journal in its bearing, a runner on its pad, else the body that moves most. */
 function firstChoice(run: Run, choices: Choice[]): Choice {
-  const journal = choices.find(({ path }) => path.endsWith("/eccentricity"));
-  if (journal) return journal;
+  for (const name of ["/eccentricity", "/film_thickness"]) {
+    const moving = choices.find(({ path }) => path.endsWith(name));
+    if (moving) return moving;
+  }
   const range = ({ path, column }: Choice) => {
     const values = Float64Array.from(run.column(path, column)!);
     return values.reduce((a, b) => Math.max(a, b), -Infinity) - values.reduce((a, b) => Math.min(a, b), Infinity);

@@ -8,6 +8,7 @@ import { FilmFields } from "./film_fields";
 import { statusName } from "./header";
 import { filmLoss, isOfCycle, keyRow, keyValue, moft, pofp } from "./key_figures";
 import { LinePlot, type Curve } from "./line_plot";
+import { axisName, surfaceOf } from "./surface";
 import { capital } from "./summary_table";
 import { Study } from "./study";
 import { isDark, onThemeChange } from "./theme";
@@ -28,6 +29,7 @@ const endValues: EndValue[] = [
   { name: "film-thickness", label: "minimum film thickness", series: "h_min", row: moft, ofCycle: "minimum film thickness (MOFT)", display: micrometre, fromZero: true },
   { name: "peak-pressure", label: "peak film pressure", series: "p_max", row: pofp, ofCycle: "peak film pressure (POFP)", display: megapascal, fromZero: true },
   { name: "eccentricity-ratio", label: "eccentricity ratio", series: "eccentricity_ratio", row: "largest eccentricity ratio", ofCycle: "largest eccentricity ratio", display: plain, fromZero: true },
+  { name: "middle-thickness", label: "film thickness at the pad’s middle", series: "film_thickness", row: "", ofCycle: "film thickness at the pad’s middle", display: micrometre, fromZero: true },
   { name: "power-loss", label: "power loss in the film", series: "power_film", row: filmLoss, ofCycle: "mean power loss in the film", display: { factor: 1, unit: "W" }, fromZero: true },
 ];
 
@@ -109,30 +111,26 @@ export class StudyView {
         const midplane = this.midplane(run);
         return midplane ? [{ label: study.value(run, study.abscissa) || study.label(run), y: midplane.y, unit: "MPa", ...(colours[i] ? { colour: colours[i] } : {}) }] : [];
       });
-      const angles = runs.map((run) => this.midplane(run)?.x).find((x) => x !== undefined);
-      if (curves.length === 0 || !angles) return [];
-      const regular = curves.filter((c) => c.y.length === angles.length);
+      const places = runs.map((run) => this.midplane(run)?.x).find((x) => x !== undefined);
+      if (curves.length === 0 || !places) return [];
+      const regular = curves.filter((c) => c.y.length === places.length);
+      const { along, whole } = surfaceOf(runs[0]!, this.bearing);
       const plot = new LinePlot({
         name: "study-midplane",
-        x: { label: "bearing angle φ", unit: "°", values: angles },
+        x: { label: axisName(along), unit: along.display.unit, values: places },
         left: { label: "pressure at z = 0", unit: "MPa", fromZero: true, highest },
         curves: regular,
         height: 280,
       });
-      const caption = `Pressure along the middle of the bearing at the end of the run, a curve per ${study.abscissa.replaceAll("_", " ")}${label ? `; ${label}` : ""}.`;
+      const caption = `Pressure along the middle of ${whole} at the end of the run, a curve per ${study.abscissa.replaceAll("_", " ")}${label ? `; ${label}` : ""}.`;
       return [figure("study-midplane", caption, plot.tools, plot.element)];
     });
   }
 
   private midplane(run: Run): { x: number[]; y: number[] } | null {
     const fields = FilmFields.of(run, this.bearing);
-    const values = fields?.midplane("pressure", fields.instants - 1);
-    if (!values) return null;
-    const n = values.length;
-    return {
-      x: fields!.degrees(),
-      y: Array.from({ length: n + 1 }, (_, i) => values[i % n]! * megapascal.factor),
-    };
+    const y = fields?.midplane("pressure", fields.instants - 1, megapascal.factor);
+    return fields && y ? { x: fields.along.shown(), y } : null;
   }
 
   /** Values at the end of the run over the first parameter, a curve per combination of the others. */
@@ -179,9 +177,14 @@ export class StudyView {
       return values ? format(values[values.length - 1]! * display.factor) : "–";
     };
     const summary = (run: Run, name: string) => format(run.summary.find((r) => r.name === name && r.group === this.bearing)?.value);
-    const columns: [string, string, (run: Run) => string][] = [
-      ["ε", "eccentricity ratio at the end", (run) => last(run, "eccentricity_ratio", plain)],
-      ["attitude °", "attitude angle at the end", (run) => last(run, "attitude", degree)],
+    type Column = [string, string, (run: Run) => string];
+    /** Of what not every kind of bearing has. */
+    const ofKind = (name: string, short: string, long: string, display: Display): Column[] =>
+      study.runs.some((run) => run.column(path(name))) ? [[short, long, (run) => last(run, name, display)]] : [];
+    const columns: Column[] = [
+      ...ofKind("eccentricity_ratio", "ε", "eccentricity ratio at the end", plain),
+      ...ofKind("attitude", "attitude °", "attitude angle at the end", degree),
+      ...ofKind("film_thickness", "h middle µm", "film thickness at the pad’s middle at the end", micrometre),
       ["h min µm", "minimum film thickness at the end", (run) => last(run, "h_min", micrometre)],
       ["p max MPa", "peak film pressure at the end", (run) => last(run, "p_max", megapascal)],
       ["MOFT µm", "minimum film thickness of the run", (run) => summary(run, "minimum film thickness (MOFT)")],

@@ -8,6 +8,7 @@ export interface Display {
 export const micrometre: Display = { factor: 1e6, unit: "µm" };
 export const millimetre: Display = { factor: 1e3, unit: "mm" };
 export const megapascal: Display = { factor: 1e-6, unit: "MPa" };
+export const micrometrePerMetre: Display = { factor: 1e6, unit: "µm/m" };
 export const degree: Display = { factor: 180 / Math.PI, unit: "°" };
 export const cubicMillimetrePerSecond: Display = { factor: 1e9, unit: "mm³/s" };
 export const newtonMillimetre: Display = { factor: 1e3, unit: "N·mm" };
@@ -75,5 +76,5 @@ export function axisLabel(label: string, unit: string): string {
 
 /** Units of a bearing by itself as they are printed. */
 export function shownUnit(unit: string): string {
-  return unit.replace("mm^3/s", "mm³/s").replace("mm^3", "mm³").replace(/^deg$/, "°").replace(/^um$/, "µm").replace("N.m", "N·m").replace("N.s", "N·s");
+  return unit.replace("mm^3/s", "mm³/s").replace("mm^3", "mm³").replace(/^deg$/, "°").replace(/^um(?=$|\/)/, "µm").replace("N.m", "N·m").replace("m.s", "m·s").replace("N.s", "N·s");
 }

@@ -1,0 +1,249 @@
+// What the page of a bearing by itself shows of each kind: key numbers, figures of a sweep, columns of its table,
+// stiffness and damping. Figures that a solution lacks are left out.
+
+import { approachAndTilt, matrices } from "./bearing_coefficients";
+import type { Line } from "./bearing_sweep";
+import type { BearingText, SolutionText } from "./data";
+import type { Curve, LineFigure } from "./line_plot";
+import { surfaceOfPage, surfaces, type Surface } from "./surface";
+
+/** What a sweep is about. */
+export interface Swept {
+  /** "over speed". */
+  over: string;
+  lines: Line[];
+  isStribeck: boolean;
+  /** Whether asperities bear something somewhere. */
+  rough: boolean;
+}
+
+export interface SweepCurve extends Partial<Omit<Curve, "y">> {
+  key: string;
+  label: string;
+  unit: string;
+  /** Only where a single parameter is varied: a second quantity would drown among many lines. */
+  alone?: boolean;
+  /** Only values of this sign, by size: for logarithmic axes. */
+  sign?: 1 | -1;
+}
+
+export interface SweepFigure {
+  name: string;
+  caption: string;
+  left: LineFigure["left"];
+  right?: LineFigure["right"];
+  curves: SweepCurve[];
+  /** Of one line of the sweep only. */
+  line?: Line;
+}
+
+export interface BearingKind {
+  surface: Surface;
+  /** Before its name. */
+  title: string;
+  /** What stands large above the figures. */
+  tiles: [string, string][];
+  sweep: (swept: Swept) => SweepFigure[];
+  /** Figures in the table of a sweep with their short names; those that may be missing are left out where no solution has them. */
+  columns: [string, string, "may be missing"?][];
+  coefficients: (solution: SolutionText) => HTMLElement | null;
+}
+
+/** Lines of a sweep whose coefficients have figures of their own. */
+const mostLines = 4;
+
+const film = ({ over }: Swept, more: SweepCurve[] = []): SweepFigure => ({
+  name: "film",
+  caption: `Smallest film thickness${more.length > 0 ? `, and ${more.map(({ label }) => label).join(", ")}` : ""} ${over}.`,
+  left: { label: more.length > 0 ? "film thickness" : "minimum film thickness", unit: "µm", fromZero: true },
+  curves: [{ key: "h_min", label: "smallest", unit: "µm" }, ...more],
+});
+
+const friction = ({ over, isStribeck, rough }: Swept, key: string): SweepFigure => ({
+  name: "friction",
+  caption: `Friction coefficient ${over}${isStribeck ? ": the Stribeck curve" : ""}${rough ? ", with the share of the load on asperities" : ""}.`,
+  left: { label: "friction coefficient", unit: "", log: true },
+  right: { label: "share on asperities", unit: "", fromZero: true },
+  curves: [
+    { key, label: "friction coefficient", unit: "" },
+    ...(rough ? [{ key: "asperity_share", label: "share on asperities", unit: "", alone: true, axis: "right", dash: [6, 4] } satisfies SweepCurve] : []),
+  ],
+});
+
+const pressure = ({ over }: Swept): SweepFigure => ({
+  name: "pressure",
+  caption: `Peak film pressure ${over}.`,
+  left: { label: "peak film pressure", unit: "MPa", fromZero: true },
+  curves: [{ key: "p_max", label: "peak pressure", unit: "MPa" }],
+});
+
+const flow = ({ over }: Swept, where: string, more: SweepCurve[] = []): SweepFigure => ({
+  name: "flow",
+  caption: `Oil leaving over ${where} ${over}.`,
+  left: { label: more.length > 0 ? "flow" : "side flow", unit: "mm³/s", fromZero: true },
+  curves: [{ key: "side_flow", label: "side flow", unit: "mm³/s" }, ...more],
+});
+
+const power = ({ over, rough }: Swept): SweepFigure => ({
+  name: "power",
+  caption: `Power lost to friction ${over}.`,
+  left: { label: "friction power", unit: "W", fromZero: true },
+  curves: [
+    { key: "power_film", label: "oil film", unit: "W" },
+    ...(rough ? [{ key: "power_asperity", label: "asperities", unit: "W", alone: true, dash: [6, 4] } satisfies SweepCurve] : []),
+  ],
+});
+
+/** A coefficient by its size on a logarithmic axis, dotted where it is negative. */
+const signed = (key: string, label: string, unit: string, hue: number, dash?: number[]): SweepCurve[] => [
+  { key, label, unit, sign: 1, points: true, hue, ...(dash ? { dash } : {}) },
+  { key, label: `−${label}`, unit, sign: -1, points: true, hue, dash: [2, 3] },
+];
+
+/** Of a journal along a line of the sweep. */
+function coefficients(line: Line, { over }: Swept): SweepFigure[] {
+  const of = line.label ? `; ${line.label}` : "";
+  const axes = "x along the load, y a quarter turn on in the sense of rotation";
+  const figure = (name: string, title: string, symbol: string): SweepFigure => ({
+    name,
+    caption: `${title} ${over}, ${axes}${of}. Dotted, as −${symbol}: where a coefficient is negative.`,
+    left: { label: `${name} ±${symbol}`, unit: "", log: true },
+    curves: ["xx", "xy", "yx", "yy"].flatMap((pair, hue) => signed(`${symbol}_${pair}`, `${symbol}${pair}`, "", hue, hue === 1 || hue === 2 ? [6, 4] : undefined)),
+    line,
+  });
+  return [figure("stiffness", "Stiffness coefficients K = k c/W", "K"), figure("damping", "Damping coefficients C = b c ω/W", "C")];
+}
+
+const journal: BearingKind = {
+  surface: surfaces.bore,
+  title: "bearing",
+  tiles: [
+    ["h_min", "Minimum film thickness"],
+    ["p_max", "Peak film pressure"],
+    ["eccentricity_ratio", "Eccentricity ratio"],
+    ["attitude", "Attitude angle"],
+    ["friction_journal", "Friction coefficient"],
+    ["side_flow", "Side flow"],
+  ],
+  sweep: (swept) => {
+    const { over, lines } = swept;
+    const single = lines.length === 1;
+    return [
+      film(swept),
+      {
+        name: "eccentricity",
+        caption: `Eccentricity ratio${single ? " and attitude angle" : ""} ${over}.`,
+        left: { label: "eccentricity ratio", unit: "", fromZero: true },
+        right: { label: "attitude angle", unit: "°" },
+        curves: [
+          { key: "eccentricity_ratio", label: "eccentricity ratio", unit: "" },
+          { key: "attitude", label: "attitude", unit: "°", alone: true, axis: "right", dash: [6, 4] },
+        ],
+      },
+      friction(swept, "friction_journal"),
+      pressure(swept),
+      ...lines.slice(0, mostLines).flatMap((line) => coefficients(line, swept)),
+      {
+        name: "stability",
+        caption: `Critical mass of a rigid rotor${single ? " and its whirl ratio (whirl frequency by the journal’s speed)" : ""} ${over}; gaps: stable at every mass.`,
+        left: { label: "critical mass", unit: "kg", log: true },
+        right: { label: "whirl ratio", unit: "", fromZero: true },
+        curves: [
+          { key: "critical_mass", label: "critical mass", unit: "kg" },
+          { key: "whirl_ratio", label: "whirl ratio", unit: "", alone: true, axis: "right", dash: [6, 4] },
+        ],
+      },
+      flow(swept, "both edges"),
+      power(swept),
+    ];
+  },
+  columns: [
+    ["load", "load"],
+    ["eccentricity_ratio", "ε"],
+    ["attitude", "attitude"],
+    ["h_min", "h min"],
+    ["p_max", "p max"],
+    ["friction_journal", "friction"],
+    ["asperity_share", "contact"],
+    ["side_flow", "side flow"],
+    ["critical_mass", "critical mass"],
+    ["sommerfeld_S", "S"],
+  ],
+  coefficients: matrices,
+};
+
+/** A line of the sweep for each approach; tilts where only one parameter is varied. */
+function padDynamics(name: string, approach: string, tilt: string, { over }: Swept): SweepFigure[] {
+  const left = (unit: string) => ({ label: name, unit, log: true });
+  const title = name === "stiffness" ? "Stiffness" : "Damping";
+  const alone = (curves: SweepCurve[]) => curves.map((curve): SweepCurve => ({ ...curve, alone: true }));
+  return [
+    { name, caption: `${title} of approach ${over}.`, left: left(approach), curves: [{ key: name, label: "approach", unit: approach }] },
+    {
+      name: `tilt-${name}`,
+      caption: `${title} of tilts ${over}: moment about the pad’s middle by slope. Dotted: where it is negative.`,
+      left: left(tilt),
+      curves: alone([...signed(`${name}_along`, "tilt along", tilt, 0), ...signed(`${name}_across`, "tilt across", tilt, 1, [6, 4])]),
+    },
+  ];
+}
+
+const slider: BearingKind = {
+  surface: surfaces.plane,
+  title: "plane slider",
+  tiles: [
+    ["h_min", "Minimum film thickness"],
+    ["p_max", "Peak film pressure"],
+    ["film_thickness_middle", "Film thickness at the middle"],
+    ["friction_runner", "Friction coefficient"],
+    ["side_flow", "Side flow"],
+    ["power_film", "Friction power"],
+  ],
+  sweep: (swept) => {
+    const { over, lines } = swept;
+    const ends = lines.length === 1 ? " and, positive where it leaves, over the leading and the trailing end" : "";
+    return [
+      film(swept, lines.length === 1 ? [{ key: "film_thickness_middle", label: "at the pad’s middle", unit: "µm", alone: true, dash: [6, 4] }] : []),
+      friction(swept, "friction_runner"),
+      pressure(swept),
+      { name: "centre", caption: `Where the load acts, along the sliding direction, ${over}.`, left: { label: "centre of pressure, y", unit: "mm" }, curves: [{ key: "centre_y", label: "centre of pressure", unit: "mm" }] },
+      {
+        name: "tilt",
+        caption: `Slope of the runner in the pad’s frame ${over}.`,
+        left: { label: "slope", unit: "µm/m", fromZero: true },
+        curves: [
+          { key: "tilt_along", label: "along", unit: "µm/m" },
+          { key: "tilt_across", label: "across", unit: "µm/m", alone: true, dash: [6, 4] },
+        ],
+      },
+      ...padDynamics("stiffness", "N/m", "N·m/rad", swept),
+      ...padDynamics("damping", "N·s/m", "N·m·s/rad", swept),
+      flow(swept, `both sides${ends}`, [
+        { key: "flow_leading", label: "leading end", unit: "mm³/s", alone: true },
+        { key: "flow_trailing", label: "trailing end", unit: "mm³/s", alone: true, dash: [6, 4] },
+      ]),
+      power(swept),
+    ];
+  },
+  columns: [
+    ["speed", "sliding speed"],
+    ["load", "load"],
+    ["film_thickness_middle", "h middle"],
+    ["tilt_along", "slope", "may be missing"],
+    ["h_min", "h min"],
+    ["p_max", "p max"],
+    ["centre_y", "centre y"],
+    ["friction_runner", "friction"],
+    ["asperity_share", "contact", "may be missing"],
+    ["side_flow", "side flow"],
+    ["power_film", "power"],
+  ],
+  coefficients: approachAndTilt,
+};
+
+const kinds = [journal, slider];
+
+export function kindOf(bearing: BearingText): BearingKind {
+  const surface = surfaceOfPage(bearing);
+  return kinds.find((kind) => kind.surface === surface) ?? journal;
+}

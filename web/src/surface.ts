@@ -1,0 +1,217 @@
+// The surfaces that films lie on: the coordinates of their nodes, whether they close, where they are in space, and what
+// their parts are called. A further kind of bearing is a further object here and in bearing_kinds.ts.
+
+import { ticks } from "./canvas";
+import type { BearingText, Numbers, Run } from "./data";
+import { axisLabel, degree, format, millimetre, withUnit, type Display } from "./units";
+
+export interface Coordinate {
+  /** In names of datasets: fields/phi, h_min_phi. */
+  key: string;
+  /** In keys of the figures of a bearing by itself: h_min_angle. */
+  figure: string;
+  symbol: string;
+  /** Before the symbol on axes. */
+  name?: string;
+  display: Display;
+  /** Significant digits of a place. */
+  digits: number;
+  /** What it closes after, in SI; nothing where the film has ends. */
+  period?: number;
+  /** Distance of ticks on an axis so long [px], in the unit displayed; round values where it is not given. */
+  step?: (length: number) => number;
+}
+
+/** What is known of a bearing's size [m]; 0 where it does not apply. */
+export interface Size {
+  radius: number;
+  length: number;
+  width: number;
+}
+
+export interface Surface {
+  /** In the direction of motion. */
+  along: Coordinate;
+  across: Coordinate;
+  /** A place of the film in the bearing's frame, x, y, z, a little off the surface where bodies would hide it. */
+  point: (along: number, across: number, size: Size) => [number, number, number];
+  /** The part that the film's force is told of, and the one that moves against it. */
+  held: string;
+  moving: string;
+  /** The thing as a whole, and its map. */
+  whole: string;
+  map: string;
+  /** Behind "Extremes over the width, ". */
+  way: string;
+  axes: string;
+  /** Captions of figures. */
+  thickness: string;
+  flow: string;
+}
+
+const z: Coordinate = { key: "z", figure: "z", symbol: "z", display: millimetre, digits: 3 };
+
+const bore: Surface = {
+  along: { key: "phi", figure: "angle", symbol: "φ", name: "bearing angle", display: degree, digits: 4, period: 2 * Math.PI, step: (length) => (length < 360 ? 90 : 45) },
+  across: z,
+  // Drawn a little wider than the bore, so that the journal does not touch it.
+  point: (phi, height, { radius }) => [1.04 * radius * Math.cos(phi), 1.04 * radius * Math.sin(phi), height],
+  held: "shell",
+  moving: "journal",
+  whole: "the bearing",
+  map: "the unwrapped bearing",
+  way: "around the bore",
+  axes: "in the bearing’s axes",
+  thickness: "Smallest film thickness, edges included, and along the middle of the bearing.",
+  flow: "Oil leaving over the two edges, and entering at the supply and through its holes and grooves.",
+};
+
+const plane: Surface = {
+  along: { key: "y", figure: "y", symbol: "y", display: millimetre, digits: 3 },
+  across: z,
+  point: (y, height) => [0, y, height],
+  held: "pad",
+  moving: "runner",
+  whole: "the pad",
+  map: "the pad",
+  way: "along the pad",
+  axes: "in its axes: x normal to its face, y along the sliding direction",
+  thickness: "Smallest film thickness, edges included, along the middle of the pad, and at its middle.",
+  flow: "Oil leaving over the two sides and over the leading and the trailing end (negative: it comes in), and entering through holes and pockets.",
+};
+
+/** The first is taken where a file tells nothing. */
+export const surfaces = { bore, plane };
+
+function first(test: (surface: Surface) => boolean): Surface {
+  return Object.values(surfaces).find(test) ?? bore;
+}
+
+/** By the coordinate that its places are told in. */
+export function surfaceOf(run: Run, bearing: string): Surface {
+  const names = new Set(run.namesAfter(`/bearings/${bearing}/`));
+  return first(({ along }) => names.has(`fields/${along.key}`) || names.has(`h_min_${along.key}`));
+}
+
+/** Likewise of a bearing by itself. */
+export function surfaceOfPage(bearing: BearingText): Surface {
+  const known = new Set(bearing.solutions.flatMap(({ figures }) => figures.map(({ key }) => key)));
+  return first(({ along }) => known.has(`h_min_${along.figure}`));
+}
+
+/** "bearing angle φ". */
+export function axisName({ name, symbol }: Coordinate): string {
+  return name === undefined ? symbol : `${name} ${symbol}`;
+}
+
+/** "φ 194.2°". */
+export function told({ symbol, display, digits }: Coordinate, value: number): string {
+  return `${symbol} ${withUnit(value * display.factor, display.unit, digits)}`;
+}
+
+/** The nodes of a film along one of its coordinates; they ascend, and may be graded. */
+export class FilmAxis {
+  /** What a map shows: a whole turn, or from the first node to the last. */
+  readonly low: number;
+  readonly high: number;
+  /** Between neighbours; as many as nodes where the film closes. */
+  readonly cells: number;
+
+  constructor(
+    readonly coordinate: Coordinate,
+    readonly nodes: Numbers,
+  ) {
+    const { period } = coordinate;
+    const last = nodes.length - 1;
+    this.low = period === undefined ? nodes[0]! : 0;
+    this.high = period ?? nodes[last]!;
+    this.cells = period === undefined ? last : nodes.length;
+  }
+
+  /** The node with an index, which may go on beyond the last one where the film closes. */
+  node(index: number): number {
+    return index % this.nodes.length;
+  }
+
+  /** Where the node with an index is, likewise. */
+  place(index: number): number {
+    const n = this.nodes.length;
+    return index < n ? this.nodes[index]! : this.nodes[index - n]! + (this.coordinate.period ?? 0);
+  }
+
+  valueAt(share: number): number {
+    return this.low + share * (this.high - this.low);
+  }
+
+  /** A value as a share of what is shown. */
+  share(value: number): number {
+    const share = (value - this.low) / (this.high - this.low || 1);
+    return this.coordinate.period === undefined ? share : share - Math.floor(share);
+  }
+
+  /** The places where a value is seen: on a film that closes a turn to the left and right, too, for what crosses the seam. */
+  repeated(value: number): number[] {
+    const { period } = this.coordinate;
+    if (period === undefined) return [value];
+    const middle = value - period * Math.floor(value / period);
+    return [middle - period, middle, middle + period];
+  }
+
+  /** Index of the node at or before a share of what is shown, with the share of the way to the next. */
+  index(share: number): number {
+    const { nodes } = this;
+    const value = this.valueAt(share);
+    const at = value < nodes[0]! && this.coordinate.period !== undefined ? value + this.coordinate.period : value;
+    const i = Math.max(0, Math.min(this.cells - 1, lastNotAbove(nodes, at)));
+    const [from, to] = [this.place(i), this.place(i + 1)];
+    return to > from ? i + Math.min(1, Math.max(0, (at - from) / (to - from))) : i;
+  }
+
+  /** The share of what is shown at a fractional index. */
+  shareOf(index: number): number {
+    const i = Math.min(this.cells - 1, Math.floor(index));
+    const [from, to] = [this.place(i), this.place(i + 1)];
+    return (from + (index - i) * (to - from) - this.low) / (this.high - this.low || 1);
+  }
+
+  /** "bearing angle φ [°]". */
+  label(): string {
+    return axisLabel(axisName(this.coordinate), this.coordinate.display.unit);
+  }
+
+  /** "bearing angle [°]": of a column of a table. */
+  heading(): string {
+    const { name, symbol, display } = this.coordinate;
+    return axisLabel(name ?? symbol, display.unit);
+  }
+
+  /** Numbers of the nodes times a factor, the first once more at the end where the film closes. */
+  closed(values: ArrayLike<number>, factor = 1): number[] {
+    return Array.from({ length: this.cells + 1 }, (_, i) => values[this.node(i)]! * factor);
+  }
+
+  /** Places of the nodes in the unit displayed, likewise. */
+  shown(): number[] {
+    return Array.from({ length: this.cells + 1 }, (_, i) => this.place(i) * this.coordinate.display.factor);
+  }
+
+  /** Ticks of an axis so long [px] with their places, as shares of it. */
+  ticks(length: number, most: number): { share: number; text: string }[] {
+    const { display, step } = this.coordinate;
+    const [low, high] = [this.low * display.factor, this.high * display.factor];
+    const width = step?.(length);
+    const values = width === undefined ? ticks(low, high, most) : Array.from({ length: Math.floor((high - low) / width + 1.000001) }, (_, i) => low + i * width);
+    return values.map((value) => ({ share: (value - low) / (high - low || 1), text: format(value, 3) }));
+  }
+}
+
+function lastNotAbove(ascending: Numbers, value: number): number {
+  let low = 0;
+  let high = ascending.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (ascending[middle]! <= value) low = middle;
+    else high = middle;
+  }
+  return low;
+}
