@@ -1,4 +1,4 @@
-"""Oil-film journal bearings inside moving machines.
+"""Oil-film bearings inside moving machines.
 
     import hersey
 

@@ -1,4 +1,4 @@
-"""A bearing by itself: where its journal settles under a load, what it costs, how stiff it is."""
+"""A bearing by itself: where it settles under a load, what it costs, how stiff it is."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from . import _core
 from .errors import InputError, SolutionError
 from .figure import Figure
+from .names import BearingNames
 from .words import did_you_mean, in_words
 
 
@@ -35,19 +36,23 @@ class _Kept(NamedTuple):
     warnings: list[str]
     linearisations: int
     wall_time: float
-    eccentricity: np.ndarray
+    kind: str
+    has_axis: bool
+    position: np.ndarray
     load: np.ndarray
     clearance: float
     stiffness: np.ndarray
     damping: np.ndarray
-    phi: np.ndarray
-    z: np.ndarray
+    named_dimensions: list[tuple]
 
     def figures(self) -> list[tuple]:
         return self.lines
 
     def fields(self) -> dict[str, tuple]:
         return self.named_fields
+
+    def dimensions(self) -> list[tuple]:
+        return self.named_dimensions
 
 
 class BearingSolution(Mapping):
@@ -72,10 +77,9 @@ class BearingSolution(Mapping):
         if isinstance(s, _Kept):
             return _from_kept, (s, self.sensitivities)
         solved = not s.error
-        empty = np.zeros(0)
         kept = _Kept(s.figures(), s.fields() if solved else {}, s.error, s.label, s.warnings, s.linearisations, s.wall_time,
-                     s.eccentricity, s.load, s.clearance if solved else math.nan, s.stiffness, s.damping,
-                     s.phi if solved else empty, s.z if solved else empty)
+                     s.kind, s.has_axis, s.position, s.load, s.clearance if solved else math.nan, s.stiffness, s.damping,
+                     s.dimensions() if solved else [])
         return _from_kept, (kept, self.sensitivities)
 
     def __eq__(self, other: object) -> bool:
@@ -124,18 +128,40 @@ class BearingSolution(Mapping):
         return self._solution.warnings
 
     @property
+    def kind(self) -> str:
+        """Kind of the bearing as in a model file: "journal", "plane_slider"; empty where there is no solution."""
+        return self._solution.kind
+
+    @property
+    def position(self) -> np.ndarray:
+        """Position of the moving surface in the coordinates of its kind [m].
+
+        Of a journal x and y of its axis, which is its `eccentricity`; of a plane slider x of the runner's plane where it
+        passes the middle of the pad's face: the film thickness there with the other sign, as x points into the pad.
+        """
+        return self._solution.position
+
+    @property
     def eccentricity(self) -> np.ndarray:
-        """Position of the journal, x and y [m]."""
-        return self._solution.eccentricity
+        """Position of the journal, x and y [m]. Kinds whose moving surface has no axis have a `position` only."""
+        if not self._solution.has_axis:
+            raise AttributeError(f"a {_in_text(self.kind)} has no eccentricity: expected position, of the moving surface in "
+                                 "the coordinates of its kind, or a figure, such as solution['h_min']")
+        return self._solution.position
 
     @property
     def stiffness(self) -> np.ndarray:
-        """Force on the shell (F_x, F_y [N], M_y, -M_x [N m]) by the journal's position (e_x, e_y [m], its slopes), 4 x 4."""
+        """Force on the fixed surface by the position of the moving one, forces first, then moments by slopes.
+
+        Of a journal: force on the shell (F_x, F_y [N], M_y, -M_x [N m]) by the journal's position (e_x, e_y [m], its
+        slopes), 4 x 4. Of a plane slider: force on the pad (F_x [N], -M_z, M_y [N m]) by the runner's position (x [m], its
+        slopes along and across the sliding direction), 3 x 3.
+        """
         return self._solution.stiffness
 
     @property
     def damping(self) -> np.ndarray:
-        """The same by the rates of that position, 4 x 4."""
+        """The same by the rates of that position."""
         return self._solution.damping
 
     def gradient(self, figure: str) -> dict[str, float]:
@@ -163,13 +189,14 @@ class BearingSolution(Mapping):
 
     @property
     def fields(self):
-        """Pressure, film thickness and all other fields as an `xarray.Dataset` over bearing angle and z."""
+        """Pressure, film thickness and all other fields as an `xarray.Dataset` over bearing angle `phi` [rad] and `z` [m],
+        of a plane slider over `y` [m] along the sliding direction and `z`."""
         import xarray
 
-        data = {name: (("phi", "z"), values, {"units": unit, "long_name": text})
+        coordinates = {name: (name, values, {"units": unit, "long_name": text})
+                       for name, unit, text, values in self._solution.dimensions()}
+        data = {name: (tuple(coordinates), values, {"units": unit, "long_name": text})
                 for name, (unit, text, values) in self._solution.fields().items()}
-        coordinates = {"phi": ("phi", self._solution.phi, {"units": "rad", "long_name": "bearing angle"}),
-                       "z": ("z", self._solution.z, {"units": "m", "long_name": "place along the axis"})}
         return xarray.Dataset(data, coordinates)
 
     def to_pandas(self):
@@ -195,28 +222,35 @@ def _from_kept(kept: _Kept, sensitivities: dict[str, Sensitivity]) -> BearingSol
     return solution
 
 
-_BEARING = "main"
-_POINT = ("journal_speed", "shell_speed", "load", "load_angle", "eccentricity_ratio", "eccentricity_angle",
-          "radial_velocity", "tilt", "journal_angle")
+def _in_text(kind: str) -> str:
+    """ "plane_slider" in a sentence."""
+    return kind.replace("_", " ")
+
+
+_BEARING, _OIL = "main", "oil"
 
 
 def bearing(*, viscosity: Any = None, lubricant: Any = None, grid_error: bool = True,
             thermal_coefficients: str = "frozen", sensitivity: bool = False,
             sensitivity_to: Union[str, Sequence[str]] = (), **keys: Any) -> BearingSolution:
-    """Solves one journal bearing from its dimensions.
+    """Solves one bearing from its dimensions.
 
-    Parameters are the keys of a bearing in a model file: `diameter`, `width`, `radial_clearance` (or
-    `diametral_clearance`), and all others of docs/model-file.md; those of its operating point beside them:
-    `journal_speed` (or `speed`), `load` and `load_angle`, or `eccentricity_ratio` and `eccentricity_angle`. The oil is
-    its `viscosity` ("15 mPa.s") or a whole `lubricant` (a mapping as in a model file). Quantities are texts with units,
-    pairs such as `(45, "mm")`, quantities of pint's, or numbers, which are SI. `sensitivity` and `sensitivity_to` are those
-    of `Model.bearing`.
+    Parameters are the keys of a bearing in a model file, of a journal bearing or of what `kind` names: `diameter`, `width`,
+    `radial_clearance` (or `diametral_clearance`) of a journal, `length` and `width` of a plane slider, and all others of
+    docs/model-file.md. Those of its operating point stand beside them: `speed`, and `load` or a position (of a journal
+    `eccentricity_ratio` and `eccentricity_angle`, of a plane slider `film_thickness`). The oil is its `viscosity`
+    ("15 mPa.s") or a whole `lubricant` (a mapping as in a model file). Quantities are texts with units, pairs such as
+    `(45, "mm")`, quantities of pint's, or numbers, which are SI. `sensitivity` and `sensitivity_to` are those of
+    `Model.bearing`.
 
     Raises `InputError` for anything a model file would not allow, `SolutionError` where there is no solution.
 
     >>> bearing(diameter="45 mm", width="20 mm", radial_clearance="30 um", viscosity="20 mPa.s", speed="3000 rpm",
     ...         eccentricity_ratio=0.6)["load"].unit
     'N'
+    >>> bearing(kind="plane_slider", length="50 mm", width="50 mm", viscosity="20 mPa.s", speed="3 m/s", load="5 kN",
+    ...         shape=[{"profile": "ramp", "rise": "20 um"}])["h_min"].unit
+    'm'
     """
     return bearing_model(viscosity=viscosity, lubricant=lubricant, **keys).bearing(
         grid_error=grid_error, thermal_coefficients=thermal_coefficients, sensitivity=sensitivity, sensitivity_to=sensitivity_to)
@@ -226,19 +260,25 @@ def bearing_model(*, viscosity: Any = None, lubricant: Any = None, **keys: Any):
     """The same as a `Model` with the one bearing "main", to sweep or to write down."""
     from .model import Model
 
-    for short, key in (("speed", "journal_speed"), ("clearance", "radial_clearance")):
-        if short in keys:
-            keys[key] = keys.pop(short)
-    names = [*_POINT, "speed", "clearance", "viscosity", "lubricant", "grid_error", "thermal_coefficients", "sensitivity_to"]
-    point = {key: keys.pop(key) for key in _POINT if key in keys}
+    of_kind = _core.names_of_kind(str(keys.get("kind", "")), _BEARING, _OIL)
+    names = None if of_kind is None else BearingNames(of_kind, _BEARING)  # the reader tells of a kind that is none
+    here, point_of = f"bearings.{_BEARING}.", f"bearings.{_BEARING}.operating_point."
+    own: dict[str, Any] = {}
+    point: dict[str, Any] = {}
+    for key, value in keys.items():
+        path = names.path_of(key) if names else here + key
+        if path.startswith(point_of):
+            point[path.removeprefix(point_of)] = value
+        else:
+            own[path.removeprefix(here)] = value
     oil = dict(lubricant or {})
     if viscosity is not None:
         oil["viscosity"] = viscosity
-    content: dict[str, Any] = {**keys, "lubricant": "oil"}
-    if point:
-        content["operating_point"] = point
+    content: dict[str, Any] = {**own, "lubricant": _OIL, **({"operating_point": point} if point else {})}
+    whole: dict[str, Any] = {"title": names.title if names else "", "lubricants": {_OIL: oil}, "bearings": {_BEARING: content}}
     try:
-        return Model.from_dict({"title": "Journal bearing", "lubricants": {"oil": oil}, "bearings": {_BEARING: content}})
+        return Model.from_dict(whole)
     except InputError as error:
-        unknown = {f"unknown key '{key}'": key for key in keys}
-        raise error.hinting(lambda fault: did_you_mean(unknown[fault.found], names) if fault.found in unknown else "") from None
+        known = [*(names.known if names else ()), "lubricant", "grid_error", "thermal_coefficients", "sensitivity_to"]
+        unknown = {f"unknown key '{key}'": key for key in own}
+        raise error.hinting(lambda fault: did_you_mean(unknown[fault.found], known) if fault.found in unknown else "") from None

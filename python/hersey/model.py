@@ -13,6 +13,7 @@ from . import _core
 from .bearing import BearingSolution, solved
 from .errors import Fault, InputError, Stopped
 from .functions import Function
+from .names import BearingNames
 from .overrides import assignments, give_study_units, give_units, has_numbers, listed, plain, value_of, with_unit, yaml_of
 from .words import did_you_mean
 
@@ -239,8 +240,9 @@ class Model:
         """Solves one bearing by itself at its operating point, which `values` may change for this once.
 
         `values` are parameters, the bearing's own keys (`width="20 mm"`), those of its operating point (`load="2 kN"`,
-        `speed="3000 rpm"`) and `clearance` and `viscosity`; for other keys copy and `set` the model. They are as `set`
-        takes them. A load takes the place of an eccentricity and the other way round.
+        `speed="3000 rpm"`), `viscosity`, and `clearance` of a journal; for other keys copy and `set` the model. They are as
+        `set` takes them. A load takes the place of a position (the `eccentricity_ratio` of a journal, the `film_thickness`
+        of a plane slider) and the other way round.
 
         `sensitivity` asks for the derivatives of every figure by what decides about a bearing, `sensitivity_to` by any
         numbers of the model, named as `values` are or by key paths: `BearingSolution.sensitivities` and `gradient`.
@@ -259,7 +261,7 @@ class Model:
                 paths = [self._path(next(iter(self._keys(name, {key: None})))) if "." not in key else key for key in keys]
                 solution.take(_core.sensitivities(checked, found, name, thermal_coefficients, sensitivity, paths))
         except InputError as error:
-            raise self._told(self._hinting(error, [*values, *keys])) from None
+            raise self._told(self._hinting(error, name, [*values, *keys])) from None
         return solution
 
     def sweep(self, name: Optional[str] = None, *, grid_error: bool = True, thermal_coefficients: str = "frozen",
@@ -280,12 +282,12 @@ class Model:
         lists = {given: listed(items) for given, items in values.items()}
         if not all(lists.values()):
             self._require_names(name, lists)
-            return sweep(lists, [], _core.figure_keys())
+            return sweep(lists, [], _core.figure_keys(self._names(name).kind))
         try:
             base, lists, combinations = self._combinations(name, lists)
             found, raised = _core.solve_all(base, combinations, name, grid_error, thermal_coefficients, threads)
         except InputError as error:
-            raise self._told(self._hinting(error, values)) from None
+            raise self._told(self._hinting(error, name, values)) from None
         results = sweep(lists, found)
         if isinstance(raised, KeyboardInterrupt):
             done = sum(solution.error != _core.not_begun for solution in found)
@@ -301,7 +303,7 @@ class Model:
                 self._with(self._keys(name, {given: "?"}))  # of what kind a value has to be does not matter here
             except InputError as error:
                 if any(_is_unknown(fault, given) for fault in error.faults):
-                    raise self._told(self._hinting(error, [given])) from None
+                    raise self._told(self._hinting(error, name, [given])) from None
 
     def _combinations(self, name: str, lists: Mapping[str, list[Any]]):
         """The model at the first values, the lists with units, and of each combination label, changes, and texts."""
@@ -324,14 +326,14 @@ class Model:
         kept = [change for change in self.changes if change.partition("=")[0] not in others]
         return _in_unit_of(path, items, self.text, self.file, kept + assignments(others))
 
-    def _hinting(self, error: InputError, names: Iterable[str]) -> InputError:
+    def _hinting(self, error: InputError, name: str, given: Iterable[str]) -> InputError:
         """With the nearest name for what is no key of the bearing: of parameters, of its operating point, of options."""
-        known = [*self._parameters(), *_POINT, *_SHORT, *_OPTIONS]
+        known = [*self._parameters(), *self._names(name).known, *_OPTIONS]
 
         def hint(fault: Fault) -> str:
-            for key in names:
+            for key in given:
                 if _is_unknown(fault, key):
-                    return did_you_mean(key, known)
+                    return "" if key in known else did_you_mean(key, known)
             return ""
 
         return error.hinting(hint)
@@ -348,26 +350,16 @@ class Model:
     def _keys(self, name: str, values: Mapping[str, Any]) -> dict[str, Any]:
         """Key paths of what `values` name, and of what they take the place of."""
         written = json.loads(_core.written_json(self.text, self.file, self.changes, ""))
-        parameters, here = written.get("parameters") or {}, written["bearings"][name]
-        point = here.get("operating_point") or {}
-        path = f"bearings.{name}."
-        short = {"speed": path + "operating_point.journal_speed",
-                 "clearance": path + ("diametral_clearance" if "diametral_clearance" in here else "radial_clearance"),
-                 "viscosity": f"lubricants.{self._checked.lubricant_of(name)}.viscosity"}
-        found: dict[str, Any] = {}
-        for key, value in values.items():
-            if key in parameters:
-                found[key] = value
-            elif key in short:
-                found[short[key]] = value
-            elif key in _POINT:
-                found[f"{path}operating_point.{key}"] = value
-            else:
-                found[path + key] = value
-        for given, other in (("load", "eccentricity_ratio"), ("eccentricity_ratio", "load")):
-            if f"{path}operating_point.{given}" in found and given in values and other not in values and other in point:
-                found[f"{path}operating_point.{other}"] = None
+        parameters, point = written.get("parameters") or {}, written["bearings"][name].get("operating_point") or {}
+        names = self._names(name)
+        found = {key if key in parameters else names.path_of(key): value for key, value in values.items()}
+        for given, other in (names.load_or_position, names.load_or_position[::-1]):
+            if names.path_of(given) in found and given in values and other not in values and other in point:
+                found[names.path_of(other)] = None
         return found
+
+    def _names(self, name: str) -> BearingNames:
+        return BearingNames(self._checked.names_of(name), name)
 
     # A machine in motion
 
@@ -405,10 +397,7 @@ class Model:
         return run(self, output, overwrite=overwrite, resume=resume, step_error=step_error, progress=progress)
 
 
-_SHORT = ("speed", "clearance", "viscosity", "width", "diameter", "radial_clearance", "diametral_clearance")
 _OPTIONS = ("grid_error", "thermal_coefficients", "sensitivity", "sensitivity_to", "threads")
-_POINT = ("journal_speed", "shell_speed", "load", "load_angle", "eccentricity_ratio", "eccentricity_angle",
-          "radial_velocity", "journal_angle")
 
 
 def _require_coefficients(name: str) -> None:

@@ -9,6 +9,8 @@ from typing import Any, Mapping, Optional, Sequence
 
 import numpy as np
 
+from .errors import InputError
+
 
 def _axes(ax: Any, **options: Any) -> Any:
     if ax is not None:
@@ -19,9 +21,15 @@ def _axes(ax: Any, **options: Any) -> Any:
 
 
 def orbit(results: Any, bearing: Optional[str] = None, ax: Any = None, **style: Any) -> Any:
-    """The journal's path in its bearing [um], with the circle that the clearance leaves it."""
-    ax = _axes(ax)
+    """The journal's path in its bearing [um], with the circle that the clearance leaves it.
+
+    Raises `InputError` for a bearing whose moving surface has no axis, such as a plane slider.
+    """
     film = results.bearing(bearing)
+    if "eccentricity" not in film:
+        raise InputError(f"bearing {bearing or results.bearings[0]!r} has no orbit, as its moving surface has no axis: expected "
+                         "a journal bearing; moft shows the film thickness of any kind")
+    ax = _axes(ax)
     path = 1e6 * film["eccentricity"].values
     ax.plot(path[:, 0], path[:, 1], **style)
     ratio = film["eccentricity_ratio"].values
@@ -39,7 +47,7 @@ def orbit(results: Any, bearing: Optional[str] = None, ax: Any = None, **style: 
 
 def film_map(source: Any, bearing: Optional[str] = None, time: Optional[float] = None, field: str = "pressure",
              ax: Any = None, **style: Any) -> Any:
-    """A field of a film over bearing angle [deg] and z [mm].
+    """A field of a film over bearing angle [deg] and z [mm], of a plane slider over y along the sliding direction [mm].
 
     `source` is the results of a run, at the stored instant nearest to `time` [s] (the last one where it is left out),
     or a `BearingSolution`.
@@ -50,12 +58,13 @@ def film_map(source: Any, bearing: Optional[str] = None, time: Optional[float] =
         film = film.isel(time=-1) if time is None else film.sel(time=time, method="nearest")
     else:
         film = source.fields
-    data = film[field].transpose("z", "phi")
+    (along,) = (name for name in film[field].dims if name != "z")  # phi, or y of a film that is plane
+    data, is_angle = film[field].transpose("z", along), film[along].attrs.get("units") == "rad"
     scale, unit = {"Pa": (1e-6, "MPa"), "m": (1e6, "um")}.get(data.attrs.get("units", ""), (1, data.attrs.get("units", "")))
-    mesh = ax.pcolormesh(np.degrees(film["phi"].values), 1e3 * film["z"].values, scale * data.values, shading="nearest",
-                         **style)
+    places = np.degrees(film[along].values) if is_angle else 1e3 * film[along].values
+    mesh = ax.pcolormesh(places, 1e3 * film["z"].values, scale * data.values, shading="nearest", **style)
     ax.figure.colorbar(mesh, ax=ax, label=f"{data.attrs.get('long_name', field)} [{unit}]")
-    ax.set_xlabel("bearing angle [deg]")
+    ax.set_xlabel("bearing angle [deg]" if is_angle else f"{along} [mm]")
     ax.set_ylabel("z [mm]")
     return ax
 

@@ -115,7 +115,7 @@ py::array_t<double> on_grid(const film::FilmModel& model, const Eigen::VectorXd&
   return grid;
 }
 
-// {name: (unit, text, values over angle and z)}
+// {name: (unit, text, values over both dimensions)}
 py::dict fields_of(const BearingSolution& solution) {
   py::dict fields;
   const film::FilmFields found = bearing::steady_fields(solution.model, solution.state);
@@ -125,17 +125,26 @@ py::dict fields_of(const BearingSolution& solution) {
   return fields;
 }
 
-Eigen::VectorXd angles_of(const BearingSolution& solution) {
-  Eigen::VectorXd phi(solution.model.grid.n_phi);
-  for (int i = 0; i < phi.size(); ++i) phi[i] = solution.model.grid.phi(i);
-  return phi;
+// Dimensions of the fields: [(name, SI unit, text, positions of the nodes)], as results files name them.
+py::list dimensions_of(const BearingSolution& solution) {
+  const film::FilmModel& model = solution.model;
+  const bool is_round = film::is_round(model.surface);
+  Eigen::VectorXd along(model.grid.n_phi), z(model.grid.n_z);
+  for (int i = 0; i < along.size(); ++i) along[i] = (is_round ? 1 : model.R) * model.grid.phi(i);
+  for (int j = 0; j < z.size(); ++j) z[j] = model.L * model.grid.z_over_L(j);
+  py::list dimensions;
+  if (is_round)
+    dimensions.append(py::make_tuple("phi", "rad", "bearing angle", along));
+  else
+    dimensions.append(py::make_tuple("y", "m", "position along the sliding direction", along));
+  dimensions.append(
+      py::make_tuple("z", "m", is_round ? "place along the axis" : "position across the sliding direction", z));
+  return dimensions;
 }
 
-Eigen::VectorXd places_along(const BearingSolution& solution) {
-  Eigen::VectorXd z(solution.model.grid.n_z);
-  for (int j = 0; j < z.size(); ++j) z[j] = solution.model.L * solution.model.grid.z_over_L(j);
-  return z;
-}
+std::string kind_of(const BearingSolution& solution) { return solution.state.kind ? solution.state.kind->name() : ""; }
+
+bool has_axis(const BearingSolution& solution) { return !solution.state.kind || solution.state.kind->has_axis(); }
 
 }  // namespace
 
@@ -147,7 +156,9 @@ void bind_bearing(py::module_& core) {
       .def_property_readonly("warnings", [](const BearingSolution& s) { return s.warnings; })
       .def_property_readonly("linearisations", [](const BearingSolution& s) { return s.summary.iterations; })
       .def_property_readonly("wall_time", [](const BearingSolution& s) { return s.wall_time; })
-      .def_property_readonly("eccentricity", [](const BearingSolution& s) { return s.state.e; })
+      .def_property_readonly("kind", &kind_of)
+      .def_property_readonly("has_axis", &has_axis)
+      .def_property_readonly("position", [](const BearingSolution& s) { return s.state.e; })
       .def_property_readonly("load", [](const BearingSolution& s) { return s.state.load; })
       .def_property_readonly("clearance",
                              [](const BearingSolution& s) { return bearing::clearance(s.model, s.state.point); })
@@ -155,8 +166,7 @@ void bind_bearing(py::module_& core) {
                              [](const BearingSolution& s) -> RowMajor { return s.state.coefficients.stiffness; })
       .def_property_readonly("damping",
                              [](const BearingSolution& s) -> RowMajor { return s.state.coefficients.damping; })
-      .def_property_readonly("phi", &angles_of)
-      .def_property_readonly("z", &places_along)
+      .def("dimensions", &dimensions_of)
       .def("figures", &figures_of)
       .def("fields", &fields_of);
   py::class_<study::BearingSolver>(core, "BearingSolver").def(py::init<>()).def("solve", &solve, Guard());

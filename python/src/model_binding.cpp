@@ -7,6 +7,7 @@
 #include "hersey/model/bare_numbers.h"
 #include "hersey/model/read.h"
 #include "hersey/model/schema.h"
+#include "hersey/model/short_names.h"
 #include "hersey/model/written.h"
 #include "hersey/run/simulate.h"
 
@@ -61,16 +62,35 @@ py::list bare_numbers(const std::string& text, const std::string& file, const Te
   return found;
 }
 
-std::string lubricant_of(const CheckedModel& checked, const std::string& bearing) {
-  for (const model::Bearing& candidate : checked.model.bearings)
-    if (candidate.name == bearing) return candidate.lubricant;
-  return "";
+/// Names of the kind of a bearing that is there, with the paths that its short names have in this model.
+model::BearingKindNames names_of(const CheckedModel& checked, const std::string& bearing) {
+  for (const model::Bearing& candidate : checked.model.bearings) {
+    if (candidate.name != bearing) continue;
+    model::BearingKindNames names = model::names_of_kind(candidate.kind->name(), bearing, candidate.lubricant).value();
+    names.short_names = model::short_names(checked.model, candidate);
+    return names;
+  }
+  throw py::key_error(bearing);
+}
+
+/// {short name: key path}, in their order.
+py::dict paths_of(const model::BearingKindNames& names) {
+  py::dict paths;
+  for (const auto& [name, path] : names.short_names.paths) paths[py::str(name)] = path;
+  return paths;
 }
 
 }  // namespace
 
 void bind_model(py::module_& core) {
   using Guard = py::call_guard<py::gil_scoped_release>;
+  py::class_<model::BearingKindNames>(core, "BearingKindNames")
+      .def_readonly("kind", &model::BearingKindNames::kind)
+      .def_readonly("title", &model::BearingKindNames::title)
+      .def_readonly("point_keys", &model::BearingKindNames::point_keys)
+      .def_property_readonly("paths", &paths_of)
+      .def_property_readonly("load_or_position",
+                             [](const model::BearingKindNames& n) { return n.short_names.load_or_position; });
   py::class_<CheckedModel, std::shared_ptr<CheckedModel>>(core, "CheckedModel")
       .def_readonly("text", &CheckedModel::text)
       .def_readonly("file", &CheckedModel::file)
@@ -83,10 +103,11 @@ void bind_model(py::module_& core) {
                              [](const CheckedModel& c) { return c.model.is_of_bearings_alone(); })
       .def_property_readonly("bearings", &bearings_of)
       .def_property_readonly("study", &study_of)
-      .def("lubricant_of", &lubricant_of)
+      .def("names_of", &names_of)
       .def("position_of", &position_of)
       .def(
           "check", [](const CheckedModel& c) { return texts_of(run::check(c.model)); }, Guard());
+  core.def("names_of_kind", &model::names_of_kind);
   core.def("read_file", &read_file, Guard());
   core.def("read_text", &read_text, Guard());
   core.def("bare_numbers", &bare_numbers);

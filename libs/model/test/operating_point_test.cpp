@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "hersey/model/short_names.h"
 #include "model_text.h"
 
 namespace hersey::model {
@@ -252,6 +253,20 @@ TEST_CASE("ConstantBulkModulus_IsRead") {
                                        "bulk_modulus: 1.7 GPa}}"),
                                 "m.yaml");
   CHECK(std::get<film::ConstantBulkModulus>(model.bearings[0].film.lubricant.density_law).bulk_modulus == 1.7e9);
+}
+
+TEST_CASE("NamesOfAKind_AreThoseOfABearingOfIt") {
+  const Model model = read_text(bearing_alone, "m.yaml");
+  const std::optional<BearingKindNames> names = names_of_kind("journal", "main", "oil");
+  REQUIRE(names);
+  CHECK(names->title == "Journal bearing");
+  CHECK(names->point_keys.front() == "journal_speed");
+  const ShortNames of_bearing = short_names(model, model.bearings.at(0));
+  CHECK(names->short_names.paths == of_bearing.paths);
+  CHECK(names->short_names.load_or_position == of_bearing.load_or_position);
+  CHECK(names_of_kind("", "main", "oil")->kind == "journal");
+  CHECK(names_of_kind("plane_slider", "pad", "oil")->short_names.load_or_position.second == "film_thickness");
+  CHECK_FALSE(names_of_kind("journall", "main", "oil"));
 }
 
 }  // namespace operating_point_test

@@ -485,12 +485,14 @@ std::string filled_in(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> figure_keys() {
+std::vector<std::string> figure_keys(const std::string& kind) {
   std::vector<std::string> keys;
-  for (const auto& [kind, table] : tables())
+  for (const auto& [name, table] : tables()) {
+    if (!kind.empty() && kind != name) continue;
     for (const Group& group : table)
       for (const Line& line : group.lines)
         if (std::find(keys.begin(), keys.end(), line.key) == keys.end()) keys.push_back(line.key);
+  }
   return keys;
 }
 

@@ -279,7 +279,8 @@ std::vector<std::string> steady_figure_keys(const model::Model& model) {
   std::vector<std::string> keys;
   for (const model::Bearing& bearing : model.bearings)
     if (bearing.operating_point)
-      for (const std::string& key : figure_keys()) keys.push_back("bearings." + bearing.name + "." + key);
+      for (const std::string& key : figure_keys(bearing.kind->name()))
+        keys.push_back("bearings." + bearing.name + "." + key);
   for (std::string& key : keys)
     if (key.find("<ij>") != std::string::npos) key.replace(key.find("<ij>"), 4, "<name>");
   return keys;

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -9,6 +10,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/model/read.h"
 #include "hersey/study/bearing_study.h"
+#include "hersey/study/run_figures.h"
 #include "relative.h"
 
 // A plane slider from the model file to its figures.
@@ -143,6 +145,23 @@ TEST_CASE("FaultsOfSliders_SayWhatIsWrong") {
   says({"bearings.pad.edge_pressure=closed"}, "the pressure is given nowhere");
   says({"bearings.pad.operating_point.film_thickness=none", "bearings.pad.operating_point.load=1e16 N"},
        "no solid bears");
+}
+
+TEST_CASE("Keys_AreThoseOfTheKind") {
+  const auto has = [](const std::vector<std::string>& keys, const std::string& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  const std::vector<std::string> own = figure_keys("plane_slider");
+  for (const auto& entry : figures({})) {
+    INFO(entry.first);
+    CHECK(has(own, entry.first));
+  }
+  CHECK_FALSE(has(own, "eccentricity_ratio"));
+  CHECK_FALSE(has(figure_keys("journal"), "h_min_y"));
+  CHECK(has(figure_keys(), "eccentricity_ratio"));
+  const std::vector<std::string> known = steady_figure_keys(model::read_text(slider, "m.yaml"));
+  CHECK(has(known, "bearings.pad.h_min_y"));
+  CHECK_FALSE(has(known, "bearings.pad.eccentricity_ratio"));
 }
 
 }  // namespace plane_slider_study_test

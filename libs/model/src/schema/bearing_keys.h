@@ -25,7 +25,7 @@ struct SurfaceKeys {
 
 /// How one kind of bearing is written. A new kind is a line in bearing_kind_formats().
 struct BearingKindFormat {
-  std::string tag, description;
+  std::string tag, title, description;
   SurfaceKeys surfaces;
   std::vector<Key> keys;
 };

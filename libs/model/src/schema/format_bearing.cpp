@@ -150,8 +150,9 @@ std::vector<Key> surface_keys(const SurfaceKeys& surfaces) {
 
 const std::vector<BearingKindFormat>& bearing_kind_formats() {
   static const std::vector<BearingKindFormat> kinds{
-      {"journal", "a journal in a bore", {}, journal_keys()},
+      {"journal", "Journal bearing", "a journal in a bore", {}, journal_keys()},
       {"plane_slider",
+       "Plane slider",
        "a rectangular pad on a plane runner that slides below it",
        {.fixed = "pad", .of_fixed = "The pad.", .moving = "runner", .of_moving = "The runner."},
        plane_slider_keys()},

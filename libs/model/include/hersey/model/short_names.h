@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,5 +16,18 @@ struct ShortNames {
 };
 /// Returns the short names of a bearing of `model`.
 [[nodiscard]] ShortNames short_names(const Model& model, const Bearing& bearing);
+
+/// What is known of a kind of bearing before there is a model with one.
+struct BearingKindNames {
+  std::string kind;                     ///< "journal", as in the model file
+  std::string title;                    ///< "Journal bearing"
+  std::vector<std::string> point_keys;  ///< keys of its operating point, in the order of the schema
+  ShortNames short_names;               ///< of a bearing of the given name
+};
+
+/// Returns the names of a kind for a bearing called `bearing` with the oil `lubricant`; unset for an unknown kind.
+/// @param kind  as in the model file; empty: the kind of a bearing that names none
+[[nodiscard]] std::optional<BearingKindNames> names_of_kind(const std::string& kind, const std::string& bearing,
+                                                            const std::string& lubricant);
 
 }  // namespace hersey::model

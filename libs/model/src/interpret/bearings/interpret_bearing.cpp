@@ -4,6 +4,7 @@
 #include "hersey/film/film_solver.h"
 #include "interpret/bearings/film_reader.h"
 #include "interpret/bearings/kinds/kinds.h"
+#include "schema/bearing_keys.h"
 #include "schema/film_vocabulary.h"
 
 namespace hersey::model {
@@ -31,6 +32,24 @@ ShortNames short_names(const Model& model, const Bearing& bearing) {
   for (const KindReader& kind : bearing_kinds())
     if (kind.kind == name) return kind.short_names(model, bearing);
   HERSEY_REQUIRE(false, "every kind of bearing has a reader");
+}
+
+std::optional<BearingKindNames> names_of_kind(const std::string& kind, const std::string& bearing,
+                                              const std::string& lubricant) {
+  const std::vector<BearingKindFormat>& formats = bearing_kind_formats();
+  const std::string& tag = kind.empty() ? formats.front().tag : kind;
+  const auto format = std::find_if(formats.begin(), formats.end(), [&](const auto& each) { return each.tag == tag; });
+  const std::vector<KindReader> readers = bearing_kinds();
+  const auto reader = std::find_if(readers.begin(), readers.end(), [&](const auto& each) { return each.kind == tag; });
+  if (format == formats.end() || reader == readers.end()) return std::nullopt;
+  BearingKindNames names{.kind = tag, .title = format->title, .point_keys = {}, .short_names = {}};
+  if (const Key* point = find_key(format->keys, "operating_point"))
+    for (const Key* key : all_keys(*point->type)) names.point_keys.push_back(key->name);
+  Bearing stand_in;
+  stand_in.name = bearing;
+  stand_in.lubricant = lubricant;
+  names.short_names = reader->short_names(Model{}, stand_in);
+  return names;
 }
 
 }  // namespace hersey::model

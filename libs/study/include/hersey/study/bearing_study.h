@@ -138,6 +138,7 @@ struct BearingFigure {
 [[nodiscard]] std::vector<BearingFigure> figures_of(const BearingSolution& solution);
 
 /// Keys that figures may have; <...> stands for a name.
-[[nodiscard]] std::vector<std::string> figure_keys();
+/// @param kind  of the bearing; empty: keys of all kinds
+[[nodiscard]] std::vector<std::string> figure_keys(const std::string& kind = "");
 
 }  // namespace hersey::study
