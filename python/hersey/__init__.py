@@ -13,11 +13,12 @@ pint's; a bare number is SI.
 
 from . import fem, plot
 from ._core import Progress, __version__
-from .bearing import BearingSolution, Sensitivity, bearing, bearing_model
+from .bearing import BearingSolution, Sensitivity
 from .errors import Fault, HerseyError, InputError, RunError, SolutionError, Stopped, UserFunctionError
 from .figure import Figure
 from .functions import Function, surface_profile, viscosity_law
 from .model import Model
+from .one_bearing import bearing, bearing_model
 from .results import Results, Summary, open_results, report
 from .simulation import Port, Simulation
 from .studies import Study, study

@@ -15,6 +15,8 @@ from .errors import Fault, InputError, Stopped
 from .functions import Function
 from .names import BearingNames
 from .overrides import assignments, give_study_units, give_units, has_numbers, listed, plain, value_of, with_unit, yaml_of
+from .running import run
+from .sweep import sweep
 from .words import did_you_mean
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -275,8 +277,6 @@ class Model:
 
         Ctrl-C ends it when the points under way are done and raises `Stopped`, whose `results` have all that are.
         """
-        from .sweep import sweep
-
         _require_coefficients(thermal_coefficients)
         name = self._bearing_called(name)
         lists = {given: listed(items) for given, items in values.items()}
@@ -392,8 +392,6 @@ class Model:
         The interpreter is free for other threads meanwhile. Ctrl-C ends the run after its step and raises `Stopped`, a
         run that fails raises `RunError`: both have the results so far. A study is several models: see `runs`.
         """
-        from .running import run
-
         return run(self, output, overwrite=overwrite, resume=resume, step_error=step_error, progress=progress)
 
 

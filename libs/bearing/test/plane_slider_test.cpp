@@ -76,6 +76,8 @@ TEST_CASE("Taper_MeetsTheClosedFormWithOrderTwo") {
                                              state.film.flow_last / exact_flow - 1, state.film.p_max / exact_peak - 1,
                                              centre / exact_centre - 1};
       CHECK(state.film.flow_first == relative(-state.film.flow_last).epsilon(1e-9));  // the film's tolerance
+      CHECK(state.film.cavitated_share == 0);                                         // flooded ends are full
+      CHECK(std::isnan(state.film.rupture_angle));
     }
     for (std::size_t f = 0; f < errors[0].size(); ++f) {
       CAPTURE(f);

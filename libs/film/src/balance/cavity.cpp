@@ -18,7 +18,9 @@ class MiddleRow {
   }
 
   [[nodiscard]] int size() const { return n_; }
-  [[nodiscard]] bool is_cavity(int i) const { return value(i) < -1e-9 * fill_scale(balance_.model()); }
+  [[nodiscard]] bool is_cavity(int i) const {
+    return value(i) < -1e-9 * fill_scale(balance_.model()) && !balance_.is_flooded(node(i));
+  }
   /// Whether an edge lies between node i and the next one.
   [[nodiscard]] bool ends(int i) const { return balance_.model().grid.next(wrapped(i)) < 0; }
   /// From node i on to the next one [rad].

@@ -158,7 +158,7 @@ void FlowBalance::take_borders_to_edges() {
 double FlowBalance::cavitated_share(int node) const {
   const Node& at = nodes_[node];
   if (!cavitation_.has_fill()) return 1 - (model_.cavitated_shear == CavitatedShear::full ? at.other_share : at.share);
-  if (u_[node] >= -round_off_of_u()) return 0;
+  if (u_[node] >= -round_off_of_u() || is_flooded(node)) return 0;
   double in = 0, carried = 0;  // by pressure; out of a full gap by the surfaces
   for (const int f : faces_around(node)) {
     if (f < 0) continue;

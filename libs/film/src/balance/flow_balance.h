@@ -157,6 +157,8 @@ class FlowBalance {
   [[nodiscard]] bool is_open(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
   /// u at which an edge at p_cav is as full as what lies outside; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
+  /// True on an edge at p_cav with oil outside: what comes in there is full, whatever the solver leaves of u.
+  [[nodiscard]] bool is_flooded(int node) const { return is_open(node) && edges_[node].ambient == 0; }
   /// Returns the flow, of several, over the edge on which a node lies.
   template <class Flows>
   [[nodiscard]] double& flow_over_edge(Flows& flows, int node) const {
