@@ -129,8 +129,8 @@ OF_A_RUN = [
     ("energy/since_start/dampers", "end"), ("energy/since_start/contacts", "end"),
     ("modes/fields/frequency", "first"), ("modes/fields/damping_ratio", "first"),
 ]
-# Positions tell of the motion where no bearing does. Frames of elastic bodies (`rod.tip`) are bodies of the results file.
-WITHOUT_BEARINGS = [("bodies/*/position", "end")]
+# Positions tell of the motion where neither bearings nor modes do. Frames of elastic bodies (`rod.tip`) are bodies of the results file.
+OF_A_MECHANISM = [("bodies/*/position", "end")]
 MODES = 8  # the lowest ones: what a mesh, not an engineer, decides comes after
 
 
@@ -145,17 +145,23 @@ def reduced(values, time, how):
     return [(".max" if how == "length" else f".{how}", value)]
 
 
+def is_free(file, name):
+    """Whether a series is the reaction of a joint that holds nothing: what is left of the iteration."""
+    joint = name.rpartition("/")[0]
+    return name.startswith("joints/") and f"{joint}/coordinates" in file and file[f"{joint}/coordinates"].shape[1:] == (6,)
+
+
 def of_run(path, prefix=""):
     """[(quantity, value, unit)] of a results file; a quantity is the path of its series and `.min`, `.max`, `.mean` or `.end`."""
     import h5py  # only who reads results needs it
     figures = []
     with h5py.File(path) as file:
         time = file["time"][()]
-        for pattern, how in OF_A_RUN + ([] if "bearings" in file else WITHOUT_BEARINGS):
+        for pattern, how in OF_A_RUN + ([] if "bearings" in file or "modes" in file else OF_A_MECHANISM):
             head, star, tail = pattern.partition("/*/")
             names = [f"{head}/{name}/{tail}" for name in file.get(head, {})] if star else [pattern]
             for name in names:
-                if name in file and file[name].size > 0:
+                if name in file and not is_free(file, name):
                     unit = str(file[name].attrs["units"])
                     figures += [(f"{prefix}{name}{suffix}", float(value), unit) for suffix, value in reduced(file[name][()], time, how)]
     return figures

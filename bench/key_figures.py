@@ -39,6 +39,12 @@ class CannotRun(Exception):
     """The program did not answer; its message."""
 
 
+def text_of_command(command):
+    """As the table holds it: what is typed, less the model."""
+    kind, *settings = command
+    return " ".join([kind] + [f"--set '{setting}'" if " " in setting else f"--set {setting}" for setting in settings])
+
+
 def figures_of(program, example, command):
     """{(example, command, quantity): (value, unit)} of one command."""
     kind, *settings = command
@@ -55,8 +61,7 @@ def figures_of(program, example, command):
             # A study's runs are told apart by their folders.
             below = pathlib.Path(run["results"]).parent.relative_to(folder)
             found += rules.of_run(run["results"], "" if str(below) == "." else f"{below}: ")
-    text = " ".join([kind] + [f"--set '{s}'" if " " in s else f"--set {s}" for s in settings])
-    return {(example, text, quantity): (value, unit) for quantity, value, unit in found if not rules.is_zero(value, unit)}
+    return {(example, text_of_command(command), quantity): (value, unit) for quantity, value, unit in found if not rules.is_zero(value, unit)}
 
 
 def all_figures(program, names, jobs):
@@ -150,16 +155,16 @@ class Table:
         if self.last != NEXT:
             self.columns.insert(-1, NEXT)
         reasons = {} if first else {d[0]: why or d[4] for d in differences}
-        written = {}
+        written, others = {}, set(examples()) - set(names)
         for key, (value, unit) in figures.items():
             row = self.rows.get(key, dict(zip(KEYS, key)) | {"unit": unit})
             self.explain(row, reasons.get(key, ""), day)
             written[key] = row | {NEXT: text_of(value)}
         for key, row in self.rows.items():
-            if key not in figures and (key[0] not in names or self.released(row)):
+            if key not in figures and (key[0] in others or self.released(row)):
                 if key in reasons:
                     self.explain(row, reasons[key], day)
-                written[key] = row | ({NEXT: ""} if key[0] in names else {})
+                written[key] = row | ({} if key[0] in others else {NEXT: ""})
         self.rows = written
         return []
 
