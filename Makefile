@@ -1,6 +1,6 @@
 # Everything from a bare checkout: each target installs what it needs (scripts/setup), configures, builds and runs.
 # Logs: build/log/. Settings: JOBS=n, PRESET=release|gcc|debug|asan, PREFIX=/usr/local, QUICK=1 (demo), FILTER=regex (test, fuzz), TIME=n (fuzz),
-# ONLY=regex (mutations), UNITY=OFF (the first time: each source by itself, for who works on the code).
+# ONLY=regex (mutations, key-figures), UNITY=OFF (the first time: each source by itself, for who works on the code).
 JOBS ?= $(shell nproc)
 PRESET ?= release
 PREFIX ?= /usr/local
@@ -13,7 +13,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help fmu program demo test bench validate coverage mutations fuzz random-models second-opinion studies test-slurm web web-check web-test python python-package docs docs-test pictures package package-test format lint install clean
+.PHONY: help fmu program demo test bench key-figures validate coverage mutations fuzz random-models second-opinion studies test-slurm web web-check web-test python python-package docs docs-test pictures package package-test format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -40,6 +40,11 @@ bench:  ## builds and runs the benchmarks
 	@$(MAKE) --no-print-directory PRESET=bench build/bench/build.ninja
 	@$(PHASE) compile build/log/bench.log cmake --build build/bench -j $(JOBS)
 	@scripts/bench build/bench
+
+key-figures: program  ## compares every example's key figures with bench/key_figures.csv (UPDATE=1: writes them there, WHY='...': why they changed; ONLY=regex: some; AGAINST=program: with another program's)
+	@scripts/setup test
+	@/usr/bin/python3 bench/key_figures.py $(BUILD)/hersey --jobs $(JOBS) --only '$(ONLY)' $(if $(UPDATE),--update) $(if $(WHY),--why '$(WHY)') \
+	  $(if $(AGAINST),--against $(AGAINST))
 
 validate: program  ## compares the examples with published numbers
 	@scripts/setup test

@@ -12,7 +12,7 @@ import unittest
 
 HERSEY = os.path.abspath(sys.argv.pop(1))
 SOURCE = os.path.abspath(sys.argv.pop(1))
-NAMING = ("CHANGELOG.md", "CMakeLists.txt", "CITATION.cff", "docs/citing.md", "docs/installing.md")
+NAMING = ("CHANGELOG.md", "CMakeLists.txt", "CITATION.cff", "docs/citing.md", "docs/installing.md", "bench/key_figures.csv")
 
 
 def found(pattern, path, folder=SOURCE):
@@ -72,6 +72,8 @@ class Release(unittest.TestCase):
             self.assertIn("expected MAJOR.MINOR.PATCH", subprocess.run([*release, "next"], **ended).stderr)
             self.assertEqual(subprocess.run([*release, "99.1.0"], **ended).returncode, 0)
             self.assert_one_number("99.1.0", folder)
+            self.assertTrue(found(r"^example,.*,99\.1\.0,why it changed$", "bench/key_figures.csv", folder) or
+                            not found(r"^example,.*,unreleased,", "bench/key_figures.csv"), "the key figures have no column of the release")
 
 
 if __name__ == "__main__":
