@@ -43,7 +43,7 @@ TEST_CASE("SweepsThatMayNotSweep_TellWhatIsLeft") {
   }
 }
 
-// Where a broken film fills again in a pocket of 25 times the gap, oil there has next to no pressure. With that of the
+// Where a cavitated film fills again in a pocket of 25 times the gap, oil there has next to no pressure. With that of the
 // land for it the viscosity was off by a percent, over conductances 15,000 times the land's: Newton's method cycled,
 // sweeps took ten times as long, and of this bearing's mirror image came to no end.
 TEST_CASE("PocketOfABrokenFilm_IsFilledWithoutCycles") {
