@@ -40,12 +40,12 @@ COMMANDS = {
     "hot_pedestal/with_shaft": [("bearing",), ("run",)],
     "lemon_bore/model": [("bearing",)],
     "oil_whirl/flexible": [("run", "simulation.duration=20ms")],
-    "oil_whirl/model": [("run", "simulation.duration=40ms")],
+    "oil_whirl/model": [("run", "simulation.duration=0.1s")],
     "paper_big_end/model": [("run", "load=1000N", "clearance=0.034mm", "simulation.duration=2rev")],
     "plane_slider/carriage": [("run",)],
     "plane_slider/model": [("bearing",)],
     "slider_crank/flexible_rod": [("run", "simulation.duration=40deg")],
-    "slider_crank/model": [("run", "simulation.duration=180deg")],
+    "slider_crank/model": [("run",)],
     "slider_crank/pin_hole": [("run", "simulation.duration=90deg")],
     "spinning_rod/model": [("run", "simulation.duration=10s")],
     "squeezer/model": [("run", "simulation.duration=15ms")],
@@ -53,12 +53,13 @@ COMMANDS = {
 # Examples that are not run, each with its reason.
 LEFT_OUT = {}
 
-# Two figures are equal within a millionth: iterations end at residuals of 1e-8 to 1e-10 of their scale, so that another order of
-# the same sums, or another start of an iteration, stays below; a formulation within its stated error (1e-4 and more) does not.
+# Two figures are equal within a millionth. Sums in another order have moved figures by up to 1e-11 between two programs of equal
+# formulation; iterations that start elsewhere and end at residuals of 1e-8 of their scale could by 1e-7. What a formulation
+# changes within its stated error (1e-4 and more) is seen.
 RELATIVE = 1e-6
 # Below these a figure is zero: what symmetry makes vanish is left with round-off, 1e-10 or less of the terms that cancel.
-# Each is at most a millionth of the smallest figure of its unit that means something in the examples.
-ZERO = {"m": 1e-12, "rad": 1e-9, "1": 1e-9, "": 1e-9, "N": 1e-5, "N.m": 1e-8, "Pa": 1.0, "W": 1e-6, "J": 1e-9, "m^3/s": 1e-14, "m^3": 1e-16,
+# A figure of an example that means something is ten times as large, and most are a million times.
+ZERO = {"m": 1e-12, "rad": 1e-9, "1": 1e-9, "": 1e-9, "N": 1e-5, "N.m": 1e-8, "Pa": 1.0, "W": 1e-6, "J": 1e-10, "m^3/s": 1e-14, "m^3": 1e-16,
         "degC": 1e-6, "Hz": 1e-6, "N/m": 10.0, "N.s/m": 0.1, "N.m.s": 1e-9, "kg": 1e-6, "rad/s": 1e-6, "m/s": 1e-9}
 
 NOT_OF_A_BEARING = re.compile("|".join([

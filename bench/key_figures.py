@@ -103,7 +103,7 @@ def change(before, after, unit):
     off = abs(after - before)
     if off <= max(rules.RELATIVE * max(abs(before), abs(after)), rules.ZERO.get(unit, 0.0)):
         return ""
-    return f"{(after - before) / abs(before):+.2g}" if before != 0 else f"{after - before:+.2g} {unit}"
+    return f"{after / before - 1:+.2g}" if before != 0 else f"{after - before:+.2g} {unit}"
 
 
 class Table:
@@ -146,15 +146,16 @@ class Table:
         return found
 
     def update(self, figures, names, why, day):
-        """Writes the column `unreleased`; returns the differences that have no reason, and then writes nothing."""
-        differences = self.differences(figures, names)
-        first = not self.rows
-        unexplained = [d for d in differences if not (why or d[4] or first or d[0] not in self.rows)]
+        """Writes the column `unreleased`; returns the differences that have no reason, and then writes nothing. A command that is
+        new, or no longer run, needs none."""
+        known, run = ({key[:2] for key in keys} for keys in (self.rows, figures))
+        differences = [d for d in self.differences(figures, names) if d[0][:2] in known & run]
+        unexplained = [d for d in differences if not (why or d[4])]
         if unexplained:
             return unexplained
         if self.last != NEXT:
             self.columns.insert(-1, NEXT)
-        reasons = {} if first else {d[0]: why or d[4] for d in differences}
+        reasons = {d[0]: why or d[4] for d in differences}
         written, others = {}, set(examples()) - set(names)
         for key, (value, unit) in figures.items():
             row = self.rows.get(key, dict(zip(KEYS, key)) | {"unit": unit})

@@ -138,6 +138,18 @@ class KeyFigures(unittest.TestCase):
         self.assertEqual(self.run_with(bearing(h_min=2.1e-5))[0], 0)
         self.assertEqual(self.run_with(bearing(h_min=2.2e-5))[0], 1)
 
+    def test_a_figure_that_appears_needs_a_reason_and_a_new_command_none(self):
+        self.run_with(bearing(), "--update")
+        more = bearing(moment_x={"value": 2.0, "unit": "N.m", "name": "moment"})
+        self.assertEqual(self.run_with(more, "--update")[0], 1)
+        self.assertEqual(self.run_with(more, "--update", "--why", "tilted")[0], 0)
+        self.assertTrue(self.rows()[EXAMPLE, COMMAND, "moment_x"][key_figures.WHY].endswith("tilted"))
+        old = rules.COMMANDS[EXAMPLE]
+        self.addCleanup(rules.COMMANDS.__setitem__, EXAMPLE, old)
+        rules.COMMANDS[EXAMPLE] = [("bearing", "load=1kN")]
+        self.assertEqual(self.run_with(more, "--update")[0], 0)
+        self.assertEqual({(key[1], row[key_figures.WHY]) for key, row in self.rows().items()}, {("bearing --set load=1kN", "")})
+
     def test_after_a_release_a_new_column_begins_and_the_old_one_stays(self):
         self.run_with(bearing(), "--update")
         self.release("1.0.0")
