@@ -8,14 +8,14 @@
 
 namespace hersey::film {
 
-/// What heat from a film does to the body that the journal is part of, which conducts it steadily (theory manual,
-/// thermal.59, thermal.61): it turns in the film, so that the heat comes to it evenly, and its one temperature and its
-/// mean shape around are linear in all of that heat.
+/// Response of the body that a journal is part of to heat from its film, conducted steadily (theory manual, thermal.59,
+/// thermal.61). The body rotates in the film, so that heat enters it evenly around; its one temperature and its mean
+/// shape are linear in the total heat.
 struct JournalConduction {
   double T0 = 293.15;  ///< mean of its surface where the film gives no heat [K]
-  double rise = 0;     ///< by the heat [K/W], >= 0
-  /// How far the surface lies outside its cylinder, its mean around [m], shape (n_z): without heat, by it [m/W], and by
-  /// a rise of the temperature of all of the body [m/K]; empty: it keeps its shape.
+  double rise = 0;     ///< of that temperature by the heat [K/W], >= 0
+  /// Displacement of the surface outwards from its cylinder, mean around, shape (n_z): without heat [m], by the heat
+  /// [m/W], and by a rise of the temperature of the whole body [m/K]; empty: the body keeps its shape.
   Eigen::VectorXd shape0 = {};
   Eigen::VectorXd shape_by_heat = {};
   Eigen::VectorXd shape_by_rise = {};
@@ -23,24 +23,25 @@ struct JournalConduction {
   Eigen::VectorXd T_body0 = {};    ///< at the nodes of the body without heat [K]
   Eigen::VectorXd rise_body = {};  ///< by the heat, shape (nodes) [K/W]
 
-  /// Whether it changes its shape.
+  /// True if the body changes its shape.
   [[nodiscard]] bool deforms() const { return shape0.size() > 0; }
-  /// Mean temperature of the surface by heat into it [W].
+  /// Returns the mean temperature of the surface for a heat into it [W].
   [[nodiscard]] double temperature(double heat) const { return T0 + rise * heat; }
-  /// Of the body at its nodes [K].
+  /// Returns the temperatures of the body at its nodes [K].
   [[nodiscard]] Eigen::VectorXd body(double heat) const { return T_body0 + rise_body * heat; }
-  /// Its shape along the axis by the same heat [m], shape (n_z).
+  /// Returns the displacement along the axis for the same heat [m], shape (n_z).
   [[nodiscard]] Eigen::VectorXd shape(double heat) const { return shape0 + shape_by_heat * heat; }
 };
 
-/// The same journal seen from another grid: straight lines between nodes along the axis.
+/// Returns the same journal on another grid, interpolated linearly along the axis.
 [[nodiscard]] JournalConduction on_grid(const JournalConduction& journal, const Grid& from, const Grid& to);
 
-/// A shape along the axis, shape (n_z), at all nodes of a grid, shape (grid.size()); of an empty one nothing.
+/// Returns a displacement along the axis, shape (n_z), at all nodes of a grid, shape (grid.size()); empty for an empty
+/// one.
 [[nodiscard]] Eigen::VectorXd around(const Grid& grid, const Eigen::VectorXd& along);
 
-/// A journal in a body that conducts heat. A steady film is in balance with it; over a time step it keeps its
-/// temperature, and over cycles it settles at that of their mean heat (WallMotion::held, theory manual, thermal.63).
+/// A journal in a body that conducts heat. In a steady film it is in balance with the film; over a time step it keeps
+/// its temperature, and over cycles it takes that of their mean heat (WallMotion::held, theory manual, thermal.63).
 struct BodyJournal {
   std::shared_ptr<const JournalConduction> conduction;  ///< never null
   std::optional<double> T_start = {};                   ///< with which a simulation begins [K]; unset: the supply's

@@ -7,33 +7,33 @@
 
 namespace hersey::film {
 
-/// Whether the film's equations mean anything at a trial (film.32). A trial outside is an outcome, not an error:
-/// whoever made it takes a shorter step.
+/// Validity of the film's equations at trial unknowns (film.32). A trial outside of their domain is an outcome, not an
+/// error: the caller takes a shorter step.
 struct FilmDomain {
   enum class Violation {
     none,
     closed,      ///< the film thickness is not positive
-    pressure,    ///< a pressure beyond any that a law of viscosity means
-    not_finite,  ///< an unknown, a gap or what follows from them is no finite number
+    pressure,    ///< a pressure beyond the range of every viscosity law
+    not_finite,  ///< an unknown, a gap or a quantity derived from them is not finite
   };
   Violation violation = Violation::none;
   int node = -1;  ///< where; -1: nowhere, or everywhere
 
-  /// Whether the trial is a film.
+  /// True if the trial is a film.
   [[nodiscard]] bool is_inside() const { return violation == Violation::none; }
 };
 
-/// No film has such a pressure above that of cavitation [Pa]; steel does not bear a tenth of it.
+/// Pressure above that of cavitation that no film has [Pa]; steel does not bear a tenth of it.
 inline constexpr double largest_pressure = 1e11;
 
-/// Whether `u` is finite everywhere and its pressures are such that the laws still say something about them: below
-/// `largest_pressure`, and no viscosity above exp(largest_log_viscosity) times that at p_cav.
+/// Checks that `u` is finite everywhere, that its pressures lie below `largest_pressure`, and that no viscosity exceeds
+/// exp(largest_log_viscosity) times that at p_cav: there the laws are valid.
 [[nodiscard]] FilmDomain check_unknowns(const FilmModel& model, const Eigen::VectorXd& u);
 
-/// What a user needs to know of a trial outside the domain: what happens, and where in the bearing.
+/// Describes a trial outside the domain for the user: what happens, and where in the bearing.
 [[nodiscard]] std::string text(const FilmModel& model, const FilmDomain& domain);
 
-/// "33.7 deg, z = 2.1 mm": where a node lies in the bearing.
+/// Says where a node lies in the bearing: "33.7 deg, z = 2.1 mm".
 [[nodiscard]] std::string place_of_node(const FilmModel& model, int node);
 
 }  // namespace hersey::film

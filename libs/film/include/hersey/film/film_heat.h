@@ -11,9 +11,10 @@
 
 namespace hersey::film {
 
-/// Start of the alternate solution of film and heat: what is left of temperatures `image`, found with the viscosity at
-/// T_oil [K] everywhere, once the oil thins as it warms (theory manual, thermal.29). Of an adiabatic film between walls
-/// a constant distance apart exactly: there exp(beta rise) - 1 is beta times the rise at the viscosity of the supply.
+/// Returns temperatures from which to begin the alternate solution of film and heat: `image`, found with the viscosity
+/// at T_oil [K] everywhere, reduced as the oil thins while it warms (theory manual, thermal.29). This is exact in an
+/// adiabatic film of constant thickness: there exp(beta rise) - 1 is beta times the rise at the viscosity of the
+/// supply.
 [[nodiscard]] HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, double T_oil, HeatState image);
 
 /// Energy equation of a film across and along its thickness (theory manual, chapter thermal): finite volumes, layers of
@@ -23,73 +24,72 @@ namespace hersey::film {
 /// One object per film and thread.
 class FilmHeat {
  public:
-  /// Everything at the temperature of the supply. @throws ContractError on layers or walls that make no sense
+  /// Begins with everything at the temperature of the supply. @throws ContractError on invalid layers or walls
   FilmHeat(const FilmModel& model, const ThermalModel& thermal);
   ~FilmHeat();
   FilmHeat(FilmHeat&&) noexcept;
   FilmHeat& operator=(FilmHeat&&) noexcept;
 
-  /// As given.
+  /// The thermal model.
   [[nodiscard]] const ThermalModel& thermal() const;
-  /// Temperatures now.
+  /// Present temperatures.
   [[nodiscard]] const HeatState& state() const;
-  /// Takes these for the temperatures now. @throws ContractError on a wrong shape
+  /// Sets the present temperatures. @throws ContractError on a wrong shape
   void set_state(const HeatState& state);
 
-  /// Viscosities by the temperatures now (thermal.4, thermal.5), and by the shear in the layers of the film that has
-  /// last advanced (thermal.25).
+  /// Viscosities by the present temperatures (thermal.4, thermal.5) and by the shear in the layers of the film last
+  /// advanced (thermal.25).
   [[nodiscard]] LayeredViscosity viscosity() const;
 
-  /// Temperatures at the end of a step of the film `u`, solved with `history` (its viscosities included); of a steady
-  /// film where history.dt = 0. Those now are the start of the step, and where second differences and the heat of oil
-  /// that is renewed are taken from.
+  /// Advances the temperatures over a step of the film `u`, solved with `history` (its viscosities included), or to
+  /// those of a steady film where history.dt = 0. The present temperatures are the start of the step; second
+  /// differences and the heat of renewed oil are taken from them.
   void advance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
-  /// Layers as thin as they are sheared in the film `u`, temperatures as they are; nothing where no layers thin by
-  /// shear. @returns the largest change of a logarithm of viscosity [-]
+  /// Updates the layers' shear thinning to the film `u` at the present temperatures; no layers, no effect. @returns the
+  /// largest change of a logarithm of viscosity [-]
   double thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
-  /// Of walls that are held (WallMotion::held), by the means over all steps since the last call: what those that are
-  /// nodes take up, rings and journals of their own temperature following. @throws ContractError without a step since
-  /// then
+  /// Returns the heat that fixed walls (WallMotion::held) take up if they are nodes, as means over all steps since the
+  /// last call; rings and journals of their own temperature follow. @throws ContractError without a step since then
   const WallExchange& mean_exchange();
-  /// After mean_exchange(): nodes have these temperatures, as exchange().T [K]; rings and journals of their own
-  /// temperature take those at which they would take up no heat; call after call ever better (theory manual,
-  /// thermal.19). Returns how far off they were.
+  /// Sets, after mean_exchange(), the nodes' temperatures in the order of exchange().T [K]. Rings and journals of their
+  /// own temperature take that at which they would take up no heat, to better approximation with each call (theory
+  /// manual, thermal.19). Returns how far off they were.
   WallCorrection settle_walls(const Eigen::VectorXd& T_nodes);
 
-  /// How far the shell of a body lies outside its cylinder by temperature [m], shape (grid.size()) (thermal.36); empty:
-  /// it does not.
+  /// Displacement of the shell of a body outwards from its cylinder by temperature [m], shape (grid.size())
+  /// (thermal.36); empty: none.
   [[nodiscard]] Eigen::VectorXd shell_opening() const;
-  /// The same in a simulation, in which a body keeps its temperatures, settle_walls() apart.
+  /// The same in a simulation, where the body's temperatures change by settle_walls() only.
   [[nodiscard]] Eigen::VectorXd shell_opening_in_time() const;
   /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.
   [[nodiscard]] Eigen::VectorXd body_temperatures() const;
-  /// How far a journal in a body lies outside its cylinder by temperature, the mean around [m], shape (n_z)
-  /// (thermal.61); empty: it does not.
+  /// Displacement of a journal in a body outwards from its cylinder by temperature, mean around [m], shape (n_z)
+  /// (thermal.61); empty: none.
   [[nodiscard]] Eigen::VectorXd journal_growth() const;
-  /// Likewise in a simulation.
+  /// The same in a simulation.
   [[nodiscard]] Eigen::VectorXd journal_growth_in_time() const;
-  /// And temperatures of the journal's body at the nodes of its mesh [K]; empty: there is none.
+  /// Temperatures of the journal's body at the nodes of its mesh [K]; empty: there is none.
   [[nodiscard]] Eigen::VectorXd journal_body_temperatures() const;
 
-  /// After advance(), of nodes of a network: those were held at the temperatures they had.
+  /// Heat into the nodes of a network after advance(), which kept their temperatures.
   [[nodiscard]] const WallExchange& exchange() const;
-  /// After advance(): nodes had rather these temperatures, as exchange().T [K], at the end of the
-  /// step; the film follows, and the heat they take up is exchange().heat + exchange().by_T (T - exchange().T).
+  /// Corrects, after advance(), the nodes' temperatures at the end of the step, in the order of exchange().T [K]. The
+  /// film follows, and the nodes take up exchange().heat + exchange().by_T (T - exchange().T).
   void move_walls(const Eigen::VectorXd& T);
 
-  /// After advance(): fields and numbers of that film; before, of one at the temperatures of its supply and walls.
+  /// Fields of the film last advanced, or before advance() of one at the temperatures of its supply and walls.
   [[nodiscard]] TemperatureFields fields() const;
-  /// Likewise.
+  /// Figures of the same film.
   [[nodiscard]] const HeatObservables& observables() const;
 
-  /// What observe_film() tells of the film last advanced, from the flows that carried its heat: they are not worked out
-  /// anew. @param motion, u  those of advance()
+  /// Returns observe_film() of the film last advanced, from the flows that carried its heat, without computing them
+  /// again. @param motion, u  those of advance()
   [[nodiscard]] FilmObservables film(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
                                      const Eigen::Vector2d& tilt) const;
 
-  /// Temperatures, and means of walls that are held.
+  /// Saves or restores temperatures, and the means of fixed walls.
   void persist(Archive& archive);
 
  private:

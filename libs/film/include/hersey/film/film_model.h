@@ -31,7 +31,7 @@ struct Lubricant {
   ShearThinning shear_thinning = {};
 };
 
-/// An oil whose viscosity or density knows temperatures, at one of them [K]; any other as it is.
+/// Returns the oil at a temperature [K], if its viscosity or density depends on one; any other unchanged.
 [[nodiscard]] inline Lubricant at_temperature(Lubricant oil, double T) {
   if (depends_on_temperature(oil.temperature_law)) oil.mu0 = viscosity_at(oil.temperature_law, T);
   if (oil.expansion > 0) oil.density = density_at(T, oil.rho15, oil.expansion);
@@ -39,15 +39,15 @@ struct Lubricant {
   return oil;
 }
 
-/// ln of the viscosity over that at the cavitation pressure, `mu` [Pa s] there by its temperature, and its slope
-/// [1/Pa]; as below.
+/// Returns ln of the viscosity over that at the cavitation pressure, where it is `mu` [Pa s] by its temperature, and
+/// its slope [1/Pa]; otherwise as below.
 [[nodiscard]] inline ValueAndSlope log_viscosity_ratio(const Lubricant& oil, double p, double mu) {
   if (p < 0) return {};
   return saturated(std::visit([&](const auto& law) { return law.log_ratio(p, mu); }, oil.viscosity_law));
 }
 
-/// ln(mu/mu0) and its slope [1/Pa] at a pressure above the cavitation pressure, saturated where no oil is meant;
-/// tension, which guembel cuts off, does not thin the oil.
+/// Returns ln(mu/mu0) and its slope [1/Pa] at a pressure above the cavitation pressure, saturated beyond the range of
+/// the law; tension, which guembel cuts off, does not thin the oil.
 [[nodiscard]] inline ValueAndSlope log_viscosity_ratio(const Lubricant& oil, double p) {
   return log_viscosity_ratio(oil, p, oil.mu0);
 }
@@ -66,7 +66,7 @@ struct Lubricant {
 
 enum class SupplyKind { none, fixed_angle, widest_gap };
 
-/// A line along the whole width of the bearing held full at a given pressure.
+/// A line along the whole width of the bearing that is full at a prescribed pressure.
 struct SupplyLine {
   SupplyKind kind = SupplyKind::none;
   double phi = 0;       ///< angle of a fixed line [rad]
@@ -106,10 +106,10 @@ struct PatchEnds {
   Edge first, last;
 };
 
-/// What the pressure 0 is: the atmosphere or a vacuum. The equations do not ask.
+/// Scale of all pressures: 0 is the atmosphere or a vacuum. The equations do not depend on it.
 enum class PressureScale { gauge, absolute };
 
-/// Everything constant about one film. All its pressures are on one scale.
+/// Constant data of one film. All its pressures are on one scale.
 struct FilmModel {
   FilmSurface surface = Cylinder{};
   double R = 0.0225;  ///< bearing radius [m], > 0: the length per unit of phi at which speeds are meant
@@ -131,7 +131,7 @@ struct FilmModel {
   double fill_speed =
       1000;  ///< angular speed in P0 (film.6), > 0; one near the film's own keeps Newton's path short [rad/s]
   std::vector<SurfaceFeature> features;  ///< where several lie over a place, the one that holds more of it counts
-  std::vector<Profile> profiles;  ///< shapes of bore and journal; whoever places the surfaces adds them (GapShape)
+  std::vector<Profile> profiles;         ///< shapes of bore and journal; the surfaces' motion includes them (GapShape)
 };
 
 /// The edge on which the axial row j of the grid lies; null for those between.
@@ -151,7 +151,7 @@ struct FilmModel {
   return grid.begins_patch(line) ? &ends.first : &ends.last;
 }
 
-/// Whether walls close the film on both sides.
+/// True if walls close the film on both sides.
 [[nodiscard]] inline bool is_closed(const FilmModel& model) {
   return model.edge_left.kind == EdgeKind::closed && model.edge_right.kind == EdgeKind::closed;
 }
@@ -165,27 +165,27 @@ struct FilmModel {
   return cavitation_law(model.cavitation);
 }
 
-/// What the film sees of its two surfaces at one instant, in the frame of the grid. The depth of features is no part of
-/// the gap: it comes with the model. The grid may turn in any way: the
-/// speeds are relative to it and `g_rate` is taken at its fixed points, which makes the equations frame-invariant.
+/// Gap and speeds of the film's two surfaces at one instant, in the frame of the grid. The depth of features is no part
+/// of the gap: it comes with the model. The grid may rotate in any way: speeds are relative to it and `g_rate` is taken
+/// at its fixed points, which makes the equations frame-invariant.
 struct SurfaceMotion {
   Eigen::VectorXd g;       ///< gap of the undeformed surfaces at the nodes [m], shape (grid.size())
   Eigen::VectorXd g_rate;  ///< d g/dt at fixed grid points [m/s], same shape
-  /// How far the shell's surface lies outside its cylinder [m], same shape; empty: nowhere. Its share of what g differs
-  /// from a gap of two cylinders; the pressure on its slopes turns and pushes the shell (film.52).
+  /// Displacement of the shell's surface outwards from its cylinder [m], same shape; empty: none. It is the shell's
+  /// share of the difference of g from the gap of two cylinders; pressure on its slopes acts on the shell (film.52).
   Eigen::VectorXd shell_opening = {};
-  double u_shell = 0;      ///< speed of the shell surface (y = 0) along phi at R [m/s]
-  double u_journal = 0;    ///< speed of the journal surface (y = h) along phi at R [m/s]
-  double w_shell = 0;      ///< speed along z of the shell surface [m/s]
-  double w_journal = 0;    ///< speed along z of the journal surface [m/s]
-  double phi_supply = 0;   ///< where the supply line is now [rad]; ignored without one
-  double phi_journal = 0;  ///< by which the journal has turned over the grid [rad]; moves the journal's features
+  double u_shell = 0;                     ///< speed of the shell surface (y = 0) along phi at R [m/s]
+  double u_journal = 0;                   ///< speed of the journal surface (y = h) along phi at R [m/s]
+  double w_shell = 0;                     ///< speed along z of the shell surface [m/s]
+  double w_journal = 0;                   ///< speed along z of the journal surface [m/s]
+  double phi_supply = 0;                  ///< where the supply line is now [rad]; ignored without one
+  double phi_journal = 0;                 ///< rotation of the journal over the grid [rad]; moves the journal's features
   Eigen::VectorXd feature_pressure = {};  ///< of each feature now [Pa], below p_cav counts as p_cav; empty: the model's
 };
 
-/// Viscosities of an oil whose temperature differs from place to place, at the cavitation pressure: what the film's
-/// flows and shear see of its layers (theory manual, thermal.4, thermal.5). They stand still while the film is solved.
-/// An oil that thins by shear does so by the shear of its layers where that is in these; else by the film's sliding.
+/// Viscosities of an oil whose temperature varies over the film, at the cavitation pressure: integrals over the layers
+/// that flow and shear depend on (theory manual, thermal.4, thermal.5). They are constant while the film is solved. An
+/// oil that thins by shear does so by the shear of its layers where these include it; else by the film's sliding.
 struct LayeredViscosity {
   Eigen::VectorXd fluidity;        ///< 12 F2/h^3, of flow along pressure [1/(Pa s)], shape (grid.size())
   Eigen::VectorXd shear_fluidity;  ///< F0/h, of sliding [1/(Pa s)], same shape
@@ -206,7 +206,7 @@ struct FilmHistory {
   /// from. theta density (gap + pockets) is then the oil that was there.
   Eigen::VectorXd gap = {};
   bool by_gap = false;     ///< a full film follows the change of the gap over the step instead of the rate (film.15)
-  double phi_journal = 0;  ///< by which the journal had turned at the start [rad]; moves its pockets
+  double phi_journal = 0;  ///< rotation of the journal at the start [rad]; moves its pockets
   LayeredViscosity viscosity = {};  ///< empty: that of the model everywhere
 };
 

@@ -25,8 +25,8 @@ struct GridLine {
 
 /// Around the axis z at the radius R: a journal bearing, wholly or by pads.
 struct Cylinder {
-  static constexpr bool closes = true;    ///< whether phi and phi + 2 pi are one place
-  static constexpr bool is_round = true;  ///< whether gaps are made of cos phi and sin phi; else of powers of phi
+  static constexpr bool closes = true;    ///< true if phi and phi + 2 pi are the same line
+  static constexpr bool is_round = true;  ///< true if gaps are sums of cos phi and sin phi; else of powers of phi
   /// Length per unit of phi over R [-].
   [[nodiscard]] static double stretch(double /*R*/, double /*z*/) { return 1; }
   /// At a place [rad, m].
@@ -75,17 +75,17 @@ struct Annulus {
 
 using FilmSurface = std::variant<Cylinder, Plane, Annulus>;
 
-/// Whether phi and phi + 2 pi are one place of it.
+/// True if phi and phi + 2 pi are the same line of the surface.
 [[nodiscard]] inline bool closes(const FilmSurface& surface) {
   return std::visit([](const auto& s) { return s.closes; }, surface);
 }
 
-/// Whether gaps of rigid bodies on it are sums of 1, cos phi and sin phi; else of powers of phi.
+/// True if gaps of rigid bodies on the surface are sums of 1, cos phi and sin phi; else of powers of phi.
 [[nodiscard]] inline bool is_round(const FilmSurface& surface) {
   return std::visit([](const auto& s) { return s.is_round; }, surface);
 }
 
-/// Length along phi at z over that at R [-].
+/// Returns the length along phi at z over that at R [-].
 [[nodiscard]] inline double stretch(const FilmSurface& surface, double R, double z) {
   return std::visit([&](const auto& s) { return s.stretch(R, z); }, surface);
 }

@@ -10,31 +10,31 @@ namespace hersey::film {
 
 struct GridGeometry;
 
-/// What profiles add to the gap of two cylinders, node by node. Those of the journal that vary around it change the gap
-/// as it turns.
+/// Opening of the gap of two cylinders by profiles, node by node. Profiles of the journal that vary around it change
+/// the gap as it rotates.
 class GapShape {
  public:
-  /// Of the profiles of `model` at the nodes of its grid.
+  /// Evaluates the profiles of `model` at the nodes of its grid.
   explicit GapShape(const FilmModel& model);
   ~GapShape();
   GapShape(GapShape&&) noexcept;
   GapShape& operator=(GapShape&&) noexcept;
 
-  /// Everything that stays where it is when the journal turns [m], shape (grid.size()).
+  /// Opening that does not change as the journal rotates [m], shape (grid.size()).
   [[nodiscard]] const Eigen::VectorXd& still() const { return still_; }
-  /// The share of it that is cut out of the shell [m], same shape.
+  /// Its share in the shell [m], same shape.
   [[nodiscard]] const Eigen::VectorXd& of_shell() const { return of_shell_; }
 
-  /// The derivative of of_shell() around the bearing [m/rad]: what a shell that turns moves past a fixed place.
+  /// Derivative of of_shell() around the bearing [m/rad]: a shell that rotates moves it past a fixed point.
   [[nodiscard]] Eigen::VectorXd shell_slope() const;
 
-  /// Whether the gap changes as the journal turns.
+  /// True if the gap changes as the journal rotates.
   [[nodiscard]] bool profiles_turn() const { return !turning_profiles_.empty(); }
-  /// Whether nothing is added to the gap of two cylinders.
+  /// True if nothing is added to the gap of two cylinders.
   [[nodiscard]] bool is_round() const { return !profiles_turn() && still_.isZero(0); }
 
-  /// The journal's profiles with the journal turned by `phi_journal` [rad]: opening [m] and its first and second
-  /// derivative with that angle, shape (grid.size()) each. The first times the journal's angular speed is the
+  /// Evaluates the journal's profiles with the journal rotated by `phi_journal` [rad]: opening [m] and its first and
+  /// second derivative with that angle, shape (grid.size()) each. The first times the journal's angular speed is the
   /// rate of the gap (film.25).
   void turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
                      Eigen::VectorXd& second) const;
@@ -48,7 +48,7 @@ class GapShape {
   std::vector<Profile> turning_profiles_;
 };
 
-/// The sum of all openings with the journal turned by `phi_journal` [m], shape (grid.size()).
+/// Returns the sum of all openings with the journal rotated by `phi_journal` [m], shape (grid.size()).
 [[nodiscard]] Eigen::VectorXd gap_opening(const FilmModel& model, double phi_journal = 0);
 
 }  // namespace hersey::film
