@@ -43,9 +43,9 @@ TEST_CASE("SweepsThatMayNotSweep_TellWhatIsLeft") {
   }
 }
 
-// Where a cavitated film fills again in a pocket of 25 times the gap, oil there has next to no pressure. With that of the
-// land for it the viscosity was off by a percent, over conductances 15,000 times the land's: Newton's method cycled,
-// sweeps took ten times as long, and of this bearing's mirror image came to no end.
+// Where a cavitated film fills again in a pocket of 25 times the gap, oil there has next to no pressure. With that of
+// the land for it the viscosity was off by a percent, over conductances 15,000 times the land's: Newton's method
+// cycled, sweeps took ten times as long, and of this bearing's mirror image came to no end.
 TEST_CASE("PocketOfABrokenFilm_IsFilledWithoutCycles") {
   FilmModel m{.R = 11.49e-3, .L = 20.6e-3, .c = 6.242e-6, .grid = {48, 9}, .cavitation = Cavitation::reynolds};
   m.lubricant.mu0 = 4.703e-3, m.lubricant.viscosity_law = Barus{2.125e-9};
