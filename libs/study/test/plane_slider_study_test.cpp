@@ -142,6 +142,8 @@ TEST_CASE("FaultsOfSliders_SayWhatIsWrong") {
   says({"bearings.pad.features={hole: {shape: hole, y: 22 mm, diameter: 8 mm, pressure: 1 bar}}"},
        "at most half of the pad");
   says({"bearings.pad.features={hole: {shape: hole, diameter: 1 mm, pressure: 1 bar}}"}, "fewer than 3 nodes");
+  says({"bearings.pad.pressures=absolute", "bearings.pad.edge_pressure=1 bar"}, "which would count the atmosphere");
+  says({"bearings.pad.shear_force=torque_only"}, "'shear_force' belongs to kind journal");
   says({"bearings.pad.edge_pressure=closed"}, "the pressure is given nowhere");
   says({"bearings.pad.operating_point.film_thickness=none", "bearings.pad.operating_point.load=1e16 N"},
        "no solid bears");

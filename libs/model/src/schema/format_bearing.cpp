@@ -132,7 +132,6 @@ std::vector<Key> shared_bearing_keys() {
                "Peak film pressure that the bearing's lining bears; above it a run ends with a warning.",
                "200 MPa, the order of engine bearings"),
       defaulted("cavitated_shear", choice(cavitated_shear_words), "film_share", "Shear in the cavitated film."),
-      defaulted("shear_force", choice(shear_force_words), "full", "What shear does to the bodies."),
       optional("solver", choice(film_solver_words),
                "Solver of the film. Coupled monolithically to the bodies, `sor` finds the initial film only.",
                "newton; of grids of more than 15,000 nodes multigrid"),

@@ -15,6 +15,9 @@ constexpr double kLongSlider = 0.0267;
 // The search for a load goes from this many times the estimated gap down to its share below.
 constexpr double kWidest = 64, kNarrowest = 1.0 / 256;
 
+// Distance from which on it measures the overlap of surfaces that yield, over what the mean pressure deforms them.
+const double kOverlapping = std::log(2 * kWidest / kNarrowest);
+
 // Steps are measured in no less than this share of the film's scale: of a gap that is closed, as asperities allow.
 constexpr double kLeastScale = 1e-3;
 
@@ -80,13 +83,17 @@ Coordinates SliderCoordinates::opened(const OperatingPoint& point, const Coordin
 }
 
 // The distance is the logarithm of the widest gap looked at over the gap.
+// Surfaces that yield overlap beyond the narrowest gap by up to a few times what the load deforms them.
 std::vector<double> SliderCoordinates::distances(const OperatingPoint& /*point*/, double /*depth*/) {
   std::vector<double> result;
   for (double gap = kWidest; gap > kNarrowest; gap /= 2) result.push_back(std::log(2 * kWidest / gap));
+  for (double share = 0.25; model_.compliance > 0 && share <= 8; share *= 2) result.push_back(kOverlapping + share);
   return result;
 }
 
 Coordinates SliderCoordinates::at(const OperatingPoint& point, double distance, double /*angle*/) {
+  const double depth = model_.compliance * point.load->norm() / (length_ * model_.L);
+  if (distance > kOverlapping) return with_smallest_gap(point, -(distance - kOverlapping) * depth);
   return with_smallest_gap(point, 2 * kWidest * std::exp(-distance) * smallest_gap(point, start(point)));
 }
 

@@ -111,6 +111,7 @@ std::vector<Key> journal_keys() {
                "own.",
                "given on the command line"),
   };
+  keys.push_back(defaulted("shear_force", choice(shear_force_words), "full", "What shear does to the bodies."));
   for (Key& key : surface_keys({})) keys.push_back(std::move(key));
   return keys;
 }

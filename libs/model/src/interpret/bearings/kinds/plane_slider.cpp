@@ -43,6 +43,7 @@ class PadReader {
     reader_.read_contact();
     read_temperature();
     reader_.read_pressure_scale();
+    require_gauge_pressures();
     reader_.read_shear();
     read_kind();
     if (context_.has_fault_in(value_.path)) return;
@@ -173,6 +174,14 @@ class PadReader {
                               .depth = number_of(value, "depth")});
     bearing_.feature_pressures.push_back(not_fed(value.path));
     check_extent(value, film_.features.back());
+  }
+
+  /// The atmosphere acts on the pad's back, too: a load is what the film has above it.
+  void require_gauge_pressures() {
+    if (film_.pressures == film::PressureScale::gauge) return;
+    context_.fault(*value_.find("pressures"),
+                   "absolute pressures, which would count the atmosphere below a pad as load",
+                   "gauge, with `cavitation: {pressure: -1.01325 bar}` for a vacuum");
   }
 
   /// Between closed edges the pressure is known up to a constant only, unless something holds it.
