@@ -116,7 +116,7 @@ def mean(values, time):
 # The key figures of a run: a series of the results file and what is made of it. `length` is the largest length of a vector.
 OF_A_RUN = [
     ("bearings/*/h_min", "min"), ("bearings/*/p_max", "max"), ("bearings/*/force", "length"),
-    ("bearings/*/eccentricity_ratio", "end"), ("bearings/*/attitude", "end"), ("bearings/*/film_thickness", "end"),
+    ("bearings/*/eccentricity_ratio", "end"), ("bearings/*/attitude", "end"), ("bearings/*/film_thickness_middle", "end"),
     ("bearings/*/power_film", "mean"), ("bearings/*/power_asperity", "mean"), ("bearings/*/torque_journal", "mean"),
     ("bearings/*/flow_left", "mean"), ("bearings/*/flow_right", "mean"), ("bearings/*/flow_leading", "mean"),
     ("bearings/*/flow_trailing", "mean"), ("bearings/*/flow_supply", "mean"),

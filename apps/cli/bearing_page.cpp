@@ -60,7 +60,7 @@ PageSolution page_of(const BearingSolution& solution) {
     page.load = solution.state.load;
   }
   for (const study::BearingFigure& f : study::figures_of(solution)) {
-    page.figures.push_back({f.key, f.group, f.name, f.unit, f.value, f.grid_error, f.words});
+    page.figures.push_back({f.key, f.group, f.label, f.unit, f.value, f.grid_error, f.words});
   }
   add_fields(solution, page);
   add_features(solution, page);

@@ -130,9 +130,9 @@ std::string bearing_text(const BearingSolution& solution) {
   std::vector<std::vector<std::string>> lines;
   for (const BearingFigure& f : study::figures_of(solution)) {
     if (f.words.empty())
-      lines.push_back({f.name, value_text(f), f.unit, grid_error_text(f)});
+      lines.push_back({f.label, value_text(f), f.unit, grid_error_text(f)});
     else
-      lines.push_back({f.name, "-", "", f.words});
+      lines.push_back({f.label, "-", "", f.words});
   }
   return condition_of(solution) + aligned(lines, 2);
 }
@@ -291,7 +291,7 @@ std::string sensitivity_text(const BearingSolution& solution, const std::vector<
   const std::vector<BearingFigure> figures = study::figures_of(solution);
   for (std::size_t k = 0; k < figures.size(); ++k) {
     if (!has_percentage(figures[k])) continue;
-    std::vector<std::string>& line = lines.emplace_back(std::vector<std::string>{figures[k].name});
+    std::vector<std::string>& line = lines.emplace_back(std::vector<std::string>{figures[k].label});
     for (const study::Sensitivity* s : columns) {
       const double share = s->slopes[k] * s->value / (figures[k].si * figures[k].value);
       line.push_back(!std::isfinite(share) ? "-" : fmt::format("{:.3f}", std::abs(share) < 5e-4 ? 0 : share));

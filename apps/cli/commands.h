@@ -195,7 +195,15 @@ struct ConvertArguments {
 /// @throws InputError.
 [[nodiscard]] int explain_command(const std::string& path);
 
-/// `hersey schema`: the model file's format, or that of results files. @returns an ExitCode.
-[[nodiscard]] int schema_command(bool results, bool markdown);
+/// What `hersey schema` prints.
+struct SchemaArguments {
+  bool of_results = false;     ///< the format of results files in place of the model file's
+  bool of_quantities = false;  ///< the reference page of a bearing's quantities
+  bool markdown = false;       ///< as a page of the documentation
+};
+
+/// `hersey schema`: the model file's format, that of results files, or the quantities of a bearing.
+/// @returns an ExitCode.
+[[nodiscard]] int schema_command(const SchemaArguments& arguments);
 
 }  // namespace hersey::cli

@@ -74,14 +74,12 @@ void add_explain(CLI::App& app, Commands& commands) {
 }
 
 void add_schema(CLI::App& app, Commands& commands) {
-  struct What {
-    bool of_results = false, markdown = false;
-  };
-  const auto what = std::make_shared<What>();
+  const auto what = std::make_shared<SchemaArguments>();
   CLI::App* command = app.add_subcommand("schema", "Print the model file's format as a JSON Schema for editors");
   command->add_flag("--results", what->of_results, "Print what results files hold, as JSON for programs, instead");
+  command->add_flag("--quantities", what->of_quantities, "Print the page of what is reported of a bearing instead");
   command->add_flag("--markdown", what->markdown, "Print it as the reference page of the documentation instead");
-  commands.push_back({command, [what] { return schema_command(what->of_results, what->markdown); }});
+  commands.push_back({command, [what] { return schema_command(*what); }});
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "hersey/report/report.h"
 #include "hersey/run/quantities.h"
 #include "hersey/run/simulate.h"
+#include "hersey/study/quantities_page.h"
 #include "output_file.h"
 #include "standard_streams.h"
 #include "table.h"
@@ -119,11 +120,13 @@ int report_command(const ReportArguments& arguments) {
   return kOk;
 }
 
-int schema_command(bool results, bool markdown) {
-  if (results)
-    fmt::print("{}", markdown ? run::results_schema_markdown() : run::results_schema_json());
+int schema_command(const SchemaArguments& arguments) {
+  if (arguments.of_quantities)
+    fmt::print("{}", study::quantities_markdown());
+  else if (arguments.of_results)
+    fmt::print("{}", arguments.markdown ? run::results_schema_markdown() : run::results_schema_json());
   else
-    fmt::print("{}", markdown ? model::schema_markdown() : model::schema_json());
+    fmt::print("{}", arguments.markdown ? model::schema_markdown() : model::schema_json());
   return kOk;
 }
 

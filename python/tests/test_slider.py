@@ -201,9 +201,9 @@ def test_results_have_y_in_place_of_the_angle(results):
     assert film["pressure"].dims == ("time", "y", "z") and film["y"].attrs["units"] == "m"
     assert float(film["y"].max()) == pytest.approx(25e-3)
     series = results.bearing()
-    assert series["film_thickness"].dims == ("time",) and "eccentricity" not in series
+    assert series["film_thickness_middle"].dims == ("time",) and "eccentricity" not in series
     thickness = film["thickness"].isel(time=-1)
-    assert float(thickness.sel(y=0, z=0, method="nearest")) == pytest.approx(float(series["film_thickness"][-1]) + 10e-6)
+    assert float(thickness.sel(y=0, z=0, method="nearest")) == pytest.approx(float(series["film_thickness_middle"][-1]) + 10e-6)
 
 
 def test_a_run_has_the_bits_of_the_program(results, program, tmp_path):
@@ -218,7 +218,7 @@ def test_a_run_has_the_bits_of_the_program(results, program, tmp_path):
 
 def test_a_machine_is_stepped_with_the_outputs_of_the_kind():
     sim = hersey.Simulation(hersey.Model.from_dict(CARRIAGE))
-    assert sim.step() and 0 < sim["bearings.pad.film_thickness"] < 30e-6
+    assert sim.step() and 0 < sim["bearings.pad.film_thickness_middle"] < 30e-6
     assert sim["bearings.pad.sliding_speed"] == pytest.approx(3, rel=1e-12)
 
 

@@ -10,7 +10,7 @@ import re
 import tree as trees
 
 # Errors of balances, which are round-off.
-NOT_OF_THE_FILM = ("mass_balance_error", "heat_balance_error", "power_error")
+NOT_OF_THE_FILM = ("mass_balance_error", "heat_balance_error", "power_error", "power_error_share")
 
 COEFFICIENT = re.compile(r"(stiffness|damping|K|C)_(xx|xy|yx|yy)")
 LEAST_FLOW = 1e-15  # [m^3/s], below which all flows are round-off: an edge that lets nothing out

@@ -10,7 +10,7 @@ from tree import hersey
 
 # Errors and residuals are round-off themselves, iterations its choice; what the model file says is not the machine's.
 LEFT_OUT = ("residual", "constraint_drift", "newton_iterations", "film_iterations", "mass_balance_error", "heat_balance_error",
-            "balance_error", "unexplained", "oil_unexplained", "from_nowhere", "power_error", "step_error", "assumptions")
+            "balance_error", "unexplained", "oil_unexplained", "from_nowhere", "power_error", "power_error_share", "step_error", "assumptions")
 
 
 def run(program, tree, folder, label="run", cpu_limit=20):

@@ -11,7 +11,7 @@ from tree import hersey
 SOLVED = 1e-7
 
 # Errors are round-off; of the power's own the bearing tells the share.
-NOT_COMPARED = ("mass_balance_error", "heat_balance_error", "power_error")
+NOT_COMPARED = ("mass_balance_error", "heat_balance_error", "power_error", "power_error_share")
 
 JOURNAL = """
 hersey: 1

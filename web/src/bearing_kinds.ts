@@ -226,7 +226,7 @@ const slider: BearingKind = {
     ];
   },
   columns: [
-    ["speed", "sliding speed"],
+    ["sliding_speed", "sliding speed"],
     ["load", "load"],
     ["film_thickness_middle", "h middle"],
     ["tilt_along", "slope", "may be missing"],

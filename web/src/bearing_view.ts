@@ -171,7 +171,7 @@ export class BearingView {
     this.add("thickness", surface.thickness, { label: "film thickness", unit: "µm", fromZero: true }, [
       ...of("h_min", "smallest", micrometre),
       ...of("h_min_centre", "smallest at z = 0", micrometre, { dash: [6, 4] }),
-      ...of("film_thickness", `at ${surface.whole}’s middle`, micrometre, { dash: [2, 3] }),
+      ...of("film_thickness_middle", `at ${surface.whole}’s middle`, micrometre, { dash: [2, 3] }),
     ]);
     this.add("peak-pressure", "Peak film pressure.", { label: "peak pressure", unit: "MPa", fromZero: true }, of("p_max", "peak pressure", megapascal));
     const size = magnitude(run, this.path("force"));

@@ -262,7 +262,7 @@ function choicesOf(run: Run): Choice[] {
 
 /** What shakes: a journal in its bearing, a runner on its pad, else the body that moves most. */
 function firstChoice(run: Run, choices: Choice[]): Choice {
-  for (const name of ["/eccentricity", "/film_thickness"]) {
+  for (const name of ["/eccentricity", "/film_thickness_middle"]) {
     const moving = choices.find(({ path }) => path.endsWith(name));
     if (moving) return moving;
   }

@@ -29,7 +29,7 @@ const endValues: EndValue[] = [
   { name: "film-thickness", label: "minimum film thickness", series: "h_min", row: moft, ofCycle: "minimum film thickness (MOFT)", display: micrometre, fromZero: true },
   { name: "peak-pressure", label: "peak film pressure", series: "p_max", row: pofp, ofCycle: "peak film pressure (POFP)", display: megapascal, fromZero: true },
   { name: "eccentricity-ratio", label: "eccentricity ratio", series: "eccentricity_ratio", row: "largest eccentricity ratio", ofCycle: "largest eccentricity ratio", display: plain, fromZero: true },
-  { name: "middle-thickness", label: "film thickness at the pad’s middle", series: "film_thickness", row: "", ofCycle: "film thickness at the pad’s middle", display: micrometre, fromZero: true },
+  { name: "middle-thickness", label: "film thickness at the pad’s middle", series: "film_thickness_middle", row: "", ofCycle: "film thickness at the pad’s middle", display: micrometre, fromZero: true },
   { name: "power-loss", label: "power loss in the film", series: "power_film", row: filmLoss, ofCycle: "mean power loss in the film", display: { factor: 1, unit: "W" }, fromZero: true },
 ];
 
@@ -184,7 +184,7 @@ export class StudyView {
     const columns: Column[] = [
       ...ofKind("eccentricity_ratio", "ε", "eccentricity ratio at the end", plain),
       ...ofKind("attitude", "attitude °", "attitude angle at the end", degree),
-      ...ofKind("film_thickness", "h middle µm", "film thickness at the pad’s middle at the end", micrometre),
+      ...ofKind("film_thickness_middle", "h middle µm", "film thickness at the pad’s middle at the end", micrometre),
       ["h min µm", "minimum film thickness at the end", (run) => last(run, "h_min", micrometre)],
       ["p max MPa", "peak film pressure at the end", (run) => last(run, "p_max", megapascal)],
       ["MOFT µm", "minimum film thickness of the run", (run) => summary(run, "minimum film thickness (MOFT)")],

@@ -64,7 +64,7 @@ TEST_CASE("CarriageOnASlider_SettlesWhereTheFilmCarriesIt") {
   const film::FilmModel film = bearing::scaled_for(alone.bearings[0].film, point);
   REQUIRE(bearing::solve_steady(film, point, {.kind = alone.bearings[0].kind}, state).solved());
   // What is left of settling after ten time constants, damping over stiffness, of 16 ms.
-  CHECK(last(reader, "film_thickness") == relative(-state.e[0]).epsilon(1e-3));
+  CHECK(last(reader, "film_thickness_middle") == relative(-state.e[0]).epsilon(1e-3));
   CHECK(last(reader, "p_max") == relative(state.film.p_max).epsilon(2e-3));  // with the square of the gap
   CHECK(last(reader, "power_film") == relative(state.film.power_film).epsilon(1e-3));
   CHECK(last(reader, "flow_trailing") == relative(state.film.flow_last).epsilon(1e-3));
@@ -103,7 +103,7 @@ TEST_CASE("SliderPartitionedOrReordered_IsTheSameMachine") {
   const auto thickness = [&](const char* name, const std::string& text, const std::vector<std::string>& overrides) {
     const Summary summary = simulate(model::read_text(text, "m.yaml", overrides), {.results = scratch / name});
     REQUIRE(summary.status == Status::completed);
-    return last(results::Reader(summary.results), "film_thickness");
+    return last(results::Reader(summary.results), "film_thickness_middle");
   };
   const std::vector<std::string> brief{"simulation.duration=6 ms"};
   const double as_it_is = thickness("a.h5", carriage, brief);

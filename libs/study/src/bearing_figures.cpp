@@ -22,57 +22,41 @@ Group operating_point() {
   const auto load_error = [](const Solution& s) { return is_load_given(s) ? -1 : s.grid_error.load; };
   const auto ratio_error = [](const Solution& s) { return is_load_given(s) ? s.grid_error.eccentricity_ratio : -1; };
   return {"operating point",
-          {{"journal_speed", "journal speed", kRpm, point(&bearing::OperatingPoint::journal_speed)},
-           {"shell_speed", "shell speed", kRpm, point(&bearing::OperatingPoint::shell_speed)},
-           {"load", "load", kNewton, numbers(&Number::load), {.grid_error = load_error}},
-           {"load_angle", "direction of the load", kDegree, numbers(&Number::load_angle)},
-           {"eccentricity_ratio",
-            "eccentricity ratio",
-            kNone,
-            numbers(&Number::eccentricity_ratio),
-            {.grid_error = ratio_error}},
-           {"eccentricity_angle", "direction of the eccentricity", kDegree, numbers(&Number::eccentricity_angle)},
+          {{"journal_speed", kRpm, point(&bearing::OperatingPoint::journal_speed)},
+           {"shell_speed", kRpm, point(&bearing::OperatingPoint::shell_speed)},
+           {"load", kNewton, numbers(&Number::load), {.grid_error = load_error}},
+           {"load_angle", kDegree, numbers(&Number::load_angle)},
+           {"eccentricity_ratio", kNone, numbers(&Number::eccentricity_ratio), {.grid_error = ratio_error}},
+           {"eccentricity_angle", kDegree, numbers(&Number::eccentricity_angle)},
            {"clearance_cold",
-            "radial clearance as given, cold",
             kMicrometre,
             [](const Solution& s) { return bearing::clearance(s.model); },
             {.only = [](const Solution& s) { return s.expands; }}},
            {"clearance_hot",
-            "radial clearance at temperature, hot",
             kMicrometre,
             [](const Solution& s) { return bearing::clearance(s.model, s.state.point); },
             {.only = [](const Solution& s) { return s.expands; }}},
-           {"radial_velocity",
-            "velocity along the eccentricity",
-            kMillimetrePerSecond,
-            numbers(&Number::radial_velocity),
-            {.only = squeezes}},
-           {"attitude",
-            "attitude angle",
-            kDegree,
-            numbers(&Number::attitude),
-            {.grid_error = error_of(&Error::attitude)}}}};
+           {"radial_velocity", kMillimetrePerSecond, numbers(&Number::radial_velocity), {.only = squeezes}},
+           {"attitude", kDegree, numbers(&Number::attitude), {.grid_error = error_of(&Error::attitude)}}}};
 }
 
 Group film_figures() {
   using Film = film::FilmObservables;
   using Error = bearing::GridError;
-  return {
-      "film",
-      {{"h_min", "minimum film thickness", kMicrometre, film(&Film::h_min), {.grid_error = error_of(&Error::h_min)}},
-       {"h_min_angle", "  at the angle", kDegree, film(&Film::h_min_phi)},
-       {"h_min_z", "  at z", kMillimetre, height(&Film::h_min_z)},
-       {"h_min_centre", "minimum film thickness at mid-width", kMicrometre, film(&Film::h_min_centre)},
-       {"h_min_features",
-        "minimum thickness over features with depth",
-        kMicrometre,
-        film(&Film::h_min_features),
-        {.only = [](const Solution& s) { return std::isfinite(s.state.film.h_min_features); }}},
-       {"p_max", "peak film pressure", kMegapascal, film(&Film::p_max), {.grid_error = error_of(&Error::p_max)}},
-       {"p_max_angle", "  at the angle", kDegree, film(&Film::p_max_phi)},
-       {"p_max_z", "  at z", kMillimetre, height(&Film::p_max_z)},
-       {"moment_x", "moment on the shell, x", kNewtonMetre, moment(0)},
-       {"moment_y", "moment on the shell, y", kNewtonMetre, moment(1)}}};
+  return {"film",
+          {{"h_min", kMicrometre, film(&Film::h_min), {.grid_error = error_of(&Error::h_min)}},
+           {"h_min_angle", "  at the angle", kDegree, film(&Film::h_min_phi)},
+           {"h_min_z", "  at z", kMillimetre, height(&Film::h_min_z)},
+           {"h_min_centre", kMicrometre, film(&Film::h_min_centre)},
+           {"h_min_features",
+            kMicrometre,
+            film(&Film::h_min_features),
+            {.only = [](const Solution& s) { return std::isfinite(s.state.film.h_min_features); }}},
+           {"p_max", kMegapascal, film(&Film::p_max), {.grid_error = error_of(&Error::p_max)}},
+           {"p_max_angle", "  at the angle", kDegree, film(&Film::p_max_phi)},
+           {"p_max_z", "  at z", kMillimetre, height(&Film::p_max_z)},
+           {"moment_x", kNewtonMetre, moment(0)},
+           {"moment_y", kNewtonMetre, moment(1)}}};
 }
 
 /// Where a surface lies furthest off its rest, away from the axis (> 0) or towards it.
@@ -88,39 +72,24 @@ Group deformation() {
   const auto journal = [](const Solution& s) { return s.elasticity != nullptr && s.state.d_journal.size() > 0; };
   return {"deformation",
           {{"deformation_shell",
-            "largest displacement of the shell, outward",
             kMicrometre,
             [](const Solution& s) { return largest_of(s.state.d_shell); },
             {.only = shell}},
            {"deformation_journal",
-            "largest displacement of the journal, outward",
             kMicrometre,
             [](const Solution& s) { return largest_of(s.state.d_journal); },
             {.only = journal}},
-           {"tilt_x",
-            "slope of the journal against the shell under load, x",
-            kMicrometrePerMetre,
-            [](const Solution& s) { return s.state.tilt.x(); },
-            {.only = is_elastic}},
-           {"tilt_y",
-            "slope of the journal against the shell under load, y",
-            kMicrometrePerMetre,
-            [](const Solution& s) { return s.state.tilt.y(); },
-            {.only = is_elastic}},
-           {"shell_turn",
-            "rotation of the bearing's axes under load",
-            kDegree,
-            [](const Solution& s) { return s.state.turn; },
-            {.only = shell}}}};
+           {"tilt_x", kMicrometrePerMetre, [](const Solution& s) { return s.state.tilt.x(); }, {.only = is_elastic}},
+           {"tilt_y", kMicrometrePerMetre, [](const Solution& s) { return s.state.tilt.y(); }, {.only = is_elastic}},
+           {"shell_turn", kDegree, [](const Solution& s) { return s.state.turn; }, {.only = shell}}}};
 }
 
 Group dimensionless() {
   using Number = bearing::BearingNumbers;
   return {"numbers",
-          {{"sommerfeld_S", "Sommerfeld number S = mu N (R/c)^2 L D/W", kNone, numbers(&Number::sommerfeld_S)},
-           {"sommerfeld_So", "Sommerfeld number So = W (c/R)^2/(L D mu omega)", kNone, numbers(&Number::sommerfeld_So)},
+          {{"sommerfeld_S", kNone, numbers(&Number::sommerfeld_S)},
+           {"sommerfeld_So", kNone, numbers(&Number::sommerfeld_So)},
            {"sommerfeld_squeeze",
-            "Sommerfeld number of squeeze W (c/R)^2/(L D mu d(eps)/dt)",
             kNone,
             numbers(&Number::sommerfeld_squeeze),
             {.only = [](const Solution& s) { return s.numbers.radial_velocity != 0; }}},
@@ -143,48 +112,34 @@ namespace {
 Group friction() {
   using Film = film::FilmObservables;
   using Number = bearing::BearingNumbers;
-  return {"friction",
-          {{"friction_journal",
-            "friction coefficient, journal",
-            kNone,
-            numbers(&Number::friction_journal),
-            {.grid_error = error_of(&bearing::GridError::friction_journal)}},
-           {"friction_shell", "friction coefficient, shell", kNone, numbers(&Number::friction_shell)},
-           {"torque_journal",
-            "friction torque on the journal",
-            kNewtonMetre,
-            film(&Film::torque_journal),
-            {.grid_error = error_of(&bearing::GridError::torque_journal)}},
-           {"torque_shell",
-            "friction torque on the shell",
-            kNewtonMetre,
-            film(&Film::torque_shell),
-            {.grid_error = error_of(&bearing::GridError::torque_shell)}},
-           {"power_film",
-            "friction power, film",
-            kWatt,
-            film(&Film::power_film),
-            {.grid_error = error_of(&bearing::GridError::power_film)}},
-           {"torque_journal_other_shear",
-            "torque on the journal, cavitated film sheared the other way",
-            kNewtonMetre,
-            film(&Film::torque_journal_other_shear),
-            {.only = shears_differ}},
-           {"power_film_other_shear",
-            "friction power, film, cavitated film sheared the other way",
-            kWatt,
-            film(&Film::power_film_other_shear),
-            {.only = shears_differ}},
-           {"load_on_shear", "share of the load on the net force of shear", kNone, load_on_shear},
-           {"power_asperity", "friction power, asperities", kWatt, film(&Film::power_asperity)},
-           {"power_put_in", "power put in by torques and load", kWatt, power_put_in},
-           {"power_error",
-            "  of it not explained by the film's integrals",
-            kNone,
-            [](const Solution& s) { return power_put_in(s) / s.state.film.power_taken() - 1; },
-            {.only = [](const Solution& s) { return s.state.film.power_taken() > 0; }}},
-           {"asperity_share", "share of the load on asperities", kNone, numbers(&Number::asperity_share)},
-           {"film_ratio", "film ratio h_min/sigma", kNone, numbers(&Number::film_ratio)}}};
+  return {
+      "friction",
+      {{"friction_journal",
+        kNone,
+        numbers(&Number::friction_journal),
+        {.grid_error = error_of(&bearing::GridError::friction_journal)}},
+       {"friction_shell", kNone, numbers(&Number::friction_shell)},
+       {"torque_journal",
+        kNewtonMetre,
+        film(&Film::torque_journal),
+        {.grid_error = error_of(&bearing::GridError::torque_journal)}},
+       {"torque_shell",
+        kNewtonMetre,
+        film(&Film::torque_shell),
+        {.grid_error = error_of(&bearing::GridError::torque_shell)}},
+       {"power_film", kWatt, film(&Film::power_film), {.grid_error = error_of(&bearing::GridError::power_film)}},
+       {"torque_journal_other_shear", kNewtonMetre, film(&Film::torque_journal_other_shear), {.only = shears_differ}},
+       {"power_film_other_shear", kWatt, film(&Film::power_film_other_shear), {.only = shears_differ}},
+       {"load_on_shear", kNone, load_on_shear},
+       {"power_asperity", kWatt, film(&Film::power_asperity)},
+       {"power_put_in", "power put in by torques and load", kWatt, power_put_in},
+       {"power_error_share",
+        "  of it not explained by the film's integrals",
+        kNone,
+        [](const Solution& s) { return power_put_in(s) / s.state.film.power_taken() - 1; },
+        {.only = [](const Solution& s) { return s.state.film.power_taken() > 0; }}},
+       {"asperity_share", kNone, numbers(&Number::asperity_share)},
+       {"film_ratio", kNone, numbers(&Number::film_ratio)}}};
 }
 
 }  // namespace
@@ -203,32 +158,30 @@ namespace {
 Group oil() {
   using Film = film::FilmObservables;
   const auto ruptures = [](const Solution& s) { return std::isfinite(s.state.film.rupture_angle); };
-  return {
-      "oil",
-      {{"side_flow",
-        "side flow",
-        kFlow,
-        [](const Solution& s) { return s.state.film.flow_out(); },
-        {.grid_error = error_of(&bearing::GridError::side_flow)}},
-       {"flow_left", "flow over the edge z < 0", kFlow, film(&Film::flow_left)},
-       {"flow_right", "flow over the edge z > 0", kFlow, film(&Film::flow_right)},
-       {"flow_supply", "flow through the supply", kFlow, film(&Film::flow_supply)},
-       {"flow_feature_<name>",
-        "  through <name>",
-        kFlow,
-        [](const Solution& s, std::size_t k) { return s.state.film.flow_features[static_cast<Eigen::Index>(k)]; },
-        {.each = feature_names}},
-       {"oil_volume", "oil in the bearing", kVolume, film(&Film::oil_volume)},
-       {"mass_balance_error",
-        "mass balance error",
-        kNone,
-        [](const Solution& s) {
-          return conserves_oil(s) ? s.state.film.mass_balance_error : std::numeric_limits<double>::quiet_NaN();
-        },
-        {.words = [](const Solution& s) { return conserves_oil(s) ? "" : "oil is not conserved by reynolds"; }}},
-       {"cavitated_share", "cavitated share of the area", kNone, film(&Film::cavitated_share)},
-       {"rupture_angle", "the film ruptures at mid-width at", kDegree, film(&Film::rupture_angle), {.only = ruptures}},
-       {"reformation_angle", "  and re-forms at", kDegree, film(&Film::reformation_angle), {.only = ruptures}}}};
+  return {"oil",
+          {{"side_flow",
+            "side flow",
+            kFlow,
+            [](const Solution& s) { return s.state.film.flow_out(); },
+            {.grid_error = error_of(&bearing::GridError::side_flow)}},
+           {"flow_left", kFlow, film(&Film::flow_left)},
+           {"flow_right", kFlow, film(&Film::flow_right)},
+           {"flow_supply", kFlow, film(&Film::flow_supply)},
+           {"flow_feature_<name>",
+            "  through <name>",
+            kFlow,
+            [](const Solution& s, std::size_t k) { return s.state.film.flow_features[static_cast<Eigen::Index>(k)]; },
+            {.each = feature_names}},
+           {"oil_volume", kVolume, film(&Film::oil_volume)},
+           {"mass_balance_error",
+            kNone,
+            [](const Solution& s) {
+              return conserves_oil(s) ? s.state.film.mass_balance_error : std::numeric_limits<double>::quiet_NaN();
+            },
+            {.words = [](const Solution& s) { return conserves_oil(s) ? "" : "oil is not conserved by reynolds"; }}},
+           {"cavitated_share", kNone, film(&Film::cavitated_share)},
+           {"rupture_angle", kDegree, film(&Film::rupture_angle), {.only = ruptures}},
+           {"reformation_angle", "  and re-forms at", kDegree, film(&Film::reformation_angle), {.only = ruptures}}}};
 }
 
 /// Names of HeatObservables::T_supplies.
@@ -284,122 +237,97 @@ Group heat() {
       return without_round_off(b.*member, b.power);
     };
   };
-  return {
-      "heat",
-      {{"T_effective",
-        "effective temperature of the oil",
-        kCelsius,
-        [](const Solution& s) { return s.state.effective->T - film::zero_celsius; },
-        {.only = has_one}},
-       {"T_out",
-        "temperature of the oil that leaves",
-        kCelsius,
-        [](const Solution& s) { return s.state.effective->T_out - film::zero_celsius; },
-        {.only = has_one}},
-       {"T_max",
-        "hottest oil",
-        kCelsius,
-        celsius(&Heat::T_max),
-        {.grid_error = error_of(&bearing::GridError::T_max), .only = has_heat}},
-       {"T_max_angle", "  at the angle", kDegree, of_heat(&Heat::T_max_phi), {.only = has_heat}},
-       {"T_max_z", "  at z", kMillimetre, of_heat(&Heat::T_max_z), {.only = has_heat}},
-       {"T_shell_max",
-        "hottest place of the shell",
-        kCelsius,
-        celsius(&Heat::T_shell_max),
-        {.grid_error = error_of(&bearing::GridError::T_shell_max), .only = has_heat}},
-       {"T_shell_max_angle", "  at the angle", kDegree, of_heat(&Heat::T_shell_max_phi), {.only = has_heat}},
-       {"T_shell_mean",
-        "mean temperature of the shell's surface",
-        kCelsius,
-        celsius(&Heat::T_shell_mean),
-        {.grid_error = error_of(&bearing::GridError::T_shell_mean), .only = has_heat}},
-       {"T_body_max", "hottest place of the shell's body", kCelsius, celsius(&Heat::T_body_max), {.only = is_in_body}},
-       {"bore_growth",
-        "growth of the bore's radius by temperature, mean",
-        kMicrometre,
-        growth,
-        {.only = has_thermal_shape}},
-       {"bore_distortion",
-        "  largest deviation from it, around and along",
-        kMicrometre,
-        distortion,
-        {.only = has_thermal_shape}},
-       {"T_journal",
-        "mean temperature of the journal's surface",
-        kCelsius,
-        celsius(&Heat::T_journal),
-        {.grid_error = error_of(&bearing::GridError::T_journal), .only = has_heat}},
-       {"T_journal_body_max",
-        "hottest place of the journal's body",
-        kCelsius,
-        celsius(&Heat::T_journal_body_max),
-        {.only = journal_is_in_body}},
-       {"journal_growth",
-        "growth of the journal's radius by temperature, mean",
-        kMicrometre,
-        journal_growth,
-        {.only = has_journal_shape}},
-       {"journal_distortion",
-        "  largest deviation from it, along",
-        kMicrometre,
-        journal_distortion,
-        {.only = has_journal_shape}},
-       {"clearance_of_bodies",
-        "radial clearance with what bodies have grown (hot), mean",
-        kMicrometre,
-        clearance_of_bodies,
-        {.only = [](const Solution& s) { return has_thermal_shape(s) || has_journal_shape(s); }}},
-       {"T_film",
-        "mean temperature of the oil in the film",
-        kCelsius,
-        celsius(&Heat::T_film_mean),
-        {.grid_error = error_of(&bearing::GridError::T_film), .only = has_heat}},
-       {"T_side",
-        "temperature of the side flow",
-        kCelsius,
-        celsius(&Heat::T_side),
-        {.grid_error = error_of(&bearing::GridError::T_side), .only = has_heat}},
-       {"T_supply_<name>",
-        "temperature in <name>",
-        kCelsius,
-        [](const Solution& s, std::size_t k) {
-          return s.state.heat->observed.T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
-        },
-        {.only = has_heat, .each = supply_names}},
-       {"heat_dissipated", "heat made", kWatt, balance(&Balance::power), {.only = has_heat}},
-       {"heat_to_oil", "  carried away by the oil", kWatt, balance(&Balance::to_oil), {.only = has_heat}},
-       {"heat_to_shell", "  into the shell", kWatt, balance(&Balance::to_shell), {.only = has_heat}},
-       {"heat_to_journal", "  into the journal", kWatt, balance(&Balance::to_journal), {.only = has_heat}},
-       {"heat_balance_error",
-        "  error of the balance of heat",
-        kNone,
-        [](const Solution& s) { return s.state.heat->observed.balance.error(); },
-        {.only = has_heat}},
-       {"T_node_<name>",
-        "temperature of <name>, with the heat of this bearing alone",
-        kCelsius,
-        [](const Solution& s, std::size_t k) {
-          return s.state.heat->network.T[static_cast<Eigen::Index>(k)] - film::zero_celsius;
-        },
-        {.each = [](const Solution& s) { return s.node_names; }}},
-       {"network_balance_error",
-        "  error of the balance of heat of these bodies",
-        kNone,
-        [](const Solution& s) { return s.state.heat->network.error(); },
-        {.only = [](const Solution& s) { return !s.node_names.empty(); }}}}};
+  return {"heat",
+          {{"T_effective",
+            kCelsius,
+            [](const Solution& s) { return s.state.effective->T - film::zero_celsius; },
+            {.only = has_one}},
+           {"T_out",
+            kCelsius,
+            [](const Solution& s) { return s.state.effective->T_out - film::zero_celsius; },
+            {.only = has_one}},
+           {"T_max",
+            kCelsius,
+            celsius(&Heat::T_max),
+            {.grid_error = error_of(&bearing::GridError::T_max), .only = has_heat}},
+           {"T_max_angle", "  at the angle", kDegree, of_heat(&Heat::T_max_phi), {.only = has_heat}},
+           {"T_max_z", "  at z", kMillimetre, of_heat(&Heat::T_max_z), {.only = has_heat}},
+           {"T_shell_max",
+            kCelsius,
+            celsius(&Heat::T_shell_max),
+            {.grid_error = error_of(&bearing::GridError::T_shell_max), .only = has_heat}},
+           {"T_shell_max_angle", "  at the angle", kDegree, of_heat(&Heat::T_shell_max_phi), {.only = has_heat}},
+           {"T_shell_mean",
+            kCelsius,
+            celsius(&Heat::T_shell_mean),
+            {.grid_error = error_of(&bearing::GridError::T_shell_mean), .only = has_heat}},
+           {"T_body_max", kCelsius, celsius(&Heat::T_body_max), {.only = is_in_body}},
+           {"bore_growth", kMicrometre, growth, {.only = has_thermal_shape}},
+           {"bore_distortion",
+            "  largest deviation from it, around and along",
+            kMicrometre,
+            distortion,
+            {.only = has_thermal_shape}},
+           {"T_journal",
+            kCelsius,
+            celsius(&Heat::T_journal),
+            {.grid_error = error_of(&bearing::GridError::T_journal), .only = has_heat}},
+           {"T_journal_body_max", kCelsius, celsius(&Heat::T_journal_body_max), {.only = journal_is_in_body}},
+           {"journal_growth", kMicrometre, journal_growth, {.only = has_journal_shape}},
+           {"journal_distortion",
+            "  largest deviation from it, along",
+            kMicrometre,
+            journal_distortion,
+            {.only = has_journal_shape}},
+           {"clearance_of_bodies",
+            kMicrometre,
+            clearance_of_bodies,
+            {.only = [](const Solution& s) { return has_thermal_shape(s) || has_journal_shape(s); }}},
+           {"T_film",
+            kCelsius,
+            celsius(&Heat::T_film_mean),
+            {.grid_error = error_of(&bearing::GridError::T_film), .only = has_heat}},
+           {"T_side",
+            kCelsius,
+            celsius(&Heat::T_side),
+            {.grid_error = error_of(&bearing::GridError::T_side), .only = has_heat}},
+           {"T_supply_<name>",
+            kCelsius,
+            [](const Solution& s, std::size_t k) {
+              return s.state.heat->observed.T_supplies[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+            },
+            {.only = has_heat, .each = supply_names}},
+           {"heat_dissipated", kWatt, balance(&Balance::power), {.only = has_heat}},
+           {"heat_to_oil", "  carried away by the oil", kWatt, balance(&Balance::to_oil), {.only = has_heat}},
+           {"heat_to_shell", "  into the shell", kWatt, balance(&Balance::to_shell), {.only = has_heat}},
+           {"heat_to_journal", "  into the journal", kWatt, balance(&Balance::to_journal), {.only = has_heat}},
+           {"heat_balance_error",
+            "  error of the balance of heat",
+            kNone,
+            [](const Solution& s) { return s.state.heat->observed.balance.error(); },
+            {.only = has_heat}},
+           {"T_node_<name>",
+            kCelsius,
+            [](const Solution& s, std::size_t k) {
+              return s.state.heat->network.T[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+            },
+            {.each = [](const Solution& s) { return s.node_names; }}},
+           {"network_balance_error",
+            "  error of the balance of heat of these bodies",
+            kNone,
+            [](const Solution& s) { return s.state.heat->network.error(); },
+            {.only = [](const Solution& s) { return !s.node_names.empty(); }}}}};
 }
 
 /// The four entries of a matrix over x and y, row by row.
 /// @param get  the matrix of a solution
 /// @param error  its grid error
 template <class Get, class Error>
-Line matrix(const std::string& key, const std::string& name, const Unit& unit, Get get, Error error) {
+Line matrix(std::string_view key, const Unit& unit, Get get, Error error) {
   const auto entry = [](const Eigen::Matrix2d& of, std::size_t k) {
     return of(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2));
   };
-  return {key + "_<ij>",
-          name + " <ij>",
+  return {key,
           unit,
           [get, entry](const Solution& s, std::size_t k) { return entry(get(s), k); },
           {.each =
@@ -413,19 +341,18 @@ Group dynamics() {
   using Matrix = Eigen::Matrix2d;
   return {"stiffness and damping",
           {matrix(
-               "stiffness", "stiffness, bearing axes,", kStiffness,
+               "stiffness_<ij>", kStiffness,
                [](const Solution& s) -> Matrix { return s.state.coefficients.stiffness.topLeftCorner<2, 2>(); },
                [](const Solution& s) { return s.grid_error.stiffness; }),
            matrix(
-               "damping", "damping, bearing axes,", kDamping,
+               "damping_<ij>", kDamping,
                [](const Solution& s) -> Matrix { return s.state.coefficients.damping.topLeftCorner<2, 2>(); },
                [](const Solution& s) { return s.grid_error.damping; }),
            matrix(
-               "K", "K = k c/W, x along the load,", kNone, [](const Solution& s) -> Matrix { return s.coefficients.K; },
+               "K_<ij>", kNone, [](const Solution& s) -> Matrix { return s.coefficients.K; },
                [](const Solution& s) { return s.grid_error.in_load_axes.K; }),
            matrix(
-               "C", "C = b c omega/W, x along the load,", kNone,
-               [](const Solution& s) -> Matrix { return s.coefficients.C; },
+               "C_<ij>", kNone, [](const Solution& s) -> Matrix { return s.coefficients.C; },
                [](const Solution& s) { return s.grid_error.in_load_axes.C; })}};
 }
 
@@ -441,18 +368,10 @@ Group stability() {
   };
   return {
       "stability",
-      {{"critical_mass", "critical mass of a rigid rotor", kKilogram, whirl(&Whirl::critical_mass), {.words = of_mass}},
-       {"whirl_ratio", "whirl frequency ratio", kNone, whirl(&Whirl::whirl_ratio), {.words = if_stable("no whirl")}},
-       {"stability_number",
-        "omega sqrt(c/g) at the threshold",
-        kNone,
-        whirl(&Whirl::stability_number),
-        {.words = if_stable("no threshold")}},
-       {"threshold_speed",
-        "threshold speed under the load's own weight",
-        kRpm,
-        whirl(&Whirl::threshold_speed),
-        {.words = if_stable("none: stable at every speed")}}}};
+      {{"critical_mass", kKilogram, whirl(&Whirl::critical_mass), {.words = of_mass}},
+       {"whirl_ratio", kNone, whirl(&Whirl::whirl_ratio), {.words = if_stable("no whirl")}},
+       {"stability_number", kNone, whirl(&Whirl::stability_number), {.words = if_stable("no threshold")}},
+       {"threshold_speed", kRpm, whirl(&Whirl::threshold_speed), {.words = if_stable("none: stable at every speed")}}}};
 }
 
 /// The table of a journal bearing's figures, in the order in which they are reported.
@@ -477,8 +396,9 @@ const std::vector<Group>& table_of(const BearingSolution& solution) {
   return found->second;
 }
 
-/// Returns `text` with `name` in place of the part in angle brackets.
-std::string filled_in(const std::string& text, const std::string& name) {
+/// Returns `pattern` with `name` in place of the part in angle brackets.
+std::string filled_in(std::string_view pattern, const std::string& name) {
+  const std::string text(pattern);
   const std::size_t from = text.find('<'), to = text.find('>');
   return name.empty() || from == std::string::npos ? text : text.substr(0, from) + name + text.substr(to + 1);
 }
@@ -491,7 +411,7 @@ std::vector<std::string> figure_keys(const std::string& kind) {
     if (!kind.empty() && kind != name) continue;
     for (const Group& group : table)
       for (const Line& line : group.lines)
-        if (std::find(keys.begin(), keys.end(), line.key) == keys.end()) keys.push_back(line.key);
+        if (std::find(keys.begin(), keys.end(), line.quantity.id) == keys.end()) keys.emplace_back(line.quantity.id);
   }
   return keys;
 }
@@ -505,8 +425,9 @@ std::vector<BearingFigure> figures_of(const BearingSolution& solution) {
       for (std::size_t k = 0; k < names.size(); ++k) {
         const double size = line.unit.size;
         BearingFigure& figure =
-            figures.emplace_back(BearingFigure{.key = filled_in(line.key, names[k]),
-                                               .name = filled_in(line.name, names[k]),
+            figures.emplace_back(BearingFigure{.key = filled_in(line.quantity.id, names[k]),
+                                               .name = filled_in(line.quantity.title, names[k]),
+                                               .label = filled_in(line.label, names[k]),
                                                .unit = line.unit.name,
                                                .si_unit = line.unit.si,
                                                .si = size,

@@ -5,11 +5,14 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "hersey/bearing/clearance.h"
+#include "hersey/bearing/quantities.h"
+#include "hersey/core/contract.h"
 #include "hersey/study/bearing_study.h"
 
 // The vocabulary in which tables of a bearing's figures are written: one table for each kind of bearing.
@@ -46,11 +49,14 @@ struct More {
   std::function<double(const Solution&, std::size_t)> grid_error_of = {};
 };
 
-/// A line of the table: a figure, or a family of them.
+/// A line of the table: a figure, or a family of them. Its words are those of bearing::quantity(key).
 struct Line {
+  /// @param label  in place of the quantity's title, in a table where the line before explains it
+  /// @pre the unit is one of the quantity's in SI
   template <class Get>
-  Line(std::string key_, std::string name_, Unit unit_, Get get, More more_ = {})
-      : key(std::move(key_)), name(std::move(name_)), unit(unit_), more(std::move(more_)) {
+  Line(std::string_view key, std::string_view label_, Unit unit_, Get get, More more_ = {})
+      : quantity(bearing::quantity(key)), label(label_), unit(unit_), more(std::move(more_)) {
+    HERSEY_REQUIRE(quantity.unit == (*unit.si == 0 ? "1" : unit.si), "one unit for " + std::string(key));
     value = [get](const Solution& s, [[maybe_unused]] std::size_t k) -> double {
       if constexpr (std::is_invocable_v<Get, const Solution&, std::size_t>)
         return std::invoke(get, s, k);
@@ -58,8 +64,12 @@ struct Line {
         return std::invoke(get, s);
     };
   }
+  template <class Get>
+  Line(std::string_view key, Unit unit_, Get get, More more_ = {})
+      : Line(key, bearing::quantity(key).title, unit_, get, std::move(more_)) {}
 
-  std::string key, name;
+  const bearing::Quantity& quantity;
+  std::string_view label;
   Unit unit;
   std::function<double(const Solution&, std::size_t)> value;  ///< in SI
   More more;

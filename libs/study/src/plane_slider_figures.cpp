@@ -30,45 +30,38 @@ Group point_figures() {
   const auto load_error = [](const Solution& s) { return is_load_given(s) ? -1 : s.grid_error.load; };
   constexpr Unit kMetrePerSecond{"m/s", "m/s", 1};
   return {"operating point",
-          {{"speed", "sliding speed", kMetrePerSecond, speed_of},
-           {"load", "load", kNewton, load_of, {.grid_error = load_error}},
+          {{"sliding_speed", kMetrePerSecond, speed_of},
+           {"load", kNewton, load_of, {.grid_error = load_error}},
            {"approach_speed",
-            "speed of approach",
             kMillimetrePerSecond,
             [](const Solution& s) { return s.state.point.e_rate[0]; },
             {.only = squeezes}},
-           {"film_thickness_middle", "distance of the runner from the middle of the pad's face", kMicrometre,
-            [](const Solution& s) { return -s.state.e[0]; }},
-           {"tilt_along", "slope along the sliding direction", kMicrometrePerMetre,
-            [](const Solution& s) { return s.state.tilt.x(); }},
-           {"tilt_across", "slope across the sliding direction", kMicrometrePerMetre,
-            [](const Solution& s) { return s.state.tilt.y(); }}}};
+           {"film_thickness_middle", kMicrometre, [](const Solution& s) { return -s.state.e[0]; }},
+           {"tilt_along", kMicrometrePerMetre, [](const Solution& s) { return s.state.tilt.x(); }},
+           {"tilt_across", kMicrometrePerMetre, [](const Solution& s) { return s.state.tilt.y(); }}}};
 }
 
 Group pad_film() {
   using Film = film::FilmObservables;
   using Error = bearing::GridError;
-  return {
-      "film",
-      {{"h_min", "minimum film thickness", kMicrometre, film(&Film::h_min), {.grid_error = error_of(&Error::h_min)}},
-       {"h_min_y", "  at y", kMillimetre, film(&Film::h_min_phi)},
-       {"h_min_z", "  at z", kMillimetre, height(&Film::h_min_z)},
-       {"h_min_features",
-        "minimum thickness over features with depth",
-        kMicrometre,
-        film(&Film::h_min_features),
-        {.only = [](const Solution& s) { return std::isfinite(s.state.film.h_min_features); }}},
-       {"p_max", "peak film pressure", kMegapascal, film(&Film::p_max), {.grid_error = error_of(&Error::p_max)}},
-       {"p_max_y", "  at y", kMillimetre, film(&Film::p_max_phi)},
-       {"p_max_z", "  at z", kMillimetre, height(&Film::p_max_z)},
-       {"centre_y", "centre of pressure, y", kMillimetre, centre_along, {.only = bears}},
-       {"centre_z", "centre of pressure, z", kMillimetre, centre_across, {.only = bears}}}};
+  return {"film",
+          {{"h_min", kMicrometre, film(&Film::h_min), {.grid_error = error_of(&Error::h_min)}},
+           {"h_min_y", "  at y", kMillimetre, film(&Film::h_min_phi)},
+           {"h_min_z", "  at z", kMillimetre, height(&Film::h_min_z)},
+           {"h_min_features",
+            kMicrometre,
+            film(&Film::h_min_features),
+            {.only = [](const Solution& s) { return std::isfinite(s.state.film.h_min_features); }}},
+           {"p_max", kMegapascal, film(&Film::p_max), {.grid_error = error_of(&Error::p_max)}},
+           {"p_max_y", "  at y", kMillimetre, film(&Film::p_max_phi)},
+           {"p_max_z", "  at z", kMillimetre, height(&Film::p_max_z)},
+           {"centre_y", kMillimetre, centre_along, {.only = bears}},
+           {"centre_z", kMillimetre, centre_across, {.only = bears}}}};
 }
 
 Group numbers_of_sliders() {
   return {"numbers",
           {{"load_number",
-            "load number W h_min^2/(6 mu |U| L B^2), B along and L across the sliding direction",
             kNone,
             [](const Solution& s) {
               const double B = s.model.R * (s.model.grid.phi(s.model.grid.n_phi - 1) - s.model.grid.phi(0));
@@ -87,32 +80,21 @@ Group pad_friction() {
   using Film = film::FilmObservables;
   return {"friction",
           {{"friction_runner",
-            "friction coefficient, runner",
             kNone,
             [](const Solution& s) { return std::abs(drag(s)) / load_of(s); },
             {.grid_error = error_of(&bearing::GridError::friction_journal), .only = bears}},
-           {"force_runner", "friction force on the runner, against y", kNewton, drag},
-           {"force_pad", "force on the pad along its face", kNewton,
-            [](const Solution& s) { return s.state.film.wrench_on_shell[4]; }},
-           {"power_film",
-            "friction power, film",
-            kWatt,
-            film(&Film::power_film),
-            {.grid_error = error_of(&bearing::GridError::power_film)}},
-           {"power_film_other_shear",
-            "friction power, film, cavitated film sheared the other way",
-            kWatt,
-            film(&Film::power_film_other_shear),
-            {.only = shears_differ}},
-           {"power_asperity", "friction power, asperities", kWatt, film(&Film::power_asperity)},
+           {"force_runner", kNewton, drag},
+           {"force_pad", kNewton, [](const Solution& s) { return s.state.film.wrench_on_shell[4]; }},
+           {"power_film", kWatt, film(&Film::power_film), {.grid_error = error_of(&bearing::GridError::power_film)}},
+           {"power_film_other_shear", kWatt, film(&Film::power_film_other_shear), {.only = shears_differ}},
+           {"power_asperity", kWatt, film(&Film::power_asperity)},
            {"power_put_in", "power put in by drag and load", kWatt, put_in},
-           {"power_error",
+           {"power_error_share",
             "  of it not explained by the film's integrals",
             kNone,
             [](const Solution& s) { return put_in(s) / s.state.film.power_taken() - 1; },
             {.only = [](const Solution& s) { return s.state.film.power_taken() > 0; }}},
            {"asperity_share",
-            "share of the load on asperities",
             kNone,
             [](const Solution& s) { return s.state.film.force_asperity.x() / load_of(s); },
             {.only = [](const Solution& s) { return s.model.asperities.model != film::AsperityModel::none; }}}}};
@@ -122,35 +104,30 @@ Group pad_oil() {
   using Film = film::FilmObservables;
   const auto ruptures = [](const Solution& s) { return std::isfinite(s.state.film.rupture_angle); };
   return {"oil",
-          {{"flow_leading", "flow out over the leading end", kFlow, film(&Film::flow_first)},
-           {"flow_trailing", "flow out over the trailing end", kFlow, film(&Film::flow_last)},
+          {{"flow_leading", kFlow, film(&Film::flow_first)},
+           {"flow_trailing", kFlow, film(&Film::flow_last)},
            {"side_flow",
             "flow out over both sides",
             kFlow,
             [](const Solution& s) { return s.state.film.flow_left + s.state.film.flow_right; },
             {.grid_error = error_of(&bearing::GridError::side_flow)}},
-           {"flow_left", "flow out over the side z < 0", kFlow, film(&Film::flow_left)},
-           {"flow_right", "flow out over the side z > 0", kFlow, film(&Film::flow_right)},
-           {"flow_supply", "flow through holes and pockets", kFlow, film(&Film::flow_supply)},
+           {"flow_left", kFlow, film(&Film::flow_left)},
+           {"flow_right", kFlow, film(&Film::flow_right)},
+           {"flow_supply", kFlow, film(&Film::flow_supply)},
            {"flow_feature_<name>",
             "  through <name>",
             kFlow,
             [](const Solution& s, std::size_t k) { return s.state.film.flow_features[static_cast<Eigen::Index>(k)]; },
             {.each = feature_names}},
-           {"oil_volume", "oil in the film", kVolume, film(&Film::oil_volume)},
+           {"oil_volume", kVolume, film(&Film::oil_volume)},
            {"mass_balance_error",
-            "mass balance error",
             kNone,
             [](const Solution& s) {
               return conserves_oil(s) ? s.state.film.mass_balance_error : std::numeric_limits<double>::quiet_NaN();
             },
             {.words = [](const Solution& s) { return conserves_oil(s) ? "" : "oil is not conserved by reynolds"; }}},
-           {"cavitated_share", "cavitated share of the area", kNone, film(&Film::cavitated_share)},
-           {"rupture_y",
-            "the film ruptures at mid-width at y",
-            kMillimetre,
-            film(&Film::rupture_angle),
-            {.only = ruptures}},
+           {"cavitated_share", kNone, film(&Film::cavitated_share)},
+           {"rupture_y", kMillimetre, film(&Film::rupture_angle), {.only = ruptures}},
            {"reformation_y", "  and re-forms at y", kMillimetre, film(&Film::reformation_angle), {.only = ruptures}}}};
 }
 
@@ -163,21 +140,18 @@ Group pad_dynamics() {
   const auto stiffness = &bearing::DynamicCoefficients::stiffness, damping = &bearing::DynamicCoefficients::damping;
   return {"stiffness and damping",
           {{"stiffness",
-            "stiffness against approach",
             kStiffness,
             entry(stiffness, 0, 0),
             {.grid_error = [](const Solution& s) { return s.grid_error.stiffness(0, 0); }}},
-           {"stiffness_along", "stiffness against tilt along, moment about the pad's middle", kMomentStiffness,
-            entry(stiffness, 1, 1)},
-           {"stiffness_across", "stiffness against tilt across", kMomentStiffness, entry(stiffness, 2, 2)},
-           {"stiffness_coupling", "load by tilt along", kNewton, entry(stiffness, 0, 1)},
+           {"stiffness_along", kMomentStiffness, entry(stiffness, 1, 1)},
+           {"stiffness_across", kMomentStiffness, entry(stiffness, 2, 2)},
+           {"stiffness_coupling", kNewton, entry(stiffness, 0, 1)},
            {"damping",
-            "damping of approach",
             kDamping,
             entry(damping, 0, 0),
             {.grid_error = [](const Solution& s) { return s.grid_error.damping(0, 0); }}},
-           {"damping_along", "damping of tilt along", kMomentDamping, entry(damping, 1, 1)},
-           {"damping_across", "damping of tilt across", kMomentDamping, entry(damping, 2, 2)}}};
+           {"damping_along", kMomentDamping, entry(damping, 1, 1)},
+           {"damping_across", kMomentDamping, entry(damping, 2, 2)}}};
 }
 
 }  // namespace

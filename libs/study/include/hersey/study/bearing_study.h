@@ -124,7 +124,8 @@ class RunSolver {
 /// One reported figure in the unit people use.
 struct BearingFigure {
   std::string key;      ///< "h_min"
-  std::string name;     ///< "minimum film thickness"
+  std::string name;     ///< "angle of the minimum film thickness"
+  std::string label;    ///< its name below the one before it in a table: "  at the angle"; mostly the same
   std::string unit;     ///< "um"; empty for a bare number
   std::string si_unit;  ///< "m"
   double si = 1;        ///< value of one `unit` in SI: 1e-6
