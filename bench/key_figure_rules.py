@@ -41,6 +41,7 @@ COMMANDS = {
     "lemon_bore/model": [("bearing",)],
     "oil_whirl/flexible": [("run", "simulation.duration=20ms")],
     "oil_whirl/model": [("run", "simulation.duration=0.1s")],
+    "oil_whirl/steady": [("run", "speed=9000rpm")],
     "paper_big_end/model": [("run", "load=1000N", "clearance=0.034mm", "simulation.duration=2rev")],
     "plane_slider/carriage": [("run",)],
     "plane_slider/model": [("bearing",)],

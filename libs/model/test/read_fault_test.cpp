@@ -374,10 +374,6 @@ TEST_CASE("ImpossibleSteps_AreReported") {
         "m.yaml:33:9: simulation.step: a step longer than the run; expected a step of at most the duration");
   CHECK(faults_after("step: 1 deg", "analysis: dynamics") ==
         "m.yaml:30:1: simulation: missing key 'step'; expected a time or an angle > 0, such as 0.1 ms, or {tolerance}");
-  CHECK(faults_after("step: 1 deg", "step: 1 deg\n  analysis: static") ==
-        "m.yaml:34:13: simulation.analysis: rest of a machine with bearings; expected ideal joints: a film at rest "
-        "carries nothing; use dynamics with `settle`, or modes with `modes_about: end`; `hersey bearing` solves one "
-        "bearing");
   CHECK(faults_after("step: 1 deg", "step: {tolerance: 1e-4, smallest: 1 ms, largest: 0.5 ms}") ==
         "m.yaml:33:37: simulation.step.smallest: a smallest step longer than the largest; expected at most the largest "
         "step");

@@ -22,6 +22,7 @@ constexpr double kRoundOff = 1e-13;
 constexpr double kSolved = 1e-10;        // rad, or sizes of the system: increments that are negligible
 constexpr int kLongestPath = 20;         // in steps of Newton's method, times those allowed to a search
 constexpr double kSmallestShare = 1e-5;  // of the load that one step of following it may add
+constexpr double kShortest = 1e-2;       // of a step of Newton's method towards a steady motion
 constexpr double kNeutral = 1e-12;       // of the terms whose sum is a stiffness
 constexpr double kSteady = 1e-8;         // rad, or sizes of the system: ten times what Newton's tolerance leaves
 constexpr double kFixedShare = 1e-2;  // largest share of the deformation that may be fixed in space in a steady motion
@@ -54,14 +55,15 @@ class EquilibriumSearch {
         if (options_.steady_motion || !follow_the_load(start, load)) return failure(why);
         break;
       }
-      if (options_.steady_motion) {
-        if (!advance_to_steady_motion())
-          return failure("no steady motion near the start; worst equation: " + summary_.worst_row);
-      } else {
+      if (!options_.steady_motion) {
         advance();
+      } else if (!advance_to_steady_motion()) {
+        const std::string why = "no steady motion near the start; worst equation: " + summary_.worst_row;
+        if (!drift_to_steady_motion(start)) return failure(why);
       }
     }
     if (options_.steady_motion) {
+      sharpen();
       const State steady = here_;
       if (!stays_steady(steady)) return failure(summary_.message);
       here_ = steady;
@@ -169,24 +171,108 @@ class EquilibriumSearch {
     }
   }
 
-  /// Takes one step of Newton's method, halved until the residual decreases. A steady motion does not minimise an
-  /// energy: above a critical speed the stiffness including centrifugal forces is indefinite.
+  /// Takes one step of Newton's method, shortened until what the same tangent makes of the new residual is shorter than
+  /// the step: the natural test of Deuflhard (2011), which no scale of forces, multipliers or films affects. A steady
+  /// motion does not minimise an energy: above a critical speed the stiffness including centrifugal forces is
+  /// indefinite, that of a film is never symmetric. Theory manual eq. (integrator.34).
   bool advance_to_steady_motion() {
     mu_ = 0;
     if (!solve()) return false;
     const Index nv = equations_.nv();
     const State from = here_;
-    const double before = worst_;
-    const VectorXd dx = increment_.head(nv);
+    const VectorXd dx = increment_.head(nv), dlambda = increment_.tail(increment_.size() - nv);
+    const double whole = dx.cwiseQuotient(reach_).norm();
     const double reach = dx.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
-    for (double length = std::min(1.0, kLargestMove / std::max(reach, 1e-300)); length > 1e-4; length /= 2) {
+    for (double length = std::min(1.0, kLargestMove / std::max(reach, 1e-300)); length > kShortest;) {
       equations_.retract(from.q, length * dx, here_.q);
-      here_.lambda = from.lambda + length * increment_.tail(increment_.size() - nv);
-      if (!assemble(here_) || !(worst_ < before)) continue;
-      walked_ += length * dx;
-      return true;
+      here_.lambda = from.lambda + length * dlambda;
+      if (!assemble(here_)) {
+        length /= 2;
+        continue;
+      }
+      if (worst_ <= 1 || next_increment().cwiseQuotient(reach_).norm() <= (1 - length / 4) * whole) {
+        walked_ += length * dx;
+        return true;
+      }
+      length /= 2;
     }
+    here_ = from;
+    (void)assemble(here_);
     return false;
+  }
+
+  /// Follows, from the start, the motion that dampers and films allow the machine without its inertia: steps 1/mu of
+  /// the implicit Euler method, each by one increment of Newton's method, which lengthen as that is enough. They end
+  /// where nothing moves. Near the singular tangents at which Newton's method halts, films still resist all motions.
+  /// Theory manual eq. (integrator.35).
+  bool drift_to_steady_motion(const State& start) {
+    constexpr double contraction = 0.5, fast = 0.1, longest = 1e-6;
+    here_ = start;
+    if (!assemble(here_)) return false;
+    const double fastest = std::max(here_.v.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>(), 1e-300);
+    double mu = fastest;
+    for (int i = 0; i < options_.max_iterations && mu < 1e12 * fastest; ++i, ++summary_.iterations) {
+      if (worst_ <= 1) return true;
+      keep_damping();
+      const double remaining = try_to_drift(mu);
+      if (!(remaining <= contraction)) {
+        mu *= 4;
+      } else if (remaining < fast) {
+        mu = std::max(mu / 4, longest * fastest);
+      }
+    }
+    return worst_ <= 1;
+  }
+
+  /// Takes one such step unless Newton's method would need several increments for it. Returns the length of the next
+  /// increment over that of the first, infinity outside the domain.
+  double try_to_drift(double mu) {
+    const State from = here_;
+    mu_ = mu;
+    const bool solved = solve();
+    mu_ = 0;
+    if (!solved) return std::numeric_limits<double>::infinity();
+    const Index nv = equations_.nv();
+    const VectorXd dx = increment_.head(nv);
+    equations_.retract(from.q, dx, here_.q);
+    here_.lambda = from.lambda + increment_.tail(increment_.size() - nv);
+    double remaining = std::numeric_limits<double>::infinity();
+    if (dx.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>() <= kLargestMove && assemble(here_)) {
+      residual_ += mu * (weight_ * increment_);
+      remaining = next_increment().cwiseQuotient(reach_).norm() / dx.cwiseQuotient(reach_).norm();
+      residual_ -= mu * (weight_ * increment_);
+    }
+    if (remaining <= 0.5) {
+      walked_ += dx;
+      return remaining;
+    }
+    here_ = from;
+    (void)assemble(here_);
+    return remaining;
+  }
+
+  /// Returns the increment of the positions by the residual at hand and the tangent factorised last.
+  VectorXd next_increment() {
+    VectorXd next = -residual_;
+    lu_.solve({next.data(), static_cast<std::size_t>(next.size())});
+    return next.head(equations_.nv());
+  }
+
+  /// Continues Newton's method until its increments no longer shrink: films are thinner than the size by which the
+  /// tolerance is measured by many powers of ten.
+  void sharpen() {
+    constexpr int most = 4;
+    double last = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < most && solve(); ++i) {
+      const double size = increment_.head(equations_.nv()).cwiseQuotient(reach_).norm();
+      const State from = here_;
+      if (!(size < 0.1 * last)) return;
+      last = size;
+      if (take_full_step(kLargestMove)) continue;
+      here_ = from;
+      (void)assemble(here_);
+      return;
+    }
   }
 
   /// True if the motion is steady: solved again a short time later, it must differ only by its velocities.
@@ -227,12 +313,17 @@ class EquilibriumSearch {
   }
 
   /// Stores the mass matrix at the start, in the pattern of the tangent; it weights the increments.
-  void keep_mass() {
+  void keep_mass() { keep_weight({.dt = 0, .k = 0, .c = 0, .m = 1, .dq = {}}); }
+
+  /// Stores the damping matrix here in its place.
+  void keep_damping() { keep_weight({.dt = 0, .k = 0, .c = 1, .m = 0, .dq = {}}); }
+
+  void keep_weight(const Stage& stage) {
     VectorXd residual, scale;
-    equations_.assemble(here_, {.dt = 0, .k = 0, .c = 0, .m = 1, .dq = {}}, residual, scale, &mass_);
+    equations_.assemble(here_, stage, residual, scale, &weight_);
     const Index nv = equations_.nv();
-    for (Index column = 0; column < mass_.cols(); ++column)
-      for (Equations::SparseMatrix::InnerIterator entry(mass_, column); entry; ++entry)
+    for (Index column = 0; column < weight_.cols(); ++column)
+      for (Equations::SparseMatrix::InnerIterator entry(weight_, column); entry; ++entry)
         if (entry.row() >= nv || column >= nv) entry.valueRef() = 0;
   }
 
@@ -272,7 +363,7 @@ class EquilibriumSearch {
   bool solve() {
     tangent_ = stiffness_;
     Eigen::Map<VectorXd>(tangent_.valuePtr(), tangent_.nonZeros()) +=
-        mu_ * Eigen::Map<const VectorXd>(mass_.valuePtr(), mass_.nonZeros());
+        mu_ * Eigen::Map<const VectorXd>(weight_.valuePtr(), weight_.nonZeros());
     const auto nonzeros = static_cast<std::size_t>(tangent_.nonZeros());
     if (lu_.size() != tangent_.rows()) lu_.analyse(tangent_);
     if (!lu_.factorise({tangent_.valuePtr(), nonzeros})) return false;
@@ -316,7 +407,7 @@ class EquilibriumSearch {
   VectorXd reach_, residual_, scale_, increment_;
   VectorXd withheld_load_;  ///< out-of-balance forces that do not act yet; empty: none
   VectorXd walked_;         ///< by the steps towards a steady motion
-  Equations::SparseMatrix stiffness_, mass_, tangent_;
+  Equations::SparseMatrix stiffness_, weight_, tangent_;
   SparseLu lu_;
   double mu_ = 0, worst_ = 0;
   EquilibriumSummary summary_;

@@ -69,6 +69,13 @@ film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
   return summary;
 }
 
+film::FilmSolveSummary FilmElement::stay(const film::SurfaceMotion& surfaces) {
+  history_.dt = 0;
+  history_.phi_journal = surfaces.phi_journal;
+  has_started_ = false;
+  return film::solve_film(reynolds_, surfaces, history_, options_.solve, u_);
+}
+
 void FilmElement::begin_step(double dt) {
   history_ = history_start_;
   history_.dt = dt;

@@ -33,6 +33,8 @@ class FilmElement {
   /// The film of a freshly filled gap at the start of a run; a liner has yielded to it and rests. Not solved: why not,
   /// or where outside the domain.
   [[nodiscard]] film::FilmSolveSummary start(const film::SurfaceMotion& surfaces);
+  /// The steady film of surfaces that go on moving as they do, from the last one on.
+  [[nodiscard]] film::FilmSolveSummary stay(const film::SurfaceMotion& surfaces);
   /// Starts a step of length dt from the film accepted last.
   void begin_step(double dt);
 

@@ -106,9 +106,10 @@ void FilmForce::report(const film::FilmDomain& domain) {
 }
 
 void FilmForce::start_film() {
-  const film::FilmSolveSummary summary = film_->start(surfaces_);
+  const film::FilmSolveSummary summary = options_.is_steady ? film_->stay(surfaces_) : film_->start(surfaces_);
   if (!summary.domain.is_inside()) return report(summary.domain);
-  if (!summary.solved()) domain_error_ = "no film at the start: " + summary.message;
+  if (!summary.solved())
+    domain_error_ = (options_.is_steady ? "no steady film: " : "no film at the start: ") + summary.message;
 }
 
 void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {

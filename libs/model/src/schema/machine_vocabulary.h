@@ -43,10 +43,15 @@ inline constexpr Vocabulary<Axes, 2> axes_of_body_words{{
     {Axes::body, "body", "axes of the body"},
 }};
 
-inline constexpr Vocabulary<Analysis, 4> analysis_words{{
+inline constexpr Vocabulary<Analysis, 5> analysis_words{{
     {Analysis::dynamics, "dynamics", "motion under forces, integrated over time"},
     {Analysis::kinematics, "kinematics", "motion that drives prescribe completely, and the forces it takes"},
-    {Analysis::equilibrium, "static", "rest under gravity and the loads at `start`, drives locked; no bearings"},
+    {Analysis::equilibrium, "static",
+     "rest under gravity and the loads at `start`, drives locked; films at rest carry what their "
+     "supplies press"},
+    {Analysis::steady, "steady",
+     "the steady motion in which drives keep the speed they have at the start and everything else keeps still in its "
+     "coordinates: where shafts float in their bearings, all found at once"},
     {Analysis::modes, "modes", "natural frequencies, damping and stability of small motions"},
 }};
 
@@ -55,8 +60,9 @@ inline constexpr Vocabulary<ModesAbout, 4> modes_about_words{{
     {ModesAbout::equilibrium, "equilibrium", "the static equilibrium"},
     {ModesAbout::turning, "turning",
      "the steady motion in which drives keep the speed they have at the start and everything else keeps still in its "
-     "coordinates: rotating blades and shafts"},
-    {ModesAbout::end, "end", "the state at the end of a run over `duration`; bearings by their tangent there"},
+     "coordinates, as by `analysis: steady`: rotating blades, shafts in their bearings"},
+    {ModesAbout::end, "end",
+     "the state at the end of a run over `duration`; bearings by their tangent there, over its last step"},
 }};
 
 inline constexpr Vocabulary<InitialDeformation, 3> initial_deformation_words{{

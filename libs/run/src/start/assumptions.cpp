@@ -376,6 +376,8 @@ std::pair<std::string, std::string> method(const model::Simulation& run) {
   if (run.analysis == Analysis::equilibrium)
     return {"static equilibrium",
             "gravity and the loads at the start, drives locked at their positions then, no velocities"};
+  if (run.analysis == Analysis::steady)
+    return {"steady motion", "drives at their speeds at the start, everything else at rest in its coordinates"};
   if (run.analysis == Analysis::modes && run.modes_about == model::ModesAbout::start)
     return {"small motions", "linear about the state at the start"};
   if (run.analysis == Analysis::modes && run.modes_about == model::ModesAbout::equilibrium)

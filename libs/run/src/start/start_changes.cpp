@@ -61,7 +61,7 @@ Fault fault_of(const model::Model& model, const mbd::Mechanism& mechanism, const
 
 bool keeps_start(const model::Simulation& plan) {
   using model::Analysis;
-  if (plan.analysis == Analysis::equilibrium) return false;
+  if (plan.analysis == Analysis::equilibrium || plan.analysis == Analysis::steady) return false;
   return plan.analysis != Analysis::modes || plan.modes_about == model::ModesAbout::start ||
          plan.modes_about == model::ModesAbout::end;
 }

@@ -71,6 +71,7 @@ class Run {
       case Analysis::kinematics:
         return step_to_end();
       case Analysis::equilibrium:
+      case Analysis::steady:
         if (come_to_rest()) machine_.record_here();
         return;
       case Analysis::modes:
@@ -107,13 +108,18 @@ class Run {
 
   bool come_to_rest() {
     solver::EquilibriumOptions options;
-    options.steady_motion = model_.simulation.analysis == model::Analysis::modes &&
-                            model_.simulation.modes_about == model::ModesAbout::turning;
+    options.steady_motion = model_.simulation.is_steady_motion();
     const solver::EquilibriumSummary rest = solver::find_equilibrium(machine_.mechanism(), machine_.state(), options);
     newton_iterations_ += rest.iterations;
     message_ = rest.message;
-    if (!rest.solved()) fail(options.steady_motion ? rest.message : "static: " + rest.message);
+    if (!rest.solved()) fail((options.steady_motion ? "" : "static: ") + rest.message + advice_on_films());
     return rest.solved();
+  }
+
+  /// What carries a machine that rests in films.
+  [[nodiscard]] std::string advice_on_films() const {
+    if (model_.bearings.empty() || model_.simulation.is_steady_motion()) return "";
+    return "; at rest films carry what their supplies press: `analysis: steady` lets the drives turn";
   }
 
   void linearise_here() {

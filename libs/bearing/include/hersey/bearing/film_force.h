@@ -34,6 +34,9 @@ struct BearingOptions {
   /// linear systems of a monolithic one.
   film::FilmSolveOptions film;
   double initial_dt = 1e-4;  ///< the film at the start is that of a full gap after a step of this length [s], > 0
+  /// With motion.dt = 0 the film is the steady one of the motion there, which goes on as it is, in place of a freshly
+  /// filled one: for a machine at rest or in a steady motion, and small motions about it. Without `thermal`.
+  bool is_steady = false;
   /// Pressure of each of the film's features over time [Pa]; empty: the pressures of the film model.
   std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
   /// Of a film with temperatures, which move on with each accepted step; unset: one temperature, the model's.
@@ -76,7 +79,7 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] Coupling coupling() const { return options_.coupling; }
 
   /// With motion.dt = 0 (start of a run) the film is solved to the end instead: freshly filled, theta = 1 before a step
-  /// of options.initial_dt, so that a node is full or just emptying.
+  /// of options.initial_dt, so that a node is full or just emptying; steady with options.is_steady.
   void evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) override;
   void begin_step(const mbd::RelativeMotion& start, double dt) override;
   /// False where the oil that has come in over the step fills another film than the one found: that follows the change
@@ -84,7 +87,9 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] bool is_step_consistent() override;
   void accept_step(const mbd::RelativeMotion& end) override;
   [[nodiscard]] bool is_costly() const override { return true; }
-  [[nodiscard]] bool has_tangent() const override { return options_.coupling == Coupling::monolithic; }
+  [[nodiscard]] bool has_tangent() const override {
+    return options_.coupling == Coupling::monolithic || options_.is_steady;
+  }
   [[nodiscard]] bool has_condensed_unknowns() const override { return true; }
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override;

@@ -300,6 +300,7 @@ enum class Analysis {
   dynamics,     ///< motion under forces, integrated over time
   kinematics,   ///< motion that drives prescribe completely, and the forces it takes
   equilibrium,  ///< a state of rest under the loads at the start
+  steady,       ///< the steady motion in which drives go on as they do at the start and all else keeps still
   modes,        ///< frequencies and damping of small motions about a state
 };
 
@@ -341,6 +342,16 @@ struct Simulation {
   };
   Checkpoints checkpoint;
   SourcePosition position;
+
+  /// True if the analysis follows a motion over time; the others look at one state.
+  [[nodiscard]] bool has_duration() const {
+    return analysis == Analysis::dynamics || analysis == Analysis::kinematics ||
+           (analysis == Analysis::modes && modes_about == ModesAbout::end);
+  }
+  /// True if the state looked at is the steady motion of the drives.
+  [[nodiscard]] bool is_steady_motion() const {
+    return analysis == Analysis::steady || (analysis == Analysis::modes && modes_about == ModesAbout::turning);
+  }
 };
 
 struct Output {

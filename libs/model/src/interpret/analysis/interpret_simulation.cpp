@@ -118,12 +118,7 @@ void check_table_range(Context& context, const Function& function) {
 
 namespace {
 
-/// True if an analysis has a duration.
-bool needs_duration(const Simulation& simulation) {
-  return simulation.analysis == Analysis::dynamics || simulation.analysis == Analysis::kinematics ||
-         (simulation.analysis == Analysis::modes && simulation.modes_about == ModesAbout::end);
-}
-
+/// Refuses films that an analysis cannot have.
 void refuse_bearings(Context& context, const Value& value) {
   const Simulation& simulation = context.model.simulation;
   const Value* bearings = context.root.find("bearings");
@@ -131,10 +126,15 @@ void refuse_bearings(Context& context, const Value& value) {
   if (simulation.analysis == Analysis::kinematics) {
     context.fault(*value.find("analysis"), "a kinematic analysis of a machine with bearings",
                   "ideal joints: a film lets its journal move as forces will", "leave out `bearings`, or use dynamics");
-  } else if (simulation.analysis == Analysis::equilibrium || simulation.modes_about != ModesAbout::end) {
-    context.fault(*value.find("analysis"), "rest of a machine with bearings",
-                  "ideal joints: a film at rest carries nothing",
-                  "use dynamics with `settle`, or modes with `modes_about: end`; `hersey bearing` solves one bearing");
+    return;
+  }
+  if (simulation.has_duration()) return;
+  for (const auto& [name, bearing] : bearings->members) {
+    const Value* thermal = bearing.find("thermal");
+    if (thermal == nullptr || thermal->broken || thermal->text != "film") continue;
+    context.fault_at_key(*thermal, "temperatures of a film in a steady state of the machine", "`model: isothermal`",
+                         "use dynamics with `settle`, or modes with `modes_about: end`; `hersey bearing` solves one "
+                         "bearing with its heat");
   }
 }
 
@@ -157,7 +157,7 @@ void interpret_analysis(Context& context, const Value& value) {
   Simulation& simulation = context.model.simulation;
   simulation.analysis = meaning_of(value, "analysis", analysis_words);
   simulation.modes_about = meaning_of(value, "modes_about", modes_about_words);
-  if (needs_duration(simulation)) {
+  if (simulation.has_duration()) {
     if (value.find("duration") == nullptr && value.find("cycle") == nullptr)
       context.fault_at_key(value, "missing key 'duration'", "a time or an angle > 0, such as 0.1 s");
     if (value.find("step") == nullptr)

@@ -35,7 +35,8 @@ struct [[nodiscard]] EquilibriumSummary : Outcome {
 /// Newton's method. mu decreases with the residual and increases if a step overshoots, so that the method descends to a
 /// stable equilibrium even under full loads and converges quadratically. Theory manual eq. (integrator.25). If it
 /// fails, as for very slender beams, the load is increased in steps (integrator.26). With `steady_motion` r(q, v, 0,
-/// lambda) = 0 is solved by Newton's method, eq. (beams.8).
+/// lambda) = 0, eq. (beams.8), is solved by Newton's method, eq. (integrator.34), and if that halts, by following the
+/// motion without inertia, eq. (integrator.35).
 [[nodiscard]] EquilibriumSummary find_equilibrium(Equations& equations, State& state,
                                                   const EquilibriumOptions& options = {});
 
