@@ -113,7 +113,7 @@ TEST_CASE("JournalInABody_IsALumpedBodyOfItsConductance") {
   }
 }
 
-// Its surface held by the body's own temperatures.
+// Its surface fixed by the body's own temperatures.
 TEST_CASE("JournalWithoutResistance_HasTheTemperatureOfItsBody") {
   const FilmModel model = bearing();
   Machine body(model, thermal_with(shaft(model.grid, 0)), 0);
@@ -139,9 +139,9 @@ TEST_CASE("JournalOverCycles_IsThatOfTheSteadyFilm") {
   const FilmModel model = bearing();
   for (const double g : {0.5, 0.0}) {
     CAPTURE(g);
-    ThermalModel held = thermal_with(shaft(model.grid, g));
-    held.walls = WallMotion::held;
-    Machine machine(model, held, 4e-4);
+    ThermalModel fixed = thermal_with(shaft(model.grid, g));
+    fixed.walls = WallMotion::fixed;
+    Machine machine(model, fixed, 4e-4);
     double last = 0;
     for (int cycle = 0; cycle < 8; ++cycle) {
       machine.run(100);
@@ -167,15 +167,15 @@ TEST_CASE("JournalOverCycles_IsThatOfTheSteadyFilm") {
 // A checkpoint in the middle of a cycle keeps every bit of what follows.
 TEST_CASE("JournalOverCycles_ResumesToTheSameNumbers") {
   const FilmModel model = bearing();
-  ThermalModel held = thermal_with(shaft(model.grid, 0.5));
-  held.walls = WallMotion::held;
-  Machine machine(model, held, 4e-4);
+  ThermalModel fixed = thermal_with(shaft(model.grid, 0.5));
+  fixed.walls = WallMotion::fixed;
+  Machine machine(model, fixed, 4e-4);
   machine.run(20);
   (void)machine.settle();
   machine.run(7);
   Archive saved;
   machine.heat.persist(saved);
-  FilmHeat resumed(model, held);
+  FilmHeat resumed(model, fixed);
   Archive archive(saved.content());
   resumed.persist(archive);
   CHECK(archive.unread().empty());
@@ -197,7 +197,7 @@ TEST_CASE("ShellAndJournalInBodies_SettleTogether") {
   thermal.shell = BodyWall{.conduction = bush, .T_start = 35 + zero_celsius};
   Machine steady(model, thermal, 0);
   steady.run(turns);
-  thermal.walls = WallMotion::held;
+  thermal.walls = WallMotion::fixed;
   Machine machine(model, thermal, 4e-4);
   for (int cycle = 0; cycle < 8; ++cycle) {
     machine.run(100);

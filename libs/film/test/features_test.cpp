@@ -148,7 +148,7 @@ TEST_CASE("FedGroove_HoldsItsPressureWhateverThatOfTheCavity") {
   }
 }
 
-TEST_CASE("HeldShares_HaveTheirDerivative") {
+TEST_CASE("RowShares_HaveTheirDerivative") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
   m.grid = graded_grid(40, 9, {{.place = 0.2, .reach = 0.5, .factor = 3}}, {{.place = 0.1, .reach = 0.2, .factor = 2}});
   const GridGeometry geometry(m);

@@ -477,7 +477,7 @@ TEST_CASE("OilThatDoesNotConduct_LeavesBodiesAsTheyAre") {
     ThermalModel thermal = supplied_at_40(3);
     thermal.shell = BodyWall{.conduction = wall, .T_start = 330};
     thermal.journal = BodyJournal{.conduction = shaft, .T_start = 340};
-    thermal.walls = dt > 0 ? WallMotion::held : WallMotion::by_their_heat;
+    thermal.walls = dt > 0 ? WallMotion::fixed : WallMotion::by_their_heat;
     FilmOverTime film(model, thermal, turning(model, 0.5, 300));
     for (int k = 0; k < 3; ++k) film.advance(dt);
     if (dt > 0) {

@@ -133,7 +133,7 @@ TEST_CASE("MeanAnswerToNodes_IsThatOfTheirHeat") {
   for (const bool has_block : {true, false}) {
     CAPTURE(has_block);
     ThermalModel thermal = with_sump();
-    thermal.walls = WallMotion::held;
+    thermal.walls = WallMotion::fixed;
     if (!has_block) {  // the drain is the only node
       std::get<RingWall>(thermal.shell).surroundings = std::nullopt;
       thermal.oil = {.drain = thermal.oil.drain};
@@ -172,7 +172,7 @@ TEST_CASE("NodesOfOil_SettleOverCycles") {
     wanted.film.advance(5e-3);
     wanted.warm(5e-3);
   }
-  thermal.walls = WallMotion::held;
+  thermal.walls = WallMotion::fixed;
   Machine machine(model, thermal, 1);
   constexpr int cycles = 10, steps = 20;
   for (int cycle = 0; cycle < cycles; ++cycle) {

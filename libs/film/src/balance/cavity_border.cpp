@@ -90,10 +90,10 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
 CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const int k = model_.grid.index(i, j);
   const bool is_full = u_[k] >= -round_off_of_u();
-  const HeldNode* held = held_at(k);
+  const PrescribedNode* prescribed = prescribed_at(k);
   CavityBorder border{.node = k, .of = k, .share = is_full ? 1.0 : 0.0};
-  if (is_full || is_given(k) || (held != nullptr && held->other < 0)) return border;
-  const HeldNode line = held == nullptr ? HeldNode{.draws = 0, .way = 1} : *held;
+  if (is_full || is_given(k) || (prescribed != nullptr && prescribed->other < 0)) return border;
+  const PrescribedNode line = prescribed == nullptr ? PrescribedNode{.draws = 0, .way = 1} : *prescribed;
   border.beside = nodes_beside(model_.grid, i, j);
   const std::array<int, 4> faces = faces_around(k);
   const Node& node = nodes_[k];

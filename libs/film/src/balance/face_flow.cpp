@@ -106,11 +106,11 @@ bool FlowBalance::passes_steps(std::size_t f) const {
   return axial(f) || (speed - faces_[f].stretch * speeds_.u_journal) * speed > 0;
 }
 
-double FlowBalance::held_upstream(std::size_t f, int from, const Speeds& speeds) const {
+double FlowBalance::entrained_upstream(std::size_t f, int from, const Speeds& speeds) const {
   const Cell& cell = cells_[from];
-  double held = speeds.mean * (cell.gap + cell.depth) + speeds.half_slip * rough_[from].drag[axial(f) ? 1 : 0];
-  if (cell.turning > 0 && !axial(f)) held -= (passes_steps(f) ? speeds.journal : speeds.mean) * cell.turning;
-  return held;
+  double entrained = speeds.mean * (cell.gap + cell.depth) + speeds.half_slip * rough_[from].drag[axial(f) ? 1 : 0];
+  if (cell.turning > 0 && !axial(f)) entrained -= (passes_steps(f) ? speeds.journal : speeds.mean) * cell.turning;
+  return entrained;
 }
 
 // The oil of the node upstream, whole as it is (film.28): what its control volume holds goes on at the surfaces' mean
@@ -126,7 +126,7 @@ void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
   const PocketFlowTube* flow_tube =
       is_deep ? &relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])] : nullptr;
   const double swept = is_deep ? flow_tube->swept / faces_[f].width : 0;
-  const double little = held_upstream(f, gap.from, {speed, half_slip, journal}) + swept;
+  const double little = entrained_upstream(f, gap.from, {speed, half_slip, journal}) + swept;
   if (little * gap.full <= 0 || (is_deep && std::abs(little) <= std::abs(gap.full))) return;
   const double ratio = little / gap.full;
   if (!is_deep && (ratio > most_widening || ratio * most_widening < 1)) {
@@ -246,7 +246,7 @@ std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speed
   }
   const FaceFlow& flow = flows_[f];
   const int from = flow.couette >= 0 ? face.a : face.b;
-  const double own = held_upstream(f, from, speeds) + swept;
+  const double own = entrained_upstream(f, from, speeds) + swept;
   const double limited = flow.little_by_couette * full;
   const double little = flow.little == flow.couette ? full : flow.little_by_couette > 0 ? limited : own;
   return {face.width * full, face.width * little};

@@ -53,7 +53,7 @@ FlowBalance::FlowBalance(const FilmModel& model)
   cells_.resize(static_cast<std::size_t>(n));
   flow_tube_of_.assign(faces_.size(), -1);
   line_shares_.resize(static_cast<std::size_t>(grid.n_z));
-  held_index_.assign(n, -1);
+  prescribed_index_.assign(n, -1);
   edge_index_.assign(n, -1);
   land_index_.assign(n, -1);
 }
@@ -297,7 +297,7 @@ bool FlowBalance::lets_nothing_in(int node) const {
 
 // On an edge in air what a supply beside it would take back leaves, too.
 double FlowBalance::outflow_of_row(int node) const {
-  if (is_open(node)) return is_held(node) ? std::max(slack(node), -balance_[node]) : slack(node);
+  if (is_open(node)) return is_prescribed(node) ? std::max(slack(node), -balance_[node]) : slack(node);
   if (!is_given(node)) return 0;
   return lets_nothing_in(node) ? 0 : -balance_[node];
 }
@@ -329,24 +329,24 @@ std::size_t FlowBalance::face_at_edge(int node) const {
 // Oil that is lost where the film is cavitated comes from nowhere, but for the share that draws on the supply.
 double FlowBalance::supply_of_row(int node) const {
   const double land = over_land(node);
-  if (!is_held(node)) return land;
+  if (!is_prescribed(node)) return land;
   const double lost = is_open(node) ? 0 : (1 - draws(node)) * slack(node);
   return balance_[node] + lost + outflow_of_row(node) + land;
 }
 
 double FlowBalance::supply(int node) const {
   if (!is_beside_line(node)) return supply_of_row(node);
-  const HeldNode& held = *held_at(node);
-  return (1 - held.way) * (supply_of_row(node) + supply_of_row(held.other));
+  const PrescribedNode& prescribed = *prescribed_at(node);
+  return (1 - prescribed.way) * (supply_of_row(node) + supply_of_row(prescribed.other));
 }
 
 void FlowBalance::replace_boundary_rows() {
   for (int i = 0; i < size(); ++i) residual_[i] = balance_[i] + slack(i);
-  for (const HeldNode& held : held_) {
-    const int i = held.node;
-    const double given = tie(held).k * excess(held).value;
-    residual_[i] = (1 - held.chi) * (line_balance(i) + slack(i)) + given;
-    throughput_[i] = std::max(throughput_[i], D0_ * std::abs(held.u));
+  for (const PrescribedNode& prescribed : prescribed_) {
+    const int i = prescribed.node;
+    const double given = tie(prescribed).k * excess(prescribed).value;
+    residual_[i] = (1 - prescribed.chi) * (line_balance(i) + slack(i)) + given;
+    throughput_[i] = std::max(throughput_[i], D0_ * std::abs(prescribed.u));
   }
   for (const int node : prescribed_edge_nodes_) {
     residual_[node] = D0_ * (u_[node] - edge_unknown(node));
@@ -380,14 +380,14 @@ void FlowBalance::assemble_jacobian() {
     values_[face.slots[2]] -= q_a;
     values_[face.slots[3]] -= q_b;
   }
-  for (const HeldNode& held : held_) {
-    const int i = held.node;
-    const Tie t = tie(held);
-    const auto [above, slope] = excess(held);
-    if (held.other >= 0) add_line_by_u(held);
-    for (int slot : row_slots_[i]) values_[slot] *= 1 - held.chi;
+  for (const PrescribedNode& prescribed : prescribed_) {
+    const int i = prescribed.node;
+    const Tie t = tie(prescribed);
+    const auto [above, slope] = excess(prescribed);
+    if (prescribed.other >= 0) add_line_by_u(prescribed);
+    for (int slot : row_slots_[i]) values_[slot] *= 1 - prescribed.chi;
     values_[diagonal_slot_[i]] += t.k * slope + t.k_u * above;
-    if (held.other >= 0) values_[slot_to_other(held)] += t.k_u_other * above;
+    if (prescribed.other >= 0) values_[slot_to_other(prescribed)] += t.k_u_other * above;
   }
   for (const int node : prescribed_edge_nodes_) values_[diagonal_slot_[node]] = D0_;
 }
@@ -427,22 +427,22 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     if (!cut || !has_line_row(faces_[f].a)) dr[faces_[f].a] += q;
     if (!cut || !has_line_row(faces_[f].b)) dr[faces_[f].b] -= q;
   }
-  for (const HeldNode& held : held_) {
-    const int i = held.node;
-    const Tie t = tie(held);
-    const auto [above, slope] = excess(held);
-    if (held.other >= 0) dr[i] += line_row_along(held, direction);
+  for (const PrescribedNode& prescribed : prescribed_) {
+    const int i = prescribed.node;
+    const Tie t = tie(prescribed);
+    const auto [above, slope] = excess(prescribed);
+    if (prescribed.other >= 0) dr[i] += line_row_along(prescribed, direction);
     const SlidingChange& sliding = sliding_at(i);
-    const double chi = held.chi_line * direction.phi_supply + held.chi_journal * direction.phi_journal;
-    dr[i] = (1 - held.chi) * dr[i] - chi * (line_balance(i) + slack(i));
+    const double chi = prescribed.chi_line * direction.phi_supply + prescribed.chi_journal * direction.phi_journal;
+    dr[i] = (1 - prescribed.chi) * dr[i] - chi * (line_balance(i) + slack(i));
     double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal + t.k_rate * sliding.rate +
                t.k_turn * sliding.turn;
     if (gap) {
       k += t.k_g * direction.g[i];
-      if (held.other >= 0) k += t.k_g_other * direction.g[held.other] + t.k_bend * direction_bends_[line_face(held)];
+      if (prescribed.other >= 0) k += t.k_g_other * direction.g[prescribed.other] + t.k_bend * direction_bends_[line_face(prescribed)];
     }
     dr[i] += k * above;
-    dr[i] += t.k * draws_along(held, direction);
+    dr[i] += t.k * draws_along(prescribed, direction);
   }
   for (const int node : prescribed_edge_nodes_) dr[node] = 0;
 }

@@ -198,7 +198,7 @@ class FlowBalance {
   [[nodiscard]] double drop_over_land(int node) const;   ///< of pressure, on that way [Pa]
   [[nodiscard]] double power_over_land(int node) const;  ///< [W]
   /// Whether line or feature have a part in a node's row.
-  [[nodiscard]] bool is_held(int node) const { return held_index_[node] >= 0; }
+  [[nodiscard]] bool is_prescribed(int node) const { return prescribed_index_[node] >= 0; }
   /// Share of a node's oil that a supply has mixed [-]: 1 on line and features, on edges too where they reach these,
   /// though the edge has its own pressure there.
   [[nodiscard]] double supplied_share(int node) const;
@@ -238,7 +238,7 @@ class FlowBalance {
   /// A node whose row the supply holds wholly or in part (film.21, film.22):
   /// r = (1 - chi) (balance + slack) + tie (u - u_given); beside the line the balance is that up to the middle of the
   /// way.
-  struct HeldNode {
+  struct PrescribedNode {
     int node = 0;
     double chi = 0;            ///< share that the node's own balance loses [-]
     double chi_line = 0;       ///< with phi_supply [1/rad]
@@ -342,30 +342,30 @@ class FlowBalance {
   void lay_faces();
   void lay_pattern();
   void find_supply(const SurfaceMotion& motion);
-  void hold_line(double phi);
+  void prescribe_line(double phi);
   void find_strips(int feature, double phi, double u);
   void unite_lands();
   void clear_lands();
   [[nodiscard]] const Land* land_at(int node) const;
-  [[nodiscard]] static bool gives_way(const HeldNode& held, const HeldNode& to);
-  void hold(const HeldNode& held, bool only_oil = false);
-  [[nodiscard]] std::size_t line_face(const HeldNode& held) const;
+  [[nodiscard]] static bool yields_to(const PrescribedNode& prescribed, const PrescribedNode& to);
+  void prescribe(const PrescribedNode& prescribed, bool only_oil = false);
+  [[nodiscard]] std::size_t line_face(const PrescribedNode& prescribed) const;
   [[nodiscard]] bool has_line_row(int node) const;
   [[nodiscard]] bool is_beside_line(int node) const;  ///< with another one on the line's other side
   [[nodiscard]] double line_balance(int node) const;
   void find_carried_share(std::size_t f, const FaceGap& gap, const Carried& carried);
   [[nodiscard]] CarriedShare share_towards_line(int node, const TowardsLine& t) const;
   [[nodiscard]] double share_along(std::size_t f, const CarriedShare& share, const MotionDirection& direction) const;
-  [[nodiscard]] double thickness_towards_line(const HeldNode& held) const;
-  [[nodiscard]] FlowTubeGap gap_towards_line(const HeldNode& held, double h) const;
-  [[nodiscard]] ByGap carried_in_pockets(const HeldNode& held) const;
-  [[nodiscard]] double strip_area(const HeldNode& held) const;  ///< beyond the middle of the way to the line [m^2]
-  void add_line_by_u(const HeldNode& held);
-  [[nodiscard]] double line_row_along(const HeldNode& held, const MotionDirection& direction) const;
+  [[nodiscard]] double thickness_towards_line(const PrescribedNode& prescribed) const;
+  [[nodiscard]] FlowTubeGap gap_towards_line(const PrescribedNode& prescribed, double h) const;
+  [[nodiscard]] ByGap carried_in_pockets(const PrescribedNode& prescribed) const;
+  [[nodiscard]] double strip_area(const PrescribedNode& prescribed) const;  ///< beyond the middle of the way to the line [m^2]
+  void add_line_by_u(const PrescribedNode& prescribed);
+  [[nodiscard]] double line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
   /// u - u_given as the tie sees it [Pa], and its slope.
-  [[nodiscard]] ValueAndSlope excess(const HeldNode& held) const;
-  [[nodiscard]] double draws_along(const HeldNode& held, const MotionDirection& direction) const;
-  [[nodiscard]] int slot_to_other(const HeldNode& held) const;
+  [[nodiscard]] ValueAndSlope excess(const PrescribedNode& prescribed) const;
+  [[nodiscard]] double draws_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
+  [[nodiscard]] int slot_to_other(const PrescribedNode& prescribed) const;
   void add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const;
   [[nodiscard]] double step_speed(std::size_t f, const PocketFlowTube& flow_tube) const;  ///< of a pocket's steps [m/s]
   /// The same around the bearing, from the mean speed and the journal's; linear, so that it serves for changes as well.
@@ -376,7 +376,7 @@ class FlowBalance {
   /// Whether oil that a pocket of the journal holds comes past its step over face f.
   [[nodiscard]] bool passes_steps(std::size_t f) const;
   /// What the control volume of the node upstream holds, as far as it goes on over face f, per width [m^2/s].
-  [[nodiscard]] double held_upstream(std::size_t f, int from, const Speeds& speeds) const;
+  [[nodiscard]] double entrained_upstream(std::size_t f, int from, const Speeds& speeds) const;
   [[nodiscard]] const Node& upstream(std::size_t f) const {
     return nodes_[flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b];
   }
@@ -384,10 +384,10 @@ class FlowBalance {
   [[nodiscard]] SlidingChange change_of_sliding(const MotionDirection& direction, int j) const;
   /// Change of the flow over face f with the surfaces.
   [[nodiscard]] double flow_along(std::size_t f, const MotionDirection& direction) const;
-  [[nodiscard]] const HeldNode* held_at(int node) const;
-  [[nodiscard]] const HeldNode* supplied_at(int node) const;
-  [[nodiscard]] Tie tie(const HeldNode& held) const;
-  [[nodiscard]] Tie tie_to_line(const HeldNode& held) const;
+  [[nodiscard]] const PrescribedNode* prescribed_at(int node) const;
+  [[nodiscard]] const PrescribedNode* supplied_at(int node) const;
+  [[nodiscard]] Tie tie(const PrescribedNode& prescribed) const;
+  [[nodiscard]] Tie tie_to_line(const PrescribedNode& prescribed) const;
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
   /// States of the nodes, and the storage in their control volumes into the balance.
@@ -477,9 +477,9 @@ class FlowBalance {
   std::vector<CarriedShare> line_shares_;  ///< of the faces that it cuts, by their axial row
   SurfaceMotion speeds_;
   std::vector<Sliding> sliding_;  ///< of the rows
-  std::vector<HeldNode> held_;
-  std::vector<int> held_index_;          ///< of every node its place in held_, -1 for none
-  std::vector<HeldNode> held_at_edges_;  ///< would be held if their edges had no pressure of their own
+  std::vector<PrescribedNode> prescribed_;
+  std::vector<int> prescribed_index_;          ///< of every node its place in prescribed_, -1 for none
+  std::vector<PrescribedNode> supplied_edge_nodes_;  ///< would be held if their edges had no pressure of their own
   std::vector<int> edge_index_;          ///< likewise
   std::vector<Land> lands_;
   std::vector<LandStrip> strips_;

@@ -34,7 +34,7 @@ void FlowBalance::find_strips(int f, double phi, double u) {
         strips_.push_back({node, grid.index(i, next), f, from, to, 1 / land - 1 / flow_tube, u});
         touches = true;
       }
-      if (touches) hold({.node = node, .feature = f, .u = u, .inwards = -land / half}, true);
+      if (touches) prescribe({.node = node, .feature = f, .u = u, .inwards = -land / half}, true);
     }
   }
 }

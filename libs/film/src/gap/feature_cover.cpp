@@ -60,7 +60,7 @@ Share ramp(double d, double half, double step) {
 }
 
 /// Row shares (film.22): the conductance from a node to the feature's edge where that is a share of one cell away.
-Share held(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double unit) {
+Share row_share(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double unit) {
   const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / s.R);
   const double along = ramp(s.z, 0.5 * feature.length, s.to_z).value;
   const double covered = around.value * along;
@@ -96,7 +96,7 @@ Share ellipse_share(const Surroundings& s, double half_arc, double half_length) 
   return share;
 }
 
-Share held(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double /*unit*/) {
+Share row_share(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double /*unit*/) {
   // Grown by half a cell all around, as the ramps of a rectangle are: its edge then lies where the ellipse's does.
   const Share covered =
       ellipse_share(s, 0.5 * (feature.arc + s.back + s.ahead), 0.5 * (feature.length + s.below + s.above));
@@ -198,7 +198,7 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
       const Surroundings s = surroundings(grid, geometry, i, j, d, geometry.z[j] - feature.z);
       if (std::abs(d) >= 0.5 * feature.arc + s.to_phi / s.R) break;
       if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
-      const Share share = std::visit([&](const auto& shape) { return held(shape, feature, s, unit); }, feature.shape);
+      const Share share = std::visit([&](const auto& shape) { return row_share(shape, feature, s, unit); }, feature.shape);
       const double inwards =
           1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
       if (share.value == 0) continue;

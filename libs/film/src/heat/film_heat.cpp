@@ -98,7 +98,7 @@ struct FilmHeat::Impl {
   [[nodiscard]] const Eigen::VectorXd& viscosities_at_rest();
   [[nodiscard]] Eigen::VectorXd viscosities();
   void thin();
-  [[nodiscard]] bool holds_walls() const { return thermal.walls == WallMotion::held; }
+  [[nodiscard]] bool has_fixed_walls() const { return thermal.walls == WallMotion::fixed; }
   void show_rest();
   /// What is to be seen of the last answer, worked out when it is asked for: iterations of film and heat do not need
   /// it.
@@ -117,7 +117,7 @@ struct FilmHeat::Impl {
   LayerFlows flows;
   HeatEquations equations;
   HeatState state;
-  WallsOverCycles held_walls{thermal};
+  WallsOverCycles fixed_walls{thermal};
   HeatState start_of_step, end_of_step;
   bool is_observed = true;
   double dt = 0;                   // of the last step [s]
@@ -250,7 +250,7 @@ Eigen::VectorXd FilmHeat::shell_opening() const {
 // Before it has settled the body is as warm everywhere (thermal.39).
 Eigen::VectorXd FilmHeat::shell_opening_in_time() const {
   const WallConduction* wall = conduction_of(impl_->thermal.shell);
-  if (wall == nullptr || !wall->deforms() || impl_->held_walls.have_settled()) return shell_opening();
+  if (wall == nullptr || !wall->deforms() || impl_->fixed_walls.have_settled()) return shell_opening();
   return wall->shape_by_rise * (impl_->state.shell.mean() - wall->T_reference);
 }
 
@@ -262,7 +262,7 @@ Eigen::VectorXd FilmHeat::journal_growth() const {
 // Likewise (thermal.62).
 Eigen::VectorXd FilmHeat::journal_growth_in_time() const {
   const JournalConduction* journal = conduction_of(impl_->thermal.journal);
-  if (journal == nullptr || !journal->deforms() || impl_->held_walls.have_settled()) return journal_growth();
+  if (journal == nullptr || !journal->deforms() || impl_->fixed_walls.have_settled()) return journal_growth();
   return journal->shape_by_rise * (impl_->state.journal - journal->T_reference);
 }
 
@@ -317,7 +317,7 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   if (m.shears_layers()) m.thin();
   m.end_of_step = m.state;
   m.is_observed = false;
-  if (terminals_of(m.thermal).has_any() && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
+  if (terminals_of(m.thermal).has_any() && !(m.has_fixed_walls() && m.dt > 0)) m.find_exchange();
 }
 
 // What walls that are nodes take up, and by how much more of a film that follows them (thermal.46).
@@ -391,14 +391,14 @@ double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, c
 
 const WallExchange& FilmHeat::mean_exchange() {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(m.holds_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
-  return m.held_walls.end_cycle(m.equations.mean(), m.state);
+  HERSEY_REQUIRE(m.has_fixed_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
+  return m.fixed_walls.end_cycle(m.equations.mean(), m.state);
 }
 
 WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
   Impl& m = *impl_;
   (void)m.look();  // of the step before
-  const WallCorrection correction = m.held_walls.settle(T_nodes, m.state);
+  const WallCorrection correction = m.fixed_walls.settle(T_nodes, m.state);
   m.average_walls();
   return correction;
 }
@@ -415,11 +415,11 @@ void FilmHeat::Impl::observe() {
   observed.balance = equations.balance(film, start_of_step, end_of_step);
   observed.T_supplies = end_of_step.supplies;
   if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
-    observed.T_body_max = dt > 0 && !held_walls.have_settled() ? end_of_step.shell.maxCoeff()
+    observed.T_body_max = dt > 0 && !fixed_walls.have_settled() ? end_of_step.shell.maxCoeff()
                                                                : wall->body(end_of_step.wall_heat).maxCoeff();
   if (const JournalConduction* body = conduction_of(thermal.journal); body != nullptr && body->T_body0.size() > 0)
     observed.T_journal_body_max =
-        dt > 0 && !held_walls.have_settled() ? end_of_step.journal : body->body(end_of_step.journal_heat).maxCoeff();
+        dt > 0 && !fixed_walls.have_settled() ? end_of_step.journal : body->body(end_of_step.journal_heat).maxCoeff();
   show_surfaces(film);
   find_hottest();
   average(film);
@@ -500,9 +500,9 @@ void FilmHeat::persist(Archive& archive) {
   archive.io("T_supplies", impl_->state.supplies);
   if (impl_->state.outside.size() > 0) archive.io("T_outside", impl_->state.outside);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
-  if (!impl_->holds_walls()) return;
+  if (!impl_->has_fixed_walls()) return;
   impl_->equations.mean().persist(archive);
-  impl_->held_walls.persist(archive);
+  impl_->fixed_walls.persist(archive);
 }
 
 }  // namespace hersey::film

@@ -36,11 +36,11 @@ void HeatEquations::assemble(const CarryingFilm& film, const HeatState& start) {
   add_conduction(film);
   add_shell(film, start);
   add_journal(film);
-  if (holds_walls(film)) add_equations_to_mean(film, start);
+  if (has_fixed_walls(film)) add_equations_to_mean(film, start);
   add_supplies(film, start);
   renew(film);
   add_remainder(film, start);
-  if (holds_walls(film)) hold_walls(start);
+  if (has_fixed_walls(film)) fix_walls(start);
 }
 
 // Where nothing flows, threads are those of the film's own oil once a second.
@@ -220,7 +220,7 @@ void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& fil
   const int n = model_.grid.n_phi, first = system_.ring_row(0);
   if (film.dt > 0) {
     system_.set_answer(nullptr, 1);
-    if (holds_walls(film)) return;
+    if (has_fixed_walls(film)) return;
     for (int node = 0; node < model_.grid.size(); ++node) system_.from_film(node, 0) = system_.from_film(node, 1) = 0;
     for (int i = 0; i < n; ++i) {
       system_.diagonal(first + i) = 1;
@@ -247,7 +247,7 @@ void HeatEquations::add_ring(const CarryingFilm& film, const HeatState& start) {
     system_.diagonal(row) += ring_.outside[i];
     known_[row] += ring_.outside[i] * at_ring(outside_);
     if (at_.ambient) by_outside_(row, at_.place_of_ambient()) += ring_.outside[i];
-    if (film.dt == 0 || holds_walls(film)) continue;
+    if (film.dt == 0 || has_fixed_walls(film)) continue;
     system_.diagonal(row) += ring_.capacity[i] / film.dt;
     known_[row] += ring_.capacity[i] / film.dt * start.shell[i];
   }
@@ -292,45 +292,45 @@ void HeatEquations::add_walls_of_film(const CarryingFilm& film, const HeatState&
 
 // A line has no width: what is dissipated at its nodes warms the film's oil at its place, and not all that the line
 // mixes; as much in all layers, which it mixes as well.
-void HeatEquations::add_film_on_line(const CarryingFilm& film, const Held& held, const Eigen::VectorXd& taken_on) {
+void HeatEquations::add_film_on_line(const CarryingFilm& film, const SuppliedNode& supplied, const Eigen::VectorXd& taken_on) {
   double heat = 0;
-  for (int l = 0; l < layers(); ++l) heat += held.chi * film.flows.dissipation(held.node, l);
+  for (int l = 0; l < layers(); ++l) heat += supplied.chi * film.flows.dissipation(supplied.node, l);
   const double all = taken_on.sum();
-  for (int l = 0; l < layers() && all > 0; ++l) known_[system_.row(held.node, l)] += heat * taken_on[l] / all;
+  for (int l = 0; l < layers() && all > 0; ++l) known_[system_.row(supplied.node, l)] += heat * taken_on[l] / all;
 }
 
 // Oil comes out of a supply with the temperature there; of what passes a node, the supply's share takes it on
 // (thermal.14).
 void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& start) {
-  held_.clear();
+  supplied_nodes_.clear();
   supply_of_.assign(static_cast<std::size_t>(model_.grid.size()), -1);
   for (int node = 0; node < model_.grid.size(); ++node) {
     if (!film.balance.is_supplied(node)) continue;
-    Held held{.node = node,
+    SuppliedNode supplied{.node = node,
               .supply = film.balance.supplied_by(node) + (has_line() ? 1 : 0),
               .chi = film.balance.supplied_share(node),
               .flow = film.balance.supply(node)};
-    supply_of_[node] = held.supply;
+    supply_of_[node] = supplied.supply;
     const double thread = least_fill_ * throughput(film);
     Eigen::VectorXd taken_on(layers());
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
-      const double share = held.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
-      const double in = rc_ * std::max(held.flow, 0.0) * share, passing = rc_ * inflow_[row];
-      held.rows.push_back(
+      const double share = supplied.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
+      const double in = rc_ * std::max(supplied.flow, 0.0) * share, passing = rc_ * inflow_[row];
+      supplied.rows.push_back(
           {system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row], by_outside_.row(row)});
-      held.rows.back().entries.front().second += rc_ * held.flow * share;
-      taken_on[l] = held.chi * std::max(passing + in, rc_ * thread * width(l));
+      supplied.rows.back().entries.front().second += rc_ * supplied.flow * share;
+      taken_on[l] = supplied.chi * std::max(passing + in, rc_ * thread * width(l));
       system_.diagonal(row) += in;
-      system_.scale(row, 1 - held.chi);
-      known_[row] *= 1 - held.chi, by_shell_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
-      by_outside_.row(row) *= 1 - held.chi;
+      system_.scale(row, 1 - supplied.chi);
+      known_[row] *= 1 - supplied.chi, by_shell_[row] *= 1 - supplied.chi, by_journal_[row] *= 1 - supplied.chi;
+      by_outside_.row(row) *= 1 - supplied.chi;
       system_.diagonal(row) += taken_on[l];
-      by_supply_[row] = (1 - held.chi) * in + taken_on[l];
+      by_supply_[row] = (1 - supplied.chi) * in + taken_on[l];
     }
-    add_walls_of_film(film, start, node, held.chi);
-    if (is_line(held.supply)) add_film_on_line(film, held, taken_on);
-    held_.push_back(std::move(held));
+    add_walls_of_film(film, start, node, supplied.chi);
+    if (is_line(supplied.supply)) add_film_on_line(film, supplied, taken_on);
+    supplied_nodes_.push_back(std::move(supplied));
   }
 }
 
@@ -350,11 +350,11 @@ void HeatEquations::find_mixed_shares(const CarryingFilm& film) {
           came[system_.row(to, l)] += std::abs(q) * mixed_share_[system_.row(from, l)];
       }
     }
-    for (const Held& held : held_) {
+    for (const SuppliedNode& supplied : supplied_nodes_) {
       for (int l = 0; l < layers(); ++l) {
-        const int row = system_.row(held.node, l);
-        const double given = std::max(held.flow, 0.0) * width(l), passing = inflow_[row];
-        const double own = given + held.chi * passing + (1 - held.chi) * came[row];
+        const int row = system_.row(supplied.node, l);
+        const double given = std::max(supplied.flow, 0.0) * width(l), passing = inflow_[row];
+        const double own = given + supplied.chi * passing + (1 - supplied.chi) * came[row];
         mixed_share_[row] = passing + given > 0 ? std::min(1.0, own / (passing + given)) : 1;
       }
     }
@@ -367,25 +367,25 @@ void HeatEquations::renew(const CarryingFilm& film) {
   renewals_.clear();
   if (thermal_.carry_over == 1) return;
   find_mixed_shares(film);
-  std::vector<const Held*> held_at(static_cast<std::size_t>(model_.grid.size()), nullptr);
-  for (const Held& held : held_) held_at[static_cast<std::size_t>(held.node)] = &held;
+  std::vector<const SuppliedNode*> supplied_at(static_cast<std::size_t>(model_.grid.size()), nullptr);
+  for (const SuppliedNode& supplied : supplied_nodes_) supplied_at[static_cast<std::size_t>(supplied.node)] = &supplied;
   const double replaced = (1 - thermal_.carry_over) * rc_;
   const auto& faces = film.balance.faces();
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (int l = 0; l < layers(); ++l) {
       const double q = film.flows.over_face(f, l);
       const int from = q > 0 ? faces[f].a : faces[f].b;
-      const Held* held = held_at[static_cast<std::size_t>(q > 0 ? faces[f].b : faces[f].a)];
-      if (held == nullptr || q == 0) continue;
-      const int to = system_.row(held->node, l);
+      const SuppliedNode* supplied = supplied_at[static_cast<std::size_t>(q > 0 ? faces[f].b : faces[f].a)];
+      if (supplied == nullptr || q == 0) continue;
+      const int to = system_.row(supplied->node, l);
       const double taken =
-          std::min(1.0, std::max(-held->flow, 0.0) * film.flows.leaving_share(held->node, l) / inflow_[to]);
-      const double heat = replaced * (held->chi + (1 - held->chi) * taken) * std::abs(q);
+          std::min(1.0, std::max(-supplied->flow, 0.0) * film.flows.leaving_share(supplied->node, l) / inflow_[to]);
+      const double heat = replaced * (supplied->chi + (1 - supplied->chi) * taken) * std::abs(q);
       const double mixed_share = mixed_share_[system_.row(from, l)];
       // What another supply has mixed is its own matter.
-      const bool is_same = supply_of_[from] == held->supply;
+      const bool is_same = supply_of_[from] == supplied->supply;
       renewals_.push_back(
-          {held->supply, system_.row(from, l), is_same ? heat : (1 - mixed_share) * heat, is_same ? mixed_share : 0});
+          {supplied->supply, system_.row(from, l), is_same ? heat : (1 - mixed_share) * heat, is_same ? mixed_share : 0});
     }
   }
 }
@@ -409,7 +409,7 @@ void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& s
     if (body != nullptr) {
       journal_self_ += 1 / body->rise;
       known_[journal] += body->T0 / body->rise;
-    } else if (film.dt > 0 && !holds_walls(film)) {
+    } else if (film.dt > 0 && !has_fixed_walls(film)) {
       journal_self_ += heat_capacity / film.dt;
       known_[journal] += heat_capacity / film.dt * start.journal;
     }
@@ -423,12 +423,12 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
   add_journal_row(film, start);
   const double thread = rc_ * kThreadOfSupply * throughput(film);
   std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
-  for (const Held& held : held_) {
-    flow[held.supply] += held.flow;
-    for (const Held::Row& row : held.rows) {
-      known_[journal + 1 + held.supply] += row.known;
-      by_shell_[journal + 1 + held.supply] += row.by_shell;
-      by_outside_.row(journal + 1 + held.supply) += row.by_outside;
+  for (const SuppliedNode& supplied : supplied_nodes_) {
+    flow[supplied.supply] += supplied.flow;
+    for (const SuppliedNode::Row& row : supplied.rows) {
+      known_[journal + 1 + supplied.supply] += row.known;
+      by_shell_[journal + 1 + supplied.supply] += row.by_shell;
+      by_outside_.row(journal + 1 + supplied.supply) += row.by_outside;
     }
   }
   const auto give = [&](int supply, double heat) {  // oil at the temperature of fresh oil

@@ -176,7 +176,7 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
     }
   }
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
-  for (const Held& held : held_) flow[held.supply] += held.flow;
+  for (const SuppliedNode& supplied : supplied_nodes_) flow[supplied.supply] += supplied.flow;
   for (int k = 0; k < supplies(); ++k)
     sum.to_oil += renewed(end, k) - rc_ * flow[k] * ((flow[k] > 0 ? fresh(k, end.outside) : end.supplies[k]) - T0);
   return sum;

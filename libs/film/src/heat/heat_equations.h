@@ -58,7 +58,7 @@ class HeatEquations {
   [[nodiscard]] double into_shell(const CarryingFilm& film, const HeatState& state, int node) const;
   [[nodiscard]] double into_journal(const CarryingFilm& film, const HeatState& state, int node) const;
   [[nodiscard]] const RingConductances& ring() const { return ring_; }
-  /// Of walls that are held (WallMotion::held), the means of the steps solved since they settled.
+  /// Of walls that are held (WallMotion::fixed), the means of the steps solved since they settled.
   [[nodiscard]] MeanHeat& mean() { return mean_; }
 
   /// Of oil supplied, before it meets what is in the groove [K]. @param outside  of HeatState
@@ -67,7 +67,7 @@ class HeatEquations {
 
  private:
   /// A node in whose rows a supply has a part, and those rows without it.
-  struct Held {
+  struct SuppliedNode {
     int node = 0, supply = 0;
     double chi = 0;   ///< share of the supply [-]
     double flow = 0;  ///< of oil out of it [m^3/s]
@@ -137,15 +137,15 @@ class HeatEquations {
   [[nodiscard]] double heat_into_journal(const CarryingFilm& film, const HeatState& state) const;
   void add_journal(const CarryingFilm& film);
   void add_walls_of_film(const CarryingFilm& film, const HeatState& start, int node, double chi);
-  void add_film_on_line(const CarryingFilm& film, const Held& held, const Eigen::VectorXd& taken_on);
+  void add_film_on_line(const CarryingFilm& film, const SuppliedNode& supplied, const Eigen::VectorXd& taken_on);
   void add_supplies(const CarryingFilm& film, const HeatState& start);
   void find_mixed_shares(const CarryingFilm& film);
   void renew(const CarryingFilm& film);
   [[nodiscard]] double renewed(const HeatState& state, int supply) const;
   void add_journal_row(const CarryingFilm& film, const HeatState& start);
   void add_remainder(const CarryingFilm& film, const HeatState& start);
-  [[nodiscard]] bool holds_walls(const CarryingFilm& film) const;
-  void hold_walls(const HeatState& start);
+  [[nodiscard]] bool has_fixed_walls(const CarryingFilm& film) const;
+  void fix_walls(const HeatState& start);
   void hold_journal(double T);
   [[nodiscard]] std::vector<double> fresh_shares(const CarryingFilm& film) const;
   void add_equations_to_mean(const CarryingFilm& film, const HeatState& start);
@@ -198,7 +198,7 @@ class HeatEquations {
   Eigen::VectorXd storage_;  ///< of the layers, in their diagonals beside supplies [W/K]
   solver::Gmres gmres_;
   int most_iterations_ = 120;
-  std::vector<Held> held_;
+  std::vector<SuppliedNode> supplied_nodes_;
   Eigen::VectorXd inflow_;       ///< of each layer over its faces and edges [m^3/s]
   Eigen::VectorXd mixed_share_;  ///< share of each layer's oil that the supply of its node has mixed [-]
 };

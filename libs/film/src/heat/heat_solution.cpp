@@ -43,9 +43,9 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   if (rows > start.film.size()) end.shell = x.segment(start.film.size(), model_.grid.n_phi);
   end.journal = x[rows];
   end.supplies = x.tail(supplies());
-  if (conduction_of(thermal_.shell) != nullptr && !holds_walls(film)) end.wall_heat = heat_into_shell(film, end);
-  if (conduction_of(thermal_.journal) != nullptr && !holds_walls(film)) end.journal_heat = heat_into_journal(film, end);
-  if (holds_walls(film)) add_heat_to_mean(film, start, end);
+  if (conduction_of(thermal_.shell) != nullptr && !has_fixed_walls(film)) end.wall_heat = heat_into_shell(film, end);
+  if (conduction_of(thermal_.journal) != nullptr && !has_fixed_walls(film)) end.journal_heat = heat_into_journal(film, end);
+  if (has_fixed_walls(film)) add_heat_to_mean(film, start, end);
   return end;
 }
 
@@ -88,10 +88,10 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   for (int node = 0; journal_moves_ && node < model_.grid.size(); ++node)
     for (const auto& [row, entry] : journal_entries(node)) entries.emplace_back(rows, row, entry);
   for (int s = 0; s < supplies(); ++s) entries.emplace_back(rows + 1 + s, rows + 1 + s, supply_self_[s]);
-  for (const Held& held : held_) {
-    for (const Held::Row& row : held.rows) {
-      add(rows + 1 + held.supply, row.entries);
-      entries.emplace_back(rows + 1 + held.supply, rows, -row.by_journal);
+  for (const SuppliedNode& supplied : supplied_nodes_) {
+    for (const SuppliedNode::Row& row : supplied.rows) {
+      add(rows + 1 + supplied.supply, row.entries);
+      entries.emplace_back(rows + 1 + supplied.supply, rows, -row.by_journal);
     }
   }
   for (const Renewal& renewal : renewals_) {
@@ -134,7 +134,7 @@ std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& f
       oil.emplace_back(system_.row(node, l), rc_ * out * film.flows.leaving_share(node, l));
   }
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
-  for (const Held& held : held_) flow[held.supply] += held.flow;
+  for (const SuppliedNode& supplied : supplied_nodes_) flow[supplied.supply] += supplied.flow;
   for (int s = 0; s < supplies(); ++s)
     if (flow[s] < 0) oil.emplace_back(system_.size() + 1 + s, -rc_ * flow[s]);
   for (const Renewal& renewal : renewals_) {
@@ -195,9 +195,9 @@ void HeatEquations::multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd
   for (int node = 0; journal_moves_ && node < model_.grid.size(); ++node)
     for (const auto& [row, entry] : journal_entries(node)) y[rows] += entry * x[row];
   for (int s = 0; s < supplies(); ++s) y[rows + 1 + s] = supply_self_[s] * x[rows + 1 + s];
-  for (const Held& held : held_) {
-    double& sum = y[rows + 1 + held.supply];
-    for (const Held::Row& row : held.rows) {
+  for (const SuppliedNode& supplied : supplied_nodes_) {
+    double& sum = y[rows + 1 + supplied.supply];
+    for (const SuppliedNode::Row& row : supplied.rows) {
       for (const auto& [column, entry] : row.entries) sum += entry * x[column];
       sum -= row.by_journal * x[rows];
     }
@@ -222,8 +222,8 @@ void HeatEquations::precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) c
 // The sweep begins at a supply, where temperatures are known best.
 void HeatEquations::prepare_sweeps(const CarryingFilm& film) {
   int first = 0;
-  for (const Held& held : held_)
-    if (held.chi > 0.5) first = held.node / model_.grid.n_z;
+  for (const SuppliedNode& supplied : supplied_nodes_)
+    if (supplied.chi > 0.5) first = supplied.node / model_.grid.n_z;
   system_.prepare(first, film.balance.speed_phi() >= 0);
   const int rows = system_.size(), ends = 1 + supplies();
   by_remainder_.setZero(rows, ends);

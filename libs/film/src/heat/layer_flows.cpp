@@ -30,9 +30,9 @@ Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node) {
 }
 
 Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
-  const double held = 1 - balance.balance_share(node);
+  const double supply_share = 1 - balance.balance_share(node);
   const Eigen::Vector2d smooth = pressure_gradient(balance, node);
-  if (held == 0) return smooth;
+  if (supply_share == 0) return smooth;
   const Grid& grid = balance.model().grid;
   const GridGeometry& geometry = balance.geometry();
   const int i = node / grid.n_z, j = node % grid.n_z, last = grid.before(i), next = grid.next(i);
@@ -47,7 +47,7 @@ Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
                after = next < 0 ? 0 : slope(node, grid.index(next, j), geometry.step(i, j));
   const double below = j > 0 ? slope(node - 1, node, geometry.dz[j - 1]) : 0,
                above = j + 1 < grid.n_z ? slope(node, node + 1, geometry.dz[j]) : 0;
-  return (1 - held) * smooth + held * Eigen::Vector2d(weighted(before, after), weighted(below, above));
+  return (1 - supply_share) * smooth + supply_share * Eigen::Vector2d(weighted(before, after), weighted(below, above));
 }
 
 WithinLayers within_layers(const Lubricant& oil) {

@@ -38,7 +38,7 @@ Across across(const GridGeometry& geometry) {
 double oil_over_land(const FlowBalance& balance, int node) {
   if (balance.over_land(node) == 0) return 0;
   const double edge = balance.is_open(node) ? 0 : balance.edge_unknown(node);
-  const double counted = balance.is_held(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
+  const double counted = balance.is_prescribed(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
   return (oil_work(balance.model().lubricant, edge + balance.drop_over_land(node)) - counted) * balance.over_land(node);
 }
 
@@ -110,7 +110,7 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
       o.power_film += balance.power_over_land(k);
       o.power_asperity += area * node.asperity * wrench.friction_power_per_contact(j);
       // What the supply feeds comes at its own pressure: the way to the node dissipates (FlowBalance::power_of_tie).
-      if (balance.is_held(k)) o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
+      if (balance.is_prescribed(k)) o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
       o.power_oil += work * balance.outflow(k) - oil_over_land(balance, k);
       o.power_stored +=
           area * (work * balance.storage(k) / balance.area(k) - (node.wall + node.asperity) * motion.g_rate[k]);

@@ -50,7 +50,7 @@ class FilmHeat {
   /// largest change of a logarithm of viscosity [-]
   double thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
-  /// Returns the heat that fixed walls (WallMotion::held) take up if they are nodes, as means over all steps since the
+  /// Returns the heat that fixed walls (WallMotion::fixed) take up if they are nodes, as means over all steps since the
   /// last call; rings and journals of their own temperature follow. @throws ContractError without a step since then
   const WallExchange& mean_exchange();
   /// Sets, after mean_exchange(), the nodes' temperatures in the order of exchange().T [K]. Rings and journals of their

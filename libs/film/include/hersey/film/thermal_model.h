@@ -94,7 +94,7 @@ struct SurfaceMaterial {
 /// What rings and free journals do in a simulation.
 enum class WallMotion {
   by_their_heat,  ///< warm as their heat capacity lets them
-  held,           ///< keep their temperatures until FilmHeat::settle_walls()
+  fixed,          ///< keep their temperatures until FilmHeat::settle_walls()
 };
 
 /// What a film's heat depends on beside the film (theory manual, chapter thermal).

@@ -13,12 +13,12 @@ constexpr double least_storage = 1e-6;
 
 }  // namespace
 
-bool HeatEquations::holds_walls(const CarryingFilm& film) const {
-  return film.dt > 0 && thermal_.walls == WallMotion::held;
+bool HeatEquations::has_fixed_walls(const CarryingFilm& film) const {
+  return film.dt > 0 && thermal_.walls == WallMotion::fixed;
 }
 
 // The walls' rows say that temperatures stay.
-void HeatEquations::hold_walls(const HeatState& start) {
+void HeatEquations::fix_walls(const HeatState& start) {
   if (has_own_temperatures(thermal_.shell)) {
     system_.hold_ring();
     known_.segment(system_.ring_row(0), model_.grid.n_phi) = start.shell;
@@ -54,19 +54,19 @@ OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std
   const Eigen::Index drain = at_.place_of_drain(), edges = at_.place_of_oil(thermal_.oil.edges);
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double out = film.balance.outflow(node), given = film.balance.supply(node);
-    const bool is_held = film.balance.is_supplied(node);
-    const int supply = is_held ? film.balance.supplied_by(node) + (has_line() ? 1 : 0) : -1;
-    const double share = is_held ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
-    const double replaced = is_held ? (1 - thermal_.carry_over) * film.balance.supplied_share(node) : 0;
+    const bool is_supplied = film.balance.is_supplied(node);
+    const int supply = is_supplied ? film.balance.supplied_by(node) + (has_line() ? 1 : 0) : -1;
+    const double share = is_supplied ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
+    const double replaced = is_supplied ? (1 - thermal_.carry_over) * film.balance.supplied_share(node) : 0;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       if (edges >= 0 && out < 0) mean.by(row, edges) -= rc_ * out * width(l);
-      if (const Eigen::Index oil = is_held ? oil_of(supply) : -1; oil >= 0)
+      if (const Eigen::Index oil = is_supplied ? oil_of(supply) : -1; oil >= 0)
         mean.by(row, oil) += rc_ * (share * width(l) + replaced * inflow_[row]);
       if (drain < 0) continue;
       if (out > 0) take(drain, row, rc_ * out * film.flows.leaving_share(node, l));
-      if (is_held && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_share(node, l));
-      if (is_held) take(drain, row, rc_ * replaced * inflow_[row]);
+      if (is_supplied && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_share(node, l));
+      if (is_supplied) take(drain, row, rc_ * replaced * inflow_[row]);
     }
   }
   return mean;
