@@ -124,7 +124,7 @@ TEST_CASE("Grids_KeepWhatTheyAreNotAskedToChange") {
   CHECK(finer.n_z == 9);
   CHECK(finer.patches.size() == 2);
   for (int i = 0; i < pads.n_phi; ++i) CHECK(finer.phi(i) == pads.phi(i));
-  const Grid along = graded_grid(24, 9, {}, {{.place = 0.5, .reach = 0.1, .factor = 4}});
+  const Grid along = graded_grid(24, 9, {}, {{.position = 0.5, .reach = 0.1, .factor = 4}});
   CHECK(along.angles.empty());  // equal angles
   CHECK(along.z_over_L(8) - along.z_over_L(7) < along.z_over_L(1) - along.z_over_L(0));
 }

@@ -71,8 +71,8 @@ State rough_state(Cavitation cavitation, bool all_laws, bool transient, const Gr
 }
 
 State graded_state() {
-  const Grid grid =
-      graded_grid(14, 6, {{.place = 1.0, .reach = 0.6, .factor = 3}}, {{.place = 0.5, .reach = 0.2, .factor = 3}});
+  const Grid grid = graded_grid(14, 6, {{.position = 1.0, .reach = 0.6, .factor = 3}},
+                                {{.position = 0.5, .reach = 0.2, .factor = 3}});
   State s = rough_state(Cavitation::mass_conserving, true, true, grid);
   s.name = "graded grid";
   return s;

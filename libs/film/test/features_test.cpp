@@ -150,7 +150,8 @@ TEST_CASE("FedGroove_HoldsItsPressureWhateverThatOfTheCavity") {
 
 TEST_CASE("RowShares_HaveTheirDerivative") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
-  m.grid = graded_grid(40, 9, {{.place = 0.2, .reach = 0.5, .factor = 3}}, {{.place = 0.1, .reach = 0.2, .factor = 2}});
+  m.grid = graded_grid(40, 9, {{.position = 0.2, .reach = 0.5, .factor = 3}},
+                       {{.position = 0.1, .reach = 0.2, .factor = 2}});
   const GridGeometry geometry(m);
   for (const FeatureShape& shape : std::vector<FeatureShape>{Rectangle{}, Ellipse{}}) {
     const SurfaceFeature feature{

@@ -250,7 +250,7 @@ TEST_CASE("FixedWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
   Machine by_temperature(model, thermal, 0.1);
   thermal.oil.line = NetworkNode{.T = 40 + zero_celsius, .node = 0, .name = "oil"};
   std::get<RingWall>(thermal.shell).surroundings = NetworkNode{.T = 30 + zero_celsius, .node = 1, .name = "air"};
-  REQUIRE(terminals_of(thermal).place_of_drain() == -1);
+  REQUIRE(terminals_of(thermal).index_of_drain() == -1);
   Machine by_node(model, thermal, 0.1);
   ThermalNetwork network(
       {.nodes = {{"oil", 0, 40 + zero_celsius, true}, {"air", 0, 30 + zero_celsius, true}}, .paths = {}});

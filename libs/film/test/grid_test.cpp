@@ -12,8 +12,8 @@ constexpr double kRoundOff = 1e-14;  // of sums over a row of nodes
 constexpr double kWeights = 1e-13;   // round-off of weights, sums of a few products
 
 const Grid graded =
-    graded_grid(48, 11, {{.place = 3, .reach = 0.4, .factor = 4}},
-                {{.place = -0.5, .reach = 0.1, .factor = 3}, {.place = 0.5, .reach = 0.1, .factor = 3}});
+    graded_grid(48, 11, {{.position = 3, .reach = 0.4, .factor = 4}},
+                {{.position = -0.5, .reach = 0.1, .factor = 3}, {.position = 0.5, .reach = 0.1, .factor = 3}});
 
 FilmModel on(const Grid& grid) { return {.R = 0.025, .L = 0.02, .c = 25e-6, .grid = grid}; }
 
@@ -61,7 +61,7 @@ TEST_CASE("Integrals_AreExactForParabolas") {
 TEST_CASE("PlaceOfAnAngle_IsBetweenItsNodes") {
   const GridGeometry g(on(graded));
   for (const double angle : {0.0, 0.01, 3.0, 6.28, -0.01, 7.0, graded.phi(17), graded.phi(17) - 1e-14}) {
-    const GridGeometry::Place place = g.place_of(angle);
+    const GridGeometry::Location place = g.locate(angle);
     CAPTURE(angle);
     CHECK(place.share >= 0);
     CHECK(place.share < 1);
@@ -69,7 +69,7 @@ TEST_CASE("PlaceOfAnAngle_IsBetweenItsNodes") {
     // Just below a node counts as on it, within 1e-9 of a cell.
     CHECK(std::abs(std::remainder(found - angle, 2 * pi)) < 1e-8);
   }
-  CHECK(g.place_of(graded.phi(17) - 1e-14).node == 17);
+  CHECK(g.locate(graded.phi(17) - 1e-14).node == 17);
 }
 
 double load_of(const Grid& grid, double e) {
@@ -87,7 +87,7 @@ double load_of(const Grid& grid, double e) {
 TEST_CASE("GradedGrid_MeetsTheLoadWithFewerNodes") {
   const double e = 0.97, fine = load_of({480, 25}, e), finer = load_of({960, 25}, e);
   const double exact = finer + (finer - fine) / 3;
-  const Refinement minimum{.place = pi, .reach = 0.3, .factor = 6};
+  const Refinement minimum{.position = pi, .reach = 0.3, .factor = 6};
   const auto error = [&](const Grid& grid) { return std::abs(load_of(grid, e) / exact - 1); };
   const double even_120 = error({120, 25});
   const double graded_60 = error(graded_grid(60, 25, {minimum}, {})),

@@ -140,7 +140,7 @@ TEST_CASE("MeanAnswerToNodes_IsThatOfTheirHeat") {
     }
     const FilmTerminals at = terminals_of(thermal);
     REQUIRE(at.outside() == (has_block ? 3 : 1));
-    const Eigen::Index drain = 2 + at.place_of_drain();
+    const Eigen::Index drain = 2 + at.index_of_drain();
     const auto mean_over_a_cycle = [&](double rise) {
       FilmOverTime film(model, thermal, loaded);
       HeatState begin = film.heat.state();
@@ -209,7 +209,7 @@ TEST_CASE("DrainGetsWhatHolesTakeAway") {
   for (int k = 0; k < 100; ++k) film.advance(0);
   const FilmTerminals at = terminals_of(thermal);
   const HeatBalance balance = film.heat.observables().balance;
-  CHECK(film.heat.exchange().heat[2 + at.place_of_drain()] == relative(balance.to_oil).epsilon(1e-5));  // as solved
+  CHECK(film.heat.exchange().heat[2 + at.index_of_drain()] == relative(balance.to_oil).epsilon(1e-5));  // as solved
   CHECK(balance.to_oil == relative(balance.power).epsilon(1e-5));                                       // likewise
 }
 

@@ -166,10 +166,10 @@ TEST_CASE("OneLayer_HasNoSlope") {
 }
 
 TEST_CASE("TurnedGrid_HasItsLinesBetweenThoseItHad") {
-  const Grid grid = graded_grid(24, 9, {{.place = 1, .reach = 0.5, .factor = 4}}, {});
+  const Grid grid = graded_grid(24, 9, {{.position = 1, .reach = 0.5, .factor = 4}}, {});
   CHECK(Grid{24, 9}.is_uniform());
   CHECK(!grid.is_uniform());
-  CHECK(!graded_grid(24, 9, {}, {{.place = 0.5, .reach = 0.1, .factor = 4}}).is_uniform());
+  CHECK(!graded_grid(24, 9, {}, {{.position = 0.5, .reach = 0.1, .factor = 4}}).is_uniform());
   const Grid same = turned(grid, 0), other = turned(grid, 0.25);
   for (int i = 0; i < grid.n_phi; ++i) {
     const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + 2 * pi;
@@ -238,7 +238,7 @@ TEST_CASE("FieldBetweenTurnedRings_StaysWhereItIs") {
         values[k] = std::cos(grid.phi(k / grid.n_z)) + 3 * grid.z_over_L(k % grid.n_z);
       return values;
     };
-    const Eigen::VectorXd there = GridTransfer::by_place(from, to)(field(from), 1);
+    const Eigen::VectorXd there = GridTransfer::by_position(from, to)(field(from), 1);
     const double step = 2 * pi / from.n_phi;
     CHECK((there - field(to)).cwiseAbs().maxCoeff() < step * step / 8);  // of straight lines along a cosine
   }

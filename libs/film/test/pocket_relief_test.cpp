@@ -19,7 +19,8 @@ constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest thro
 
 FilmModel graded() {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
-  m.grid = graded_grid(40, 9, {{.place = 0.2, .reach = 0.5, .factor = 3}}, {{.place = 0.5, .reach = 0.2, .factor = 2}});
+  m.grid = graded_grid(40, 9, {{.position = 0.2, .reach = 0.5, .factor = 3}},
+                       {{.position = 0.5, .reach = 0.2, .factor = 2}});
   return m;
 }
 

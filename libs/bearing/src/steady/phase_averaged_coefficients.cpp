@@ -32,7 +32,7 @@ std::vector<TurnedFilm> turned_films(const film::FilmModel& model, const SteadyS
   for (int place = 1; place < kPlaces; ++place) {
     TurnedFilm film{model, {}};
     film.model.grid = film::turned(model.grid, static_cast<double>(place) / kPlaces);
-    const film::GridTransfer transfer = film::GridTransfer::by_place(model.grid, film.model.grid);
+    const film::GridTransfer transfer = film::GridTransfer::by_position(model.grid, film.model.grid);
     SteadySearch search(film.model, held, options);
     search.set_viscosity(taken_over(transfer, state.viscosity));
     search.set_thermal_shapes(taken_over(transfer, state.thermal_shape), taken_over(transfer, state.journal_shape));

@@ -32,15 +32,15 @@ Fall fall_over_volume(int before, int after) {
 
 /// Oil that pressure presses into a volume, with derivatives [m^3/s].
 struct PressedIn {
-  double value = 0, h = 0;    ///< with film thickness
-  double rate = 0, turn = 0;  ///< with what SlidingChange tells
+  double value = 0, h = 0;        ///< with film thickness
+  double rate = 0, rotation = 0;  ///< with what SlidingChange tells
 
   /// By a pressure over a flow tube, their product with width/(12 length).
   void add(double pressed, double thickness, const Fluidity& flow) {
     const double cube = thickness * thickness * thickness;
     value += pressed * cube * flow.value;
     h += pressed * (3 * thickness * thickness * flow.value + cube * flow.h);
-    rate += pressed * cube * flow.rate, turn += pressed * cube * flow.turn;
+    rate += pressed * cube * flow.rate, rotation += pressed * cube * flow.rotation;
   }
 };
 
@@ -124,7 +124,7 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   border.by_u = -by_missing * (line.way * D0_ + line.draws * per_pressure.value);
   border.by_h = change(by_nodes.h, per_pressure.h);
   border.by_rate = change(by_nodes.rate, per_pressure.rate) + (is_little ? by_in * least : 0);
-  border.by_turn = change(by_nodes.turn, per_pressure.turn);
+  border.by_rotation = change(by_nodes.rotation, per_pressure.rotation);
   border.by_line = (by_in * by_nodes.value + by_missing * D0_ * lack) * line.way_line +
                    by_missing * line.draws_line * lack * per_pressure.value;
   for (double& by_beside : border.by_beside) by_beside *= by_in;

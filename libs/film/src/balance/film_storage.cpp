@@ -92,11 +92,12 @@ double FlowBalance::storage_excess_rate(int i) const {
   return dt_ > 0 ? area_[i] * content_start_[i] * cells_[i].start_excess : storage_g_rate(i);
 }
 
-// The journal's pockets as they turn.
+// The journal's pockets as they rotate.
 void FlowBalance::add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const {
-  const double turn = dt_ > 0 ? direction.phi_journal / dt_ : direction.u_journal / model_.R;
-  if (turn == 0) return;
-  for (int i = 0; i < size(); ++i) dr[i] += area_[i] * nodes_[i].content * relief_.depth_by_journal()[i] * turn;
+  const double rotation_rate = dt_ > 0 ? direction.phi_journal / dt_ : direction.u_journal / model_.R;
+  if (rotation_rate == 0) return;
+  for (int i = 0; i < size(); ++i)
+    dr[i] += area_[i] * nodes_[i].content * relief_.depth_by_journal()[i] * rotation_rate;
 }
 
 }  // namespace hersey::film

@@ -203,7 +203,7 @@ void FlowBalance::take_motion(const SurfaceMotion& motion) {
   sliding_.clear();
   for (int j = 0; j < model_.grid.n_z; ++j) sliding_.push_back(sliding_of(slip(j).x(), slip(j).y()));
   if (relief_.is_empty()) return;
-  relief_.place(motion.phi_journal, phi_start_, dt_, motion.u_journal);
+  relief_.set_rotation(motion.phi_journal, phi_start_, dt_, motion.u_journal);
   std::fill(flow_tube_of_.begin(), flow_tube_of_.end(), -1);
   pocket_flows_.resize(relief_.flow_tubes().size());
   for (std::size_t t = 0; t < relief_.flow_tubes().size(); ++t)
@@ -436,10 +436,11 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     const double chi = prescribed.chi_line * direction.phi_supply + prescribed.chi_journal * direction.phi_journal;
     dr[i] = (1 - prescribed.chi) * dr[i] - chi * (line_balance(i) + slack(i));
     double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal + t.k_rate * sliding.rate +
-               t.k_turn * sliding.turn;
+               t.k_rotation * sliding.rotation;
     if (gap) {
       k += t.k_g * direction.g[i];
-      if (prescribed.other >= 0) k += t.k_g_other * direction.g[prescribed.other] + t.k_bend * direction_bends_[line_face(prescribed)];
+      if (prescribed.other >= 0)
+        k += t.k_g_other * direction.g[prescribed.other] + t.k_bend * direction_bends_[line_face(prescribed)];
     }
     dr[i] += k * above;
     dr[i] += t.k * draws_along(prescribed, direction);

@@ -71,11 +71,11 @@ struct CavityBorder {
   int node = 0;
   int of = 0;  ///< the node that tells: another one on an edge at p_cav
   double share = 0;
-  double by_u = 0, by_h = 0;          ///< with u and film thickness at `of`
-  double by_rate = 0, by_turn = 0;    ///< with what SlidingChange tells
-  double by_line = 0;                 ///< with phi_supply [1/rad]
-  std::array<int, 4> beside{};        ///< nodes around `of`; -1: none
-  std::array<double, 4> by_beside{};  ///< with their u
+  double by_u = 0, by_h = 0;            ///< with u and film thickness at `of`
+  double by_rate = 0, by_rotation = 0;  ///< with what SlidingChange tells
+  double by_line = 0;                   ///< with phi_supply [1/rad]
+  std::array<int, 4> beside{};          ///< nodes around `of`; -1: none
+  std::array<double, 4> by_beside{};    ///< with their u
 };
 
 /// Balance of oil (film.2) in every control volume, with the flows (film.1) over its faces, its Jacobian in u and its
@@ -276,7 +276,7 @@ class FlowBalance {
   struct Tie {
     double k = 0, k_u = 0, k_g = 0;
     double k_u_other = 0, k_g_other = 0, k_bend = 0, k_line = 0, k_journal = 0;
-    double k_rate = 0, k_turn = 0;  ///< with what SlidingChange tells
+    double k_rate = 0, k_rotation = 0;  ///< with what SlidingChange tells
   };
   /// Where a supply line cuts the flow tubes between two columns of nodes.
   struct Line {
@@ -359,7 +359,8 @@ class FlowBalance {
   [[nodiscard]] double thickness_towards_line(const PrescribedNode& prescribed) const;
   [[nodiscard]] FlowTubeGap gap_towards_line(const PrescribedNode& prescribed, double h) const;
   [[nodiscard]] ByGap carried_in_pockets(const PrescribedNode& prescribed) const;
-  [[nodiscard]] double strip_area(const PrescribedNode& prescribed) const;  ///< beyond the middle of the way to the line [m^2]
+  [[nodiscard]] double strip_area(
+      const PrescribedNode& prescribed) const;  ///< beyond the middle of the way to the line [m^2]
   void add_line_by_u(const PrescribedNode& prescribed);
   [[nodiscard]] double line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
   /// u - u_given as the tie sees it [Pa], and its slope.
@@ -478,9 +479,9 @@ class FlowBalance {
   SurfaceMotion speeds_;
   std::vector<Sliding> sliding_;  ///< of the rows
   std::vector<PrescribedNode> prescribed_;
-  std::vector<int> prescribed_index_;          ///< of every node its place in prescribed_, -1 for none
+  std::vector<int> prescribed_index_;                ///< of every node its place in prescribed_, -1 for none
   std::vector<PrescribedNode> supplied_edge_nodes_;  ///< would be held if their edges had no pressure of their own
-  std::vector<int> edge_index_;          ///< likewise
+  std::vector<int> edge_index_;                      ///< likewise
   std::vector<Land> lands_;
   std::vector<LandStrip> strips_;
   std::vector<int> land_index_;  ///< of every node its place there, -1 for none

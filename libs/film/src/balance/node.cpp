@@ -116,12 +116,12 @@ void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
   const Fluidity along = thinned(R.tangent()), across = thinned({R.value, R.slope});
   for (const int axis : {0, 1}) {
     const double share = axis == 0 ? sliding.share_phi : 1 - sliding.share_phi, rest = 1 - share;
-    const double turn = along.value - across.value;
+    const double rotation = along.value - across.value;
     node.flow[axis] = {.value = share * along.value + rest * across.value,
                        .u = share * along.u + rest * across.u,
                        .h = share * along.h + rest * across.h,
                        .rate = share * along.rate + rest * across.rate,
-                       .turn = axis == 0 ? turn : -turn};
+                       .rotation = axis == 0 ? rotation : -rotation};
   }
   node.mu = mu_n * R.value;
   node.mu_u = log_slope * mu_n * (R.value + k * R.slope);

@@ -19,7 +19,7 @@ struct Sliding {
 
 /// Change of a sliding: of the logarithm of its speed, and of its direction.
 struct SlidingChange {
-  double rate = 0, turn = 0;  ///< [-]
+  double rate = 0, rotation = 0;  ///< [-]
 };
 
 /// With changes of the slip.
@@ -28,11 +28,13 @@ struct SlidingChange {
 /// A fluidity 1/mu [1/(Pa s)] with its derivatives.
 struct Fluidity {
   double value = 0;
-  double u = 0;               ///< with u, at a fixed film thickness
-  double h = 0;               ///< with the film thickness
-  double rate = 0, turn = 0;  ///< with what SlidingChange tells
+  double u = 0;                   ///< with u, at a fixed film thickness
+  double h = 0;                   ///< with the film thickness
+  double rate = 0, rotation = 0;  ///< with what SlidingChange tells
 
-  [[nodiscard]] double along(const SlidingChange& change) const { return rate * change.rate + turn * change.turn; }
+  [[nodiscard]] double along(const SlidingChange& change) const {
+    return rate * change.rate + rotation * change.rotation;
+  }
 };
 
 /// Everything the film is at one node, with derivatives: x_u = dx/du, x_g = dx/dg (theory manual, film.3 to film.10).

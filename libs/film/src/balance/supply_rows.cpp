@@ -109,7 +109,7 @@ FlowBalance::Tie FlowBalance::tie(const PrescribedNode& prescribed) const {
           .k_g = scale * by_node * node.h_g,
           .k_journal = prescribed.chi_journal * k,
           .k_rate = scale * by_fluidity(around.rate, along.rate),
-          .k_turn = scale * by_fluidity(around.turn, along.turn)};
+          .k_rotation = scale * by_fluidity(around.rotation, along.rotation)};
 }
 
 // Oil, roughness and gap are those half-way to the line: with the line on the next node, those of a face.
@@ -142,7 +142,7 @@ FlowBalance::Tie FlowBalance::tie_to_line(const PrescribedNode& prescribed) cons
           .k_line = prescribed.near_line * by_near + by_gap * prescribed.bend_line * bend,
           .k_journal = k * cube.journal / cube.value,
           .k_rate = k * between(node.flow[0].rate, other.flow[0].rate) / fluidity,
-          .k_turn = k * between(node.flow[0].turn, other.flow[0].turn) / fluidity};
+          .k_rotation = k * between(node.flow[0].rotation, other.flow[0].rotation) / fluidity};
 }
 
 // Of two that hold a node wholly, that with more pressure, and of equal pressure that whose middle is nearer: never
@@ -174,29 +174,29 @@ void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
 // its side, K/t at a share t of the way; the row counts t times, so that a line on a node is a given pressure there.
 void FlowBalance::prescribe_line(double phi) {
   const Grid& grid = model_.grid;
-  const auto place = geometry_.place_of(phi);
-  const int i = place.node;
-  const double t = place.share;
+  const auto line = geometry_.locate(phi);
+  const int i = line.node;
+  const double t = line.share;
   const int next = grid.next(i);
   line_ = {true, i, t, model_.R / geometry_.dx[i]};
   const double u = model_.supply.pressure - model_.p_cav;
   const auto side = [&](int here, int there, int j, double way, double by_phi) {
     prescribe({.node = grid.index(here, j),
-          .chi = 1 - way,
-          .chi_line = -by_phi,
-          .mixed_share = 1 - way,
-          .draws = (1 - way) * (1 - way),
-          .draws_line = -2 * (1 - way) * by_phi,
-          .u = u,
-          .other = grid.index(there, j),
-          .near = 1 - 0.5 * way,
-          .far = 0.5 * way,
-          .bend = way * (2 - way),
-          .near_line = -0.5 * by_phi,
-          .bend_line = 2 * (1 - way) * by_phi,
-          .conductance = geometry_.width_z[j] / (12 * geometry_.step(i, j)),
-          .way = way,
-          .way_line = by_phi});
+               .chi = 1 - way,
+               .chi_line = -by_phi,
+               .mixed_share = 1 - way,
+               .draws = (1 - way) * (1 - way),
+               .draws_line = -2 * (1 - way) * by_phi,
+               .u = u,
+               .other = grid.index(there, j),
+               .near = 1 - 0.5 * way,
+               .far = 0.5 * way,
+               .bend = way * (2 - way),
+               .near_line = -0.5 * by_phi,
+               .bend_line = 2 * (1 - way) * by_phi,
+               .conductance = geometry_.width_z[j] / (12 * geometry_.step(i, j)),
+               .way = way,
+               .way_line = by_phi});
   };
   for (int j = 0; j < grid.n_z; ++j) {
     side(i, next, j, t, line_.by_phi);
@@ -224,14 +224,14 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
           std::abs(geometry_.z[j] - feature.z) > (0.5 + as_written) * feature.length)
         continue;
       prescribe({.node = node.node,
-            .chi = node.share,
-            .chi_journal = node.share_phi,
-            .mixed_share = node.mixed_share,
-            .draws = node.draws,
-            .draws_journal = node.draws_phi,
-            .feature = static_cast<int>(f),
-            .u = u,
-            .inwards = node.inwards});
+                 .chi = node.share,
+                 .chi_journal = node.share_phi,
+                 .mixed_share = node.mixed_share,
+                 .draws = node.draws,
+                 .draws_journal = node.draws_phi,
+                 .feature = static_cast<int>(f),
+                 .u = u,
+                 .inwards = node.inwards});
     }
     const bool travels = feature.surface == Surface::journal;
     find_strips(static_cast<int>(f), feature.phi + (travels ? motion.phi_journal : 0.0), u);
@@ -252,7 +252,9 @@ bool FlowBalance::has_line_row(int node) const {
   return prescribed != nullptr && prescribed->other >= 0;
 }
 
-bool FlowBalance::is_beside_line(int node) const { return has_line_row(node) && has_line_row(prescribed_at(node)->other); }
+bool FlowBalance::is_beside_line(int node) const {
+  return has_line_row(node) && has_line_row(prescribed_at(node)->other);
+}
 
 // With all of it from one node or the other, temperatures would jump as the line passes over a node.
 double FlowBalance::over_cut(std::size_t f) const {
@@ -295,9 +297,10 @@ FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
   const double sign = node == face.a ? 1 : -1, density = flows_[f].density;
   TowardsLine t;
   t.counts = true;
-  t.full = sign * density * face.width *
-           (prescribed.near * at(node) + prescribed.far * at(prescribed.other) +
-            prescribed.bend * entrainment(f) * bends_[static_cast<Eigen::Index>(f)] + carried_in_pockets(prescribed).value);
+  t.full =
+      sign * density * face.width *
+      (prescribed.near * at(node) + prescribed.far * at(prescribed.other) +
+       prescribed.bend * entrainment(f) * bends_[static_cast<Eigen::Index>(f)] + carried_in_pockets(prescribed).value);
   if (flow_tube_of_[f] >= 0)
     t.full += sign * density * relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])].swept;
   t.from_node = t.full >= 0;
@@ -346,8 +349,9 @@ void FlowBalance::add_line_by_u(const PrescribedNode& prescribed) {
   values_[diagonal_slot_[prescribed.node]] +=
       scale * prescribed.near * by_h(prescribed.node) * node.h_u + by_density * node.density_u +
       t.full * (share.theta * node.theta_u + (is_a ? share.h_a : share.h_b) * node.h_u);
-  values_[slot_to_other(prescribed)] += scale * prescribed.far * by_h(prescribed.other) * other.h_u + by_density * other.density_u +
-                                  t.full * (is_a ? share.h_b : share.h_a) * other.h_u;
+  values_[slot_to_other(prescribed)] += scale * prescribed.far * by_h(prescribed.other) * other.h_u +
+                                        by_density * other.density_u +
+                                        t.full * (is_a ? share.h_b : share.h_a) * other.h_u;
 }
 
 /// Change of a share of that with the surfaces.
@@ -387,17 +391,18 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
     return entrainment(f) * rough_[k].mean_h + half_slip(f) * rough_[k].drag_h[0] + deeper.h;
   };
   double q = prescribed.near * carried(prescribed.node, speed, half_slip_change) +
-             prescribed.far * carried(prescribed.other, speed, half_slip_change) + prescribed.bend * speed * bends_[bend];
+             prescribed.far * carried(prescribed.other, speed, half_slip_change) +
+             prescribed.bend * speed * bends_[bend];
   if (direction.g.size() != 0) {
     q += prescribed.near * by_h(prescribed.node) * nodes_[prescribed.node].h_g * direction.g[prescribed.node] +
          prescribed.far * by_h(prescribed.other) * nodes_[prescribed.other].h_g * direction.g[prescribed.other] +
          prescribed.bend * (entrainment(f) + deeper.h) * direction_bends_[bend];
   }
-  const double turn = direction.phi_supply;
-  q += turn * (prescribed.near_line * (carried(prescribed.node, entrainment(f), half_slip(f)) -
-                                 carried(prescribed.other, entrainment(f), half_slip(f)) +
-                                 deeper.h * (nodes_[prescribed.node].h - nodes_[prescribed.other].h)) +
-               prescribed.bend_line * (entrainment(f) + deeper.h) * bends_[bend]);
+  const double rotation = direction.phi_supply;
+  q += rotation * (prescribed.near_line * (carried(prescribed.node, entrainment(f), half_slip(f)) -
+                                           carried(prescribed.other, entrainment(f), half_slip(f)) +
+                                           deeper.h * (nodes_[prescribed.node].h - nodes_[prescribed.other].h)) +
+                   prescribed.bend_line * (entrainment(f) + deeper.h) * bends_[bend]);
   if (flow_tube_of_[f] >= 0) {
     const PocketFlowTube& flow_tube = relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])];
     q += (flow_tube.swept_journal * direction.phi_journal + flow_tube.swept_speed * journal) / face.width;
@@ -406,7 +411,7 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
   }
   double row = scale * q + t.full * share_along(f, share, direction);
   if (direction.g_rate.size() != 0) row -= density * strip_area(prescribed) * direction.g_rate[prescribed.node];
-  return row + 0.5 * prescribed.way_line * turn * density * face.length * face.width * g_rate_[prescribed.node];
+  return row + 0.5 * prescribed.way_line * rotation * density * face.length * face.width * g_rate_[prescribed.node];
 }
 
 /// Change of excess() as line and journal move [Pa].

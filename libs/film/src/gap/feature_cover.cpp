@@ -73,7 +73,7 @@ Share row_share(const Rectangle& /*shape*/, const SurfaceFeature& feature, const
 /// Share of a node's cell that an ellipse with the given half-axes covers, by Gauss' rule along z and exact around.
 Share ellipse_share(const Surroundings& s, double half_arc, double half_length) {
   // Four points on each half of the cell: Abramowitz and Stegun (1964), table 25.4.
-  static constexpr std::array<double, 4> place{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
+  static constexpr std::array<double, 4> point{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
                                                0.861136311594052575};
   static constexpr std::array<double, 4> weight{0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
                                                 0.347854845137453857};
@@ -81,8 +81,8 @@ Share ellipse_share(const Surroundings& s, double half_arc, double half_length) 
   const double first = s.d - s.back, last = s.d + s.ahead;
   Share share;
   for (const double half : {0.25, 0.75}) {
-    for (std::size_t k = 0; k < place.size(); ++k) {
-      const double y = (s.z - s.below + height * (half + 0.25 * place[k])) / half_length;
+    for (std::size_t k = 0; k < point.size(); ++k) {
+      const double y = (s.z - s.below + height * (half + 0.25 * point[k])) / half_length;
       if (std::abs(y) >= 1) continue;
       const double reach = half_arc * std::sqrt(1 - y * y);
       const double right = std::min(last, reach), left = std::max(first, -reach);
@@ -176,9 +176,9 @@ void mix(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surround
 }  // namespace
 
 SurfaceFeature without_border(SurfaceFeature feature, const FilmModel& model, const GridGeometry& geometry) {
-  if (feature.arc < two_pi) feature.arc -= same_place * geometry.mean_dx / geometry.R;
+  if (feature.arc < two_pi) feature.arc -= same_position * geometry.mean_dx / geometry.R;
   const bool reaches = std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9);  // to round-off
-  if (!reaches) feature.length -= same_place * geometry.mean_dz;
+  if (!reaches) feature.length -= same_position * geometry.mean_dz;
   return feature;
 }
 
@@ -198,7 +198,8 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
       const Surroundings s = surroundings(grid, geometry, i, j, d, geometry.z[j] - feature.z);
       if (std::abs(d) >= 0.5 * feature.arc + s.to_phi / s.R) break;
       if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
-      const Share share = std::visit([&](const auto& shape) { return row_share(shape, feature, s, unit); }, feature.shape);
+      const Share share =
+          std::visit([&](const auto& shape) { return row_share(shape, feature, s, unit); }, feature.shape);
       const double inwards =
           1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
       if (share.value == 0) continue;

@@ -19,7 +19,7 @@ struct CoveredNode {
 };
 
 /// Of a cell: places that lie nearer to each other are the same.
-inline constexpr double same_place = 1e-12;
+inline constexpr double same_position = 1e-12;
 
 /// The feature without its border, which belongs to the land, also where round-off has moved it or a node on it. One
 /// that reaches an edge of the bearing goes on there.

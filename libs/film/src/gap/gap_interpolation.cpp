@@ -53,7 +53,7 @@ GapInterpolation::GapInterpolation(const Grid& grid, const GridGeometry& geometr
   const Exact exact{is_round(geometry.surface)};
   const auto wrapped = [n](int i) { return (i + n) % n; };
   // Angles of some lines in a row, from the place `origin` beyond line i.
-  const auto place = [&]<std::size_t N>(int i, int first, double origin, std::array<int, N>& lines) {
+  const auto angles_of_lines = [&]<std::size_t N>(int i, int first, double origin, std::array<int, N>& lines) {
     std::array<double, N> angle;
     for (std::size_t k = 0; k < N; ++k) {
       const int line = first + static_cast<int>(k);
@@ -68,14 +68,14 @@ GapInterpolation::GapInterpolation(const Grid& grid, const GridGeometry& geometr
     const int next = grid.next(i), before = grid.before(i);
     Lines<4> face{.line = {i, i, i, i}};
     if (next >= 0) {
-      const auto angle = place(i, first_of(grid, i, 1, 4), 0.5 * geometry.dphi(i), face.line);
+      const auto angle = angles_of_lines(i, first_of(grid, i, 1, 4), 0.5 * geometry.dphi(i), face.line);
       face.weight = exact.weights(angle, exact.at(0, 4));
       for (std::size_t k = 0; k < 4; ++k)
         if (face.line[k] == i || face.line[k] == next) face.weight[k] -= 0.5;
     }
     face_.push_back(face);
     Lines<3> cell;
-    const auto angle = place(i, first_of(grid, i, 1, 3), 0, cell.line);
+    const auto angle = angles_of_lines(i, first_of(grid, i, 1, 3), 0, cell.line);
     const double back = before < 0 ? 0 : 0.5 * geometry.dphi(before), ahead = 0.5 * geometry.dphi(i);
     cell.weight = exact.weights(angle, exact.mean(-back, ahead));
     for (std::size_t k = 0; k < 3; ++k)

@@ -36,8 +36,8 @@ Eigen::VectorXd GapShape::shell_slope() const {
   return slope;
 }
 
-void GapShape::turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
-                             Eigen::VectorXd& second) const {
+void GapShape::rotate_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
+                               Eigen::VectorXd& second) const {
   for (auto* field : {&opening, &first, &second}) field->setZero(still_.size());
   for (const Profile& profile : turning_profiles_) {
     for (int k = 0; k < still_.size(); ++k) {
@@ -51,7 +51,7 @@ void GapShape::turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen
 Eigen::VectorXd gap_opening(const FilmModel& model, double phi_journal) {
   GapShape shape(model);
   Eigen::VectorXd profiles, first, second;
-  shape.turn_profiles(phi_journal, profiles, first, second);
+  shape.rotate_profiles(phi_journal, profiles, first, second);
   return shape.still() + profiles;
 }
 

@@ -109,7 +109,7 @@ GridGeometry::GridGeometry(const FilmModel& model) : R(model.R), surface(model.s
   weight_phi = weights_of_lines(grid, [&](int k) { return dx[k]; });
   weight_z = parabolic_weights(n_z, false, [&](int k) { return dz[k]; });
   stretch.resize(n_z), stretch_over.resize(n_z), stretch_between.resize(n_z - 1);
-  const auto stretch_at = [&](double place) { return film::stretch(surface, R, place); };
+  const auto stretch_at = [&](double position) { return film::stretch(surface, R, position); };
   for (int j = 0; j < n_z; ++j) {
     const double below = j > 0 ? 0.5 * dz[j - 1] : 0, above = j + 1 < n_z ? 0.5 * dz[j] : 0;
     stretch[j] = stretch_at(z[j]);
@@ -127,7 +127,7 @@ double GridGeometry::reported_angle(double angle) const {
   return closes(surface) ? std::fmod(std::fmod(angle, two_pi) + two_pi, two_pi) : angle;
 }
 
-GridGeometry::Place GridGeometry::place_of(double angle) const {
+GridGeometry::Location GridGeometry::locate(double angle) const {
   const auto n = static_cast<int>(phi.size());
   // Just below a node counts as on it: round-off decides nothing.
   const double sliver = 1e-9 * two_pi / n;

@@ -46,11 +46,11 @@ struct GridGeometry {
 
   /// The node before `angle` in the direction of growing phi, and the share of the way to the next, in [0, 1). Beside
   /// patches, that nearest to it.
-  struct Place {
+  struct Location {
     int node = 0;
     double share = 0;
   };
-  [[nodiscard]] Place place_of(double angle) const;
+  [[nodiscard]] Location locate(double angle) const;
 };
 
 }  // namespace hersey::film

@@ -29,7 +29,7 @@ struct PocketFlowTube {
   std::size_t face = 0;
   int first_strip = 0, strips = 0;
   bool in_shell = false, in_journal = false;  ///< whose pockets
-  double swept = 0;                           ///< volume of the journal's pockets that turns over the face [m^3/s]
+  double swept = 0;                           ///< volume of the journal's pockets that rotates over the face [m^3/s]
   double swept_journal = 0;                   ///< with phi_journal [m^3/(s rad)]
   double swept_speed = 0;                     ///< with the journal's speed [m^2]
 };
@@ -51,7 +51,7 @@ class PocketRelief {
 
   /// Places the journal's pockets, turned by `phi_journal` [rad]. In a step of dt > 0 they come from `phi_start`;
   /// with dt = 0 they turn at `speed` [m/s].
-  void place(double phi_journal, double phi_start, double dt, double speed);
+  void set_rotation(double phi_journal, double phi_start, double dt, double speed);
 
   [[nodiscard]] bool is_empty() const { return pockets_.empty() && fed_.empty(); }
   [[nodiscard]] bool has_pockets() const { return !pockets_.empty(); }
@@ -64,7 +64,7 @@ class PocketRelief {
   [[nodiscard]] const Eigen::VectorXd& depth_start() const { return depth_start_; }
   [[nodiscard]] const Eigen::VectorXd& depth_by_journal() const { return depth_journal_; }
   /// Of the journal's pockets alone, now.
-  [[nodiscard]] const Eigen::VectorXd& turning_depth() const { return turning_depth_; }
+  [[nodiscard]] const Eigen::VectorXd& turning_depth() const { return rotating_depth_; }
   /// Pockets and fed features alike.
   [[nodiscard]] const std::vector<CoveredDepth>& covered() const { return covered_; }
 
@@ -76,12 +76,12 @@ class PocketRelief {
     double share = 0, share_journal = 0;
     int first_segment = 0, segments = 0;
   };
-  /// A feature's extent seen from a flow tube: across and along the flow, with the rate at which it turns.
+  /// A feature's extent seen from a flow tube: across and along the flow, with the rate at which it rotates.
   struct Extent;
   /// What `place` was last asked for.
-  struct Placement {
+  struct Arguments {
     double phi_journal = 0, phi_start = 0, dt = 0, speed = 0;
-    bool operator==(const Placement&) const = default;
+    bool operator==(const Arguments&) const = default;
   };
 
   void locate_flow_tubes(double phi_journal);
@@ -95,18 +95,18 @@ class PocketRelief {
   const FilmModel& model_;
   const GridGeometry& geometry_;
   std::vector<SurfaceFeature> pockets_, fed_;
-  bool any_turns_ = false;
-  std::optional<Placement> placed_;
+  bool any_rotates_ = false;
+  std::optional<Arguments> evaluated_;
   std::vector<PocketFlowTube> flow_tubes_;
   std::vector<Strip> strips_;
   std::vector<Segment> segments_;
-  Eigen::VectorXd depth_, depth_start_, depth_journal_, turning_depth_;
+  Eigen::VectorXd depth_, depth_start_, depth_journal_, rotating_depth_;
   std::vector<CoveredDepth> covered_;
   std::vector<CoveredNode> cells_;
 };
 
-/// Volume of a journal's pocket per depth that turns over the face at `phi` between two heights while the journal turns
-/// from `start` to `end` [m^2]; divided by the step it is the flow that keeps the pocket's volume.
+/// Volume of a journal's pocket per depth that rotates over the face at `phi` between two heights while the journal
+/// rotates from `start` to `end` [m^2]; divided by the step it is the flow that keeps the pocket's volume.
 [[nodiscard]] double swept_area(const SurfaceFeature& pocket, double R, double phi, double low, double high,
                                 double start, double end);
 

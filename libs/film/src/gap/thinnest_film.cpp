@@ -13,11 +13,11 @@ namespace hersey::film {
 namespace {
 
 // Places along each side of a feature's border.
-constexpr int border_places = 64;
+constexpr int border_points = 64;
 
 /// Smallest value of the parabola through (0, y0), (a, ya) and (b, yb) within [from, to], and where.
 struct Low {
-  double place = 0, value = 0;
+  double offset = 0, value = 0;
 };
 
 Low lowest(double y0, double a, double ya, double b, double yb, double from, double to) {
@@ -95,8 +95,8 @@ class Search {
     const double here = value(i, j), both = around.value + along.value - here;
     const double found = both > 0 ? both : here;
     if (found >= best.value) return;
-    best.value = found, best.z = at_.z[j] + along.place;
-    best.phi = at_.reported_angle(at_.phi[i] + around.place / (at_.R * at_.stretch[j]));
+    best.value = found, best.z = at_.z[j] + along.offset;
+    best.phi = at_.reported_angle(at_.phi[i] + around.offset / (at_.R * at_.stretch[j]));
   }
 
   /// Whether a node lies no higher than those beside it that count.
@@ -116,8 +116,8 @@ class Search {
     if (!counts(-1) || !counts(1)) return node;
     const double back = length(-1), ahead = length(1);
     const Low first = lowest(here, -back, at(-1), ahead, at(1), -0.5 * back, 0.5 * ahead);
-    if (first.place == 0) return node;
-    const int way = first.place > 0 ? 1 : -1;
+    if (first.offset == 0) return node;
+    const int way = first.offset > 0 ? 1 : -1;
     if (!counts(2 * way)) return first.value > 0 && first.value < here ? first : node;
     const double a = way * length(way), b = a + way * length(2 * way);
     const Low second = lowest(here, a, at(way), b, at(2 * way), std::min(0.0, 0.5 * a), std::max(0.0, 0.5 * a));
@@ -130,8 +130,8 @@ class Search {
     int low = 0;
     while (low + 2 < grid_.n_z && at_.z[low + 1] <= 0) ++low;
     // A row in the middle is that, also where round-off has moved it: the one beside it may lie in a groove.
-    const double place = -at_.z[low] / at_.dz[low],
-                 t = std::abs(place - std::round(place)) < 1e-9 ? std::round(place) : place;
+    const double position = -at_.z[low] / at_.dz[low],
+                 t = std::abs(position - std::round(position)) < 1e-9 ? std::round(position) : position;
     const auto middle = [&](int i) { return (1 - t) * value(i, low) + t * value(i, low + 1); };
     const auto counts = [&](int i) { return (t == 1 || outside(i, low)) && (t == 0 || outside(i, low + 1)); };
     double least = std::numeric_limits<double>::infinity();
@@ -147,8 +147,8 @@ class Search {
   }
 
   void search_border(const SurfaceFeature& f, Thinnest& best) const {
-    for (int k = 0; k < border_places; ++k) {
-      const double s = (k + 0.5) / border_places * 2 - 1;
+    for (int k = 0; k < border_points; ++k) {
+      const double s = (k + 0.5) / border_points * 2 - 1;
       std::visit([&](const auto& shape) { try_border(shape, f, s, best); }, f.shape);
     }
   }
@@ -157,17 +157,17 @@ class Search {
   void try_border(const Rectangle& /*shape*/, const SurfaceFeature& f, double s, Thinnest& best) const {
     const double half_arc = 0.5 * f.arc, half_length = 0.5 * f.length;
     for (const double side : {-1.0, 1.0}) {
-      try_place(f.phi + s * half_arc, f.z + side * half_length, best);
-      if (f.arc < two_pi) try_place(f.phi + side * half_arc, f.z + s * half_length, best);
+      try_point(f.phi + s * half_arc, f.z + side * half_length, best);
+      if (f.arc < two_pi) try_point(f.phi + side * half_arc, f.z + s * half_length, best);
     }
   }
 
   void try_border(const Ellipse& /*shape*/, const SurfaceFeature& f, double s, Thinnest& best) const {
     const double angle = std::numbers::pi * s;
-    try_place(f.phi + 0.5 * f.arc * std::cos(angle), f.z + 0.5 * f.length * std::sin(angle), best);
+    try_point(f.phi + 0.5 * f.arc * std::cos(angle), f.z + 0.5 * f.length * std::sin(angle), best);
   }
 
-  void try_place(double phi, double z, Thinnest& best) const {
+  void try_point(double phi, double z, Thinnest& best) const {
     const double sliver = 1e-9;  // a border is outside its own feature
     if (std::abs(z) > 0.5 * model_.L * (1 + sliver) || !is_on_land(phi, z)) return;
     const double value = between(phi, std::clamp(z, at_.z[0], at_.z[grid_.n_z - 1]));
@@ -185,7 +185,7 @@ class Search {
 
   /// Bilinear: the thickness itself has no step there.
   [[nodiscard]] double between(double phi, double z) const {
-    const auto [i, t] = at_.place_of(phi);
+    const auto [i, t] = at_.locate(phi);
     int j = 0;
     while (j + 2 < grid_.n_z && at_.z[j + 1] <= z) ++j;
     const double s = (z - at_.z[j]) / at_.dz[j];

@@ -336,9 +336,9 @@ void FilmHeat::Impl::find_exchange() {
     return heat;
   };
   by_outside.clear();
-  for (Eigen::Index place = 0; place < outside; ++place) {
-    by_outside.push_back(equations.response_to_outside(place));
-    exchange.by_T.col(2 + place) = into_walls(by_outside.back());
+  for (Eigen::Index terminal = 0; terminal < outside; ++terminal) {
+    by_outside.push_back(equations.response_to_outside(terminal));
+    exchange.by_T.col(2 + terminal) = into_walls(by_outside.back());
   }
   const bool is_shell = std::holds_alternative<NodeWall>(thermal.shell);
   const bool is_journal = std::holds_alternative<NodeWall>(thermal.journal);
@@ -368,8 +368,8 @@ void FilmHeat::move_walls(const Eigen::VectorXd& T) {
     m.state.supplies += dT * change.supplies;
     m.state.outside += dT * change.outside;
   };
-  for (std::size_t place = 0; place < m.by_outside.size(); ++place)
-    move(m.by_outside[place], by[2 + static_cast<Eigen::Index>(place)]);
+  for (std::size_t terminal = 0; terminal < m.by_outside.size(); ++terminal)
+    move(m.by_outside[terminal], by[2 + static_cast<Eigen::Index>(terminal)]);
   if (std::holds_alternative<NodeWall>(m.thermal.shell)) move(m.by_shell, by[0]);
   if (std::holds_alternative<NodeWall>(m.thermal.journal)) move(m.by_journal, by[1]);
   m.exchange.heat += m.exchange.by_T * by;
@@ -416,7 +416,7 @@ void FilmHeat::Impl::observe() {
   observed.T_supplies = end_of_step.supplies;
   if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
     observed.T_body_max = dt > 0 && !fixed_walls.have_settled() ? end_of_step.shell.maxCoeff()
-                                                               : wall->body(end_of_step.wall_heat).maxCoeff();
+                                                                : wall->body(end_of_step.wall_heat).maxCoeff();
   if (const JournalConduction* body = conduction_of(thermal.journal); body != nullptr && body->T_body0.size() > 0)
     observed.T_journal_body_max =
         dt > 0 && !fixed_walls.have_settled() ? end_of_step.journal : body->body(end_of_step.journal_heat).maxCoeff();

@@ -44,14 +44,14 @@ std::vector<double> HeatEquations::fresh_shares(const CarryingFilm& film) const 
 OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std::vector<double>& fresh) const {
   const Eigen::Index n = at_.outside(), rows = system_.size();
   OutsideOfMean mean{Eigen::MatrixXd::Zero(rows, n), Eigen::MatrixXd::Zero(n, rows), Eigen::VectorXd::Zero(n)};
-  const auto take = [&mean](Eigen::Index place, int row, double rate) {
-    mean.from(place, row) += rate, mean.self[place] -= rate;
+  const auto take = [&mean](Eigen::Index terminal, int row, double rate) {
+    mean.from(terminal, row) += rate, mean.self[terminal] -= rate;
   };
   for (int i = 0; at_.ambient && i < model_.grid.n_phi; ++i) {
-    mean.by(system_.ring_row(i), at_.place_of_ambient()) += ring_.outside[i];
-    take(at_.place_of_ambient(), system_.ring_row(i), ring_.outside[i]);
+    mean.by(system_.ring_row(i), at_.index_of_ambient()) += ring_.outside[i];
+    take(at_.index_of_ambient(), system_.ring_row(i), ring_.outside[i]);
   }
-  const Eigen::Index drain = at_.place_of_drain(), edges = at_.place_of_oil(thermal_.oil.edges);
+  const Eigen::Index drain = at_.index_of_drain(), edges = at_.index_of_oil(thermal_.oil.edges);
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double out = film.balance.outflow(node), given = film.balance.supply(node);
     const bool is_supplied = film.balance.is_supplied(node);

@@ -167,8 +167,8 @@ void HeatEquations::add_edges(const CarryingFilm& film) {
       inflow_[row] += in * width(l);
       system_.diagonal(row) += rc_ * in * width(l);
       known_[row] += rc_ * in * width(l) * at_edges(outside_);
-      if (const Eigen::Index place = at_.place_of_oil(thermal_.oil.edges); place >= 0)
-        by_outside_(row, place) += rc_ * in * width(l);
+      if (const Eigen::Index terminal = at_.index_of_oil(thermal_.oil.edges); terminal >= 0)
+        by_outside_(row, terminal) += rc_ * in * width(l);
     }
   }
 }
@@ -246,7 +246,7 @@ void HeatEquations::add_ring(const CarryingFilm& film, const HeatState& start) {
     system_.ring_before(next) -= ring_.around[i];
     system_.diagonal(row) += ring_.outside[i];
     known_[row] += ring_.outside[i] * at_ring(outside_);
-    if (at_.ambient) by_outside_(row, at_.place_of_ambient()) += ring_.outside[i];
+    if (at_.ambient) by_outside_(row, at_.index_of_ambient()) += ring_.outside[i];
     if (film.dt == 0 || has_fixed_walls(film)) continue;
     system_.diagonal(row) += ring_.capacity[i] / film.dt;
     known_[row] += ring_.capacity[i] / film.dt * start.shell[i];
@@ -292,7 +292,8 @@ void HeatEquations::add_walls_of_film(const CarryingFilm& film, const HeatState&
 
 // A line has no width: what is dissipated at its nodes warms the film's oil at its place, and not all that the line
 // mixes; as much in all layers, which it mixes as well.
-void HeatEquations::add_film_on_line(const CarryingFilm& film, const SuppliedNode& supplied, const Eigen::VectorXd& taken_on) {
+void HeatEquations::add_film_on_line(const CarryingFilm& film, const SuppliedNode& supplied,
+                                     const Eigen::VectorXd& taken_on) {
   double heat = 0;
   for (int l = 0; l < layers(); ++l) heat += supplied.chi * film.flows.dissipation(supplied.node, l);
   const double all = taken_on.sum();
@@ -307,9 +308,9 @@ void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& star
   for (int node = 0; node < model_.grid.size(); ++node) {
     if (!film.balance.is_supplied(node)) continue;
     SuppliedNode supplied{.node = node,
-              .supply = film.balance.supplied_by(node) + (has_line() ? 1 : 0),
-              .chi = film.balance.supplied_share(node),
-              .flow = film.balance.supply(node)};
+                          .supply = film.balance.supplied_by(node) + (has_line() ? 1 : 0),
+                          .chi = film.balance.supplied_share(node),
+                          .flow = film.balance.supply(node)};
     supply_of_[node] = supplied.supply;
     const double thread = least_fill_ * throughput(film);
     Eigen::VectorXd taken_on(layers());
@@ -384,8 +385,8 @@ void HeatEquations::renew(const CarryingFilm& film) {
       const double mixed_share = mixed_share_[system_.row(from, l)];
       // What another supply has mixed is its own matter.
       const bool is_same = supply_of_[from] == supplied->supply;
-      renewals_.push_back(
-          {supplied->supply, system_.row(from, l), is_same ? heat : (1 - mixed_share) * heat, is_same ? mixed_share : 0});
+      renewals_.push_back({supplied->supply, system_.row(from, l), is_same ? heat : (1 - mixed_share) * heat,
+                           is_same ? mixed_share : 0});
     }
   }
 }
@@ -433,7 +434,8 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
   }
   const auto give = [&](int supply, double heat) {  // oil at the temperature of fresh oil
     known_[journal + 1 + supply] += heat * fresh(supply, outside_);
-    if (const Eigen::Index place = oil_of(supply); place >= 0) by_outside_(journal + 1 + supply, place) += heat;
+    if (const Eigen::Index terminal = oil_of(supply); terminal >= 0)
+      by_outside_(journal + 1 + supply, terminal) += heat;
   };
   for (const Renewal& renewal : renewals_) give(renewal.supply, renewal.heat * (1 - renewal.mixed_share));
   supply_self_.assign(flow.size(), 0.0);

@@ -32,23 +32,23 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
 
 Eigen::Index HeatEquations::oil_of(int supply) const {
   const int feature = supply - (has_line() ? 1 : 0);
-  if (feature < 0) return at_.place_of_oil(thermal_.oil.line);
+  if (feature < 0) return at_.index_of_oil(thermal_.oil.line);
   return thermal_.oil.features.empty() ? -1
-                                       : at_.place_of_oil(thermal_.oil.features[static_cast<std::size_t>(feature)]);
+                                       : at_.index_of_oil(thermal_.oil.features[static_cast<std::size_t>(feature)]);
 }
 
 double HeatEquations::at_edges(const Eigen::VectorXd& outside) const {
-  const Eigen::Index place = at_.place_of_oil(thermal_.oil.edges);
-  return place < 0 ? thermal_.T_edges : outside[place];
+  const Eigen::Index terminal = at_.index_of_oil(thermal_.oil.edges);
+  return terminal < 0 ? thermal_.T_edges : outside[terminal];
 }
 
 double HeatEquations::at_ring(const Eigen::VectorXd& outside) const {
-  return at_.ambient ? outside[at_.place_of_ambient()] : std::get<RingWall>(thermal_.shell).T_ambient;
+  return at_.ambient ? outside[at_.index_of_ambient()] : std::get<RingWall>(thermal_.shell).T_ambient;
 }
 
 // Oil of a node's temperature, of its own, or the film's (thermal.40).
 double HeatEquations::fresh(int supply, const Eigen::VectorXd& outside) const {
-  if (const Eigen::Index place = oil_of(supply); place >= 0) return outside[place];
+  if (const Eigen::Index terminal = oil_of(supply); terminal >= 0) return outside[terminal];
   const int feature = supply - (has_line() ? 1 : 0);
   if (feature < 0) return thermal_.T_line.value_or(thermal_.T_supply);
   if (thermal_.T_features.empty()) return thermal_.T_supply;

@@ -47,7 +47,7 @@ class HeatEquations {
   [[nodiscard]] HeatState response_to_shell();
   [[nodiscard]] HeatState response_to_journal();
   /// Likewise one of the nodes that are no walls (FilmTerminals).
-  [[nodiscard]] HeatState response_to_outside(Eigen::Index place);
+  [[nodiscard]] HeatState response_to_outside(Eigen::Index terminal);
   /// Heat into those [W], of temperatures or, as it is linear in them, of a change (theory manual, thermal.55,
   /// thermal.56).
   [[nodiscard]] Eigen::VectorXd into_outside(const CarryingFilm& film, const HeatState& state) const;

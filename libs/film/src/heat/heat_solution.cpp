@@ -44,7 +44,8 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   end.journal = x[rows];
   end.supplies = x.tail(supplies());
   if (conduction_of(thermal_.shell) != nullptr && !has_fixed_walls(film)) end.wall_heat = heat_into_shell(film, end);
-  if (conduction_of(thermal_.journal) != nullptr && !has_fixed_walls(film)) end.journal_heat = heat_into_journal(film, end);
+  if (conduction_of(thermal_.journal) != nullptr && !has_fixed_walls(film))
+    end.journal_heat = heat_into_journal(film, end);
   if (has_fixed_walls(film)) add_heat_to_mean(film, start, end);
   return end;
 }
@@ -119,9 +120,9 @@ HeatState HeatEquations::response(const Eigen::VectorXd& known) {
   return change;
 }
 
-HeatState HeatEquations::response_to_outside(Eigen::Index place) {
-  HeatState change = response(by_outside_.col(place));
-  change.outside[place] = 1;
+HeatState HeatEquations::response_to_outside(Eigen::Index terminal) {
+  HeatState change = response(by_outside_.col(terminal));
+  change.outside[terminal] = 1;
   return change;
 }
 
@@ -149,12 +150,12 @@ std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& f
 Eigen::VectorXd HeatEquations::into_outside(const CarryingFilm& film, const HeatState& state) const {
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(at_.outside());
   for (int i = 0; at_.ambient && i < model_.grid.n_phi; ++i)
-    heat[at_.place_of_ambient()] += ring_.outside[i] * (state.shell[i] - state.outside[at_.place_of_ambient()]);
+    heat[at_.index_of_ambient()] += ring_.outside[i] * (state.shell[i] - state.outside[at_.index_of_ambient()]);
   if (!at_.drain) return heat;
-  const double T = state.outside[at_.place_of_drain()];
+  const double T = state.outside[at_.index_of_drain()];
   for (const auto& [row, rate] : drained(film)) {
     const int supply = row - system_.size() - 1;
-    heat[at_.place_of_drain()] += rate * ((supply >= 0 ? state.supplies[supply] : state.film[row]) - T);
+    heat[at_.index_of_drain()] += rate * ((supply >= 0 ? state.supplies[supply] : state.film[row]) - T);
   }
   return heat;
 }

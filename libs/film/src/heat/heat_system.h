@@ -39,9 +39,9 @@ class HeatSystem {
   }
   [[nodiscard]] double& below(int node, int layer) { return layer_[row(node, layer)].below; }
   [[nodiscard]] double& above(int node, int layer) { return layer_[row(node, layer)].above; }
-  [[nodiscard]] double& beside(int node, int layer, Side side) { return from_place(8 * node + side, layer); }
+  [[nodiscard]] double& beside(int node, int layer, Side side) { return from_slot(8 * node + side, layer); }
   /// Of the node two steps away on that side.
-  [[nodiscard]] double& beyond(int node, int layer, Side side) { return from_place(8 * node + 4 + side, layer); }
+  [[nodiscard]] double& beyond(int node, int layer, Side side) { return from_slot(8 * node + 4 + side, layer); }
   [[nodiscard]] double& to_ring(int node) { return layer_[row(node, 0)].ring; }
   /// Entry of the ring's row by one of the two layers beside it.
   [[nodiscard]] double& from_film(int node, int layer) { return from_film_[2 * node + layer]; }
@@ -59,7 +59,7 @@ class HeatSystem {
   /// Adds `weight` times another system of the same film.
   void add(double weight, const HeatSystem& other);
   /// The ring keeps its temperature: its rows become those of the unit matrix.
-  void hold_ring();
+  void fix_ring();
 
   /// Makes ready for products, and for sweeps that begin at angle `first` and go towards growing angles, or falling
   /// ones.
@@ -97,13 +97,13 @@ class HeatSystem {
   [[nodiscard]] int neighbour(int node, int side) const { return neighbours_[node][side]; }
   [[nodiscard]] int next_but_one(int node, int side) const { return neighbour(neighbour(node, side), side); }
   /// The node whose place is `place` % 8 around another: four beside it, four beyond these.
-  [[nodiscard]] int node_at(int place) const {
-    const int node = place / 8, side = place % 4;
-    return place % 8 < 4 ? neighbour(node, side) : next_but_one(node, side);
+  [[nodiscard]] int node_at(int slot) const {
+    const int node = slot / 8, side = slot % 4;
+    return slot % 8 < 4 ? neighbour(node, side) : next_but_one(node, side);
   }
-  [[nodiscard]] double& from_place(int place, int layer) {
-    is_linked_[place] = true;
-    return from_places_[place * layers_ + layer];
+  [[nodiscard]] double& from_slot(int slot, int layer) {
+    is_linked_[slot] = true;
+    return from_slots_[slot * layers_ + layer];
   }
   void find_links();
   template <class Action>
@@ -121,8 +121,8 @@ class HeatSystem {
   Grid grid_;
   int layers_;
   std::vector<Layer> layer_;
-  std::vector<double> from_places_;  ///< entries by the eight nodes around each, of all layers side by side
-  std::vector<char> is_linked_;      ///< whether there may be any
+  std::vector<double> from_slots_;  ///< entries by the eight nodes around each, of all layers side by side
+  std::vector<char> is_linked_;     ///< whether there may be any
   std::vector<Ring> ring_;
   std::vector<double> from_film_;               ///< entries of the ring's rows by the two lowest layers of each node
   std::vector<std::array<int, 4>> neighbours_;  ///< itself where there is none

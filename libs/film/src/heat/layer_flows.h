@@ -52,7 +52,7 @@ class LayerFlows {
   }
 
  private:
-  [[nodiscard]] std::size_t at(std::size_t place, int layer) const { return place * layers_ + layer; }
+  [[nodiscard]] std::size_t at(std::size_t index, int layer) const { return index * layers_ + layer; }
   void flow_over_faces(const FlowBalance& balance, const SurfaceMotion& motion);
   void flow_upwards(const FlowBalance& balance);
   void dissipate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion);

@@ -142,12 +142,12 @@ MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell, double journal) 
   const auto column = [this](const Eigen::VectorXd& by, Eigen::Index node, double self) -> Eigen::VectorXd {
     return (heat_of(by) + self * Eigen::VectorXd::Unit(into_nodes_.size(), node)) / time_;
   };
-  for (Eigen::Index place = 0; place < walls_.outside; ++place) {
+  for (Eigen::Index terminal = 0; terminal < walls_.outside; ++terminal) {
     Eigen::VectorXd by(system_.size() + 1);
-    by << outside_.by.col(place), 0;
+    by << outside_.by.col(terminal), 0;
     by = solve(by);
     answer.by_outside.push_back(change_of(by));
-    answer.exchange.by_T.col(2 + place) = column(by, 2 + place, outside_.self[place]);
+    answer.exchange.by_T.col(2 + terminal) = column(by, 2 + terminal, outside_.self[terminal]);
   }
   if (walls_.shell_node) {
     Eigen::VectorXd by_shell(system_.size() + 1);

@@ -74,8 +74,8 @@ void WallsOverCycles::move_own_walls(const Eigen::VectorXd& by_nodes, HeatState&
   follow(mean_.without, pace);
   if (std::holds_alternative<NodeWall>(thermal_->shell)) follow(mean_.by_shell, by_nodes[0]);
   if (std::holds_alternative<NodeWall>(thermal_->journal)) follow(mean_.by_journal, by_nodes[1]);
-  for (std::size_t place = 0; place < mean_.by_outside.size(); ++place)
-    follow(mean_.by_outside[place], by_nodes[2 + static_cast<Eigen::Index>(place)]);
+  for (std::size_t terminal = 0; terminal < mean_.by_outside.size(); ++terminal)
+    follow(mean_.by_outside[terminal], by_nodes[2 + static_cast<Eigen::Index>(terminal)]);
 }
 
 WallCorrection WallsOverCycles::settle(const Eigen::VectorXd& T_nodes, HeatState& state) {

@@ -159,7 +159,7 @@ void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_grad
       by_u_.col(k) += (by_h * node.h_u + 0.5 * moment.fluidity * flow.u + drop * node.wall_u) * direction;
       by_g_.col(k) += by_h * node.h_g * direction;
       push.by_rate += 0.5 * moment.fluidity * flow.rate;
-      push.by_turn += 0.5 * moment.fluidity * flow.turn;
+      push.by_rotation += 0.5 * moment.fluidity * flow.rotation;
     }
     by_journal_ += moment.journal * direction;
     pushes_.push_back(push);
@@ -176,7 +176,7 @@ Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
     const Row& row = rows_[static_cast<std::size_t>(push.row)];
     const SlidingChange sliding = change_of_sliding(
         row.slip, {row.stretch * (direction.u_journal - direction.u_shell), direction.w_journal - direction.w_shell});
-    double change = push.by_rate * sliding.rate + push.by_turn * sliding.turn;
+    double change = push.by_rate * sliding.rate + push.by_rotation * sliding.rotation;
     if (axial) {
       change += push.by_past * 0.5 * (direction.w_shell + direction.w_journal);
     } else {
@@ -253,7 +253,7 @@ void FilmWrench::add_borders(const FlowBalance& balance) {
     for (const int k : {0, 1}) {
       const SlidingChange change = change_of_sliding(row.slip, Eigen::Vector2d::Unit(k));
       const double stretch = k == 0 ? row.stretch : 1;
-      by_slip_.col(k) += stretch * (border.by_rate * change.rate + border.by_turn * change.turn) * whole;
+      by_slip_.col(k) += stretch * (border.by_rate * change.rate + border.by_rotation * change.rotation) * whole;
     }
   }
 }

@@ -83,7 +83,7 @@ class FilmWrench {
     int row = 0;        ///< of the grid
     Vector6 direction;  ///< of a unit of PocketFlow::Moment
     double by_bend = 0, by_past = 0;
-    double by_rate = 0, by_turn = 0;  ///< with what SlidingChange tells
+    double by_rate = 0, by_rotation = 0;  ///< with what SlidingChange tells
     bool in_journal = false;
   };
   std::vector<WallPush> pushes_;

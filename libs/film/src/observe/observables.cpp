@@ -174,7 +174,7 @@ FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, cons
 Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal) {
   const GridGeometry geometry(model);
   PocketRelief relief(model, geometry);
-  relief.place(phi_journal, phi_journal, 0, 0);
+  relief.set_rotation(phi_journal, phi_journal, 0, 0);
   Eigen::VectorXd depth = Eigen::VectorXd::Zero(model.grid.size());
   for (const CoveredDepth& covered : relief.covered()) depth[covered.node] += covered.share * covered.depth;
   return depth;

@@ -19,13 +19,13 @@ MultigridSolver::MultigridSolver(int n_phi, int n_z, std::span<const int> column
   for (int column = 0; column < n; ++column) {
     for (int k = column_start[column]; k < column_start[column + 1]; ++k) {
       const int row = row_index[k], lines = (column / n_z - row / n_z + n_phi) % n_phi;
-      const int place = column == row       ? centre
+      const int entry = column == row       ? centre
                         : column == row - 1 ? south
                         : column == row + 1 ? north
                         : lines == 1        ? east
                                             : west;
-      HERSEY_REQUIRE(place != west || lines == n_phi - 1, "a five-point pattern");
-      slot_.push_back(5 * row + place);
+      HERSEY_REQUIRE(entry != west || lines == n_phi - 1, "a five-point pattern");
+      slot_.push_back(5 * row + entry);
     }
   }
   rows_.assign(static_cast<std::size_t>(n), {});

@@ -93,7 +93,7 @@ class Sor {
 
  private:
   void start(const Eigen::VectorXd& u);
-  void place(int node, double u);
+  void set_unknown(int node, double u);
   [[nodiscard]] FilmDomain update_coefficients(const Eigen::VectorXd& u);
   [[nodiscard]] FilmDomain enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u);
   void sweep();
@@ -141,10 +141,10 @@ double Sor::following() const {
 
 void Sor::start(const Eigen::VectorXd& u) {
   u_ = p_ = theta_ = u;
-  for (int node = 0; node < balance_.size(); ++node) place(node, u[node]);
+  for (int node = 0; node < balance_.size(); ++node) set_unknown(node, u[node]);
 }
 
-void Sor::place(int node, double u) {
+void Sor::set_unknown(int node, double u) {
   u_[node] = u;
   const bool open = balance_.is_open(node);
   const FilmPhase phase = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(node)) : u, scales_);
@@ -209,7 +209,7 @@ NodeRow Sor::row(int node) const {
 
 void Sor::relax(int i, int j) {
   const int node = balance_.model().grid.index(i, j);
-  if (balance_.is_given(node)) return place(node, balance_.edge_unknown(node));
+  if (balance_.is_given(node)) return set_unknown(node, balance_.edge_unknown(node));
 
   // Beside line and features the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
   const NodeRow r = row(node);
@@ -220,7 +220,7 @@ void Sor::relax(int i, int j) {
   const double conductance = own * (open ? balance_.conductance_scale() : r.K) + (balance_.only_fills(node) ? 0 : tie);
   const double target = -full / conductance;
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
-  if (u >= 0 || cavitation_.has_tension()) return place(node, u);
+  if (u >= 0 || cavitation_.has_tension()) return set_unknown(node, u);
 
   const auto cavitated = [&](double theta) {
     const ValueAndSlope leaves = r.at(theta);
@@ -237,11 +237,11 @@ void Sor::relax(int i, int j) {
     if (std::abs(theta - last) <= near_enough) break;
   }
   const double ambient = balance_.ambient_unknown(node);
-  if (!open || filling >= ambient) return place(node, filling);
+  if (!open || filling >= ambient) return set_unknown(node, filling);
   // Emptier than what lies outside: u is the inflow that keeps it as full (film.19).
   const CavitatedRow drawing = cavitated(cavitation_.phase(ambient, scales_).theta.value);
   const double lack = drawing.full + (drawing.transport / scales_.fill + drawing.drawn) * ambient;
-  place(node, std::min(ambient, ambient - lack / (drawing.slack + drawing.drawn)));
+  set_unknown(node, std::min(ambient, ambient - lack / (drawing.slack + drawing.drawn)));
 }
 
 // With the flow, so that the fill fraction is carried around in one sweep.
