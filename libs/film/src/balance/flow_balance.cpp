@@ -291,7 +291,7 @@ double FlowBalance::slack_u(int node) const {
 }
 
 // A film that does not conserve oil lacks some wherever it is cavitated: the half volumes on an edge do not draw it in.
-bool FlowBalance::lets_nothing_in(int node) const {
+bool FlowBalance::blocks_inflow(int node) const {
   return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off_of_u();
 }
 
@@ -299,7 +299,7 @@ bool FlowBalance::lets_nothing_in(int node) const {
 double FlowBalance::outflow_of_row(int node) const {
   if (is_open(node)) return is_prescribed(node) ? std::max(slack(node), -balance_[node]) : slack(node);
   if (!is_given(node)) return 0;
-  return lets_nothing_in(node) ? 0 : -balance_[node];
+  return blocks_inflow(node) ? 0 : -balance_[node];
 }
 
 double FlowBalance::outflow(int node) const { return outflow_of_row(node) + over_land(node); }
@@ -410,14 +410,14 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   if (relief_.has_pockets()) add_turning_pockets(direction, dr);
   const bool speeds =
       direction.u_shell != 0 || direction.u_journal != 0 || direction.w_shell != 0 || direction.w_journal != 0;
-  const bool turns = direction.phi_journal != 0 && relief_.has_pockets();
+  const bool rotates = direction.phi_journal != 0 && relief_.has_pockets();
   direction_sliding_.assign(static_cast<std::size_t>(model_.grid.n_z), {});
   for (int j = 0; speeds && j < model_.grid.n_z; ++j)
     direction_sliding_[static_cast<std::size_t>(j)] = change_of_sliding(direction, j);
   const auto sliding_at = [this](int node) -> const SlidingChange& {
     return direction_sliding_[static_cast<std::size_t>(node % model_.grid.n_z)];
   };
-  for (std::size_t f = 0; (gap || speeds || turns) && f < faces_.size(); ++f) {
+  for (std::size_t f = 0; (gap || speeds || rotates) && f < faces_.size(); ++f) {
     double q = flow_along(f, direction);
     if (speeds) {
       const auto along = [&](int node) { return flow_of(node, f).along(sliding_at(node)); };

@@ -416,7 +416,7 @@ class FlowBalance {
   void replace_boundary_rows();
   [[nodiscard]] double slack(int node) const;
   [[nodiscard]] double outflow_of_row(int node) const;  ///< without what flows over land
-  [[nodiscard]] bool lets_nothing_in(int node) const;   ///< on a flooded edge
+  [[nodiscard]] bool blocks_inflow(int node) const;   ///< on a flooded edge
   [[nodiscard]] double slack_u(int node) const;
   [[nodiscard]] double storage_u(int node) const;
   [[nodiscard]] double storage_h(int node) const;

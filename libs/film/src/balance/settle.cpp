@@ -44,7 +44,7 @@ void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {
     takes_what_comes[static_cast<std::size_t>(i)] = given ? 1 : 0;
     const double end = given ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
     const double coming = (end - start) / dt_ + leaving[i];
-    if (is_given(i)) out = lets_nothing_in(i) ? 0 : -coming;
+    if (is_given(i)) out = blocks_inflow(i) ? 0 : -coming;
     const double land = over_land(i), fed = (is_prescribed(i) ? coming + out : 0) + land;
     add_flow_over_edge(oil, i, out + land);
     oil.flow_supply += fed;

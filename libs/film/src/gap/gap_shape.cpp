@@ -41,7 +41,7 @@ void GapShape::rotate_profiles(double phi_journal, Eigen::VectorXd& opening, Eig
   for (auto* field : {&opening, &first, &second}) field->setZero(still_.size());
   for (const Profile& profile : turning_profiles_) {
     for (int k = 0; k < still_.size(); ++k) {
-      // Seen from the journal the node moves backwards.
+      // In the frame of the journal the node moves backwards.
       const Opening o = opening_at(profile, k, phi_journal);
       opening[k] += o.value, first[k] -= o.phi, second[k] += o.phi_phi;
     }

@@ -9,12 +9,12 @@
 namespace hersey::film {
 namespace {
 
-// Points of the table by which a density is integrated, per node: the positions of nodes are then exact to 1e-4 of a
+// Points per node of the table by which a density is integrated; the positions of nodes are then exact to 1e-4 of a
 // cell.
 constexpr int points_per_node = 32;
 
-/// Places of `count` nodes between `first` and `last` so that equal shares of the integral of `density` lie between
-/// neighbours; the last node lies on `last`.
+/// Returns the positions of `count` nodes between `first` and `last`, between which equal shares of the integral of
+/// `density` lie; the last node lies on `last`.
 template <class Density>
 std::vector<double> equal_shares(int count, double first, double last, Density&& density) {
   const int points = points_per_node * count;
@@ -32,13 +32,13 @@ std::vector<double> equal_shares(int count, double first, double last, Density&&
   return nodes;
 }
 
-/// What a position adds to the density of nodes (film.11).
+/// Returns the density of nodes that a refinement adds (film.11).
 double density_at(double distance, const Refinement& r) {
   const double ratio = distance / r.reach;
   return (r.factor - 1) / (1 + ratio * ratio);
 }
 
-/// Places at fractional indices, by straight lines between the nodes.
+/// Returns positions at fractional indices, interpolated linearly between the nodes.
 double between(const std::vector<double>& nodes, double index) {
   const int last = static_cast<int>(nodes.size()) - 1;
   const int below = std::clamp(static_cast<int>(std::floor(index + 1e-9)), 0, last - 1);

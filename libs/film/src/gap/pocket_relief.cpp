@@ -11,14 +11,14 @@
 namespace hersey::film {
 namespace {
 
-// Gauss' rule with four points on [-1, 1]: Abramowitz and Stegun (1964), table 25.4. Two of them in a row, as where the
-// shares of control volumes are counted (feature_cover.cpp), so that a pocket that rotates keeps its volume.
+// Gauss' rule with four points on [-1, 1]: Abramowitz and Stegun (1964), table 25.4. It is applied to both halves of a
+// width, as for the shares of control volumes (feature_cover.cpp), so that a rotating pocket keeps its volume.
 constexpr std::array<double, 4> gauss_point{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
                                             0.861136311594052575};
 constexpr std::array<double, 4> gauss_weight{0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
                                              0.347854845137453857};
 
-/// Calls visit(share of the width, place within it from 0 to 1).
+/// Calls visit(share of the width, position within it from 0 to 1).
 template <class Visit>
 void over_gauss_points(Visit&& visit) {
   for (const double half : {0.25, 0.75}) {
@@ -26,13 +26,13 @@ void over_gauss_points(Visit&& visit) {
   }
 }
 
-/// A place with its rate of turning.
+/// A position with its rate of rotation.
 struct Border {
   double at = 0, rate = 0;
   bool operator<(const Border& other) const { return at < other.at; }
 };
 
-/// Length of the interval from `first` to `last` that lies within +-half or a turn away from there.
+/// Returns the length of the interval from `first` to `last` that lies within +-half or a revolution away from there.
 double length_within(double first, double last, double half) {
   if (half >= 0.5 * two_pi) return last - first;
   double sum = 0;
@@ -55,7 +55,7 @@ struct PocketRelief::Extent {
 
 double swept_area(const SurfaceFeature& pocket, double R, double phi, double low, double high, double start,
                   double end) {
-  // Seen from the pocket the face moves from phi - start back to phi - end.
+  // In the frame of the pocket the face moves from phi - start back to phi - end.
   const double turned = std::remainder(end - start, two_pi), from = std::remainder(phi - pocket.phi - start, two_pi);
   const double first = std::min(from, from - turned), last = std::max(from, from - turned);
   const double sign = turned < 0 ? -1 : 1, half = 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
@@ -234,7 +234,7 @@ FlowTubeGap PocketRelief::gap(const PocketFlowTube& flow_tube, double h) const {
   FlowTubeGap sum;
   for (int s = flow_tube.first_strip; s < flow_tube.first_strip + flow_tube.strips; ++s) {
     const Strip& strip = strips_[s];
-    // I_1 to I_4 and what phi_journal does to I_2 and I_3.
+    // Integrals I_1 to I_4, and the derivatives of I_2 and I_3 with phi_journal.
     std::array<double, 5> I{};
     double I1_journal = 0, I2_journal = 0, I3_journal = 0;
     for (int k = strip.first_segment; k < strip.first_segment + strip.segments; ++k) {
@@ -261,13 +261,13 @@ FlowTubeGap PocketRelief::gap(const PocketFlowTube& flow_tube, double h) const {
   return sum;
 }
 
-// What rotates over the faces around the bearing: the mean of the step, so that together with what it does to the depth
-// of the control volumes a pocket brings no oil and takes none away.
+// Sets the volumes that rotate over the faces around the bearing, as means of the step: together with the change of the
+// control volumes' depth a pocket neither brings nor removes oil.
 void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double speed) {
   if (!any_rotates_) return;
   const Grid& grid = model_.grid;
-  // A pocket may have passed a face in the step and cover no flow tube there any more: every face of the pocket's rows
-  // is asked. Tubes come in the order of faces of one kind, not of all.
+  // A pocket may have passed a face in the step and cover no flow tube there any more, so that every face of the
+  // pocket's rows is tested. Flow tubes are in the order of faces of one direction, not of all.
   std::vector<int> tube_of(static_cast<std::size_t>(grid.size()), -1);
   for (std::size_t t = 0; t < flow_tubes_.size(); ++t) {
     if (flow_tubes_[t].face < tube_of.size()) tube_of[flow_tubes_[t].face] = static_cast<int>(t);
@@ -282,7 +282,8 @@ void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double
       for (const SurfaceFeature& pocket : pockets_) {
         if (pocket.surface != Surface::journal) continue;
         if (low >= pocket.z + 0.5 * pocket.length || high <= pocket.z - 0.5 * pocket.length) continue;
-        // Its rate at the present angle: what covers the face, from a step too small to pass anything.
+        // The rate at the present angle is that with which the pocket covers the face, from a step too small to pass
+        // anything.
         const double sliver = 1e-9;
         const double cover = swept_area(pocket, R, face, low, high, phi_journal - sliver, phi_journal) / sliver;
         if (dt > 0) {
