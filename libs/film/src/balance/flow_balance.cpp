@@ -231,14 +231,15 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
   find_borders();
   replace_boundary_rows();
-  // A film without oil has no throughput to measure by: a thousandth of what its surfaces would carry in a full gap.
+  // Scale of the throughput of a film without oil: a thousandth of the flow that its surfaces would carry in a full
+  // gap.
   const double carried =
       model_.c * std::max(std::abs(speed_phi_) * geometry_.mean_dz, std::abs(speed_z_) * geometry_.mean_dx);
   largest_throughput_ = std::max(throughput_.maxCoeff(), 1e-3 * carried);
   return {};
 }
 
-// Where the oil is thinner at one of the surfaces, sliding carries along more of it with the other, as between rough
+// Where the oil is thinner at one of the surfaces, sliding carries more of it along with the other, as between rough
 // surfaces (thermal.6).
 void FlowBalance::skew(double skew, double h, RoughGap& gap) {
   for (const int k : {0, 1}) {
@@ -279,7 +280,7 @@ int FlowBalance::phase_node(int node) const {
   return node;
 }
 
-// What a row carries beside its balance: the slack of p >= p_cav, on an open edge the outflow or inflow.
+// A row has a term beside its balance: the slack of p >= p_cav, or on an open edge the outflow or inflow.
 double FlowBalance::slack(int node) const {
   if (!is_open(node)) return D0_ * cavitation_.slack(u_[node]).value;
   return D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(node), 0.0));
@@ -295,7 +296,7 @@ bool FlowBalance::blocks_inflow(int node) const {
   return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off_of_u();
 }
 
-// On an edge in air what a supply beside it would take back leaves, too.
+// On an edge in air the oil that a supply beside it would take back leaves, too.
 double FlowBalance::outflow_of_row(int node) const {
   if (is_open(node)) return is_prescribed(node) ? std::max(slack(node), -balance_[node]) : slack(node);
   if (!is_given(node)) return 0;
@@ -326,7 +327,7 @@ std::size_t FlowBalance::face_at_edge(int node) const {
   return edges_[node].of_patch ? face_after(i, j) : face_above(i, j);
 }
 
-// Oil that is lost where the film is cavitated comes from nowhere, but for the share that draws on the supply.
+// Oil that is lost where the film is cavitated has no source, except for the share that the supply provides.
 double FlowBalance::supply_of_row(int node) const {
   const double land = over_land(node);
   if (!is_prescribed(node)) return land;

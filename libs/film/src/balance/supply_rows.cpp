@@ -4,11 +4,11 @@
 #include "balance/flow_balance.h"
 #include "hersey/core/two_pi.h"
 
-// Rows of the residual that supply line and features have a part in (film.21, film.22).
+// Rows of the residual in which supply line and features have a share (film.21, film.22).
 namespace hersey::film {
 namespace {
 
-// Share of a node's own balance in its row below which it lies on line or feature.
+// A node whose own balance has a smaller share than this in its row lies on line or feature.
 constexpr double kNoWay = 1e-6;
 
 }  // namespace
@@ -54,14 +54,14 @@ double FlowBalance::draws(int node) const {
   return prescribed == nullptr || cavitation_.has_tension() ? 1 : prescribed->draws;
 }
 
-// Between supply and next node only pressure drives oil. On the supply itself the gap is full, whatever comes.
+// Between the supply and the next node only pressure drives oil. On the supply itself the gap is full in any case.
 ValueAndSlope FlowBalance::excess(const PrescribedNode& prescribed) const {
   const double u = u_[prescribed.node], share = u < 0 ? draws(prescribed.node) : 1;
   if (u > 0 && only_fills(prescribed.node)) return {0, 0};
   return {share * u - prescribed.u, share};
 }
 
-// On an edge in air u > 0 is an outflow, which no feature beside it takes.
+// On an edge in air u > 0 is an outflow; a feature beside the edge does not take it.
 bool FlowBalance::only_fills(int node) const {
   const PrescribedNode* prescribed = prescribed_at(node);
   return prescribed != nullptr && prescribed->feature >= 0 && prescribed->chi < 1 && is_open(node);
@@ -69,7 +69,7 @@ bool FlowBalance::only_fills(int node) const {
 
 double FlowBalance::power_of_tie(int node) const {
   const PrescribedNode* prescribed = prescribed_at(node);
-  // As good as on what holds it there is no way left; what its pressure is off by, round-off, would count over nothing.
+  // On the supply itself there is no distance left: the round-off of its pressure would be divided by next to nothing.
   if (prescribed == nullptr || 1 - prescribed->chi < kNoWay) return 0;
   const double drop = nodes_[node].p - prescribed->u, acting = nodes_[node].wall - model_.p_cav - prescribed->u;
   return tie(*prescribed).k / (nodes_[node].density * (1 - prescribed->chi)) * drop * acting;
@@ -88,14 +88,15 @@ int FlowBalance::feature_at(int node) const {
   return land == nullptr ? -1 : land->feature;
 }
 
-// The film's own conductance: what lies between node and line, or node and edge of the feature, is film.
+// The conductance is that of the film, which fills the distance between node and line, or node and edge of the feature.
 FlowBalance::Tie FlowBalance::tie(const PrescribedNode& prescribed) const {
   if (prescribed.other >= 0) return tie_to_line(prescribed);
   const Node& node = nodes_[prescribed.node];
   const double cube = node.h * node.h * node.h, by_h = 3 / node.h;
   const RoughGap& rough = rough_[prescribed.node];
   const Fluidity &around = node.flow[0], &along = node.flow[1];
-  // Along the axis oil that thins by sliding has another fluidity: of the mean of both directions, with derivatives.
+  // Oil that thins by sliding has another fluidity along the axis: the mean of both directions counts, with
+  // derivatives.
   const double smooth = unit_conductance_ / 12 * node.density * cube;
   const auto by_fluidity = [&](double change_around, double change_along) {
     return 0.5 * smooth * (rough.pressure[0] * change_around + rough.pressure[1] * change_along);
@@ -145,18 +146,18 @@ FlowBalance::Tie FlowBalance::tie_to_line(const PrescribedNode& prescribed) cons
           .k_rotation = k * between(node.flow[0].rotation, other.flow[0].rotation) / fluidity};
 }
 
-// Of two that hold a node wholly, that with more pressure, and of equal pressure that whose middle is nearer: never
-// that which the file happens to name first. A line on a node holds it wholly only by how its place is rounded: the
-// feature does.
+// Of two supplies that prescribe a node wholly the one with more pressure counts, and of equal pressures the one whose
+// middle is nearer, so that the order in the file has no effect. A line on a node prescribes it wholly only to
+// rounding: a feature has precedence.
 bool FlowBalance::yields_to(const PrescribedNode& prescribed, const PrescribedNode& to) {
-  constexpr double as_much = 1e-9;  // of a place, by round-off
+  constexpr double as_much = 1e-9;  // relative round-off of a position
   if (std::abs(prescribed.chi - to.chi) > as_much) return prescribed.chi < to.chi;
   if ((prescribed.feature < 0) != (to.feature < 0)) return prescribed.feature < 0;
   return prescribed.u != to.u ? prescribed.u < to.u : prescribed.inwards < to.inwards;
 }
 
-// Edges win where they meet a line or a feature, but for the oil, which is the supply's. One in air is filled there,
-// but its pressure cannot rise.
+// Edges have precedence over a line or a feature, except for the oil, which is the supply's. An edge in air is filled
+// there, but its pressure cannot rise.
 void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
   only_oil = only_oil || is_given(prescribed.node);
   std::vector<PrescribedNode>& nodes = only_oil ? supplied_edge_nodes_ : prescribed_;
@@ -170,8 +171,9 @@ void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
   if (is_open(prescribed.node)) nodes[index].u = 0;
 }
 
-// The line cuts the flow tubes between two columns of nodes. Each side is tied to it by what of the flow tube lies on
-// its side, K/t at a share t of the way; the row counts t times, so that a line on a node is a given pressure there.
+// The line cuts the flow tubes between two columns of nodes. Each side is connected to it by the part of the flow tube
+// on its side, K/t at a share t of the distance. The row is multiplied by t, so that a line on a node prescribes the
+// pressure there.
 void FlowBalance::prescribe_line(double phi) {
   const Grid& grid = model_.grid;
   const auto line = geometry_.locate(phi);
