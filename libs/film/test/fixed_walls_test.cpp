@@ -279,17 +279,17 @@ TEST_CASE("SteadyFilmWithFixedNodes_IsTheSteadyFilm") {
   CHECK(observed[1].by_T == observed[0].by_T);
 }
 
-// What goes elsewhere than foretold tells nothing of the pace.
+// What goes elsewhere than predicted tells nothing of the relaxation.
 TEST_CASE("PaceOfWalls_IsLearnedOfWhatGoesTheSameWay") {
-  const Eigen::Vector2d ones(1, 1), foretold(10, 0);
+  const Eigen::Vector2d ones(1, 1), predicted(10, 0);
   for (const auto& [then, share] : std::vector<std::pair<Eigen::Vector2d, double>>{
            {{0, 0}, 1.0}, {{2.5, 0}, 0.75}, {{9, 0}, 0.5}, {{0, 10}, 1.0}, {{12, 0}, 1.0}}) {
-    WallPace pace;
-    pace.learn(Eigen::Vector2d(10, 0), ones);
-    CHECK(pace.share() == 1);
-    pace.foretell(foretold);
-    pace.learn(then, ones);
-    CHECK(pace.share() == relative(share).epsilon(1e-15));  // eps
+    WallRelaxation relaxation;
+    relaxation.learn(Eigen::Vector2d(10, 0), ones);
+    CHECK(relaxation.share() == 1);
+    relaxation.predict(predicted);
+    relaxation.learn(then, ones);
+    CHECK(relaxation.share() == relative(share).epsilon(1e-15));  // eps
   }
 }
 

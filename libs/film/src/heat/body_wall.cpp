@@ -20,7 +20,7 @@ MatrixXd at_nodes(const GridTransfer& transfer, const MatrixXd& fields) {
   return result;
 }
 
-/// Half of the distances to both neighbours.
+/// Returns half of the distances to both neighbours.
 VectorXd widths(const Grid& grid) {
   VectorXd width(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
@@ -34,7 +34,7 @@ VectorXd widths(const Grid& grid) {
 }  // namespace
 
 WallConduction on_grid(const WallConduction& wall, const Grid& from, const Grid& to) {
-  // An angle of the coarser grid is a mean of the finer ones, and its heat goes into them by the same weights.
+  // An angle of the coarser grid is a mean of the finer ones, and its heat is distributed to them by the same weights.
   const MatrixXd lines = GridTransfer::by_position(to, from).around(MatrixXd::Identity(to.n_phi, to.n_phi));
   MatrixXd means = lines.transpose() * widths(from).asDiagonal();
   means = (means.rowwise().sum().cwiseInverse().asDiagonal() * means).eval();

@@ -77,7 +77,7 @@ HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, doubl
     return T + (rise > 0 ? std::log1p(beta * thicker * rise) / beta : rise);
   };
   image.film = image.film.unaryExpr(thinned);
-  // By so much less a journal grows: it would fill its bore at once.
+  // The journal's heat is reduced likewise; at the heat of `image` the journal would fill its bore.
   if (const JournalConduction* body = conduction_of(thermal.journal); body != nullptr && body->rise > 0) {
     image.journal = thinned(image.journal);
     image.journal_heat = (image.journal - body->T0) / body->rise;
@@ -100,8 +100,8 @@ struct FilmHeat::Impl {
   void thin();
   [[nodiscard]] bool has_fixed_walls() const { return thermal.walls == WallMotion::fixed; }
   void show_rest();
-  /// What is to be seen of the last answer, worked out when it is asked for: iterations of film and heat do not need
-  /// it.
+  /// Computes the observation of the last solution. It is computed on demand, because iterations of film and heat do
+  /// not need it.
   void observe();
   [[nodiscard]] const HeatObservables& look();
   void show_surfaces(const CarryingFilm& film);
@@ -157,7 +157,8 @@ HeatState FilmHeat::Impl::start() const {
   return first;
 }
 
-/// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them alternately: they are worked out once.
+/// Viscosities of the layers at the cavitation pressure [Pa s]. Film and heat need them alternately; they are computed
+/// once.
 const Eigen::VectorXd& FilmHeat::Impl::viscosities_at_rest() {
   if (T_of_mu.size() == state.film.size() && T_of_mu == state.film) return mu_at_rest;
   const TemperatureLaw& law = flow.model().lubricant.temperature_law;
@@ -176,7 +177,7 @@ Eigen::VectorXd FilmHeat::Impl::viscosities() {
   return mu;
 }
 
-/// By the shear in the film last evaluated.
+/// Viscosities at the shear in the film last evaluated.
 void FilmHeat::Impl::thin() {
   const auto layers = static_cast<std::size_t>(thermal.layers);
   const Lubricant& oil = flow.model().lubricant;
@@ -247,7 +248,7 @@ Eigen::VectorXd FilmHeat::shell_opening() const {
   return wall == nullptr || !wall->deforms() ? Eigen::VectorXd() : wall->shape(impl_->state.wall_heat);
 }
 
-// Before it has settled the body is as warm everywhere (thermal.39).
+// Before it has settled all of the body has one temperature (thermal.39).
 Eigen::VectorXd FilmHeat::shell_opening_in_time() const {
   const WallConduction* wall = conduction_of(impl_->thermal.shell);
   if (wall == nullptr || !wall->deforms() || impl_->fixed_walls.have_settled()) return shell_opening();
@@ -259,7 +260,7 @@ Eigen::VectorXd FilmHeat::journal_growth() const {
   return journal == nullptr || !journal->deforms() ? Eigen::VectorXd() : journal->shape(impl_->state.journal_heat);
 }
 
-// Likewise (thermal.62).
+// The same holds for the journal (thermal.62).
 Eigen::VectorXd FilmHeat::journal_growth_in_time() const {
   const JournalConduction* journal = conduction_of(impl_->thermal.journal);
   if (journal == nullptr || !journal->deforms() || impl_->fixed_walls.have_settled()) return journal_growth();
@@ -320,7 +321,7 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   if (terminals_of(m.thermal).has_any() && !(m.has_fixed_walls() && m.dt > 0)) m.find_exchange();
 }
 
-// What walls that are nodes take up, and by how much more of a film that follows them (thermal.46).
+// Computes the heat into walls that are nodes, and its derivatives with a film that follows them (thermal.46).
 void FilmHeat::Impl::find_exchange() {
   const CarryingFilm film = carrying();
   const Eigen::Index outside = state.outside.size(), n = 2 + outside;
@@ -381,7 +382,7 @@ void FilmHeat::move_walls(const Eigen::VectorXd& T) {
 double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
   Impl& m = *impl_;
   if (!m.shears_layers()) return 0;
-  (void)m.look();  // of the film before
+  (void)m.look();  // observation of the previous film
   const FilmDomain domain = m.flow.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(m.flow.model(), domain));
   const Eigen::VectorXd before = m.state.thinning;
@@ -397,7 +398,7 @@ const WallExchange& FilmHeat::mean_exchange() {
 
 WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
   Impl& m = *impl_;
-  (void)m.look();  // of the step before
+  (void)m.look();  // observation of the previous step
   const WallCorrection correction = m.fixed_walls.settle(T_nodes, m.state);
   m.average_walls();
   return correction;
@@ -426,8 +427,8 @@ void FilmHeat::Impl::observe() {
   average_walls();
 }
 
-// On a wall without heat the temperature has no slope: a parabola through the two layers beside it. Elsewhere heat
-// passes half a layer.
+// On a wall without heat the temperature has no slope and follows from a parabola through the two layers beside it.
+// Elsewhere heat passes half a layer.
 void FilmHeat::Impl::show_surfaces(const CarryingFilm& film) {
   const Grid& grid = flow.model().grid;
   const int n = thermal.layers;

@@ -4,18 +4,18 @@
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
 
-// The linear system of all temperatures: products, sweeps as a preconditioner, GMRES, and a factorisation where that
-// does not arrive.
+// Linear system of all temperatures: products, sweeps as a preconditioner, GMRES, and a factorisation where GMRES does
+// not converge.
 namespace hersey::film {
 namespace {
 
-// How far the equations are solved, as a share of what is missing at the start: of a steady film, which is taken in
-// turn with its temperature, and of a step. With 1e-4 turns are up to twice as many: their acceleration takes what is
-// left for an answer of the film.
+// Tolerances of the equations over the initial residual: of a steady film, which is iterated with its temperature, and
+// of a step. With 1e-4 up to twice as many iterations are needed: their acceleration takes the remaining residual for a
+// response of the film.
 constexpr double steady_share = 1e-5, step_share = 1e-9;
-// A body that answers heat as a whole by temperatures has small rows: little is missing in them.
+// The rows of a body that responds to heat as a whole are small, and so are their residuals.
 constexpr double body_share = 1e-7;
-// Likewise the answers to temperatures of walls, which multiply what these move in a step.
+// Tolerance of the responses to temperatures of walls, which are multiplied by the change of these in a step.
 constexpr double response_share = 1e-7;
 
 }  // namespace
@@ -58,7 +58,7 @@ void HeatEquations::solve_for(const Eigen::VectorXd& known, double share, Eigen:
   if (!gmres_.solve(A, M, known, wanted, x).solved()) factorise_for(known, x);
 }
 
-// Where oil turns round in cells that sweeps cannot follow.
+// Factorises where oil recirculates in cells that sweeps cannot follow.
 void HeatEquations::factorise_for(const Eigen::VectorXd& known, Eigen::VectorXd& x) const {
   const Eigen::SparseMatrix<double> A = matrix();
   const std::span<const double> values{A.valuePtr(), static_cast<std::size_t>(A.nonZeros())};
@@ -105,7 +105,7 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   return A;
 }
 
-// Linear in what is known: the system stays, and no heat is made (thermal.46).
+// The response is linear in the known terms: the system stays, and no heat is generated (thermal.46).
 HeatState HeatEquations::response(const Eigen::VectorXd& known) {
   const int rows = system_.size(), film = model_.grid.size() * layers();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(known.size());
@@ -126,7 +126,7 @@ HeatState HeatEquations::response_to_outside(Eigen::Index terminal) {
   return change;
 }
 
-// Oil that leaves over the edges, into a supply that takes it away, or to be replaced by what a supply gives.
+// Oil leaves over the edges, into a supply that removes it, or to be replaced by a supply.
 std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& film) const {
   std::vector<std::pair<int, double>> oil;
   for (int node = 0; node < model_.grid.size(); ++node) {
@@ -145,7 +145,7 @@ std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& f
   return oil;
 }
 
-// A node that oil comes from gives it at its own temperature and grows no colder; what comes back warms it
+// A node from which oil comes gives it at its own temperature and grows no colder; oil that comes back warms it
 // (thermal.55).
 Eigen::VectorXd HeatEquations::into_outside(const CarryingFilm& film, const HeatState& state) const {
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(at_.outside());
@@ -184,7 +184,7 @@ void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
   multiply_remainder(x, y);
 }
 
-// Of the row of a journal that its heat moves, by the layers beside it.
+// Contribution of the layers beside it to the row of a journal with a temperature of its own.
 std::array<std::pair<int, double>, 2> HeatEquations::journal_entries(int node) const {
   const WallFlux& flux = into_journal_[node];
   return {{{system_.row(node, top()), -flux.beside}, {system_.row(node, next_to_top()), flux.next}}};

@@ -31,7 +31,7 @@ void HeatSystem::set_zero() {
   from_film_.assign(from_film_.size(), 0);
 }
 
-// Loops over the layers of a column are unrolled for the numbers mostly asked for.
+// Loops over the layers of a column are unrolled for the most frequent numbers.
 template <class Action>
 void HeatSystem::for_layers(Action&& action) const {
   if (layers_ == 1) return action(std::integral_constant<int, 1>{});
@@ -52,7 +52,7 @@ HeatSystem::Row HeatSystem::entries(int node, int layer) const {
   return entries;
 }
 
-/// What the film at a node adds to the row of the ring there.
+/// Returns the film's contribution at a node to the row of the ring there.
 double HeatSystem::from_film(int node, const Eigen::VectorXd& x) const {
   double sum = 0;
   for (int l = 0; l < lowest(); ++l) sum += from_film_[2 * node + l] * x[row(node, l)];
@@ -71,7 +71,7 @@ HeatSystem::Row HeatSystem::ring_entries(int i) const {
   return entries;
 }
 
-/// All of the ring and of the film beside it.
+/// Computes all entries of the ring and of the film beside it.
 HeatSystem::Row HeatSystem::answer_entries(int i) const {
   Row entries;
   for (int j = 0; j < ring_rows(); ++j) {
@@ -126,7 +126,7 @@ void HeatSystem::persist(Archive& archive) {
   archive.io("from_film", from_film_);
 }
 
-// What other columns give, from as many sums as there are layers.
+// Subtracts the contributions of other columns from as many sums as there are layers.
 template <int N>
 void HeatSystem::subtract(int begin, int end, const double* x, std::span<double> sums) const {
   const int n = N > 0 ? N : layers_;
@@ -170,7 +170,7 @@ void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   if (answer_.is_set()) y.segment(film_rows(), n) = answer_.rows(x.segment(film_rows(), n), y.segment(film_rows(), n));
 }
 
-// Along the axis oil flows from the middle to the edges, as a rule.
+// Along the axis oil usually flows from the middle to the edges.
 void HeatSystem::prepare(int first, bool forwards) {
   order_.clear();
   const int n_phi = grid_.n_phi, middle = grid_.n_z / 2;
@@ -192,7 +192,8 @@ void HeatSystem::prepare(int first, bool forwards) {
   if (!ring_.empty()) prepare_ring();
 }
 
-// Of the four neighbours and those beyond most give a column nothing: oil comes from one side around and one along.
+// Most of the four neighbours and of those beyond contribute nothing to a column: oil comes from one side around and
+// one side along the axis.
 void HeatSystem::find_links() {
   std::vector<int> rank(order_.size());
   for (std::size_t k = 0; k < order_.size(); ++k) rank[order_[k]] = static_cast<int>(k);
@@ -211,7 +212,7 @@ void HeatSystem::find_links() {
   }
 }
 
-// Column by column; those that come later are still zero.
+// Columns are solved one by one; those that follow are still zero.
 template <int N>
 void HeatSystem::sweep_layers(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   const int n = N > 0 ? N : layers_;
@@ -253,7 +254,8 @@ void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   solve_ring(x);
 }
 
-// A ring is a tridiagonal chain, closed by two entries: Sherman and Morrison's formula with the chain's answer to them.
+// A ring is a tridiagonal chain, closed by two entries: Sherman and Morrison's formula combines the chain's solutions
+// for them.
 void HeatSystem::prepare_ring() {
   const int n = ring_rows();
   if (answer_.is_set()) {

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Index;
 
-/// Nodes that paths lead to from those marked.
+/// Marks the nodes that paths lead to from those marked.
 std::vector<bool> reached(const ThermalNetworkModel& model, std::vector<bool> from) {
   for (bool spreads = true; spreads;) {
     spreads = false;
@@ -51,15 +51,15 @@ ThermalNetwork::ThermalNetwork(ThermalNetworkModel model) : model_(std::move(mod
   for (std::size_t i = 0; i < n; ++i) observables_.T[static_cast<Index>(i)] = model_.nodes[i].T;
 }
 
-// (thermal.45) by (thermal.47), or (thermal.48): conductances, films and capacities at the end of the step, so that
-// none of them limits it. Solved for the change, which short steps of large bodies would lose in the temperature's
-// digits.
+// Solves (thermal.45) by (thermal.47), or (thermal.48): conductances, films and capacities are those at the end of the
+// step, so that none of them limits it. The unknown is the change, which short steps of large bodies would lose in the
+// digits of the temperature.
 void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {
   const std::size_t n = model_.nodes.size();
   const Eigen::VectorXd& start = observables_.T;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Index>(n), static_cast<Index>(n));
   Eigen::VectorXd b = Eigen::VectorXd::Zero(static_cast<Index>(n));
-  std::vector<bool> holds(n, dt > 0);  // something says what the temperature is
+  std::vector<bool> holds(n, dt > 0);  // true if an equation determines the temperature
   for (const ThermalPath& path : model_.paths) {
     const auto i = static_cast<Index>(path.a), j = static_cast<Index>(path.b);
     const double q = path.conductance * (start[i] - start[j]);

@@ -8,7 +8,7 @@
 namespace hersey::film {
 namespace {
 
-// Fewer nodes show no front (around) and no parabola (across).
+// Fewer nodes resolve no front (around) and no parabola (across).
 constexpr int fewest_around = 24, fewest_across = 7;
 
 }  // namespace

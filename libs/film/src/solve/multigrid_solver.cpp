@@ -34,10 +34,10 @@ MultigridSolver::MultigridSolver(int n_phi, int n_z, std::span<const int> column
   preconditioner_ = [this](const Eigen::VectorXd& b, Eigen::VectorXd& x) { precondition(b, x); };
 }
 
-// Rows of nothing but their own unknown are solved by the first relaxation: coarser grids need not know them.
+// Rows that contain only their own unknown are solved by the first relaxation: coarser grids leave them out.
 bool MultigridSolver::setup(std::span<const double> values, bool ascending) {
   for (std::size_t k = 0; k < slot_.size(); ++k) rows_[slot_[k] / 5][slot_[k] % 5] = values[k];
-  // In its own unit the matrix fits the short numbers of multigrid; a preconditioner's factor is of no account.
+  // In its own unit the matrix fits the single precision of multigrid; a factor of the preconditioner has no effect.
   double largest = 0;
   for (const Row& row : rows_) largest = std::max(largest, std::abs(row[centre]));
   const auto entry = [largest](double value) { return static_cast<Real>(value / largest); };
