@@ -64,16 +64,16 @@ void WallsOverCycles::predict(const Eigen::VectorXd& by_nodes) {
 // Bodies change by their relaxation from their present temperatures towards those that would settle them; the effects
 // of the nodes are added.
 void WallsOverCycles::move_own_walls(const Eigen::VectorXd& by_nodes, HeatState& state) const {
-  const double pace = 1 / relaxation_.share();
-  if (mean_.heat.size() > 0) state.wall_heat += pace * (mean_.heat - state.wall_heat);
-  state.journal_heat += pace * (mean_.journal_heat - state.journal_heat);
+  const double factor = 1 / relaxation_.share();
+  if (mean_.heat.size() > 0) state.wall_heat += factor * (mean_.heat - state.wall_heat);
+  state.journal_heat += factor * (mean_.journal_heat - state.journal_heat);
   const auto follow = [&](const MeanHeat::Change& change, double share) {
     if (has_own_temperatures(thermal_->shell)) state.shell += share * change.ring;
     if (change.heat.size() > 0) state.wall_heat += share * change.heat;
     if (has_own_temperature(thermal_->journal)) state.journal += share * change.journal;
     state.journal_heat += share * change.journal_heat;
   };
-  follow(mean_.without, pace);
+  follow(mean_.without, factor);
   if (std::holds_alternative<NodeWall>(thermal_->shell)) follow(mean_.by_shell, by_nodes[0]);
   if (std::holds_alternative<NodeWall>(thermal_->journal)) follow(mean_.by_journal, by_nodes[1]);
   for (std::size_t terminal = 0; terminal < mean_.by_outside.size(); ++terminal)
