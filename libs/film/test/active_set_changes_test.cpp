@@ -67,7 +67,7 @@ TEST_CASE("AntiCycling_LeavesNodesAtTheBorder") {
   }
 }
 
-TEST_CASE("FilmsThatHoldNoOilBack_ChangeAtOnce") {
+TEST_CASE("FilmsThatRetainNoOil_ChangeAtOnce") {
   const Groups groups(Cavitation::guembel);
   CHECK(groups.at(7).u == groups.after);
 }

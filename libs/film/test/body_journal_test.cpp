@@ -52,7 +52,7 @@ ThermalModel thermal_with(const JournalWall& journal) {
   return thermal;
 }
 
-/// Film and heat of the journal that turns, in steps or, with dt = 0, in turns towards the steady film.
+/// Film and heat of the journal that iterations, in steps or, with dt = 0, in iterations towards the steady film.
 class Machine {
  public:
   Machine(const FilmModel& model, const ThermalModel& thermal, double dt) : heat(model, thermal), reynolds_(model) {
@@ -80,19 +80,19 @@ class Machine {
   FilmHistory history_;
 };
 
-constexpr int turns = 60;  // each brings a film without runaway nearer by a factor of 1.5 or more
+constexpr int iterations = 60;  // each brings a film without runaway nearer by a factor of 1.5 or more
 
 TEST_CASE("JournalInABody_IsALumpedBodyOfItsConductance") {
   const FilmModel model = bearing();
   for (const double g : {0.01, 0.5, 20.0}) {
     CAPTURE(g);
     Machine body(model, thermal_with(shaft(model.grid, g)), 0);
-    body.run(turns);
+    body.run(iterations);
     const ThermalModel by_node = thermal_with(NodeWall{.T = T_air, .node = 0});
     Machine lumped(model, by_node, 0);
     ThermalNetwork network(
         {.nodes = {{"shaft", 100, T_air, false}, {"air", 0, T_air, true}}, .paths = {{"out", 0, 1, 1 / g}}});
-    for (int k = 0; k < turns; ++k) {
+    for (int k = 0; k < iterations; ++k) {
       lumped.run(1);
       const FilmTerminals at = terminals_of(by_node);
       network.advance(0, {{at, lumped.heat.exchange()}});
@@ -118,7 +118,7 @@ TEST_CASE("JournalWithoutResistance_HasTheTemperatureOfItsBody") {
   const FilmModel model = bearing();
   Machine body(model, thermal_with(shaft(model.grid, 0)), 0);
   Machine given(model, thermal_with(WallAtTemperature{.T = T_air}), 0);
-  body.run(turns), given.run(turns);
+  body.run(iterations), given.run(iterations);
   CHECK(body.heat.state().journal == T_air);
   CHECK((body.heat.state().film - given.heat.state().film).cwiseAbs().maxCoeff() < 1e-5);  // K, as above
 }
@@ -158,7 +158,7 @@ TEST_CASE("JournalOverCycles_IsThatOfTheSteadyFilm") {
     CHECK(machine.heat.observables().balance.to_journal ==
           relative(heat).epsilon(1e-3));  // what settles it is the film's
     Machine steady(model, thermal_with(shaft(model.grid, g)), 0);
-    steady.run(turns);
+    steady.run(iterations);
     CHECK(std::abs(machine.heat.state().journal - steady.heat.state().journal) < 10 * settled);
     CHECK(std::abs(machine.heat.observables().T_shell_mean - steady.heat.observables().T_shell_mean) < 10 * settled);
   }
@@ -196,7 +196,7 @@ TEST_CASE("ShellAndJournalInBodies_SettleTogether") {
   ThermalModel thermal = thermal_with(shaft(model.grid, 0.5));
   thermal.shell = BodyWall{.conduction = bush, .T_start = 35 + zero_celsius};
   Machine steady(model, thermal, 0);
-  steady.run(turns);
+  steady.run(iterations);
   thermal.walls = WallMotion::fixed;
   Machine machine(model, thermal, 4e-4);
   for (int cycle = 0; cycle < 8; ++cycle) {

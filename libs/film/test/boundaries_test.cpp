@@ -34,7 +34,7 @@ TEST_CASE("UsualSolver_IsChosenBySize") {
   CHECK(usual_solver({.n_phi = 151, .n_z = 100}) == FilmSolver::multigrid);
 }
 
-TEST_CASE("EmptiestNode_HasLessThanNoOil") {
+TEST_CASE("LowestFillNode_HasANegativeFillFraction") {
   FilmModel m;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   const double none = -fill_scale(m);
@@ -50,7 +50,7 @@ TEST_CASE("EmptiestNode_HasLessThanNoOil") {
   CHECK(lowest_fill_node(m, u) == -1);
 }
 
-TEST_CASE("Features_OverlapWhereAPlaceIsInBoth") {
+TEST_CASE("Features_OverlapWhereAPointIsInBoth") {
   const SurfaceFeature groove{.phi = 1, .z = 0, .arc = 0.4, .length = 10e-3};
   SurfaceFeature hole{.shape = Ellipse{}, .phi = 1.25, .z = 0, .arc = 0.2, .length = 2e-3};
   CHECK(overlap(groove, hole));  // 1.15 to 1.35 and 0.8 to 1.2
@@ -104,7 +104,7 @@ TEST_CASE("OilAtATemperature_HasTheViscosityAndDensityOfItsLaws") {
   CHECK(thinned.mu0 == relative(0.03).epsilon(1e-15));  // round-off
 }
 
-TEST_CASE("CavitatedShear_IsToldByTheChoiceThatWasMade") {
+TEST_CASE("CavitatedShear_IsReportedWithTheChoiceMade") {
   const std::string full = choice_in_words(CavitatedShear::full), share = choice_in_words(CavitatedShear::film_share);
   CHECK(full.find("over the whole gap (`cavitated_shear: full`)") < full.find("`film_share`"));
   CHECK(share.find("the oil's share of the gap (`cavitated_shear: film_share`)") < share.find("(`full`)"));
@@ -119,7 +119,7 @@ TEST_CASE("JournalThatKeepsItsShape_HasNoneOnAnyGrid") {
   CHECK(around({.n_phi = 6, .n_z = 5}, shape).segment(10, 5) == shape);
 }
 
-TEST_CASE("Grids_KeepWhatTheyAreNotAskedToChange") {
+TEST_CASE("Grids_ChangeOnlyInTheDirectionRefined") {
   const Grid pads = patch_grid({{0.5, 1.5, 11}, {2, 2.6, 7}}, 5), finer = resampled(pads, pads.n_phi, 9);
   CHECK(finer.n_z == 9);
   CHECK(finer.patches.size() == 2);
@@ -129,7 +129,7 @@ TEST_CASE("Grids_KeepWhatTheyAreNotAskedToChange") {
   CHECK(along.z_over_L(8) - along.z_over_L(7) < along.z_over_L(1) - along.z_over_L(0));
 }
 
-TEST_CASE("SurfacesThatAreNoNumbers_AreToldWithTheirPlace") {
+TEST_CASE("SurfacesThatAreNoNumbers_AreReportedWithTheirPosition") {
   const FilmModel m;
   const SurfaceMotion sound = surfaces(m, turning(m, 0.5, 100));
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
@@ -146,7 +146,7 @@ TEST_CASE("SurfacesThatAreNoNumbers_AreToldWithTheirPlace") {
 }
 
 // What is kept of a factor decides the round-off of later ones.
-TEST_CASE("RestoredReynolds_GoesOnToTheSameBits") {
+TEST_CASE("RestoredReynolds_ContinuesToTheSameBits") {
   const FilmModel m;
   const SurfaceMotion first = surfaces(m, turning(m, 0.5, 100)), later = surfaces(m, turning(m, 0.7, 80));
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());

@@ -62,7 +62,7 @@ TEST_CASE("BordersOfCavities_LieBetweenNodes") {
 
 // A node beside a supply line is one as any other where the line lies on the next node: torque and cavitated share
 // jumped there by up to 1e-3 and 1 %, towards one side only, so that machine and mirror image differed.
-TEST_CASE("BordersOfCavitiesBesideALine_DoNotSeeOnWhichNodeItLies") {
+TEST_CASE("BordersOfCavitiesBesideALine_DoNotDependOnTheNodeItLiesOn") {
   FilmModel m{.R = 0.02, .L = 0.02, .c = 2e-5, .grid = {60, 9}, .cavitation = Cavitation::reynolds};
   m.lubricant.mu0 = 0.01;
   const auto observed = [&](double phi, double omega) {
@@ -92,7 +92,7 @@ TEST_CASE("BordersOfCavitiesBesideALine_DoNotSeeOnWhichNodeItLies") {
 // Of a slow journal near the centre, what sliding makes of tension is small: with the least tension that breaks a film
 // from 1000 rad/s, whatever the speed, its film counted as whole and took 70 % more power than in the bearing by
 // itself.
-TEST_CASE("LeastTensionAndLeastLack_GoByTheSpeedOfTheFilm") {
+TEST_CASE("LeastTensionAndLeastLack_ScaleWithTheSpeedOfTheFilm") {
   for (const Cavitation cavitation : {Cavitation::guembel, Cavitation::reynolds}) {
     CAPTURE(static_cast<int>(cavitation));
     FilmModel m{.R = 0.02, .L = 0.02, .c = 2e-5, .grid = {36, 7}, .cavitation = cavitation};

@@ -119,9 +119,9 @@ class SqueezeFront {
   [[nodiscard]] double at(double t) const {
     if (t < start_) return 0.5;
     if (t < turning_) return breaking(t);
-    const double place = std::max(0.0, (t - first_) / step_), k = std::floor(place);
+    const double position = std::max(0.0, (t - first_) / step_), k = std::floor(position);
     const auto i = static_cast<std::size_t>(k);
-    return width_[i] + (place - k) * (width_[i + 1] - width_[i]);
+    return width_[i] + (position - k) * (width_[i + 1] - width_[i]);
   }
 
  private:

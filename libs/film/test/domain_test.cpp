@@ -102,7 +102,7 @@ TEST_CASE("SaturatedViscosity_IsSmoothAndBounded") {
 }
 
 // The film thickness under contact is the root of (film.10), wherever Newton's iteration for it begins.
-TEST_CASE("ContactHoldsSurfacesApart_HoweverFarTheyOverlap") {
+TEST_CASE("Contact_SeparatesSurfacesHoweverFarTheyOverlap") {
   FilmModel m = big_end();
   m.compliance = 2e-3 / 60e9;
   m.asperities = {AsperityModel::greenwood_tripp_exact, 1e-6, 3e-3, 115e9, 0.1};
@@ -137,7 +137,7 @@ TEST_CASE("LinerThatSinksInOneStep_KeepsItsFilm") {
   }
 }
 
-TEST_CASE("FilmThatNothingSupplies_IsToldSo") {
+TEST_CASE("FilmWithoutSupply_IsReported") {
   FilmModel m = big_end();
   m.supply = {};
   Reynolds reynolds(m);

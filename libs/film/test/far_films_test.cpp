@@ -29,24 +29,25 @@ FilmModel closed_ring(double L) {
   return m;
 }
 
-TEST_CASE("SweepsThatMayNotSweep_TellWhatIsLeft") {
+TEST_CASE("SweepsWithoutIterations_ReportTheResidual") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 0.7, omega));
   for (const double start : {0.0, 1e6}) {  // cold, and from a film that is none
     CAPTURE(start);
     Eigen::VectorXd u = Eigen::VectorXd::Constant(m.grid.size(), start);
     Reynolds reynolds(m);
-    const FilmSolveSummary told = solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor, .max_iterations = 0}, u);
-    CHECK_FALSE(told.solved());
-    CHECK(told.message.find("after 0 iterations") != std::string::npos);
-    CHECK(told.relative_residual > 1e-10);  // what was asked
+    const FilmSolveSummary summary =
+        solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor, .max_iterations = 0}, u);
+    CHECK_FALSE(summary.solved());
+    CHECK(summary.message.find("after 0 iterations") != std::string::npos);
+    CHECK(summary.relative_residual > 1e-10);  // what was asked
   }
 }
 
 // Where a cavitated film fills again in a pocket of 25 times the gap, oil there has next to no pressure. With that of
 // the land for it the viscosity was off by a percent, over conductances 15,000 times the land's: Newton's method
 // cycled, sweeps took ten times as long, and of this bearing's mirror image came to no end.
-TEST_CASE("PocketOfABrokenFilm_IsFilledWithoutCycles") {
+TEST_CASE("PocketOfACavitatedFilm_IsFilledWithoutCycles") {
   FilmModel m{.R = 11.49e-3, .L = 20.6e-3, .c = 6.242e-6, .grid = {48, 9}, .cavitation = Cavitation::reynolds};
   m.lubricant.mu0 = 4.703e-3, m.lubricant.viscosity_law = Barus{2.125e-9};
   m.edge_left = m.edge_right = {.pressure = 280300};
@@ -76,7 +77,7 @@ TEST_CASE("PocketOfABrokenFilm_IsFilledWithoutCycles") {
 }
 
 // Sweeps go on only where it is asked for and Newton's method has had its turn.
-TEST_CASE("FilmThatDoesNotInsist_EndsWhereNewtonDoes") {
+TEST_CASE("FilmWithoutFallback_EndsWhereNewtonDoes") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 0.9, omega));
   std::array<Eigen::VectorXd, 2> u{Eigen::VectorXd::Zero(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
@@ -91,7 +92,7 @@ TEST_CASE("FilmThatDoesNotInsist_EndsWhereNewtonDoes") {
 
 // On a soft liner the surfaces overlap where nothing holds them apart: steps that take all of the pressure away close
 // the film, and are shortened.
-TEST_CASE("PressureThatHoldsSurfacesApart_IsFoundFromFarAbove") {
+TEST_CASE("PressureThatSeparatesSurfaces_IsFoundFromFarAbove") {
   FilmModel m = big_end();
   m.edge_left = m.edge_right = {.kind = EdgeKind::closed};  // an open one has no pressure that could
   m.compliance = 2e-3 / 1e9;
@@ -111,31 +112,31 @@ TEST_CASE("PressureThatHoldsSurfacesApart_IsFoundFromFarAbove") {
   }
 }
 
-// However wide a gap is, what follows from it is finite, or it is told that it is not.
-TEST_CASE("GapsOfAnySize_AreFiniteOrTold") {
+// However wide a gap is, what follows from it is finite, or it is summary that it is not.
+TEST_CASE("GapsOfAnySize_AreFiniteOrReported") {
   const FilmModel m = big_end();
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   SurfaceMotion motion = surfaces(m, turning(m, 0.3, omega));
   Reynolds reynolds(m);
-  int told = 0;
+  int unbounded = 0;
   for (double size = 1; size < 1e150; size *= 3) {
     motion.g.setConstant(size);
     const FilmDomain domain = reynolds.linearise(motion, {}, u);
     if (!domain.is_inside()) {
       CHECK(domain.violation == Violation::not_finite);
-      ++told;
+      ++unbounded;
       continue;
     }
-    CHECK(told == 0);  // nothing wider than what was told
+    CHECK(unbounded == 0);  // no gap after the first one outside the domain is inside it
     REQUIRE(reynolds.residual().allFinite());
     REQUIRE(reynolds.jacobian_product(Eigen::VectorXd::Ones(u.size())).allFinite());
   }
-  CHECK(told > 0);
+  CHECK(unbounded > 0);
 }
 
 // A pressure everywhere changes nothing: the Jacobian is singular, and by the model's scale no shift is felt in gaps a
 // million times as wide. What is left of the residual does not depend on which pressure it is.
-TEST_CASE("FilmWithoutAnyGivenPressure_HasAnIncrementAllTheSame") {
+TEST_CASE("FilmWithoutPrescribedPressure_HasAnIncrement") {
   const FilmModel m = closed_ring(0.0156);
   SurfaceMotion motion = surfaces(m, {});
   Eigen::VectorXd u(m.grid.size()), du;
@@ -173,7 +174,7 @@ TEST_CASE("RingAsNarrowAsAThread_IsLeftToTheDirectSolver") {
 }
 
 // What was factorised before does not matter to it.
-TEST_CASE("CautiousIncrement_IsTheSameForAFreshFilm") {
+TEST_CASE("RegularisedIncrement_IsTheSameForANewFilm") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 0.7, omega));
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
@@ -187,7 +188,7 @@ TEST_CASE("CautiousIncrement_IsTheSameForAFreshFilm") {
   CHECK(du.norm() < newton.norm());
 }
 
-TEST_CASE("ChordThatLeadsOutOfTheFilm_IsToldAndLeavesNoFactor") {
+TEST_CASE("ChordOutsideTheDomain_IsReportedAndLeavesNoFactor") {
   const FilmModel m = big_end();
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   Eigen::VectorXd du;
@@ -200,7 +201,7 @@ TEST_CASE("ChordThatLeadsOutOfTheFilm_IsToldAndLeavesNoFactor") {
 }
 
 // The oil of a step is what its equations say, whatever factor leads there: that of the same film or of one far away.
-TEST_CASE("OilOfAStep_DoesNotAskWhichFactorLedThere") {
+TEST_CASE("OilOfAStep_DoesNotDependOnTheFactor") {
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
     for (const double sense : {1.0, -1.0}) {
       CAPTURE(static_cast<int>(cavitation));
@@ -264,7 +265,7 @@ TEST_CASE("GrooveThatEndsJustBeforeAWall_LosesNoOilThere") {
 }
 
 // In a film at rest any oil is an answer, less than none included: it is given none there, and no pressure.
-TEST_CASE("FilmAtRest_HoldsNoLessThanNoOil") {
+TEST_CASE("FilmAtRest_HasNoNegativeOil") {
   FilmModel m = big_end();
   m.supply = {};
   for (const FilmSolver solver : {FilmSolver::newton, FilmSolver::multigrid, FilmSolver::sor}) {
@@ -281,7 +282,7 @@ TEST_CASE("FilmAtRest_HoldsNoLessThanNoOil") {
 }
 
 // Between walls, with a line between nodes, in either sense of rotation.
-TEST_CASE("SweepsBetweenWalls_MeetNewton") {
+TEST_CASE("SweepsBetweenWalls_AgreeWithNewton") {
   for (const double sense : {1.0, -1.0, 0.0}) {
     for (const double line : {0.0, 0.26, 0.9}) {
       CAPTURE(sense);
@@ -304,7 +305,7 @@ TEST_CASE("SweepsBetweenWalls_MeetNewton") {
 }
 
 // What comes in through grooves of pads leaves over their edges and ends, or over their ends alone.
-TEST_CASE("GroovesOfPads_GiveWhatLeavesAround") {
+TEST_CASE("GroovesOfPads_FeedWhatLeavesOverTheEdges") {
   for (const EdgeKind kind : {EdgeKind::pressure, EdgeKind::closed}) {
     for (const double sense : {1.0, -1.0}) {
       CAPTURE(static_cast<int>(kind));
@@ -329,7 +330,7 @@ TEST_CASE("GroovesOfPads_GiveWhatLeavesAround") {
 }
 
 // A pad with a pocket up to its end is the same wherever it stands along its way.
-TEST_CASE("PocketOfAPlane_DoesNotAskWhereThePlaneBegins") {
+TEST_CASE("PocketOfAPlane_DoesNotDependOnTheOriginAlongIt") {
   std::vector<SolvedFilm> films;
   constexpr double far = 7;  // more than a turn, which a plane does not know
   for (const double from : {0.0, far}) {
@@ -459,7 +460,7 @@ TEST_CASE("CavityThatEndsAtAPeak_EndsInTheCellBeforeIt") {
 }
 
 // A groove across the line holds its nodes, where the line has no part in their rows.
-TEST_CASE("SweepsOverALineAcrossAGroove_MeetNewton") {
+TEST_CASE("SweepsOverALineAcrossAGroove_AgreeWithNewton") {
   FilmModel m = big_end();
   m.supply = {SupplyKind::fixed_angle, 0.26, 1e5};
   m.features = {{.name = "groove", .phi = 0.26, .arc = 0.6, .length = 0.5 * m.L, .pressure = 3e5}};
@@ -473,19 +474,19 @@ TEST_CASE("SweepsOverALineAcrossAGroove_MeetNewton") {
 }
 
 // Surfaces that overlap are no film for sweeps either.
-TEST_CASE("SweepsInAClosedGap_TellWhere") {
+TEST_CASE("SweepsInAClosedGap_ReportTheNode") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 1.2, omega));
   Reynolds reynolds(m);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
-  const FilmSolveSummary told = solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor}, u);
-  CHECK_FALSE(told.solved());
-  CHECK(told.domain.violation == Violation::closed);
-  CHECK(motion.g[told.domain.node] <= 0);
+  const FilmSolveSummary summary = solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor}, u);
+  CHECK_FALSE(summary.solved());
+  CHECK(summary.domain.violation == Violation::closed);
+  CHECK(motion.g[summary.domain.node] <= 0);
 }
 
 // A step that is to follow its gap but does not know the one it began with goes by the rate, as any first step does.
-TEST_CASE("StepThatDoesNotKnowItsGap_GoesByTheRate") {
+TEST_CASE("StepWithoutInitialGap_UsesTheRate") {
   const FilmModel m = big_end();
   Journal journal = turning(m, 0.5, omega);
   journal.e_rate = {0, 2e-3};

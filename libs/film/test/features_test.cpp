@@ -16,7 +16,7 @@ constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest thro
 // A film without wedge between an axial groove and the edges' pressure is a chain of flat channels: between two grooves
 // the pressure is linear and the flow exactly that of the true distance, wherever the grooves' edges lie in their
 // cells.
-TEST_CASE("GrooveEdges_LieWhereTheyAre") {
+TEST_CASE("GrooveEdges_AreIndependentOfTheGrid") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {60, 3}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   const SurfaceFeature high{.name = "high", .phi = 0, .arc = 0.5, .length = m.L, .pressure = 3e6};
@@ -34,7 +34,7 @@ TEST_CASE("GrooveEdges_LieWhereTheyAre") {
 }
 
 // What nothing drives has no flow, and a residual of round-off is to be measured by more than that.
-TEST_CASE("FilmAtRestBetweenClosedEdges_TakesItsGroovesPressure") {
+TEST_CASE("FilmAtRestBetweenClosedEdges_HasItsGroovesPressure") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {60, 5}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   m.features = {{.name = "groove", .phi = 1, .arc = 0.37, .length = 0.004, .pressure = 3e5}};
@@ -72,7 +72,7 @@ TEST_CASE("FilmBeforeAGroove_IsFilledAsFarAsItsPressureCan") {
 
 // Likewise along the axis: from a groove all around to an edge the flow is that of the land between, however little of
 // the last cell it is. The edge's pressure is given, so that no row sees how near the groove is.
-TEST_CASE("LandBeforeAnEdge_IsAsLongAsItIs") {
+TEST_CASE("LandBeforeAnEdge_HasItsTrueLength") {
   for (const double p_edge : {0.0, 1e5}) {
     for (const double land : {0.4e-3, 1.1e-3, 2.4e-3, 2.5e-3, 3.9e-3}) {  // cells of 2.5 mm
       CAPTURE(p_edge);
@@ -133,7 +133,7 @@ TEST_CASE("SideFlowOfAGroove_DoesNotDependOnWhereLinesLie") {
 }
 
 // All pressures are told on one scale: that of the cavity is one on it, and a full film does not see it.
-TEST_CASE("FedGroove_HoldsItsPressureWhateverThatOfTheCavity") {
+TEST_CASE("FedGroove_KeepsItsPressureAtAnyCavitationPressure") {
   for (const double p_cav : {-5e4, 0.0, 2e4}) {
     CAPTURE(p_cav);
     FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {24, 9}, .p_cav = p_cav};
@@ -222,7 +222,7 @@ TEST_CASE("HoleSweptOverAUniformFilm_GivesASmoothForce") {
 
 // Where a line or a groove holds the largest pressure of a film, nothing is above it: a parabola through the nodes
 // beside it would be, by an eighth, as the pressure falls off on both sides of a kink. Mirrored films have the same.
-TEST_CASE("PeakBesideWhatHoldsAPressure_IsThatPressure") {
+TEST_CASE("PeakBesideAPrescribedPressure_IsThatPressure") {
   const auto peak = [](int n_phi, double phi, bool is_line, double omega) {
     FilmModel m{.R = 0.025, .L = 0.025, .c = 50e-6, .grid = {n_phi, 13}};
     m.lubricant.mu0 = 0.01;

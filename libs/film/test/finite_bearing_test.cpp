@@ -10,7 +10,7 @@ namespace finite_bearing_test {
 
 const std::string data = std::string(hersey::source_dir()) + "/verification/data/";
 
-TEST_CASE("FiniteBearing_MeetsTheTable") {
+TEST_CASE("FiniteBearing_MatchesTheTable") {
   for (const CsvRow& row : read_csv(data + "finite_360.csv")) {
     const double e = number(row, "epsilon"), L_over_D = number(row, "L_over_D"), omega = 100;
     CAPTURE(L_over_D);
@@ -106,7 +106,7 @@ TEST_CASE("FilmAllAround_BeginsBeforeTheWidestGap") {
 // On the paper's own grid of 60 x 13 nodes, against the table's finest rows (240 x 48 cells). Against the table's rows
 // of 60 x 12 cells one would compare two discretisation errors: those rows are off by up to 1 % in eccentricity ratio
 // and 2 % in p_max themselves.
-TEST_CASE("PaperBearing_MeetsTheTable") {
+TEST_CASE("PaperBearing_MatchesTheTable") {
   int rows = 0;
   for (const CsvRow& row : read_csv(data + "paper_case.csv")) {
     const std::string condition = row.at("condition");

@@ -89,7 +89,7 @@ TEST_CASE("FixedWalls_ThatDrawMoreHeatAsTheyWarmSettleAsSoon") {
 }
 
 // Walls that follow their heat and are large enough swing little about the same temperatures.
-TEST_CASE("FixedWalls_TakeUpNoHeatOverACycle") {
+TEST_CASE("FixedWalls_AbsorbNoHeatOverACycle") {
   const FilmModel model = bearing();
   Machine fixed(model, walls(WallMotion::fixed), 0.35);
   for (int cycle = 0; cycle < 8; ++cycle) {
@@ -227,7 +227,7 @@ TEST_CASE("FixedNodeThatNothingReaches_IsAFreeJournal") {
 }
 
 // Walls of given temperatures have nothing to settle.
-TEST_CASE("FixedWallsThatAreGiven_StayAsTheyAre") {
+TEST_CASE("FixedWallsOfGivenTemperature_KeepIt") {
   ThermalModel thermal = walls(WallMotion::fixed);
   thermal.shell = WallAtTemperature{.T = 45 + zero_celsius};
   thermal.journal = WallAtTemperature{.T = 50 + zero_celsius};
@@ -280,7 +280,7 @@ TEST_CASE("SteadyFilmWithFixedNodes_IsTheSteadyFilm") {
 }
 
 // What goes elsewhere than predicted tells nothing of the relaxation.
-TEST_CASE("PaceOfWalls_IsLearnedOfWhatGoesTheSameWay") {
+TEST_CASE("WallRelaxation_FollowsChangesInThePredictedDirection") {
   const Eigen::Vector2d ones(1, 1), predicted(10, 0);
   for (const auto& [then, share] : std::vector<std::pair<Eigen::Vector2d, double>>{
            {{0, 0}, 1.0}, {{2.5, 0}, 0.75}, {{9, 0}, 0.5}, {{0, 10}, 1.0}, {{12, 0}, 1.0}}) {

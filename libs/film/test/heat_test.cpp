@@ -288,7 +288,7 @@ TEST_CASE("FiveLayers_AreNearSixteenOnTwiceTheNodes") {
 }
 
 // Each supply has a temperature of its own, which a hole in the journal takes along as the journal turns.
-TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsTurnsWithIt") {
+TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsRotateWithIt") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 72, 11);
   model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
   model.supply = {SupplyKind::fixed_angle, pi, 3e5};
@@ -352,7 +352,7 @@ TEST_CASE("SuppliesThatOverlap_AreThoseOfTheFileInAnyOrder") {
 }
 
 // A shell hot on one side: what leaves it there comes back on the other, and one temperature is the table of one.
-TEST_CASE("ShellsTemperatureOverTheAngle_IsThatOfEachPlace") {
+TEST_CASE("ShellsTemperatureOverTheAngle_AppliesLocally") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
   const Journal journal = turning(model, 0.5, 200);
@@ -443,7 +443,7 @@ TEST_CASE("FilmThatWarms_ConservesHeatAndEndsSteady") {
 }
 
 // What comes out of a ring that gives off nothing has gone into it elsewhere.
-TEST_CASE("RingThatGivesOffNothing_TakesUpNothing") {
+TEST_CASE("RingWithoutHeatLoss_AbsorbsNothing") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
   for (const int layers : {1, 4}) {
@@ -494,7 +494,7 @@ TEST_CASE("OilThatDoesNotConduct_LeavesBodiesAsTheyAre") {
 }
 
 // Nothing moves and nothing presses: no heat is made, and everything stays as warm as it is.
-TEST_CASE("FilmAtRest_StaysAsWarmAsItIs") {
+TEST_CASE("FilmAtRest_KeepsItsTemperature") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.features.push_back({.name = "hole", .phi = 1, .arc = 0.5, .length = 8e-3, .pressure = model.p_cav});
   ThermalModel thermal = supplied_at_40(3);

@@ -68,7 +68,7 @@ TEST_CASE("ShearOfLayers_IsWhatTheirOwnStressTakes") {
 
 // Where the stress hardly rises with the rate any more, however suddenly it stops, in oils that are much thinner on one
 // side: Newton's steps do not arrive there unless they are shortened.
-TEST_CASE("ShearOfLayersThatGiveWayAtOnce_IsFoundAllTheSame") {
+TEST_CASE("ShearOfLayersThatYieldAtOnce_IsFound") {
   constexpr double of_rates = 1e-5;  // a rate's change of 1e-6 changes the stress by next to nothing
   for (const double thinner : {0.0, 0.1, 0.4, 1.0}) {
     std::vector<double> mu_n;
@@ -91,7 +91,7 @@ TEST_CASE("ShearOfLayersThatGiveWayAtOnce_IsFoundAllTheSame") {
 }
 
 // Layers that hardly move are as thick as their own rate says, too.
-TEST_CASE("LayersThatHardlyMove_AreAsThickAsTheirStressSays") {
+TEST_CASE("LayersThatHardlyMove_HaveTheViscosityOfTheirStress") {
   std::vector<double> mu_n;
   for (int l = 0; l < layers; ++l) mu_n.push_back(0.1 * std::exp(-0.4 * l));
   const ShearThinning oil{.law = Carreau{.limit = 0.1, .exponent = 0, .transition = 0.5}, .critical_rate = 1e3};
@@ -100,7 +100,7 @@ TEST_CASE("LayersThatHardlyMove_AreAsThickAsTheirStressSays") {
 }
 
 // Oils whose stress does not rise any more have no rates of their own, and are not asked for them.
-TEST_CASE("StressThatStopsRising_IsKnown") {
+TEST_CASE("StressThatStopsRising_IsRecognised") {
   CHECK(has_rising_stress(ShearThinning{.law = Newtonian{}}));
   CHECK(has_rising_stress(ShearThinning{.law = Carreau{.limit = 0, .exponent = 0.1}}));
   CHECK(has_rising_stress(ShearThinning{.law = Carreau{.limit = 1e-5, .exponent = 0}}));

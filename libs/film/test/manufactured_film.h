@@ -23,14 +23,14 @@ double slope_of(Function&& f, double x, double unit) {
 /// Integral over [a, b] by Gauss' rule of five points in eight parts: to round-off for the fields of these tests.
 template <class Function>
 double integral(Function&& f, double a, double b) {
-  constexpr std::array<double, 5> place{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
+  constexpr std::array<double, 5> point{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
                                         -0.9061798459386640},
       weight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891, 0.2369268850561891};
   constexpr int parts = 8;
   const double half = 0.5 * (b - a) / parts;
   double sum = 0;
   for (int part = 0; part < parts; ++part) {
-    for (std::size_t k = 0; k < place.size(); ++k) sum += half * weight[k] * f(a + half * (2 * part + 1 + place[k]));
+    for (std::size_t k = 0; k < point.size(); ++k) sum += half * weight[k] * f(a + half * (2 * part + 1 + point[k]));
   }
   return sum;
 }

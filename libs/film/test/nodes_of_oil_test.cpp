@@ -59,10 +59,10 @@ TEST_CASE("AnswerToNodes_IsThatOfFiniteDifferences") {
       film.advance(dt);
       const WallExchange observed = film.heat.exchange();
       REQUIRE(observed.T.size() == 5);
-      for (const int place : {2, 3, 4}) {
-        CAPTURE(place);
+      for (const int terminal : {2, 3, 4}) {
+        CAPTURE(terminal);
         Eigen::VectorXd T = observed.T;
-        T[place] += 10;
+        T[terminal] += 10;
         FilmOverTime other(model, thermal, loaded);
         HeatState begin = other.heat.state();
         begin.outside = T.tail(3);
@@ -78,7 +78,7 @@ TEST_CASE("AnswerToNodes_IsThatOfFiniteDifferences") {
         CHECK((same.heat.exchange().heat - expected).norm() < 1e-12 * scale);  // round-off
         // The film's residual over a short step, and what is left of a steady film's equations.
         CHECK(same.heat.observables().balance.error() < (dt > 0 ? 1e-5 : 1e-4));
-        CHECK(same.heat.state().outside[place - 2] == T[place]);
+        CHECK(same.heat.state().outside[terminal - 2] == T[terminal]);
       }
     }
   }
@@ -199,7 +199,7 @@ TEST_CASE("NodesOfOil_SettleOverCycles") {
 }
 
 // What a second hole takes away comes to the drain as what leaves over the edges does.
-TEST_CASE("DrainGetsWhatHolesTakeAway") {
+TEST_CASE("Drain_ReceivesTheHeatThatHolesRemove") {
   FilmModel model = bearing();
   model.features.push_back({.name = "outlet", .phi = 3.4, .arc = 0.7, .length = 8e-3, .pressure = 0});
   ThermalModel thermal = with_sump();

@@ -97,7 +97,7 @@ TEST_CASE("HottestOfBodies_IsThatOfTheirNodes") {
 }
 
 // A journal that is a node takes the film along, whatever the shell is.
-TEST_CASE("NodeBesideAShellWithoutHeat_TakesTheFilmAlong") {
+TEST_CASE("NodeBesideAShellWithoutHeat_SetsTheFilmsTemperature") {
   const FilmModel model = bearing();
   ThermalModel thermal = supplied_at_40(3);
   thermal.journal = NodeWall{.T = 320, .node = 0, .name = "shaft"};
@@ -165,7 +165,7 @@ TEST_CASE("OneLayer_HasNoSlope") {
   CHECK(layering_of(1).slope(0, [](std::size_t) { return 3.0; }) == 0);
 }
 
-TEST_CASE("TurnedGrid_HasItsLinesBetweenThoseItHad") {
+TEST_CASE("RotatedGrid_HasItsLinesBetweenTheFormerOnes") {
   const Grid grid = graded_grid(24, 9, {{.position = 1, .reach = 0.5, .factor = 4}}, {});
   CHECK(Grid{24, 9}.is_uniform());
   CHECK(!grid.is_uniform());
@@ -196,7 +196,7 @@ TEST_CASE("ScaleOfPressures_ChangesNoFilm") {
   CHECK(films[1].observed.p_max - atmosphere == relative(films[0].observed.p_max).epsilon(1e-7));  // likewise
 }
 
-TEST_CASE("PressureOfAFeature_MayComeWithTheMotion") {
+TEST_CASE("PressureOfAFeature_MayBeGivenWithTheMotion") {
   FilmModel m = bearing();
   SurfaceMotion motion = surfaces(m, loaded);
   motion.feature_pressure = Eigen::VectorXd::Constant(1, 4e5);
@@ -227,7 +227,7 @@ TEST_CASE("FilmWithoutShapes_IsCondensedToTheSameWrench") {
 }
 
 // Between rings whose lines lie elsewhere fields keep their places, whichever begins first.
-TEST_CASE("FieldBetweenTurnedRings_StaysWhereItIs") {
+TEST_CASE("FieldBetweenRotatedRings_KeepsItsPosition") {
   const Grid one{36, 5}, other = turned(Grid{24, 7}, 0.5);
   for (const bool backwards : {false, true}) {
     CAPTURE(backwards);

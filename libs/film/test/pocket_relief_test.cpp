@@ -39,7 +39,7 @@ SurfaceFeature pocket(FeatureShape shape, Surface surface) {
 const std::array<FeatureShape, 2> shapes{Rectangle{}, Ellipse{}};
 
 // A pocket on its way over the grid keeps its volume, whatever cells its borders cut.
-TEST_CASE("TurningPocket_KeepsItsVolume") {
+TEST_CASE("RotatingPocket_KeepsItsVolume") {
   FilmModel m = graded();
   const GridGeometry geometry(m);
   for (const FeatureShape& shape : shapes) {
@@ -68,7 +68,7 @@ TEST_CASE("PocketToTheEdge_IsDeepThere") {
 
 // In a full film at rest but for a journal with a pocket, concentric: the pocket's own volume turns with it and asks
 // for no oil. Nothing flows but round and round, whatever the step.
-TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
+TEST_CASE("RotatingPocket_CarriesItsOilAlong") {
   FilmModel m = graded();
   m.edge_left.pressure = m.edge_right.pressure = 1e5;
   for (const FeatureShape& shape : shapes) {
@@ -93,7 +93,7 @@ TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
 // A groove along all of the journal overtakes the oil it holds: what comes to its end fills the groove as it grows, and
 // the film ahead of it. In the middle of the groove the shell keeps it full and takes pressure away. Wherever within a
 // cell the end lies, the film ahead is filled to U (h + d)/(U h + u_J d).
-TEST_CASE("FilmAheadOfATurningGroove_DoesNotSeeWhereLinesLie") {
+TEST_CASE("FilmAheadOfARotatingGroove_DoesNotDependOnGridLines") {
   FilmModel m{.R = 0.05, .L = 0.05, .c = 40e-6, .grid = {72, 5}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   SurfaceFeature groove = pocket(Rectangle{}, Surface::journal), feed = pocket(Rectangle{}, Surface::shell);
@@ -210,7 +210,7 @@ TEST_CASE("SmallestFilm_OfAGrooveOverAllOfTheBearing_IsThatOfTheGroove") {
   }
 }
 
-TEST_CASE("PlaceOfTheSmallestFilm_IsToldWithinATurn") {
+TEST_CASE("PositionOfTheSmallestFilm_IsReportedWithinARevolution") {
   const FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}, .cavitation = Cavitation::guembel};
   for (const double phi : {2 * pi - 0.03, 0.03, 2.0, 5.0}) {
     CAPTURE(phi);
@@ -234,7 +234,7 @@ TEST_CASE("SmallestFilmBesideAGroove_IsNotNegative") {
 }
 
 // Rate and wedge of a gap that travels around the bearing are the same oil: exactly, on any grid.
-TEST_CASE("GapThatTravels_TakesInWhatItGivesAway") {
+TEST_CASE("TravellingGap_ConservesItsOil") {
   for (const Grid& grid : {Grid{12, 5}, Grid{60, 5}, graded().grid}) {
     FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = grid};
     const double omega = 100;
@@ -287,9 +287,9 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
   };
   for (const double pressure : {0.0, 3e5}) {
     CAPTURE(pressure);
-    for (const double place : {0.25, 0.5, 0.75}) {
-      CAPTURE(place);
-      const double line = 2 * pi / 120 * (3 + place);
+    for (const double share : {0.25, 0.5, 0.75}) {
+      CAPTURE(share);
+      const double line = 2 * pi / 120 * (3 + share);
       const FilmObservables between = solve(120, line, pressure), on_node = solve(480, line, pressure);
       CHECK(between.wrench_on_shell.segment<2>(3).norm() ==
             doctest::Approx(on_node.wrench_on_shell.segment<2>(3).norm()).epsilon(0.003));
@@ -316,9 +316,9 @@ TEST_CASE("SupplyLineOverAGroove_FillsItsDepth") {
     return film.observed.wrench_on_shell.segment<2>(3).norm();
   };
   for (const Surface surface : {Surface::shell, Surface::journal}) {
-    for (const double place : {0.25, 0.5, 0.75}) {
-      CAPTURE(place);
-      const double line = 2 * pi / 120 * (3 + place);
+    for (const double share : {0.25, 0.5, 0.75}) {
+      CAPTURE(share);
+      const double line = 2 * pi / 120 * (3 + share);
       CHECK(load(120, line, surface) == doctest::Approx(load(480, line, surface)).epsilon(0.003));
     }
   }

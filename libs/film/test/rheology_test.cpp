@@ -101,7 +101,7 @@ TEST_CASE("SummitsAboveTheMeanPlane_TouchSoMuchSooner") {
 
 // Barus' fluid has the closed form p = -ln(1 - alpha q)/alpha with the isoviscous pressure q (Weibull's
 // transformation).
-TEST_CASE("BarusFilm_MeetsWeibullsTransformation") {
+TEST_CASE("BarusFilm_MatchesWeibullsTransformation") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {240, 3}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   m.supply = {SupplyKind::fixed_angle, 0, 0};

@@ -20,7 +20,7 @@ FilmModel full_bearing(int n_phi, int n_z) {
 
 // An inclined slider without side flow, rough like sandpaper or with ridges on either surface: dp/dx follows from the
 // flow, p from its integral.
-TEST_CASE("RoughSlider_MeetsTheIntegralWithOrderTwo") {
+TEST_CASE("RoughSlider_ConvergesToTheIntegralWithOrderTwo") {
   const double length = 0.03, U = 2, mu = 0.02, h0 = 4e-6, h1 = 9e-6;
   for (const Roughness& roughness :
        {rough({1e-6, 1}, {0, 1}), rough({0, 1}, {1e-6, 1}), rough({1e-6, 1.0 / 9}, {1e-6, 6})}) {
@@ -198,7 +198,7 @@ TEST_CASE("RoughTimeSteps_ConserveOil") {
   CHECK(smallest < 3 * m.roughness.composite_sigma());  // asperities have touched
 }
 
-TEST_CASE("RoughSor_MeetsNewton") {
+TEST_CASE("RoughSor_AgreesWithNewton") {
   FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = {48, 9}};
   m.supply = {SupplyKind::widest_gap, 0, 0};
   m.roughness = rough({1e-6, 6}, {1e-6, 0.5});

@@ -52,7 +52,7 @@ TEST_CASE("SlopesOfShearLaws_MatchFiniteDifferences") {
 }
 
 // Where more shear would take less stress, a film has no one answer: Cross' law with m > 1 and little left.
-TEST_CASE("FallingStress_IsKnown") {
+TEST_CASE("FallingStress_IsRecognised") {
   for (const double m : {0.5, 1.0, 1.3, 2.0, 5.0}) {
     for (const double limit : {0.0, 0.02, 0.1, 0.2, 0.4}) {
       const Cross law{.limit = limit, .exponent = m};

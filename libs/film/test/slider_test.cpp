@@ -15,7 +15,7 @@ double order(double coarse, double fine, double refinement = 2) {
 }
 
 // Reynolds' slider at its optimum inclination, Lamb's closed form.
-TEST_CASE("LongSlider_MeetsTheClosedFormWithOrderTwo") {
+TEST_CASE("LongSlider_ConvergesToTheClosedFormWithOrderTwo") {
   const double K = 1.18870, exact = verification::LongSlider{K}.load();
   CHECK(exact == relative(0.0267072).epsilon(2e-6));
   const Slider slider{0.05, 3, 0.02, 0, [&](double x) { return 2e-5 * (1 + K * (1 - x / 0.05)); }};
@@ -27,7 +27,7 @@ TEST_CASE("LongSlider_MeetsTheClosedFormWithOrderTwo") {
 }
 
 // Rayleigh's step at its optimum. A jump of the gap between two nodes is seen as a ramp over that cell.
-TEST_CASE("RayleighStep_MeetsTheClosedForm") {
+TEST_CASE("RayleighStep_MatchesTheClosedForm") {
   const double inlet = 0.71823, ratio = 1 + 0.5 * std::sqrt(3);
   const auto gap = [](double) { return 2e-5; };
   const Slider slider{0.05, 3, 0.02, 0, gap, 0, inlet * 0.05, 2e-5 * (ratio - 1)};
@@ -40,7 +40,7 @@ TEST_CASE("RayleighStep_MeetsTheClosedForm") {
 }
 
 // Parabolic slider between ends at the cavitation pressure (reference: exact solution of the mass-conserving problem).
-TEST_CASE("ParabolicSlider_MeetsTheExactSolutionWithOrderTwo") {
+TEST_CASE("ParabolicSlider_ConvergesToTheExactSolutionWithOrderTwo") {
   const double length = 0.0762;
   const Slider slider{length, 4.57, 0.039, 0,
                       [&](double x) { return 25.4e-6 * (1 + std::pow(2 * x / length - 1, 2)); }};

@@ -45,7 +45,7 @@ SurfaceMotion sliding(const FilmModel& m, Gap&& gap) {
 }
 
 // Reynolds' slider at its optimum inclination, Lamb's closed forms: load, friction on the pad, centre of pressure.
-TEST_CASE("PlanePad_MeetsTheClosedFormsWithOrderTwo") {
+TEST_CASE("PlanePad_ConvergesToTheClosedFormsWithOrderTwo") {
   const verification::LongSlider exact{.K = 1.18870};
   const double load = 6 * viscosity * speed * std::pow(length / outlet, 2) * exact.load() * width;
   const double on_runner = viscosity * speed * length / outlet * width * exact.friction();
@@ -79,7 +79,7 @@ FilmModel ring(int n_phi, int n_z) {
 constexpr verification::ParallelAnnulus discs{.r1 = 0.03, .r2 = 0.07};
 
 // Oil from the middle of a hydrostatic bearing: Q = pi h^3 dp/(6 mu ln(r2/r1)), and what pushes the runner up.
-TEST_CASE("HydrostaticAnnulus_MeetsTheClosedFormWithOrderTwo") {
+TEST_CASE("HydrostaticAnnulus_ConvergesToTheClosedFormWithOrderTwo") {
   const double p = 2e6, flow = discs.flow() * std::pow(outlet, 3) * p / viscosity, load = discs.area() * p;
   std::array<double, 2> flow_error{}, load_error{};
   for (int k = 0; k < 2; ++k) {
@@ -100,7 +100,7 @@ TEST_CASE("HydrostaticAnnulus_MeetsTheClosedFormWithOrderTwo") {
 }
 
 // The runner turns: T = pi mu omega (r2^4 - r1^4)/(2 h), and it takes that times omega from whatever drives it.
-TEST_CASE("TurningAnnulus_DragsWithTheRadius") {
+TEST_CASE("RotatingAnnulus_DragsWithTheRadius") {
   const FilmModel m = ring(24, 21);
   const double omega = speed / m.R;
   const SolvedFilm film = solve_cold(m, sliding(m, [](double, double) { return outlet; }), {0, 0});
@@ -113,7 +113,7 @@ TEST_CASE("TurningAnnulus_DragsWithTheRadius") {
 }
 
 // Two discs approach: W = (3 pi mu V/(2 h^3)) (r2^4 - r1^4 - (r2^2 - r1^2)^2/ln(r2/r1)).
-TEST_CASE("SqueezedAnnulus_MeetsTheClosedFormWithOrderTwo") {
+TEST_CASE("SqueezedAnnulus_ConvergesToTheClosedFormWithOrderTwo") {
   const double V = 0.01, load = discs.squeeze() * viscosity * V / std::pow(outlet, 3);
   std::array<double, 2> error{};
   for (int k = 0; k < 2; ++k) {

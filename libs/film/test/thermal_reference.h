@@ -73,9 +73,9 @@ inline std::vector<CsvRow> table(const std::string& name) {
 
 /// Between two nodes at mid-width, `phi` [rad] of the grid.
 inline double at_mid_width(const Grid& grid, const Eigen::VectorXd& field, double phi) {
-  const double place = grid.n_phi * (phi / (2 * pi) - std::floor(phi / (2 * pi)));
-  const int i = static_cast<int>(place) % grid.n_phi, j = grid.n_z / 2;
-  const double share = place - std::floor(place);
+  const double position = grid.n_phi * (phi / (2 * pi) - std::floor(phi / (2 * pi)));
+  const int i = static_cast<int>(position) % grid.n_phi, j = grid.n_z / 2;
+  const double share = position - std::floor(position);
   return (1 - share) * field[grid.index(i, j)] + share * field[grid.index((i + 1) % grid.n_phi, j)];
 }
 

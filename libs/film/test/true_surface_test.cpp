@@ -121,7 +121,7 @@ double power_error(const ShapedFilm& film, double at_least_taken) {
   return (-bodies - o.power_taken()) / o.power_taken();
 }
 
-TEST_CASE("PowerPutIntoAFilm_IsWhatItsFieldsTake") {
+TEST_CASE("PowerPutIntoAFilm_EqualsThatOfItsFields") {
   struct Case {
     const char* name;
     Shape shell, journal;
