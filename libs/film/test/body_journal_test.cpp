@@ -52,7 +52,7 @@ ThermalModel thermal_with(const JournalWall& journal) {
   return thermal;
 }
 
-/// Film and heat of the journal that iterations, in steps or, with dt = 0, in iterations towards the steady film.
+/// Film and heat of the rotating journal, in steps or, with dt = 0, in iterations towards the steady film.
 class Machine {
  public:
   Machine(const FilmModel& model, const ThermalModel& thermal, double dt) : heat(model, thermal), reynolds_(model) {
@@ -80,7 +80,7 @@ class Machine {
   FilmHistory history_;
 };
 
-constexpr int iterations = 60;  // each brings a film without runaway nearer by a factor of 1.5 or more
+constexpr int iterations = 60;  // each reduces the error of a film without runaway by a factor of 1.5 or more
 
 TEST_CASE("JournalInABody_IsALumpedBodyOfItsConductance") {
   const FilmModel model = bearing();
@@ -113,7 +113,7 @@ TEST_CASE("JournalInABody_IsALumpedBodyOfItsConductance") {
   }
 }
 
-// Its surface fixed by the body's own temperatures.
+// The body's own temperatures fix its surface.
 TEST_CASE("JournalWithoutResistance_HasTheTemperatureOfItsBody") {
   const FilmModel model = bearing();
   Machine body(model, thermal_with(shaft(model.grid, 0)), 0);
@@ -131,7 +131,7 @@ TEST_CASE("JournalInABody_KeepsItsTemperatureInAStep") {
   CHECK(body.heat.state().journal == 45 + zero_celsius);
   CHECK((body.heat.state().film - given.heat.state().film).cwiseAbs().maxCoeff() < 1e-6);  // K; each to 1e-9 of a step
   CHECK(body.heat.observables().T_journal_body_max == 45 + zero_celsius);
-  // As an even rise of all of the body shapes it.
+  // An even rise of temperature of all of the body shapes it.
   CHECK(body.heat.journal_growth_in_time()[0] == relative(25 * 2e-7 / 1.5).epsilon(1e-12));  // round-off
 }
 

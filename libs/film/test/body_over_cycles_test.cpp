@@ -73,7 +73,7 @@ TEST_CASE("BodyOverCycles_IsThatOfTheSteadyFilm") {
   CHECK(std::abs(machine.heat.observables().T_shell_max - steady.heat.T_shell_max) < 10 * settled);
   CHECK(std::abs(machine.heat.state().journal - steady.heat.T_journal) < 10 * settled);
   CHECK(machine.heat.shell_opening_in_time() == machine.heat.shell_opening());
-  // As wide as by its mean temperature.
+  // The bore is as wide as the body's mean temperature makes it.
   const double rise = machine.heat.state().shell.mean() - wall.T_reference;
   CHECK(machine.heat.shell_opening()[3] == relative(1e-7 * rise).epsilon(1e-9));  // round-off of the inverse
 }

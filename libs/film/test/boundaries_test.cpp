@@ -12,7 +12,7 @@
 #include "hersey/film/heat_state.h"
 #include "relative.h"
 
-// The other side of conditions that films in the middle of their range do not ask.
+// Branches that films in the middle of their range do not take.
 namespace hersey::film {
 namespace boundaries_test {
 
@@ -46,7 +46,7 @@ TEST_CASE("LowestFillNode_HasANegativeFillFraction") {
   CHECK(lowest_fill_node(m, u) == m.grid.index(40, 0));
   m.edge_left.ambient_fill = 0.3;  // there u < 0 is oil that comes in
   CHECK(lowest_fill_node(m, u) == m.grid.index(20, 7));
-  m.cavitation = Cavitation::reynolds;  // which knows no fill fraction
+  m.cavitation = Cavitation::reynolds;  // a model without a fill fraction
   CHECK(lowest_fill_node(m, u) == -1);
 }
 
@@ -55,12 +55,12 @@ TEST_CASE("Features_OverlapWhereAPointIsInBoth") {
   SurfaceFeature hole{.shape = Ellipse{}, .phi = 1.25, .z = 0, .arc = 0.2, .length = 2e-3};
   CHECK(overlap(groove, hole));  // 1.15 to 1.35 and 0.8 to 1.2
   CHECK(overlap(hole, groove));
-  hole.phi += 2 * pi;  // the same place
+  hole.phi += 2 * pi;  // the same position
   CHECK(overlap(groove, hole));
   hole.phi = 1.31;
   CHECK(!overlap(groove, hole));
   CHECK(!overlap(hole, groove));
-  // So thin a strip that places spread over either of them miss it.
+  // The strip is so thin that points spread over either of them miss it.
   const SurfaceFeature beside{.phi = 1, .z = 5.99e-3, .arc = 0.4, .length = 2e-3};
   CHECK(overlap(groove, beside));
   CHECK(overlap(beside, groove));
@@ -75,7 +75,7 @@ TEST_CASE("Features_OverlapWhereAPointIsInBoth") {
 }
 
 TEST_CASE("Laws_AtTheEndOfTheirRange") {
-  // An oil that gives way by nothing takes the work of one that does not give way at all.
+  // An oil of zero compressibility takes the work of an incompressible one.
   const DowsonHigginson stiff{.rise = 0, .saturation = 0};
   CHECK(stiff.work(1e8) == 1e8);
   CHECK(stiff.ratio(1e8).value == 1);
@@ -97,7 +97,8 @@ TEST_CASE("OilAtATemperature_HasTheViscosityAndDensityOfItsLaws") {
   const Lubricant mineral = at_temperature({.temperature_law = walther}, T);
   CHECK(mineral.mu0 == walther.viscosity(T));
   CHECK(mineral.density == walther.density(T));
-  const Lubricant plain{.mu0 = 0.02, .density = 850}, same = at_temperature(plain, T);  // that knows no temperatures
+  const Lubricant plain{.mu0 = 0.02, .density = 850},
+      same = at_temperature(plain, T);  // which does not depend on temperature
   CHECK(same.mu0 == plain.mu0);
   CHECK(same.density == plain.density);
   const Lubricant thinned = at_temperature({.temperature_law = ExponentialViscosity{.mu_ref = 0.03, .T_ref = T}}, T);
@@ -145,7 +146,7 @@ TEST_CASE("SurfacesThatAreNoNumbers_AreReportedWithTheirPosition") {
   }
 }
 
-// What is kept of a factor decides the round-off of later ones.
+// The pivot order of an earlier factor decides the round-off of later ones.
 TEST_CASE("RestoredReynolds_ContinuesToTheSameBits") {
   const FilmModel m;
   const SurfaceMotion first = surfaces(m, turning(m, 0.5, 100)), later = surfaces(m, turning(m, 0.7, 80));
@@ -195,7 +196,7 @@ TEST_CASE("CavityOfAWholePatch_EndsWhereThatEnds") {
   CHECK(last[1] == relative(1.5).epsilon(round_off));
 }
 
-// Of the bore's shapes alone, as they lie: what lies along the axis only has none.
+// The slope is that of the bore's shapes alone; a shape that varies only along the axis has none.
 TEST_CASE("SlopeOfTheShell_IsThatOfItsOwnShapes") {
   FilmModel m;
   CHECK(GapShape(m).shell_slope().isZero(0));

@@ -4,7 +4,7 @@
 
 #include "film_cases.h"
 
-// Where the film ruptures and re-forms, against integrals of Reynolds' equation in a bearing without end leakage.
+// Rupture and reformation of the film, against integrals of Reynolds' equation in a bearing without end leakage.
 namespace hersey::film {
 namespace cavity_test {
 
@@ -33,7 +33,7 @@ double rise(double from, double to, double h0) {
   return sum * (to - from) / n;
 }
 
-// Where f changes its sign between two angles.
+// Returns the angle between two others at which f changes its sign.
 template <class Function>
 double zero(Function&& f, double low, double high) {
   const bool falls = f(low) > 0;

@@ -196,9 +196,8 @@ TEST_CASE("SqueezedPlates_MatchTheClosedForm") {
   }
 }
 
-// Beyond the rupture of a bearing without end leakage all oil goes on: theta H stays the same from node to node, and
-// what rubs there is the same on every grid. With the gap on the faces in place of H friction was 0.7 % off on 60
-// nodes.
+// Beyond the rupture of a bearing without end leakage all oil flows on: theta H is equal at all nodes, and friction
+// there is the same on every grid. With the gap on the faces instead of H friction was 0.7 % off on 60 nodes.
 TEST_CASE("CavitatedFilm_CarriesTheSameOilOnEveryGrid") {
   std::array<double, 2> torque{};
   for (const int n_phi : {60, 240}) {

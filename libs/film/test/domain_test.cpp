@@ -5,7 +5,7 @@
 #include "film_cases.h"
 #include "hersey/core/contract.h"
 
-// Trials outside what the film's equations mean are told, not thrown; what follows from a trial inside is finite.
+// Trials outside the domain of the film's equations are outcomes, not exceptions; results of a trial inside are finite.
 namespace hersey::film {
 namespace domain_test {
 
@@ -45,7 +45,7 @@ TEST_CASE("TrialsOutsideTheDomain_AreOutcomes") {
   CHECK(reynolds.linearise(open, {}, none).is_inside());
 }
 
-// The outflow over an edge at p_cav stands in u, however large it is.
+// u contains the outflow over an edge at p_cav, however large it is.
 TEST_CASE("OutflowOverAnOpenEdge_IsNoPressure") {
   FilmModel m = big_end();
   m.lubricant.viscosity_law = Barus{2e-8};

@@ -40,13 +40,13 @@ TEST_CASE("SweepsWithoutIterations_ReportTheResidual") {
         solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor, .max_iterations = 0}, u);
     CHECK_FALSE(summary.solved());
     CHECK(summary.message.find("after 0 iterations") != std::string::npos);
-    CHECK(summary.relative_residual > 1e-10);  // what was asked
+    CHECK(summary.relative_residual > 1e-10);  // the tolerance
   }
 }
 
-// Where a cavitated film fills again in a pocket of 25 times the gap, oil there has next to no pressure. With that of
-// the land for it the viscosity was off by a percent, over conductances 15,000 times the land's: Newton's method
-// cycled, sweeps took ten times as long, and of this bearing's mirror image came to no end.
+// Where a cavitated film fills again in a pocket of 25 times the gap, oil there has next to no pressure. With the
+// pressure of the land the viscosity was off by a percent, over conductances 15,000 times the land's: Newton's method
+// cycled, sweeps took ten times as long, and for the mirror image of this bearing they did not converge.
 TEST_CASE("PocketOfACavitatedFilm_IsFilledWithoutCycles") {
   FilmModel m{.R = 11.49e-3, .L = 20.6e-3, .c = 6.242e-6, .grid = {48, 9}, .cavitation = Cavitation::reynolds};
   m.lubricant.mu0 = 4.703e-3, m.lubricant.viscosity_law = Barus{2.125e-9};
@@ -76,7 +76,7 @@ TEST_CASE("PocketOfACavitatedFilm_IsFilledWithoutCycles") {
   }
 }
 
-// Sweeps go on only where it is asked for and Newton's method has had its turn.
+// Sweeps follow only where they are allowed and Newton's method has not converged.
 TEST_CASE("FilmWithoutFallback_EndsWhereNewtonDoes") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 0.9, omega));
@@ -90,8 +90,8 @@ TEST_CASE("FilmWithoutFallback_EndsWhereNewtonDoes") {
   CHECK(u[0] == u[1]);
 }
 
-// On a soft liner the surfaces overlap where nothing holds them apart: steps that take all of the pressure away close
-// the film, and are shortened.
+// On a soft liner the surfaces overlap without pressure: increments that remove all of the pressure close the film, and
+// are shortened.
 TEST_CASE("PressureThatSeparatesSurfaces_IsFoundFromFarAbove") {
   FilmModel m = big_end();
   m.edge_left = m.edge_right = {.kind = EdgeKind::closed};  // an open one has no pressure that could
@@ -112,7 +112,7 @@ TEST_CASE("PressureThatSeparatesSurfaces_IsFoundFromFarAbove") {
   }
 }
 
-// However wide a gap is, what follows from it is finite, or it is summary that it is not.
+// The equations are finite for gaps of any size, or the domain excludes the gap.
 TEST_CASE("GapsOfAnySize_AreFiniteOrReported") {
   const FilmModel m = big_end();
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
@@ -158,7 +158,8 @@ TEST_CASE("FilmWithoutPrescribedPressure_HasAnIncrement") {
   }
 }
 
-// So narrow that what flows along the axis drowns in round-off what flows around: lines of multigrid have no pivots.
+// The ring is so narrow that flow around disappears in the round-off of flow along the axis: lines of multigrid have no
+// pivots.
 TEST_CASE("RingAsNarrowAsAThread_IsLeftToTheDirectSolver") {
   const FilmModel m = closed_ring(1e-9);
   const SurfaceMotion motion = surfaces(m, turning(m, 0.5, omega));
@@ -173,7 +174,7 @@ TEST_CASE("RingAsNarrowAsAThread_IsLeftToTheDirectSolver") {
   CHECK(du[1] == du[0]);
 }
 
-// What was factorised before does not matter to it.
+// An earlier factor has no effect on it.
 TEST_CASE("RegularisedIncrement_IsTheSameForANewFilm") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 0.7, omega));
@@ -200,7 +201,7 @@ TEST_CASE("ChordOutsideTheDomain_IsReportedAndLeavesNoFactor") {
   CHECK(reynolds.linearise(surfaces(m, turning(m, 0.7, omega)), {}, u).is_inside());
 }
 
-// The oil of a step is what its equations say, whatever factor leads there: that of the same film or of one far away.
+// The oil of a step follows from its equations, whether the factor is that of the same film or of one far away.
 TEST_CASE("OilOfAStep_DoesNotDependOnTheFactor") {
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
     for (const double sense : {1.0, -1.0}) {
@@ -247,7 +248,7 @@ TEST_CASE("SurfacesThatMoveAgainstEachOther_AddUp") {
   CHECK(both.norm() > 0);
 }
 
-// A wall lets nothing pass, also where a groove ends just before it; an edge does.
+// A wall is closed, also where a groove ends just before it; an edge is open.
 TEST_CASE("GrooveThatEndsJustBeforeAWall_LosesNoOilThere") {
   for (const EdgeKind kind : {EdgeKind::closed, EdgeKind::pressure}) {
     FilmModel m = big_end();
@@ -264,7 +265,8 @@ TEST_CASE("GrooveThatEndsJustBeforeAWall_LosesNoOilThere") {
   }
 }
 
-// In a film at rest any oil is an answer, less than none included: it is given none there, and no pressure.
+// In a film at rest any amount of oil is a solution, a negative one included: it is set to zero there, without
+// pressure.
 TEST_CASE("FilmAtRest_HasNoNegativeOil") {
   FilmModel m = big_end();
   m.supply = {};
@@ -281,7 +283,7 @@ TEST_CASE("FilmAtRest_HasNoNegativeOil") {
   }
 }
 
-// Between walls, with a line between nodes, in either sense of rotation.
+// Sweeps between walls, with a line between nodes, are tested in both senses of rotation.
 TEST_CASE("SweepsBetweenWalls_AgreeWithNewton") {
   for (const double sense : {1.0, -1.0, 0.0}) {
     for (const double line : {0.0, 0.26, 0.9}) {
@@ -295,7 +297,7 @@ TEST_CASE("SweepsBetweenWalls_AgreeWithNewton") {
                        sor = solve_cold(m, motion, {0, 0}, {.solver = FilmSolver::sor});
       REQUIRE(newton.summary.solved());
       REQUIRE(sor.summary.solved());
-      // At rest the line's pressure is everywhere, and bears nothing.
+      // At rest the line's pressure acts everywhere, and the film carries no load.
       const double load = sense == 0 ? m.supply.pressure * m.R * m.L : newton.wrench.norm();
       // Residuals of 1e-10, which weak spots of the film amplify by the condition, some 1e3.
       CHECK((sor.wrench - newton.wrench).norm() < 1e-6 * load);
@@ -304,7 +306,7 @@ TEST_CASE("SweepsBetweenWalls_AgreeWithNewton") {
   }
 }
 
-// What comes in through grooves of pads leaves over their edges and ends, or over their ends alone.
+// Oil that enters through grooves of pads leaves over their edges and ends, or over their ends alone.
 TEST_CASE("GroovesOfPads_FeedWhatLeavesOverTheEdges") {
   for (const EdgeKind kind : {EdgeKind::pressure, EdgeKind::closed}) {
     for (const double sense : {1.0, -1.0}) {
@@ -314,7 +316,7 @@ TEST_CASE("GroovesOfPads_FeedWhatLeavesOverTheEdges") {
       m.ends.resize(2);
       m.edge_left.kind = m.edge_right.kind = kind;
       m.fill_speed = 100;
-      // To just before both edges, at the first end of one pad and the last of the other.
+      // The grooves reach almost to both edges, at the first end of one pad and the last of the other.
       for (const double phi : {0.55, 2.55})
         m.features.push_back({.name = "groove", .phi = phi, .arc = 0.2, .length = 0.9 * m.L, .pressure = 2e5});
       m.features.push_back({.name = "stronger", .phi = 0.6, .arc = 0.2, .length = 0.92 * m.L, .pressure = 3e5});
@@ -329,10 +331,10 @@ TEST_CASE("GroovesOfPads_FeedWhatLeavesOverTheEdges") {
   }
 }
 
-// A pad with a pocket up to its end is the same wherever it stands along its way.
+// The film of a pad with a pocket up to its end is independent of the origin of its coordinate.
 TEST_CASE("PocketOfAPlane_DoesNotDependOnTheOriginAlongIt") {
   std::vector<SolvedFilm> films;
-  constexpr double far = 7;  // more than a turn, which a plane does not know
+  constexpr double far = 7;  // more than 2 pi, which has no meaning on a plane
   for (const double from : {0.0, far}) {
     FilmModel m{.surface = Plane{}, .R = 0.05, .L = 0.04, .c = 40e-6, .grid = patch_grid({{from, from + 1, 21}}, 9)};
     m.ends = {{.first = {.pressure = 1e5}}};
@@ -378,7 +380,7 @@ TEST_CASE("PocketsSideBySide_AreOne") {
   CHECK((films[0].fields.p - films[1].fields.p).norm() < 1e-7 * films[0].fields.p.norm());  // the residual of 1e-10
 }
 
-// What was there before is brought to coarser grids, too: a step from nothing ends where one from nearby does.
+// The history is brought to coarser grids, too: a step solved from zero ends where one from nearby does.
 TEST_CASE("StepOfACompressibleOil_EndsWhereItDoesFromAnyStart") {
   FilmModel m = big_end();
   m.grid = {60, 13};
@@ -397,7 +399,7 @@ TEST_CASE("StepOfACompressibleOil_EndsWhereItDoesFromAnyStart") {
   CHECK((warm - cold).norm() < 1e-7 * cold.norm());  // the residual of 1e-10
 }
 
-// Wherever a line lies in a groove or beside it, and wherever a hole reaches an edge, no oil is lost.
+// No oil is lost where a line lies in a groove or beside it, and where a hole reaches an edge.
 TEST_CASE("LineAcrossAGrooveAndHoleOnAnEdge_KeepTheirOil") {
   FilmModel m = big_end();
   const double step = 2 * pi / m.grid.n_phi, dz = m.L / (m.grid.n_z - 1);
@@ -459,7 +461,7 @@ TEST_CASE("CavityThatEndsAtAPeak_EndsInTheCellBeforeIt") {
   CHECK(observed.reformation_angle <= grid.phi(30) + 1e-12);  // likewise
 }
 
-// A groove across the line holds its nodes, where the line has no part in their rows.
+// A groove across the line prescribes its nodes, and the line has no share in their rows.
 TEST_CASE("SweepsOverALineAcrossAGroove_AgreeWithNewton") {
   FilmModel m = big_end();
   m.supply = {SupplyKind::fixed_angle, 0.26, 1e5};
@@ -485,7 +487,7 @@ TEST_CASE("SweepsInAClosedGap_ReportTheNode") {
   CHECK(motion.g[summary.domain.node] <= 0);
 }
 
-// A step that is to follow its gap but does not know the one it began with goes by the rate, as any first step does.
+// A step that is to follow its gap without knowing the initial one uses the rate, as any first step does.
 TEST_CASE("StepWithoutInitialGap_UsesTheRate") {
   const FilmModel m = big_end();
   Journal journal = turning(m, 0.5, omega);

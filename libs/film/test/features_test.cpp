@@ -33,7 +33,7 @@ TEST_CASE("GrooveEdges_AreIndependentOfTheGrid") {
   }
 }
 
-// What nothing drives has no flow, and a residual of round-off is to be measured by more than that.
+// Without a driving pressure there is no flow, and a residual of round-off needs another scale.
 TEST_CASE("FilmAtRestBetweenClosedEdges_HasItsGroovesPressure") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {60, 5}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
@@ -47,9 +47,9 @@ TEST_CASE("FilmAtRestBetweenClosedEdges_HasItsGroovesPressure") {
   }
 }
 
-// A cavitated film comes to a groove at p_s > p_cav, which fills it back to where the pressure has fallen:
-// l = h^2 p_s/[6 mu U (1 - theta)], a sixth of a cell here. Its nodes lie beyond, so that theta h stays what it was,
-// and what P0 is has no part in it.
+// A cavitated film reaches a groove at p_s > p_cav, which fills it back to where the pressure has fallen: l = h^2
+// p_s/[6 mu U (1 - theta)], a sixth of a cell here. The nodes lie beyond, so that theta h is unchanged there and P0 has
+// no influence.
 TEST_CASE("FilmBeforeAGroove_IsFilledAsFarAsItsPressureCan") {
   FilmModel m{.R = 0.05, .L = 0.04, .c = 100e-6, .grid = {60, 3}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
@@ -70,8 +70,9 @@ TEST_CASE("FilmBeforeAGroove_IsFilledAsFarAsItsPressureCan") {
   }
 }
 
-// Likewise along the axis: from a groove all around to an edge the flow is that of the land between, however little of
-// the last cell it is. The edge's pressure is given, so that no row sees how near the groove is.
+// The same holds along the axis: from a groove all around to an edge the flow is that of the land between them, however
+// small a part of the last cell it is. The edge's pressure is prescribed, so that no row contains the distance to the
+// groove.
 TEST_CASE("LandBeforeAnEdge_HasItsTrueLength") {
   for (const double p_edge : {0.0, 1e5}) {
     for (const double land : {0.4e-3, 1.1e-3, 2.4e-3, 2.5e-3, 3.9e-3}) {  // cells of 2.5 mm
@@ -93,7 +94,7 @@ TEST_CASE("LandBeforeAnEdge_HasItsTrueLength") {
   }
 }
 
-// Of grooves that overlap the oil takes the shorter land, whichever of them is written first.
+// The oil of overlapping grooves takes the shorter land, in either order in the file.
 TEST_CASE("LandOfOverlappingGrooves_IsThatOfTheNearer") {
   const SurfaceFeature whole{.name = "whole", .arc = 2 * pi, .length = 0.02 - 2 * 2.1e-3, .pressure = 3e5};
   const SurfaceFeature near{.name = "near", .phi = 1, .arc = 2.3, .length = 0.02 - 2 * 0.7e-3, .pressure = 3e5};
@@ -132,7 +133,7 @@ TEST_CASE("SideFlowOfAGroove_DoesNotDependOnWhereLinesLie") {
   CHECK(side_flow(60, 13, FilmSolver::sor) == relative(side_flow(60, 13)).epsilon(kSolved));
 }
 
-// All pressures are told on one scale: that of the cavity is one on it, and a full film does not see it.
+// All pressures have one scale, that of the cavity included, and a full film does not depend on the cavity's.
 TEST_CASE("FedGroove_KeepsItsPressureAtAnyCavitationPressure") {
   for (const double p_cav : {-5e4, 0.0, 2e4}) {
     CAPTURE(p_cav);
@@ -177,7 +178,7 @@ TEST_CASE("RowShares_HaveTheirDerivative") {
   }
 }
 
-// What the feature does to the film as it travels: force and flow in 1000 steps over four cells.
+// Effect of the feature on the film as it travels: force and flow in 1000 steps over four cells.
 struct Sweep {
   double largest = 0, jump = 0, bend = 0;  // of the force: size, largest first and second difference
 };
@@ -220,8 +221,9 @@ TEST_CASE("HoleSweptOverAUniformFilm_GivesASmoothForce") {
   }
 }
 
-// Where a line or a groove holds the largest pressure of a film, nothing is above it: a parabola through the nodes
-// beside it would be, by an eighth, as the pressure falls off on both sides of a kink. Mirrored films have the same.
+// Where a line or a groove has the largest pressure of a film, no reported pressure exceeds it: a parabola through the
+// nodes beside it would do so by an eighth, as the pressure falls off on both sides of a kink. Mirrored films have the
+// same peak.
 TEST_CASE("PeakBesideAPrescribedPressure_IsThatPressure") {
   const auto peak = [](int n_phi, double phi, bool is_line, double omega) {
     FilmModel m{.R = 0.025, .L = 0.025, .c = 50e-6, .grid = {n_phi, 13}};
@@ -244,7 +246,7 @@ TEST_CASE("PeakBesideAPrescribedPressure_IsThatPressure") {
         CAPTURE(degrees);
         const double phi = degrees * pi / 180;
         const FilmObservables one = peak(n_phi, phi, is_line, 30), mirrored = peak(n_phi, -phi, is_line, -30);
-        // Held exactly: round-off.
+        // The pressure is prescribed exactly: round-off.
         CHECK(one.p_max == doctest::Approx(1.5e5).epsilon(1e-12));
         CHECK(mirrored.p_max == doctest::Approx(one.p_max).epsilon(1e-12));
         if (is_line) CHECK(one.p_max_phi == doctest::Approx(phi).epsilon(1e-12));
@@ -253,7 +255,8 @@ TEST_CASE("PeakBesideAPrescribedPressure_IsThatPressure") {
   }
 }
 
-// At the step of a pocket the pressure has a kink as well: the node's own value is told, not that of a parabola beyond.
+// At the step of a pocket the pressure has a kink as well: the node's own value is reported, not that of a parabola
+// beyond.
 TEST_CASE("PeakAtThePocketsStep_IsNotExtrapolated") {
   FilmModel m{.R = 0.025, .L = 0.025, .c = 50e-6, .grid = {60, 13}};
   m.lubricant.mu0 = 0.01;

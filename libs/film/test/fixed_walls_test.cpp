@@ -14,7 +14,7 @@ namespace fixed_walls_test {
 
 FilmModel bearing() { return small_bearing_with_hole(0.5, 36, 9); }
 
-/// With a ring as thick as the bore's radius, and a free shaft.
+/// The ring is as thick as the bore's radius, and the shaft is free.
 ThermalModel walls(WallMotion motion) {
   ThermalModel thermal = supplied_at_40(4);
   thermal.shell = RingWall{.outer_radius = 0.05, .transfer = 80, .T_ambient = 30 + zero_celsius};
@@ -23,7 +23,8 @@ ThermalModel walls(WallMotion motion) {
   return thermal;
 }
 
-/// A film whose journal goes to and fro along a line, `swing` about the middle position, in steps of 50 to the period.
+/// A film whose journal oscillates along a line, with the amplitude `swing` about the middle position, in steps of 50
+/// to the period.
 class Machine {
  public:
   Machine(const FilmModel& model, const ThermalModel& thermal, double swing)
@@ -74,8 +75,8 @@ TEST_CASE("FixedWalls_SettleAtThoseOfTheSteadyFilm") {
   CHECK(std::abs(machine.film.heat.observables().T_shell_max - steady.heat.T_shell_max) < last);
 }
 
-// Films that thin as walls warm bring them more heat than the mean of their equations knows, as contact does in an
-// engine; here the journal turns faster. The first corrections tell by how much.
+// Films that thin as walls warm heat them more than the mean of their equations predicts, as contact does in an engine;
+// here the journal rotates faster. The first corrections show the ratio.
 TEST_CASE("FixedWalls_ThatDrawMoreHeatAsTheyWarmSettleAsSoon") {
   Machine machine(bearing(), walls(WallMotion::fixed), 0);
   machine.faster_per_kelvin = 0.03;
@@ -123,7 +124,7 @@ TEST_CASE("FixedNodes_SettleWithTheirNetwork") {
     machine.film.settle(network);
   }
   machine.run_cycle();
-  // The journal, which only the film reaches, takes up nothing; what the shell does goes to the air.
+  // The journal, which only the film reaches, absorbs nothing; the heat into the shell flows to the air.
   constexpr double last = 1e-3;  // W, of 110 in the first cycle: what the last corrections amount to
   CHECK(std::abs(machine.heat_into_journal) < last);
   const double to_air = 2.0 * (network.temperatures()[0] - (30 + zero_celsius));
@@ -166,7 +167,7 @@ TEST_CASE("FixedWalls_ResumeToTheSameNumbers") {
   CHECK(machine.film.heat.state().journal == resumed.state().journal);
 }
 
-// Without heat on one side, with a temperature given there, through a line instead of a hole.
+// Walls without heat on one side, with a prescribed temperature there, and with a line instead of a hole.
 TEST_CASE("FixedWallsOfAllKinds_SettleAtThoseOfTheSteadyFilm") {
   const RingWall ring{.outer_radius = 0.05, .transfer = 80, .T_ambient = 30 + zero_celsius};
   const std::vector<std::pair<ShellWall, JournalWall>> kinds{
@@ -239,8 +240,8 @@ TEST_CASE("FixedWallsOfGivenTemperature_KeepIt") {
   CHECK(machine.film.heat.state().journal == 50 + zero_celsius);
 }
 
-// Where oil comes from and what surrounds a ring are nodes that keep their temperatures, or such temperatures: through
-// a line, with a hole that takes oil away, all of it renewed in part.
+// The origins of oil and the surroundings of a ring are nodes that keep their temperatures, or such temperatures: with
+// a line, with a hole that removes oil, and with partial renewal of all oil.
 TEST_CASE("FixedWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
   FilmModel model = bearing();
   model.supply = {SupplyKind::fixed_angle, 0, 3e5};
@@ -264,7 +265,7 @@ TEST_CASE("FixedWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
   }
 }
 
-// A film at rest does not ask what walls would do over time.
+// A steady film does not depend on the motion of walls over time.
 TEST_CASE("SteadyFilmWithFixedNodes_IsTheSteadyFilm") {
   const FilmModel model = bearing();
   std::array<WallExchange, 2> observed;
@@ -279,7 +280,7 @@ TEST_CASE("SteadyFilmWithFixedNodes_IsTheSteadyFilm") {
   CHECK(observed[1].by_T == observed[0].by_T);
 }
 
-// What goes elsewhere than predicted tells nothing of the relaxation.
+// A change in another direction than predicted leaves the relaxation at one.
 TEST_CASE("WallRelaxation_FollowsChangesInThePredictedDirection") {
   const Eigen::Vector2d ones(1, 1), predicted(10, 0);
   for (const auto& [then, share] : std::vector<std::pair<Eigen::Vector2d, double>>{

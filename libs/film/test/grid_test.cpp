@@ -82,8 +82,8 @@ double load_of(const Grid& grid, double e) {
   return film.wrench.segment<2>(3).norm();
 }
 
-// At eccentricity 0.97 the film is a short, steep hill before the narrowest gap. The exact load is extrapolated from
-// two equally spaced grids of second order.
+// At eccentricity 0.97 the pressure is a short, steep hill before the narrowest gap. The exact load is extrapolated
+// from two equally spaced grids of second order.
 TEST_CASE("GradedGrid_GivesTheLoadWithFewerNodes") {
   const double e = 0.97, fine = load_of({480, 25}, e), finer = load_of({960, 25}, e);
   const double exact = finer + (finer - fine) / 3;

@@ -3,7 +3,7 @@
 #include "film_over_time.h"
 #include "relative.h"
 
-// Nodes of a network that are no walls: surroundings of a ring, and where oil comes from and goes to.
+// Nodes of a network that are no walls: surroundings of a ring, and origin and destination of oil.
 namespace hersey::film {
 namespace nodes_of_oil_test {
 
@@ -94,7 +94,7 @@ TEST_CASE("StepsWithASump_ConserveHeat") {
     CHECK(std::abs(machine.network.observables().error()) < 1e-10);  // round-off
     CHECK(machine.film.heat.observables().balance.error() < 1e-6);   // the film's residual
   }
-  // At rest as much oil comes as leaves: the sump takes all that oil carries away, the block what the ring passes on.
+  // At rest as much oil enters as leaves: the sump receives the heat of the oil, the block the heat through the ring.
   const HeatBalance balance = machine.film.heat.observables().balance;
   const NetworkObservables& observed = machine.network.observables();
   CHECK(observed.heat[0] == relative(balance.to_oil).epsilon(1e-6));    // the film's residual
@@ -124,11 +124,11 @@ TEST_CASE("FixedNode_IsATemperature") {
   CHECK(by_node.network.observables().to_fixed > 0);
 }
 
-// What the drain takes up by its own temperature is exact in the mean, the film does not know of it; and where oil does
-// not thin, a rise of all temperatures changes no heat.
+// The heat into the drain by its own temperature is exact in the mean, and the film does not depend on it. Where oil
+// does not thin, a rise of all temperatures changes no heat.
 TEST_CASE("MeanAnswerToNodes_IsThatOfTheirHeat") {
   FilmModel model = bearing();
-  model.features[0].pressure = 3e6;  // that no oil goes back into the hole, which the mean counts as drained
+  model.features[0].pressure = 3e6;  // no oil may return into the hole, which the mean counts as drained
   std::get<ExponentialViscosity>(model.lubricant.temperature_law).beta = 0;
   for (const bool has_block : {true, false}) {
     CAPTURE(has_block);
@@ -198,7 +198,7 @@ TEST_CASE("NodesOfOil_SettleOverCycles") {
     CHECK(std::abs(machine.network.temperatures()[node] - wanted.network.temperatures()[node]) < 0.01);
 }
 
-// What a second hole takes away comes to the drain as what leaves over the edges does.
+// Heat that a second hole removes reaches the drain as the heat of oil that leaves over the edges does.
 TEST_CASE("Drain_ReceivesTheHeatThatHolesRemove") {
   FilmModel model = bearing();
   model.features.push_back({.name = "outlet", .phi = 3.4, .arc = 0.7, .length = 8e-3, .pressure = 0});

@@ -11,7 +11,7 @@
 namespace hersey::film {
 namespace pads_test {
 
-/// From the converging gap to behind the narrowest place, which lies at pi, or the mirror image of that.
+/// Pads from the converging gap to behind the narrowest gap, which lies at pi, or their mirror image.
 struct Pads {
   FilmModel model;
   Journal journal;
@@ -119,7 +119,7 @@ TEST_CASE("WarmPadsWithTheOtherSense_AreTheMirrorImage") {
     return solve_hot(p.model, thermal, surfaces(p.model, p.journal), p.journal.e);
   };
   const HotFilm film = solved(false), image = solved(true);
-  constexpr double tolerance = 1e-4;  // K, what the last iterations of film, heat and thinning leave of some 10
+  constexpr double tolerance = 1e-4;  // K: the last iterations of film, heat and thinning leave this of some 10
   CHECK(std::abs(image.heat.T_max - film.heat.T_max) < tolerance);
   CHECK(std::abs(image.heat.T_journal - film.heat.T_journal) < tolerance);
   CHECK(std::abs(image.heat.T_side - film.heat.T_side) < tolerance);

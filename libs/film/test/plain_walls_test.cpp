@@ -9,7 +9,7 @@
 #include "hersey/film/grid_transfer.h"
 #include "relative.h"
 
-// Walls that keep their shape, networks and scales turned round, and what is asked of a film before it has moved.
+// Walls that keep their shape, networks and scales in another order, and figures of a film before its first step.
 namespace hersey::film {
 namespace plain_walls_test {
 
@@ -116,7 +116,7 @@ TEST_CASE("NodeBesideAShellWithoutHeat_SetsTheFilmsTemperature") {
   CHECK((film.heat.state().film - other.heat.state().film).cwiseAbs().maxCoeff() < 1e-5);
 }
 
-// What shear leaves is what the last film says: asked twice, nothing changes; an oil that does not thin never does.
+// Shear thinning is that of the last film: a second call changes nothing, and an oil that does not thin has none.
 TEST_CASE("ThinningOfTheSameFilm_IsTheSame") {
   FilmModel model = bearing();
   const SurfaceMotion motion = surfaces(model, loaded);
@@ -207,7 +207,7 @@ TEST_CASE("PressureOfAFeature_MayBeGivenWithTheMotion") {
   CHECK(by_motion.observed.flow_supply == by_model.observed.flow_supply);
 }
 
-// The wrench does not ask whether there are shapes on which the film pushes, too.
+// The wrench does not depend on the presence of shapes on which the film pushes, too.
 TEST_CASE("FilmWithoutShapes_IsCondensedToTheSameWrench") {
   const FilmModel m = bearing();
   const SurfaceMotion motion = surfaces(m, loaded);
@@ -226,7 +226,7 @@ TEST_CASE("FilmWithoutShapes_IsCondensedToTheSameWrench") {
   }
 }
 
-// Between rings whose lines lie elsewhere fields keep their places, whichever begins first.
+// Fields keep their positions between rings whose lines lie elsewhere, in either direction.
 TEST_CASE("FieldBetweenRotatedRings_KeepsItsPosition") {
   const Grid one{36, 5}, other = turned(Grid{24, 7}, 0.5);
   for (const bool backwards : {false, true}) {

@@ -75,8 +75,8 @@ PocketErrors pocket(int n) {
     if (s.theta[k] < 1 - 1e-9) last = k, first = std::min(first, k);  // full but for round-off
   }
   CHECK(std::abs(first * s.dx - 2e-3) <= s.dx);
-  // The front's own node is partly full: the share by which it is fuller than the one before tells where in the cell
-  // the film begins.
+  // The front's own node is partly full: its fill fraction in excess of the one before gives the position of the front
+  // in the cell.
   const double before = s.theta[last - 1], share = (s.theta[last] - before) / (1 - before);
   return {s.flow / 5.229635e-7 - 1, ((last + 1 - share) * s.dx - 3.611263e-3) / s.dx,
           (s.film.fields.p.maxCoeff()) / 9.808819e6 - 1};
@@ -91,7 +91,7 @@ TEST_CASE("PocketSlider_RupturesAndReforms") {
     CHECK(std::abs(e.front) < 0.5);
     CHECK(std::abs(e.peak) < 4e-7);
   }
-  // Steps between nodes, at the same place in their cells on both grids: order one.
+  // Steps lie between nodes, at the same position in their cells on both grids: order one.
   const PocketErrors coarse = pocket(101), fine = pocket(1111);
   CHECK(std::abs(coarse.flow) < 5e-4);
   CHECK(std::abs(coarse.front) < 1);

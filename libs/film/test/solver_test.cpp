@@ -17,7 +17,7 @@ FilmModel big_end(Cavitation cavitation) {
 
 constexpr double omega = 374;
 
-// What a relative residual of 1e-10 leaves of pressures and flows.
+// Error of pressures and flows at a relative residual of 1e-10.
 constexpr double solved = 1e-7;
 
 // A wall at mid-width changes nothing of a bearing that is the same on both sides of it.

@@ -14,7 +14,7 @@ namespace surfaces_test {
 
 double order(double coarse, double fine) { return std::log2(std::abs(coarse / fine)); }
 
-// What solvers leave of fields, of sums over them and of flows, relative.
+// Relative errors that solvers leave of fields, of sums over them and of flows.
 constexpr double of_fields = 1e-7, of_sums = 1e-8, of_flows = 1e-9, of_sweeps = 1e-5;
 
 constexpr double length = 0.05, width = 0.01, speed = 3, viscosity = 0.02, outlet = 2e-5;
@@ -61,7 +61,7 @@ TEST_CASE("PlanePad_ConvergesToTheClosedFormsWithOrderTwo") {
     load_error[k] = film.wrench[3] / load - 1;
     friction_error[k] = film.wrench[4] / friction - 1;
     centre_error[k] = -film.wrench[2] / film.wrench[3] / length / exact.centre() - 1;
-    // What it takes to pull the runner goes into the film.
+    // The power that pulls the runner is dissipated in the film.
     CHECK(film.observed.power_taken() == relative(speed * on_runner).epsilon(2e-3));
   }
   CHECK(std::abs(load_error[1]) < 3e-4);
@@ -99,7 +99,7 @@ TEST_CASE("HydrostaticAnnulus_ConvergesToTheClosedFormWithOrderTwo") {
   CHECK(order(flow_error[0], flow_error[1]) == doctest::Approx(2).epsilon(0.1));
 }
 
-// The runner turns: T = pi mu omega (r2^4 - r1^4)/(2 h), and it takes that times omega from whatever drives it.
+// The runner rotates: T = pi mu omega (r2^4 - r1^4)/(2 h), and its drive provides the power T omega.
 TEST_CASE("RotatingAnnulus_DragsWithTheRadius") {
   const FilmModel m = ring(24, 21);
   const double omega = speed / m.R;
@@ -166,7 +166,7 @@ TEST_CASE("PatchOfABore_IsTheFilmBesideAGroove") {
   }
 }
 
-// Pads on one grid do not see each other: each is as it would be alone, and their wrenches add.
+// Pads on one grid are independent: each has its film, and their wrenches add.
 TEST_CASE("PatchesOfOneFilm_AreEachOnItsOwn") {
   const std::vector<Patch> pads{
       {.from = 0.2, .to = 1.9, .lines = 15}, {.from = 2.4, .to = 4, .lines = 12}, {.from = 4.3, .to = 6, .lines = 17}};
@@ -193,7 +193,7 @@ TEST_CASE("PatchesOfOneFilm_AreEachOnItsOwn") {
   CHECK(all.observed.flow_ends() == relative(ends).epsilon(of_fields));
 }
 
-// By every way of solving.
+// All solvers are tested.
 TEST_CASE("PatchesOfOneFilm_HaveOneAnswer") {
   FilmModel m = bore(patch_grid({{.from = 0.2, .to = 2.6, .lines = 31}, {.from = 3.3, .to = 5.9, .lines = 29}}, 9));
   m.ends.assign(2, {.first = {.pressure = supplied}, .last = {}});
@@ -258,7 +258,7 @@ TEST_CASE("OilOfPads_IsConservedAtAnyStep") {
   }
 }
 
-// Between parallel plates without conduction oil warms by 2 mu U/(rho c h^2) per length.
+// Oil between parallel plates without conduction warms by 2 mu U/(rho c h^2) per length.
 TEST_CASE("ParallelPad_WarmsAsTheClosedForm") {
   FilmModel m = pad(41);
   m.lubricant.temperature_law = FixedViscosity{viscosity};
@@ -271,7 +271,7 @@ TEST_CASE("ParallelPad_WarmsAsTheClosedForm") {
       2 * viscosity * speed / (m.lubricant.density * m.lubricant.specific_heat * outlet * outlet) * length;
   const TemperatureFields fields = heat.fields();
   const auto at = [&](int line) { return fields.middle[m.grid.index(line, 1)]; };
-  // Beside the inlet oil comes half a cell warm.
+  // Beside the inlet oil enters half a cell warm.
   for (const int line : {20, 30, 40}) CHECK(at(line) - at(line - 10) == relative(rate / 4).epsilon(1e-6));
 }
 
