@@ -392,7 +392,7 @@ double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, c
 
 const WallExchange& FilmHeat::mean_exchange() {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(m.has_fixed_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
+  HERSEY_REQUIRE(m.has_fixed_walls() && m.equations.mean().has_steps(), "a mean over steps with fixed walls");
   return m.fixed_walls.end_cycle(m.equations.mean(), m.state);
 }
 
