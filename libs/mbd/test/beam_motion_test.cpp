@@ -208,7 +208,7 @@ TEST_CASE("RotatingBlade_HasTheFrequenciesOfTheClosedForm") {
   }
 }
 
-TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
+TEST_CASE("OverhungRotor_WhirlsAsInTheClosedForm") {
   // A disc (m, I_d across, I_p along) at the end of a massless shaft that rotates at W: with deflection and slope as
   // unknowns, (K - w^2 diag(m, I_d) + w W diag(0, I_p)) x = 0 for whirl at w, forward where w has W's sign. In the
   // rotating axes its frequency is |w - W|.

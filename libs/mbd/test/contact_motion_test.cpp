@@ -84,7 +84,7 @@ Impact impact(const ContactLaw& law, int steps) {
   return observation;
 }
 
-TEST_CASE("BallDrop_MeetsHertzForceAndDuration") {
+TEST_CASE("BallDrop_MatchesHertzForceAndDuration") {
   // delta_max = (5 m v^2/(4 k))^(2/5), F = k delta_max^(3/2), T = 2.9432 delta_max/v (Hertz; Johnson 1985, Sec.
   // 11.4): (contact.13).
   const ContactLaw law{.stiffness = 1e9};

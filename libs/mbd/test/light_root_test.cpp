@@ -80,7 +80,7 @@ Balance fly(int elements, double dt, double end, double spectral_radius, bool lo
   return balance;
 }
 
-TEST_CASE("LightFirstNodeUnderASuddenMoment_TakesUpTheWorkDone") {
+TEST_CASE("LightFirstNodeUnderASuddenMoment_AbsorbsTheWorkDone") {
   // The first node alone rotates at some hundred radians per second, and steps of 20 ms do not resolve it. The method
   // takes unresolved motions out, with a spectral radius of .5 a quarter of the work in four steps; it must add
   // nothing.

@@ -65,7 +65,7 @@ Model slider_crank(const verification::SliderCrank& s, bool reverse_rod, double 
   return m;
 }
 
-TEST_CASE("SliderCrank_MeetsClosedFormKinematicsAndReactions") {
+TEST_CASE("SliderCrank_MatchesClosedFormKinematicsAndReactions") {
   const verification::SliderCrank exact{.push = -1500};
   for (bool reverse_rod : {false, true}) {
     CAPTURE(reverse_rod);

@@ -117,7 +117,7 @@ TEST_CASE("BeamAlongZ_NeedsNoUp") {
   CHECK((model.bodies[0].beam->axes[0].col(2) - Vector3::UnitX()).norm() < kRoundOff);
 }
 
-TEST_CASE("Beam_FaultsNameWhatIsThere") {
+TEST_CASE("Beam_FaultsNameTheAlternatives") {
   CHECK(contains(faults_with("[10 0 0 mm, 110 0 0 mm, 110 0 200 mm]", "[10 0 0 mm]"),
                  "m.yaml:6:15: bodies.shaft.beam.points: a beam with one point"));
   CHECK(contains(faults_with("110 0 0 mm,", "10 0 0 mm,"), "the position of the point before it"));

@@ -59,7 +59,7 @@ TEST_CASE("Constant_HasNoVariables") {
   CHECK(force.path == "forces.push.components.1");
 }
 
-TEST_CASE("Expression_KnowsTimeAndJoints") {
+TEST_CASE("Expression_MayContainTimeAndJoints") {
   const Function force = force_of("{expression: \"2*t + 3*main.rotation + guide.x_rate\", unit: kN}");
   REQUIRE(force.variables.size() == 3);
   CHECK(force.variables[0].kind == Variable::Kind::time);

@@ -93,7 +93,7 @@ TEST_CASE("SupplyLineThroughAGroove_OfAnotherPressureIsAFault") {
   }
 }
 
-TEST_CASE("ReservoirsThatMeetAsTheJournalRotates_AreWarnedOf") {
+TEST_CASE("ReservoirsThatMeetAsTheJournalRotates_CauseAWarning") {
   const auto warnings = [](const std::string& feeds) { return warnings_of(with_feeds(feeds)); };
   const std::string one = groove("one", "pressure: 1 bar");
   CHECK(warnings(line_at_widest + "    features:\n" + one) ==

@@ -54,7 +54,7 @@ TEST_CASE("GoodModel_IsReadInSI") {
 }
 
 // Six different elements: each is found on both sides of the diagonal.
-TEST_CASE("Inertia_HasEachElementWhereItsNameSays") {
+TEST_CASE("Inertia_HasEachElementAtItsName") {
   const std::string given =
       "{xx: 5 kg.m^2, yy: 6 kg.m^2, zz: 7 kg.m^2, xy: 0.1 kg.m^2, yz: 0.2 kg.m^2, zx: 0.3 kg.m^2}";
   const Matrix3 inertia =
@@ -386,7 +386,7 @@ TEST_CASE("EmptySections_AreAllowed") {
         "no fault");
 }
 
-TEST_CASE("RefinedGrid_IsFineWhereAsked") {
+TEST_CASE("RefinedGrid_IsFineAtItsRefinements") {
   const Model model = read_text(edited(good_model, "    lubricant: oil\n", R"(    lubricant: oil
     features:
       groove: {shape: axial_groove, angle: 90 deg, arc: 20 deg, length: 8 mm, pressure: 2 bar}

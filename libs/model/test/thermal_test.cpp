@@ -85,7 +85,7 @@ std::string warned(const std::string& oil, const std::string& thermal) {
   return all;
 }
 
-TEST_CASE("TemperaturesBeyondWhatIsKnown_AreWarnedOf") {
+TEST_CASE("TemperaturesBeyondTheKnownRange_CauseAWarning") {
   const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
   CHECK(warned("grade: iso_vg_46", "model: film, supply_temperature: 50 degC").empty());
   CHECK(has(warned("grade: iso_vg_46", "model: film, supply_temperature: -30 degC"),

@@ -117,7 +117,7 @@ TEST_CASE("LoopThatCannotClose_IsReportedWithItsLargestConstraintFirst") {
 }
 
 // Two rows that say the same are what is wrong where they differ, and not where they hold and another is open.
-TEST_CASE("RowsThatRepeatOthers_AreBlamedWhereTheyDiffer") {
+TEST_CASE("DependentRows_AreReportedWhereTheyContradict") {
   test::SeveralCoordinates e(MatrixXd::Identity(3, 3), 3);
   double shift = 0.1, least = -1;
   e.phi = [&](const VectorXd& q, double) { return VectorXd(Vector3d(q[0], q[0] - shift, least + q[1] * q[1])); };

@@ -17,7 +17,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 void copy(const Eigen::VectorXd& b, Eigen::VectorXd& x) { x = b; }
 
-TEST_CASE("Gmres_OfAnOperatorThatMakesNothing_SaysSo") {
+TEST_CASE("Gmres_OfAZeroOperator_ReportsIt") {
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(5);
   Gmres gmres;
   Eigen::VectorXd x;
@@ -30,7 +30,7 @@ TEST_CASE("Gmres_OfAnOperatorThatMakesNothing_SaysSo") {
   CHECK(summary.residual_norm == b.norm());
 }
 
-TEST_CASE("Gmres_OfWhatIsNoNumber_Ends") {
+TEST_CASE("Gmres_OfValuesThatAreNoNumbers_Ends") {
   const double no_number = std::numeric_limits<double>::quiet_NaN();
   Gmres gmres;
   Eigen::VectorXd x;
@@ -54,7 +54,7 @@ TEST_CASE("Aitken_KeepsItsFactorWhereNothingChanges") {
 }
 
 // Two changes along one line are one: what the second leaves beside it is round-off, and is not divided by.
-TEST_CASE("QuasiNewton_TakesChangesAlongOneLineForOne") {
+TEST_CASE("QuasiNewton_CountsParallelChangesAsOne") {
   FixedPointIteration iteration(Acceleration::quasi_newton, 1);
   iteration.begin_step();
   const Eigen::Vector3d along(1, -2, 0.5), start(0.3, 0.1, 0.2);

@@ -65,7 +65,7 @@ TEST_CASE("Pendulum_KeepsItsCircleAndItsEnergyToSecondOrder") {
 // By the factors of the step's last iteration, which belong to a slightly different configuration.
 constexpr double what_is_left = 0.05;
 
-TEST_CASE("StepOfAnotherLength_EndsOnTheConstraintsWhereAskedTo") {
+TEST_CASE("StepOfAnotherLength_EndsOnTheConstraintsIfRequired") {
   const auto ends = [](bool returns, double last) {
     test::SeveralCoordinates e = pendulum();
     State state = from_the_side(e);
@@ -122,7 +122,7 @@ TEST_CASE("WithoutDissipation_ConstraintsAreRefusedUnlessStepsEndOnThem") {
 }
 
 // A film whose oil a step does not account for: the step is solved again from where it ended, by the new equations.
-TEST_CASE("StepThatDoesNotStand_IsSolvedAgainByTheEquationsItLeads") {
+TEST_CASE("InconsistentStep_IsSolvedAgainByItsOwnEquations") {
   double pull = 1;
   test::SeveralCoordinates e(MatrixXd::Identity(1, 1));
   e.condenses = true;
@@ -218,7 +218,7 @@ TEST_CASE("LastIteration_IsMeasuredByTheToleranceItself") {
 }
 
 // The row with the largest residual is named, irrespective of its index.
-TEST_CASE("WorstRow_IsNamedWhereverItStands") {
+TEST_CASE("WorstRow_IsNamedAtAnyIndex") {
   for (const Eigen::Index worst : {0, 1}) {
     test::SeveralCoordinates e(Matrix2d::Identity());
     e.force = [worst](const VectorXd& q, const VectorXd&, double) {
@@ -233,7 +233,7 @@ TEST_CASE("WorstRow_IsNamedWhereverItStands") {
   }
 }
 
-TEST_CASE("Restart_TakesOffWhatConstraintsDoNotAllowAndNothingElse") {
+TEST_CASE("Restart_RemovesOnlyMotionsThatConstraintsDoNotAllow") {
   test::SeveralCoordinates e = pendulum();
   State state = e.at(Vector2d(0.6, -0.8), 2 * Vector2d(0.8, 0.6) + 0.01 * Vector2d(0.6, -0.8));
   REQUIRE(restart(e, state, 1e-3));

@@ -49,7 +49,7 @@ TEST_CASE("Pendulum_SlidesDownFromAnywhereAndIsStable") {
   }
 }
 
-TEST_CASE("Equilibrium_ThatIsNotStable_SaysSo") {
+TEST_CASE("UnstableEquilibrium_IsReported") {
   test::OneCoordinate p = pendulum();
   State upright = p.at(pi, 0);
   const EquilibriumSummary unstable = find_equilibrium(p, upright);
@@ -132,7 +132,7 @@ TEST_CASE("Equilibrium_NearTheEndOfTheDomain_IsFoundFromInside") {
   CHECK(std::abs(state.q[0] - 0.1) < solved);
 }
 
-TEST_CASE("SteadyMotion_KeepsItsVelocityAndStandsStillInTheRest") {
+TEST_CASE("SteadyMotion_KeepsItsVelocityAndRestsOtherwise") {
   test::OneCoordinate rotor = with_force(0, 0);
   State rotating = rotor.at(0.2, 30);
   const EquilibriumSummary found = find_equilibrium(rotor, rotating, {.steady_motion = true});
@@ -165,7 +165,7 @@ State without_pull(const test::OneCoordinate& p, double q) {
   return state;
 }
 
-TEST_CASE("StepsThatAreTooLong_AreTakenBack") {
+TEST_CASE("StepsThatAreTooLong_AreRejected") {
   test::OneCoordinate hard = with_force(-1, 1e-3, 1000);
   State over = without_pull(hard, 0);  // the first step ends where the spring pulls back seven times as hard
   REQUIRE(find_equilibrium(hard, over).solved());
@@ -219,7 +219,7 @@ TEST_CASE("LoadThatIsFollowed_LeadsToTheSameRest") {
 }
 
 // Rows that are let go early leave the rest to the end, where Newton's method goes on until it changes nothing.
-TEST_CASE("Rest_IsSolvedFurtherThanItsRowsAsk") {
+TEST_CASE("Rest_IsSolvedBeyondTheTolerance") {
   test::OneCoordinate p = with_force(-0.05, 20, 3000);  // 20 q + 3000 q^3 = 0.05 at 0.00250 - 0.0000023...
   State loose = p.at(0, 0), tight = loose;
   REQUIRE(find_equilibrium(p, tight).solved());

@@ -91,7 +91,7 @@ TEST_CASE("FastMotion_SettlesWhereForcesBalance") {
   CHECK(s.v[0] == -0.5);
 }
 
-TEST_CASE("FastMotionThatCannotBeSettled_IsLeftAsItIs") {
+TEST_CASE("FastMotionThatCannotBeSettled_IsUnchanged") {
   const double dt = 1e-2;
   const auto settles = [&](test::SeveralCoordinates& e) {
     const State start = e.at(Eigen::VectorXd::Zero(e.nv()));
@@ -118,14 +118,14 @@ TEST_CASE("FastMotionThatCannotBeSettled_IsLeftAsItIs") {
   CHECK(!settles(nothing));
 }
 
-TEST_CASE("GivenRateOfALightMass_StandsAtTheStart") {
+TEST_CASE("GivenRateOfALightMass_IsKeptAtTheStart") {
   test::OneCoordinate e = dragged(1e-9, 1);
   State s = e.at(0, 0.25);
   REQUIRE(initialise(e, s, {.fixed_rates = {0}}).solved());
   CHECK(s.v[0] == 0.25);
 }
 
-TEST_CASE("MotionWithoutMass_HasTheRateThatDampingLetsIt") {
+TEST_CASE("MotionWithoutMass_HasTheRateOfItsDamping") {
   test::OneCoordinate e;
   e.mass = 0;
   e.force = [](double, double v, double) { return 4 * v + v * v * v - 5; };

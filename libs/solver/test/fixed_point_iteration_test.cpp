@@ -50,7 +50,7 @@ TEST_CASE("Aitken_ConvergesWhereTheFullStepDiverges") {
   CHECK(iterations_to(1e-6, Acceleration::aitken, 1.0, 500) < 500);
 }
 
-TEST_CASE("WhatALikeExchangeHasShown_IsKnownFromTheStart") {
+TEST_CASE("JacobianOfASimilarExchange_IsUsedFromTheStart") {
   const StiffExchange F;
   FixedPointIteration other(Acceleration::quasi_newton, 0.05), iteration(Acceleration::quasi_newton, 0.05);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
@@ -78,7 +78,7 @@ TEST_CASE("Memory_CarriesOverToTheNextStep") {
 }
 
 // The oldest changes are forgotten: those of an exchange that is no more do not stand in the way of the next.
-TEST_CASE("OldChanges_GiveWayToNewOnes") {
+TEST_CASE("OldChanges_AreReplacedByNewOnes") {
   const StiffExchange F;
   StiffExchange earlier;
   earlier.A *= 1.5;
@@ -103,7 +103,7 @@ TEST_CASE("OldChanges_GiveWayToNewOnes") {
 }
 
 // Along what is known the image is taken to its fixed point, of the rest a share of the way is gone.
-TEST_CASE("ShareOfTheUnknown_IsGoneAcrossWhatIsKnownAlone") {
+TEST_CASE("ShareOfTheUnknown_AppliesToUnknownDirectionsOnly") {
   const Eigen::Vector3d b(1, 2, 3), slope(0.5, 0, 0);
   const auto image = [&](const Eigen::VectorXd& x) { return Eigen::VectorXd(slope.cwiseProduct(x) + b); };
   for (const double share : {1.0, 0.25}) {

@@ -131,7 +131,7 @@ TEST_CASE("ClosedGap_ShortensTheIncrementAndContinues") {
   CHECK(s.q[0] < 0.1);
 }
 
-TEST_CASE("FailedStep_LeavesTheStateAndSaysWhy") {
+TEST_CASE("FailedStep_LeavesTheStateAndGivesTheReason") {
   SUBCASE("outside the domain from the start") {
     test::OneCoordinate e = cushion();
     e.lowest = 1;

@@ -208,7 +208,7 @@ TEST_CASE("MotionWithoutInertia_IsNamedAmongRowsOfPoorConditionToo") {
 
 // Rows a trillionth apart: elimination's pivots lie as far apart as its condition allows, and yet the motion that is
 // left has inertia.
-TEST_CASE("MotionBesideRowsOfPoorCondition_IsSolvedAllTheSame") {
+TEST_CASE("MotionBesideRowsOfPoorCondition_IsSolved") {
   const Equations::SparseMatrix S = nearly_dependent_rows(1, 1e-12, 1);
   const VectorXd h = Eigen::Vector3d(3, -1, 2);
   const AccelerationSolution s = solve_kkt(S, 3, h, VectorXd::Zero(2));
@@ -221,7 +221,7 @@ TEST_CASE("MotionBesideRowsOfPoorCondition_IsSolvedAllTheSame") {
 }
 
 // And the shortest way to close such rows, by a QR decomposition.
-TEST_CASE("SmallestIncrement_OfRowsThatNearlySayTheSame") {
+TEST_CASE("SmallestIncrement_OfNearlyDependentRows") {
   const double apart = std::ldexp(1.0, -40);
   const MatrixXd G = (MatrixXd(2, 3) << 1, 1, 1, 1, 1 + apart, 1).finished();
   const VectorXd weight = Eigen::Vector3d(1, 2, 0.5), residual = Eigen::Vector2d(-3, -3 - 2 * apart);

@@ -92,7 +92,7 @@ TEST_CASE("DampedModes_HaveTheirRatioAndFrequencies") {
   CHECK(creeping.stable);
 }
 
-TEST_CASE("OnlyWhatGrows_IsUnstable") {
+TEST_CASE("OnlyGrowingMotions_AreUnstable") {
   CHECK(!find_modes(of(1, -0.1, 4)).stable);
   CHECK(find_modes(of(1, -0.1, 4)).modes[0].damping_ratio == relative(-0.025).epsilon(of_eigenvalues));
   CHECK(!find_modes(of(1, 0, -4)).stable);

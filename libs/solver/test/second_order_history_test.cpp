@@ -81,7 +81,7 @@ TEST_CASE("StepThatIsBegunAgain_HasLeftNothing") {
   }
 }
 
-TEST_CASE("AcceptingWithoutAStep_KeepsWhatIsThere") {
+TEST_CASE("AcceptingWithoutAStep_KeepsTheState") {
   Condensed plain, settled;
   plain.x.start(VectorXd::Constant(1, 0.01));
   settled.x.start(VectorXd::Zero(1));

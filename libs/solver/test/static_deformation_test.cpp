@@ -118,7 +118,7 @@ test::SeveralCoordinates whirled_mass() {
   return e;
 }
 
-TEST_CASE("WhirledRod_IsStretchedByWhatKeepsItsMassOnTheCircle") {
+TEST_CASE("WhirledRod_IsStretchedByItsCentripetalForce") {
   test::SeveralCoordinates e = whirled_mass();
   const double speed = 4;
   State state = e.at(Vector3d(1, 0, 0), Vector3d(0, speed, 0));

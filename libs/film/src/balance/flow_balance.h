@@ -248,7 +248,7 @@ class FlowBalance {
     double draws_journal = 0;  ///< with phi_journal [1/rad]
     int feature = -1;          ///< index of the feature; -1: the line
     double u = 0;              ///< u of the supply [Pa]
-    double inwards = 0;        ///< feature: nearness to its middle (CoveredNode)
+    double inwards = 0;        ///< feature: one less the distance from its middle (CoveredNode)
     int other = -1;            ///< line: the node on its other side
     double near = 1, far = 0,
            bend = 0;  ///< line: weights by which h on the way to it follows from here, there and bend
