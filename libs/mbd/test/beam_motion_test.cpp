@@ -259,7 +259,7 @@ TEST_CASE("OverhungRotor_WhirlsAsInTheClosedForm") {
   std::vector<double> found;
   for (const solver::Mode& mode : solver::find_modes(solver::linearise(*mechanism, state, 0)).modes)
     found.push_back(2 * kPi * mode.frequency);
-  // Between them lies the disc's twist against the driven root.
+  // The disc's twist against the driven root lies between them.
   const double twist = std::sqrt(1e3 / L / I_p);
   expected.push_back(twist);
   std::sort(expected.begin(), expected.end());

@@ -121,7 +121,7 @@ TEST_CASE("FourBars_CostNoMoreThanEqualStepsOfTheSameError") {
 }
 
 TEST_CASE("FortyFourBarsOfHinges_RunLikeThoseWithoutRedundancy") {
-  // Three constraints of each loop say what others say already.
+  // Three constraints of each loop are redundant.
   const auto m = four_bars(40, true);
   CHECK(m->redundancies().size() == 40);
   CHECK(m->nv() == 81);

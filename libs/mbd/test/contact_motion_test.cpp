@@ -100,7 +100,7 @@ TEST_CASE("BallDrop_MatchesHertzForceAndDuration") {
     CAPTURE(duration_error[i]);
     CHECK(force_error[i] < 0.005 / std::pow(4, i));
     CHECK(duration_error[i] < 0.005 / std::pow(4, i));
-    // Without damping the ball leaves as fast as it came.
+    // Without damping the ball leaves with the speed of its arrival.
     CHECK(std::abs(observation.speed_after - 1) < 1e-4 / std::pow(4, i));  // second order
   }
   CHECK(force_error[2] > force_error[0] / 32);  // and not by chance: order two from both sides

@@ -1,4 +1,5 @@
-// The table of joints against itself: what a chain lets move is what the rows of the same type do not hold.
+// The table of joints against itself: the motions that a chain allows are those that the rows of the same type do not
+// constrain.
 #include "tree/joint_kind.h"
 
 #include <doctest/doctest.h>

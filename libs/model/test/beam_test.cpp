@@ -98,7 +98,7 @@ TEST_CASE("RotaryInertia_MayBeGivenApartFromSecondMomentsOfArea") {
   CHECK(given.mass_per_length == own.mass_per_length);
   CHECK(given.section.I_y == own.section.I_y);
   CHECK((given.inertia_per_length - Vector3(3e-3, 2e-3, 1e-3)).norm() < kRoundOff);
-  // What the section has by itself, written down, changes nothing.
+  // Values that equal those of the section itself change nothing.
   const double yy = own.inertia_per_length.y();
   const Beam same =
       *read_text(with(fmt::format("{{yy: {0:.17g} kg.m, zz: {0:.17g} kg.m}}", yy)), "m.yaml").bodies[0].beam;

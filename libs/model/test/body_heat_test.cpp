@@ -141,7 +141,7 @@ TEST_CASE("FaultsOfHeatInBodies_GiveLocationAndRemedy") {
   CHECK(faults_after(shell, "expansion: {shell: 0 1/K, journal: 12e-6 1/K}, " + shell) == "no fault");
 }
 
-/// The same with a shaft whose mesh conducts too, cooled in its bore.
+/// The same model has a shaft whose mesh conducts too, cooled in its bore.
 std::string with_shaft() {
   std::string text =
       edited(machine_text, "shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}",

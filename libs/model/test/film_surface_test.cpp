@@ -41,7 +41,7 @@ bearings:
 simulation: {duration: 1 ms, step: 0.1 ms}
 )";
 
-/// The mesh stands where the model file would: in the working directory.
+/// The mesh lies in the folder of the model file: the working directory.
 struct WrittenRing {
   WrittenRing() { std::ofstream("film_surface_test_ring.inp") << RingFile().text(); }
   ~WrittenRing() { std::filesystem::remove("film_surface_test_ring.inp"); }

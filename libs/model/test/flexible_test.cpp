@@ -51,7 +51,7 @@ joints:
 simulation: {duration: 1 ms, step: 0.1 ms}
 )";
 
-/// The mesh stands where the model file would: in the working directory.
+/// The mesh lies in the folder of the model file: the working directory.
 struct MeshFile {
   explicit MeshFile(const std::string& more = "") { std::ofstream("flexible_test_bar.inp") << kMesh << more; }
   ~MeshFile() { std::filesystem::remove("flexible_test_bar.inp"); }

@@ -30,7 +30,7 @@ TEST_CASE("GoodModel_IsReadInSI") {
   CHECK(shaft.inertia == Matrix3(Vector3(1e-3, 1e-3, 1e-3).asDiagonal()));
   REQUIRE(shaft.frames.size() == 1);
   CHECK(shaft.frames[0].X_BF.r == Vector3(0, 0.05, 0));
-  // 90 degrees about z, the axis' length 2 not mattering: x goes to y.
+  // The rotation is 90 degrees about z, independent of the axis' length 2: x is mapped to y.
   CHECK((shaft.frames[0].X_BF.R * Vector3::UnitX() - Vector3::UnitY()).norm() < 4 * eps);
   REQUIRE(model.joints.size() == 2);
   CHECK(model.joints[0].type == JointType::revolute);

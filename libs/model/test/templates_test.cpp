@@ -5,7 +5,7 @@
 namespace hersey::model {
 namespace templates_test {
 
-/// Line 3 holds the first template.
+/// Line 3 contains the first template.
 const std::string head = R"(hersey: 1
 templates:
   plain:

@@ -24,7 +24,7 @@ TEST_CASE("Gmres_OfAZeroOperator_ReportsIt") {
   const auto nothing = [](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y.setZero(v.size()); };
   const GmresSummary summary = gmres.solve(nothing, copy, b, {.max_iterations = 20}, x);
   CHECK(!summary.solved());
-  CHECK(summary.iterations == 1);  // and goes no further
+  CHECK(summary.iterations == 1);  // it ends there
   CHECK(summary.message.find("stays where it is") != std::string::npos);
   CHECK(x.isZero(0));
   CHECK(summary.residual_norm == b.norm());
@@ -43,7 +43,7 @@ TEST_CASE("Gmres_OfValuesThatAreNoNumbers_Ends") {
   CHECK(of_A.iterations == 1);
 }
 
-// Aitken's factor is the ratio of two changes: an exchange that answers the same twice says nothing of it.
+// Aitken's factor is the ratio of two changes: two equal answers of an exchange give no information about it.
 TEST_CASE("Aitken_KeepsItsFactorWhereNothingChanges") {
   FixedPointIteration iteration(Acceleration::aitken, 0.5);
   iteration.begin_step();
