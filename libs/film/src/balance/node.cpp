@@ -11,7 +11,7 @@ namespace {
 // Pressure of the atmosphere, in which clearances are measured, on the model's scale [Pa].
 double pressure_at_rest(const FilmModel& model) { return model.pressures == PressureScale::absolute ? 101325.0 : 0.0; }
 
-// Sliding speed that stands for rest [m/s].
+// Sliding speed that counts as rest [m/s].
 constexpr double standing = 1e-4;
 
 }  // namespace

@@ -258,14 +258,14 @@ bool FlowBalance::is_beside_line(int node) const {
   return has_line_row(node) && has_line_row(prescribed_at(node)->other);
 }
 
-// With all of it from one node or the other, temperatures would jump as the line passes over a node.
+// If one node took all of it, temperatures would jump as the line passes over a node.
 double FlowBalance::over_cut(std::size_t f) const {
   const Face& face = faces_[f];
   if (!is_cut(f) || !is_beside_line(face.a)) return 0;
   return supply(face.a) - supply_of_row(face.a);
 }
 
-/// Half-way to the line [m].
+/// Returns the film thickness half-way to the line [m].
 double FlowBalance::thickness_towards_line(const PrescribedNode& prescribed) const {
   return prescribed.near * nodes_[prescribed.node].h + prescribed.far * nodes_[prescribed.other].h +
          prescribed.bend * bends_[static_cast<Eigen::Index>(line_face(prescribed))];
@@ -278,7 +278,7 @@ FlowTubeGap FlowBalance::gap_towards_line(const PrescribedNode& prescribed, doub
   return relief_.gap(relief_.flow_tubes()[static_cast<std::size_t>(flow_tube)], h);
 }
 
-/// What the surfaces carry in pockets there beside what they carry in the gap, per width [m^2/s].
+/// Returns the additional flow that the surfaces carry in pockets there, per width [m^2/s].
 ByGap FlowBalance::carried_in_pockets(const PrescribedNode& prescribed) const {
   const std::size_t f = line_face(prescribed);
   if (flow_tube_of_[f] < 0) return {};
@@ -288,8 +288,8 @@ ByGap FlowBalance::carried_in_pockets(const PrescribedNode& prescribed) const {
   return {past * (carry.value - h), past * (carry.h - 1), past * carry.journal};
 }
 
-// A control volume ends in the middle of the way to the line. What the surfaces carry there leaves it, or comes from
-// the line, which fills the gap; what is squeezed between there and the face goes to the line.
+// A control volume ends in the middle of the way to the line. The entrained flow there leaves it, or comes from the
+// line, which fills the gap; the volume squeezed between there and the face goes to the line.
 FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
   if (!has_line_row(node)) return {};
   const PrescribedNode& prescribed = *prescribed_at(node);
@@ -315,7 +315,7 @@ double FlowBalance::strip_area(const PrescribedNode& prescribed) const {
   return 0.5 * (1 - prescribed.way) * face.length * face.width;
 }
 
-/// Of a node as its row counts it: beside the line up to the middle of the way there.
+/// Returns the balance of a node as its row counts it: beside the line up to the middle of the way there.
 double FlowBalance::line_balance(int node) const {
   const TowardsLine t = towards_line(node);
   if (!t.counts) return balance_[node];
@@ -325,7 +325,7 @@ double FlowBalance::line_balance(int node) const {
   return balance_[node] - conserved + t.full * share_towards_line(node, t).value - t.strip;
 }
 
-/// Of a full gap what the surfaces carry from a node to the line; all of it, where they carry it away from there.
+/// Returns the share of a full gap's entrained flow from a node to the line; 1 where the flow comes from the line.
 FlowBalance::CarriedShare FlowBalance::share_towards_line(int node, const TowardsLine& t) const {
   if (!t.from_node) return {};
   const std::size_t f = line_face(*prescribed_at(node));
@@ -356,7 +356,7 @@ void FlowBalance::add_line_by_u(const PrescribedNode& prescribed) {
                                         t.full * (is_a ? share.h_b : share.h_a) * other.h_u;
 }
 
-/// Change of a share of that with the surfaces.
+/// Returns the change of share_towards_line() with the surfaces.
 double FlowBalance::share_along(std::size_t f, const CarriedShare& share, const MotionDirection& direction) const {
   if (share.theta == 0) return 0;
   const Face& face = faces_[f];
@@ -375,7 +375,7 @@ double FlowBalance::share_along(std::size_t f, const CarriedShare& share, const 
          share.excess * direction_excesses_[flow.couette >= 0 ? face.a : face.b];
 }
 
-/// Change of what towards_line() tells with the surfaces.
+/// Returns the change of the terms of towards_line() with the surfaces.
 double FlowBalance::line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction) const {
   const std::size_t f = line_face(prescribed);
   const Face& face = faces_[f];
@@ -416,7 +416,7 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
   return row + 0.5 * prescribed.way_line * rotation * density * face.length * face.width * g_rate_[prescribed.node];
 }
 
-/// Change of excess() as line and journal move [Pa].
+/// Returns the change of excess() as line and journal move [Pa].
 double FlowBalance::draws_along(const PrescribedNode& prescribed, const MotionDirection& direction) const {
   const double u = u_[prescribed.node];
   if (u >= 0 || cavitation_.has_tension()) return 0;

@@ -42,7 +42,7 @@ struct FilmObservables {
   double torque_shell = 0;                              ///< friction torque on the shell about its own axis [N m]
   double sliding_speed = 0;                             ///< of the surfaces against each other [m/s], >= 0
   double power_film = 0;                                ///< viscous dissipation: Couette and Poiseuille [W]
-  /// torque_journal and power_film of the same film with the other CavitatedShear: `full` where the model says
+  /// Figures torque_journal and power_film of the same film with the other CavitatedShear: `full` where the model has
   /// `film_share`, and the other way round [N m, W].
   double torque_journal_other_shear = 0, power_film_other_shear = 0;
   double power_asperity = 0;  ///< boundary friction [W]

@@ -20,14 +20,14 @@ struct Opening {
 /// A surface that falls off towards both edges as a parabola.
 struct Barrel {
   double drop = 0;  ///< at the edges [m]
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
 /// A gap that opens linearly along the axis and is unchanged at z = 0.
 struct Taper {
   double rise = 0;  ///< from z = -L/2 to L/2 [m]
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -35,7 +35,7 @@ struct Taper {
 struct Ovality {
   double amplitude = 0;  ///< [m]
   double angle = 0;      ///< [rad]
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -45,7 +45,7 @@ struct Lobes {
   int count = 2;      ///< >= 2
   double offset = 0;  ///< [m], >= 0
   double angle = 0;   ///< middle of one arc [rad]
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -54,7 +54,7 @@ struct Lobes {
 struct MeasuredShape {
   std::vector<double> z;                                       ///< ascending [m]
   std::vector<std::shared_ptr<const TableFunction>> openings;  ///< [m] over phi [rad], one for every z, of period 2 pi
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
