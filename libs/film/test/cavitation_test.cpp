@@ -239,8 +239,8 @@ TEST_CASE("CarriedFill_IsOfFirstOrder") {
   CHECK(std::log2(error[0] / error[1]) == doctest::Approx(1).epsilon(0.05));
 }
 
-// The film of an edge at p_cav draws in what its surroundings hold. Oil outside (fill 1) is the limit of a flooded edge
-// whose pressure falls to p_cav, air (fill 0) gives nothing.
+// The film of an edge at p_cav draws in the oil of its surroundings. Oil outside (fill 1) is the limit of a flooded
+// edge whose pressure falls to p_cav, air (fill 0) gives nothing.
 TEST_CASE("AmbientFill_IsDrawnIn") {
   FilmModel m = bearing();
   m.p_cav = -0.5e5;

@@ -22,7 +22,7 @@ FilmModel big_end(Cavitation cavitation = Cavitation::mass_conserving) {
   return m;
 }
 
-// Walls on both sides, and nothing that feeds: no pressure is better than another.
+// Walls on both sides and no supply: the level of pressure is undetermined.
 FilmModel closed_ring(double L) {
   FilmModel m{.R = 0.0225, .L = L, .c = 34e-6, .grid = {24, 7}, .cavitation = Cavitation::guembel};
   m.edge_left = m.edge_right = {.kind = EdgeKind::closed};
@@ -134,8 +134,8 @@ TEST_CASE("GapsOfAnySize_AreFiniteOrReported") {
   CHECK(unbounded > 0);
 }
 
-// A pressure everywhere changes nothing: the Jacobian is singular, and by the model's scale no shift is felt in gaps a
-// million times as wide. What is left of the residual does not depend on which pressure it is.
+// A pressure everywhere changes nothing: the Jacobian is singular, and a shift by the model's scale has no effect in
+// gaps a million times as wide. What is left of the residual does not depend on which pressure it is.
 TEST_CASE("FilmWithoutPrescribedPressure_HasAnIncrement") {
   const FilmModel m = closed_ring(0.0156);
   SurfaceMotion motion = surfaces(m, {});
@@ -364,7 +364,7 @@ TEST_CASE("PocketOfAPlane_DoesNotDependOnTheOriginAlongIt") {
   CHECK(there.h_min_features == relative(here.h_min_features).epsilon(1e-9));               // likewise
 }
 
-// A border that two pockets have in common is none.
+// A border that two pockets have in common disappears.
 TEST_CASE("PocketsSideBySide_AreOne") {
   std::vector<SolvedFilm> films;
   for (const bool are_two : {false, true}) {
@@ -423,13 +423,13 @@ TEST_CASE("LineAcrossAGrooveAndHoleOnAnEdge_KeepTheirOil") {
     const SolvedFilm film = solve_cold(m, surfaces(m, turning(m, 0.5, omega), line * step), {-0.5 * m.c, 0});
     REQUIRE(film.summary.solved());
     CHECK(film.observed.mass_balance_error < 1e-8);  // what the residual of 1e-10 leaves
-    // Round-off of its angle decides nothing.
+    // Round-off of its angle has no effect.
     const SolvedFilm beside = solve_cold(m, surfaces(m, turning(m, 0.5, omega), line * step + 1e-12), {-0.5 * m.c, 0});
     CHECK((beside.fields.p - film.fields.p).norm() < 1e-6 * film.fields.p.norm());  // 1e-12 over a step, residuals
   }
 }
 
-// Pockets over one another are as deep as both, whichever is named first.
+// Depths of overlapping pockets add, in either order in the file.
 TEST_CASE("PocketsOverEachOther_AddUpInAnyOrder") {
   const SurfaceFeature slot{.phi = 1, .arc = 0.5, .length = 0.008, .is_fed = false, .depth = 30e-6};
   SurfaceFeature dimple = slot, deep = slot;

@@ -494,7 +494,7 @@ TEST_CASE("OilThatDoesNotConduct_LeavesBodiesAsTheyAre") {
   }
 }
 
-// Nothing moves and nothing presses: no heat is made, and everything stays as warm as it is.
+// A film at rest without pressure generates no heat, and all temperatures are constant.
 TEST_CASE("FilmAtRest_KeepsItsTemperature") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.features.push_back({.name = "hole", .phi = 1, .arc = 0.5, .length = 8e-3, .pressure = model.p_cav});

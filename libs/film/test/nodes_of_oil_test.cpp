@@ -163,7 +163,7 @@ TEST_CASE("MeanAnswerToNodes_IsThatOfTheirHeat") {
 TEST_CASE("NodesOfOil_SettleOverCycles") {
   const FilmModel model = bearing();
   ThermalModel thermal = with_sump();
-  // Bodies that hold little heat, for twenty times as long as the slowest of them takes.
+  // Bodies of small heat capacity, for twenty times the time constant of the slowest.
   ThermalModel light = thermal;
   std::get<RingWall>(light.shell).heat_capacity = 1e3;
   light.journal = FreeJournal{.heat_capacity = 0.5};

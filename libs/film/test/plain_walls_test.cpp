@@ -96,7 +96,7 @@ TEST_CASE("HottestOfBodies_IsThatOfTheirNodes") {
   CHECK(step.heat.observables().T_body_max == 320);
 }
 
-// A journal that is a node takes the film along, whatever the shell is.
+// A journal that is a node sets the film's temperature beside every kind of shell.
 TEST_CASE("NodeBesideAShellWithoutHeat_SetsTheFilmsTemperature") {
   const FilmModel model = bearing();
   ThermalModel thermal = supplied_at_40(3);

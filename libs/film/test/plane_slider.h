@@ -9,7 +9,7 @@
 
 namespace hersey::film {
 
-/// A plane slider: a stretch of the circumference between two grooves that hold the rest of it at the ends' pressures,
+/// A plane slider: a part of the circumference between two grooves that prescribe the ends' pressures on the rest,
 /// closed edges, so that nothing varies along the axis.
 struct Slider {
   double length = 0, U = 0, mu = 0;    ///< [m, m/s, Pa s]

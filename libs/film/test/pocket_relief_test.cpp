@@ -38,7 +38,7 @@ SurfaceFeature pocket(FeatureShape shape, Surface surface) {
 
 const std::array<FeatureShape, 2> shapes{Rectangle{}, Ellipse{}};
 
-// A pocket on its way over the grid keeps its volume, whatever cells its borders cut.
+// A pocket that travels over the grid keeps its volume, whichever cells its borders cut.
 TEST_CASE("RotatingPocket_KeepsItsVolume") {
   FilmModel m = graded();
   const GridGeometry geometry(m);
@@ -441,7 +441,7 @@ TEST_CASE("InterpolatedGaps_AreOfFourthOrder") {
   CHECK(std::log2(cell[0] / cell[1]) == doctest::Approx(4).epsilon(0.02));
 }
 
-// Parabolas that dip below nothing between nodes, one way or both ways together, are not believed.
+// Parabolas that become negative between nodes, in one direction or in both together, are not used.
 TEST_CASE("SmallestFilmBetweenNodes_IsThatOfTheNodeWhereParabolasDipBelowNothing") {
   FilmModel m{.R = 0.03, .L = 0.06 * pi, .c = 30e-6, .grid = {60, 61}};  // equal cells both ways
   for (const double beside : {4.0, 6.0, 20.0}) {

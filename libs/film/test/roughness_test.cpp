@@ -162,7 +162,7 @@ TEST_CASE("RoughFilmForces_DoNotDependOnTheFrame") {
     const Vector6 turning_grid = solve_cold(m, journal).wrench;
     error[k] = (turning_grid - resting).norm() / resting.norm();
   }
-  // The mean gap is no linear function of the gap: what it is between nodes is seen to fourth order only.
+  // The mean gap is no linear function of the gap: its values between nodes are accurate to fourth order only.
   CHECK(error[0] < 1e-5);  // 60 nodes, fourth order
 }
 

@@ -26,7 +26,7 @@ TEST_CASE("LongSlider_ConvergesToTheClosedFormWithOrderTwo") {
   CHECK(order(error[0], error[1]) == doctest::Approx(2).epsilon(0.02));
 }
 
-// Rayleigh's step at its optimum. A jump of the gap between two nodes is seen as a ramp over that cell.
+// Rayleigh's step at its optimum. A jump of the gap between two nodes is resolved as a ramp over that cell.
 TEST_CASE("RayleighStep_MatchesTheClosedForm") {
   const double inlet = 0.71823, ratio = 1 + 0.5 * std::sqrt(3);
   const auto gap = [](double) { return 2e-5; };
