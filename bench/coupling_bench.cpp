@@ -108,11 +108,11 @@ int main(int argc, char** argv) {
   fmt::print("\na bore that gives way, 60 degrees: flexible_big_end\n");
   const double flexible = compare(examples / "flexible_big_end/model.yaml", scratch, "60 deg");
   std::filesystem::remove_all(scratch);
-  const auto judge = [](const char* what, double share) {
+  const auto check = [](const char* what, double share) {
     fmt::print("{}: {:.2f} of the best exchange's time at 2500 N (at most {:.1f}): {}\n", what, share, kShareAsked,
                share <= kShareAsked ? "met" : "MISSED");
     return share <= kShareAsked;
   };
-  const bool met = judge("\nrigid surfaces", rigid);
-  return judge("a bore that gives way", flexible) && met ? 0 : 1;
+  const bool met = check("\nrigid surfaces", rigid);
+  return check("a bore that gives way", flexible) && met ? 0 : 1;
 }

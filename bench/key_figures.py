@@ -58,7 +58,7 @@ def figures_of(program, example, command):
         answer = json.loads(done.stdout)
         found = rules.of_bearing(answer) if kind == "bearing" else []
         for run in answer.get("runs", []):
-            # A study's runs are told apart by their folders.
+            # A study's runs are distinguished by their folders.
             below = pathlib.Path(run["results"]).parent.relative_to(folder)
             found += rules.of_run(run["results"], "" if str(below) == "." else f"{below}: ")
     return {(example, text_of_command(command), quantity): (value, unit) for quantity, value, unit in found if not rules.is_zero(value, unit)}
@@ -139,10 +139,10 @@ class Table:
         for key in [*figures, *(key for key in self.rows if key not in figures)]:
             row = self.rows.get(key, {})
             value, unit = figures.get(key, ("", row.get("unit", "")))
-            told = change(row.get(self.last, ""), text_of(value), unit)
-            if key[0] in names and told:
+            shown = change(row.get(self.last, ""), text_of(value), unit)
+            if key[0] in names and shown:
                 reason = row.get(WHY, "")
-                found.append((key, row.get(self.last, ""), text_of(value), told, "" if USED.match(reason) else reason))
+                found.append((key, row.get(self.last, ""), text_of(value), shown, "" if USED.match(reason) else reason))
         return found
 
     def update(self, figures, names, why, day):
@@ -183,11 +183,11 @@ class Table:
 def show(differences, left, right):
     """Prints differences, example after example; digits enough to see them."""
     place = None
-    for (example, command, quantity), before, after, told, reason in differences:
+    for (example, command, quantity), before, after, shown, reason in differences:
         if (example, command) != place:
             place = (example, command)
             print(f"{example}: {command}")
-        print(f"  {quantity}: {left} {before or '-'}, {right} {after or '-'} ({told})" + (f"; {reason}" if reason else ""))
+        print(f"  {quantity}: {left} {before or '-'}, {right} {after or '-'} ({shown})" + (f"; {reason}" if reason else ""))
 
 
 def against(arguments, names):

@@ -104,9 +104,10 @@ bool squeezer(int steps, double target) {
   mbd::test::Squeezer squeezer;
   solver::State state = squeezer.mechanism->initial_state();
   const Cost cost = run(*squeezer.mechanism, state, 0.03, steps, 0.9, [](const solver::State&) {});
-  const Observation seen = squeezer.mechanism->observe(state);
+  const Observation observation = squeezer.mechanism->observe(state);
   double error = 0;
-  for (const auto& [name, value] : reference) error = std::max(error, std::abs(squeezer.angle(seen, name) / value - 1));
+  for (const auto& [name, value] : reference)
+    error = std::max(error, std::abs(squeezer.angle(observation, name) / value - 1));
   return print("A03 squeezer, 0.03 s", 0.03, cost, error, target);
 }
 

@@ -100,12 +100,12 @@ bool time_body(const std::array<int, 3>& cells) {
   const fem::FrameSupports supports = fem::frame_supports(mesh.mesh, reduction.body.frames);
   double solve = 1e9;
   {
-    fem::ConstrainedStiffness held(mesh.K, mesh.m, supports.fixed_dofs, supports.C);
-    if (!held.factorise(-1 / (0.25 * dt * dt)).solved()) std::abort();
+    fem::ConstrainedStiffness constrained(mesh.K, mesh.m, supports.fixed_dofs, supports.C);
+    if (!constrained.factorise(-1 / (0.25 * dt * dt)).solved()) std::abort();
     const Eigen::VectorXd one = Eigen::VectorXd::Ones(mesh.size());
     for (int i = 0; i < 10; ++i) {
       const auto from = Clock::now();
-      if (held.solve(one).size() == 0) std::abort();
+      if (constrained.solve(one).size() == 0) std::abort();
       solve = std::min(solve, since(from));
     }
   }

@@ -4,8 +4,8 @@
 //
 // A mechanism that keeps its energy (IFToMM A02), a bearing in its engine (slider_crank) and a rotor that runs up
 // through its critical speed (flexible_rotor). The error is the root mean square of a path over the run, against steps
-// four times shorter than the shortest; the cost is that of Newton iterations, rejected steps included. Of each
-// tolerance the cost of equal steps of the same error is told, by their error's power law between two of them. The
+// four times shorter than the shortest; the cost is that of Newton iterations, rejected steps included. For each
+// tolerance the cost of equal steps of the same error is printed, by their error's power law between two of them. The
 // geometric mean of the ratios over a case is to be at most 1, though equal steps have their cost only if their length
 // is known beforehand.
 #include <fmt/format.h>
@@ -122,11 +122,11 @@ class FourBars {
       const solver::State before = state_;
       const double dt = control.proposed(kEnd - state_.t);
       Eigen::VectorXd errors;
-      const auto judge = [&](const solver::State&, const Eigen::VectorXd& estimate) {
+      const auto check = [&](const solver::State&, const Eigen::VectorXd& estimate) {
         errors = estimate.cwiseQuotient(scales) / tolerance;
         return errors.lpNorm<Eigen::Infinity>() <= 1;
       };
-      const solver::StepSummary summary = integrator_.step(*mechanism_, state_, dt, judge);
+      const solver::StepSummary summary = integrator_.step(*mechanism_, state_, dt, check);
       if (summary.solved()) {
         control.accepted(dt, errors);
         take(before, summary);

@@ -8,7 +8,7 @@ A fault that does not compile says nothing. One that is drawn and stands in `EQU
 which there are three kinds:
 - nothing changes: the line does the same for every input that can reach it (an allocation's size, a bound that something else keeps),
 - round-off: results change by no more than rounding does, since the line chooses between two right ways (a pivot, an order of sums),
-- cost: an iteration whose end is judged by something else arrives later or sooner, at the same answer within its tolerance. A constant whose
+- cost: an iteration whose end another criterion decides converges later or sooner, at the same answer within its tolerance. A constant whose
   change moves answers beyond that, lets a case fail or makes an outcome say something else is no such constant, however heuristic.
 """
 

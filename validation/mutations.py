@@ -11,7 +11,7 @@ Usage: mutations.py [--only REGEX] [--jobs N] [--list] [--check]     as `make mu
 exit code 0 if all faults were caught, 1 if any survives, 2 if a fault has to be re-pointed or does not compile
 --only: faults whose names match; --list: the faults, nothing else; --check: that each is found where it says
 --drawn: N faults of each module by machine (mutation_operators.py) in place of the planted ones: a comparison, sign, constant, term, bound
-or connective changed. Exit code 1 if more than 5 % of those that compile survive. A drawn change that is no fault (EQUIVALENT) is told with its
+or connective changed. Exit code 1 if more than 5 % of those that compile survive. A drawn change that is no fault (EQUIVALENT) is listed with its
 reason and not tried.
 --near: tests of the fault's own module only, for a first look
 --within: tests of these modules only, those of the fault's own first: a sample of all four that fits into an hour. What survives them is looked
@@ -164,7 +164,7 @@ FAULTS = [
 ]
 
 
-class Trouble(Exception):
+class Failure(Exception):
     """Says what the script cannot go on with."""
 
 
@@ -223,7 +223,7 @@ def misplaced(fault):
 def check_places(faults):
     wrong = [(fault, why) for fault in faults if (why := misplaced(fault))]
     if wrong:
-        raise Trouble("faults to re-point in validation/mutations.py:\n" +
+        raise Failure("faults to re-point in validation/mutations.py:\n" +
                       "\n".join(f"  {fault.name}\n    libs/{fault.file}: {why}" for fault, why in wrong))
 
 
@@ -252,7 +252,7 @@ class Trial:
         run = logged("configure", ["scripts/compiler", "cmake", "--preset", "release", "-DHERSEY_UNITY=ON",
                                    "-DHERSEY_UNITY_EXCEPT=" + ";".join(one_by_one)])
         if run.returncode:
-            raise Trouble(f"the copy cannot be configured, see {LOG}:\n{run.stdout[-2000:]}")
+            raise Failure(f"the copy cannot be configured, see {LOG}:\n{run.stdout[-2000:]}")
 
     def build(self, title, modules):
         targets = sorted({"hersey" if module in PROGRAM else f"{module}_test" for module in modules})
@@ -265,10 +265,10 @@ class Trial:
                 self.costs = json.load(file)
         for module in sorted(set(modules) - set(self.costs)):
             if self.build("no fault", [module]).returncode:
-                raise Trouble(f"the copy does not compile without a fault, see {LOG}")
+                raise Failure(f"the copy does not compile without a fault, see {LOG}")
             run = logged("no fault", [program_of(module), "--duration=true"])
             if run.returncode:
-                raise Trouble(f"tests of {module} fail without a fault, see {LOG}")
+                raise Failure(f"tests of {module} fail without a fault, see {LOG}")
             self.costs[module] = {name: float(s) for s, name in re.findall(r"^([\d.]+) s: (\S+)$", run.stdout, re.MULTILINE)}
             with open(COSTS, "w", encoding="utf-8") as file:
                 json.dump(self.costs, file, indent=1)
@@ -301,10 +301,10 @@ class Trial:
         run = logged(title, ["ctest", "--test-dir", BUILD, "-j", str(self.jobs), "--stop-on-failure", "--timeout", "1500",
                              "--no-tests=error", "--output-on-failure", *which], TIME_LIMIT)
         if "***Not Run" in run.stdout or "No tests were found" in run.stdout:
-            raise Trouble(f"{title}: tests that cannot run, see {LOG}")
+            raise Failure(f"{title}: tests that cannot run, see {LOG}")
         failed = re.findall(r"Test +#\d+: (\S+) \.+[^*\n]*\*\*\*", run.stdout)
         if run.returncode and not failed:
-            raise Trouble(f"{title}: ctest ended with {run.returncode}, see {LOG}")
+            raise Failure(f"{title}: ctest ended with {run.returncode}, see {LOG}")
         return failed
 
     def plant(self, fault):
@@ -351,9 +351,9 @@ def try_all(faults, jobs, is_near=False, within=()):
         what, tests = trial.verdict(fault, modules_above)
         verdicts.append(what)
         catching.update({test: fault.name for test in tests if what == "caught"})
-        told = {"caught": "caught by " + ", ".join(tests[:2]), "survived": "SURVIVED", "equivalent": "NO FAULT: " + "".join(tests),
+        text = {"caught": "caught by " + ", ".join(tests[:2]), "survived": "SURVIVED", "equivalent": "NO FAULT: " + "".join(tests),
                 "broken": "DOES NOT COMPILE: " + " / ".join(tests)}[what]
-        print(f"{fault.name:<66} {told}  ({time.monotonic() - began:.0f} s)", flush=True)
+        print(f"{fault.name:<66} {text}  ({time.monotonic() - began:.0f} s)", flush=True)
     return verdicts, failing_anyway(trial, catching)
 
 
@@ -363,7 +363,7 @@ def failing_anyway(trial, catching):
     if not modules:
         return []
     if trial.build("no fault", modules).returncode:
-        raise Trouble(f"the copy does not compile without a fault, see {LOG}")
+        raise Failure(f"the copy does not compile without a fault, see {LOG}")
     return trial.run("no fault", ["-R", "^(" + "|".join(re.escape(test).replace(r"\*", ".*") for test in catching) + ")$"])
 
 
@@ -381,8 +381,8 @@ def try_drawn(options):
         os.makedirs(WORK, exist_ok=True)
         open(LOG, "w", encoding="utf-8").close()
         verdicts, anyway = try_all(faults, options.jobs, options.near, [m for m in options.within.split(",") if m])
-    except Trouble as trouble:
-        print(f"mutations: {trouble}", file=sys.stderr)
+    except Failure as failure:
+        print(f"mutations: {failure}", file=sys.stderr)
         return 2
     for fault, verdict in zip(faults, verdicts):
         if verdict == "survived":
@@ -440,8 +440,8 @@ def main():
         os.makedirs(WORK, exist_ok=True)
         open(LOG, "w", encoding="utf-8").close()
         verdicts, anyway = try_all(faults, options.jobs)
-    except Trouble as trouble:
-        print(f"mutations: {trouble}", file=sys.stderr)
+    except Failure as failure:
+        print(f"mutations: {failure}", file=sys.stderr)
         return 2
     print(f"{verdicts.count('caught')} of {len(verdicts)} caught")
     if anyway:

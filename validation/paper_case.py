@@ -58,14 +58,14 @@ def settled(hersey, folder, grid, compliant):
     return found
 
 
-def compare(seen, rows, title):
+def compare(found_states, rows, title):
     """Prints one table and returns how many of its rows are too far off."""
     print(f"\n{title}")
     print("clearance  surfaces    load   epsilon  reference     off     p_max  reference         off")
     failed = 0
     for key, (epsilon_ref, p_ref) in sorted(rows.items()):
         clearance, compliant, load = key
-        epsilon, p = seen[key]
+        epsilon, p = found_states[key]
         off_epsilon, off_p = epsilon / epsilon_ref - 1, p / p_ref - 1
         good = abs(off_epsilon) <= ECCENTRICITY_TOLERANCE and abs(off_p) <= PRESSURE_TOLERANCE
         failed += not good

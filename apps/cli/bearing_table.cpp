@@ -119,7 +119,7 @@ std::vector<std::pair<std::string, std::string>> surface_remarks(const BearingSo
     const SurfaceFunctions& functions = surface->surface->functions;
     remarks.emplace_back(
         name, fmt::format("deforms at rest with the mesh of {}, {} x {} functions; supported at {}", surface->body,
-                          functions.around(), functions.along(), fmt::join(surface->held_at, ", ")));
+                          functions.around(), functions.along(), fmt::join(surface->supported_at, ", ")));
   };
   add("shell", solution.elasticity->shell);
   add("journal", solution.elasticity->journal);

@@ -117,12 +117,12 @@ def cost_of(calls: Sequence[Any]) -> dict[str, dict[str, float]]:
     return {each.name: {"calls": each.calls, "seconds": each.seconds} for each in calls}
 
 
-def trouble_of(calls: Sequence[Any], t: float, results: Any) -> None:
+def raise_fault_of(calls: Sequence[Any], t: float, results: Any) -> None:
     """@raises UserFunctionError for the first function that failed."""
     for each in calls:
-        if each.trouble:
+        if each.fault:
             kept = f"; results up to then are in {results.path}" if results is not None else ""
-            error = UserFunctionError(f"{each.name}: the function {each.trouble}, at t = {t:.6g} s of the run{kept}",
+            error = UserFunctionError(f"{each.name}: the function {each.fault}, at t = {t:.6g} s of the run{kept}",
                                       each.name, t, results)
             raise error from each.exception
 

@@ -10,7 +10,7 @@ from typing import Any, Callable, Optional, Union
 
 from . import _core
 from .errors import InputError, RunError, Stopped
-from .functions import cost_of, trouble_of
+from .functions import cost_of, raise_fault_of
 from .results import Results, Summary
 
 
@@ -78,24 +78,24 @@ def run(model: Any, output: Optional[Any], *, overwrite: bool, resume: bool, ste
     listener = bar or (progress if callable(progress) else None)
     checked, calls = model._runnable()
 
-    def is_in_trouble() -> bool:
-        return any(each.trouble for each in calls)
+    def has_fault() -> bool:
+        return any(each.fault for each in calls)
 
     try:
-        text, raised, t = _core.simulate(checked, os.fspath(file), overwrite, resume, step_error, listener, is_in_trouble)
+        text, raised, t = _core.simulate(checked, os.fspath(file), overwrite, resume, step_error, listener, has_fault)
     except InputError as error:
         raise model._told(error) from None
     finally:
         if bar:
             bar.close()
     if not text:
-        trouble_of(calls, t, None)
+        raise_fault_of(calls, t, None)
     content = json.loads(text)
     if calls:
         content["functions"] = cost_of(calls)
     summary = Summary(content)
     results = Results(file, summary=summary)
-    trouble_of(calls, t, results)
+    raise_fault_of(calls, t, results)
     if isinstance(raised, KeyboardInterrupt):
         raise Stopped(f"stopped at t = {summary['t_results']:.6g} s, results in {file}; resume=True goes on from there",
                       results, summary) from None

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Optional, Union
 
 from . import _core
 from .errors import InputError, RunError
-from .functions import cost_of, trouble_of
+from .functions import cost_of, raise_fault_of
 from .overrides import to_si
 from .results import Results, Summary
 from .running import require_one_run, results_file
@@ -53,7 +53,7 @@ class Simulation:
         try:
             self._core = _core.Simulation(checked, "" if self._file is None else os.fspath(self._file), overwrite)
         except RuntimeError as error:
-            trouble_of(self._calls, 0.0, None)
+            raise_fault_of(self._calls, 0.0, None)
             if isinstance(error, InputError):
                 raise model._told(error) from None
             raise
@@ -96,7 +96,7 @@ class Simulation:
         self.message = message
         if status == "failed":
             results = None if self._file is None else self.finish()
-            trouble_of(self._calls, self.time, results)
+            raise_fault_of(self._calls, self.time, results)
             raise RunError(f"{message}; t = {self.time:.6g} s", results, self.summary)
         return status == "advanced"
 

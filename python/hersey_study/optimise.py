@@ -99,7 +99,7 @@ def search(study, jobs):
                          "middle has a solution, or a parameter whose own value has one")
     sign = -1.0 if objective["maximise"] else 1.0
     scale = abs(figure_of(first, objective["name"])) or 1.0
-    trouble = []  # why derivatives are given up
+    failures = []  # why derivatives are given up
 
     def function(name, factor, offset, with_slopes, margin=0.0):
         """factor (figure - offset) + margin, its gradient where it is asked for, of the run at x."""
@@ -114,7 +114,7 @@ def search(study, jobs):
                 if math.isfinite(value):
                     why = runs.why_no_slopes(record)
                     if why:
-                        trouble.append(why)
+                        failures.append(why)
                         raise nlopt.ForcedStop
                     gradient[:] = [factor * slope for slope in runs.slope(record, name)]
             return factor * (value - offset) + margin if math.isfinite(value) else WORST
@@ -153,10 +153,10 @@ def search(study, jobs):
     why = runs.why_no_slopes(first)
     if not why:
         run(nlopt.LD_SLSQP, x, 10 * budget, with_slopes=True)
-        if not trouble:
+        if not failures:
             study.search = {"methods": [*before, "SLSQP"], "derivatives": "exact", "reason": "", "runs": len(runs.looked_at)}
             return runs.observed
-        why, before = trouble[0], [*before, "SLSQP"]
+        why, before = failures[0], [*before, "SLSQP"]
         x = _best_of(study, runs, x)
     run(nlopt.LN_COBYLA, x, budget)
     study.search = {"methods": [*before, "COBYLA"], "derivatives": "none", "reason": why, "runs": len(runs.looked_at)}

@@ -66,7 +66,7 @@ void bind_functions(py::module_& core) {
       .def_readonly("name", &UserCalls::name)
       .def_property_readonly("calls", [](const UserCalls& c) { return c.calls.load(); })
       .def_property_readonly("seconds", [](const UserCalls& c) { return c.seconds.load(); })
-      .def_property_readonly("trouble", [](const UserCalls& c) { return c.fault; })
+      .def_property_readonly("fault", [](const UserCalls& c) { return c.fault; })
       .def_property_readonly("exception",
                              [](const UserCalls& c) { return c.exception ? c.exception : py::object(py::none()); });
   core.def("with_functions", &with_functions);

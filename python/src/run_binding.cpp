@@ -59,7 +59,7 @@ class Listener {
 // The summary as JSON, the exception that ended the run, or None, and the time it had come to. A run that could not
 // begin gives no summary where a function of Python's is why; Python looks after that.
 py::tuple simulate(const CheckedModel& checked, const std::string& results, bool overwrite, bool resume,
-                   bool step_error, py::object on_progress, const std::function<bool()>& is_in_trouble) {
+                   bool step_error, py::object on_progress, const std::function<bool()>& has_fault) {
   Listener listener(std::move(on_progress));
   run::Options options;
   options.results = results;
@@ -75,7 +75,7 @@ py::tuple simulate(const CheckedModel& checked, const std::string& results, bool
       json = run::summary_json(run::simulate(checked.model, options));
     } catch (const std::exception&) {
       const py::gil_scoped_acquire lock;
-      if (!is_in_trouble()) throw;
+      if (!has_fault()) throw;
     }
   }
   return py::make_tuple(json, listener.raised(), listener.t());

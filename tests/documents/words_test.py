@@ -37,8 +37,9 @@ def expression(identifiers, words):
 
 
 def found_in(text, pattern):
-    """[(line, word)]"""
-    return [(number, match[1]) for number, line in enumerate(text.splitlines(), 1) for match in pattern.finditer(line)]
+    """[(line, word)]; a word by itself in double quotes is a key of a file, which older programs have written, and no text."""
+    return [(number, match[1]) for number, line in enumerate(text.splitlines(), 1) for match in pattern.finditer(line)
+            if line[max(match.start() - 1, 0):match.end() + 1] != f'"{match[1]}"']
 
 
 def files():
@@ -85,6 +86,10 @@ class Words(unittest.TestCase):
         pattern = expression(*rivals(glossary))
         self.assertEqual(found_in("// The broken film\nif (was_broken) return;  // unbroken films", pattern),
                          [(1, "broken film"), (2, "was_broken")])
+
+    def test_a_key_in_quotes_is_no_text(self):
+        pattern = expression(set(), {"told"})
+        self.assertEqual(found_in('entry["told"] = 1;  // told\nprint("told by the run")', pattern), [(1, "told"), (2, "told")])
 
 
 if __name__ == "__main__":

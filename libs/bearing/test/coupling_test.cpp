@@ -68,7 +68,7 @@ struct Rig {
   }
 
   // Newton iterations of all steps.
-  int march(double dt, int steps, double rtol = 1e-8, int max_iterations = 60) {
+  int advance(double dt, int steps, double rtol = 1e-8, int max_iterations = 60) {
     solver::GeneralizedAlpha integrator({.spectral_radius = 0.6, .rtol = rtol, .max_iterations = max_iterations});
     int iterations = 0;
     for (int k = 0; k < steps; ++k) {
@@ -87,7 +87,7 @@ TEST_CASE("PartitionedAndMonolithic_Agree") {
   const double dt = 2e-5;
   Rig monolithic(small_film(), 500, {.coupling = Coupling::monolithic, .initial_dt = dt});
   Rig partitioned(small_film(), 500, {.coupling = Coupling::partitioned, .initial_dt = dt});
-  const int fewer = monolithic.march(dt, 40), more = partitioned.march(dt, 40);
+  const int fewer = monolithic.advance(dt, 40), more = partitioned.advance(dt, 40);
   MESSAGE("Newton iterations ", fewer, ", exchanges ", more);
   const Eigen::Vector2d e = monolithic.observe().position.e, difference = partitioned.observe().position.e - e;
   // Each step is solved to rtol = 1e-8 of its forces; 40 steps leave at most a few 1e-7 of the motion.
@@ -105,7 +105,7 @@ TEST_CASE("ExchangeWithoutEnd_IsSolvedAsOneSystem") {
                    .acceleration = solver::Acceleration::constant,
                    .relaxation = 1,
                    .initial_dt = dt});
-  monolithic.march(dt, 10);
+  monolithic.advance(dt, 10);
   solver::GeneralizedAlpha integrator({.spectral_radius = 0.6, .rtol = 1e-8, .max_iterations = 10});
   REQUIRE_FALSE(integrator.step(*partitioned.mechanism, partitioned.state, 2 * dt).solved());
   for (int k = 0; k < 10; ++k) {
@@ -132,8 +132,8 @@ TEST_CASE("MultigridAndDirect_StepAlike") {
   film.grid = {.n_phi = 48, .n_z = 9};
   Rig direct(film, 500, {.initial_dt = dt});
   Rig multigrid(film, 500, {.film = {.solver = film::FilmSolver::multigrid}, .initial_dt = dt});
-  const int iterations = direct.march(dt, 30);
-  CHECK(multigrid.march(dt, 30) == iterations);
+  const int iterations = direct.advance(dt, 30);
+  CHECK(multigrid.advance(dt, 30) == iterations);
   const Eigen::Vector2d e = direct.observe().position.e, difference = multigrid.observe().position.e - e;
   // Linear systems to 1e-10, steps to 1e-8, 30 of them.
   CHECK(difference.norm() <= 1e-6 * e.norm());
@@ -142,7 +142,7 @@ TEST_CASE("MultigridAndDirect_StepAlike") {
 TEST_CASE("FloatingRod_SettlesWhereTheFilmCarriesTheLoad") {
   const double load = 1000;
   Rig rig(small_film(), load, {.initial_dt = 2e-4});
-  rig.march(2e-4, 500);
+  rig.advance(2e-4, 500);
   const BearingObservation observed = rig.observe();
   const Vector3 force = observed.wrench_on_shell.tail<3>();
   // What is left of the motion after six turns: the force balance holds to the rod's acceleration, 1e-3 of the load.
@@ -165,7 +165,7 @@ TEST_CASE("LinerIsAtRest_InTheFilmOfTheStart") {
   const double p_rigid = Rig(rigid, 500, {.initial_dt = 2e-5}).observe().film.p_max;
   // The liner yields by p_max compliance = 0.2 % of the clearance at most; pressure goes with its third power.
   CHECK(rig.observe().film.p_max == doctest::Approx(p_rigid).epsilon(0.01));
-  rig.march(2e-5, 20);
+  rig.advance(2e-5, 20);
 }
 
 TEST_CASE("StepIsSecondOrderInTime_FullFilm") {
@@ -176,7 +176,7 @@ TEST_CASE("StepIsSecondOrderInTime_FullFilm") {
   film.supply.kind = film::SupplyKind::none;
   const auto position = [&](int n, double rtol = 1e-10) {
     Rig rig(film, 300, {.initial_dt = 1e-4});
-    rig.march(4e-3 / n, n, rtol);
+    rig.advance(4e-3 / n, n, rtol);
     CHECK(rig.observe().film.cavitated_share == 0);
     return rig.observe().position.e;
   };

@@ -26,8 +26,8 @@ film::FilmModel bearing_on(int n_phi, int n_z) {
   return model;
 }
 
-// Temperatures, torques and power of a bearing with a groove and a free journal lie within twice what is told of the
-// grid: an error is one standard figure.
+// Temperatures, torques and power of a bearing with a groove and a free journal lie within twice the
+// estimated error of the grid: an estimate is one standard figure.
 TEST_CASE("GridErrorOfHeat_CoversAFinerGrid") {
   const auto solved_on = [](int n_phi, int n_z, SteadyState& state) {
     film::FilmModel model = bearing_on(n_phi, n_z);
@@ -45,18 +45,18 @@ TEST_CASE("GridErrorOfHeat_CoversAFinerGrid") {
     return estimate_grid_error(model, state, options);
   };
   SteadyState coarse, fine;
-  const GridError told = solved_on(60, 13, coarse);
+  const GridError estimate = solved_on(60, 13, coarse);
   solved_on(120, 25, fine);
-  REQUIRE(told.known);
+  REQUIRE(estimate.known);
   const film::HeatObservables &a = coarse.heat->observed, &b = fine.heat->observed;
-  CHECK(std::abs(a.T_journal - b.T_journal) < 2 * told.T_journal);
-  CHECK(std::abs(a.T_max - b.T_max) < 2 * told.T_max);
-  CHECK(std::abs(a.T_shell_mean - b.T_shell_mean) < 2 * told.T_shell_mean);
-  CHECK(std::abs(a.T_film_mean - b.T_film_mean) < 2 * told.T_film);
-  CHECK(std::abs(a.T_side - b.T_side) < 2 * told.T_side);
-  CHECK(std::abs(coarse.film.torque_journal - fine.film.torque_journal) < 2 * told.torque_journal);
-  CHECK(std::abs(coarse.film.power_film - fine.film.power_film) < 2 * told.power_film);
-  CHECK(told.T_journal < 2);  // and tell something: some tenth of the rise
+  CHECK(std::abs(a.T_journal - b.T_journal) < 2 * estimate.T_journal);
+  CHECK(std::abs(a.T_max - b.T_max) < 2 * estimate.T_max);
+  CHECK(std::abs(a.T_shell_mean - b.T_shell_mean) < 2 * estimate.T_shell_mean);
+  CHECK(std::abs(a.T_film_mean - b.T_film_mean) < 2 * estimate.T_film);
+  CHECK(std::abs(a.T_side - b.T_side) < 2 * estimate.T_side);
+  CHECK(std::abs(coarse.film.torque_journal - fine.film.torque_journal) < 2 * estimate.torque_journal);
+  CHECK(std::abs(coarse.film.power_film - fine.film.power_film) < 2 * estimate.power_film);
+  CHECK(estimate.T_journal < 2);  // a useful estimate: some tenth of the rise
 }
 
 }  // namespace grid_error_test

@@ -108,8 +108,8 @@ TEST_CASE("OneEffectiveTemperature_IsThatOfAnOilThatThinsByShear") {
   CHECK(state.effective->T_out - heat.T_supply == relative(rise).epsilon(1e-6));  // as above
 }
 
-// A load that the film carries with cold oil and not with the oil it warms, and a film whose heat leaves it with oil
-// only that there cannot be: told as what they are, with the place where layers are solved.
+// A load that the film carries with cold oil and not with the oil it warms, and a film whose heat leaves it only
+// with oil of impossible temperature are reported as such, with the position where layers are solved.
 TEST_CASE("ThermalRunaway_IsToldAsSuch") {
   const film::Lubricant oil = vg46(323.15);
   const film::ThermalModel thermal{.layers = 3, .T_supply = 323.15, .T_edges = 323.15};
@@ -424,7 +424,7 @@ film::ThermalModel ring_at_50() {
 // A bearing whose clearance has grown is that of the grown clearance, found on the way to its temperatures.
 TEST_CASE("ClearanceAtTemperature_IsThatOfItsWalls") {
   film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
-  // On a row of nodes: one between them is held the more firmly the larger the clearance as given.
+  // The line lies on a row of nodes: between nodes its conductance would depend on the clearance as given.
   model.supply = {film::SupplyKind::fixed_angle, std::numbers::pi / 2, 0};
   SteadyOptions options{.thermal = ring_at_50()};
   options.thermal->expansion = film::ThermalExpansion{.shell = 23e-6, .journal = 12e-6, .T_reference = 293.15};
@@ -535,11 +535,11 @@ TEST_CASE("WallsOfANetwork_AreInBalance") {
           relative(8 * (block - 298.15) + (block - shaft)).epsilon(1e-8));  // round-off of both sums
     // Likewise.
     CHECK(3 * (shaft - 298.15) - (block - shaft) == relative(to_shaft).epsilon(1e-8).scale(1));
-    SteadyOptions held = options;
-    held.network.reset();
-    held.thermal->shell = film::WallAtTemperature{.T = block};
-    held.thermal->journal = film::WallAtTemperature{.T = hot.heat->state.journal};
-    REQUIRE(solve_steady(model, point(), held, given).solved());
+    SteadyOptions fixed = options;
+    fixed.network.reset();
+    fixed.thermal->shell = film::WallAtTemperature{.T = block};
+    fixed.thermal->journal = film::WallAtTemperature{.T = hot.heat->state.journal};
+    REQUIRE(solve_steady(model, point(), fixed, given).solved());
     CHECK(given.heat->observed.T_max - 323.15 ==
           relative(hot.heat->observed.T_max - 323.15).epsilon(1e-6));                          // on two ways
     CHECK(given.heat->observed.balance.to_shell == relative(balance.to_shell).epsilon(1e-5));  // likewise
@@ -572,14 +572,14 @@ TEST_CASE("SumpAndBlockOfANetwork_AreInBalance") {
   CHECK(observed.heat[1] == relative(balance.to_shell).epsilon(1e-6));  // likewise
   CHECK(observed.to_fixed == relative(balance.power).epsilon(1e-6));    // likewise
   CHECK(std::abs(observed.T[0] - 323.15) > 1);
-  SteadyOptions held = options;
-  held.network.reset();
-  held.thermal->oil = {};
-  held.thermal->T_supply = held.thermal->T_edges = observed.T[0];
-  held.thermal->T_features.assign(model.features.size(), observed.T[0]);
-  auto& same = std::get<film::RingWall>(held.thermal->shell);
+  SteadyOptions fixed = options;
+  fixed.network.reset();
+  fixed.thermal->oil = {};
+  fixed.thermal->T_supply = fixed.thermal->T_edges = observed.T[0];
+  fixed.thermal->T_features.assign(model.features.size(), observed.T[0]);
+  auto& same = std::get<film::RingWall>(fixed.thermal->shell);
   same.surroundings.reset(), same.T_ambient = observed.T[1];
-  REQUIRE(solve_steady(model, point(), held, given).solved());
+  REQUIRE(solve_steady(model, point(), fixed, given).solved());
   CHECK(given.heat->observed.T_max - observed.T[0] ==
         relative(hot.heat->observed.T_max - observed.T[0]).epsilon(1e-5));             // on two ways
   CHECK(given.heat->observed.balance.power == relative(balance.power).epsilon(1e-6));  // likewise

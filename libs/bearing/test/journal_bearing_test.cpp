@@ -149,7 +149,7 @@ TEST_CASE("LineHeldOverAStep_IsShownWhereItWasHeld") {
 
 // The oil in the bearing changes by what comes and goes, step by step, although the pocket's borders pass a cell or
 // more in each. The journal stays where it is: the rate of a moving one is exact at the end of a step, not its mean.
-TEST_CASE("TurningPocket_ConservesOil") {
+TEST_CASE("RotatingPocket_ConservesOil") {
   film::FilmModel model;
   model.c = 34e-6;
   model.grid = {.n_phi = 40, .n_z = 7};

@@ -84,7 +84,7 @@ TEST_CASE("CoefficientsOfAFullFilm_AreThoseOfItsGrid") {
 TEST_CASE("TurnedGrid_HasItsLinesFurtherOn") {
   const film::Grid even{.n_phi = 8, .n_z = 3}, quarter = film::turned(even, 0.25);
   for (int i = 0; i < 8; ++i) CHECK(quarter.phi(i) == doctest::Approx((i + 0.25) * pi / 4));
-  const film::Grid graded = film::graded_grid(12, 3, {{.place = 1, .reach = 0.5, .factor = 3}}, {});
+  const film::Grid graded = film::graded_grid(12, 3, {{.position = 1, .reach = 0.5, .factor = 3}}, {});
   CHECK(film::turned(graded, 0.5).phi(11) == doctest::Approx((graded.phi(11) + 2 * pi) / 2));
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("SupplyLine_StaysOrFollowsTheWidestGap") {
 // A journal with lobes, so that everything turns.
 film::FilmModel shaped_journal() {
   film::FilmModel model;
-  model.grid = film::graded_grid(24, 7, {{.place = 1, .reach = 0.5, .factor = 2}}, {});
+  model.grid = film::graded_grid(24, 7, {{.position = 1, .reach = 0.5, .factor = 2}}, {});
   model.profiles = {{film::Ovality{5e-6, 0.3}, film::Surface::journal}, {film::Barrel{2e-6}}};
   return model;
 }

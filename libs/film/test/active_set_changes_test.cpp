@@ -49,7 +49,7 @@ TEST_CASE("AntiCycling_ChangesAboutHalfOfTheNodesInEachIteration") {
       ever[node] = ever[node] || observed.changed[node];
       always[node] = always[node] && observed.changed[node];
     }
-    CHECK(observed.u == groups.at(iteration).u);  // the same whenever it is asked for
+    CHECK(observed.u == groups.at(iteration).u);  // the same for each evaluation
   }
   CHECK(std::count(ever.begin(), ever.end(), true) == would);
   CHECK(std::count(always.begin(), always.end(), true) == 0);
@@ -67,7 +67,7 @@ TEST_CASE("AntiCycling_LeavesNodesAtTheBorder") {
   }
 }
 
-TEST_CASE("FilmsThatHoldNoOilBack_ChangeAtOnce") {
+TEST_CASE("FilmsThatRetainNoOil_ChangeAtOnce") {
   const Groups groups(Cavitation::guembel);
   CHECK(groups.at(7).u == groups.after);
 }

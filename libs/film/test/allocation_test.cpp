@@ -56,7 +56,8 @@ TEST_CASE("AllocationsAreCounted") {
 }
 
 TEST_CASE("WarmLinearisation_DoesNotAllocate") {
-  // As one iteration of a time step: linearise, Newton increment, answers to several changes, wrench and its gradient.
+  // The operations are those of one iteration of a time step: linearise, Newton increment, responses to several
+  // changes, wrench and its gradient.
   const FilmModel m = big_end();
   Step step = some_step(m);
   const std::vector<MotionDirection> directions = some_directions(m);

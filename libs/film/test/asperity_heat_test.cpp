@@ -20,7 +20,8 @@ double share_of_first(const SurfaceMaterial& first, const SurfaceMaterial& secon
   for (int step = 0; step < steps; ++step) {
     Eigen::VectorXd flow(2 * n - 1);
     for (int i = 0; i + 1 < 2 * n; ++i) flow[i] = (i < n ? first : second).conductivity / dx * (T[i] - T[i + 1]);
-    // One temperature of both surfaces, which the two halves of layers beside it and the heat made there say.
+    // Both surfaces have one temperature, which follows from the two half layers beside it and the heat generated
+    // there.
     const double a = 2 * first.conductivity / dx, b = 2 * second.conductivity / dx;
     const double surface = (q + a * T[n - 1] + b * T[n]) / (a + b);
     into_first = a * (surface - T[n - 1]);
@@ -73,7 +74,7 @@ TEST_CASE("AsperitiesHeatWallsByTheirEffusivities") {
   const HotFilm even = solved(steel, steel), lined = solved(lining, steel);
   const double friction = even.film.power_asperity, moved = (friction_share(lining, steel) - 0.5) * friction;
   REQUIRE(friction > 0.05 * even.heat.balance.power);
-  // What GMRES leaves of a steady film's equations, 1e-4, is the same in both.
+  // The residual that GMRES leaves of a steady film's equations, 1e-4, is the same in both.
   CHECK(lined.heat.balance.to_shell - even.heat.balance.to_shell == relative(moved).epsilon(1e-8));
   CHECK(lined.heat.balance.to_journal - even.heat.balance.to_journal == relative(-moved).epsilon(1e-8));  // likewise
   CHECK(lined.heat.balance.power == even.heat.balance.power);
@@ -85,7 +86,7 @@ TEST_CASE("AsperitiesHeatWallsByTheirEffusivities") {
     CHECK(hot->heat.balance.error() < 1e-8);  // the film's residual
 }
 
-// In a ring and a free journal the balance closes whatever the shares.
+// In a ring and a free journal the balance closes with all shares.
 TEST_CASE("BalanceOfHeat_ClosesWithAnyShares") {
   FilmModel model = rubbing();
   model.features.push_back({.name = "hole", .phi = 1, .z = 2e-3, .arc = 0.5, .length = 8e-3, .pressure = 3e5});

@@ -52,7 +52,7 @@ ThermalModel thermal_with(const JournalWall& journal) {
   return thermal;
 }
 
-/// Film and heat of the journal that turns, in steps or, with dt = 0, in turns towards the steady film.
+/// Film and heat of the rotating journal, in steps or, with dt = 0, in iterations towards the steady film.
 class Machine {
  public:
   Machine(const FilmModel& model, const ThermalModel& thermal, double dt) : heat(model, thermal), reynolds_(model) {
@@ -80,19 +80,19 @@ class Machine {
   FilmHistory history_;
 };
 
-constexpr int turns = 60;  // each brings a film without runaway nearer by a factor of 1.5 or more
+constexpr int iterations = 60;  // each reduces the error of a film without runaway by a factor of 1.5 or more
 
 TEST_CASE("JournalInABody_IsALumpedBodyOfItsConductance") {
   const FilmModel model = bearing();
   for (const double g : {0.01, 0.5, 20.0}) {
     CAPTURE(g);
     Machine body(model, thermal_with(shaft(model.grid, g)), 0);
-    body.run(turns);
+    body.run(iterations);
     const ThermalModel by_node = thermal_with(NodeWall{.T = T_air, .node = 0});
     Machine lumped(model, by_node, 0);
     ThermalNetwork network(
         {.nodes = {{"shaft", 100, T_air, false}, {"air", 0, T_air, true}}, .paths = {{"out", 0, 1, 1 / g}}});
-    for (int k = 0; k < turns; ++k) {
+    for (int k = 0; k < iterations; ++k) {
       lumped.run(1);
       const FilmTerminals at = terminals_of(by_node);
       network.advance(0, {{at, lumped.heat.exchange()}});
@@ -113,12 +113,12 @@ TEST_CASE("JournalInABody_IsALumpedBodyOfItsConductance") {
   }
 }
 
-// Its surface held by the body's own temperatures.
+// The body's own temperatures fix its surface.
 TEST_CASE("JournalWithoutResistance_HasTheTemperatureOfItsBody") {
   const FilmModel model = bearing();
   Machine body(model, thermal_with(shaft(model.grid, 0)), 0);
   Machine given(model, thermal_with(WallAtTemperature{.T = T_air}), 0);
-  body.run(turns), given.run(turns);
+  body.run(iterations), given.run(iterations);
   CHECK(body.heat.state().journal == T_air);
   CHECK((body.heat.state().film - given.heat.state().film).cwiseAbs().maxCoeff() < 1e-5);  // K, as above
 }
@@ -131,7 +131,7 @@ TEST_CASE("JournalInABody_KeepsItsTemperatureInAStep") {
   CHECK(body.heat.state().journal == 45 + zero_celsius);
   CHECK((body.heat.state().film - given.heat.state().film).cwiseAbs().maxCoeff() < 1e-6);  // K; each to 1e-9 of a step
   CHECK(body.heat.observables().T_journal_body_max == 45 + zero_celsius);
-  // As an even rise of all of the body shapes it.
+  // An even rise of temperature of all of the body shapes it.
   CHECK(body.heat.journal_growth_in_time()[0] == relative(25 * 2e-7 / 1.5).epsilon(1e-12));  // round-off
 }
 
@@ -139,9 +139,9 @@ TEST_CASE("JournalOverCycles_IsThatOfTheSteadyFilm") {
   const FilmModel model = bearing();
   for (const double g : {0.5, 0.0}) {
     CAPTURE(g);
-    ThermalModel held = thermal_with(shaft(model.grid, g));
-    held.walls = WallMotion::held;
-    Machine machine(model, held, 4e-4);
+    ThermalModel fixed = thermal_with(shaft(model.grid, g));
+    fixed.walls = WallMotion::fixed;
+    Machine machine(model, fixed, 4e-4);
     double last = 0;
     for (int cycle = 0; cycle < 8; ++cycle) {
       machine.run(100);
@@ -158,7 +158,7 @@ TEST_CASE("JournalOverCycles_IsThatOfTheSteadyFilm") {
     CHECK(machine.heat.observables().balance.to_journal ==
           relative(heat).epsilon(1e-3));  // what settles it is the film's
     Machine steady(model, thermal_with(shaft(model.grid, g)), 0);
-    steady.run(turns);
+    steady.run(iterations);
     CHECK(std::abs(machine.heat.state().journal - steady.heat.state().journal) < 10 * settled);
     CHECK(std::abs(machine.heat.observables().T_shell_mean - steady.heat.observables().T_shell_mean) < 10 * settled);
   }
@@ -167,15 +167,15 @@ TEST_CASE("JournalOverCycles_IsThatOfTheSteadyFilm") {
 // A checkpoint in the middle of a cycle keeps every bit of what follows.
 TEST_CASE("JournalOverCycles_ResumesToTheSameNumbers") {
   const FilmModel model = bearing();
-  ThermalModel held = thermal_with(shaft(model.grid, 0.5));
-  held.walls = WallMotion::held;
-  Machine machine(model, held, 4e-4);
+  ThermalModel fixed = thermal_with(shaft(model.grid, 0.5));
+  fixed.walls = WallMotion::fixed;
+  Machine machine(model, fixed, 4e-4);
   machine.run(20);
   (void)machine.settle();
   machine.run(7);
   Archive saved;
   machine.heat.persist(saved);
-  FilmHeat resumed(model, held);
+  FilmHeat resumed(model, fixed);
   Archive archive(saved.content());
   resumed.persist(archive);
   CHECK(archive.unread().empty());
@@ -196,8 +196,8 @@ TEST_CASE("ShellAndJournalInBodies_SettleTogether") {
   ThermalModel thermal = thermal_with(shaft(model.grid, 0.5));
   thermal.shell = BodyWall{.conduction = bush, .T_start = 35 + zero_celsius};
   Machine steady(model, thermal, 0);
-  steady.run(turns);
-  thermal.walls = WallMotion::held;
+  steady.run(iterations);
+  thermal.walls = WallMotion::fixed;
   Machine machine(model, thermal, 4e-4);
   for (int cycle = 0; cycle < 8; ++cycle) {
     machine.run(100);

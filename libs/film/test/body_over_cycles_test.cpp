@@ -48,9 +48,9 @@ void run_cycle(FilmOverTime& film, int steps = 100) {
 
 TEST_CASE("BodyOverCycles_IsThatOfTheSteadyFilm") {
   const FilmModel model = bearing();
-  const ThermalModel held = thermal_with(model, WallMotion::held);
-  const auto& wall = *std::get<BodyWall>(held.shell).conduction;
-  FilmOverTime machine(model, held, loaded);
+  const ThermalModel fixed = thermal_with(model, WallMotion::fixed);
+  const auto& wall = *std::get<BodyWall>(fixed.shell).conduction;
+  FilmOverTime machine(model, fixed, loaded);
   // Before it has settled the body is as warm everywhere.
   CHECK(machine.heat.shell_opening_in_time()[3] == relative(25e-7).epsilon(1e-12));  // round-off
   double last = 0;
@@ -73,7 +73,7 @@ TEST_CASE("BodyOverCycles_IsThatOfTheSteadyFilm") {
   CHECK(std::abs(machine.heat.observables().T_shell_max - steady.heat.T_shell_max) < 10 * settled);
   CHECK(std::abs(machine.heat.state().journal - steady.heat.T_journal) < 10 * settled);
   CHECK(machine.heat.shell_opening_in_time() == machine.heat.shell_opening());
-  // As wide as by its mean temperature.
+  // The bore is as wide as the body's mean temperature makes it.
   const double rise = machine.heat.state().shell.mean() - wall.T_reference;
   CHECK(machine.heat.shell_opening()[3] == relative(1e-7 * rise).epsilon(1e-9));  // round-off of the inverse
 }
@@ -83,7 +83,7 @@ TEST_CASE("RingAsABody_SettlesAsTheRing") {
   const FilmModel model = bearing();
   RingWall ring{.outer_radius = 0.0250001, .conductivity = 2e6, .transfer = 400, .T_ambient = T_air};
   ring.T_start = 45 + zero_celsius;
-  ThermalModel by_ring = thermal_with(model, WallMotion::held);
+  ThermalModel by_ring = thermal_with(model, WallMotion::fixed);
   by_ring.shell = ring;
   const double middle = 0.5 * (model.R + ring.outer_radius), angle = 2 * pi / model.grid.n_phi;
   const double around = ring.conductivity * (ring.outer_radius - model.R) * model.L / (middle * angle);
@@ -104,14 +104,14 @@ TEST_CASE("RingAsABody_SettlesAsTheRing") {
 // A checkpoint in the middle of a cycle keeps every bit of what follows.
 TEST_CASE("BodyOverCycles_ResumesToTheSameNumbers") {
   const FilmModel model = bearing();
-  const ThermalModel held = thermal_with(model, WallMotion::held);
-  FilmOverTime machine(model, held, loaded);
+  const ThermalModel fixed = thermal_with(model, WallMotion::fixed);
+  FilmOverTime machine(model, fixed, loaded);
   run_cycle(machine, 20);
   (void)machine.settle();
   run_cycle(machine, 7);
   Archive saved;
   machine.heat.persist(saved);
-  FilmHeat resumed(model, held);
+  FilmHeat resumed(model, fixed);
   Archive archive(saved.content());
   resumed.persist(archive);
   CHECK(archive.unread().empty());

@@ -39,7 +39,7 @@ BodyWall ring_as_body(const FilmModel& model, const RingWall& ring) {
   return {.conduction = wall};
 }
 
-/// Between walls at both edges nothing changes along the axis: heat into an angle is spread evenly over the width.
+/// Between walls at both edges nothing varies along the axis: heat into an angle is spread evenly over the width.
 FilmModel closed_bearing() {
   FilmModel model = bearing(0.05, 0.08, 145e-6, 48, 5);
   model.edge_left = model.edge_right = {EdgeKind::closed, 0, 0};
@@ -56,7 +56,7 @@ TEST_CASE("RingAsABody_IsTheRing") {
   const HotFilm by_ring = solve_hot(model, thermal, surfaces(model, journal), journal.e, 1e-8);
   thermal.shell = ring_as_body(model, ring);
   const HotFilm by_body = solve_hot(model, thermal, surfaces(model, journal), journal.e, 1e-8);
-  constexpr double solved = 1e-6;  // K: both iterations end when temperatures move by 1e-8 K in one turn
+  constexpr double solved = 1e-6;  // K: both iterations end when temperatures change by 1e-8 K in one iteration
   CHECK((by_ring.temperatures.shell - by_body.temperatures.shell).cwiseAbs().maxCoeff() < solved);
   CHECK((by_ring.temperatures.hottest - by_body.temperatures.hottest).cwiseAbs().maxCoeff() < solved);
   CHECK(by_body.heat.balance.to_shell == relative(by_ring.heat.balance.to_shell).epsilon(1e-7));  // by that
@@ -94,7 +94,7 @@ TEST_CASE("HeatIntoABody_IsThatOfTheBalance_AndItsTemperaturesFollow") {
   }
 }
 
-// Over a step a body keeps its temperatures, whatever its conduction says.
+// Over a step a body keeps its temperatures, whatever its conduction would give.
 TEST_CASE("BodyInAStep_KeepsItsTemperature") {
   FilmModel model = closed_bearing();
   const Journal journal{.e = 0.6 * model.c * Eigen::Vector2d(-0.6, -0.8), .omega_journal = 200};

@@ -12,7 +12,7 @@
 #include "hersey/film/heat_state.h"
 #include "relative.h"
 
-// The other side of conditions that films in the middle of their range do not ask.
+// Branches that films in the middle of their range do not take.
 namespace hersey::film {
 namespace boundaries_test {
 
@@ -34,7 +34,7 @@ TEST_CASE("UsualSolver_IsChosenBySize") {
   CHECK(usual_solver({.n_phi = 151, .n_z = 100}) == FilmSolver::multigrid);
 }
 
-TEST_CASE("EmptiestNode_HasLessThanNoOil") {
+TEST_CASE("LowestFillNode_HasANegativeFillFraction") {
   FilmModel m;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   const double none = -fill_scale(m);
@@ -46,21 +46,21 @@ TEST_CASE("EmptiestNode_HasLessThanNoOil") {
   CHECK(lowest_fill_node(m, u) == m.grid.index(40, 0));
   m.edge_left.ambient_fill = 0.3;  // there u < 0 is oil that comes in
   CHECK(lowest_fill_node(m, u) == m.grid.index(20, 7));
-  m.cavitation = Cavitation::reynolds;  // which knows no fill fraction
+  m.cavitation = Cavitation::reynolds;  // a model without a fill fraction
   CHECK(lowest_fill_node(m, u) == -1);
 }
 
-TEST_CASE("Features_OverlapWhereAPlaceIsInBoth") {
+TEST_CASE("Features_OverlapWhereAPointIsInBoth") {
   const SurfaceFeature groove{.phi = 1, .z = 0, .arc = 0.4, .length = 10e-3};
   SurfaceFeature hole{.shape = Ellipse{}, .phi = 1.25, .z = 0, .arc = 0.2, .length = 2e-3};
   CHECK(overlap(groove, hole));  // 1.15 to 1.35 and 0.8 to 1.2
   CHECK(overlap(hole, groove));
-  hole.phi += 2 * pi;  // the same place
+  hole.phi += 2 * pi;  // the same position
   CHECK(overlap(groove, hole));
   hole.phi = 1.31;
   CHECK(!overlap(groove, hole));
   CHECK(!overlap(hole, groove));
-  // So thin a strip that places spread over either of them miss it.
+  // The strip is so thin that points spread over either of them miss it.
   const SurfaceFeature beside{.phi = 1, .z = 5.99e-3, .arc = 0.4, .length = 2e-3};
   CHECK(overlap(groove, beside));
   CHECK(overlap(beside, groove));
@@ -75,7 +75,7 @@ TEST_CASE("Features_OverlapWhereAPlaceIsInBoth") {
 }
 
 TEST_CASE("Laws_AtTheEndOfTheirRange") {
-  // An oil that gives way by nothing takes the work of one that does not give way at all.
+  // An oil of zero compressibility takes the work of an incompressible one.
   const DowsonHigginson stiff{.rise = 0, .saturation = 0};
   CHECK(stiff.work(1e8) == 1e8);
   CHECK(stiff.ratio(1e8).value == 1);
@@ -97,14 +97,15 @@ TEST_CASE("OilAtATemperature_HasTheViscosityAndDensityOfItsLaws") {
   const Lubricant mineral = at_temperature({.temperature_law = walther}, T);
   CHECK(mineral.mu0 == walther.viscosity(T));
   CHECK(mineral.density == walther.density(T));
-  const Lubricant plain{.mu0 = 0.02, .density = 850}, same = at_temperature(plain, T);  // that knows no temperatures
+  const Lubricant plain{.mu0 = 0.02, .density = 850},
+      same = at_temperature(plain, T);  // which does not depend on temperature
   CHECK(same.mu0 == plain.mu0);
   CHECK(same.density == plain.density);
   const Lubricant thinned = at_temperature({.temperature_law = ExponentialViscosity{.mu_ref = 0.03, .T_ref = T}}, T);
   CHECK(thinned.mu0 == relative(0.03).epsilon(1e-15));  // round-off
 }
 
-TEST_CASE("CavitatedShear_IsToldByTheChoiceThatWasMade") {
+TEST_CASE("CavitatedShear_IsReportedWithTheChoiceMade") {
   const std::string full = choice_in_words(CavitatedShear::full), share = choice_in_words(CavitatedShear::film_share);
   CHECK(full.find("over the whole gap (`cavitated_shear: full`)") < full.find("`film_share`"));
   CHECK(share.find("the oil's share of the gap (`cavitated_shear: film_share`)") < share.find("(`full`)"));
@@ -119,17 +120,17 @@ TEST_CASE("JournalThatKeepsItsShape_HasNoneOnAnyGrid") {
   CHECK(around({.n_phi = 6, .n_z = 5}, shape).segment(10, 5) == shape);
 }
 
-TEST_CASE("Grids_KeepWhatTheyAreNotAskedToChange") {
+TEST_CASE("Grids_ChangeOnlyInTheDirectionRefined") {
   const Grid pads = patch_grid({{0.5, 1.5, 11}, {2, 2.6, 7}}, 5), finer = resampled(pads, pads.n_phi, 9);
   CHECK(finer.n_z == 9);
   CHECK(finer.patches.size() == 2);
   for (int i = 0; i < pads.n_phi; ++i) CHECK(finer.phi(i) == pads.phi(i));
-  const Grid along = graded_grid(24, 9, {}, {{.place = 0.5, .reach = 0.1, .factor = 4}});
+  const Grid along = graded_grid(24, 9, {}, {{.position = 0.5, .reach = 0.1, .factor = 4}});
   CHECK(along.angles.empty());  // equal angles
   CHECK(along.z_over_L(8) - along.z_over_L(7) < along.z_over_L(1) - along.z_over_L(0));
 }
 
-TEST_CASE("SurfacesThatAreNoNumbers_AreToldWithTheirPlace") {
+TEST_CASE("SurfacesThatAreNoNumbers_AreReportedWithTheirPosition") {
   const FilmModel m;
   const SurfaceMotion sound = surfaces(m, turning(m, 0.5, 100));
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
@@ -145,8 +146,8 @@ TEST_CASE("SurfacesThatAreNoNumbers_AreToldWithTheirPlace") {
   }
 }
 
-// What is kept of a factor decides the round-off of later ones.
-TEST_CASE("RestoredReynolds_GoesOnToTheSameBits") {
+// The pivot order of an earlier factor decides the round-off of later ones.
+TEST_CASE("RestoredReynolds_ContinuesToTheSameBits") {
   const FilmModel m;
   const SurfaceMotion first = surfaces(m, turning(m, 0.5, 100)), later = surfaces(m, turning(m, 0.7, 80));
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
@@ -195,7 +196,7 @@ TEST_CASE("CavityOfAWholePatch_EndsWhereThatEnds") {
   CHECK(last[1] == relative(1.5).epsilon(round_off));
 }
 
-// Of the bore's shapes alone, as they lie: what lies along the axis only has none.
+// The slope is that of the bore's shapes alone; a shape that varies only along the axis has none.
 TEST_CASE("SlopeOfTheShell_IsThatOfItsOwnShapes") {
   FilmModel m;
   CHECK(GapShape(m).shell_slope().isZero(0));

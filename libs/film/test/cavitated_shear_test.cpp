@@ -4,7 +4,7 @@
 #include "film_cases.h"
 #include "relative.h"
 
-// What is told of the other CavitatedShear is what a film with that choice tells of the same state.
+// Figures reported for the other CavitatedShear are those of a film with that choice in the same state.
 namespace hersey::film {
 namespace cavitated_shear_test {
 
@@ -31,7 +31,7 @@ TEST_CASE("OtherShear_IsThatOfTheSameFilmWithTheOtherChoice") {
       const FilmObservables o = observe_film(m, surfaces(m, journal), {}, journal.e, film.u, journal.tilt);
       CHECK(film.observed.power_film_other_shear == relative(o.power_film).epsilon(round_off));
       CHECK(film.observed.torque_journal_other_shear == relative(o.torque_journal).epsilon(round_off));
-      // The whole gap takes more than the oil's share of it, and both are there to be told apart.
+      // The whole gap is sheared more than the oil's share of it, and the two figures differ.
       const double more = o.power_film / film.observed.power_film - 1;
       CHECK((shear == CavitatedShear::full ? -more : more) > 0.02);
     }
@@ -62,7 +62,7 @@ TEST_CASE("BordersOfCavities_LieBetweenNodes") {
 
 // A node beside a supply line is one as any other where the line lies on the next node: torque and cavitated share
 // jumped there by up to 1e-3 and 1 %, towards one side only, so that machine and mirror image differed.
-TEST_CASE("BordersOfCavitiesBesideALine_DoNotSeeOnWhichNodeItLies") {
+TEST_CASE("BordersOfCavitiesBesideALine_DoNotDependOnTheNodeItLiesOn") {
   FilmModel m{.R = 0.02, .L = 0.02, .c = 2e-5, .grid = {60, 9}, .cavitation = Cavitation::reynolds};
   m.lubricant.mu0 = 0.01;
   const auto observed = [&](double phi, double omega) {
@@ -89,10 +89,9 @@ TEST_CASE("BordersOfCavitiesBesideALine_DoNotSeeOnWhichNodeItLies") {
   }
 }
 
-// Of a slow journal near the centre, what sliding makes of tension is small: with the least tension that breaks a film
-// from 1000 rad/s, whatever the speed, its film counted as whole and took 70 % more power than in the bearing by
-// itself.
-TEST_CASE("LeastTensionAndLeastLack_GoByTheSpeedOfTheFilm") {
+// At a slow journal near the centre sliding causes little tension. With the least tension that cavitates a film at 1000
+// rad/s, applied at every speed, its film counted as full and took 70 % more power than in the bearing by itself.
+TEST_CASE("LeastTensionAndLeastLack_ScaleWithTheSpeedOfTheFilm") {
   for (const Cavitation cavitation : {Cavitation::guembel, Cavitation::reynolds}) {
     CAPTURE(static_cast<int>(cavitation));
     FilmModel m{.R = 0.02, .L = 0.02, .c = 2e-5, .grid = {36, 7}, .cavitation = cavitation};
@@ -104,8 +103,8 @@ TEST_CASE("LeastTensionAndLeastLack_GoByTheSpeedOfTheFilm") {
     for (const SolvedFilm* film : {&at_fast, &at_slow, &by_itself}) REQUIRE(film->summary.solved());
     CHECK(at_fast.observed.cavitated_share > 0.3);
     for (const SolvedFilm* film : {&at_slow, &by_itself}) {
-      // A film of one viscosity is linear in the speed, but for a tenth of a millimetre per second that stands for
-      // rest: half its square over that of .2 m/s, times what share d has.
+      // A film of one viscosity is linear in the speed, but for the tenth of a millimetre per second that stands for
+      // rest: half its square over that of .2 m/s, times the part of d.
       CHECK(film->observed.cavitated_share == relative(at_fast.observed.cavitated_share).epsilon(1e-6));
       CHECK(film->observed.torque_journal * 100 == relative(at_fast.observed.torque_journal).epsilon(1e-6));
     }
@@ -148,7 +147,7 @@ TEST_CASE("SharesBesideALine_HaveTheirDerivatives") {
   const Eigen::VectorXd u = solve_cold(m, motion, journal.e).u;
   FlowBalance balance(m);
   constexpr double step = 1e-6;  // of each scale: what it leaves, and round-off over it, is some 1e-9
-  // Shares of the nodes beside the line in the middle row, with u scaled, with the gap, with the line's place.
+  // Shares of the nodes beside the line in the middle row, with u scaled, with the gap, with the line's position.
   const auto borders = [&](double by_u, double by_gap, double by_line) {
     SurfaceMotion moved = motion;
     moved.g.array() += by_gap * m.c;

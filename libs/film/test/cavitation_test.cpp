@@ -5,7 +5,7 @@
 #include "film_cases.h"
 #include "relative.h"
 
-// What conserving oil means: the film's own balances, and cavitation that comes and goes.
+// Conservation of oil: the film's own balances, and cavitation that appears and disappears.
 namespace hersey::film {
 namespace cavitation_test {
 
@@ -83,7 +83,7 @@ TEST_CASE("TimeSteps_ConserveOil") {
     const FilmObservables o = observe_film(m, motion, history, journal.e, u);
     const double change = (o.oil_volume - volume_before) / dt;
     const double scale = m.R * omega * m.c * m.L;
-    // Of a step, summed over nodes that the solver leaves 1e-10 of the largest throughput.
+    // This is the error of a step, summed over nodes for which the solver leaves 1e-10 of the largest throughput.
     CHECK(std::abs(o.flow_supply - o.flow_left - o.flow_right - change) < 1e-8 * scale);
     CHECK(o.mass_balance_error < 1e-8);
     before = motion;
@@ -119,14 +119,14 @@ class SqueezeFront {
   [[nodiscard]] double at(double t) const {
     if (t < start_) return 0.5;
     if (t < turning_) return breaking(t);
-    const double place = std::max(0.0, (t - first_) / step_), k = std::floor(place);
+    const double position = std::max(0.0, (t - first_) / step_), k = std::floor(position);
     const auto i = static_cast<std::size_t>(k);
-    return width_[i] + (place - k) * (width_[i + 1] - width_[i]);
+    return width_[i] + (position - k) * (width_[i + 1] - width_[i]);
   }
 
  private:
   static double gap_curvature(double t) { return -2 * pi * pi * std::cos(4 * pi * t); }
-  // Where a function that comes from above zero crosses it.
+  // Returns the root of a function that falls through zero.
   template <class Function>
   static double crossing(double low, double high, Function f) {
     const bool falls = f(low) > 0;
@@ -172,7 +172,7 @@ Squeeze squeeze(int n, double dt, const SqueezeFront& exact) {
     const auto theta = [&](int i) { return history.theta[m.grid.index(i, 1)]; };
     int full = 0;  // nodes of full film from one end on
     while (full < n / 2 && theta(full) >= 1) ++full;
-    // The front lies in the first node that is not full; how full that node is tells where.
+    // The front lies in the first node that is not full; its fill fraction gives the position.
     double width = 0.5;
     if (full < n / 2) {
       if (s.start == 0) s.start = t;
@@ -239,8 +239,8 @@ TEST_CASE("CarriedFill_IsOfFirstOrder") {
   CHECK(std::log2(error[0] / error[1]) == doctest::Approx(1).epsilon(0.05));
 }
 
-// The film of an edge at p_cav draws in what its surroundings hold. Oil outside (fill 1) is the limit of a flooded edge
-// whose pressure falls to p_cav, air (fill 0) gives nothing.
+// The film of an edge at p_cav draws in the oil of its surroundings. Oil outside (fill 1) is the limit of a flooded
+// edge whose pressure falls to p_cav, air (fill 0) gives nothing.
 TEST_CASE("AmbientFill_IsDrawnIn") {
   FilmModel m = bearing();
   m.p_cav = -0.5e5;

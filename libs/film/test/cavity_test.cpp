@@ -4,7 +4,7 @@
 
 #include "film_cases.h"
 
-// Where the film ruptures and re-forms, against integrals of Reynolds' equation in a bearing without end leakage.
+// Rupture and reformation of the film, against integrals of Reynolds' equation in a bearing without end leakage.
 namespace hersey::film {
 namespace cavity_test {
 
@@ -33,7 +33,7 @@ double rise(double from, double to, double h0) {
   return sum * (to - from) / n;
 }
 
-// Where f changes its sign between two angles.
+// Returns the angle between two others at which f changes its sign.
 template <class Function>
 double zero(Function&& f, double low, double high) {
   const bool falls = f(low) > 0;
@@ -44,7 +44,7 @@ double zero(Function&& f, double low, double high) {
   return low;
 }
 
-TEST_CASE("Cavity_LiesWhereTheIntegralsOfReynoldsEquationSay") {
+TEST_CASE("Cavity_MatchesTheIntegralsOfReynoldsEquation") {
   const FilmModel unit = long_bearing(4, Cavitation::mass_conserving, 0);
   const double p_unit = 6 * unit.lubricant.mu0 * omega * std::pow(unit.R / unit.c, 2), p = 0.2;
   const double rupture = zero([&](double phi) { return p + rise(0, phi, gap(phi)); }, pi, 1.8 * pi);
@@ -88,7 +88,7 @@ TEST_CASE("Cavity_IsMirroredByTheSenseOfRotation") {
   CHECK(std::abs(std::remainder(forwards.reformation_angle + backwards.reformation_angle, 2 * pi)) < kRoundOff);
 }
 
-TEST_CASE("Cavity_OfAWholeFilmIsNone") {
+TEST_CASE("FullFilm_HasNoCavity") {
   const FilmModel m = long_bearing(60, Cavitation::mass_conserving, 1e9);
   const FilmObservables whole = solve_cold(m, turning(m, epsilon, omega)).observed;
   CHECK(std::isnan(whole.rupture_angle));

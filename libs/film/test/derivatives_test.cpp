@@ -71,8 +71,8 @@ State rough_state(Cavitation cavitation, bool all_laws, bool transient, const Gr
 }
 
 State graded_state() {
-  const Grid grid =
-      graded_grid(14, 6, {{.place = 1.0, .reach = 0.6, .factor = 3}}, {{.place = 0.5, .reach = 0.2, .factor = 3}});
+  const Grid grid = graded_grid(14, 6, {{.position = 1.0, .reach = 0.6, .factor = 3}},
+                                {{.position = 0.5, .reach = 0.2, .factor = 3}});
   State s = rough_state(Cavitation::mass_conserving, true, true, grid);
   s.name = "graded grid";
   return s;
@@ -147,7 +147,7 @@ std::vector<State> sheared_states() {
   }
   State s = rough_state(Cavitation::mass_conserving, true, true);
   s.model.lubricant.shear_thinning = {Cross{.limit = 0.3, .exponent = 0.8}, 3e5, 0};
-  s.model.asperities.mu_friction = 0;  // turns within less
+  s.model.asperities.mu_friction = 0;  // changes its direction within less than a difference step
   s.motion.u_shell = s.motion.u_journal - 0.2, s.motion.w_journal = s.motion.w_shell;
   s.name = "hardly any sliding";
   states.push_back(s);
@@ -213,7 +213,7 @@ std::vector<State> states_on_surfaces() {
                     {.first = {.kind = EdgeKind::closed}, .last = {.pressure = 2e5}}};
     s.name = "pads";
     states.push_back(s);
-    // So wide there that what is fitted through the nodes would cross zero beside the ends.
+    // The gap is wide there, because the interpolation through the nodes would cross zero beside the ends.
     for (const int line : {2, 4, 9, 12}) s.motion.g.segment(s.model.grid.index(line, 0), s.model.grid.n_z) *= 40;
     s.name = "pads, gap that jumps";
     states.push_back(s);

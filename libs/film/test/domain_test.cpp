@@ -5,7 +5,7 @@
 #include "film_cases.h"
 #include "hersey/core/contract.h"
 
-// Trials outside what the film's equations mean are told, not thrown; what follows from a trial inside is finite.
+// Trials outside the domain of the film's equations are outcomes, not exceptions; results of a trial inside are finite.
 namespace hersey::film {
 namespace domain_test {
 
@@ -45,7 +45,7 @@ TEST_CASE("TrialsOutsideTheDomain_AreOutcomes") {
   CHECK(reynolds.linearise(open, {}, none).is_inside());
 }
 
-// The outflow over an edge at p_cav stands in u, however large it is.
+// u contains the outflow over an edge at p_cav, however large it is.
 TEST_CASE("OutflowOverAnOpenEdge_IsNoPressure") {
   FilmModel m = big_end();
   m.lubricant.viscosity_law = Barus{2e-8};
@@ -102,7 +102,7 @@ TEST_CASE("SaturatedViscosity_IsSmoothAndBounded") {
 }
 
 // The film thickness under contact is the root of (film.10), wherever Newton's iteration for it begins.
-TEST_CASE("ContactHoldsSurfacesApart_HoweverFarTheyOverlap") {
+TEST_CASE("Contact_SeparatesSurfacesHoweverFarTheyOverlap") {
   FilmModel m = big_end();
   m.compliance = 2e-3 / 60e9;
   m.asperities = {AsperityModel::greenwood_tripp_exact, 1e-6, 3e-3, 115e9, 0.1};
@@ -137,7 +137,7 @@ TEST_CASE("LinerThatSinksInOneStep_KeepsItsFilm") {
   }
 }
 
-TEST_CASE("FilmThatNothingSupplies_IsToldSo") {
+TEST_CASE("FilmWithoutSupply_IsReported") {
   FilmModel m = big_end();
   m.supply = {};
   Reynolds reynolds(m);

@@ -22,31 +22,32 @@ FilmModel big_end(Cavitation cavitation = Cavitation::mass_conserving) {
   return m;
 }
 
-// Walls on both sides, and nothing that feeds: no pressure is better than another.
+// Walls on both sides and no supply: the level of pressure is undetermined.
 FilmModel closed_ring(double L) {
   FilmModel m{.R = 0.0225, .L = L, .c = 34e-6, .grid = {24, 7}, .cavitation = Cavitation::guembel};
   m.edge_left = m.edge_right = {.kind = EdgeKind::closed};
   return m;
 }
 
-TEST_CASE("SweepsThatMayNotSweep_TellWhatIsLeft") {
+TEST_CASE("SweepsWithoutIterations_ReportTheResidual") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 0.7, omega));
   for (const double start : {0.0, 1e6}) {  // cold, and from a film that is none
     CAPTURE(start);
     Eigen::VectorXd u = Eigen::VectorXd::Constant(m.grid.size(), start);
     Reynolds reynolds(m);
-    const FilmSolveSummary told = solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor, .max_iterations = 0}, u);
-    CHECK_FALSE(told.solved());
-    CHECK(told.message.find("after 0 iterations") != std::string::npos);
-    CHECK(told.relative_residual > 1e-10);  // what was asked
+    const FilmSolveSummary summary =
+        solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor, .max_iterations = 0}, u);
+    CHECK_FALSE(summary.solved());
+    CHECK(summary.message.find("after 0 iterations") != std::string::npos);
+    CHECK(summary.relative_residual > 1e-10);  // the tolerance
   }
 }
 
-// Where a cavitated film fills again in a pocket of 25 times the gap, oil there has next to no pressure. With that of
-// the land for it the viscosity was off by a percent, over conductances 15,000 times the land's: Newton's method
-// cycled, sweeps took ten times as long, and of this bearing's mirror image came to no end.
-TEST_CASE("PocketOfABrokenFilm_IsFilledWithoutCycles") {
+// Where a cavitated film fills again in a pocket of 25 times the gap, oil there has next to no pressure. With the
+// pressure of the land the viscosity was off by a percent, over conductances 15,000 times the land's: Newton's method
+// cycled, sweeps took ten times as long, and for the mirror image of this bearing they did not converge.
+TEST_CASE("PocketOfACavitatedFilm_IsFilledWithoutCycles") {
   FilmModel m{.R = 11.49e-3, .L = 20.6e-3, .c = 6.242e-6, .grid = {48, 9}, .cavitation = Cavitation::reynolds};
   m.lubricant.mu0 = 4.703e-3, m.lubricant.viscosity_law = Barus{2.125e-9};
   m.edge_left = m.edge_right = {.pressure = 280300};
@@ -75,8 +76,8 @@ TEST_CASE("PocketOfABrokenFilm_IsFilledWithoutCycles") {
   }
 }
 
-// Sweeps go on only where it is asked for and Newton's method has had its turn.
-TEST_CASE("FilmThatDoesNotInsist_EndsWhereNewtonDoes") {
+// Sweeps follow only where they are allowed and Newton's method has not converged.
+TEST_CASE("FilmWithoutFallback_EndsWhereNewtonDoes") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 0.9, omega));
   std::array<Eigen::VectorXd, 2> u{Eigen::VectorXd::Zero(m.grid.size()), Eigen::VectorXd::Zero(m.grid.size())};
@@ -89,9 +90,9 @@ TEST_CASE("FilmThatDoesNotInsist_EndsWhereNewtonDoes") {
   CHECK(u[0] == u[1]);
 }
 
-// On a soft liner the surfaces overlap where nothing holds them apart: steps that take all of the pressure away close
-// the film, and are shortened.
-TEST_CASE("PressureThatHoldsSurfacesApart_IsFoundFromFarAbove") {
+// On a soft liner the surfaces overlap without pressure: increments that remove all of the pressure close the film, and
+// are shortened.
+TEST_CASE("PressureThatSeparatesSurfaces_IsFoundFromFarAbove") {
   FilmModel m = big_end();
   m.edge_left = m.edge_right = {.kind = EdgeKind::closed};  // an open one has no pressure that could
   m.compliance = 2e-3 / 1e9;
@@ -111,31 +112,31 @@ TEST_CASE("PressureThatHoldsSurfacesApart_IsFoundFromFarAbove") {
   }
 }
 
-// However wide a gap is, what follows from it is finite, or it is told that it is not.
-TEST_CASE("GapsOfAnySize_AreFiniteOrTold") {
+// The equations are finite for gaps of any size, or the domain excludes the gap.
+TEST_CASE("GapsOfAnySize_AreFiniteOrReported") {
   const FilmModel m = big_end();
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   SurfaceMotion motion = surfaces(m, turning(m, 0.3, omega));
   Reynolds reynolds(m);
-  int told = 0;
+  int unbounded = 0;
   for (double size = 1; size < 1e150; size *= 3) {
     motion.g.setConstant(size);
     const FilmDomain domain = reynolds.linearise(motion, {}, u);
     if (!domain.is_inside()) {
       CHECK(domain.violation == Violation::not_finite);
-      ++told;
+      ++unbounded;
       continue;
     }
-    CHECK(told == 0);  // nothing wider than what was told
+    CHECK(unbounded == 0);  // no gap after the first one outside the domain is inside it
     REQUIRE(reynolds.residual().allFinite());
     REQUIRE(reynolds.jacobian_product(Eigen::VectorXd::Ones(u.size())).allFinite());
   }
-  CHECK(told > 0);
+  CHECK(unbounded > 0);
 }
 
-// A pressure everywhere changes nothing: the Jacobian is singular, and by the model's scale no shift is felt in gaps a
-// million times as wide. What is left of the residual does not depend on which pressure it is.
-TEST_CASE("FilmWithoutAnyGivenPressure_HasAnIncrementAllTheSame") {
+// A pressure everywhere changes nothing: the Jacobian is singular, and a shift by the model's scale has no effect in
+// gaps a million times as wide. What is left of the residual does not depend on which pressure it is.
+TEST_CASE("FilmWithoutPrescribedPressure_HasAnIncrement") {
   const FilmModel m = closed_ring(0.0156);
   SurfaceMotion motion = surfaces(m, {});
   Eigen::VectorXd u(m.grid.size()), du;
@@ -157,7 +158,8 @@ TEST_CASE("FilmWithoutAnyGivenPressure_HasAnIncrementAllTheSame") {
   }
 }
 
-// So narrow that what flows along the axis drowns in round-off what flows around: lines of multigrid have no pivots.
+// The ring is so narrow that flow around disappears in the round-off of flow along the axis: lines of multigrid have no
+// pivots.
 TEST_CASE("RingAsNarrowAsAThread_IsLeftToTheDirectSolver") {
   const FilmModel m = closed_ring(1e-9);
   const SurfaceMotion motion = surfaces(m, turning(m, 0.5, omega));
@@ -172,8 +174,8 @@ TEST_CASE("RingAsNarrowAsAThread_IsLeftToTheDirectSolver") {
   CHECK(du[1] == du[0]);
 }
 
-// What was factorised before does not matter to it.
-TEST_CASE("CautiousIncrement_IsTheSameForAFreshFilm") {
+// An earlier factor has no effect on it.
+TEST_CASE("RegularisedIncrement_IsTheSameForANewFilm") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 0.7, omega));
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
@@ -187,7 +189,7 @@ TEST_CASE("CautiousIncrement_IsTheSameForAFreshFilm") {
   CHECK(du.norm() < newton.norm());
 }
 
-TEST_CASE("ChordThatLeadsOutOfTheFilm_IsToldAndLeavesNoFactor") {
+TEST_CASE("ChordOutsideTheDomain_IsReportedAndLeavesNoFactor") {
   const FilmModel m = big_end();
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
   Eigen::VectorXd du;
@@ -199,8 +201,8 @@ TEST_CASE("ChordThatLeadsOutOfTheFilm_IsToldAndLeavesNoFactor") {
   CHECK(reynolds.linearise(surfaces(m, turning(m, 0.7, omega)), {}, u).is_inside());
 }
 
-// The oil of a step is what its equations say, whatever factor leads there: that of the same film or of one far away.
-TEST_CASE("OilOfAStep_DoesNotAskWhichFactorLedThere") {
+// The oil of a step follows from its equations, whether the factor is that of the same film or of one far away.
+TEST_CASE("OilOfAStep_DoesNotDependOnTheFactor") {
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
     for (const double sense : {1.0, -1.0}) {
       CAPTURE(static_cast<int>(cavitation));
@@ -246,7 +248,7 @@ TEST_CASE("SurfacesThatMoveAgainstEachOther_AddUp") {
   CHECK(both.norm() > 0);
 }
 
-// A wall lets nothing pass, also where a groove ends just before it; an edge does.
+// A wall is closed, also where a groove ends just before it; an edge is open.
 TEST_CASE("GrooveThatEndsJustBeforeAWall_LosesNoOilThere") {
   for (const EdgeKind kind : {EdgeKind::closed, EdgeKind::pressure}) {
     FilmModel m = big_end();
@@ -263,8 +265,9 @@ TEST_CASE("GrooveThatEndsJustBeforeAWall_LosesNoOilThere") {
   }
 }
 
-// In a film at rest any oil is an answer, less than none included: it is given none there, and no pressure.
-TEST_CASE("FilmAtRest_HoldsNoLessThanNoOil") {
+// In a film at rest any amount of oil is a solution, a negative one included: it is set to zero there, without
+// pressure.
+TEST_CASE("FilmAtRest_HasNoNegativeOil") {
   FilmModel m = big_end();
   m.supply = {};
   for (const FilmSolver solver : {FilmSolver::newton, FilmSolver::multigrid, FilmSolver::sor}) {
@@ -280,8 +283,8 @@ TEST_CASE("FilmAtRest_HoldsNoLessThanNoOil") {
   }
 }
 
-// Between walls, with a line between nodes, in either sense of rotation.
-TEST_CASE("SweepsBetweenWalls_MeetNewton") {
+// Sweeps between walls, with a line between nodes, are tested in both senses of rotation.
+TEST_CASE("SweepsBetweenWalls_AgreeWithNewton") {
   for (const double sense : {1.0, -1.0, 0.0}) {
     for (const double line : {0.0, 0.26, 0.9}) {
       CAPTURE(sense);
@@ -294,7 +297,7 @@ TEST_CASE("SweepsBetweenWalls_MeetNewton") {
                        sor = solve_cold(m, motion, {0, 0}, {.solver = FilmSolver::sor});
       REQUIRE(newton.summary.solved());
       REQUIRE(sor.summary.solved());
-      // At rest the line's pressure is everywhere, and bears nothing.
+      // At rest the line's pressure acts everywhere, and the film carries no load.
       const double load = sense == 0 ? m.supply.pressure * m.R * m.L : newton.wrench.norm();
       // Residuals of 1e-10, which weak spots of the film amplify by the condition, some 1e3.
       CHECK((sor.wrench - newton.wrench).norm() < 1e-6 * load);
@@ -303,8 +306,8 @@ TEST_CASE("SweepsBetweenWalls_MeetNewton") {
   }
 }
 
-// What comes in through grooves of pads leaves over their edges and ends, or over their ends alone.
-TEST_CASE("GroovesOfPads_GiveWhatLeavesAround") {
+// Oil that enters through grooves of pads leaves over their edges and ends, or over their ends alone.
+TEST_CASE("GroovesOfPads_FeedWhatLeavesOverTheEdges") {
   for (const EdgeKind kind : {EdgeKind::pressure, EdgeKind::closed}) {
     for (const double sense : {1.0, -1.0}) {
       CAPTURE(static_cast<int>(kind));
@@ -313,7 +316,7 @@ TEST_CASE("GroovesOfPads_GiveWhatLeavesAround") {
       m.ends.resize(2);
       m.edge_left.kind = m.edge_right.kind = kind;
       m.fill_speed = 100;
-      // To just before both edges, at the first end of one pad and the last of the other.
+      // The grooves reach almost to both edges, at the first end of one pad and the last of the other.
       for (const double phi : {0.55, 2.55})
         m.features.push_back({.name = "groove", .phi = phi, .arc = 0.2, .length = 0.9 * m.L, .pressure = 2e5});
       m.features.push_back({.name = "stronger", .phi = 0.6, .arc = 0.2, .length = 0.92 * m.L, .pressure = 3e5});
@@ -328,10 +331,10 @@ TEST_CASE("GroovesOfPads_GiveWhatLeavesAround") {
   }
 }
 
-// A pad with a pocket up to its end is the same wherever it stands along its way.
-TEST_CASE("PocketOfAPlane_DoesNotAskWhereThePlaneBegins") {
+// The film of a pad with a pocket up to its end is independent of the origin of its coordinate.
+TEST_CASE("PocketOfAPlane_DoesNotDependOnTheOriginAlongIt") {
   std::vector<SolvedFilm> films;
-  constexpr double far = 7;  // more than a turn, which a plane does not know
+  constexpr double far = 7;  // more than 2 pi, which has no meaning on a plane
   for (const double from : {0.0, far}) {
     FilmModel m{.surface = Plane{}, .R = 0.05, .L = 0.04, .c = 40e-6, .grid = patch_grid({{from, from + 1, 21}}, 9)};
     m.ends = {{.first = {.pressure = 1e5}}};
@@ -361,7 +364,7 @@ TEST_CASE("PocketOfAPlane_DoesNotAskWhereThePlaneBegins") {
   CHECK(there.h_min_features == relative(here.h_min_features).epsilon(1e-9));               // likewise
 }
 
-// A border that two pockets have in common is none.
+// A border that two pockets have in common disappears.
 TEST_CASE("PocketsSideBySide_AreOne") {
   std::vector<SolvedFilm> films;
   for (const bool are_two : {false, true}) {
@@ -377,7 +380,7 @@ TEST_CASE("PocketsSideBySide_AreOne") {
   CHECK((films[0].fields.p - films[1].fields.p).norm() < 1e-7 * films[0].fields.p.norm());  // the residual of 1e-10
 }
 
-// What was there before is brought to coarser grids, too: a step from nothing ends where one from nearby does.
+// The history is brought to coarser grids, too: a step solved from zero ends where one from nearby does.
 TEST_CASE("StepOfACompressibleOil_EndsWhereItDoesFromAnyStart") {
   FilmModel m = big_end();
   m.grid = {60, 13};
@@ -396,7 +399,7 @@ TEST_CASE("StepOfACompressibleOil_EndsWhereItDoesFromAnyStart") {
   CHECK((warm - cold).norm() < 1e-7 * cold.norm());  // the residual of 1e-10
 }
 
-// Wherever a line lies in a groove or beside it, and wherever a hole reaches an edge, no oil is lost.
+// No oil is lost where a line lies in a groove or beside it, and where a hole reaches an edge.
 TEST_CASE("LineAcrossAGrooveAndHoleOnAnEdge_KeepTheirOil") {
   FilmModel m = big_end();
   const double step = 2 * pi / m.grid.n_phi, dz = m.L / (m.grid.n_z - 1);
@@ -420,13 +423,13 @@ TEST_CASE("LineAcrossAGrooveAndHoleOnAnEdge_KeepTheirOil") {
     const SolvedFilm film = solve_cold(m, surfaces(m, turning(m, 0.5, omega), line * step), {-0.5 * m.c, 0});
     REQUIRE(film.summary.solved());
     CHECK(film.observed.mass_balance_error < 1e-8);  // what the residual of 1e-10 leaves
-    // Round-off of its angle decides nothing.
+    // Round-off of its angle has no effect.
     const SolvedFilm beside = solve_cold(m, surfaces(m, turning(m, 0.5, omega), line * step + 1e-12), {-0.5 * m.c, 0});
     CHECK((beside.fields.p - film.fields.p).norm() < 1e-6 * film.fields.p.norm());  // 1e-12 over a step, residuals
   }
 }
 
-// Pockets over one another are as deep as both, whichever is named first.
+// Depths of overlapping pockets add, in either order in the file.
 TEST_CASE("PocketsOverEachOther_AddUpInAnyOrder") {
   const SurfaceFeature slot{.phi = 1, .arc = 0.5, .length = 0.008, .is_fed = false, .depth = 30e-6};
   SurfaceFeature dimple = slot, deep = slot;
@@ -458,8 +461,8 @@ TEST_CASE("CavityThatEndsAtAPeak_EndsInTheCellBeforeIt") {
   CHECK(observed.reformation_angle <= grid.phi(30) + 1e-12);  // likewise
 }
 
-// A groove across the line holds its nodes, where the line has no part in their rows.
-TEST_CASE("SweepsOverALineAcrossAGroove_MeetNewton") {
+// A groove across the line prescribes its nodes, and the line has no share in their rows.
+TEST_CASE("SweepsOverALineAcrossAGroove_AgreeWithNewton") {
   FilmModel m = big_end();
   m.supply = {SupplyKind::fixed_angle, 0.26, 1e5};
   m.features = {{.name = "groove", .phi = 0.26, .arc = 0.6, .length = 0.5 * m.L, .pressure = 3e5}};
@@ -473,19 +476,19 @@ TEST_CASE("SweepsOverALineAcrossAGroove_MeetNewton") {
 }
 
 // Surfaces that overlap are no film for sweeps either.
-TEST_CASE("SweepsInAClosedGap_TellWhere") {
+TEST_CASE("SweepsInAClosedGap_ReportTheNode") {
   const FilmModel m = big_end();
   const SurfaceMotion motion = surfaces(m, turning(m, 1.2, omega));
   Reynolds reynolds(m);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
-  const FilmSolveSummary told = solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor}, u);
-  CHECK_FALSE(told.solved());
-  CHECK(told.domain.violation == Violation::closed);
-  CHECK(motion.g[told.domain.node] <= 0);
+  const FilmSolveSummary summary = solve_film(reynolds, motion, {}, {.solver = FilmSolver::sor}, u);
+  CHECK_FALSE(summary.solved());
+  CHECK(summary.domain.violation == Violation::closed);
+  CHECK(motion.g[summary.domain.node] <= 0);
 }
 
-// A step that is to follow its gap but does not know the one it began with goes by the rate, as any first step does.
-TEST_CASE("StepThatDoesNotKnowItsGap_GoesByTheRate") {
+// A step that is to follow its gap without knowing the initial one uses the rate, as any first step does.
+TEST_CASE("StepWithoutInitialGap_UsesTheRate") {
   const FilmModel m = big_end();
   Journal journal = turning(m, 0.5, omega);
   journal.e_rate = {0, 2e-3};

@@ -16,7 +16,7 @@ constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest thro
 // A film without wedge between an axial groove and the edges' pressure is a chain of flat channels: between two grooves
 // the pressure is linear and the flow exactly that of the true distance, wherever the grooves' edges lie in their
 // cells.
-TEST_CASE("GrooveEdges_LieWhereTheyAre") {
+TEST_CASE("GrooveEdges_AreIndependentOfTheGrid") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {60, 3}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   const SurfaceFeature high{.name = "high", .phi = 0, .arc = 0.5, .length = m.L, .pressure = 3e6};
@@ -33,8 +33,8 @@ TEST_CASE("GrooveEdges_LieWhereTheyAre") {
   }
 }
 
-// What nothing drives has no flow, and a residual of round-off is to be measured by more than that.
-TEST_CASE("FilmAtRestBetweenClosedEdges_TakesItsGroovesPressure") {
+// Without a driving pressure there is no flow, and a residual of round-off needs another scale.
+TEST_CASE("FilmAtRestBetweenClosedEdges_HasItsGroovesPressure") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {60, 5}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   m.features = {{.name = "groove", .phi = 1, .arc = 0.37, .length = 0.004, .pressure = 3e5}};
@@ -47,9 +47,9 @@ TEST_CASE("FilmAtRestBetweenClosedEdges_TakesItsGroovesPressure") {
   }
 }
 
-// A cavitated film comes to a groove at p_s > p_cav, which fills it back to where the pressure has fallen:
-// l = h^2 p_s/[6 mu U (1 - theta)], a sixth of a cell here. Its nodes lie beyond, so that theta h stays what it was,
-// and what P0 is has no part in it.
+// A cavitated film reaches a groove at p_s > p_cav, which fills it back to where the pressure has fallen: l = h^2
+// p_s/[6 mu U (1 - theta)], a sixth of a cell here. The nodes lie beyond, so that theta h is unchanged there and P0 has
+// no influence.
 TEST_CASE("FilmBeforeAGroove_IsFilledAsFarAsItsPressureCan") {
   FilmModel m{.R = 0.05, .L = 0.04, .c = 100e-6, .grid = {60, 3}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
@@ -70,9 +70,10 @@ TEST_CASE("FilmBeforeAGroove_IsFilledAsFarAsItsPressureCan") {
   }
 }
 
-// Likewise along the axis: from a groove all around to an edge the flow is that of the land between, however little of
-// the last cell it is. The edge's pressure is given, so that no row sees how near the groove is.
-TEST_CASE("LandBeforeAnEdge_IsAsLongAsItIs") {
+// The same holds along the axis: from a groove all around to an edge the flow is that of the land between them, however
+// small a part of the last cell it is. The edge's pressure is prescribed, so that no row contains the distance to the
+// groove.
+TEST_CASE("LandBeforeAnEdge_HasItsTrueLength") {
   for (const double p_edge : {0.0, 1e5}) {
     for (const double land : {0.4e-3, 1.1e-3, 2.4e-3, 2.5e-3, 3.9e-3}) {  // cells of 2.5 mm
       CAPTURE(p_edge);
@@ -93,7 +94,7 @@ TEST_CASE("LandBeforeAnEdge_IsAsLongAsItIs") {
   }
 }
 
-// Of grooves that overlap the oil takes the shorter land, whichever of them is written first.
+// The oil of overlapping grooves takes the shorter land, in either order in the file.
 TEST_CASE("LandOfOverlappingGrooves_IsThatOfTheNearer") {
   const SurfaceFeature whole{.name = "whole", .arc = 2 * pi, .length = 0.02 - 2 * 2.1e-3, .pressure = 3e5};
   const SurfaceFeature near{.name = "near", .phi = 1, .arc = 2.3, .length = 0.02 - 2 * 0.7e-3, .pressure = 3e5};
@@ -132,8 +133,8 @@ TEST_CASE("SideFlowOfAGroove_DoesNotDependOnWhereLinesLie") {
   CHECK(side_flow(60, 13, FilmSolver::sor) == relative(side_flow(60, 13)).epsilon(kSolved));
 }
 
-// All pressures are told on one scale: that of the cavity is one on it, and a full film does not see it.
-TEST_CASE("FedGroove_HoldsItsPressureWhateverThatOfTheCavity") {
+// All pressures have one scale, that of the cavity included, and a full film does not depend on the cavity's.
+TEST_CASE("FedGroove_KeepsItsPressureAtAnyCavitationPressure") {
   for (const double p_cav : {-5e4, 0.0, 2e4}) {
     CAPTURE(p_cav);
     FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {24, 9}, .p_cav = p_cav};
@@ -148,9 +149,10 @@ TEST_CASE("FedGroove_HoldsItsPressureWhateverThatOfTheCavity") {
   }
 }
 
-TEST_CASE("HeldShares_HaveTheirDerivative") {
+TEST_CASE("RowShares_HaveTheirDerivative") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
-  m.grid = graded_grid(40, 9, {{.place = 0.2, .reach = 0.5, .factor = 3}}, {{.place = 0.1, .reach = 0.2, .factor = 2}});
+  m.grid = graded_grid(40, 9, {{.position = 0.2, .reach = 0.5, .factor = 3}},
+                       {{.position = 0.1, .reach = 0.2, .factor = 2}});
   const GridGeometry geometry(m);
   for (const FeatureShape& shape : std::vector<FeatureShape>{Rectangle{}, Ellipse{}}) {
     const SurfaceFeature feature{
@@ -176,7 +178,7 @@ TEST_CASE("HeldShares_HaveTheirDerivative") {
   }
 }
 
-// What the feature does to the film as it travels: force and flow in 1000 steps over four cells.
+// Effect of the feature on the film as it travels: force and flow in 1000 steps over four cells.
 struct Sweep {
   double largest = 0, jump = 0, bend = 0;  // of the force: size, largest first and second difference
 };
@@ -192,7 +194,7 @@ Sweep sweep(FeatureShape shape, double pressure, double omega) {
   for (int step = 0; step < 500; ++step) {
     motion.phi_journal = 2 * 2 * pi / 60 * step / 500;
     REQUIRE(solve_film(reynolds, motion, {}, {}, u).solved());
-    const Eigen::Rotation2Dd back(-motion.phi_journal);  // seen from the hole the force hardly changes
+    const Eigen::Rotation2Dd back(-motion.phi_journal);  // in the frame of the hole the force hardly changes
     force.emplace_back(back * reynolds.wrench_on_shell().segment<2>(3));
   }
   Sweep s;
@@ -219,9 +221,10 @@ TEST_CASE("HoleSweptOverAUniformFilm_GivesASmoothForce") {
   }
 }
 
-// Where a line or a groove holds the largest pressure of a film, nothing is above it: a parabola through the nodes
-// beside it would be, by an eighth, as the pressure falls off on both sides of a kink. Mirrored films have the same.
-TEST_CASE("PeakBesideWhatHoldsAPressure_IsThatPressure") {
+// Where a line or a groove has the largest pressure of a film, no reported pressure exceeds it: a parabola through the
+// nodes beside it would do so by an eighth, as the pressure falls off on both sides of a kink. Mirrored films have the
+// same peak.
+TEST_CASE("PeakBesideAPrescribedPressure_IsThatPressure") {
   const auto peak = [](int n_phi, double phi, bool is_line, double omega) {
     FilmModel m{.R = 0.025, .L = 0.025, .c = 50e-6, .grid = {n_phi, 13}};
     m.lubricant.mu0 = 0.01;
@@ -243,7 +246,7 @@ TEST_CASE("PeakBesideWhatHoldsAPressure_IsThatPressure") {
         CAPTURE(degrees);
         const double phi = degrees * pi / 180;
         const FilmObservables one = peak(n_phi, phi, is_line, 30), mirrored = peak(n_phi, -phi, is_line, -30);
-        // Held exactly: round-off.
+        // The pressure is prescribed exactly: round-off.
         CHECK(one.p_max == doctest::Approx(1.5e5).epsilon(1e-12));
         CHECK(mirrored.p_max == doctest::Approx(one.p_max).epsilon(1e-12));
         if (is_line) CHECK(one.p_max_phi == doctest::Approx(phi).epsilon(1e-12));
@@ -252,7 +255,8 @@ TEST_CASE("PeakBesideWhatHoldsAPressure_IsThatPressure") {
   }
 }
 
-// At the step of a pocket the pressure has a kink as well: the node's own value is told, not that of a parabola beyond.
+// At the step of a pocket the pressure has a kink as well: the node's own value is reported, not that of a parabola
+// beyond.
 TEST_CASE("PeakAtThePocketsStep_IsNotExtrapolated") {
   FilmModel m{.R = 0.025, .L = 0.025, .c = 50e-6, .grid = {60, 13}};
   m.lubricant.mu0 = 0.01;

@@ -27,7 +27,7 @@ struct Journal {
   double omega_journal = 0;                          ///< relative to the grid [rad/s]
 };
 
-/// Gap c - (e + tilt z) . e_r and what else the film sees of that journal. The supply line stays at phi_supply.
+/// Gap c - (e + tilt z) . e_r of that journal, and its other motion. The supply line stays at phi_supply.
 inline SurfaceMotion surfaces(const FilmModel& model, const Journal& journal, double phi_supply = 0) {
   SurfaceMotion motion;
   const Grid& grid = model.grid;

@@ -15,7 +15,7 @@ inline FilmModel small_bearing(double c, int n_phi, int n_z) {
   return model;
 }
 
-/// The same with a hole of `arc` beside its middle that feeds it.
+/// The same bearing with a hole of `arc` beside its middle that feeds it.
 inline FilmModel small_bearing_with_hole(double arc, int n_phi, int n_z) {
   FilmModel model = small_bearing(30e-6, n_phi, n_z);
   model.features.push_back({.name = "hole", .phi = 1, .z = 2e-3, .arc = arc, .length = 8e-3, .pressure = 3e5});
@@ -31,7 +31,7 @@ class FilmOverTime {
     history_.theta = Eigen::VectorXd::Ones(model.grid.size());
   }
 
-  /// Over dt [s] with the journal where it is, nodes of a network as they are; 0: steady.
+  /// Advances over dt [s] with the journal where it is, and with the present temperatures of nodes; 0: steady.
   void advance(double dt) {
     history_.dt = dt;
     history_.viscosity = heat.viscosity();
@@ -40,7 +40,7 @@ class FilmOverTime {
     heat.advance(motion_, history_, u_);
     history_.theta = film_fields(reynolds_.model(), motion_, u_).theta;
   }
-  /// With the journal there.
+  /// Moves the journal there and advances.
   void advance(double dt, const Journal& journal) {
     motion_ = surfaces(reynolds_.model(), journal);
     advance(dt);
@@ -51,15 +51,15 @@ class FilmOverTime {
   void follow(const ThermalNetwork& network) {
     heat.move_walls(network.walls(terminals_of(heat.thermal()), heat.exchange().T));
   }
-  /// A network without capacities gives nodes the temperatures that the mean heat since the last call calls for, and
-  /// walls that are held take theirs.
+  /// Settles a network without capacities: nodes take the temperatures that follow from the mean heat since the last
+  /// call, and fixed walls take theirs.
   void settle(ThermalNetwork& network) {
     const FilmTerminals at = terminals_of(heat.thermal());
     const WallExchange observed = heat.mean_exchange();
     network.advance(0, {{at, observed}});
     (void)heat.settle_walls(network.walls(at, observed.T));
   }
-  /// Likewise, with nodes where they are.
+  /// Settles the walls with nodes at their present temperatures.
   WallCorrection settle() { return heat.settle_walls(heat.mean_exchange().T); }
 
   FilmHeat heat;

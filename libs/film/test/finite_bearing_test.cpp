@@ -10,7 +10,7 @@ namespace finite_bearing_test {
 
 const std::string data = std::string(hersey::source_dir()) + "/verification/data/";
 
-TEST_CASE("FiniteBearing_MeetsTheTable") {
+TEST_CASE("FiniteBearing_MatchesTheTable") {
   for (const CsvRow& row : read_csv(data + "finite_360.csv")) {
     const double e = number(row, "epsilon"), L_over_D = number(row, "L_over_D"), omega = 100;
     CAPTURE(L_over_D);
@@ -47,8 +47,8 @@ TEST_CASE("FiniteBearing_MeetsTheTable") {
   }
 }
 
-// The same with oil that is conserved, and a cavitated film that rubs by its fill: Sommerfeld number, attitude,
-// friction, side flow.
+// The same bearings with conserved oil and a cavitated film that is sheared by its fill fraction: Sommerfeld number,
+// attitude, friction, side flow.
 TEST_CASE("BearingsOfOneViscosity_HaveTheTabledNumbers") {
   int rows = 0;
   for (const CsvRow& row : read_csv(data + "isoviscous_numbers.csv")) {
@@ -63,7 +63,7 @@ TEST_CASE("BearingsOfOneViscosity_HaveTheTabledNumbers") {
     const Journal journal = turning(model, epsilon, omega);
     const SolvedFilm film = solve_cold(model, surfaces(model, journal), journal.e);
     const Eigen::Vector2d W = film.observed.force_pressure.head<2>(), e = journal.e;
-    // As asked above: 1 %, above 0.9 second order in the few cells of the narrow film.
+    // The limits are those above: 1 %, above 0.9 second order in the few cells of the narrow film.
     const double accuracy = epsilon <= 0.9 ? 0.01 : 0.02;
     CHECK(W.norm() * psi * psi / (2 * model.R * model.L * 0.02 * omega) ==
           relative(number(row, "So")).epsilon(accuracy));
@@ -78,8 +78,9 @@ TEST_CASE("BearingsOfOneViscosity_HaveTheTabledNumbers") {
   CHECK(rows == 24);
 }
 
-// Complementarity all around, without a line at the widest gap, lets the film begin up to 40 degrees before it: another
-// bearing than Raimondi's and Boyd's. The supply line makes it theirs. Values of an independent code.
+// Complementarity all around, without a line at the widest gap, allows the film to begin up to 40 degrees before it:
+// this is another bearing than Raimondi's and Boyd's. The supply line makes it theirs. Values are those of an
+// independent code.
 TEST_CASE("FilmAllAround_BeginsBeforeTheWidestGap") {
   struct Case {
     Cavitation cavitation;
@@ -103,10 +104,10 @@ TEST_CASE("FilmAllAround_BeginsBeforeTheWidestGap") {
   }
 }
 
-// On the paper's own grid of 60 x 13 nodes, against the table's finest rows (240 x 48 cells). Against the table's rows
-// of 60 x 12 cells one would compare two discretisation errors: those rows are off by up to 1 % in eccentricity ratio
-// and 2 % in p_max themselves.
-TEST_CASE("PaperBearing_MeetsTheTable") {
+// The paper's own grid of 60 x 13 nodes is compared with the table's finest rows (240 x 48 cells). A comparison with
+// the table's rows of 60 x 12 cells would be one of two discretisation errors: those rows are off by up to 1 % in
+// eccentricity ratio and 2 % in p_max themselves.
+TEST_CASE("PaperBearing_MatchesTheTable") {
   int rows = 0;
   for (const CsvRow& row : read_csv(data + "paper_case.csv")) {
     const std::string condition = row.at("condition");

@@ -44,7 +44,7 @@ TEST_CASE("FlowFactors_HaveTheirPublishedValues") {
     CHECK(PatirCheng(gamma).shear(5).value ==
           doctest::Approx(std::exp(0.125) * PatirCheng(gamma).shear(5.5).value).epsilon(5e-4));
   }
-  // Between rows: linear in ln gamma.
+  // Factors are linear in ln gamma between rows.
   const double between = std::sqrt(3.0);
   CHECK(PatirCheng(between).shear(2).value ==
         doctest::Approx(0.5 * (PatirCheng(1).shear(2).value + PatirCheng(3).shear(2).value)).epsilon(kRoundOff));
@@ -54,7 +54,7 @@ TEST_CASE("FlowFactors_HaveTheirPublishedValues") {
 }
 
 // All seven ratios of Patir and Cheng (1978, table 1; 1979, tables 1 and 2), from the tables as printed by a program of
-// its own. Each constant of a row shows in one of these: a digit of the last place changes it by more than 1e-5.
+// its own. Each constant of a row affects one of these: a unit of its last digit changes it by more than 1e-5.
 TEST_CASE("FlowFactors_OfEveryRatioAreThosePublished") {
   struct Row {
     std::array<double, 2> pressure;  // at H = 1.5, 4
@@ -95,7 +95,7 @@ TEST_CASE("FlowFactors_HaveTheSlopesTheyClaim") {
       const auto check = [&](const auto& f) {
         const double slope =
             (8 * (f(H + d).value - f(H - d).value) - (f(H + 2 * d).value - f(H - 2 * d).value)) / (12 * d);
-        // A kink of the second derivative costs d = 1e-5 of it, smooth places d^4.
+        // A kink of the second derivative costs d = 1e-5 of it, smooth regions d^4.
         CHECK(f(H).slope == doctest::Approx(slope).epsilon(1e-6).scale(1));
       };
       check([&](double x) { return law.pressure(x); });

@@ -72,7 +72,7 @@ TEST_CASE("ProfileDerivatives_MatchFiniteDifference") {
   CHECK(measured.opening(0.4, -0.01, 0.02).value == relative(3e-6 * std::sin(0.4)).epsilon(0.01));
 }
 
-TEST_CASE("ProfilesOfTheJournal_TurnWithIt") {
+TEST_CASE("ProfilesOfTheJournal_RotateWithIt") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {40, 9}};
   m.profiles = {{Ovality{4e-6, 0.2}, Surface::journal}};
   const Eigen::VectorXd turned = gap_opening(m, 0.9);

@@ -9,7 +9,7 @@
 namespace hersey::film {
 namespace greenwood_tripp_test {
 
-TEST_CASE("GreenwoodTrippExact_MeetsTheTabulatedIntegral") {
+TEST_CASE("GreenwoodTrippExact_MatchesTheTabulatedIntegral") {
   // Six digits are tabulated; F_{5/2}(0) is also Gamma(7/4) 2^{1/4} / sqrt(pi).
   const std::array<double, 4> table{0.616634, 0.0805623, 0.00542371, 1.70873e-4};
   for (int H = 0; H < 4; ++H) CHECK(greenwood_tripp_exact(H).value == doctest::Approx(table[H]).epsilon(2e-6));

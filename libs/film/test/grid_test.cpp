@@ -12,12 +12,12 @@ constexpr double kRoundOff = 1e-14;  // of sums over a row of nodes
 constexpr double kWeights = 1e-13;   // round-off of weights, sums of a few products
 
 const Grid graded =
-    graded_grid(48, 11, {{.place = 3, .reach = 0.4, .factor = 4}},
-                {{.place = -0.5, .reach = 0.1, .factor = 3}, {.place = 0.5, .reach = 0.1, .factor = 3}});
+    graded_grid(48, 11, {{.position = 3, .reach = 0.4, .factor = 4}},
+                {{.position = -0.5, .reach = 0.1, .factor = 3}, {.position = 0.5, .reach = 0.1, .factor = 3}});
 
 FilmModel on(const Grid& grid) { return {.R = 0.025, .L = 0.02, .c = 25e-6, .grid = grid}; }
 
-TEST_CASE("GradedGrid_IsFineWhereAsked") {
+TEST_CASE("GradedGrid_IsFineAtItsRefinements") {
   const GridGeometry g(on(graded));
   CHECK(g.dx.sum() == doctest::Approx(2 * pi * 0.025).epsilon(kRoundOff));
   CHECK(g.dz.sum() == relative(0.02).epsilon(kRoundOff));
@@ -58,18 +58,18 @@ TEST_CASE("Integrals_AreExactForParabolas") {
   CHECK(even.weight_z[5] / even.mean_dz == doctest::Approx(1).epsilon(kWeights));
 }
 
-TEST_CASE("PlaceOfAnAngle_IsBetweenItsNodes") {
+TEST_CASE("AnAngle_LiesBetweenItsNodes") {
   const GridGeometry g(on(graded));
   for (const double angle : {0.0, 0.01, 3.0, 6.28, -0.01, 7.0, graded.phi(17), graded.phi(17) - 1e-14}) {
-    const GridGeometry::Place place = g.place_of(angle);
+    const GridGeometry::Location position = g.locate(angle);
     CAPTURE(angle);
-    CHECK(place.share >= 0);
-    CHECK(place.share < 1);
-    const double found = g.phi[place.node] + place.share * g.dx[place.node] / 0.025;
+    CHECK(position.share >= 0);
+    CHECK(position.share < 1);
+    const double found = g.phi[position.node] + position.share * g.dx[position.node] / 0.025;
     // Just below a node counts as on it, within 1e-9 of a cell.
     CHECK(std::abs(std::remainder(found - angle, 2 * pi)) < 1e-8);
   }
-  CHECK(g.place_of(graded.phi(17) - 1e-14).node == 17);
+  CHECK(g.locate(graded.phi(17) - 1e-14).node == 17);
 }
 
 double load_of(const Grid& grid, double e) {
@@ -82,12 +82,12 @@ double load_of(const Grid& grid, double e) {
   return film.wrench.segment<2>(3).norm();
 }
 
-// At eccentricity 0.97 the film is a short, steep hill before the narrowest gap. The exact load is extrapolated from
-// two equally spaced grids of second order.
-TEST_CASE("GradedGrid_MeetsTheLoadWithFewerNodes") {
+// At eccentricity 0.97 the pressure is a short, steep hill before the narrowest gap. The exact load is extrapolated
+// from two equally spaced grids of second order.
+TEST_CASE("GradedGrid_GivesTheLoadWithFewerNodes") {
   const double e = 0.97, fine = load_of({480, 25}, e), finer = load_of({960, 25}, e);
   const double exact = finer + (finer - fine) / 3;
-  const Refinement minimum{.place = pi, .reach = 0.3, .factor = 6};
+  const Refinement minimum{.position = pi, .reach = 0.3, .factor = 6};
   const auto error = [&](const Grid& grid) { return std::abs(load_of(grid, e) / exact - 1); };
   const double even_120 = error({120, 25});
   const double graded_60 = error(graded_grid(60, 25, {minimum}, {})),

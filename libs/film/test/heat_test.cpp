@@ -158,7 +158,8 @@ TEST_CASE("ConcentricFilm_WarmsAsTheClosedForm") {
   CHECK(std::log2(errors[1] / errors[2]) > 0.9);
 }
 
-// Between walls a constant distance apart the guess from a film of one viscosity is what film and heat find in turn.
+// Between walls at a constant distance the guess from a film of one viscosity equals the iterated solution of film and
+// heat.
 TEST_CASE("ConcentricFilm_IsGuessedExactly") {
   FilmModel model = bearing(0.05, 0.05, 100e-6, 60, 5);
   model.edge_left = model.edge_right = {EdgeKind::closed, 0, 0};
@@ -187,7 +188,7 @@ TEST_CASE("ConcentricFilm_IsGuessedExactly") {
   }
 }
 
-/// A body that heat warms most where it goes in.
+/// A body that heat warms most where it enters.
 BodyWall some_body(const Grid& grid) {
   auto wall = std::make_shared<WallConduction>();
   wall->T0.setConstant(grid.n_phi, 320);
@@ -198,7 +199,7 @@ BodyWall some_body(const Grid& grid) {
   return {.conduction = wall};
 }
 
-// Where sweeps along the flow do not lead to an answer the system is factorised.
+// The system is factorised where sweeps along the flow do not converge.
 TEST_CASE("TemperaturesBySweeps_AreThoseOfTheFactorisedSystem") {
   FilmModel model = bearing(0.05, 0.08, 145e-6, 36, 9);
   model.features.push_back(
@@ -245,7 +246,7 @@ TEST_CASE("TemperaturesBySweeps_AreThoseOfTheFactorisedSystem") {
   }
 }
 
-// Of a finite bearing at L/D = 1, epsilon 0.6 with a mixed groove at the widest gap; numbers of an independent
+// A finite bearing at L/D = 1, epsilon 0.6 with a mixed groove at the widest gap; numbers are those of an independent
 // program (finite volumes, extrapolated over three grids).
 TEST_CASE("CopesBearing_IsThatOfAnIndependentProgram") {
   FilmModel model = bearing(0.05, 0.1, 50e-6, 120, 25);
@@ -287,8 +288,8 @@ TEST_CASE("FiveLayers_AreNearSixteenOnTwiceTheNodes") {
   CHECK(few.heat.balance.error() < 1e-8);  // the film's residual
 }
 
-// Each supply has a temperature of its own, which a hole in the journal takes along as the journal turns.
-TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsTurnsWithIt") {
+// Each supply has a temperature of its own, which a hole in the journal carries along as the journal rotates.
+TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsRotateWithIt") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 72, 11);
   model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
   model.supply = {SupplyKind::fixed_angle, pi, 3e5};
@@ -312,14 +313,14 @@ TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsTurnsWithIt") {
         return hot.temperatures.middle[model.grid.index(i, 5)];
       };
       REQUIRE(hot.heat.T_supplies.size() == 3);
-      constexpr double solved = 1e-8;  // share of a kelvin that the turns of film and heat leave, over 300 K
+      constexpr double solved = 1e-8;  // share of a kelvin that the iterations of film and heat leave, over 300 K
       CHECK(in_the_middle_at(1) == relative(hot.heat.T_supplies[1]).epsilon(solved));
       CHECK(in_the_middle_at(turned) == relative(hot.heat.T_supplies[2]).epsilon(solved));
       CHECK(hot.heat.T_supplies[2] > hot.heat.T_supplies[1]);
       CHECK(hot.heat.balance.error() < 1e-8);  // the film's residual
       if (omega != 0) continue;
-      // At rest oil leaves every supply, none comes to it: it has the temperature of what feeds it, but for what the
-      // fall of 2 bar, 2 bar/(rho cp) = 0.12 K in all, dissipates in cells on its rim.
+      // At rest oil leaves every supply and none enters it: it has the temperature of the oil fed, but for the
+      // dissipation of the fall of 2 bar, 2 bar/(rho cp) = 0.12 K in all, in cells on its rim.
       CHECK(std::abs(hot.heat.T_supplies[0] - zero_celsius - 45) < 0.12);
       CHECK(std::abs(hot.heat.T_supplies[1] - zero_celsius - 30) < 0.12);
       CHECK(std::abs(hot.heat.T_supplies[2] - zero_celsius - 60) < 0.12);
@@ -327,8 +328,8 @@ TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsTurnsWithIt") {
   }
 }
 
-// Where a groove of the shell lies over a hole of the journal either feeds what is nearer to its middle, whichever the
-// file names first.
+// Where a groove of the shell lies over a hole of the journal, each feeds the nodes nearer to its middle, in either
+// order in the file.
 TEST_CASE("SuppliesThatOverlap_AreThoseOfTheFileInAnyOrder") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 48, 9);
   model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
@@ -344,7 +345,7 @@ TEST_CASE("SuppliesThatOverlap_AreThoseOfTheFileInAnyOrder") {
   model.features = {groove, hole};
   thermal.T_features = {30 + zero_celsius, 60 + zero_celsius};
   const HotFilm other = solve_hot(model, thermal, motion, journal.e);
-  constexpr double both = 1e-5;  // K: films and temperatures found in turn to 1e-7 K each
+  constexpr double both = 1e-5;  // K: films and temperatures are iterated to 1e-7 K each
   CHECK((one.temperatures.middle - other.temperatures.middle).cwiseAbs().maxCoeff() < both);
   CHECK(std::abs(one.heat.T_supplies[0] - other.heat.T_supplies[1]) < both);
   CHECK(std::abs(one.heat.T_supplies[0] - one.heat.T_supplies[1]) > 0.5);  // so that it matters who feeds what
@@ -352,7 +353,7 @@ TEST_CASE("SuppliesThatOverlap_AreThoseOfTheFileInAnyOrder") {
 }
 
 // A shell hot on one side: what leaves it there comes back on the other, and one temperature is the table of one.
-TEST_CASE("ShellsTemperatureOverTheAngle_IsThatOfEachPlace") {
+TEST_CASE("ShellsTemperatureOverTheAngle_AppliesLocally") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
   const Journal journal = turning(model, 0.5, 200);
@@ -436,14 +437,14 @@ TEST_CASE("FilmThatWarms_ConservesHeatAndEndsSteady") {
     CHECK(film.heat.observables().balance.error() < 1e-7);  // the film's residual
   }
   const HotFilm steady = solve_hot(model, thermal, surfaces(model, journal), journal.e);
-  // What is left of the slowest wall after the last long step.
+  // The tolerance is the rest of the slowest wall after the last long step.
   CHECK(std::abs(film.heat.observables().T_max - steady.heat.T_max) < 1e-3);
-  // Likewise.
+  // The same tolerance applies.
   CHECK(std::abs(film.heat.state().journal - steady.heat.T_journal) < 1e-3);
 }
 
-// What comes out of a ring that gives off nothing has gone into it elsewhere.
-TEST_CASE("RingThatGivesOffNothing_TakesUpNothing") {
+// Heat that leaves a ring that gives off nothing has entered it elsewhere.
+TEST_CASE("RingWithoutHeatLoss_AbsorbsNothing") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.edge_left = model.edge_right = {EdgeKind::pressure, 1e5, 0};
   for (const int layers : {1, 4}) {
@@ -459,7 +460,7 @@ TEST_CASE("RingThatGivesOffNothing_TakesUpNothing") {
   }
 }
 
-// Where oil conducts no heat, walls in bodies get none and are as warm as these, at rest and over cycles.
+// Where oil conducts no heat, walls in bodies get none and have the bodies' temperatures, at rest and over cycles.
 TEST_CASE("OilThatDoesNotConduct_LeavesBodiesAsTheyAre") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 24, 7);
   model.lubricant.conductivity = 0;
@@ -477,7 +478,7 @@ TEST_CASE("OilThatDoesNotConduct_LeavesBodiesAsTheyAre") {
     ThermalModel thermal = supplied_at_40(3);
     thermal.shell = BodyWall{.conduction = wall, .T_start = 330};
     thermal.journal = BodyJournal{.conduction = shaft, .T_start = 340};
-    thermal.walls = dt > 0 ? WallMotion::held : WallMotion::by_their_heat;
+    thermal.walls = dt > 0 ? WallMotion::fixed : WallMotion::by_their_heat;
     FilmOverTime film(model, thermal, turning(model, 0.5, 300));
     for (int k = 0; k < 3; ++k) film.advance(dt);
     if (dt > 0) {
@@ -493,8 +494,8 @@ TEST_CASE("OilThatDoesNotConduct_LeavesBodiesAsTheyAre") {
   }
 }
 
-// Nothing moves and nothing presses: no heat is made, and everything stays as warm as it is.
-TEST_CASE("FilmAtRest_StaysAsWarmAsItIs") {
+// A film at rest without pressure generates no heat, and all temperatures are constant.
+TEST_CASE("FilmAtRest_KeepsItsTemperature") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.features.push_back({.name = "hole", .phi = 1, .arc = 0.5, .length = 8e-3, .pressure = model.p_cav});
   ThermalModel thermal = supplied_at_40(3);
@@ -507,7 +508,8 @@ TEST_CASE("FilmAtRest_StaysAsWarmAsItIs") {
   CHECK(observed.balance.power == 0);
 }
 
-// From a gap with next to no oil, which a hole begins to fill: heat of a film that is nearly nothing is kept as well.
+// The gap has next to no oil at the start, and a hole begins to fill it: the heat of a nearly empty film is conserved,
+// too.
 TEST_CASE("HeatOfAGapThatFills_IsConserved") {
   FilmModel model = bearing(0.025, 0.02, 30e-6, 36, 9);
   model.features.push_back({.name = "hole", .phi = 1, .arc = 0.5, .length = 8e-3, .pressure = 3e5});

@@ -32,7 +32,7 @@ struct HotFilm {
   FilmFields fields;
 };
 
-/// Film and heat in turn until temperatures change by less than `tolerance` [K].
+/// Iterates film and heat until temperatures change by less than `tolerance` [K].
 inline HotFilm solve_hot(const FilmModel& model, const ThermalModel& thermal, const SurfaceMotion& motion,
                          const Eigen::Vector2d& e, double tolerance = 1e-7) {
   Reynolds reynolds(model);

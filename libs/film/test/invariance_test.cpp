@@ -15,8 +15,8 @@ FilmModel flooded(int n_phi, int n_z) {
   return m;
 }
 
-// Ground turns the shell at omega_shell and the journal at omega_journal while the centre moves. A grid that turns at
-// omega_grid sees speeds less its own, and the centre's velocity less omega_grid x e.
+// In the frame of the ground the shell rotates at omega_shell and the journal at omega_journal while the centre moves.
+// In a grid that rotates at omega_grid speeds are less by its own, and the centre's velocity by omega_grid x e.
 Journal seen_from(const Journal& ground, double omega_grid) {
   Journal j = ground;
   j.omega_shell -= omega_grid;
@@ -34,7 +34,7 @@ TEST_CASE("FilmForces_DoNotDependOnTheFrame") {
     const Vector6 ground = solve_cold(m, swinging).wrench;
     for (const double omega : {swinging.omega_shell, swinging.omega_journal, 33.0}) {
       const Vector6 turning_grid = solve_cold(m, seen_from(swinging, omega)).wrench;
-      // What the solver leaves, rtol 1e-10.
+      // The tolerance is the solver's, rtol 1e-10.
       CHECK((turning_grid - ground).tail<3>().norm() < 1e-10 * ground.tail<3>().norm());
     }
   }
@@ -50,8 +50,8 @@ TEST_CASE("CavitatedFilmForces_DoNotDependOnTheFrame") {
 }
 
 TEST_CASE("CarriedOil_DoesNotDependOnTheFrame") {
-  // Shell and journal turn together: in their own frame nothing moves, seen from ground the fill fraction is carried
-  // round with the grid at rest. A film that is part cavitated keeps its fill in both; the upwind transport smears it
+  // Shell and journal rotate together: in their own frame nothing moves, while in a grid fixed to the ground the fill
+  // fraction is carried around. A partly cavitated film keeps its fill fraction in both; the upwind transport smears it
   // with first order in the step.
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {360, 3}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
@@ -85,7 +85,7 @@ TEST_CASE("MirroredBearing_MirrorsItsForces") {
   const SolvedFilm a = solve_cold(m, one), b = solve_cold(m, mirrored);
   Vector6 expected = a.wrench;  // y -> -y: forces mirror as vectors, moments as axial vectors
   expected[0] *= -1, expected[2] *= -1, expected[4] *= -1;
-  // What the solver leaves, rtol 1e-10, on a film with weak spots.
+  // The tolerance is the solver's, rtol 1e-10, in a film with weak spots.
   CHECK((b.wrench - expected).norm() < 1e-9 * a.wrench.norm());
 }
 
@@ -105,7 +105,8 @@ TEST_CASE("MechanicalPower_IsDissipated") {
     m.shear_force = shear_force;
     const SolvedFilm film = solve_cold(m, swinging);
     const Eigen::Vector2d force = film.wrench.segment<2>(3);
-    // On the journal act -force along the centre's velocity and the torque about its own axis; on the shell its torque.
+    // The journal is subject to -force along the centre's velocity and the torque about its own axis; the shell to its
+    // torque.
     const double bodies = -force.dot(swinging.e_rate) + film.observed.torque_journal * swinging.omega_journal +
                           film.observed.torque_shell * swinging.omega_shell;
     // Pushing oil out against the edge pressure is no dissipation: a constant pressure does no net work here, as the

@@ -66,7 +66,7 @@ TEST_CASE("OneViscosity_IsThatOfTheParabola") {
   }
 }
 
-// Of a fluidity that is a straight line across the film, layers know the line.
+// A fluidity that is linear across the film is exact in layers.
 TEST_CASE("FluidityThatIsALine_IsIntegratedExactly") {
   for (const std::size_t n : {2, 3, 5}) {
     std::vector<double> mu(n);

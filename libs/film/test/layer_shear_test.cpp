@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 
 constexpr int layers = 12;
 
-// Newton's method ends at a change of 1e-4, which leaves its square; turns of the other end far below.
+// Newton's method ends at a change of 1e-4, which leaves its square; the iteration of the other end leaves far less.
 constexpr double by_squares = 1e-7;
 
 std::vector<double> thinned(const ShearThinning& oil, const std::vector<double>& mu_n, const ShearOfGap& shear) {
@@ -66,9 +66,9 @@ TEST_CASE("ShearOfLayers_IsWhatTheirOwnStressTakes") {
   }
 }
 
-// Where the stress hardly rises with the rate any more, however suddenly it stops, in oils that are much thinner on one
-// side: Newton's steps do not arrive there unless they are shortened.
-TEST_CASE("ShearOfLayersThatGiveWayAtOnce_IsFoundAllTheSame") {
+// The stress hardly rises with the rate any more, however suddenly it stops, in oils that are much thinner on one side:
+// Newton's method converges there only with shortened steps.
+TEST_CASE("ShearOfLayersThatYieldAtOnce_IsFound") {
   constexpr double of_rates = 1e-5;  // a rate's change of 1e-6 changes the stress by next to nothing
   for (const double thinner : {0.0, 0.1, 0.4, 1.0}) {
     std::vector<double> mu_n;
@@ -90,8 +90,8 @@ TEST_CASE("ShearOfLayersThatGiveWayAtOnce_IsFoundAllTheSame") {
   }
 }
 
-// Layers that hardly move are as thick as their own rate says, too.
-TEST_CASE("LayersThatHardlyMove_AreAsThickAsTheirStressSays") {
+// Layers that hardly move have the viscosity of their own rate, too.
+TEST_CASE("LayersThatHardlyMove_HaveTheViscosityOfTheirStress") {
   std::vector<double> mu_n;
   for (int l = 0; l < layers; ++l) mu_n.push_back(0.1 * std::exp(-0.4 * l));
   const ShearThinning oil{.law = Carreau{.limit = 0.1, .exponent = 0, .transition = 0.5}, .critical_rate = 1e3};
@@ -99,8 +99,8 @@ TEST_CASE("LayersThatHardlyMove_AreAsThickAsTheirStressSays") {
   CHECK(inconsistency(oil, mu_n, shear, thinned(oil, mu_n, shear)) < by_squares);  // it was 0.2
 }
 
-// Oils whose stress does not rise any more have no rates of their own, and are not asked for them.
-TEST_CASE("StressThatStopsRising_IsKnown") {
+// Oils whose stress does not rise any more have no rates of their own, and none are computed.
+TEST_CASE("StressThatStopsRising_IsRecognised") {
   CHECK(has_rising_stress(ShearThinning{.law = Newtonian{}}));
   CHECK(has_rising_stress(ShearThinning{.law = Carreau{.limit = 0, .exponent = 0.1}}));
   CHECK(has_rising_stress(ShearThinning{.law = Carreau{.limit = 1e-5, .exponent = 0}}));

@@ -20,7 +20,7 @@ Case in_layers(std::string name, const Reference& expected) {
 
 constexpr double shaft_bar = 0.2;  // K
 
-/// At mid-width, against verification/data.
+/// Figures at mid-width are compared with verification/data.
 void compare_midplane(const Case& c, const HotFilm& hot) {
   int points = 0;
   for (const CsvRow& row : table("layered_midplane.csv")) {
@@ -75,7 +75,7 @@ TEST_CASE("FilmInARing_IsThatOfAnIndependentProgram") {
   const Case fine = in_a_ring(in_layers("F3", expected));
   const HotFilm on_fine = compare(fine);
   CHECK(std::abs(on_fine.heat.T_journal - zero_celsius - 45.7838) < shaft_bar);
-  // On the usual grid all but the shaft is as close.
+  // On the usual grid all figures but the shaft's are as close.
   const HotFilm hot = compare(in_a_ring(grooved("F3", 5, expected)));
   CHECK(std::abs(hot.heat.T_journal - zero_celsius - 45.7838) < 2 * shaft_bar);
   for (const HotFilm* one : {&on_fine, &hot}) {
@@ -122,7 +122,7 @@ HotFilm couette(double Na, int layers, bool shell_conducts) {
   return solve_hot(model, thermal, surfaces(model, journal), journal.e, 1e-6);
 }
 
-/// beta (T - T_wall) half a turn from the line.
+/// Returns beta (T - T_wall) half a revolution from the line.
 double beta_rise(const Eigen::VectorXd& T) { return 0.034 * (T[columns / 2 * 3 + 1] - T_supply); }
 
 /// Shear stress h/(mu0 U): all that leaves through the walls, over Na k h/beta.
@@ -131,7 +131,7 @@ double stress(const HotFilm& hot, double Na) {
   return (hot.heat.balance.to_shell + hot.heat.balance.to_journal) / (area * unit);
 }
 
-/// Of second order in the layers, and the line's column.
+/// The error is of second order in the layers, plus that of the line's column.
 double stress_bar(int layers) { return 0.2 / (layers * layers) + 1.0 / columns; }
 
 TEST_CASE("CouetteFlowThatWarms_IsThatOfItsClosedForm") {
@@ -166,7 +166,7 @@ TEST_CASE("CouetteFlowAtAnInsulatedShell_IsThatOfItsClosedForm") {
     for (const int layers : {5, 10, 20}) {
       const HotFilm hot = couette(point.Na, layers, false);
       errors.push_back(beta_rise(hot.temperatures.middle) / point.mean - 1);
-      // Of second order, and what the line's column leaves: 1e-3 on 60 columns.
+      // The error is of second order, plus that of the line's column: 1e-3 on 60 columns.
       CHECK(std::abs(beta_rise(hot.temperatures.shell) / point.at_shell - 1) < 0.1 / (layers * layers) + 3e-4);
       CHECK(stress(hot, point.Na) == relative(point.stress).epsilon(stress_bar(layers)));
       CHECK(hot.heat.balance.to_shell == 0);

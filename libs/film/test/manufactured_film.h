@@ -23,22 +23,22 @@ double slope_of(Function&& f, double x, double unit) {
 /// Integral over [a, b] by Gauss' rule of five points in eight parts: to round-off for the fields of these tests.
 template <class Function>
 double integral(Function&& f, double a, double b) {
-  constexpr std::array<double, 5> place{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
+  constexpr std::array<double, 5> point{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
                                         -0.9061798459386640},
       weight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891, 0.2369268850561891};
   constexpr int parts = 8;
   const double half = 0.5 * (b - a) / parts;
   double sum = 0;
   for (int part = 0; part < parts; ++part) {
-    for (std::size_t k = 0; k < place.size(); ++k) sum += half * weight[k] * f(a + half * (2 * part + 1 + place[k]));
+    for (std::size_t k = 0; k < point.size(); ++k) sum += half * weight[k] * f(a + half * (2 * part + 1 + point[k]));
   }
   return sum;
 }
 
-/// A film whose pressure, thickness and temperature are given as closed expressions; the rate at which its gap opens is
-/// what its equations (film.2), (thermal.6) then ask for (theory manual, film.59). Everything is on that is smooth: an
-/// eccentric, tilted journal, a bore that is not round, a liner that gives way, Barus' law, an oil that gives way,
-/// surfaces that move both ways, viscosities that differ from place to place and across the film.
+/// A film whose pressure, thickness and temperature are given as closed expressions; the rate of its gap follows from
+/// its equations (film.2), (thermal.6) (theory manual, film.59). All smooth terms are included: an eccentric, tilted
+/// journal, a bore that is not round, a liner that deforms, Barus' law, a compressible oil, surfaces that move in both
+/// directions, viscosities that vary along and across the film.
 ///
 /// Across the film, eta = 0 at the shell and 1 at the journal, the fluidity at p_cav is the parabola
 /// f = f_S (1 - eta) + f_J eta + d eta (1 - eta), so that all integrals across are closed.
@@ -51,7 +51,7 @@ struct ManufacturedFilm {
   double p_edge = 2e5, p_rise = 1e7;                                   // [Pa]
   double lean = 0.3;                                                   // of the pressure towards one edge [-], > 0
   double u_shell = 1, u_journal = 6, w_shell = -0.1, w_journal = 0.3;  // [m/s]
-  double spread = 1;                              // of fluidities from place to place; 0: one viscosity [-]
+  double spread = 1;                              // variation of fluidities along the film; 0: one viscosity [-]
   Eigen::Vector2d e{-0.35 * 30e-6, 0.1 * 30e-6};  // [m]
   Eigen::Vector2d tilt{0.1 * 30e-6 / 0.03, -0.2 * 30e-6 / 0.03};  // [-]
 
@@ -73,9 +73,9 @@ struct ManufacturedFilm {
     return 1 + 0.5 * std::cos(phi - peak_phi) + 0.1 * std::cos(2 * (phi - peak_phi));
   }
   [[nodiscard]] double p(double phi, double z) const { return p_edge + p_rise * around_shape(phi) * axial_shape(z); }
-  /// Where the pressure of a film between open edges is highest: axial_slope = 0.
+  /// Position of the highest pressure of a film between open edges: axial_slope = 0.
   [[nodiscard]] double peak_z() const { return L * (-8 + std::sqrt(64 + 48 * lean * lean)) / (24 * lean); }
-  /// How far the bore lies outside its cylinder [m].
+  /// Displacement of the bore outwards from its cylinder [m].
   [[nodiscard]] double opening(double phi, double z) const {
     return 0.1 * c * (std::cos(2 * phi + 0.5) * (1 + z / L) + 2 * z * z / (L * L));
   }
@@ -84,7 +84,7 @@ struct ManufacturedFilm {
     return c - (e + tilt * z).dot(e_r) + opening(phi, z) + compliance * p(phi, z);
   }
 
-  /// The fluidity's a + b eta + c eta^2 at a place [1/(Pa s)], of the pressure p_cav.
+  /// The fluidity's a + b eta + c eta^2 at a point [1/(Pa s)], of the pressure p_cav.
   [[nodiscard]] std::array<double, 3> fluidity(double phi, double z) const {
     const double shell = 1 + 0.3 * spread * std::cos(phi + 1), journal = 1 + 0.8 * spread;
     const double bulge = spread * (2 + std::sin(phi)) * (1 + z * z / (L * L));
@@ -135,7 +135,7 @@ struct ManufacturedFilm {
     return slope_of([&](double x) { return q(x, z)[0]; }, phi, 1) / R +
            slope_of([&](double x) { return q(phi, x)[1]; }, z, L);
   }
-  /// The gap's rate that oil asks for: rho dg/dt + div q = 0.
+  /// Rate of the gap that balances the oil: rho dg/dt + div q = 0.
   [[nodiscard]] double g_rate(double phi, double z) const {
     return -divergence([&](double x, double y) { return flow(x, y); }, phi, z) / rho(phi, z);
   }
@@ -170,7 +170,7 @@ struct ManufacturedFilm {
     }
     return wrench;
   }
-  /// Of sliding and of the flow along pressure (film.53).
+  /// Power of sliding and of the flow along pressure (film.53).
   [[nodiscard]] double power() const {
     return over_area([&](double phi, double z) {
       const double gap = h(phi, z);
@@ -178,14 +178,14 @@ struct ManufacturedFilm {
              std::pow(gap, 3) / 12 * flow_fluidity(phi, z) * thinner(phi, z) * grad_p(phi, z).squaredNorm();
     });
   }
-  /// Over an edge, out.
+  /// Outflow over an edge.
   [[nodiscard]] double outflow(double edge) const {
     constexpr int lines = 96;
     double sum = 0;
     for (int k = 0; k < lines; ++k) sum += flow(2 * pi * k / lines, edge * L / 2)[1];
     return edge * sum * 2 * pi * R / lines;
   }
-  /// Over an edge, of what the oil has across the film [m^3/s times that].
+  /// Outflow over an edge of a quantity across the film [m^3/s times that].
   template <class Field>
   [[nodiscard]] double outflow(double edge, Field&& of) const {
     constexpr int lines = 96;
@@ -198,7 +198,7 @@ struct ManufacturedFilm {
     return edge * sum * 2 * pi * R / lines;
   }
 
-  /// Of the oil, with viscosities mu0 exp[-beta (T - T_ref)].
+  /// Temperature of the oil, with viscosities mu0 exp[-beta (T - T_ref)].
   [[nodiscard]] double T(double eta, double phi, double z) const {
     const auto f = fluidity(phi, z);
     return T_ref + std::log(mu0 * (f[0] + eta * (f[1] + eta * f[2]))) / beta;
@@ -216,8 +216,8 @@ struct ManufacturedFilm {
            (eta * shell() + slip() * G0 / I0 +
             gap * gap * thinner(phi, z) * (G1 - I(1, phi, z) / I0 * G0) * grad_p(phi, z));
   }
-  /// Heat that (thermal.10) then asks for, (thermal.66) [W/m^3]: what the oil carries along and across, less what it
-  /// conducts and what shear makes.
+  /// Heat source that balances (thermal.10), (thermal.66) [W/m^3]: heat that the oil carries along and across, less its
+  /// conduction and its dissipation.
   [[nodiscard]] double source(double eta, double phi, double z, double rate) const {
     const double thickness = h(phi, z), C = oil_density * specific_heat;
     const Eigen::Vector2d u = rho(phi, z) * velocity(eta, phi, z);

@@ -15,7 +15,7 @@
 namespace hersey::film {
 namespace manufactured_test {
 
-// What is missing of each figure, by kind: those of one kind have one scale.
+// Errors of the figures by kind: those of one kind have one scale.
 using Errors = std::map<std::string, std::map<std::string, double>>;
 
 double largest(const std::map<std::string, double>& errors) {
@@ -24,9 +24,9 @@ double largest(const std::map<std::string, double>& errors) {
   return size;
 }
 
-// On grids each of which halves all distances of the one before. Once errors of higher order have died out halving
-// divides by 4; 2^1.9 leaves these a part. A figure in which two errors of second order happen to cancel has no order
-// of its own: it is small beside those of its kind.
+// Each grid halves all distances of the one before. Once errors of higher order have decayed, halving divides the error
+// by 4; 2^1.9 leaves them a part. A figure in which two errors of second order happen to cancel has no order of its
+// own: it is small beside those of its kind.
 void check_order(const std::vector<Errors>& on, const std::map<std::string, double>& lower = {}) {
   constexpr double beside = 0.2;
   for (const auto& [kind, figures] : on.back()) {
@@ -110,7 +110,7 @@ TEST_CASE("ManufacturedFilm_OnAGradedGrid_IsMetWithOrderTwo") {
   check_order(on);
 }
 
-/// Between walls of given temperatures, with oil that leaves over both edges at all heights.
+/// The film lies between walls of prescribed temperatures, with oil that leaves over both edges at all heights.
 HotFilm solve_hot(const ManufacturedFilm& exact, const Grid& grid, const Layering& across) {
   const auto layers = static_cast<int>(across.size());
   ThermalModel thermal{.layers = layers, .T_supply = exact.T_ref};
@@ -166,8 +166,8 @@ Errors hot_errors_of(const ManufacturedFilm& exact, const Grid& grid, int layers
 }
 
 // Layers are halved together with the grid. Along edges temperatures are of lower order: half of the last face's
-// dissipation stands there for that at the edge, half a cell away (theory manual, thermal.66), and what of their oil
-// leaves, or goes into walls, has a part of that.
+// dissipation represents that at the edge, half a cell away (theory manual, thermal.66), and heat that leaves with the
+// oil or into walls contains a part of that.
 TEST_CASE("ManufacturedTemperature_IsMetWithOrderTwoInside") {
   const ManufacturedFilm exact{.w_shell = 0, .w_journal = 0};
   std::vector<Errors> on;

@@ -143,7 +143,7 @@ TEST_CASE("ColdStartsWithEveryLaw_TakeFifteenIterationsAtMost") {
   }
 }
 
-TEST_CASE("MultigridInTime_MeetsNewton") {
+TEST_CASE("MultigridInTime_AgreesWithNewton") {
   // The journal circles at half speed and is squeezed; the fill of the cavitated oil is carried from step to step.
   FilmModel m = big_end(Cavitation::mass_conserving, {120, 26});
   m.compliance = m.R / 57e9;

@@ -3,7 +3,7 @@
 #include "film_over_time.h"
 #include "relative.h"
 
-// Nodes of a network that are no walls: surroundings of a ring, and where oil comes from and goes to.
+// Nodes of a network that are no walls: surroundings of a ring, and origin and destination of oil.
 namespace hersey::film {
 namespace nodes_of_oil_test {
 
@@ -59,10 +59,10 @@ TEST_CASE("AnswerToNodes_IsThatOfFiniteDifferences") {
       film.advance(dt);
       const WallExchange observed = film.heat.exchange();
       REQUIRE(observed.T.size() == 5);
-      for (const int place : {2, 3, 4}) {
-        CAPTURE(place);
+      for (const int terminal : {2, 3, 4}) {
+        CAPTURE(terminal);
         Eigen::VectorXd T = observed.T;
-        T[place] += 10;
+        T[terminal] += 10;
         FilmOverTime other(model, thermal, loaded);
         HeatState begin = other.heat.state();
         begin.outside = T.tail(3);
@@ -78,7 +78,7 @@ TEST_CASE("AnswerToNodes_IsThatOfFiniteDifferences") {
         CHECK((same.heat.exchange().heat - expected).norm() < 1e-12 * scale);  // round-off
         // The film's residual over a short step, and what is left of a steady film's equations.
         CHECK(same.heat.observables().balance.error() < (dt > 0 ? 1e-5 : 1e-4));
-        CHECK(same.heat.state().outside[place - 2] == T[place]);
+        CHECK(same.heat.state().outside[terminal - 2] == T[terminal]);
       }
     }
   }
@@ -94,7 +94,7 @@ TEST_CASE("StepsWithASump_ConserveHeat") {
     CHECK(std::abs(machine.network.observables().error()) < 1e-10);  // round-off
     CHECK(machine.film.heat.observables().balance.error() < 1e-6);   // the film's residual
   }
-  // At rest as much oil comes as leaves: the sump takes all that oil carries away, the block what the ring passes on.
+  // At rest as much oil enters as leaves: the sump receives the heat of the oil, the block the heat through the ring.
   const HeatBalance balance = machine.film.heat.observables().balance;
   const NetworkObservables& observed = machine.network.observables();
   CHECK(observed.heat[0] == relative(balance.to_oil).epsilon(1e-6));    // the film's residual
@@ -124,23 +124,23 @@ TEST_CASE("FixedNode_IsATemperature") {
   CHECK(by_node.network.observables().to_fixed > 0);
 }
 
-// What the drain takes up by its own temperature is exact in the mean, the film does not know of it; and where oil does
-// not thin, a rise of all temperatures changes no heat.
+// The heat into the drain by its own temperature is exact in the mean, and the film does not depend on it. Where oil
+// does not thin, a rise of all temperatures changes no heat.
 TEST_CASE("MeanAnswerToNodes_IsThatOfTheirHeat") {
   FilmModel model = bearing();
-  model.features[0].pressure = 3e6;  // that no oil goes back into the hole, which the mean counts as drained
+  model.features[0].pressure = 3e6;  // no oil may return into the hole, which the mean counts as drained
   std::get<ExponentialViscosity>(model.lubricant.temperature_law).beta = 0;
   for (const bool has_block : {true, false}) {
     CAPTURE(has_block);
     ThermalModel thermal = with_sump();
-    thermal.walls = WallMotion::held;
+    thermal.walls = WallMotion::fixed;
     if (!has_block) {  // the drain is the only node
       std::get<RingWall>(thermal.shell).surroundings = std::nullopt;
       thermal.oil = {.drain = thermal.oil.drain};
     }
     const FilmTerminals at = terminals_of(thermal);
     REQUIRE(at.outside() == (has_block ? 3 : 1));
-    const Eigen::Index drain = 2 + at.place_of_drain();
+    const Eigen::Index drain = 2 + at.index_of_drain();
     const auto mean_over_a_cycle = [&](double rise) {
       FilmOverTime film(model, thermal, loaded);
       HeatState begin = film.heat.state();
@@ -163,7 +163,7 @@ TEST_CASE("MeanAnswerToNodes_IsThatOfTheirHeat") {
 TEST_CASE("NodesOfOil_SettleOverCycles") {
   const FilmModel model = bearing();
   ThermalModel thermal = with_sump();
-  // Bodies that hold little heat, for twenty times as long as the slowest of them takes.
+  // Bodies of small heat capacity, for twenty times the time constant of the slowest.
   ThermalModel light = thermal;
   std::get<RingWall>(light.shell).heat_capacity = 1e3;
   light.journal = FreeJournal{.heat_capacity = 0.5};
@@ -172,7 +172,7 @@ TEST_CASE("NodesOfOil_SettleOverCycles") {
     wanted.film.advance(5e-3);
     wanted.warm(5e-3);
   }
-  thermal.walls = WallMotion::held;
+  thermal.walls = WallMotion::fixed;
   Machine machine(model, thermal, 1);
   constexpr int cycles = 10, steps = 20;
   for (int cycle = 0; cycle < cycles; ++cycle) {
@@ -198,8 +198,8 @@ TEST_CASE("NodesOfOil_SettleOverCycles") {
     CHECK(std::abs(machine.network.temperatures()[node] - wanted.network.temperatures()[node]) < 0.01);
 }
 
-// What a second hole takes away comes to the drain as what leaves over the edges does.
-TEST_CASE("DrainGetsWhatHolesTakeAway") {
+// Heat that a second hole removes reaches the drain as the heat of oil that leaves over the edges does.
+TEST_CASE("Drain_ReceivesTheHeatThatHolesRemove") {
   FilmModel model = bearing();
   model.features.push_back({.name = "outlet", .phi = 3.4, .arc = 0.7, .length = 8e-3, .pressure = 0});
   ThermalModel thermal = with_sump();
@@ -209,7 +209,7 @@ TEST_CASE("DrainGetsWhatHolesTakeAway") {
   for (int k = 0; k < 100; ++k) film.advance(0);
   const FilmTerminals at = terminals_of(thermal);
   const HeatBalance balance = film.heat.observables().balance;
-  CHECK(film.heat.exchange().heat[2 + at.place_of_drain()] == relative(balance.to_oil).epsilon(1e-5));  // as solved
+  CHECK(film.heat.exchange().heat[2 + at.index_of_drain()] == relative(balance.to_oil).epsilon(1e-5));  // as solved
   CHECK(balance.to_oil == relative(balance.power).epsilon(1e-5));                                       // likewise
 }
 

@@ -11,7 +11,7 @@
 namespace hersey::film {
 namespace pads_test {
 
-/// From the converging gap to behind the narrowest place, which lies at pi, or the mirror image of that.
+/// Pads from the converging gap to behind the narrowest gap, which lies at pi, or their mirror image.
 struct Pads {
   FilmModel model;
   Journal journal;
@@ -61,7 +61,7 @@ TEST_CASE("PadsWithTheOtherSense_AreTheMirrorImage") {
 
 // Borders of cavities, where a film cavitates before the end of its pad too, are no matter of the lines they lie
 // between. (A conserved film re-forms before such an end by whole cells.)
-TEST_CASE("CavitiesOfPads_DoNotAskForTheGrid") {
+TEST_CASE("CavitiesOfPads_DoNotDependOnTheGrid") {
   for (const Cavitation cavitation : {Cavitation::guembel, Cavitation::reynolds}) {
     for (const bool mirrored : {false, true}) {
       CAPTURE(static_cast<int>(cavitation));
@@ -119,10 +119,10 @@ TEST_CASE("WarmPadsWithTheOtherSense_AreTheMirrorImage") {
     return solve_hot(p.model, thermal, surfaces(p.model, p.journal), p.journal.e);
   };
   const HotFilm film = solved(false), image = solved(true);
-  constexpr double turns = 1e-4;  // K, what the last turns of film, heat and thinning leave of some 10
-  CHECK(std::abs(image.heat.T_max - film.heat.T_max) < turns);
-  CHECK(std::abs(image.heat.T_journal - film.heat.T_journal) < turns);
-  CHECK(std::abs(image.heat.T_side - film.heat.T_side) < turns);
+  constexpr double tolerance = 1e-4;  // K: the last iterations of film, heat and thinning leave this of some 10
+  CHECK(std::abs(image.heat.T_max - film.heat.T_max) < tolerance);
+  CHECK(std::abs(image.heat.T_journal - film.heat.T_journal) < tolerance);
+  CHECK(std::abs(image.heat.T_side - film.heat.T_side) < tolerance);
   CHECK(film.heat.T_max > 42 + zero_celsius);
   CHECK(image.film.torque_journal == relative(-film.film.torque_journal).epsilon(1e-5));  // likewise
 }

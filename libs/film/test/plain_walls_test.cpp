@@ -9,7 +9,7 @@
 #include "hersey/film/grid_transfer.h"
 #include "relative.h"
 
-// Walls that keep their shape, networks and scales turned round, and what is asked of a film before it has moved.
+// Walls that keep their shape, networks and scales in another order, and figures of a film before its first step.
 namespace hersey::film {
 namespace plain_walls_test {
 
@@ -96,8 +96,8 @@ TEST_CASE("HottestOfBodies_IsThatOfTheirNodes") {
   CHECK(step.heat.observables().T_body_max == 320);
 }
 
-// A journal that is a node takes the film along, whatever the shell is.
-TEST_CASE("NodeBesideAShellWithoutHeat_TakesTheFilmAlong") {
+// A journal that is a node sets the film's temperature beside every kind of shell.
+TEST_CASE("NodeBesideAShellWithoutHeat_SetsTheFilmsTemperature") {
   const FilmModel model = bearing();
   ThermalModel thermal = supplied_at_40(3);
   thermal.journal = NodeWall{.T = 320, .node = 0, .name = "shaft"};
@@ -116,7 +116,7 @@ TEST_CASE("NodeBesideAShellWithoutHeat_TakesTheFilmAlong") {
   CHECK((film.heat.state().film - other.heat.state().film).cwiseAbs().maxCoeff() < 1e-5);
 }
 
-// What shear leaves is what the last film says: asked twice, nothing changes; an oil that does not thin never does.
+// Shear thinning is that of the last film: a second call changes nothing, and an oil that does not thin has none.
 TEST_CASE("ThinningOfTheSameFilm_IsTheSame") {
   FilmModel model = bearing();
   const SurfaceMotion motion = surfaces(model, loaded);
@@ -165,11 +165,11 @@ TEST_CASE("OneLayer_HasNoSlope") {
   CHECK(layering_of(1).slope(0, [](std::size_t) { return 3.0; }) == 0);
 }
 
-TEST_CASE("TurnedGrid_HasItsLinesBetweenThoseItHad") {
-  const Grid grid = graded_grid(24, 9, {{.place = 1, .reach = 0.5, .factor = 4}}, {});
+TEST_CASE("RotatedGrid_HasItsLinesBetweenTheFormerOnes") {
+  const Grid grid = graded_grid(24, 9, {{.position = 1, .reach = 0.5, .factor = 4}}, {});
   CHECK(Grid{24, 9}.is_uniform());
   CHECK(!grid.is_uniform());
-  CHECK(!graded_grid(24, 9, {}, {{.place = 0.5, .reach = 0.1, .factor = 4}}).is_uniform());
+  CHECK(!graded_grid(24, 9, {}, {{.position = 0.5, .reach = 0.1, .factor = 4}}).is_uniform());
   const Grid same = turned(grid, 0), other = turned(grid, 0.25);
   for (int i = 0; i < grid.n_phi; ++i) {
     const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + 2 * pi;
@@ -196,7 +196,7 @@ TEST_CASE("ScaleOfPressures_ChangesNoFilm") {
   CHECK(films[1].observed.p_max - atmosphere == relative(films[0].observed.p_max).epsilon(1e-7));  // likewise
 }
 
-TEST_CASE("PressureOfAFeature_MayComeWithTheMotion") {
+TEST_CASE("PressureOfAFeature_MayBeGivenWithTheMotion") {
   FilmModel m = bearing();
   SurfaceMotion motion = surfaces(m, loaded);
   motion.feature_pressure = Eigen::VectorXd::Constant(1, 4e5);
@@ -207,7 +207,7 @@ TEST_CASE("PressureOfAFeature_MayComeWithTheMotion") {
   CHECK(by_motion.observed.flow_supply == by_model.observed.flow_supply);
 }
 
-// The wrench does not ask whether there are shapes on which the film pushes, too.
+// The wrench does not depend on the presence of shapes on which the film pushes, too.
 TEST_CASE("FilmWithoutShapes_IsCondensedToTheSameWrench") {
   const FilmModel m = bearing();
   const SurfaceMotion motion = surfaces(m, loaded);
@@ -226,8 +226,8 @@ TEST_CASE("FilmWithoutShapes_IsCondensedToTheSameWrench") {
   }
 }
 
-// Between rings whose lines lie elsewhere fields keep their places, whichever begins first.
-TEST_CASE("FieldBetweenTurnedRings_StaysWhereItIs") {
+// Fields keep their positions between rings whose lines lie elsewhere, in either direction.
+TEST_CASE("FieldBetweenRotatedRings_KeepsItsPosition") {
   const Grid one{36, 5}, other = turned(Grid{24, 7}, 0.5);
   for (const bool backwards : {false, true}) {
     CAPTURE(backwards);
@@ -238,7 +238,7 @@ TEST_CASE("FieldBetweenTurnedRings_StaysWhereItIs") {
         values[k] = std::cos(grid.phi(k / grid.n_z)) + 3 * grid.z_over_L(k % grid.n_z);
       return values;
     };
-    const Eigen::VectorXd there = GridTransfer::by_place(from, to)(field(from), 1);
+    const Eigen::VectorXd there = GridTransfer::by_position(from, to)(field(from), 1);
     const double step = 2 * pi / from.n_phi;
     CHECK((there - field(to)).cwiseAbs().maxCoeff() < step * step / 8);  // of straight lines along a cosine
   }

@@ -9,13 +9,13 @@
 
 namespace hersey::film {
 
-/// A plane slider: a stretch of the circumference between two grooves that hold the rest of it at the ends' pressures,
+/// A plane slider: a part of the circumference between two grooves that prescribe the ends' pressures on the rest,
 /// closed edges, so that nothing varies along the axis.
 struct Slider {
   double length = 0, U = 0, mu = 0;    ///< [m, m/s, Pa s]
   double end_pressure = 0;             ///< at both ends [Pa]
   std::function<double(double)> gap;   ///< [m] at x in [0, length]
-  double from = 0, to = 0, depth = 0;  ///< a pocket of the slider that stands still [m]
+  double from = 0, to = 0, depth = 0;  ///< a stationary pocket of the slider [m]
   ShearThinning thinning = {};
   int layers = 1;  ///< in which it thins; 1: by the film's sliding
 };
@@ -25,14 +25,14 @@ struct SolvedSlider {
   double dx = 0;        ///< [m]
   double load = 0;      ///< of the pressure above that at the ends [N/m]
   double flow = 0;      ///< [m^2/s]
-  double friction = 0;  ///< between the ends, on the surface that stands [N/m]
+  double friction = 0;  ///< between the ends, on the stationary surface [N/m]
   Eigen::VectorXd p, theta;
   SolvedFilm film;
 };
 
 inline constexpr int groove_cells = 4;
 
-/// The film of which each layer thins by its own shear: film and viscosities in turn.
+/// Iterates film and viscosities of layers that thin by their own shear.
 inline SolvedFilm solve_in_layers(const FilmModel& model, const SurfaceMotion& motion, int layers) {
   Reynolds reynolds(model);
   FilmHeat heat(model, {.layers = layers, .journal = InsulatedWall{}});
@@ -78,7 +78,7 @@ inline SolvedSlider solve(const Slider& slider, int n) {
   const double between = slider.gap(slider.length);
   double beside = 0;  // Couette friction in the grooves
   for (int k = 0; k < all; ++k) {
-    // The slider's own gap goes on into the grooves for as far as its ends see it; between the grooves it is even.
+    // The slider's own gap extends into the grooves as far as it affects the ends; between the grooves it is even.
     const int x = k <= n + 2 ? k : k == all - 1 ? -1 : n + 3;
     const double g = x <= n + 2 ? slider.gap(x * s.dx) : between;
     motion.g.segment(m.grid.index(k, 0), 3).setConstant(g);
@@ -95,7 +95,7 @@ inline SolvedSlider solve(const Slider& slider, int n) {
     s.theta[k] = s.film.fields.theta[m.grid.index(k, 1)];
   }
   s.load = s.p.sum() * s.dx;  // trapezoidal rule: both ends are zero
-  // What the inlet feeds, and what the surface carries into it from the other groove.
+  // Flow that the inlet feeds, plus the flow that the surface carries into it from the other groove.
   s.flow = s.film.observed.flow_features[0] / m.L + 0.5 * slider.U * between;
   s.friction = s.film.observed.torque_shell / (m.R * m.L) - beside;
   return s;

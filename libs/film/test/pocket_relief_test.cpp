@@ -19,7 +19,8 @@ constexpr double kSolved = 1e-9;  // the solver leaves 1e-10 of the largest thro
 
 FilmModel graded() {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
-  m.grid = graded_grid(40, 9, {{.place = 0.2, .reach = 0.5, .factor = 3}}, {{.place = 0.5, .reach = 0.2, .factor = 2}});
+  m.grid = graded_grid(40, 9, {{.position = 0.2, .reach = 0.5, .factor = 3}},
+                       {{.position = 0.5, .reach = 0.2, .factor = 2}});
   return m;
 }
 
@@ -37,8 +38,8 @@ SurfaceFeature pocket(FeatureShape shape, Surface surface) {
 
 const std::array<FeatureShape, 2> shapes{Rectangle{}, Ellipse{}};
 
-// A pocket on its way over the grid keeps its volume, whatever cells its borders cut.
-TEST_CASE("TurningPocket_KeepsItsVolume") {
+// A pocket that travels over the grid keeps its volume, whichever cells its borders cut.
+TEST_CASE("RotatingPocket_KeepsItsVolume") {
   FilmModel m = graded();
   const GridGeometry geometry(m);
   for (const FeatureShape& shape : shapes) {
@@ -65,9 +66,9 @@ TEST_CASE("PocketToTheEdge_IsDeepThere") {
   for (int i = 0; i < 40; ++i) CHECK(all_around[m.grid.index(i, 8)] == relative(1e-4));
 }
 
-// In a full film at rest but for a journal with a pocket, concentric: the pocket's own volume turns with it and asks
-// for no oil. Nothing flows but round and round, whatever the step.
-TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
+// A full film at rest, concentric, and a journal with a pocket: the pocket's own volume rotates with it and takes no
+// oil. The only flow is that around, at every step.
+TEST_CASE("RotatingPocket_CarriesItsOilAlong") {
   FilmModel m = graded();
   m.edge_left.pressure = m.edge_right.pressure = 1e5;
   for (const FeatureShape& shape : shapes) {
@@ -89,10 +90,10 @@ TEST_CASE("PocketThatTurns_CarriesItsOilAlong") {
   }
 }
 
-// A groove along all of the journal overtakes the oil it holds: what comes to its end fills the groove as it grows, and
-// the film ahead of it. In the middle of the groove the shell keeps it full and takes pressure away. Wherever within a
-// cell the end lies, the film ahead is filled to U (h + d)/(U h + u_J d).
-TEST_CASE("FilmAheadOfATurningGroove_DoesNotSeeWhereLinesLie") {
+// A groove along all of the journal overtakes its oil: the oil that reaches its end fills the growing groove and the
+// film ahead of it. In the middle of the groove the shell keeps it full and bounds the pressure. At every position of
+// the end within a cell the film ahead is filled to U (h + d)/(U h + u_J d).
+TEST_CASE("FilmAheadOfARotatingGroove_DoesNotDependOnGridLines") {
   FilmModel m{.R = 0.05, .L = 0.05, .c = 40e-6, .grid = {72, 5}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   SurfaceFeature groove = pocket(Rectangle{}, Surface::journal), feed = pocket(Rectangle{}, Surface::shell);
@@ -104,7 +105,7 @@ TEST_CASE("FilmAheadOfATurningGroove_DoesNotSeeWhereLinesLie") {
     m.features = {groove, feed};
     const SolvedFilm film = solve_cold(m, turning(m, 0, 100));
     REQUIRE(film.summary.solved());
-    // Of a flow tube with the end in it I_2/I_3 is up to 1 % more than h (film.26), and so is what goes on.
+    // In a flow tube that contains the end I_2/I_3 is up to 1 % more than h (film.26), and so is the flow.
     CHECK(film.fields.theta[m.grid.index(30, 2)] == doctest::Approx(340.0 / 640).epsilon(0.01));
   }
 }
@@ -128,7 +129,7 @@ TEST_CASE("FedGrooveWithDepth_DoesNotLeakOntoTheLand") {
       REQUIRE(film.summary.solved());
       flow[static_cast<std::size_t>(k)] = film.observed.flow_left + film.observed.flow_right;
     }
-    // The same film but for what no equation contains: round-off.
+    // The film is the same but for quantities that no equation contains: round-off.
     CHECK(flow[1] == doctest::Approx(flow[0]).epsilon(1e-12));
     CHECK(flow[2] == relative(flow[0]).epsilon(0.05));
   }
@@ -162,8 +163,8 @@ TEST_CASE("FlowThroughPockets_ConvergesWithTheGrid") {
   }
 }
 
-// The film's smallest thickness is that of the land: the bearing's own where the narrowest place lies beside the
-// pocket, at the pocket's border where it would lie within.
+// The film's smallest thickness is that of the land: the bearing's own where the narrowest gap lies beside the pocket,
+// and the one at the pocket's border where it would lie within.
 TEST_CASE("SmallestFilm_IsThatOfTheLand") {
   for (const auto surface : {Surface::shell, Surface::journal}) {
     for (const int n_phi : {60, 61, 120}) {
@@ -172,14 +173,14 @@ TEST_CASE("SmallestFilm_IsThatOfTheLand") {
       const Journal journal = turning(m, 0.5, 100);  // narrowest at phi = pi: 15 um
       m.features = {
           {.name = "pocket", .surface = surface, .phi = 1, .arc = 0.5, .length = 8e-3, .is_fed = false, .depth = 1e-4}};
-      // Between nodes of 6 degrees: a parabola's error.
+      // Nodes are 6 degrees apart: a parabola's error.
       CHECK(solve_cold(m, journal).observed.h_min == relative(15e-6).epsilon(1e-4));
       m.features[0].phi = pi + 0.1, m.features[0].length = 0.02;
       const FilmObservables o = solve_cold(m, journal).observed;
-      // The nearer border lies 0.15 rad from the narrowest place.
+      // The nearer border lies 0.15 rad from the narrowest gap.
       CHECK(o.h_min == relative(30e-6 - 15e-6 * std::cos(0.15)).epsilon(0.003));
       CHECK(o.h_min_phi == doctest::Approx(pi - 0.15).epsilon(1e-3));  // nodes are 0.05 rad and more apart
-      CHECK(o.h_min_features == relative(115e-6).epsilon(1e-2));       // at a node near the narrowest place
+      CHECK(o.h_min_features == relative(115e-6).epsilon(1e-2));       // at a node near the narrowest gap
     }
   }
 }
@@ -193,7 +194,7 @@ TEST_CASE("SmallestFilmInTheMiddle_IsThatOfItsOwnRow") {
     m.edge_left.pressure = m.edge_right.pressure = 1e6;
     m.features = {
         {.name = "groove", .phi = 0, .z = -4e-3, .arc = 2 * pi, .length = 6e-3, .pressure = 1e6, .depth = 1e-4}};
-    // Between nodes of 6 degrees: a parabola's error.
+    // Nodes are 6 degrees apart: a parabola's error.
     CHECK(solve_cold(m, turning(m, 0.5, 100)).observed.h_min_centre == doctest::Approx(15e-6).epsilon(1e-4));
   }
 }
@@ -209,17 +210,17 @@ TEST_CASE("SmallestFilm_OfAGrooveOverAllOfTheBearing_IsThatOfTheGroove") {
   }
 }
 
-TEST_CASE("PlaceOfTheSmallestFilm_IsToldWithinATurn") {
+TEST_CASE("PositionOfTheSmallestFilm_IsReportedWithinARevolution") {
   const FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}, .cavitation = Cavitation::guembel};
   for (const double phi : {2 * pi - 0.03, 0.03, 2.0, 5.0}) {
     CAPTURE(phi);
     const Journal journal{.e = {15e-6 * std::cos(phi), 15e-6 * std::sin(phi)}, .omega_journal = 100};
-    // Between nodes of 6 degrees: a parabola's error.
+    // Nodes are 6 degrees apart: a parabola's error.
     CHECK(solve_cold(m, journal).observed.h_min_phi == doctest::Approx(phi).epsilon(1e-3));
   }
 }
 
-// Beside a groove there are nodes for one parabola only, and it may dip below nothing.
+// Beside a groove there are nodes for one parabola only, and its minimum may be negative.
 TEST_CASE("SmallestFilmBesideAGroove_IsNotNegative") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}};
   m.features = {{.name = "groove", .phi = 0.4 * pi, .arc = 0.05, .length = 0.02, .pressure = 1e6, .depth = 1e-4}};
@@ -233,12 +234,12 @@ TEST_CASE("SmallestFilmBesideAGroove_IsNotNegative") {
 }
 
 // Rate and wedge of a gap that travels around the bearing are the same oil: exactly, on any grid.
-TEST_CASE("GapThatTravels_TakesInWhatItGivesAway") {
+TEST_CASE("TravellingGap_ConservesItsOil") {
   for (const Grid& grid : {Grid{12, 5}, Grid{60, 5}, graded().grid}) {
     FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = grid};
     const double omega = 100;
     const Eigen::Vector2d e(9e-6, -14e-6);
-    // Seen from the ground both surfaces turn at omega and the centre with them.
+    // In the frame of the ground both surfaces rotate at omega and the centre with them.
     const Journal journal{
         .e = e, .e_rate = omega * Eigen::Vector2d(-e.y(), e.x()), .omega_shell = omega, .omega_journal = omega};
     FlowBalance balance(m);
@@ -248,7 +249,7 @@ TEST_CASE("GapThatTravels_TakesInWhatItGivesAway") {
   }
 }
 
-// Newton, multigrid and the sweeps of SOR see the same pockets, full and cavitated.
+// Newton, multigrid and the sweeps of SOR have the same pockets, full and cavitated.
 TEST_CASE("AllSolvers_AgreeOnPockets") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 13}};
   m.features = {pocket(Rectangle{}, Surface::shell), pocket(Ellipse{}, Surface::journal)};
@@ -266,12 +267,12 @@ TEST_CASE("AllSolvers_AgreeOnPockets") {
     REQUIRE(other.summary.solved());
     // rtol 1e-10, amplified by weak spots of the film.
     CHECK((other.wrench - newton.wrench).norm() < 1e-6 * newton.wrench.norm());
-    // The same of fill fractions, which nothing but flow fixes.
+    // The same holds for fill fractions, which only flow determines.
     CHECK((other.fields.theta - newton.fields.theta).cwiseAbs().maxCoeff() < 1e-5);
   }
 }
 
-// A line between two nodes is where it is: a grid of twice as many nodes, on one of which it lies, says the same to
+// A line may lie between two nodes: a grid of twice as many nodes, one of which lies on it, gives the same result to
 // within the coarse grid's own error, which is that of a line on one of its nodes.
 TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
   const auto solve = [](int n_phi, double line, double pressure) {
@@ -286,13 +287,13 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
   };
   for (const double pressure : {0.0, 3e5}) {
     CAPTURE(pressure);
-    for (const double place : {0.25, 0.5, 0.75}) {
-      CAPTURE(place);
-      const double line = 2 * pi / 120 * (3 + place);
+    for (const double share : {0.25, 0.5, 0.75}) {
+      CAPTURE(share);
+      const double line = 2 * pi / 120 * (3 + share);
       const FilmObservables between = solve(120, line, pressure), on_node = solve(480, line, pressure);
       CHECK(between.wrench_on_shell.segment<2>(3).norm() ==
             doctest::Approx(on_node.wrench_on_shell.segment<2>(3).norm()).epsilon(0.003));
-      // At its ends a line of another pressure than the edges' has a flow that grows with the number of nodes.
+      // At the ends of a line whose pressure differs from the edges' the flow grows with the number of nodes.
       if (pressure > 0) continue;
       CHECK(between.flow_left + between.flow_right == relative(on_node.flow_left + on_node.flow_right).epsilon(0.003));
     }
@@ -315,16 +316,16 @@ TEST_CASE("SupplyLineOverAGroove_FillsItsDepth") {
     return film.observed.wrench_on_shell.segment<2>(3).norm();
   };
   for (const Surface surface : {Surface::shell, Surface::journal}) {
-    for (const double place : {0.25, 0.5, 0.75}) {
-      CAPTURE(place);
-      const double line = 2 * pi / 120 * (3 + place);
+    for (const double share : {0.25, 0.5, 0.75}) {
+      CAPTURE(share);
+      const double line = 2 * pi / 120 * (3 + share);
       CHECK(load(120, line, surface) == doctest::Approx(load(480, line, surface)).epsilon(0.003));
     }
   }
 }
 
-// Whirl: a full film turns the journal's displacement into force as it turns half its speed into damping. Exact on a
-// centred journal, on any grid; beside it what a grid says is off by the order of its other errors alone.
+// Whirl: a full film converts the journal's displacement into force as it converts half its speed into damping. This is
+// exact on a centred journal, on any grid; off-centre the error is of the order of the grid's other errors.
 TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {
   const auto whirl_ratio = [](const Grid& grid, double epsilon) {
     FilmModel m{.R = 0.03, .L = 0.03, .c = 30e-6, .grid = grid};
@@ -350,12 +351,12 @@ TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {
     const double k = (K(0, 0) * C(1, 1) + K(1, 1) * C(0, 0) - K(0, 1) * C(1, 0) - K(1, 0) * C(0, 1)) / C.trace();
     return std::sqrt(((k - K(0, 0)) * (k - K(1, 1)) - K(0, 1) * K(1, 0)) / C.determinant()) / omega;
   };
-  // What the solver leaves, rtol 1e-10.
+  // The tolerance is the solver's, rtol 1e-10.
   for (const Grid& grid : {Grid{12, 5}, Grid{60, 13}})
     CHECK(whirl_ratio(grid, 0) == doctest::Approx(0.5).epsilon(1e-10));
   for (const double epsilon : {0.0, 0.3, 0.6}) {
     CAPTURE(epsilon);
-    // What the grid's other errors leave of the ratio.
+    // The ratio contains the grid's other errors.
     CHECK(whirl_ratio({60, 13}, epsilon) == doctest::Approx(whirl_ratio({240, 13}, epsilon)).epsilon(1e-4));
   }
 }
@@ -369,7 +370,7 @@ TEST_CASE("Oil_IsConservedAtAnyStep") {
   m.features[1].phi = 4;
   for (const double dt : {1e-5, 1e-3, 3e-3}) {
     CAPTURE(dt);
-    if (dt == 3e-3) {  // and a groove that turns and feeds the land before the edges, within their last cells
+    if (dt == 3e-3) {  // a rotating groove feeds the land before the edges, within their last cells
       m.features.push_back({.name = "groove", .surface = Surface::journal, .phi = 2, .arc = 0.4, .length = 17e-3});
       m.features.back().pressure = 1e5;
     }
@@ -440,7 +441,7 @@ TEST_CASE("InterpolatedGaps_AreOfFourthOrder") {
   CHECK(std::log2(cell[0] / cell[1]) == doctest::Approx(4).epsilon(0.02));
 }
 
-// Parabolas that dip below nothing between nodes, one way or both ways together, are not believed.
+// Parabolas that become negative between nodes, in one direction or in both together, are not used.
 TEST_CASE("SmallestFilmBetweenNodes_IsThatOfTheNodeWhereParabolasDipBelowNothing") {
   FilmModel m{.R = 0.03, .L = 0.06 * pi, .c = 30e-6, .grid = {60, 61}};  // equal cells both ways
   for (const double beside : {4.0, 6.0, 20.0}) {
@@ -459,8 +460,8 @@ TEST_CASE("SmallestFilmBetweenNodes_IsThatOfTheNodeWhereParabolasDipBelowNothing
   }
 }
 
-// Of two dips of a gap the one that is deeper between nodes counts, though the lowest node lies in the other: where
-// both are as deep, as in a lemon bore, round-off says which node is lowest.
+// Of two dips of a gap the one that is deeper between nodes counts, even if the lowest node lies in the other. Where
+// both are equally deep, as in a lemon bore, round-off decides which node is lowest.
 TEST_CASE("SmallestFilm_IsThatOfTheDeeperOfTwoDips") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 5}};
   for (const bool is_first : {true, false}) {
@@ -478,14 +479,14 @@ TEST_CASE("SmallestFilm_IsThatOfTheDeeperOfTwoDips") {
   }
 }
 
-// Between two rows only places count where neither lies in a groove.
+// Between two rows only positions count at which neither lies in a groove.
 TEST_CASE("SmallestFilmInTheMiddle_IsThatBesideTheGroove") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6, .grid = {60, 6}};
   for (const double side : {-1.0, 1.0}) {
     CAPTURE(side);
     m.features = {{.name = "pocket", .phi = pi, .z = side * 3e-3, .arc = 0.55, .length = 5e-3, .depth = 1e-4}};
     const Eigen::VectorXd h = surfaces(m, turning(m, 0.5, 100)).g;
-    // The pocket ends 0.275 rad from the narrowest place; the next line beside it lies at 18 degrees.
+    // The pocket ends 0.275 rad from the narrowest gap; the next line beside it lies at 18 degrees.
     const double at_line = 30e-6 - 15e-6 * std::cos(pi / 10);
     CHECK(thinnest_film(m, GridGeometry(m), h, 0).in_the_middle == relative(at_line).epsilon(1e-9));  // round-off
   }

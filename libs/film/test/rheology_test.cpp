@@ -11,7 +11,7 @@ namespace rheology_test {
 
 constexpr double kRoundOff = 1e-12;  // of powers and exponentials
 
-/// Of an oil that follows Barus' law, with another coefficient at each of three temperatures.
+/// Table of an oil that follows Barus' law, with another coefficient at each of three temperatures.
 TabledPressure barus_table() {
   TabledPressure table{.p = {0, 5e7, 4e8}, .log_mu = {}};
   for (const auto& [mu, alpha] : {std::pair(0.1, 2.4e-8), {0.02, 2e-8}, {0.005, 1.6e-8}})
@@ -21,7 +21,8 @@ TabledPressure barus_table() {
 
 TEST_CASE("TableOverPressure_IsBilinear") {
   const TabledPressure table = barus_table();
-  // On a row its own law, also beyond its last pressure; in the middle of ln mu, which is that of 1/T, the mean.
+  // A row has its own law, also beyond its last pressure; in the middle of ln mu, which is that of 1/T, the mean
+  // applies.
   for (const double p : {0.0, 2e7, 1e8, 1e9})
     CHECK(table.log_ratio(p, 0.02).value == doctest::Approx(2e-8 * p).epsilon(kRoundOff));
   CHECK(table.log_ratio(1e8, std::sqrt(0.1 * 0.02)).value == relative(2.2).epsilon(kRoundOff));
@@ -66,7 +67,7 @@ TEST_CASE("Laws_HaveTheirPublishedValues") {
   // exp(-9.67) is kept in five digits.
   CHECK(log_viscosity_ratio(oil, 196.2e6).value ==
         doctest::Approx((std::log(0.04) + 9.67) * (std::pow(2, 0.68) - 1)).epsilon(1e-4));
-  // What is of second order at 1e3 Pa.
+  // The difference is of second order at 1e3 Pa.
   CHECK(log_viscosity_ratio(oil, 1e3).value == relative(1e3 * log_viscosity_ratio(oil, 0).slope).epsilon(1e-5));
   CHECK(log_viscosity_ratio(oil, -1e3).value == 0);  // nor does tension thin the oil
 }
@@ -101,7 +102,7 @@ TEST_CASE("SummitsAboveTheMeanPlane_TouchSoMuchSooner") {
 
 // Barus' fluid has the closed form p = -ln(1 - alpha q)/alpha with the isoviscous pressure q (Weibull's
 // transformation).
-TEST_CASE("BarusFilm_MeetsWeibullsTransformation") {
+TEST_CASE("BarusFilm_MatchesWeibullsTransformation") {
   FilmModel m{.R = 0.03, .L = 0.01, .c = 30e-6, .grid = {240, 3}};
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   m.supply = {SupplyKind::fixed_angle, 0, 0};

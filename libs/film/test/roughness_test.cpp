@@ -20,7 +20,7 @@ FilmModel full_bearing(int n_phi, int n_z) {
 
 // An inclined slider without side flow, rough like sandpaper or with ridges on either surface: dp/dx follows from the
 // flow, p from its integral.
-TEST_CASE("RoughSlider_MeetsTheIntegralWithOrderTwo") {
+TEST_CASE("RoughSlider_ConvergesToTheIntegralWithOrderTwo") {
   const double length = 0.03, U = 2, mu = 0.02, h0 = 4e-6, h1 = 9e-6;
   for (const Roughness& roughness :
        {rough({1e-6, 1}, {0, 1}), rough({0, 1}, {1e-6, 1}), rough({1e-6, 1.0 / 9}, {1e-6, 6})}) {
@@ -56,7 +56,7 @@ TEST_CASE("RoughSlider_MeetsTheIntegralWithOrderTwo") {
       SurfaceMotion motion = surfaces(m, {});
       motion.u_journal = U;
       for (int i = 0; i < all; ++i) {
-        // The slider's own gap goes on into the grooves for as far as its ends see it.
+        // The slider's own gap extends into the grooves as far as it affects the ends.
         const double g = i <= n + 2 ? gap(i * dx) : i == all - 1 ? gap(-dx) : h0;
         motion.g.segment(m.grid.index(i, 0), 3).setConstant(g);
       }
@@ -66,7 +66,7 @@ TEST_CASE("RoughSlider_MeetsTheIntegralWithOrderTwo") {
       double found = 0;
       for (int i = 0; i <= n; ++i) found += film.fields.p[m.grid.index(i, 1)] * dx;
       load_error[k] = found / load - 1;
-      // What leaves into the outlet: fed flows plus what the surfaces carry between both grooves.
+      // Flow into the outlet: fed flows plus the entrained flow between both grooves.
       const double H = h0 / sigma;
       const double phi_s = s2 * shell.shear(H).value - j2 * journal.shear(H).value;
       const double between = U / 2 * sigma * (mean_gap(H).value - phi_s);
@@ -78,7 +78,7 @@ TEST_CASE("RoughSlider_MeetsTheIntegralWithOrderTwo") {
   }
 }
 
-// A moving rough surface carries oil in its valleys, one at rest holds it back; alike surfaces cancel.
+// A moving rough surface carries oil in its valleys, one at rest retains it; equal surfaces cancel.
 TEST_CASE("RoughnessInMotion_CarriesOil") {
   const auto load = [](const Roughness& roughness) {
     FilmModel m = full_bearing(120, 25);
@@ -87,15 +87,15 @@ TEST_CASE("RoughnessInMotion_CarriesOil") {
   };
   const double both = load(rough({1e-6, 1}, {1e-6, 1})), shell = load(rough({std::sqrt(2) * 1e-6, 1}, {0, 1}));
   const double journal = load(rough({0, 1}, {std::sqrt(2) * 1e-6, 1}));
-  // Where phi_s falls with the gap, the entrained flow h_T -+ sigma phi_s converges more for the shell, less for the
+  // Where phi_s falls with the gap, the entrained flow h_T -+ sigma phi_s converges more for the shell and less for the
   // journal.
   CHECK(shell > 1.01 * both);
   CHECK(journal < 0.99 * both);
   CHECK(0.5 * (shell + journal) == doctest::Approx(both).epsilon(1e-3));  // the full film is linear in phi_s
 }
 
-// Ridges across the flow hold the pressure of a long bearing, ridges along it let it go; a short one loses its oil
-// sideways, and it is the other way round. The smooth film is the limit of all.
+// Ridges across the flow raise the pressure of a long bearing, ridges along it reduce it. A short bearing loses its oil
+// sideways, and the effect is reversed. The smooth film is the limit of all.
 TEST_CASE("FineRoughness_TendsToTheSmoothFilm") {
   const auto load = [](double sigma, double gamma, bool is_long) {
     FilmModel m = full_bearing(120, is_long ? 3 : 25);
@@ -120,7 +120,7 @@ TEST_CASE("FineRoughness_TendsToTheSmoothFilm") {
       CHECK(std::abs(before) < 2e-3);  // ridges along the flow have the longest tail, H^-1.5
     }
   }
-  // The same roughness, but of no size, is exactly smooth.
+  // Roughness of zero height is exactly smooth.
   FilmModel m = full_bearing(60, 13);
   const Vector6 plain = solve_cold(m, turning(m, 0.7, 200)).wrench;
   m.roughness = rough({0, 1}, {0, 1});
@@ -156,13 +156,13 @@ TEST_CASE("RoughFilmForces_DoNotDependOnTheFrame") {
     m.roughness = rough({2e-6, 3}, {1e-6, 0.3});
     Journal journal{.e = {8e-6, 11e-6}, .e_rate = {0.01, -0.02}, .omega_shell = -40, .omega_journal = 300};
     const Vector6 resting = solve_cold(m, journal).wrench;
-    // The same bodies seen from a grid that turns at 90 rad/s.
+    // The same bodies in a grid that rotates at 90 rad/s.
     journal.omega_shell -= 90, journal.omega_journal -= 90;
     journal.e_rate -= 90 * Eigen::Vector2d(-journal.e.y(), journal.e.x());
     const Vector6 turning_grid = solve_cold(m, journal).wrench;
     error[k] = (turning_grid - resting).norm() / resting.norm();
   }
-  // The mean gap is no linear function of the gap: what it is between nodes is seen to fourth order only.
+  // The mean gap is no linear function of the gap: its values between nodes are accurate to fourth order only.
   CHECK(error[0] < 1e-5);  // 60 nodes, fourth order
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("RoughTimeSteps_ConserveOil") {
   CHECK(smallest < 3 * m.roughness.composite_sigma());  // asperities have touched
 }
 
-TEST_CASE("RoughSor_MeetsNewton") {
+TEST_CASE("RoughSor_AgreesWithNewton") {
   FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = {48, 9}};
   m.supply = {SupplyKind::widest_gap, 0, 0};
   m.roughness = rough({1e-6, 6}, {1e-6, 0.5});
@@ -210,7 +210,7 @@ TEST_CASE("RoughSor_MeetsNewton") {
   CHECK((newton.wrench - sor.wrench).norm() < 1e-6 * newton.wrench.norm());
 }
 
-// Without a switch: the solver needs no help from full film to contact.
+// There is no switch: the solver needs no help from full film to contact.
 TEST_CASE("FromFullFilmToContact_NewtonArrives") {
   for (const double gamma : {1.0 / 9, 1.0, 9.0}) {
     FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = {60, 13}};

@@ -18,7 +18,7 @@ TEST_CASE("LawsOfShear_HaveTheirPublishedValues") {
   const std::vector<std::pair<double, double>> table{
       {1e4, 0.009901986529798656}, {1e5, 0.009452772445587159}, {1e6, 0.008}, {1e7, 0.00654722755441284}};
   for (const auto& [rate, mu] : table) CHECK(0.01 * cross.ratio(rate, 0.01).value == relative(mu).epsilon(round_off));
-  // Of an oil known by its stress the rate falls as the viscosity rises.
+  // The critical rate of an oil given by its critical stress falls as the viscosity rises.
   const ShearThinning by_stress{Cross{.limit = 0.6, .exponent = 0.8}, 0, 1e4};
   CHECK(by_stress.ratio(1e5, 0.1).value == relative(0.8).epsilon(round_off));
   // Carreau's at x = 1: 2^((n - 1)/2); far beyond it a power; with n = 1 nothing thins.
@@ -51,8 +51,8 @@ TEST_CASE("SlopesOfShearLaws_MatchFiniteDifferences") {
   }
 }
 
-// Where more shear would take less stress, a film has no one answer: Cross' law with m > 1 and little left.
-TEST_CASE("FallingStress_IsKnown") {
+// A film in which more shear takes less stress has no unique solution: Cross' law with m > 1 and a small limit.
+TEST_CASE("FallingStress_IsRecognised") {
   for (const double m : {0.5, 1.0, 1.3, 2.0, 5.0}) {
     for (const double limit : {0.0, 0.02, 0.1, 0.2, 0.4}) {
       const Cross law{.limit = limit, .exponent = m};
@@ -72,7 +72,7 @@ Slider reference_slider() {
   return slider;
 }
 
-// With the tangent viscosity in the pressure's flow and that of the sliding in the drag.
+// The tangent viscosity acts in the pressure's flow and that of the sliding in the drag.
 TEST_CASE("ThinningSlider_IsThatOfTheTangentViscosity") {
   const Slider slider = reference_slider();
   std::vector<double> errors;
@@ -86,7 +86,7 @@ TEST_CASE("ThinningSlider_IsThatOfTheTangentViscosity") {
   CHECK(std::abs(4 * errors[1] - errors[0]) < 2e-5);  // both grids extrapolated: what is of third order, at the ends
 }
 
-// With the viscosity of each layer at its own shear.
+// Each layer has the viscosity of its own shear.
 TEST_CASE("ThinningSliderInLayers_IsExact") {
   Slider slider = reference_slider();
   std::vector<double> errors;

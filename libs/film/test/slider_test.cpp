@@ -15,7 +15,7 @@ double order(double coarse, double fine, double refinement = 2) {
 }
 
 // Reynolds' slider at its optimum inclination, Lamb's closed form.
-TEST_CASE("LongSlider_MeetsTheClosedFormWithOrderTwo") {
+TEST_CASE("LongSlider_ConvergesToTheClosedFormWithOrderTwo") {
   const double K = 1.18870, exact = verification::LongSlider{K}.load();
   CHECK(exact == relative(0.0267072).epsilon(2e-6));
   const Slider slider{0.05, 3, 0.02, 0, [&](double x) { return 2e-5 * (1 + K * (1 - x / 0.05)); }};
@@ -26,8 +26,8 @@ TEST_CASE("LongSlider_MeetsTheClosedFormWithOrderTwo") {
   CHECK(order(error[0], error[1]) == doctest::Approx(2).epsilon(0.02));
 }
 
-// Rayleigh's step at its optimum. A jump of the gap between two nodes is seen as a ramp over that cell.
-TEST_CASE("RayleighStep_MeetsTheClosedForm") {
+// Rayleigh's step at its optimum. A jump of the gap between two nodes is resolved as a ramp over that cell.
+TEST_CASE("RayleighStep_MatchesTheClosedForm") {
   const double inlet = 0.71823, ratio = 1 + 0.5 * std::sqrt(3);
   const auto gap = [](double) { return 2e-5; };
   const Slider slider{0.05, 3, 0.02, 0, gap, 0, inlet * 0.05, 2e-5 * (ratio - 1)};
@@ -40,7 +40,7 @@ TEST_CASE("RayleighStep_MeetsTheClosedForm") {
 }
 
 // Parabolic slider between ends at the cavitation pressure (reference: exact solution of the mass-conserving problem).
-TEST_CASE("ParabolicSlider_MeetsTheExactSolutionWithOrderTwo") {
+TEST_CASE("ParabolicSlider_ConvergesToTheExactSolutionWithOrderTwo") {
   const double length = 0.0762;
   const Slider slider{length, 4.57, 0.039, 0,
                       [&](double x) { return 25.4e-6 * (1 + std::pow(2 * x / length - 1, 2)); }};
@@ -75,8 +75,8 @@ PocketErrors pocket(int n) {
     if (s.theta[k] < 1 - 1e-9) last = k, first = std::min(first, k);  // full but for round-off
   }
   CHECK(std::abs(first * s.dx - 2e-3) <= s.dx);
-  // The front's own node is partly full: the share by which it is fuller than the one before tells where in the cell
-  // the film begins.
+  // The front's own node is partly full: its fill fraction in excess of the one before gives the position of the front
+  // in the cell.
   const double before = s.theta[last - 1], share = (s.theta[last] - before) / (1 - before);
   return {s.flow / 5.229635e-7 - 1, ((last + 1 - share) * s.dx - 3.611263e-3) / s.dx,
           (s.film.fields.p.maxCoeff()) / 9.808819e6 - 1};
@@ -91,7 +91,7 @@ TEST_CASE("PocketSlider_RupturesAndReforms") {
     CHECK(std::abs(e.front) < 0.5);
     CHECK(std::abs(e.peak) < 4e-7);
   }
-  // Steps between nodes, at the same place in their cells on both grids: order one.
+  // Steps lie between nodes, at the same position in their cells on both grids: order one.
   const PocketErrors coarse = pocket(101), fine = pocket(1111);
   CHECK(std::abs(coarse.flow) < 5e-4);
   CHECK(std::abs(coarse.front) < 1);

@@ -17,7 +17,7 @@ FilmModel big_end(Cavitation cavitation) {
 
 constexpr double omega = 374;
 
-// What a relative residual of 1e-10 leaves of pressures and flows.
+// Error of pressures and flows at a relative residual of 1e-10.
 constexpr double solved = 1e-7;
 
 // A wall at mid-width changes nothing of a bearing that is the same on both sides of it.
@@ -95,7 +95,7 @@ TEST_CASE("FrontAlongAnEdge_TakesFewIterations") {
   CHECK((u - film.u).norm() < solved * film.u.norm());
 }
 
-TEST_CASE("Sor_MeetsNewton") {
+TEST_CASE("Sor_AgreesWithNewton") {
   for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
     for (const bool laws : {false, true}) {
       for (const double e : {0.2, 0.7, 0.93}) {
@@ -124,7 +124,7 @@ TEST_CASE("Sor_MeetsNewton") {
   }
 }
 
-TEST_CASE("SorInTime_MeetsNewton") {
+TEST_CASE("SorInTime_AgreesWithNewton") {
   const FilmModel m = big_end(Cavitation::mass_conserving);
   Journal journal = turning(m, 0.7, omega);
   journal.e_rate = {0.03, -0.05};
@@ -194,14 +194,14 @@ TEST_CASE("FilmAtRest_IsSolvable") {
   CHECK(film.wrench.norm() == 0);
 }
 
-TEST_CASE("SolverWithoutAnswer_SaysWhere") {
+TEST_CASE("SolverWithoutAnswer_ReportsTheNode") {
   FilmModel m = big_end(Cavitation::mass_conserving);
   const SolvedFilm film = solve_cold(m, turning(m, 0.8, omega), {.max_iterations = 1});
   CHECK_FALSE(film.summary.solved());
   CHECK(film.summary.message.find("film cell (") != std::string::npos);
 }
 
-TEST_CASE("BrokenContracts_AreNamed") {
+TEST_CASE("ViolatedContracts_AreNamed") {
   FilmModel m = big_end(Cavitation::mass_conserving);
   Reynolds reynolds(m);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());

@@ -14,7 +14,7 @@ namespace surfaces_test {
 
 double order(double coarse, double fine) { return std::log2(std::abs(coarse / fine)); }
 
-// What solvers leave of fields, of sums over them and of flows, relative.
+// Relative errors that solvers leave of fields, of sums over them and of flows.
 constexpr double of_fields = 1e-7, of_sums = 1e-8, of_flows = 1e-9, of_sweeps = 1e-5;
 
 constexpr double length = 0.05, width = 0.01, speed = 3, viscosity = 0.02, outlet = 2e-5;
@@ -45,7 +45,7 @@ SurfaceMotion sliding(const FilmModel& m, Gap&& gap) {
 }
 
 // Reynolds' slider at its optimum inclination, Lamb's closed forms: load, friction on the pad, centre of pressure.
-TEST_CASE("PlanePad_MeetsTheClosedFormsWithOrderTwo") {
+TEST_CASE("PlanePad_ConvergesToTheClosedFormsWithOrderTwo") {
   const verification::LongSlider exact{.K = 1.18870};
   const double load = 6 * viscosity * speed * std::pow(length / outlet, 2) * exact.load() * width;
   const double on_runner = viscosity * speed * length / outlet * width * exact.friction();
@@ -61,7 +61,7 @@ TEST_CASE("PlanePad_MeetsTheClosedFormsWithOrderTwo") {
     load_error[k] = film.wrench[3] / load - 1;
     friction_error[k] = film.wrench[4] / friction - 1;
     centre_error[k] = -film.wrench[2] / film.wrench[3] / length / exact.centre() - 1;
-    // What it takes to pull the runner goes into the film.
+    // The power that pulls the runner is dissipated in the film.
     CHECK(film.observed.power_taken() == relative(speed * on_runner).epsilon(2e-3));
   }
   CHECK(std::abs(load_error[1]) < 3e-4);
@@ -79,7 +79,7 @@ FilmModel ring(int n_phi, int n_z) {
 constexpr verification::ParallelAnnulus discs{.r1 = 0.03, .r2 = 0.07};
 
 // Oil from the middle of a hydrostatic bearing: Q = pi h^3 dp/(6 mu ln(r2/r1)), and what pushes the runner up.
-TEST_CASE("HydrostaticAnnulus_MeetsTheClosedFormWithOrderTwo") {
+TEST_CASE("HydrostaticAnnulus_ConvergesToTheClosedFormWithOrderTwo") {
   const double p = 2e6, flow = discs.flow() * std::pow(outlet, 3) * p / viscosity, load = discs.area() * p;
   std::array<double, 2> flow_error{}, load_error{};
   for (int k = 0; k < 2; ++k) {
@@ -99,8 +99,8 @@ TEST_CASE("HydrostaticAnnulus_MeetsTheClosedFormWithOrderTwo") {
   CHECK(order(flow_error[0], flow_error[1]) == doctest::Approx(2).epsilon(0.1));
 }
 
-// The runner turns: T = pi mu omega (r2^4 - r1^4)/(2 h), and it takes that times omega from whatever drives it.
-TEST_CASE("TurningAnnulus_DragsWithTheRadius") {
+// The runner rotates: T = pi mu omega (r2^4 - r1^4)/(2 h), and its drive provides the power T omega.
+TEST_CASE("RotatingAnnulus_DragsWithTheRadius") {
   const FilmModel m = ring(24, 21);
   const double omega = speed / m.R;
   const SolvedFilm film = solve_cold(m, sliding(m, [](double, double) { return outlet; }), {0, 0});
@@ -113,7 +113,7 @@ TEST_CASE("TurningAnnulus_DragsWithTheRadius") {
 }
 
 // Two discs approach: W = (3 pi mu V/(2 h^3)) (r2^4 - r1^4 - (r2^2 - r1^2)^2/ln(r2/r1)).
-TEST_CASE("SqueezedAnnulus_MeetsTheClosedFormWithOrderTwo") {
+TEST_CASE("SqueezedAnnulus_ConvergesToTheClosedFormWithOrderTwo") {
   const double V = 0.01, load = discs.squeeze() * viscosity * V / std::pow(outlet, 3);
   std::array<double, 2> error{};
   for (int k = 0; k < 2; ++k) {
@@ -166,7 +166,7 @@ TEST_CASE("PatchOfABore_IsTheFilmBesideAGroove") {
   }
 }
 
-// Pads on one grid do not see each other: each is as it would be alone, and their wrenches add.
+// Pads on one grid are independent: each has its film, and their wrenches add.
 TEST_CASE("PatchesOfOneFilm_AreEachOnItsOwn") {
   const std::vector<Patch> pads{
       {.from = 0.2, .to = 1.9, .lines = 15}, {.from = 2.4, .to = 4, .lines = 12}, {.from = 4.3, .to = 6, .lines = 17}};
@@ -193,7 +193,7 @@ TEST_CASE("PatchesOfOneFilm_AreEachOnItsOwn") {
   CHECK(all.observed.flow_ends() == relative(ends).epsilon(of_fields));
 }
 
-// By every way of solving.
+// All solvers are tested.
 TEST_CASE("PatchesOfOneFilm_HaveOneAnswer") {
   FilmModel m = bore(patch_grid({{.from = 0.2, .to = 2.6, .lines = 31}, {.from = 3.3, .to = 5.9, .lines = 29}}, 9));
   m.ends.assign(2, {.first = {.pressure = supplied}, .last = {}});
@@ -258,7 +258,7 @@ TEST_CASE("OilOfPads_IsConservedAtAnyStep") {
   }
 }
 
-// Between parallel plates without conduction oil warms by 2 mu U/(rho c h^2) per length.
+// Oil between parallel plates without conduction warms by 2 mu U/(rho c h^2) per length.
 TEST_CASE("ParallelPad_WarmsAsTheClosedForm") {
   FilmModel m = pad(41);
   m.lubricant.temperature_law = FixedViscosity{viscosity};
@@ -271,7 +271,7 @@ TEST_CASE("ParallelPad_WarmsAsTheClosedForm") {
       2 * viscosity * speed / (m.lubricant.density * m.lubricant.specific_heat * outlet * outlet) * length;
   const TemperatureFields fields = heat.fields();
   const auto at = [&](int line) { return fields.middle[m.grid.index(line, 1)]; };
-  // Beside the inlet oil comes half a cell warm.
+  // Beside the inlet oil enters half a cell warm.
   for (const int line : {20, 30, 40}) CHECK(at(line) - at(line - 10) == relative(rate / 4).epsilon(1e-6));
 }
 

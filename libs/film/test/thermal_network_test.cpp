@@ -22,7 +22,7 @@ FilmModel bearing(int n_phi, int n_z) {
 // program (quadrature of a fine step).
 TEST_CASE("BodyWarmedByAFilm_IsThatOfTheReference") {
   FilmModel model = bearing(8, 5);
-  // Oil that neither holds heat nor keeps it from the walls: the film is as warm as the body.
+  // Oil that neither stores heat nor insulates the walls: the film has the body's temperature.
   model.lubricant.specific_heat = 1, model.lubricant.conductivity = 1e4;
   ThermalModel thermal{.layers = 1, .T_supply = 25 + zero_celsius, .T_edges = 25 + zero_celsius};
   thermal.shell = NodeWall{.T = 25 + zero_celsius, .node = 0};
@@ -82,7 +82,8 @@ TEST_CASE("AnswerToWalls_IsThatOfFiniteDifferences") {
         film.advance(dt);
         const WallExchange at = film.heat.exchange();
         CHECK(at.T == Eigen::Vector2d(320, 310));
-        // The same step with other walls from the start, against the one that is moved there at its end.
+        // The same step is solved with the other walls from the start, and compared with the one that is moved there at
+        // its end.
         for (const Eigen::Vector2d& T : {Eigen::Vector2d(330, 310), Eigen::Vector2d(320, 290)}) {
           thermal.shell = NodeWall{.T = T[0], .node = 0}, thermal.journal = NodeWall{.T = T[1], .node = 1};
           FilmOverTime other(model, thermal, journal);
@@ -138,7 +139,7 @@ TEST_CASE("StepsOfAnyLength_ConserveHeat") {
     CHECK(observed.T[3] == 295);
     CHECK(observed.T[4] == relative(333).epsilon(1e-12));  // round-off: nothing leads there
   }
-  // At rest: what films give goes to the room, and a balance without time says the same.
+  // At rest heat from films flows to the room, and a steady balance gives the same.
   CHECK(network.observables().to_fixed ==
         relative(network.observables().heat.sum()).epsilon(1e-5));  // viscosities follow by a step
   ThermalNetwork steady(bodies);

@@ -18,13 +18,13 @@ inline constexpr double T_supply = 40 + zero_celsius;
 
 inline double degrees(double radians) { return radians * 180 / pi; }
 
-/// What the program says of a bearing [N, deg, Pa, degC, W, m^3/s].
+/// Results of the program for a bearing [N, deg, Pa, degC, W, m^3/s].
 struct Reference {
   double load = 0, attitude = 0, p_max = 0;
   double T_groove = 0, T_side = 0, power = 0, side_flow = 0;
 };
 
-/// By which both may differ: shares, K and degrees.
+/// Allowed differences of both: shares, K and degrees.
 struct Bars {
   double load = 0.01, attitude = 0.3, p_max = 0.01, T = 0.3, T_groove = 0.3, power = 0.007, side_flow = 0.02;
 };
@@ -38,7 +38,7 @@ struct Case {
   Bars bars = {};
 };
 
-/// Angle from the load to the eccentricity, whichever way the journal turns [deg].
+/// Angle from the load to the eccentricity, for either sense of rotation [deg].
 inline double attitude_of(const HotFilm& hot, const Eigen::Vector2d& e) {
   const Eigen::Vector2d W = hot.film.force_pressure.head<2>();
   return degrees(std::atan2(std::abs(W.x() * e.y() - W.y() * e.x()), W.dot(e)));
@@ -71,11 +71,11 @@ inline std::vector<CsvRow> table(const std::string& name) {
   return read_csv(std::string(hersey::source_dir()) + "/verification/data/" + name);
 }
 
-/// Between two nodes at mid-width, `phi` [rad] of the grid.
+/// Interpolates between two nodes at mid-width, `phi` [rad] of the grid.
 inline double at_mid_width(const Grid& grid, const Eigen::VectorXd& field, double phi) {
-  const double place = grid.n_phi * (phi / (2 * pi) - std::floor(phi / (2 * pi)));
-  const int i = static_cast<int>(place) % grid.n_phi, j = grid.n_z / 2;
-  const double share = place - std::floor(place);
+  const double position = grid.n_phi * (phi / (2 * pi) - std::floor(phi / (2 * pi)));
+  const int i = static_cast<int>(position) % grid.n_phi, j = grid.n_z / 2;
+  const double share = position - std::floor(position);
   return (1 - share) * field[grid.index(i, j)] + share * field[grid.index((i + 1) % grid.n_phi, j)];
 }
 

@@ -10,14 +10,14 @@ namespace thermal_reference_test {
 
 using namespace thermal_reference;
 
-/// Where the groove begins, as the oil on its way to it at mid-width says: by the two nodes before, extrapolated.
+/// Returns the temperature at the groove's beginning, extrapolated from the two nodes before it at mid-width.
 double T_before(const Case& c, const HotFilm& hot, double phi) {
   const double step = 2 * pi / c.model.grid.n_phi;
   const auto T = [&](double at) { return at_mid_width(c.model.grid, hot.temperatures.middle, at) - zero_celsius; };
   return 2 * T(phi - step) - T(phi - 2 * step);
 }
 
-/// At mid-width, against verification/data. The narrowest gap lies at pi.
+/// Figures at mid-width are compared with verification/data. The narrowest gap lies at pi.
 void compare_midplane(const Case& c, const HotFilm& hot) {
   int points = 0;
   for (const CsvRow& row : table("bulk_midplane.csv")) {
@@ -27,7 +27,8 @@ void compare_midplane(const Case& c, const HotFilm& hot) {
     const auto at = [&](const Eigen::VectorXd& field) { return at_mid_width(c.model.grid, field, phi); };
     CHECK(std::abs(at(hot.temperatures.middle) - zero_celsius - number(row, "T")) < c.bars.T);
     CHECK(std::abs(at(hot.fields.p) - number(row, "p")) < c.bars.p_max * c.expected.p_max);
-    // Of first order: on 120 cells the program itself is off by 0.03 where the film cavitates and by less beyond.
+    // The error is of first order: on 120 cells the program itself is off by 0.03 where the film cavitates and by less
+    // beyond.
     CHECK(std::abs(at(hot.fields.theta) - number(row, "theta")) < 0.03);
     ++points;
   }
@@ -62,8 +63,8 @@ TEST_CASE("CopesBearingWithARenewedGroove_IsThatOfAnIndependentProgram") {
   compare_midplane(c, hot);
 }
 
-// Where oil is not conserved the film is full everywhere: the line, which gives fresh oil, holds back all that the film
-// carries to it, over the edges' half volumes as well.
+// Where oil is not conserved the film is full everywhere: the line, which supplies fresh oil, retains all oil that the
+// film carries to it, over the edges' half volumes as well.
 TEST_CASE("CopesBearingThatLosesOil_IsThatOfAnIndependentProgram") {
   Case c = cope("C5", 0.1, 0.6, {63298.6, 58.9927, 1.40164e7, 40, 50.9598, 2383.88, 3.71359e-5});
   c.model.cavitation = Cavitation::reynolds;
@@ -74,9 +75,9 @@ TEST_CASE("CopesBearingThatLosesOil_IsThatOfAnIndependentProgram") {
   compare_midplane(c, hot);
 }
 
-// Between walls at 60 degC. The program takes the temperature across the film for a parabola through its mean and both
-// walls, which gives each of these 6 k (T - T_wall)/h; one layer gives it 2 k (T - T_wall)/h (thermal.53), so that a
-// layer of oil of three times the conductivity is that parabola.
+// The walls have 60 degC. The program approximates the temperature across the film by a parabola through its mean and
+// both walls, which gives each of these 6 k (T - T_wall)/h; one layer gives it 2 k (T - T_wall)/h (thermal.53), so that
+// a layer of oil of three times the conductivity is that parabola.
 TEST_CASE("ParabolaAcrossTheFilm_IsALayerOfThreeTimesTheConductivity") {
   Case c = cope("P1", 0.1, 0.6, {55287.1, 52.5018, 1.31518e7, 46.9333, 59.2843, 2405.26, 3.76819e-5});
   c.model.grid = {.n_phi = 240, .n_z = 25};  // T_groove is of first order: 0.30 K on 120 nodes, 0.15 on these
@@ -86,11 +87,12 @@ TEST_CASE("ParabolaAcrossTheFilm_IsALayerOfThreeTimesTheConductivity") {
   const HotFilm hot = compare(c);
   CHECK(std::abs(T_before(c, hot, 0) - 62.0688) < c.bars.T);
   compare_midplane(c, hot);
-  // Of first order: the line's control volumes heat no wall. 0.83 % on 120 nodes, 0.43 % on 240, 0.30 % on 360.
+  // The error is of first order: the line's control volumes heat no wall. 0.83 % on 120 nodes, 0.43 % on 240, 0.30 % on
+  // 360.
   CHECK(hot.heat.balance.to_shell == relative(577.602).epsilon(0.005));
   CHECK(hot.heat.balance.to_journal == relative(577.602).epsilon(0.005));  // likewise
-  // Layers know more than a parabola: the cold oil that comes in takes heat faster, more of it from the shell, which
-  // the oil passes that flows on; and it is thin beside the walls. So much the parabola is off.
+  // Layers resolve more than a parabola: the cold oil that enters absorbs heat faster, more of it from the shell along
+  // which the oil flows on, and it is thin beside the walls. The tolerance is the parabola's error.
   c.model.lubricant.conductivity /= 3;
   c.thermal.layers = 5;
   const HotFilm layered = solve_hot(c.model, c.thermal, surfaces(c.model, c.journal), c.journal.e);

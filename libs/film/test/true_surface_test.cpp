@@ -101,16 +101,17 @@ TEST_CASE("TorqueOnShapedSurfaces_IsThatOfTheSurfaces") {
       on_journal[k] = solved.observed.torque_journal / exact.journal - 1;
       on_shell[k] = solved.observed.torque_shell / exact.shell - 1;
     }
-    // Of 120 x 41 nodes; a quarter of it on twice as many, below.
+    // The tolerance is that of 120 x 41 nodes; a quarter of it applies on twice as many, below.
     CHECK(std::abs(on_journal[0]) < 1e-4);
     CHECK(std::abs(on_shell[0]) < 1e-4);
-    // What is left is the grids' and disappears with them; the finer one is down where signs change.
+    // The difference is the grids' error and vanishes with them; that of the finer one is smaller by chance where signs
+    // change.
     CHECK(std::abs(on_journal[1]) < 0.3 * std::abs(on_journal[0]) + 5e-6);
     CHECK(std::abs(on_shell[1]) < 0.3 * std::abs(on_shell[0]) + 5e-6);
   }
 }
 
-/// What the bodies put in by the wrench less what the fields take, over that.
+/// Power that the bodies put in by the wrench less that of the fields, over the former.
 double power_error(const ShapedFilm& film, double at_least_taken) {
   const SolvedFilm solved = film.solved();
   REQUIRE(solved.summary.solved());
@@ -121,7 +122,7 @@ double power_error(const ShapedFilm& film, double at_least_taken) {
   return (-bodies - o.power_taken()) / o.power_taken();
 }
 
-TEST_CASE("PowerPutIntoAFilm_IsWhatItsFieldsTake") {
+TEST_CASE("PowerPutIntoAFilm_EqualsThatOfItsFields") {
   struct Case {
     const char* name;
     Shape shell, journal;

@@ -44,7 +44,7 @@ TEST_CASE("AdiabaticSliders_AreThoseOfTheQuadrature") {
     FilmModel model{.R = all * dx / (2 * pi), .L = 0.01, .c = 50e-6, .grid = {all, 3}, .lubricant = thinning_oil()};
     model.edge_left.kind = model.edge_right.kind = EdgeKind::closed;
     const double cell = 2 * pi / all, arc = groove * cell;
-    // From the node at the slider's start backwards, and from that at its end on.
+    // Temperatures are taken backwards from the node at the slider's start, and onwards from that at its end.
     model.features = {
         {.name = "inlet", .phi = -0.5 * (arc - 0.5 * cell), .arc = arc - 0.5 * cell, .length = 0.01, .depth = 5e-3},
         {.name = "outlet", .phi = n * cell + 0.5 * arc, .arc = arc, .length = 0.01, .depth = 5e-3}};

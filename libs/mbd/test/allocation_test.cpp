@@ -26,7 +26,7 @@ long allocations_of(Mechanism& mechanism, double dt, double spectral_radius) {
   return allocations;
 }
 
-TEST_CASE("Counter_SeesWhatTheHeapGives") {
+TEST_CASE("Counter_CountsAllocations") {
   if (!hersey::test::counts_allocations) return;
   const long before = hersey::test::allocations;
   auto* const vector = new Eigen::VectorXd(100);
@@ -35,13 +35,13 @@ TEST_CASE("Counter_SeesWhatTheHeapGives") {
   CHECK(taken == 2);
 }
 
-TEST_CASE("StepsAfterTheFirst_TakeNothingFromTheHeap") {
+TEST_CASE("StepsAfterTheFirst_DoNotAllocate") {
   CHECK(allocations_of(*test::four_bars(5), 5e-3, 0.9) == 0);
   CHECK(allocations_of(*test::governor(), 1e-3, 0.8) == 0);
   CHECK(allocations_of(*test::Squeezer().mechanism, 1e-5, 0.9) == 0);
 }
 
-TEST_CASE("EveryKindOfPart_TakesNothingFromTheHeap") {
+TEST_CASE("EveryKindOfPart_DoesNotAllocate") {
   // Every joint type, balls, closing joints, couplings, drives, loads, springs, friction and control.
   CHECK(allocations_of(*test::nasty_mechanism(false), 1e-4, 0.8) == 0);
 }

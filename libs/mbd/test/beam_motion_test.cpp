@@ -208,7 +208,7 @@ TEST_CASE("RotatingBlade_HasTheFrequenciesOfTheClosedForm") {
   }
 }
 
-TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
+TEST_CASE("OverhungRotor_WhirlsAsInTheClosedForm") {
   // A disc (m, I_d across, I_p along) at the end of a massless shaft that rotates at W: with deflection and slope as
   // unknowns, (K - w^2 diag(m, I_d) + w W diag(0, I_p)) x = 0 for whirl at w, forward where w has W's sign. In the
   // rotating axes its frequency is |w - W|.
@@ -259,7 +259,7 @@ TEST_CASE("OverhungRotor_WhirlsAsTheClosedFormSays") {
   std::vector<double> found;
   for (const solver::Mode& mode : solver::find_modes(solver::linearise(*mechanism, state, 0)).modes)
     found.push_back(2 * kPi * mode.frequency);
-  // Between them lies the disc's twist against the driven root.
+  // The disc's twist against the driven root lies between them.
   const double twist = std::sqrt(1e3 / L / I_p);
   expected.push_back(twist);
   std::sort(expected.begin(), expected.end());

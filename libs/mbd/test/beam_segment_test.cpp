@@ -155,8 +155,8 @@ TEST_CASE("BeamSegment_GravityIsWeightAtItsMiddle") {
   CHECK(e.potential == doctest::Approx(-body.mass() * g.dot(middle)).epsilon(1e-14));  // round-off
 }
 
-// What round-off of poses does to forces is a share of a deformation as large as the piece, whichever of its
-// stiffnesses is the largest: a thick one resists bending about one axis more than all else.
+// Round-off of poses affects forces by a share of a deformation as large as the piece, multiplied by the largest of its
+// stiffnesses: a thick piece resists bending about one axis most.
 TEST_CASE("BeamSegment_MagnitudeCoversItsLargestStiffness") {
   constexpr double kShare = 1e-6;  // as the segment takes it
   for (const int largest : {0, 1, 2, 3, 4, 5}) {

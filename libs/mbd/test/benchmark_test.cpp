@@ -121,7 +121,7 @@ TEST_CASE("FourBars_CostNoMoreThanEqualStepsOfTheSameError") {
 }
 
 TEST_CASE("FortyFourBarsOfHinges_RunLikeThoseWithoutRedundancy") {
-  // Three constraints of each loop say what others say already.
+  // Three constraints of each loop are redundant.
   const auto m = four_bars(40, true);
   CHECK(m->redundancies().size() == 40);
   CHECK(m->nv() == 81);
@@ -137,7 +137,7 @@ TEST_CASE("FortyFourBarsOfHinges_RunLikeThoseWithoutRedundancy") {
   for (const JointObservation& joint : observation.joints) CHECK(std::abs(joint.force.z()) < 1e-6);
 }
 
-TEST_CASE("FortyFourBars_MeetTheBenchmark") {
+TEST_CASE("FortyFourBars_MatchTheBenchmark") {
   // 121 coordinates, 120 constraint rows.
   const auto m = four_bars(40);
   solver::State state = test::start(*m);
@@ -167,7 +167,7 @@ TEST_CASE("StiffGovernor_FollowsTheReference") {
   CHECK(std::abs(highest - 0.7435637640) < 1e-4);  // the benchmark's own measure
 }
 
-TEST_CASE("AndrewsSqueezer_MeetsTheTestSet") {
+TEST_CASE("AndrewsSqueezer_MatchesTheTestSet") {
   Squeezer squeezer;
   Mechanism& m = *squeezer.mechanism;
   solver::State state = test::start(m);

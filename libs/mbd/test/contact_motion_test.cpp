@@ -84,7 +84,7 @@ Impact impact(const ContactLaw& law, int steps) {
   return observation;
 }
 
-TEST_CASE("BallDrop_MeetsHertzForceAndDuration") {
+TEST_CASE("BallDrop_MatchesHertzForceAndDuration") {
   // delta_max = (5 m v^2/(4 k))^(2/5), F = k delta_max^(3/2), T = 2.9432 delta_max/v (Hertz; Johnson 1985, Sec.
   // 11.4): (contact.13).
   const ContactLaw law{.stiffness = 1e9};
@@ -100,7 +100,7 @@ TEST_CASE("BallDrop_MeetsHertzForceAndDuration") {
     CAPTURE(duration_error[i]);
     CHECK(force_error[i] < 0.005 / std::pow(4, i));
     CHECK(duration_error[i] < 0.005 / std::pow(4, i));
-    // Without damping the ball leaves as fast as it came.
+    // Without damping the ball leaves with the speed of its arrival.
     CHECK(std::abs(observation.speed_after - 1) < 1e-4 / std::pow(4, i));  // second order
   }
   CHECK(force_error[2] > force_error[0] / 32);  // and not by chance: order two from both sides

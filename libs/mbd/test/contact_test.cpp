@@ -318,7 +318,7 @@ TEST_CASE("MeshOfABall_PressesLikeTheBallAsItIsRefined") {
   CHECK(error[2] < error[0]);
 }
 
-TEST_CASE("StandingCylinder_FeelsNoPreferredDirection") {
+TEST_CASE("UprightCylinder_HasNoPreferredDirection") {
   const Cylinder can{{0, 0, -1}, {0, 0, 1}, 1};
   Contact contact(HalfSpace{}, can, {.stiffness = 1e5, .exponent = 1.5});
   const double lean = 0.005;

@@ -163,7 +163,7 @@ TEST_CASE("Cam_LiftsItsFollowerByTheRelation") {
                                                  [](double x) { return 0.18 * std::cos(3 * x); })}}});
   const auto m = b.finalise();
   solver::State state = test::start(*m);
-  // At the start exactly, after a second to second order of the step.
+  // The tolerances are those of the start, which is exact, and of a second later, to second order of the step.
   for (double tolerance : {1e-10, 2e-4}) {
     const Observation observation = m->observe(state);
     const double x = 3 * omega * state.t, lift_rate = 0.06 * std::sin(x);

@@ -58,7 +58,7 @@ TEST_CASE("PlaneLoop_ClosesWithCylindricalAndSphericalJoints") {
   CHECK(std::abs(state.q[0] - 1.2) < 1e-9);  // the crank kept its prescribed position; to 1e-7 of the others' motion
 }
 
-TEST_CASE("LoopTooShort_CannotBeAssembledAndSaysWhere") {
+TEST_CASE("LoopTooShort_CannotBeAssembledAndNamesTheJoint") {
   const auto m = four_bar(JointType::cylindrical, JointType::spherical, 40);
   solver::State state = m->initial_state();
   const InitialiseSummary summary = solver::initialise(*m, state);

@@ -59,7 +59,7 @@ struct SupportedStrip {
 };
 
 TEST_CASE("FiniteStrainBetweenFrames_IsTheSameFromEitherFrame") {
-  // By a force across and a moment, which rotate the tip by 1.4 rad.
+  // A force across and a moment rotate the tip by 1.4 rad.
   std::array<Pose, 2> tip;
   for (const bool tip_first : {false, true}) {
     SupportedStrip supported(strip(tip_first), JointType::fixed, {0, 400, 60}, 1500);
@@ -129,7 +129,8 @@ TEST_CASE("FiniteStrainBetweenFrames_SwingsTheSameFromEitherFrame") {
 }
 
 TEST_CASE("FiniteStrainOfAStiffBody_MovesItAsSmallStrainDoes") {
-  // From the static answer to the start on, of which both have to mean the same: bent by 3e-4 of its length.
+  // The path leads from the static answer to the start, and both strains must have the same: the body is bent by 3e-4
+  // of its length.
   const auto path = [](Strain strain, double modulus) {
     test::Beam beam = strip(false, 5);
     beam.strain = strain;
@@ -218,7 +219,7 @@ TEST_CASE("FiniteStrainBetweenFrames_DerivativesMatchFiniteDifferences") {
   body->begin_step(motion, dt);
   motion.stage = {.dt = dt, .k = 1, .c = 2 / dt, .m = 4 / (dt * dt)};
   for (int repeat = 0; repeat < 30; ++repeat) body->evaluate(motion, true, response);
-  CHECK(body->internal_residual() < 1e-9);  // thirty solutions: as far as it goes
+  CHECK(body->internal_residual() < 1e-9);  // thirty solutions: its limit
   MatrixXd exact(12, 12);
   for (Index i = 0; i < 12; ++i) {
     const auto at = [&](double step) {

@@ -15,7 +15,7 @@
 
 namespace hersey::mbd::test {
 
-/// A box along x with a frame on each end it is asked for.
+/// A box along x with frames on the requested ends.
 struct Beam {
   Vector3 size{1, 0.1, 0.06};
   std::array<int, 3> cells{8, 2, 2};

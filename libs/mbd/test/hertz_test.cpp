@@ -36,7 +36,7 @@ double displacement(double a, double b, double x) {
 }
 
 TEST_CASE("HertzStiffness_OfAnEllipseSolvesTheContactProblem") {
-  // For semi-axes 1 and b the surface under Hertz's pressure is delta - x^2/(2R') - y^2/(2R''): that gives R', R''.
+  // For semi-axes 1 and b the surface under Hertz's pressure is delta - x^2/(2R') - y^2/(2R''), which gives R', R''.
   for (const double b : {0.9, 0.5, 0.2, 0.05}) {
     const double delta = displacement(1, b, 0);
     const double R1 = 0.125 / (delta - displacement(1, b, 0.5)),

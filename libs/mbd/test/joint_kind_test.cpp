@@ -1,4 +1,5 @@
-// The table of joints against itself: what a chain lets move is what the rows of the same type do not hold.
+// The table of joints against itself: the motions that a chain allows are those that the rows of the same type do not
+// constrain.
 #include "tree/joint_kind.h"
 
 #include <doctest/doctest.h>
@@ -44,7 +45,7 @@ TEST_CASE("JointAxes_AreTheSmallestRotationFromZ") {
   }
 }
 
-TEST_CASE("JointsOfTheTable_HoldWhatTheirChainsLeave") {
+TEST_CASE("JointsOfTheTable_ConstrainWhatTheirChainsLeave") {
   for (const JointKind& kind : joint_kinds()) {
     if (kind.rows.empty()) continue;
     CAPTURE(kind.name);
@@ -53,7 +54,7 @@ TEST_CASE("JointsOfTheTable_HoldWhatTheirChainsLeave") {
   }
 }
 
-TEST_CASE("RowsOfAJoint_HoldEveryMotionOfAnotherThatItHasNot") {
+TEST_CASE("RowsOfAJoint_ConstrainEveryMotionOfAnotherThatItHasNot") {
   // A joint whose chain moves otherwise opens the rows: those of a hinge by every freedom of a planar joint but one.
   const auto opened = [](int value) {
     std::vector<double> q(3, 0);

@@ -32,8 +32,8 @@ double power(Mechanism& m, const solver::State& state) {
 /// A force that acts along the first component, a moment about z.
 Vector6 wrench(double moment, double force) { return (Vector6() << 0, 0, moment, force, 0, 0).finished(); }
 
-/// Simo and Vu-Quoc's beam (1986) in free flight, as light in rotation as its section says: a force and a moment act
-/// suddenly on its first node.
+/// Simo and Vu-Quoc's beam (1986) in free flight, with the small rotary inertia of its section: a force and a moment
+/// act suddenly on its first node.
 struct FlyingBeam {
   std::unique_ptr<Mechanism> mechanism;
   BeamBodyIds ids;
@@ -80,7 +80,7 @@ Balance fly(int elements, double dt, double end, double spectral_radius, bool lo
   return balance;
 }
 
-TEST_CASE("LightFirstNodeUnderASuddenMoment_TakesUpTheWorkDone") {
+TEST_CASE("LightFirstNodeUnderASuddenMoment_AbsorbsTheWorkDone") {
   // The first node alone rotates at some hundred radians per second, and steps of 20 ms do not resolve it. The method
   // takes unresolved motions out, with a spectral radius of .5 a quarter of the work in four steps; it must add
   // nothing.
@@ -148,7 +148,7 @@ TEST_CASE("LooseBeam_MovesAsCountedFromItsFirstNode") {
     CAPTURE(hinge.value_or(99));
     BeamBodyIds ids;
     const auto from_first = soft_beam(hinge, false, ids), loose = soft_beam(hinge, true, ids);
-    // The same start: nodes lie and move where the first one has them.
+    // The start is the same: nodes have the positions and velocities that the first one gives them.
     for (const FrameId frame : ids.frames) {
       const FrameMotion a = from_first->frame_motion(from_first->initial_state(), frame),
                         b = loose->frame_motion(loose->initial_state(), frame);
@@ -215,7 +215,7 @@ TEST_CASE("LightBodyAtTheRoot_StartsAsWhereTheHeavyOneIs") {
 }
 
 TEST_CASE("LightBody_CarriesNothing") {
-  // In a plane the heavy body has a pose of its own, behind a ball or a hinge it carries the light one.
+  // In a plane the heavy body has a pose of its own and carries the light one by a ball or a hinge.
   for (const JointType between : {JointType::planar, JointType::spherical, JointType::revolute}) {
     CAPTURE(name_of(between));
     Balance balances[2];
@@ -232,8 +232,8 @@ TEST_CASE("LightBody_CarriesNothing") {
       });
       balance.energy = energy(*m, state);
     }
-    // The same but for how the light body's vibration, which the steps do not follow, is counted from the heavy one: a
-    // thousandth of the work. Where the light one carries, these steps end in twice the energy, or nowhere.
+    // The results differ only by the light body's vibration, which the steps do not resolve, counted from the heavy
+    // one: a thousandth of the work. Where the light body carries, these steps end in twice the energy, or fail.
     CHECK(balances[0].energy == doctest::Approx(balances[1].energy).epsilon(1e-3));
     CHECK(balances[0].work == doctest::Approx(balances[1].work).epsilon(1e-3));
   }

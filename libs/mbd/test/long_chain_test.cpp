@@ -47,7 +47,7 @@ TEST_CASE("LongChain_CutOrNot_MovesTheSameWay") {
   }
 }
 
-TEST_CASE("LongChain_StartsWhereItsJointsSay") {
+TEST_CASE("LongChain_StartsAtItsJointCoordinates") {
   const auto parts = test::chain(30, 12, false);
   const solver::State start = parts->initial_state();
   const Observation observation = parts->observe(start);
@@ -86,7 +86,7 @@ bool are_same(const Observation& a, const Observation& b) {
   return std::equal(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), is_same);
 }
 
-TEST_CASE("Observation_IsOfItsOwnState_WhateverWasLookedAtBefore") {
+TEST_CASE("Observation_IsOfItsOwnState_AfterAnyOtherEvaluation") {
   const auto used = test::chain(30, 12);
   solver::State start = used->initial_state();
   start.vdot.setLinSpaced(-1, 1);

@@ -25,8 +25,7 @@ const std::array<double, 3> weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
 using Loads = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// Forces and moments on the nodes that do the work of those along the beam where points move linearly between them,
-/// and the wrenches on both ends (theory manual, beams.10). Those of one instant are asked for many times, by several
-/// runs.
+/// and the wrenches on both ends (theory manual, beams.10). Several runs use those of one instant many times.
 class NodalLoads {
  public:
   NodalLoads(const ManufacturedBeam& exact, int elements) : exact_(exact), elements_(elements) {}
@@ -66,7 +65,7 @@ void add_loads(MechanismBuilder& b, const BeamBodyIds& ids, const std::shared_pt
     for (int i = 0; i < 6; ++i) {
       const auto column = static_cast<Eigen::Index>(node);
       const auto value = [loads, i, column](double t) { return loads->at(t)(i, column); };
-      const auto unknown = [](double) { return std::nan(""); };  // of its slopes nobody asks
+      const auto unknown = [](double) { return std::nan(""); };  // its slopes are not used
       load.terms.push_back({.direction = Vector6::Unit(i),
                             .magnitude = test::time_function(value, unknown, unknown),
                             .variables = {{.kind = Variable::Kind::time, .coordinate = {}}}});
@@ -75,7 +74,7 @@ void add_loads(MechanismBuilder& b, const BeamBodyIds& ids, const std::shared_pt
   }
 }
 
-/// Of a section.
+/// Motion of a section.
 struct Motion {
   Pose X;
   Vector3 v, omega;  ///< ground's axes

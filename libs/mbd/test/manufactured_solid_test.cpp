@@ -90,7 +90,7 @@ void add_loads(MechanismBuilder& b, ElasticId elastic, const Solid& exact, const
                          .axes = LoadAxes::ground,
                          .forces = Eigen::Map<const Matrix3Xd>(forces.data(), 3, forces.size() / 3)};
     const auto share = [=](double t) { return std::max(0.0, 1 - std::abs(t / dt - step)); };
-    const auto unknown = [](double) { return std::nan(""); };  // of its slopes nobody asks
+    const auto unknown = [](double) { return std::nan(""); };  // its slopes are not used
     b.add_nodal_load(elastic, load, test::time_function(share, unknown, unknown));
   }
 }
@@ -206,8 +206,8 @@ TEST_CASE("ManufacturedSolid_IsMetWithTheOrderOfItsElements") {
     std::array<int, 3> cells;  // across, of three meshes
     double order;
   };
-  // Of the second order with linear shape functions, of the third with quadratic ones. How the frame moves, and
-  // energies, are at least as good.
+  // The order is two with linear shape functions and three with quadratic ones. The frame's motion and energies have at
+  // least that order.
   for (const Case& each : {Case{fem::ElementType::hex8, {1, 2, 4}, 2}, Case{fem::ElementType::tet10, {1, 2, 3}, 3},
                            Case{fem::ElementType::hex20, {1, 2, 3}, 3}}) {
     const std::string type = fem::name_of(each.type);

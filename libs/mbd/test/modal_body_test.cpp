@@ -170,7 +170,7 @@ TEST_CASE("ModalBody_LoadsDoTheWorkOfTheirForcesAtTheirNodes") {
     Eigen::Matrix3Xd y = body.data().nodes + Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
     return Eigen::Matrix3Xd((at.frames[0].X_WF.R * y).colwise() + at.frames[0].X_WF.r);
   };
-  // The same from the nodes themselves, their velocities by differences.
+  // The same quantities follow from the nodes themselves, their velocities by differences.
   const Eigen::Matrix3Xd y = positions(motion),
                          v = (positions(later(motion, kStep)) - positions(later(motion, -kStep))) / (2 * kStep);
   const ElasticEnergy energy = body.energy(motion, Vector3::Zero());

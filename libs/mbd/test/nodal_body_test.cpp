@@ -239,7 +239,7 @@ TEST_CASE("NodalBodyOfFiniteStrain_IsStiffenedBySpin") {
   MESSAGE("deflection in rotation over that at rest ", ratio);
   CHECK(ratio == doctest::Approx(1 / (1 + 1.193)).epsilon(0.03));
   beam.strain = Strain::small;
-  // Small strains know no stiffening: what is left is of second order.
+  // Small strains have no stiffening: the difference is of second order.
   CHECK(bent(beam, force, 0.3 * omega_0).z() == doctest::Approx(bent(beam, force).z()).epsilon(1e-3));
 }
 

@@ -56,7 +56,7 @@ TEST_CASE("Pendulum_FollowsEllipticSolution") {
   CHECK(worst < 1e-4);  // as said above
 }
 
-TEST_CASE("PendulumOver2000Seconds_MeetsTheBenchmark") {
+TEST_CASE("PendulumOver2000Seconds_MatchesTheBenchmark") {
   // IFToMM A01 in full: 845 periods, 4000 outputs. Phase error as above: 2000 * 3 * (1.3e-3)^2 / 12 = 8e-4 at 0.4 ms.
   const auto m = pendulum(false);
   solver::State state = test::start(*m);
@@ -171,7 +171,7 @@ TEST_CASE("EnergyOfLongRuns_LeaksLittleThroughMildDissipation") {
 }
 
 // The energies used to check a step equal those observed, for point masses, too.
-TEST_CASE("EnergyViewOfAPendulum_IsWhatIsObserved") {
+TEST_CASE("EnergyViewOfAPendulum_EqualsTheObservation") {
   for (const bool closed : {false, true}) {
     CAPTURE(closed);
     const auto m = pendulum(closed);

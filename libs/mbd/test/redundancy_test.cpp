@@ -1,4 +1,5 @@
-// Loops with more constraints than motions: what is dropped, that it holds by itself, and how reactions are shared.
+// Loops with more constraints than motions: constraints that are dropped are satisfied all the same, and reactions are
+// shared.
 #include "../src/tree/redundancy.h"
 
 #include <doctest/doctest.h>
@@ -73,9 +74,9 @@ TEST_CASE("PlaneLoopOfHinges_IsNamedAndRuns") {
   CHECK(redundancy.orientations == 2);  // both tilts
   CHECK(m->nlambda() == 2);
 
-  // The same motion and the same forces in the plane as with a loop that has nothing to spare.
+  // The motion and the forces in the plane are those of a loop without redundancy.
   const auto free = four_bar(JointType::spherical);
-  CHECK(free->redundancies().size() == 1);  // the ball still says twice that the loop stays in its plane
+  CHECK(free->redundancies().size() == 1);  // the ball's constraint keeps the loop in its plane twice
   solver::State state = test::start(*m), other = test::start(*free);
   double drift = 0;
   test::run(*m, state, 1, 1000, 0.8,
@@ -117,7 +118,7 @@ TEST_CASE("ToggleStart_IsNotTakenForRedundancy") {
 }
 
 TEST_CASE("ReactionsOfALadder_AreTheSmallest") {
-  // Three constraints of each loop of hinges are redundant; a loop that has none stands beside it.
+  // Three constraints of each loop of hinges are redundant; beside it lies a loop without any.
   const auto ladder = test::four_bars(3, true);
   solver::State state = test::start(*ladder);
   test::run(*ladder, state, 0.1, 50);
@@ -129,19 +130,19 @@ TEST_CASE("ReactionsOfALadder_AreTheSmallest") {
     CHECK(std::abs(joint.force.z()) < 1e-8);
     CHECK(joint.torque.norm() < 1e-8);
   }
-  // In the plane they are unique: those of the same ladder with joints that leave nothing redundant.
+  // Forces in the plane are unique: those of the same ladder with joints that leave nothing redundant.
   const auto plain = test::four_bars(3, false);
   solver::State same = test::start(*plain);
   test::run(*plain, same, 0.1, 50);
   const Observation expected = plain->observe(same);
-  // In the plane: two sets of equations.
+  // Both sets of equations have the same forces in the plane.
   for (std::size_t j = 0; j < observation.joints.size(); ++j)
     CHECK(observation.joints[j].force.norm() == doctest::Approx(expected.joints[j].force.norm()).epsilon(1e-5));
 }
 
 TEST_CASE("TwoHinges_ShareTheDoorsWeight") {
-  // Equal hinges at z = 0 and z = 2 m, the weight 0.5 m off the axis: half the weight each; the tipping moment goes
-  // into a couple of forces and into moments of the hinges.
+  // Two equal hinges at z = 0 and z = 2 m carry half the weight each, which acts 0.5 m off the axis; a couple of forces
+  // and moments of the hinges carry the tipping moment.
   MechanismBuilder b;
   b.set_gravity({0, 0, -10});
   const BodyId door =
@@ -170,7 +171,7 @@ TEST_CASE("TwoHinges_ShareTheDoorsWeight") {
 }
 
 TEST_CASE("TiltedHinge_CannotCloseThePlaneLoop") {
-  // The loop is over-constrained and inconsistent: nothing may be dropped, and assembly says which joint stays open.
+  // The loop is over-constrained and inconsistent: nothing may be dropped, and assembly reports which joint stays open.
   const auto m = four_bar(JointType::revolute, 0.2);
   CHECK(m->redundancies().empty());
   solver::State state = m->initial_state();

@@ -180,7 +180,7 @@ TEST_CASE("LightPieceThatIsFixedToAHeavyOne_IsNotTooLight") {
   }
 }
 
-TEST_CASE("FreeBody_KeepsItsEnergyWhereverItsOriginLies") {
+TEST_CASE("FreeBody_KeepsItsEnergyAtAnyOrigin") {
   // With coordinates at a point off the centre of mass the energy of a tumbling bar increased by 6 % a second.
   for (const Vector3& origin : {Vector3(0, 0, 0), Vector3(0.06, 0, 0), Vector3(-0.02, 0.3, 0.1)})
     for (const bool has_joint : {true, false}) {

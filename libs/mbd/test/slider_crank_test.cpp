@@ -16,9 +16,9 @@ struct Model {
   BodyId slider;
 };
 
-/// In space revolute, cylindrical, spherical and prismatic leave one motion and no redundancy, dead centres included.
-/// `reverse_rod` declares the big end from rod to crank, so that the tree runs through it backwards. `crank_angle`
-/// shows the assembly the branch of the rod: along the guide.
+/// In space revolute, cylindrical, spherical and prismatic joints leave one motion and no redundancy, dead centres
+/// included. `reverse_rod` declares the big end from rod to crank, so that the tree runs through it backwards.
+/// `crank_angle` selects the branch of the rod for assembly: along the guide.
 Model slider_crank(const verification::SliderCrank& s, bool reverse_rod, double crank_angle = 0) {
   MechanismBuilder b;
   b.set_gravity({0, -s.g, 0});
@@ -65,7 +65,7 @@ Model slider_crank(const verification::SliderCrank& s, bool reverse_rod, double 
   return m;
 }
 
-TEST_CASE("SliderCrank_MeetsClosedFormKinematicsAndReactions") {
+TEST_CASE("SliderCrank_MatchesClosedFormKinematicsAndReactions") {
   const verification::SliderCrank exact{.push = -1500};
   for (bool reverse_rod : {false, true}) {
     CAPTURE(reverse_rod);

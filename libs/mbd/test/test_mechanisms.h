@@ -102,7 +102,7 @@ class FullBushing final : public TwoBodyForce {
   Matrix6 K_, D_;
 };
 
-/// A force that sees the shapes of elastic bodies and pushes on them: every component depends on everything.
+/// A force that depends on the shapes of elastic bodies and acts on them: every component depends on everything.
 class FullMembrane final : public TwoBodyForce {
  public:
   explicit FullMembrane(Eigen::Index amplitudes) : count_(amplitudes), c_(9 + 2 * amplitudes) {
@@ -178,8 +178,9 @@ inline std::shared_ptr<BeamSegment> random_segment(double length) {
   return std::make_shared<BeamSegment>(data);
 }
 
-/// Every joint type, in the tree and closing, both ways round; balls; loads of joint angles; springs; drives; a force.
-/// @param membranes  with forces that see bodies deform, whose dense blocks are made anew each time
+/// A mechanism with every joint type, in the tree and as a cut joint, in both directions; balls; loads of joint angles;
+/// springs; drives; a force. @param membranes  with forces that depend on deformation, whose dense blocks are made anew
+/// each time
 inline std::unique_ptr<Mechanism> nasty_mechanism(bool membranes = true) {
   MechanismBuilder b;
   b.set_gravity({0.3, -9.81, 1.2});
@@ -206,7 +207,7 @@ inline std::unique_ptr<Mechanism> nasty_mechanism(bool membranes = true) {
                         .loose = std::vector<bool>(initial.size(), true),
                         .loose_rate = std::vector<bool>(rate.size(), true)});
   };
-  // Every start is a guess: as they stand they do not close the loops.
+  // Every start is a guess that does not close the loops.
   const JointId pivot = join("pivot", JointType::revolute, at(b.ground(), {0.2, 0.1, 0}, {0.1, 0.2, 0.3}),
                              at(arm, {0, 0.3, 0.1}, {0.05, 0, 0}), {1, 2, 2}, {0.4}, {1.1});
   const JointId rail = join("rail", JointType::cylindrical, at(arm, {0, 0, 0.4}, {0.4, 0, 0.1}),

@@ -98,7 +98,7 @@ TEST_CASE("RotaryInertia_MayBeGivenApartFromSecondMomentsOfArea") {
   CHECK(given.mass_per_length == own.mass_per_length);
   CHECK(given.section.I_y == own.section.I_y);
   CHECK((given.inertia_per_length - Vector3(3e-3, 2e-3, 1e-3)).norm() < kRoundOff);
-  // What the section has by itself, written down, changes nothing.
+  // Values that equal those of the section itself change nothing.
   const double yy = own.inertia_per_length.y();
   const Beam same =
       *read_text(with(fmt::format("{{yy: {0:.17g} kg.m, zz: {0:.17g} kg.m}}", yy)), "m.yaml").bodies[0].beam;
@@ -117,7 +117,7 @@ TEST_CASE("BeamAlongZ_NeedsNoUp") {
   CHECK((model.bodies[0].beam->axes[0].col(2) - Vector3::UnitX()).norm() < kRoundOff);
 }
 
-TEST_CASE("Beam_FaultsNameWhatIsThere") {
+TEST_CASE("Beam_FaultsNameTheAlternatives") {
   CHECK(contains(faults_with("[10 0 0 mm, 110 0 0 mm, 110 0 200 mm]", "[10 0 0 mm]"),
                  "m.yaml:6:15: bodies.shaft.beam.points: a beam with one point"));
   CHECK(contains(faults_with("110 0 0 mm,", "10 0 0 mm,"), "the position of the point before it"));

@@ -96,7 +96,7 @@ TEST_CASE("ShellInABody_IsReadAndItsConductionFound") {
 }
 
 // All of the surface but the film's: outside and both ends of the ring.
-TEST_CASE("RestOfABody_IsItsSurfaceWithoutFilmsAndWhatIsNamed") {
+TEST_CASE("RestOfABody_IsItsSurfaceWithoutFilmsAndNamedFacets") {
   const WrittenRing file;
   const Model named = read_text(
       edited(machine_text, "cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}",
@@ -114,7 +114,7 @@ TEST_CASE("RestOfABody_IsItsSurfaceWithoutFilmsAndWhatIsNamed") {
   CHECK(heat.surroundings.cooled.at(*heat.rest).faces.size() == 2 * 24 * 3);  // bore and outside; the film's go later
 }
 
-TEST_CASE("FaultsOfHeatInBodies_SayWhereAndWhatToDo") {
+TEST_CASE("FaultsOfHeatInBodies_GiveLocationAndRemedy") {
   const WrittenRing file;
   const std::string cooling = "cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}";
   const std::string nowhere = faults_after("        " + cooling + "\n", "");
@@ -141,7 +141,7 @@ TEST_CASE("FaultsOfHeatInBodies_SayWhereAndWhatToDo") {
   CHECK(faults_after(shell, "expansion: {shell: 0 1/K, journal: 12e-6 1/K}, " + shell) == "no fault");
 }
 
-/// The same with a shaft whose mesh conducts too, cooled in its bore.
+/// The same model has a shaft whose mesh conducts too, cooled in its bore.
 std::string with_shaft() {
   std::string text =
       edited(machine_text, "shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}",
@@ -207,7 +207,7 @@ TEST_CASE("JournalInABodyThatDoesNotRotate_IsWarnedOf") {
 }
 
 // A mesh rotated about its own axis is the same journal.
-TEST_CASE("JournalInABody_IsTheSameHoweverItIsTurned") {
+TEST_CASE("JournalInABody_IsTheSameInAnyOrientation") {
   const WrittenRing file;
   const std::string text = with_shaft();
   const Model model = read_text(text, "m.yaml");
@@ -226,7 +226,7 @@ TEST_CASE("JournalInABody_IsTheSameHoweverItIsTurned") {
   }
 }
 
-TEST_CASE("FaultsOfJournalsInBodies_SayWhereAndWhatToDo") {
+TEST_CASE("FaultsOfJournalsInBodies_GiveLocationAndRemedy") {
   const WrittenRing file;
   const std::string text = with_shaft();
   const auto shared_faults_after = [&text](const std::string& from, const std::string& to) {

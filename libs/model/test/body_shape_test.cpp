@@ -69,7 +69,7 @@ endfacet
 endsolid t
 )";
 
-// The same triangles as the format's binary form.
+// The same triangles in the format's binary form.
 std::string binary(const mbd::TriangleMesh& mesh) {
   std::string content(80, ' ');
   const auto append = [&](const auto& value) {

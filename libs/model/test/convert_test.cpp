@@ -30,7 +30,7 @@ TEST_CASE("Grades_AreSpelledAsNow") {
   CHECK(conversion.changes[1].what == "sae_5w_30 is written sae_5w30");
 }
 
-TEST_CASE("CouplingTolerance_GoesWithItsLineOrItsComma") {
+TEST_CASE("CouplingTolerance_IsRemovedWithItsLineOrItsComma") {
   CHECK(text_of("a:\n  coupling:\n    scheme: partitioned\n    tolerance: 1e-6  # why\n  b: 1\n") ==
         "a:\n  coupling:\n    scheme: partitioned\n  b: 1\n");
   CHECK(text_of("a:\n  coupling:\n    scheme: partitioned\n    tolerance: '1e-6'") ==
@@ -43,7 +43,7 @@ TEST_CASE("CouplingTolerance_GoesWithItsLineOrItsComma") {
         "a: {coupling: {scheme: partitioned }}\n");
 }
 
-TEST_CASE("WhatAliasesRepeat_IsChangedOnce") {
+TEST_CASE("AliasedText_IsChangedOnce") {
   CHECK(text_of("a: &one\n  coupling: {scheme: partitioned, tolerance: 1e-6}\nb: *one\nc: {d: *one}\n") ==
         "a: &one\n  coupling: {scheme: partitioned}\nb: *one\nc: {d: *one}\n");
 }
@@ -61,7 +61,7 @@ TEST_CASE("OldModel_IsReadAfterConversion") {
   CHECK(faults_of(text_of(old)) == "no fault");
 }
 
-TEST_CASE("ModelOfThisVersion_StaysAsItIs") {
+TEST_CASE("ModelOfThisVersion_IsUnchanged") {
   const Conversion conversion = converted(good_model, "m.yaml");
   CHECK(conversion.text == good_model);
   CHECK(conversion.changes.empty());

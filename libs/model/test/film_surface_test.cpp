@@ -41,7 +41,7 @@ bearings:
 simulation: {duration: 1 ms, step: 0.1 ms}
 )";
 
-/// The mesh stands where the model file would: in the working directory.
+/// The mesh lies in the folder of the model file: the working directory.
 struct WrittenRing {
   WrittenRing() { std::ofstream("film_surface_test_ring.inp") << RingFile().text(); }
   ~WrittenRing() { std::filesystem::remove("film_surface_test_ring.inp"); }
@@ -88,7 +88,7 @@ TEST_CASE("DeformingSurface_ByNameWithDefaults") {
   CHECK(faults_of(edited(machine_text, surface, "rigid")) == "no fault");
 }
 
-TEST_CASE("DeformingSurface_FaultsSayWhereAndWhatToDo") {
+TEST_CASE("DeformingSurface_FaultsGiveLocationAndRemedy") {
   const WrittenRing file;
   const std::string wide = faults_after("width: 15.6 mm", "width: 20 mm");
   CHECK(contains(wide, "m.yaml:27:29: bearings.main.shell_surface.within: a surface that covers only 7"));

@@ -51,7 +51,7 @@ joints:
 simulation: {duration: 1 ms, step: 0.1 ms}
 )";
 
-/// The mesh stands where the model file would: in the working directory.
+/// The mesh lies in the folder of the model file: the working directory.
 struct MeshFile {
   explicit MeshFile(const std::string& more = "") { std::ofstream("flexible_test_bar.inp") << kMesh << more; }
   ~MeshFile() { std::filesystem::remove("flexible_test_bar.inp"); }
@@ -84,7 +84,7 @@ TEST_CASE("FlexibleBody_IsReadAndBuilt") {
   CHECK(machine.mechanism->nv() == 7);  // the hinge, and the tip against the root
 }
 
-TEST_CASE("FlexibleBody_FaultsNameWhatIsThere") {
+TEST_CASE("FlexibleBody_FaultsNameTheAlternatives") {
   const std::string material = "      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}\n";
   CHECK(contains(faults_with("nodes: left", "nodes: lft"), "bodies.bar.frames.root.nodes: unknown node set 'lft'"));
   CHECK(contains(faults_with("nodes: left", "nodes: lft"), "left"));
@@ -121,7 +121,7 @@ TEST_CASE("MaterialOfTheMeshFile_IsThatOfTheSection_OrAFaultWithBothNames") {
   CHECK(faults_of(kMachine) == "no fault");  // a material of its own: the file's do not matter
 }
 
-TEST_CASE("WhatAMeshFileSaysBesides_IsAWarningOfTheModel") {
+TEST_CASE("UnusedContentOfAMeshFile_IsAWarningOfTheModel") {
   const MeshFile file("*NODE\n99, 5, 5, 5\n*COUPLING, REF NODE=99\n");
   const Model model = read_text(kMachine, "m.yaml");
   REQUIRE(model.warnings.size() == 2);
@@ -252,7 +252,7 @@ TEST_CASE("SurfaceLoad_IsReadWithItsFaces") {
   CHECK(machine.surface_loads[2].first == 2);
 }
 
-TEST_CASE("SurfaceLoad_FaultsNameWhatIsThere") {
+TEST_CASE("SurfaceLoad_FaultsNameTheAlternatives") {
   const MeshFile file;
   const auto faults_after = [&](const std::string& from, const std::string& to) {
     return faults_of(kMachine + edited(kPressure, from, to));
@@ -376,7 +376,7 @@ TEST_CASE("ABodyReducedBefore_IsReducedAnewWhereAnythingHasChanged") {
   CHECK(!is_the_first(built(text)));
 }
 
-TEST_CASE("KnownReductions_KeepWhatWasAskedForLast") {
+TEST_CASE("KnownReductions_KeepTheLatestRequest") {
   const auto of_size = [](Eigen::Index n) {
     auto body = std::make_shared<fem::ReducedBody>();
     body->Phi.setZero(n, 1);

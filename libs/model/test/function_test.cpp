@@ -59,7 +59,7 @@ TEST_CASE("Constant_HasNoVariables") {
   CHECK(force.path == "forces.push.components.1");
 }
 
-TEST_CASE("Expression_KnowsTimeAndJoints") {
+TEST_CASE("Expression_MayContainTimeAndJoints") {
   const Function force = force_of("{expression: \"2*t + 3*main.rotation + guide.x_rate\", unit: kN}");
   REQUIRE(force.variables.size() == 3);
   CHECK(force.variables[0].kind == Variable::Kind::time);
@@ -72,7 +72,7 @@ TEST_CASE("Expression_KnowsTimeAndJoints") {
 }
 
 TEST_CASE("FaultyExpressions_AreLocated") {
-  // The expression's first letter stands in column 66.
+  // The expression's first letter is in column 66.
   CHECK(faults_of(with_force("{expression: \"2*sim(t)\", unit: N}")) ==
         "m.yaml:19:68: forces.push.components.1.expression: unknown function 'sim'; did you mean 'sin'? expected sin, "
         "cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, log10, sqrt, abs, sign, min or max");
@@ -206,7 +206,7 @@ TEST_CASE("TableThatDoesNotCoverTheRun_IsReportedBeforeIt") {
         "to 720 deg; add points, or a period after which it repeats");
   CHECK(faults_of(with_force("{table: {x_unit: deg, y_unit: N, points: [[0, 1], [360, 1]]}, over: main.rotation, "
                              "period: 360 deg}")) == "no fault");
-  // How far the rod slides is not known before the run.
+  // The range of the rod's sliding is unknown before the run.
   CHECK(faults_of(with_force("{table: {x_unit: mm, y_unit: N, points: [[0, 1], [1, 1]]}, over: guide.x}")) ==
         "no fault");
 }

@@ -18,7 +18,7 @@ inline std::string edited(std::string text, const std::string& from, const std::
   return text;
 }
 
-/// What the reader says about `text`, one fault a line.
+/// Returns the faults that the reader reports for `text`, one a line.
 inline std::string faults_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     (void)read_text(text, "m.yaml", overrides);
@@ -28,7 +28,7 @@ inline std::string faults_of(const std::string& text, const std::vector<std::str
   return "no fault";
 }
 
-/// What the reader says about the good model with `from` replaced by `to`.
+/// Returns the faults that the reader reports for the good model with `from` replaced by `to`.
 inline std::string faults_after(const std::string& from, const std::string& to) {
   return faults_of(edited(good_model, from, to));
 }

@@ -93,7 +93,7 @@ TEST_CASE("SupplyLineThroughAGroove_OfAnotherPressureIsAFault") {
   }
 }
 
-TEST_CASE("ReservoirsThatMeetAsTheJournalRotates_AreWarnedOf") {
+TEST_CASE("ReservoirsThatMeetAsTheJournalRotates_CauseAWarning") {
   const auto warnings = [](const std::string& feeds) { return warnings_of(with_feeds(feeds)); };
   const std::string one = groove("one", "pressure: 1 bar");
   CHECK(warnings(line_at_widest + "    features:\n" + one) ==
@@ -190,7 +190,7 @@ TEST_CASE("ImpossibleOperatingPoints_AreFaults") {
   CHECK(faults_of(edited(bearing_alone, "load: 500 N", "eccentricity_ratio: -0.1")).find(">= 0") != std::string::npos);
 }
 
-// Lobes open the bore by 10 um where the journal goes.
+// Lobes open the bore by 10 um in the direction of the journal.
 TEST_CASE("EccentricitiesAboveOne_AreReadWhereTheGapStaysOpen") {
   const std::string lobed =
       edited(bearing_alone, "    lubricant: oil\n",

@@ -113,7 +113,7 @@ TEST_CASE("DerivedParameters_CarryTheirUnits") {
       "  strength: \"${push}/1 N\"\n  nodes: 12\n  twice: \"2*${nodes}\"\n";
   const double push = 2e6 * std::numbers::pi / 4 * 0.0025, eps = std::numeric_limits<double>::epsilon();
   CHECK(force_in_x("\"-${push}\"", parameters) == doctest::Approx(-push).epsilon(16 * eps));
-  // Divided by its unit it is a number, and stands in expressions.
+  // Divided by its unit it is a number and may be part of expressions.
   CHECK(force_in_x("{expression: \"${strength}*t\", unit: N}", parameters, 2) ==
         doctest::Approx(2 * push).epsilon(16 * eps));
   const Model model =

@@ -74,7 +74,7 @@ TEST_CASE("Viscosities_FarFromTheUsual_AreWarnedOf") {
       warnings_of(edited(text, "15 mPa.s", "15 Pa.s"))
           .starts_with("m.yaml:3:20: lubricants.oil.viscosity: a viscosity of 1.5e+04 mPa.s, far from what is usual"));
   CHECK(warnings_of(edited(text, "15 mPa.s", "0.015 mPa.s")).find("a viscosity of 0.015 mPa.s") != std::string::npos);
-  // What follows from a law counts at the oil's temperature.
+  // Quantities that follow from a law are evaluated at the oil's temperature.
   const std::string law = "{law: exponential, viscosity: 40 Pa.s, reference: 40 degC, coefficient: 0.03 1/K}";
   CHECK(warnings_of(edited(text, "15 mPa.s", law + ", temperature: 100 degC")).empty());
   CHECK(warnings_of(edited(text, "15 mPa.s", law + ", temperature: 40 degC")).find("a viscosity of 4e+04 mPa.s") !=

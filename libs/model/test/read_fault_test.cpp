@@ -340,7 +340,7 @@ TEST_CASE("MissingModulus_PointsAtTheMaterials") {
         "such as 57 GPa; or give the bearing's materials");
 }
 
-TEST_CASE("AngleWithoutCrank_SaysWhatToAdd") {
+TEST_CASE("AngleWithoutCrank_NamesTheMissingKey") {
   CHECK(faults_after("  crank: main\n", "") ==
         "m.yaml:31:13: simulation.duration: an angle; expected a time, or a crank that converts angles to times; add "
         "simulation.crank with the name of a driven revolute joint\n"

@@ -30,7 +30,7 @@ TEST_CASE("GoodModel_IsReadInSI") {
   CHECK(shaft.inertia == Matrix3(Vector3(1e-3, 1e-3, 1e-3).asDiagonal()));
   REQUIRE(shaft.frames.size() == 1);
   CHECK(shaft.frames[0].X_BF.r == Vector3(0, 0.05, 0));
-  // 90 degrees about z, the axis' length 2 not mattering: x goes to y.
+  // The rotation is 90 degrees about z, independent of the axis' length 2: x is mapped to y.
   CHECK((shaft.frames[0].X_BF.R * Vector3::UnitX() - Vector3::UnitY()).norm() < 4 * eps);
   REQUIRE(model.joints.size() == 2);
   CHECK(model.joints[0].type == JointType::revolute);
@@ -54,7 +54,7 @@ TEST_CASE("GoodModel_IsReadInSI") {
 }
 
 // Six different elements: each is found on both sides of the diagonal.
-TEST_CASE("Inertia_HasEachElementWhereItsNameSays") {
+TEST_CASE("Inertia_HasEachElementAtItsName") {
   const std::string given =
       "{xx: 5 kg.m^2, yy: 6 kg.m^2, zz: 7 kg.m^2, xy: 0.1 kg.m^2, yz: 0.2 kg.m^2, zx: 0.3 kg.m^2}";
   const Matrix3 inertia =
@@ -386,7 +386,7 @@ TEST_CASE("EmptySections_AreAllowed") {
         "no fault");
 }
 
-TEST_CASE("RefinedGrid_IsFineWhereAsked") {
+TEST_CASE("RefinedGrid_IsFineAtItsRefinements") {
   const Model model = read_text(edited(good_model, "    lubricant: oil\n", R"(    lubricant: oil
     features:
       groove: {shape: axial_groove, angle: 90 deg, arc: 20 deg, length: 8 mm, pressure: 2 bar}

@@ -225,7 +225,7 @@ TEST_CASE("EndsOfADistribution_AreCheckedAsValues") {
   CHECK_THROWS_WITH_AS((void)check_study(file.path()), doctest::Contains("truncated_normal"), InputError);
 }
 
-TEST_CASE("Fingerprint_IsOfWhatDecidesTheResult") {
+TEST_CASE("Fingerprint_IsThatOfInputsThatDetermineTheResult") {
   const auto of = [](const std::string& text) { return model_fingerprint(StudyFile(text).path()); };
   CHECK(of(good_model) == of("# a comment\n" + good_model + study));
   CHECK(of(good_model) != of(edited(good_model, "34 um", "35 um")));

@@ -5,7 +5,7 @@
 namespace hersey::model {
 namespace templates_test {
 
-/// Line 3 holds the first template.
+/// Line 3 contains the first template.
 const std::string head = R"(hersey: 1
 templates:
   plain:
@@ -79,7 +79,7 @@ TEST_CASE("TemplatesAtTheTop_BringSeveralSections_AndNames") {
         std::string::npos);
 }
 
-TEST_CASE("Overrides_ReachParametersTemplatesUsesAndWhatCameOfThem") {
+TEST_CASE("Overrides_ReachParametersTemplatesUsesAndTheirResults") {
   const std::string one = "  a: {use: {template: fed, n: 2}}\n";
   const auto film = [&](const char* change) { return read_bearings(one, {change}).bearings[0].film; };
   CHECK(film("templates.plain.width=20 mm").L == 0.02);
@@ -90,7 +90,7 @@ TEST_CASE("Overrides_ReachParametersTemplatesUsesAndWhatCameOfThem") {
   CHECK(read_bearings(one, {"bearings.b={use: plain}"}).bearings.size() == 2);
 }
 
-TEST_CASE("FaultsInTemplates_TellTheirLineAndTheUse") {
+TEST_CASE("FaultsInTemplates_NameTheirLineAndTheUse") {
   CHECK(faults_of(edited(head, "width: 25 mm", "width: 25 s") + "  a: {use: {template: fed, n: 1}}\n") ==
         "m.yaml:5:12: bearings.a.width: a time (s); expected a length > 0, such as 20 mm (template plain, used in line "
         "10 of template fed, used in line 14)");
@@ -138,7 +138,7 @@ TEST_CASE("UnusedTemplates_AreReported") {
   CHECK(model.warnings[0].path == "templates.fed");
 }
 
-TEST_CASE("MergeKeys_AddWhatIsNotThere") {
+TEST_CASE("MergeKeys_AddMissingKeys") {
   const std::string text =
       "hersey: 1\nlubricants: {oil: {viscosity: 15 mPa.s}}\nbearings:\n"
       "  a: &a {diameter: 50 mm, width: 25 mm, lubricant: oil, radial_clearance: 30 um}\n"

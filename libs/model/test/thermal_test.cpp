@@ -52,7 +52,7 @@ TEST_CASE("Oils_HaveTheViscosityOfTheirTemperature") {
   CHECK(
       mu_at_60("law: table, temperatures: [40 degC, 60 degC, 100 degC], viscosities: [30 mPa.s, 14 mPa.s, 5 mPa.s]") ==
       relative(0.014).epsilon(digits));
-  // A grade's numbers give way to those of the file, key by key.
+  // A grade's numbers are overridden by those of the file, key by key.
   const film::Lubricant own =
       read_bearing("grade: iso_vg_32, density: 900 kg/m^3, temperature: 60 degC", "").film.lubricant;
   CHECK(own.mu0 == relative(0.012722091814 * 900 / 863).epsilon(1e-9));  // the program's digits
@@ -85,7 +85,7 @@ std::string warned(const std::string& oil, const std::string& thermal) {
   return all;
 }
 
-TEST_CASE("TemperaturesBeyondWhatIsKnown_AreWarnedOf") {
+TEST_CASE("TemperaturesBeyondTheKnownRange_CauseAWarning") {
   const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
   CHECK(warned("grade: iso_vg_46", "model: film, supply_temperature: 50 degC").empty());
   CHECK(has(warned("grade: iso_vg_46", "model: film, supply_temperature: -30 degC"),
@@ -276,7 +276,7 @@ TEST_CASE("Supplies_HaveTemperaturesOfTheirOwn") {
   CHECK(heat.T_features[0] == relative(308.15).epsilon(digits));
   CHECK(heat.T_features[1] == heat.T_supply);
   CHECK(model.warnings.empty());
-  // Reported for supplies that need none, and for a pocket that holds the film's own oil.
+  // The warning is given for supplies that need no temperature, and for a pocket that contains the film's own oil.
   const Model isothermal = read_text(film_with(", temperature: 40 degC", features, "model: isothermal"), "m.yaml");
   REQUIRE(isothermal.warnings.size() == 2);
   CHECK(isothermal.warnings[0].text().find("does not ask for") != std::string::npos);

@@ -20,7 +20,7 @@ Value checked(const Type& type, const std::string& text) {
   return check(node, type, faults, positions);
 }
 
-TEST_CASE("Words_OfTheFormatAreReadAsWhatTheyStandFor") {
+TEST_CASE("Words_OfTheFormatHaveTheirMeaning") {
   const TypePtr type = choice(analysis_words);
   REQUIRE(type->words.size() == analysis_words.size());
   for (const auto& one : analysis_words)
@@ -29,7 +29,7 @@ TEST_CASE("Words_OfTheFormatAreReadAsWhatTheyStandFor") {
         Analysis::dynamics);  // reported as a fault; the first word replaces it
 }
 
-TEST_CASE("Words_ThatStandForNothingAreAMistakeInTheCode") {
+TEST_CASE("Words_WithoutMeaningAreAMistakeInTheCode") {
   const TypePtr type = choice({{"newton", "known"}, {"secant", "in the format, read by nobody"}});
   const Value word = checked(*type, "secant");
   REQUIRE_FALSE(word.broken);

@@ -44,7 +44,7 @@ TEST_CASE("FixedCoordinates_AreKeptIfTheOthersCanClose") {
 
 TEST_CASE("FixedCoordinates_ThatConflict_MoveByTheLeast") {
   test::SeveralCoordinates e = circle();
-  for (const double far : {1.001, 2.0}) {  // a rounded value, and one for which all has to be let go
+  for (const double far : {1.001, 2.0}) {  // a rounded value, and one for which all fixed values must be released
     CAPTURE(far);
     State state = e.at(far * Vector2d(0.6, 0.8));
     const InitialiseSummary summary = initialise(e, state, {.fixed = {0, 1}});
@@ -52,7 +52,8 @@ TEST_CASE("FixedCoordinates_ThatConflict_MoveByTheLeast") {
     REQUIRE(summary.conflict.size() == 1);
     CHECK(summary.conflict[0].name == "constraint 0");
     CHECK(summary.conflict[0].size == doctest::Approx(far * far - 1));  // what was open with both at rest
-    // To the nearest point of the circle; one free and one fixed component would leave the line from its centre.
+    // The solution is the nearest point of the circle; one free and one fixed component would leave the line from its
+    // centre.
     CHECK((state.q - Vector2d(0.6, 0.8)).norm() < 1e-9);
   }
 }
@@ -66,7 +67,7 @@ test::SeveralCoordinates saddle() {
 }
 
 TEST_CASE("WhereTheSearchWithFixedCoordinatesEnds_TheGuessAndItsNeighbourhoodAreTried") {
-  for (const double y : {0.8, 0.0}) {  // with x fixed y goes to 0, where the iteration stops; at 0 it begins there
+  for (const double y : {0.8, 0.0}) {  // with x fixed y tends to 0, where the iteration stops; it begins at 0
     CAPTURE(y);
     test::SeveralCoordinates e = saddle();
     State state = e.at(Vector2d(0, y));
@@ -116,8 +117,9 @@ TEST_CASE("LoopThatCannotClose_IsReportedWithItsLargestConstraintFirst") {
   CHECK(together.open[0].size == doctest::Approx(std::sqrt(10.0)));
 }
 
-// Two rows that say the same are what is wrong where they differ, and not where they hold and another is open.
-TEST_CASE("RowsThatRepeatOthers_AreBlamedWhereTheyDiffer") {
+// Two dependent rows are reported where they contradict each other, and not where they are satisfied and another row is
+// open.
+TEST_CASE("DependentRows_AreReportedWhereTheyContradict") {
   test::SeveralCoordinates e(MatrixXd::Identity(3, 3), 3);
   double shift = 0.1, least = -1;
   e.phi = [&](const VectorXd& q, double) { return VectorXd(Vector3d(q[0], q[0] - shift, least + q[1] * q[1])); };
@@ -160,8 +162,8 @@ TEST_CASE("Guess_WithoutNumbersOrOutOfIterations_IsReportedNotFollowed") {
   CHECK(std::abs(state.q[0] - 1) < closed);
 }
 
-// Where round-off keeps the residual above what is asked for, no increment makes it smaller: that is closed. A step
-// that makes it larger is none.
+// Where round-off keeps the residual above the tolerance, no increment makes it smaller: the rows count as closed. An
+// increment that makes it larger is not taken.
 TEST_CASE("Closure_EndsAtRoundOff") {
   test::SeveralCoordinates e(MatrixXd::Identity(1, 1), 1);
   e.phi = [](const VectorXd& q, double) { return one(std::sin(q[0]) - 0.3 + 1e-14); };

@@ -17,20 +17,20 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 void copy(const Eigen::VectorXd& b, Eigen::VectorXd& x) { x = b; }
 
-TEST_CASE("Gmres_OfAnOperatorThatMakesNothing_SaysSo") {
+TEST_CASE("Gmres_OfAZeroOperator_ReportsIt") {
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(5);
   Gmres gmres;
   Eigen::VectorXd x;
   const auto nothing = [](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y.setZero(v.size()); };
   const GmresSummary summary = gmres.solve(nothing, copy, b, {.max_iterations = 20}, x);
   CHECK(!summary.solved());
-  CHECK(summary.iterations == 1);  // and goes no further
+  CHECK(summary.iterations == 1);  // it ends there
   CHECK(summary.message.find("stays where it is") != std::string::npos);
   CHECK(x.isZero(0));
   CHECK(summary.residual_norm == b.norm());
 }
 
-TEST_CASE("Gmres_OfWhatIsNoNumber_Ends") {
+TEST_CASE("Gmres_OfValuesThatAreNoNumbers_Ends") {
   const double no_number = std::numeric_limits<double>::quiet_NaN();
   Gmres gmres;
   Eigen::VectorXd x;
@@ -43,7 +43,7 @@ TEST_CASE("Gmres_OfWhatIsNoNumber_Ends") {
   CHECK(of_A.iterations == 1);
 }
 
-// Aitken's factor is the ratio of two changes: an exchange that answers the same twice says nothing of it.
+// Aitken's factor is the ratio of two changes: two equal answers of an exchange give no information about it.
 TEST_CASE("Aitken_KeepsItsFactorWhereNothingChanges") {
   FixedPointIteration iteration(Acceleration::aitken, 0.5);
   iteration.begin_step();
@@ -54,7 +54,7 @@ TEST_CASE("Aitken_KeepsItsFactorWhereNothingChanges") {
 }
 
 // Two changes along one line are one: what the second leaves beside it is round-off, and is not divided by.
-TEST_CASE("QuasiNewton_TakesChangesAlongOneLineForOne") {
+TEST_CASE("QuasiNewton_CountsParallelChangesAsOne") {
   FixedPointIteration iteration(Acceleration::quasi_newton, 1);
   iteration.begin_step();
   const Eigen::Vector3d along(1, -2, 0.5), start(0.3, 0.1, 0.2);

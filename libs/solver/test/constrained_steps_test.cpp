@@ -10,7 +10,7 @@
 #include "one_coordinate.h"
 #include "several_coordinates.h"
 
-// Steps of a pendulum in Cartesian coordinates, which a constraint holds on its circle; and of what fails on the way.
+// Steps of a pendulum in Cartesian coordinates, which a constraint keeps on its circle, and failures of such steps.
 namespace hersey::solver {
 namespace constrained_steps_test {
 
@@ -62,10 +62,11 @@ TEST_CASE("Pendulum_KeepsItsCircleAndItsEnergyToSecondOrder") {
   CHECK(std::log2(lost(200) / lost(400)) == doctest::Approx(2).epsilon(0.1));
 }
 
-// By the factors of the step's last iteration, which belong to a slightly different configuration.
+// The remaining share is due to the factors of the step's last iteration, which belong to a slightly different
+// configuration.
 constexpr double what_is_left = 0.05;
 
-TEST_CASE("StepOfAnotherLength_EndsOnTheConstraintsWhereAskedTo") {
+TEST_CASE("StepOfAnotherLength_EndsOnTheConstraintsIfRequired") {
   const auto ends = [](bool returns, double last) {
     test::SeveralCoordinates e = pendulum();
     State state = from_the_side(e);
@@ -79,7 +80,7 @@ TEST_CASE("StepOfAnotherLength_EndsOnTheConstraintsWhereAskedTo") {
   CHECK(on[0] < what_is_left * off[0]);
   CHECK(on[1] < what_is_left * off[1]);
   CHECK(ends(true, 0.02) == ends(false, 0.02));  // steps of one length are as they are
-  // At rest there is nothing to return from.
+  // At rest there is no violation to correct.
   test::SeveralCoordinates e = pendulum();
   State hanging = e.at(Vector2d(0, -1));
   REQUIRE(initialise(e, hanging).solved());
@@ -122,7 +123,7 @@ TEST_CASE("WithoutDissipation_ConstraintsAreRefusedUnlessStepsEndOnThem") {
 }
 
 // A film whose oil a step does not account for: the step is solved again from where it ended, by the new equations.
-TEST_CASE("StepThatDoesNotStand_IsSolvedAgainByTheEquationsItLeads") {
+TEST_CASE("InconsistentStep_IsSolvedAgainByItsOwnEquations") {
   double pull = 1;
   test::SeveralCoordinates e(MatrixXd::Identity(1, 1));
   e.condenses = true;
@@ -171,7 +172,7 @@ TEST_CASE("StepsThatLeadNowhere_EndWithTheirReason") {
   const StepSummary no_number = attempt(invalid, rest, 0.1);
   CHECK(no_number.status == StepStatus::domain_error);
   CHECK(no_number.message.find("the residual is not a number") != std::string::npos);
-  // Inside where it starts, outside wherever the increment goes.
+  // The start lies inside the domain, all increments lead outside.
   test::OneCoordinate wall;
   wall.force = [](double q, double, double) { return q == 0 ? 1e6 : std::numeric_limits<double>::quiet_NaN(); };
   const StepSummary nowhere = attempt(wall, rest, 0.1, {.max_halvings = 3});
@@ -198,8 +199,8 @@ TEST_CASE("StepsThatLeadNowhere_EndWithTheirReason") {
   CHECK(gone.message.find("gone") != std::string::npos);
 }
 
-// With old factors a step is solved to a hundredth of the tolerance, as Newton's own would pass it by; where its
-// iterations are at their end, the tolerance itself does.
+// With old factors a step is solved to a hundredth of the tolerance, because Newton's own iteration would pass beyond
+// it; at the last iteration the tolerance itself applies.
 TEST_CASE("LastIteration_IsMeasuredByTheToleranceItself") {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return 10 * std::sin(q); };
@@ -218,7 +219,7 @@ TEST_CASE("LastIteration_IsMeasuredByTheToleranceItself") {
 }
 
 // The row with the largest residual is named, irrespective of its index.
-TEST_CASE("WorstRow_IsNamedWhereverItStands") {
+TEST_CASE("WorstRow_IsNamedAtAnyIndex") {
   for (const Eigen::Index worst : {0, 1}) {
     test::SeveralCoordinates e(Matrix2d::Identity());
     e.force = [worst](const VectorXd& q, const VectorXd&, double) {
@@ -233,7 +234,7 @@ TEST_CASE("WorstRow_IsNamedWhereverItStands") {
   }
 }
 
-TEST_CASE("Restart_TakesOffWhatConstraintsDoNotAllowAndNothingElse") {
+TEST_CASE("Restart_RemovesOnlyMotionsThatConstraintsDoNotAllow") {
   test::SeveralCoordinates e = pendulum();
   State state = e.at(Vector2d(0.6, -0.8), 2 * Vector2d(0.8, 0.6) + 0.01 * Vector2d(0.6, -0.8));
   REQUIRE(restart(e, state, 1e-3));
@@ -247,7 +248,7 @@ TEST_CASE("Restart_TakesOffWhatConstraintsDoNotAllowAndNothingElse") {
   State apart = pair.at(Vector2d(0, 0), Vector2d(0, 1));
   REQUIRE(restart(pair, apart, 1e-3));
   CHECK((apart.v - Vector2d(0.25, 0.25)).norm() < 1e-15);  // momentum is kept
-  // Without constraints there is nothing to be taken off.
+  // Without constraints there is nothing to remove.
   test::SeveralCoordinates free(MatrixXd::Identity(1, 1));
   free.force = [](const VectorXd&, const VectorXd&, double) { return one(-3); };
   State falling = free.at(one(0), one(7));
@@ -270,7 +271,7 @@ TEST_CASE("RestartThatIsNotDetermined_LeavesTheStateAlone") {
   beyond.outside = [](const State& s) { return std::string(off_the_rates(s) < round_off ? "gap closed" : ""); };
   refused(beyond, Vector2d(1, 0), v);  // inside as given, outside with the velocities it would have
   dead.phi_t = [](const VectorXd&, double) { return one(1); };
-  refused(dead, Vector2d(0, 0), v);  // the constraint says nothing here
+  refused(dead, Vector2d(0, 0), v);  // the constraint has no derivative here
   massless.mass = Vector2d(1, 0).asDiagonal();
   refused(massless, Vector2d(1, 0), v);
 }

@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double pi = std::numbers::pi;
-constexpr double solved = 1e-9;  // Newton's method goes on until it changes nothing; the rows ask for 1e-10
+constexpr double solved = 1e-9;  // Newton's method continues until it changes nothing; the rows require 1e-10
 
 test::OneCoordinate pendulum() {
   test::OneCoordinate p;
@@ -49,7 +49,7 @@ TEST_CASE("Pendulum_SlidesDownFromAnywhereAndIsStable") {
   }
 }
 
-TEST_CASE("Equilibrium_ThatIsNotStable_SaysSo") {
+TEST_CASE("UnstableEquilibrium_IsReported") {
   test::OneCoordinate p = pendulum();
   State upright = p.at(pi, 0);
   const EquilibriumSummary unstable = find_equilibrium(p, upright);
@@ -63,7 +63,7 @@ TEST_CASE("Equilibrium_ThatIsNotStable_SaysSo") {
   REQUIRE(neutral.solved());
   CHECK(neutral.kind == EquilibriumKind::neutral);
   CHECK(neutral.message.find("indifferent: no stiffness resists mass") != std::string::npos);
-  // With a constraint no motion is free: that is stable.
+  // With a constraint no motion is free, which is stable.
   test::OneCoordinate constrained = with_force(3, 0);
   constrained.copies_of_constraint = 1;
   State at_rest = constrained.at(0, 0);
@@ -79,7 +79,8 @@ TEST_CASE("Equilibrium_OfSpringsThatHardenAndSoften") {
   test::OneCoordinate hard = with_force(-8, 1e-3, 1000);
   State state = hard.at(0, 0);
   REQUIRE(find_equilibrium(hard, state).solved());
-  // 1000 q^3 = 8 but for the linear spring's 2e-4, over the slope 120 there; what is left goes with its square.
+  // 1000 q^3 = 8 but for the linear spring's 2e-4, over the slope 120 there; the remaining error is of the order of its
+  // square.
   CHECK(std::abs(state.q[0] - (0.2 - 2e-4 / 120)) < solved);
   test::OneCoordinate soft;
   soft.force = [](double q, double, double) { return std::atan(5 * (q - 1)); };
@@ -132,14 +133,14 @@ TEST_CASE("Equilibrium_NearTheEndOfTheDomain_IsFoundFromInside") {
   CHECK(std::abs(state.q[0] - 0.1) < solved);
 }
 
-TEST_CASE("SteadyMotion_KeepsItsVelocityAndStandsStillInTheRest") {
+TEST_CASE("SteadyMotion_KeepsItsVelocityAndRestsOtherwise") {
   test::OneCoordinate rotor = with_force(0, 0);
   State rotating = rotor.at(0.2, 30);
   const EquilibriumSummary found = find_equilibrium(rotor, rotating, {.steady_motion = true});
   REQUIRE(found.solved());
   CHECK(rotating.v[0] == 30);
   CHECK(rotating.q[0] == 0.2);
-  // A spring lets it pass through its middle, not stay there.
+  // A spring returns it through its middle, where it does not stay.
   test::OneCoordinate spring = with_force(-2, 5);
   State passing = spring.at(0.1, 3);
   const EquilibriumSummary passed = find_equilibrium(spring, passing, {.steady_motion = true});
@@ -157,15 +158,15 @@ TEST_CASE("SteadyMotion_KeepsItsVelocityAndStandsStillInTheRest") {
   CHECK(std::abs(still.q[0] - 0.4) < solved);
 }
 
-/// From q with zero accelerations, from which the search cannot estimate the effect of the forces: its first step is a
-/// long one.
+/// The search starts from q with zero accelerations, from which it cannot estimate the effect of the forces: its first
+/// step is a long one.
 State without_pull(const test::OneCoordinate& p, double q) {
   State state = p.at(q, 0);
   state.vdot.setZero();
   return state;
 }
 
-TEST_CASE("StepsThatAreTooLong_AreTakenBack") {
+TEST_CASE("StepsThatAreTooLong_AreRejected") {
   test::OneCoordinate hard = with_force(-1, 1e-3, 1000);
   State over = without_pull(hard, 0);  // the first step ends where the spring pulls back seven times as hard
   REQUIRE(find_equilibrium(hard, over).solved());
@@ -185,7 +186,7 @@ TEST_CASE("StepsThatAreTooLong_AreTakenBack") {
   CHECK(std::abs(near.q[0] - 0.1) < solved);
 }
 
-// With too few iterations to slide down with, the load is followed: to the same rest, of springs that harden and that
+// With too few iterations for the descent the load is followed, to the same rest, of springs that harden and that
 // soften.
 TEST_CASE("LoadThatIsFollowed_LeadsToTheSameRest") {
   const double most_of_a_step = 0.2;
@@ -218,12 +219,12 @@ TEST_CASE("LoadThatIsFollowed_LeadsToTheSameRest") {
   CHECK(!find_equilibrium(flat, start, {.rtol = 1e-14, .max_iterations = 3}).solved());
 }
 
-// Rows that are let go early leave the rest to the end, where Newton's method goes on until it changes nothing.
-TEST_CASE("Rest_IsSolvedFurtherThanItsRowsAsk") {
+// Rows with a large tolerance leave the rest to the end, where Newton's method continues until it changes nothing.
+TEST_CASE("Rest_IsSolvedBeyondTheTolerance") {
   test::OneCoordinate p = with_force(-0.05, 20, 3000);  // 20 q + 3000 q^3 = 0.05 at 0.00250 - 0.0000023...
   State loose = p.at(0, 0), tight = loose;
   REQUIRE(find_equilibrium(p, tight).solved());
-  REQUIRE(find_equilibrium(p, loose, {.rtol = 0.1}).solved());  // nothing at all asks for more
+  REQUIRE(find_equilibrium(p, loose, {.rtol = 0.1}).solved());  // no row requires more
   CHECK(loose.q[0] > 0.002);
   CHECK(std::abs(loose.q[0] - tight.q[0]) < 2 * solved);
   // Not where that would lead far away, nor where it gets worse, and not for ever.
@@ -327,8 +328,8 @@ TEST_CASE("SteadyMotionThatIsNotReached_IsReported") {
   CHECK(slow.message.find("no equilibrium in 3 iterations") == 0);
 }
 
-// Whether it stays steady is looked at a little later, by the same equations: where these have no answer then, that
-// alone says nothing; where their answer has moved on, it is none.
+// A steady motion is checked a little later by the same equations: a missing solution at that time is no evidence, but
+// a changed solution shows that the motion is not steady.
 TEST_CASE("SteadyMotion_IsCheckedAShortTimeLater") {
   test::OneCoordinate rotor = with_force(0, 0);
   rotor.lowest = 0.1;

@@ -57,7 +57,7 @@ TEST_CASE("LightMass_TendsToNoMass") {
   for (const double mass : {1e-4, 1e-6, 1e-8}) {
     CAPTURE(mass);
     test::OneCoordinate e = dragged(mass, 1);
-    // What the mass delays is the time mass over damping; what a step leaves of it, its square over the step.
+    // The mass delays the motion by mass over damping; the error of a step is of the square of that time over the step.
     CHECK(std::abs(integrated(e, 100) - without) < 2 * mass);
   }
 }
@@ -85,13 +85,13 @@ TEST_CASE("FastMotion_SettlesWhereForcesBalance") {
   const auto settled = settle_fast_motions(e, s, dt);
   REQUIRE(settled);
   CHECK(settled->v[0] == doctest::Approx(1).epsilon(1e-6));  // what is left of the start: 15/z^2 of it, z = 4e5
-  // It goes on its way for about mass over damping.
+  // It continues its motion for about mass over damping.
   CHECK(std::abs(settled->offset[0]) < 1e-8);     // mass over damping is 2.5e-10 s
   CHECK(std::abs(settled->vdot[0]) * dt < 1e-2);  // 15/z^2 of the force over the mass, 2.6e9
   CHECK(s.v[0] == -0.5);
 }
 
-TEST_CASE("FastMotionThatCannotBeSettled_IsLeftAsItIs") {
+TEST_CASE("FastMotionThatCannotBeSettled_IsUnchanged") {
   const double dt = 1e-2;
   const auto settles = [&](test::SeveralCoordinates& e) {
     const State start = e.at(Eigen::VectorXd::Zero(e.nv()));
@@ -113,19 +113,19 @@ TEST_CASE("FastMotionThatCannotBeSettled_IsLeftAsItIs") {
   at_once.outside = [](const State& s) { return std::string(s.v[0] > 1e-3 ? "too fast" : ""); };
   CHECK(!settles(at_once));  // nowhere on the way
   later.outside = [](const State& s) { return std::string(s.v[0] > 0.995 ? "too fast" : ""); };
-  CHECK(!settles(later));  // not after the first of its steps, which goes to 0.99
+  CHECK(!settles(later));  // not after the first of its steps, which ends at 0.99
   test::SeveralCoordinates nothing(Eigen::MatrixXd(0, 0));
   CHECK(!settles(nothing));
 }
 
-TEST_CASE("GivenRateOfALightMass_StandsAtTheStart") {
+TEST_CASE("GivenRateOfALightMass_IsKeptAtTheStart") {
   test::OneCoordinate e = dragged(1e-9, 1);
   State s = e.at(0, 0.25);
   REQUIRE(initialise(e, s, {.fixed_rates = {0}}).solved());
   CHECK(s.v[0] == 0.25);
 }
 
-TEST_CASE("MotionWithoutMass_HasTheRateThatDampingLetsIt") {
+TEST_CASE("MotionWithoutMass_HasTheRateOfItsDamping") {
   test::OneCoordinate e;
   e.mass = 0;
   e.force = [](double, double v, double) { return 4 * v + v * v * v - 5; };

@@ -40,7 +40,7 @@ TEST_CASE("QuasiNewton_SolvesALinearExchangeInItsDimensionPlusTwo") {
 }
 
 TEST_CASE("ConstantRelaxation_ConvergesOnlyBelowItsBound") {
-  // |1 - omega (1 - a)| < 1 for a = -30 asks omega < 2/31.
+  // |1 - omega (1 - a)| < 1 for a = -30 requires omega < 2/31.
   CHECK(iterations_to(1e-6, Acceleration::constant, 0.05, 2000) < 2000);
   CHECK(iterations_to(1e-6, Acceleration::constant, 0.07, 2000) == 2000);
 }
@@ -50,12 +50,12 @@ TEST_CASE("Aitken_ConvergesWhereTheFullStepDiverges") {
   CHECK(iterations_to(1e-6, Acceleration::aitken, 1.0, 500) < 500);
 }
 
-TEST_CASE("WhatALikeExchangeHasShown_IsKnownFromTheStart") {
+TEST_CASE("JacobianOfASimilarExchange_IsUsedFromTheStart") {
   const StiffExchange F;
   FixedPointIteration other(Acceleration::quasi_newton, 0.05), iteration(Acceleration::quasi_newton, 0.05);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
   for (int k = 0; k < 8; ++k) x = other.next(x, F(x));
-  // The same exchange in other units.
+  // The exchange is the same in other units.
   const double unit = 7;
   iteration.learn_from(other, [&](const Eigen::VectorXd& change) { return Eigen::VectorXd(unit * change); });
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(4);
@@ -69,7 +69,7 @@ TEST_CASE("Memory_CarriesOverToTheNextStep") {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(4);
   iteration.begin_step();
   for (int k = 0; k < 8; ++k) x = iteration.next(x, F(x));
-  // The next step asks for another solution of the same exchange: its Jacobian is known, one correction is enough.
+  // The next step has another solution of the same exchange: its Jacobian is known, and one correction is enough.
   iteration.begin_step();
   const Eigen::VectorXd away = x + Eigen::VectorXd::LinSpaced(4, -5, 9);
   const Eigen::VectorXd back = iteration.next(away, F(away));
@@ -77,8 +77,8 @@ TEST_CASE("Memory_CarriesOverToTheNextStep") {
   CHECK((back - F.solution()).norm() <= 1e-6 * F.solution().norm());
 }
 
-// The oldest changes are forgotten: those of an exchange that is no more do not stand in the way of the next.
-TEST_CASE("OldChanges_GiveWayToNewOnes") {
+// The oldest changes are dropped: those of a former exchange do not impede the next.
+TEST_CASE("OldChanges_AreReplacedByNewOnes") {
   const StiffExchange F;
   StiffExchange earlier;
   earlier.A *= 1.5;
@@ -102,8 +102,8 @@ TEST_CASE("OldChanges_GiveWayToNewOnes") {
   }
 }
 
-// Along what is known the image is taken to its fixed point, of the rest a share of the way is gone.
-TEST_CASE("ShareOfTheUnknown_IsGoneAcrossWhatIsKnownAlone") {
+// Along known directions the image is taken to its fixed point; the given share of the rest is taken.
+TEST_CASE("ShareOfTheUnknown_AppliesToUnknownDirectionsOnly") {
   const Eigen::Vector3d b(1, 2, 3), slope(0.5, 0, 0);
   const auto image = [&](const Eigen::VectorXd& x) { return Eigen::VectorXd(slope.cwiseProduct(x) + b); };
   for (const double share : {1.0, 0.25}) {

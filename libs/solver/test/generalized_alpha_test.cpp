@@ -28,7 +28,8 @@ test::OneCoordinate cushion() {
 
 TEST_CASE("SpectralRadius_IsTheDampingOfFastOscillations") {
   // At omega dt = 1e4 the amplification per step has reached its limit: a triple eigenvalue in one Jordan block, so the
-  // amplitude goes as n^2 rho^n (lower powers of n aside), and from n to 2n its logarithm by n log(rho) + 2 log(2).
+  // amplitude is proportional to n^2 rho^n (lower powers of n aside), and its logarithm changes from n to 2n by n
+  // log(rho) + 2 log(2).
   for (double rho : {0.7, 0.8, 0.9, 0.95}) {
     CAPTURE(rho);
     test::OneCoordinate e = oscillator(1e4);
@@ -131,7 +132,7 @@ TEST_CASE("ClosedGap_ShortensTheIncrementAndContinues") {
   CHECK(s.q[0] < 0.1);
 }
 
-TEST_CASE("FailedStep_LeavesTheStateAndSaysWhy") {
+TEST_CASE("FailedStep_LeavesTheStateAndGivesTheReason") {
   SUBCASE("outside the domain from the start") {
     test::OneCoordinate e = cushion();
     e.lowest = 1;

@@ -60,7 +60,7 @@ TEST_CASE("Gmres_WithTheInverseAsPreconditioner_NeedsOneStep") {
   CHECK((2 * x - b).norm() <= 30 * eps * b.norm());
 }
 
-TEST_CASE("Gmres_SaysWhenItDoesNotArrive") {
+TEST_CASE("Gmres_ReportsThatItDoesNotConverge") {
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(200);
   Gmres gmres;
   Eigen::VectorXd x;

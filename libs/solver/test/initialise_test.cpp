@@ -93,7 +93,7 @@ TEST_CASE("RankAnalysis_OfIndependentRowsOrNone_NamesNone") {
   CHECK(full.involved.empty());
   const RankAnalysis zero = analyse_rank((MatrixXd(2, 3) << 1, 2, 3, 0, 0, 0).finished());
   CHECK(zero.rank == 1);
-  CHECK(zero.involved == std::vector<Eigen::Index>{1});  // a row that says nothing depends on no other
+  CHECK(zero.involved == std::vector<Eigen::Index>{1});  // an empty row depends on no other
 }
 
 /// Returns whether the rows are independent, by elimination or, if that is not conclusive, by QR.
@@ -180,7 +180,7 @@ Equations::SparseMatrix nearly_dependent_rows(int units, double apart, double in
   return S;
 }
 
-// In a dense decomposition of 20,000 unknowns this would not end.
+// A dense decomposition of 20,000 unknowns would take far too long.
 TEST_CASE("LongChain_NeedsNoDenseDecompositionWhereItsConditionIsPoor") {
   const int units = 4000, nv = 3 * units;
   const Equations::SparseMatrix S = nearly_dependent_rows(units, 1e-6, 1);
@@ -208,7 +208,7 @@ TEST_CASE("MotionWithoutInertia_IsNamedAmongRowsOfPoorConditionToo") {
 
 // Rows a trillionth apart: elimination's pivots lie as far apart as its condition allows, and yet the motion that is
 // left has inertia.
-TEST_CASE("MotionBesideRowsOfPoorCondition_IsSolvedAllTheSame") {
+TEST_CASE("MotionBesideRowsOfPoorCondition_IsSolved") {
   const Equations::SparseMatrix S = nearly_dependent_rows(1, 1e-12, 1);
   const VectorXd h = Eigen::Vector3d(3, -1, 2);
   const AccelerationSolution s = solve_kkt(S, 3, h, VectorXd::Zero(2));
@@ -220,8 +220,8 @@ TEST_CASE("MotionBesideRowsOfPoorCondition_IsSolvedAllTheSame") {
   CHECK((S * found - b).norm() < 1e-14 * found.norm());  // round-off of the large forces that share the first two
 }
 
-// And the shortest way to close such rows, by a QR decomposition.
-TEST_CASE("SmallestIncrement_OfRowsThatNearlySayTheSame") {
+// A QR decomposition gives the smallest increment that closes such rows.
+TEST_CASE("SmallestIncrement_OfNearlyDependentRows") {
   const double apart = std::ldexp(1.0, -40);
   const MatrixXd G = (MatrixXd(2, 3) << 1, 1, 1, 1, 1 + apart, 1).finished();
   const VectorXd weight = Eigen::Vector3d(1, 2, 0.5), residual = Eigen::Vector2d(-3, -3 - 2 * apart);

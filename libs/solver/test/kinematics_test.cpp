@@ -71,10 +71,10 @@ TEST_CASE("DrivenPoint_FollowsTheClosedForms") {
 TEST_CASE("FreeCoordinates_AreThoseThatNothingPrescribes") {
   test::SeveralCoordinates driven = crank(true), loose = crank(false);
   CHECK(free_coordinates(driven, driven.at(Vector2d(1, 0))).empty());
-  // On the x axis the circle lets the point move along y alone, elsewhere both move.
+  // On the x axis the circle allows the point to move along y alone, elsewhere both coordinates move.
   CHECK(free_coordinates(loose, loose.at(Vector2d(1, 0))) == std::vector<std::string>{"coordinate 1"});
   CHECK(free_coordinates(loose, loose.at(Vector2d(0.6, 0.8))).size() == 2);
-  CHECK(free_coordinates(loose, loose.at(Vector2d(0, 0))).size() == 2);  // where it says nothing
+  CHECK(free_coordinates(loose, loose.at(Vector2d(0, 0))).size() == 2);  // where it has no derivative
   test::SeveralCoordinates nothing(MatrixXd(0, 0));
   State none = nothing.at(VectorXd(0));
   CHECK(free_coordinates(nothing, none).empty());
@@ -92,7 +92,7 @@ test::SeveralCoordinates pushed(double reach, double rate = 0) {
   return e;
 }
 
-/// Fails with `status` and a sentence that holds `words`; nothing is changed.
+/// Checks a failure with `status` and a message that contains `words`; nothing is changed.
 void check_failure(test::SeveralCoordinates& e, const State& start, KinematicsStatus status, const std::string& words) {
   State state = start;
   const KinematicsSummary summary = solve_kinematics(e, state);
@@ -131,7 +131,7 @@ TEST_CASE("ConstraintsThatTouch_AreClosedToRoundOff") {
   State state = e.at(VectorXd::Constant(1, 0.4));
   const KinematicsSummary summary = solve_kinematics(e, state);
   CHECK(summary.solved());
-  CHECK(summary.residual > 1e-13);  // what is asked for
+  CHECK(summary.residual > 1e-13);  // the tolerance
   CHECK(summary.residual < 1e-11);  // what is accepted
 }
 

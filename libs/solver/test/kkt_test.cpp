@@ -37,7 +37,7 @@ Equations::SparseMatrix bordered(const MatrixXd& M, const MatrixXd& G) {
   return S.sparseView();
 }
 
-TEST_CASE("DependentRows_AreFoundInWhateverUnits") {
+TEST_CASE("DependentRows_AreFoundInAnyUnits") {
   MatrixXd G = random(5, 8, 1);
   G.row(3) = 2 * G.row(0) - G.row(4);
   for (const int most : {0, 9}) {
@@ -73,7 +73,7 @@ TEST_CASE("SmallestIncrement_IsThatOfThePseudoInverse") {
   CHECK(smallest_increment(Equations::SparseMatrix(0, 3), VectorXd(0), VectorXd::Ones(3)) == VectorXd::Zero(3));
 }
 
-TEST_CASE("Accelerations_AreThoseOfTheWholeSystemInWhateverUnits") {
+TEST_CASE("Accelerations_AreThoseOfTheWholeSystemInAnyUnits") {
   const MatrixXd A = random(6, 6, 8);
   const VectorXd u = units(6, 4);
   const MatrixXd M = u.asDiagonal() * (A * A.transpose() + MatrixXd::Identity(6, 6)) * u.asDiagonal();

@@ -69,7 +69,7 @@ TEST_CASE("Modes_OfTwoMassesAreThoseOfTheTextbook") {
   CHECK(found.modes[0].frequency == relative(5 / two_pi).epsilon(of_eigenvalues));
   CHECK(found.modes[1].frequency == relative(5 * std::sqrt(3.0) / two_pi).epsilon(of_eigenvalues));
   CHECK(std::abs(found.modes[0].damping_ratio) < of_eigenvalues);
-  // In step, and against each other; the largest entry is 1.
+  // The coordinates move in phase, and in opposite phase; the largest entry is 1.
   CHECK(std::abs(found.modes[0].shape[0] / found.modes[0].shape[1] - 1.0) < of_eigenvalues);
   CHECK(std::abs(found.modes[1].shape[0] / found.modes[1].shape[1] + 1.0) < of_eigenvalues);
   CHECK(found.modes[1].shape.cwiseAbs().maxCoeff() == relative(1).epsilon(of_eigenvalues));
@@ -92,7 +92,7 @@ TEST_CASE("DampedModes_HaveTheirRatioAndFrequencies") {
   CHECK(creeping.stable);
 }
 
-TEST_CASE("OnlyWhatGrows_IsUnstable") {
+TEST_CASE("OnlyGrowingMotions_AreUnstable") {
   CHECK(!find_modes(of(1, -0.1, 4)).stable);
   CHECK(find_modes(of(1, -0.1, 4)).modes[0].damping_ratio == relative(-0.025).epsilon(of_eigenvalues));
   CHECK(!find_modes(of(1, 0, -4)).stable);
@@ -103,7 +103,7 @@ TEST_CASE("OnlyWhatGrows_IsUnstable") {
   CHECK(free.modes[0].damping_ratio == 0);
 }
 
-// Motions a million times slower than the fastest keep their figures, and one that nothing holds has none.
+// Motions a million times slower than the fastest keep their accuracy, and an unconstrained one has frequency zero.
 TEST_CASE("SlowModes_KeepTheirFigures") {
   const Eigen::Vector3d k(1e14, 4, 0);
   const Modes found = find_modes(of(Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero(), k.asDiagonal()));
@@ -113,7 +113,7 @@ TEST_CASE("SlowModes_KeepTheirFigures") {
   CHECK(found.modes.front().frequency == 0);
   CHECK(found.modes.back().frequency == relative(1e7 / two_pi).epsilon(of_eigenvalues));
   const Mode& slow = found.modes[found.modes.size() - 2];
-  // By the inverse about 1e-5 of the fastest motion: (100/2)^2 times its round-off.
+  // The inverse resolves the slow motion to about 1e-5 of the fastest: (100/2)^2 times its round-off.
   CHECK(slow.frequency == relative(2 / two_pi).epsilon(2500 * of_eigenvalues));
 }
 

@@ -33,8 +33,8 @@ EnergyErrors energy_errors(double rho, int periods, int steps_per_period) {
 }
 
 TEST_CASE("Energy_StaysBoundedOverThousandPeriods") {
-  // Without dissipation the error of the energy is that within one period, (omega dt)^2/12 of it or so, and does not
-  // grow: the last nine hundred periods show what the first hundred did.
+  // Without dissipation the error of the energy is that within one period, about (omega dt)^2/12 of it, and does not
+  // grow: the last nine hundred periods are as accurate as the first hundred.
   const EnergyErrors errors = energy_errors(1, 1000, 60);
   MESSAGE("energy error ", errors.early, ", then ", errors.late);
   CHECK(errors.early < 5e-3);

@@ -81,7 +81,7 @@ TEST_CASE("ForcesThatNoRateBalances_AreReported") {
   CHECK(message_of(invalid, 0) == "at the start, t = 0 s: the forces are not numbers");
 }
 
-TEST_CASE("WhatIsCondensed_IsSolvedBeforeForcesAreBalanced") {
+TEST_CASE("CondensedUnknowns_AreSolvedBeforeForcesAreBalanced") {
   test::OneCoordinate e = damper([](double v) { return 4 * v - 5; }, [](double) { return 4.0; });
   e.internal = 1e-3;
   State state = e.at(0, 0);
@@ -98,7 +98,7 @@ TEST_CASE("WhatIsCondensed_IsSolvedBeforeForcesAreBalanced") {
   CHECK(slow.assembled == 21);  // until it is solved at the start, and once where the forces vanish
 }
 
-TEST_CASE("MotionsThatNothingHolds_AreNamedAloneWhateverBalances") {
+TEST_CASE("UnconstrainedMotions_AreNamedAlone") {
   // Only the second of three motions is damped; the third is loaded, the first is not.
   test::SeveralCoordinates e(MatrixXd::Zero(3, 3));
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd(Vector3d(0, 2 * v[1] - 1, 0)); };

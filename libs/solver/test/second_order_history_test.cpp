@@ -20,7 +20,7 @@ const std::vector<double> steps{0.01, 0.01, 0.004, 0.007, 0.02};
 /// x'' + omega^2 x = sin(5 t), from rest, where nothing is out of balance.
 double force(double x, double t) { return omega * omega * x - std::sin(5 * t); }
 
-/// Its steps by hand, as a contributor takes them: one increment does for a linear equation.
+/// Its steps are performed by hand, as in a program that uses the library: a linear equation needs one increment.
 struct Condensed {
   SecondOrderHistory x;
   double t = 0;
@@ -43,7 +43,7 @@ struct Condensed {
     x.predict(stage);
     const double residual = x.acceleration()[0] + force(x.position()[0], t + dt);
     x.move(stage, VectorXd::Constant(1, -residual / (stage.m + omega * omega * stage.k)));
-    x.predict(stage);  // asked for again within the step, nothing happens
+    x.predict(stage);  // a second call within the step has no effect
   }
   void step(double dt) {
     solve(dt);
@@ -81,7 +81,7 @@ TEST_CASE("StepThatIsBegunAgain_HasLeftNothing") {
   }
 }
 
-TEST_CASE("AcceptingWithoutAStep_KeepsWhatIsThere") {
+TEST_CASE("AcceptingWithoutAStep_KeepsTheState") {
   Condensed plain, settled;
   plain.x.start(VectorXd::Constant(1, 0.01));
   settled.x.start(VectorXd::Zero(1));

@@ -36,7 +36,7 @@ class SeveralCoordinates final : public Equations {
   int unsolved = 0;                ///< assemblies after which what is condensed is solved
   bool whole_tangent = true;
   bool condenses = false;
-  int stands_after = 0;           ///< times that a step is asked for once more
+  int stands_after = 0;           ///< number of repeated attempts of a step
   std::function<void()> changed;  ///< what happens to the equations each of these times
   int begun = 0, accepted = 0, assembled = 0;
 
@@ -95,7 +95,7 @@ class SeveralCoordinates final : public Equations {
   [[nodiscard]] std::string domain_error() const override { return failure_; }
   [[nodiscard]] bool has_whole_tangent() const override { return whole_tangent; }
 
-  /// At q and v, without accelerations and multipliers.
+  /// State at q and v, without accelerations and multipliers.
   [[nodiscard]] State at(const Vector& q, const Vector& v) const {
     return {.t = 0, .q = q, .v = v, .vdot = Vector::Zero(nv()), .lambda = Vector::Zero(rows)};
   }

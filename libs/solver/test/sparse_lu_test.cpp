@@ -108,7 +108,7 @@ TEST_CASE("SparseLu_ReportsSingularMatricesAndRecovers") {
   CHECK_FALSE(lu.factorise(values(A)));
 }
 
-TEST_CASE("SparseLu_FactorisesNoPatternThatIsSingularWhateverTheNumbers") {
+TEST_CASE("SparseLu_FactorisesNoStructurallySingularPattern") {
   Eigen::SparseMatrix<double> A(3, 3);  // rows 1 and 2 have one column between them
   A.insert(0, 0) = 1;
   A.insert(1, 0) = 1;

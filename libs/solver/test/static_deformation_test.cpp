@@ -118,12 +118,12 @@ test::SeveralCoordinates whirled_mass() {
   return e;
 }
 
-TEST_CASE("WhirledRod_IsStretchedByWhatKeepsItsMassOnTheCircle") {
+TEST_CASE("WhirledRod_IsStretchedByItsCentripetalForce") {
   test::SeveralCoordinates e = whirled_mass();
   const double speed = 4;
   State state = e.at(Vector3d(1, 0, 0), Vector3d(0, speed, 0));
   REQUIRE(initialise(e, state).solved());
-  CHECK(state.vdot[2] > 1);  // let go undeformed it would stretch
+  CHECK(state.vdot[2] > 1);  // released undeformed it would stretch
   REQUIRE(settle_deformations(e, state, {.stiff = {2}}).solved());
   // k e = m v^2/(1 + e)
   const double stretch = 0.5 * (std::sqrt(1 + 4 * mass * speed * speed / stiffness) - 1);
@@ -157,7 +157,7 @@ TEST_CASE("StiffDeformation_IsSettledFromFarAwayAndInsideItsDomain") {
   CHECK(std::abs(far.q[0] - 1) < solved);
 }
 
-/// Without an answer, because of `why`, and with the state as it was.
+/// Checks a failure because of `why` that leaves the state unchanged.
 void check_failure(Equations& e, const State& start, Eigen::Index deformation, const std::string& why) {
   State state = start;
   const StaticDeformationSummary summary = settle_deformations(e, state, {.stiff = {deformation}});
@@ -210,7 +210,7 @@ TEST_CASE("CondensedUnknowns_AreSolvedBeforeTheDeformationMoves") {
   CHECK(slow.assembled == e.assembled + 29);
 }
 
-// On the way, at e = 0.5, x says nothing of the constraint any more: its rate cannot follow there.
+// At e = 0.5, an intermediate state, the constraint is independent of x: its rate cannot follow there.
 TEST_CASE("ConfigurationWhereConstraintsDetermineNoRates_IsReported") {
   test::SeveralCoordinates e(Vector2d(1, 1).asDiagonal(), 1);
   const auto slope = [](double q) { return q < 0.5 ? 1.0 : 0.0; };

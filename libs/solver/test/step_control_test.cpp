@@ -14,7 +14,7 @@ namespace step_control_test {
 
 Eigen::VectorXd one(double error) { return Eigen::VectorXd::Constant(1, error); }
 
-TEST_CASE("StepControl_SettlesWhereTheErrorMeetsItsAim") {
+TEST_CASE("StepControl_SettlesAtTheTargetError") {
   // A local error of third order, 8e6 dt^3 of the tolerance: half of it at dt = 0.00397.
   StepControl control({.smallest = 1e-9, .largest = 1}, 1e-6);
   for (int i = 0; i < 60; ++i) control.accepted(control.dt(), one(8e6 * std::pow(control.dt(), 3)));
@@ -56,7 +56,7 @@ TEST_CASE("StepControl_TakesTheSameStepsBeforeAndAfterALargeError") {
   }
 }
 
-TEST_CASE("StepControl_HoldsStillWhereAnErrorPassesThroughZero") {
+TEST_CASE("StepControl_KeepsItsStepWhereAnErrorPassesThroughZero") {
   StepControl control({.smallest = 1e-9, .largest = 1}, 0.01);
   double shortest = 1, longest = 0;
   for (double t = 0; t < 6;) {

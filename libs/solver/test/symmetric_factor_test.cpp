@@ -119,8 +119,8 @@ TEST_CASE("FactorLargerThanTheMemory_IsRefusedWithTheFigure") {
   CHECK(factor.factorise(A).solved());
 }
 
-/// [0, B; B^T, 0] with `per` entries a row beside a weak diagonal of B: no pivot stands on its own diagonal, and as
-/// many eigenvalues are negative as B has rows.
+/// [0, B; B^T, 0] with `per` entries a row beside a weak diagonal of B: no pivot lies on its own diagonal, and as many
+/// eigenvalues are negative as B has rows.
 Eigen::SparseMatrix<double> saddle(int n, int per) {
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> value(-1, 1);
@@ -144,8 +144,8 @@ Eigen::SparseMatrix<double> saddle(int n, int per) {
   return A;
 }
 
-// Delayed pivots need memory that cannot be predicted from the pattern alone: more of it is given, and where
-// that is not enough, either, the factorisation says so.
+// Delayed pivots need memory that cannot be predicted from the pattern alone: more of it is provided, and where that is
+// insufficient, too, the factorisation reports it.
 TEST_CASE("DelayedPivots_GetMemoryOrAreReported") {
   for (const int per : {3, 6}) {
     CAPTURE(per);

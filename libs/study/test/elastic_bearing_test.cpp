@@ -289,7 +289,7 @@ TEST_CASE("ElasticJournal_IsSupportedAtItsJoint_AndDeforms") {
   const Rig rig;
   const BearingSolution solution = rig.solved(hollow_shaft);
   REQUIRE(solution.elasticity->journal);
-  CHECK(solution.elasticity->journal->held_at == std::vector<std::string>{"pin"});
+  CHECK(solution.elasticity->journal->supported_at == std::vector<std::string>{"pin"});
   CHECK(solution.state.d_journal.minCoeff() < -1e-7);  // it gives way by more than round-off
   check_stiffness(rig, hollow_shaft, c * Eigen::Vector2d(0.2, -0.75));
   const BearingSolution stiff =
@@ -326,12 +326,12 @@ TEST_CASE("ElasticJournal_IsTheMeanOfARevolutionInARun") {
 
 TEST_CASE("ElasticBearing_IsSupportedAtJoints_ThenAtOtherForces_ThenByItself") {
   using Names = std::vector<std::string>;
-  const auto held_at = [](const Rig& rig) { return rig.solved({}).elasticity->shell->held_at; };
-  CHECK(held_at(Rig()) == Names{"foot"});
+  const auto supported_at = [](const Rig& rig) { return rig.solved({}).elasticity->shell->supported_at; };
+  CHECK(supported_at(Rig()) == Names{"foot"});
   const std::string clamp = "  clamp: {type: fixed, between: [ground, ring.foot]}\n";
   std::string loose = machine;
   loose.replace(loose.find(clamp), clamp.size(), "");
-  CHECK(held_at(Rig(loose)) == Names{"bore"});
+  CHECK(supported_at(Rig(loose)) == Names{"bore"});
   const std::string push = "  push: {type: force, body: shaft, components: [0 N, -1.5 kN, 0 N]}\n";
   std::string on_bushing = loose, on_itself = loose;
   const std::string rest = "between: [ground, ring.FRAME], stiffness: 1e9 1e9 1e9 N/m}\n";
@@ -340,9 +340,9 @@ TEST_CASE("ElasticBearing_IsSupportedAtJoints_ThenAtOtherForces_ThenByItself") {
     return push + text.replace(text.find("FRAME"), 5, frame);
   };
   on_bushing.replace(on_bushing.find(push), push.size(), bushing("foot"));
-  CHECK(held_at(Rig(on_bushing)) == Names{"foot"});
+  CHECK(supported_at(Rig(on_bushing)) == Names{"foot"});
   on_itself.replace(on_itself.find(push), push.size(), bushing("bore"));
-  CHECK(held_at(Rig(on_itself)) == Names{"bore"});
+  CHECK(supported_at(Rig(on_itself)) == Names{"bore"});
 }
 
 TEST_CASE("ElasticBearing_WhatItCannotAnswer_IsRefusedAtItsLine") {

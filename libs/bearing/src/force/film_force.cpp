@@ -88,7 +88,7 @@ void FilmForce::report_contact() {
   surfaces_.g.minCoeff(&node);
   domain_error_ =
       fmt::format("{} (smallest undeformed gap {:.4g} um at {}; {})", gap_->contact_text(), 1e6 * smallest_gap(),
-                  film::place_of_node(model(), static_cast<int>(node)), gap_->position_text());
+                  film::position_of_node(model(), static_cast<int>(node)), gap_->position_text());
   const HotClearance hot = hot_clearance(model(), thermal_->growth(), thermal_->shell(), thermal_->journal());
   if (hot.has_shape || thermal_->growth() != 0)
     domain_error_ += fmt::format("; its clearance of {:.4g} um is {:.4g} um at the temperatures of its walls",

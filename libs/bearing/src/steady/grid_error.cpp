@@ -77,7 +77,7 @@ void take_to(const film::Grid& coarse, const film::Grid& fine, film::ThermalMode
     body->conduction = std::make_shared<const film::JournalConduction>(film::on_grid(*body->conduction, fine, coarse));
   auto* wall = std::get_if<film::WallAtTemperature>(&thermal.shell);
   if (wall == nullptr || wall->around.size() == 0) return;
-  wall->around = film::GridTransfer::by_place(fine, coarse).around(wall->around);
+  wall->around = film::GridTransfer::by_position(fine, coarse).around(wall->around);
 }
 
 bool is_fine_enough(const film::Grid& grid) {

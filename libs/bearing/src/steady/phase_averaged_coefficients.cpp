@@ -26,14 +26,14 @@ std::vector<TurnedFilm> turned_films(const film::FilmModel& model, const SteadyS
                                      const SteadyOptions& options) {
   std::vector<TurnedFilm> films;
   if (!model.grid.closes()) return films;
-  OperatingPoint held = state.point;
-  held.load.reset();
-  held.e = state.e;
+  OperatingPoint fixed = state.point;
+  fixed.load.reset();
+  fixed.e = state.e;
   for (int place = 1; place < kPlaces; ++place) {
     TurnedFilm film{model, {}};
     film.model.grid = film::turned(model.grid, static_cast<double>(place) / kPlaces);
-    const film::GridTransfer transfer = film::GridTransfer::by_place(model.grid, film.model.grid);
-    SteadySearch search(film.model, held, options);
+    const film::GridTransfer transfer = film::GridTransfer::by_position(model.grid, film.model.grid);
+    SteadySearch search(film.model, fixed, options);
     search.set_viscosity(taken_over(transfer, state.viscosity));
     search.set_thermal_shapes(taken_over(transfer, state.thermal_shape), taken_over(transfer, state.journal_shape));
     search.begin_at(state.e, transfer(state.u), state.s);

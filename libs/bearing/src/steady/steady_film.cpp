@@ -196,9 +196,9 @@ film::FilmSolveSummary SteadyFilm::solve(const Coordinates& e, VectorXd& x) {
   }
   // One more solve of the film found reports its state, such as starvation.
   VectorXd u = film_of(x);
-  film::FilmSolveSummary judged = solve_film(surfaces(e, x), u);
-  judged.iterations += solved.iterations;
-  return judged;
+  film::FilmSolveSummary checked = solve_film(surfaces(e, x), u);
+  checked.iterations += solved.iterations;
+  return checked;
 }
 
 /// Newton on film and deformation at once.

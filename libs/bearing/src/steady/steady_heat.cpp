@@ -66,8 +66,7 @@ std::string hottest_of(const film::HeatObservables& observed) {
                      observed.T_max_phi * 180 / std::numbers::pi, 1e3 * observed.T_max_z);
 }
 
-// A film that was there and is lost as its oil warms and thins, or heat that leaves only at temperatures of no oil:
-// told as what it is.
+// Reports a film that is lost as its oil warms and thins, or heat that leaves only at temperatures that no oil has.
 void tell_runaway(const film::HeatObservables& observed, bool has_lost_film, SteadySummary& summary) {
   if (has_lost_film) {
     summary.message = fmt::format("thermal runaway: oil that warms to {} is too thin for the film to stay; {}",

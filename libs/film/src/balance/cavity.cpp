@@ -21,16 +21,15 @@ class MiddleRow {
   [[nodiscard]] bool is_cavity(int i) const {
     return value(i) < -1e-9 * fill_scale(balance_.model()) && !balance_.is_flooded(node(i));
   }
-  /// Whether an edge lies between node i and the next one.
+  /// True if an edge lies between node i and the next one.
   [[nodiscard]] bool ends(int i) const { return balance_.model().grid.next(wrapped(i)) < 0; }
-  /// From node i on to the next one [rad].
+  /// Angle from node i to the next one [rad].
   [[nodiscard]] double step(int i) const { return at_.dphi(wrapped(i)); }
   [[nodiscard]] double angle(int i) const { return at_.phi[wrapped(i)]; }
 
-  /// Distance from the last node i of the film to its end, which lies before or in the volume of the next one in the
-  /// direction of `sense` [rad]. Where the film of a model without tension ruptures, or loses oil, of the next volume a
-  /// share is full (film.61, film.62); else the pressure falls straight. A node that holds a pressure ends the film
-  /// itself.
+  /// Distance from the last node i of the film to its end, which lies before the next node in the direction of `sense`
+  /// or in its volume [rad]. Where a film without tension ruptures or loses oil, a share of the next volume is full
+  /// (film.61, film.62); elsewhere the pressure falls linearly. A node of prescribed pressure is the film's end itself.
   [[nodiscard]] double reach(int i, int sense, bool is_rupture) const {
     if (balance_.balance_share(node(i)) < 1 || ends(sense > 0 ? i - 1 : i)) return 0;
     const int cavitated = i + sense;
@@ -64,7 +63,7 @@ Cavity widest_cavity(const FlowBalance& balance, const Eigen::VectorXd& u, bool 
   double widest = 0;
   Cavity cavity;
   for (int first = 0; first < row.size(); ++first) {
-    // A cavity begins here, or the film is nowhere.
+    // A cavity begins here, or all of the row is cavitated.
     if (!row.is_cavity(first) || (!row.ends(first - 1) && row.is_cavity(first - 1))) continue;
     int last = first;
     double width = row.step(first - 1);
@@ -72,7 +71,7 @@ Cavity widest_cavity(const FlowBalance& balance, const Eigen::VectorXd& u, bool 
     width += row.step(last);
     if (width <= widest) continue;
     widest = width;
-    // At the end of a patch it ends itself.
+    // A cavity that reaches the end of a patch ends there.
     const double low =
         row.ends(first - 1) ? row.angle(first) : row.angle(first - 1) + row.reach(first - 1, +1, !backwards);
     const double high = row.ends(last) ? row.angle(last) : row.angle(last + 1) - row.reach(last + 1, -1, backwards);

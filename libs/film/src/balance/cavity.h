@@ -7,8 +7,9 @@
 
 namespace hersey::film {
 
-/// Where the film at mid-width ruptures and re-forms: the ends of its widest cavity, in the order in which the flow
-/// passes them [rad], from 0 to 2 pi; NaN where the film is whole or is nowhere (theory manual, film.56).
+/// Angles at which the film at mid-width ruptures and re-forms: the ends of its widest cavity, in the order in which
+/// the flow passes them [rad], from 0 to 2 pi; NaN where the film is full everywhere or cavitated everywhere (theory
+/// manual, film.56).
 struct Cavity {
   double rupture = std::numeric_limits<double>::quiet_NaN(), reformation = rupture;
 };

@@ -3,13 +3,13 @@
 
 #include "balance/flow_balance.h"
 
-// Where the border of a cavity cuts control volumes of a film without a fill fraction: counted as full or cavitated as
-// their nodes are, the shear of the film would be of the first order.
+// Borders of cavities that cut control volumes of a film without a fill fraction. If volumes counted as full or
+// cavitated as their nodes are, the shear of the film would be of first order.
 namespace hersey::film {
 namespace {
 
-// Tension and missing oil below these shares of what sliding at the film's speed makes do not break a film: a journal
-// at the centre has no cavity, and one near it no torque that jumps.
+// Tension and missing oil below these shares of what sliding at the film's speed causes do not cavitate a film: a
+// journal at the centre has no cavity, and the torque of one near the centre does not jump.
 constexpr double kLeastTension = 5e-4, kLeastSlack = 1e-3;
 
 /// Nodes before and after along phi, then along z; -1: none.
@@ -25,33 +25,33 @@ struct Fall {
   std::array<double, 2> weight{};
 };
 
-// Half a volume lies towards each neighbour; without one there is none on that side.
+// Half a volume lies towards each neighbour; without a neighbour there is none on that side.
 Fall fall_over_volume(int before, int after) {
   return {(before >= 0 ? 0.5 : 0) - (after >= 0 ? 0.5 : 0), {before >= 0 ? -0.5 : 0, after >= 0 ? 0.5 : 0}};
 }
 
-/// Oil that pressure presses into a volume, with derivatives [m^3/s].
+/// Oil that pressure drives into a volume, with derivatives [m^3/s].
 struct PressedIn {
-  double value = 0, h = 0;    ///< with film thickness
-  double rate = 0, turn = 0;  ///< with what SlidingChange tells
+  double value = 0, h = 0;        ///< with film thickness
+  double rate = 0, rotation = 0;  ///< with the two members of SlidingChange
 
-  /// By a pressure over a flow tube, their product with width/(12 length).
+  /// Adds the flow by a pressure over a flow tube, given their product with width/(12 length).
   void add(double pressed, double thickness, const Fluidity& flow) {
     const double cube = thickness * thickness * thickness;
     value += pressed * cube * flow.value;
     h += pressed * (3 * thickness * thickness * flow.value + cube * flow.h);
-    rate += pressed * cube * flow.rate, turn += pressed * cube * flow.turn;
+    rate += pressed * cube * flow.rate, rotation += pressed * cube * flow.rotation;
   }
 };
 
 }  // namespace
 
-// P0 (film.6) goes by a speed that a machine's film need not have.
+// P0 (film.6) is scaled by fill_speed, which may differ from the film's speed.
 double FlowBalance::sliding_share(int j) const {
   return sliding_[static_cast<std::size_t>(j)].speed / (model_.R * model_.fill_speed);
 }
 
-// Of a film that bears tension u is a pressure on both sides of the border (film.60).
+// In a film that bears tension u is a pressure on both sides of the border (film.60).
 CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   const Grid& grid = model_.grid;
   const int k = grid.index(i, j);
@@ -85,15 +85,16 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   return border;
 }
 
-// In a cavitated volume oil is missing; what pressure presses in fills its share of what would be missing without
-// (film.61). Beside a supply line the node's row tells both: the line presses in what a node in its place would.
+// Oil is missing in a cavitated volume. The flow that pressure drives in fills the share that it has in the sum of
+// itself and the missing oil (film.61). Beside a supply line the node's row includes both, and the line drives in what
+// a node at its position would.
 CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const int k = model_.grid.index(i, j);
   const bool is_full = u_[k] >= -round_off_of_u();
-  const HeldNode* held = held_at(k);
+  const PrescribedNode* prescribed = prescribed_at(k);
   CavityBorder border{.node = k, .of = k, .share = is_full ? 1.0 : 0.0};
-  if (is_full || is_given(k) || (held != nullptr && held->other < 0)) return border;
-  const HeldNode line = held == nullptr ? HeldNode{.draws = 0, .way = 1} : *held;
+  if (is_full || is_given(k) || (prescribed != nullptr && prescribed->other < 0)) return border;
+  const PrescribedNode line = prescribed == nullptr ? PrescribedNode{.draws = 0, .way = 1} : *prescribed;
   border.beside = nodes_beside(model_.grid, i, j);
   const std::array<int, 4> faces = faces_around(k);
   const Node& node = nodes_[k];
@@ -124,7 +125,7 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   border.by_u = -by_missing * (line.way * D0_ + line.draws * per_pressure.value);
   border.by_h = change(by_nodes.h, per_pressure.h);
   border.by_rate = change(by_nodes.rate, per_pressure.rate) + (is_little ? by_in * least : 0);
-  border.by_turn = change(by_nodes.turn, per_pressure.turn);
+  border.by_rotation = change(by_nodes.rotation, per_pressure.rotation);
   border.by_line = (by_in * by_nodes.value + by_missing * D0_ * lack) * line.way_line +
                    by_missing * line.draws_line * lack * per_pressure.value;
   for (double& by_beside : border.by_beside) by_beside *= by_in;
@@ -137,7 +138,7 @@ void FlowBalance::show_border(const CavityBorder& border) {
   if (border.share > 0 && border.share < 1) borders_.push_back(border);
 }
 
-// An edge at p_cav has u = 0 whether the film beside it is full or cavitated: it is what the next node is.
+// An edge at p_cav has u = 0 whether the film beside it is full or cavitated: it takes the state of the next node.
 void FlowBalance::take_borders_to_edges() {
   const std::size_t count = borders_.size();  // in the order of their nodes
   for (const int edge : prescribed_edge_nodes_) {
@@ -154,7 +155,8 @@ void FlowBalance::take_borders_to_edges() {
   }
 }
 
-// Where oil is conserved, what pressure presses in fills a share of what would be missing without it.
+// Where oil is conserved, the flow that pressure drives in fills the share that it has in the sum of itself and the
+// missing oil.
 double FlowBalance::cavitated_share(int node) const {
   const Node& at = nodes_[node];
   if (!cavitation_.has_fill()) return 1 - (model_.cavitated_shear == CavitatedShear::full ? at.other_share : at.share);

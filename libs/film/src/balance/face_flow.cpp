@@ -7,19 +7,19 @@
 namespace hersey::film {
 namespace {
 
-// As for the control volumes: interpolation leaves a face at least this share of the gap at its nodes.
+// Smallest share of the gap at its nodes that interpolation leaves to a face, as for the control volumes.
 constexpr double least_face_share = 0.25;
 
-// Where the gap half a cell on differs by more than this factor from that at the node, the law of little oil takes it
-// to differ by this: nothing is resolved there, and the law would be too steep for Newton's method.
+// Largest ratio of the gap half a cell on to that at the node in the law of little oil: larger ratios are not resolved
+// by the grid, and the law would be too steep for Newton's method.
 constexpr double most_widening = 1.25;
 
 double fourth(double x) { return x * x * x * x; }
 
 }  // namespace
 
-// As long as a node is nearly empty its whole content is carried on; when it is full, as much as the gap behind lets
-// through. Between both the smooth monotone law with these limits (film.28).
+// A nearly empty node is left by its whole content, a full one by the flow that the gap behind it carries. Between both
+// the smooth monotone law with these limits applies (film.28).
 Carried FaceFlow::carried(double theta) const {
   if (little == couette) return {theta * couette, couette, theta, 0};
   if (theta < 0) return {theta * little, little, 0, theta};
@@ -54,9 +54,9 @@ FlowBalance::FaceGap FlowBalance::smooth_gap(std::size_t f, double h) const {
   return gap;
 }
 
-// Between rough surfaces (film.43): factors are means of those at both nodes.
+// Between rough surfaces (film.43) factors are means of those at both nodes.
 void FlowBalance::roughen(std::size_t f, FaceGap& gap) const {
-  if (rough_law_.is_smooth() && !is_layered()) return;  // all of what follows is 1 and 0
+  if (rough_law_.is_smooth() && !is_layered()) return;  // all factors below are 1 and 0
   const Face& face = faces_[f];
   const RoughGap &a = rough_[face.a], &b = rough_[face.b];
   const int k = axial(f) ? 1 : 0;
@@ -71,14 +71,14 @@ void FlowBalance::roughen(std::size_t f, FaceGap& gap) const {
                  0.5 * (speed * (b.mean_h - 1) + half_slip * b.drag_h[k])};
 }
 
-// Over pockets (film.26, film.28).
+// The flow over pockets follows (film.26, film.28).
 void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap) {
   const auto t = static_cast<std::size_t>(flow_tube_of_[f]);
   const PocketFlowTube& flow_tube = relief_.flow_tubes()[t];
   const Face& face = faces_[f];
   const FlowTubeGap deep = relief_.gap(flow_tube, h);
   const double factor = gap.cube / (h * h * h);
-  const double cube_h = gap.cube_h - 3 * factor * h * h;  // what roughness itself changes
+  const double cube_h = gap.cube_h - 3 * factor * h * h;  // derivative of the roughness factor alone
   gap.cube_at[0] *= deep.cube.value / (h * h * h), gap.cube_at[1] *= deep.cube.value / (h * h * h);
   gap.cube = factor * deep.cube.value;
   gap.cube_h = factor * deep.cube.h + cube_h * deep.cube.value / (h * h * h);
@@ -106,15 +106,16 @@ bool FlowBalance::passes_steps(std::size_t f) const {
   return axial(f) || (speed - faces_[f].stretch * speeds_.u_journal) * speed > 0;
 }
 
-double FlowBalance::held_upstream(std::size_t f, int from, const Speeds& speeds) const {
+double FlowBalance::entrained_upstream(std::size_t f, int from, const Speeds& speeds) const {
   const Cell& cell = cells_[from];
-  double held = speeds.mean * (cell.gap + cell.depth) + speeds.half_slip * rough_[from].drag[axial(f) ? 1 : 0];
-  if (cell.turning > 0 && !axial(f)) held -= (passes_steps(f) ? speeds.journal : speeds.mean) * cell.turning;
-  return held;
+  double entrained = speeds.mean * (cell.gap + cell.depth) + speeds.half_slip * rough_[from].drag[axial(f) ? 1 : 0];
+  if (cell.turning > 0 && !axial(f)) entrained -= (passes_steps(f) ? speeds.journal : speeds.mean) * cell.turning;
+  return entrained;
 }
 
-// The oil of the node upstream, whole as it is (film.28): what its control volume holds goes on at the surfaces' mean
-// speed, of a turning pocket's only what is faster than its step, and what turns over the face with the pocket.
+// Flow of little oil (film.28): the content of the control volume upstream moves at the surfaces' mean speed; the
+// content of a rotating pocket only at the speed relative to its step, in addition to the oil that rotates over the
+// face with the pocket.
 void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
   gap.little = gap.full;
   gap.from = gap.full >= 0 ? faces_[f].a : faces_[f].b;
@@ -126,7 +127,7 @@ void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
   const PocketFlowTube* flow_tube =
       is_deep ? &relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])] : nullptr;
   const double swept = is_deep ? flow_tube->swept / faces_[f].width : 0;
-  const double little = held_upstream(f, gap.from, {speed, half_slip, journal}) + swept;
+  const double little = entrained_upstream(f, gap.from, {speed, half_slip, journal}) + swept;
   if (little * gap.full <= 0 || (is_deep && std::abs(little) <= std::abs(gap.full))) return;
   const double ratio = little / gap.full;
   if (!is_deep && (ratio > most_widening || ratio * most_widening < 1)) {
@@ -152,7 +153,7 @@ double FlowBalance::step_speed(std::size_t f, const PocketFlowTube& flow_tube) c
   return axial(f) ? 0 : step_of(flow_tube, entrainment(f), faces_[f].stretch * speeds_.u_journal);
 }
 
-// The line's rows count so much of what comes half-way to it.
+// The line's rows count this share of the flow half-way to it.
 void FlowBalance::find_carried_share(std::size_t f, const FaceGap& gap, const Carried& carried) {
   const FaceFlow& flow = flows_[f];
   CarriedShare& share = line_shares_[f % static_cast<std::size_t>(model_.grid.n_z)];
@@ -176,7 +177,7 @@ void FlowBalance::add_face(std::size_t f) {
   FaceFlow& flow = flows_[f];
   flow = {};
   flow.density = 0.5 * (a.density + b.density);
-  // No pressure passes a supply line: both sides are tied to the line itself.
+  // No pressure gradient extends over a supply line: both sides are connected to the line itself.
   const double h = thickness_on(f), drop = a.p - b.p;
   const Fluidity &at_a = flow_of(face.a, f), &at_b = flow_of(face.b, f);
   const double fluidity = is_cut(f) ? 0 : 0.5 * (at_a.value + at_b.value);
@@ -186,7 +187,7 @@ void FlowBalance::add_face(std::size_t f) {
   if (flow.is_deep) deepen(f, h, gap);
   carry_little(f, gap);
 
-  // Flow (film.16): q = rho [h^3/(12 mu) b/l (p_a - p_b) + what the surfaces carry].
+  // The flow (film.16) is q = rho [h^3/(12 mu) b/l (p_a - p_b) + entrained flow].
   const double unit = face.width / (12 * face.length);
   flow.K = flow.density * unit * gap.cube * fluidity;
   flow.couette = flow.density * face.width * gap.full;
@@ -229,7 +230,8 @@ std::array<double, 2> FlowBalance::flow_by_u(std::size_t f) const {
           -flow.K * b.p_u + by_laws(b, flow.q_h_b) + (from_a ? 0 : flow.q_theta * b.theta_u)};
 }
 
-/// Of a full gap and of little oil, both without density; swept volumes apart, which the step has fixed.
+/// Returns the flows of a full gap and of little oil, both without density and without swept volumes, which the step
+/// has fixed.
 std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speeds) const {
   const Face& face = faces_[f];
   const double h = thickness_on(f);
@@ -246,7 +248,7 @@ std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speed
   }
   const FaceFlow& flow = flows_[f];
   const int from = flow.couette >= 0 ? face.a : face.b;
-  const double own = held_upstream(f, from, speeds) + swept;
+  const double own = entrained_upstream(f, from, speeds) + swept;
   const double limited = flow.little_by_couette * full;
   const double little = flow.little == flow.couette ? full : flow.little_by_couette > 0 ? limited : own;
   return {face.width * full, face.width * little};

@@ -22,7 +22,7 @@ FilmDomain check_unknowns(const FilmModel& model, const Eigen::VectorXd& u) {
   return is_meant ? FilmDomain{} : FilmDomain{FilmDomain::Violation::pressure, highest};
 }
 
-std::string place_of_node(const FilmModel& model, int node) {
+std::string position_of_node(const FilmModel& model, int node) {
   const Grid& grid = model.grid;
   const double phi = grid.phi(node / grid.n_z);
   const std::string along = is_round(model.surface) ? fmt::format("{:.1f} deg", phi * 180 / std::numbers::pi)
@@ -33,7 +33,7 @@ std::string place_of_node(const FilmModel& model, int node) {
 std::string text(const FilmModel& model, const FilmDomain& domain) {
   using Violation = FilmDomain::Violation;
   if (domain.is_inside()) return {};
-  const std::string where = domain.node < 0 ? "" : " at " + place_of_node(model, domain.node);
+  const std::string where = domain.node < 0 ? "" : " at " + position_of_node(model, domain.node);
   if (domain.violation == Violation::closed) return "the film closes" + where;
   if (domain.violation == Violation::not_finite) return "the film has no finite pressure" + where;
   const bool stiffens = !std::holds_alternative<ConstantViscosity>(model.lubricant.viscosity_law);

@@ -2,15 +2,15 @@
 
 #include "balance/flow_balance.h"
 
-// Oil in the control volumes: how much, and how its amount changes (film.12, film.44, film.14).
+// Oil in the control volumes and its rate of change (film.12, film.44, film.14).
 namespace hersey::film {
 namespace {
 
-// What interpolation adds to a gap takes no more of it than this: surfaces that bend from node to node do not cross
-// between them.
+// Smallest share of a node's gap that interpolation leaves to its control volume: surfaces that bend from node to node
+// do not cross between them.
 constexpr double least_share = 0.25;
 
-// A step that opens the gap faster than its rate says does not start from less than this share of the gap there was.
+// Smallest share of the initial gap from which a step starts whose gap opens faster than its rate.
 constexpr double least_start = 0.5;
 
 }  // namespace
@@ -62,7 +62,7 @@ double FlowBalance::storage_u(int i) const {
   return node.content_u * storage_by_content(i) + storage_h(i) * node.h_u;
 }
 
-// With the film thickness, at a given content; a liner at rest takes the gap of the start along.
+// Derivative by the film thickness at a given content; a liner at rest changes the gap of the start, too.
 double FlowBalance::storage_h(int i) const {
   const Cell& cell = cells_[i];
   if (dt_ > 0) {
@@ -92,11 +92,12 @@ double FlowBalance::storage_excess_rate(int i) const {
   return dt_ > 0 ? area_[i] * content_start_[i] * cells_[i].start_excess : storage_g_rate(i);
 }
 
-// The journal's pockets as they turn.
+// Adds the change of storage by rotating pockets of the journal.
 void FlowBalance::add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const {
-  const double turn = dt_ > 0 ? direction.phi_journal / dt_ : direction.u_journal / model_.R;
-  if (turn == 0) return;
-  for (int i = 0; i < size(); ++i) dr[i] += area_[i] * nodes_[i].content * relief_.depth_by_journal()[i] * turn;
+  const double rotation_rate = dt_ > 0 ? direction.phi_journal / dt_ : direction.u_journal / model_.R;
+  if (rotation_rate == 0) return;
+  for (int i = 0; i < size(); ++i)
+    dr[i] += area_[i] * nodes_[i].content * relief_.depth_by_journal()[i] * rotation_rate;
 }
 
 }  // namespace hersey::film

@@ -53,7 +53,7 @@ FlowBalance::FlowBalance(const FilmModel& model)
   cells_.resize(static_cast<std::size_t>(n));
   flow_tube_of_.assign(faces_.size(), -1);
   line_shares_.resize(static_cast<std::size_t>(grid.n_z));
-  held_index_.assign(n, -1);
+  prescribed_index_.assign(n, -1);
   edge_index_.assign(n, -1);
   land_index_.assign(n, -1);
 }
@@ -203,7 +203,7 @@ void FlowBalance::take_motion(const SurfaceMotion& motion) {
   sliding_.clear();
   for (int j = 0; j < model_.grid.n_z; ++j) sliding_.push_back(sliding_of(slip(j).x(), slip(j).y()));
   if (relief_.is_empty()) return;
-  relief_.place(motion.phi_journal, phi_start_, dt_, motion.u_journal);
+  relief_.set_rotation(motion.phi_journal, phi_start_, dt_, motion.u_journal);
   std::fill(flow_tube_of_.begin(), flow_tube_of_.end(), -1);
   pocket_flows_.resize(relief_.flow_tubes().size());
   for (std::size_t t = 0; t < relief_.flow_tubes().size(); ++t)
@@ -231,14 +231,15 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
   find_borders();
   replace_boundary_rows();
-  // A film without oil has no throughput to measure by: a thousandth of what its surfaces would carry in a full gap.
+  // Scale of the throughput of a film without oil: a thousandth of the flow that its surfaces would carry in a full
+  // gap.
   const double carried =
       model_.c * std::max(std::abs(speed_phi_) * geometry_.mean_dz, std::abs(speed_z_) * geometry_.mean_dx);
   largest_throughput_ = std::max(throughput_.maxCoeff(), 1e-3 * carried);
   return {};
 }
 
-// Where the oil is thinner at one of the surfaces, sliding carries along more of it with the other, as between rough
+// Where the oil is thinner at one of the surfaces, sliding carries more of it along with the other, as between rough
 // surfaces (thermal.6).
 void FlowBalance::skew(double skew, double h, RoughGap& gap) {
   for (const int k : {0, 1}) {
@@ -279,7 +280,7 @@ int FlowBalance::phase_node(int node) const {
   return node;
 }
 
-// What a row carries beside its balance: the slack of p >= p_cav, on an open edge the outflow or inflow.
+// A row has a term beside its balance: the slack of p >= p_cav, or on an open edge the outflow or inflow.
 double FlowBalance::slack(int node) const {
   if (!is_open(node)) return D0_ * cavitation_.slack(u_[node]).value;
   return D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(node), 0.0));
@@ -291,15 +292,15 @@ double FlowBalance::slack_u(int node) const {
 }
 
 // A film that does not conserve oil lacks some wherever it is cavitated: the half volumes on an edge do not draw it in.
-bool FlowBalance::lets_nothing_in(int node) const {
+bool FlowBalance::blocks_inflow(int node) const {
   return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off_of_u();
 }
 
-// On an edge in air what a supply beside it would take back leaves, too.
+// On an edge in air the oil that a supply beside it would take back leaves, too.
 double FlowBalance::outflow_of_row(int node) const {
-  if (is_open(node)) return is_held(node) ? std::max(slack(node), -balance_[node]) : slack(node);
+  if (is_open(node)) return is_prescribed(node) ? std::max(slack(node), -balance_[node]) : slack(node);
   if (!is_given(node)) return 0;
-  return lets_nothing_in(node) ? 0 : -balance_[node];
+  return blocks_inflow(node) ? 0 : -balance_[node];
 }
 
 double FlowBalance::outflow(int node) const { return outflow_of_row(node) + over_land(node); }
@@ -326,27 +327,27 @@ std::size_t FlowBalance::face_at_edge(int node) const {
   return edges_[node].of_patch ? face_after(i, j) : face_above(i, j);
 }
 
-// Oil that is lost where the film is cavitated comes from nowhere, but for the share that draws on the supply.
+// Oil that is lost where the film is cavitated has no source, except for the share that the supply provides.
 double FlowBalance::supply_of_row(int node) const {
   const double land = over_land(node);
-  if (!is_held(node)) return land;
+  if (!is_prescribed(node)) return land;
   const double lost = is_open(node) ? 0 : (1 - draws(node)) * slack(node);
   return balance_[node] + lost + outflow_of_row(node) + land;
 }
 
 double FlowBalance::supply(int node) const {
   if (!is_beside_line(node)) return supply_of_row(node);
-  const HeldNode& held = *held_at(node);
-  return (1 - held.way) * (supply_of_row(node) + supply_of_row(held.other));
+  const PrescribedNode& prescribed = *prescribed_at(node);
+  return (1 - prescribed.way) * (supply_of_row(node) + supply_of_row(prescribed.other));
 }
 
 void FlowBalance::replace_boundary_rows() {
   for (int i = 0; i < size(); ++i) residual_[i] = balance_[i] + slack(i);
-  for (const HeldNode& held : held_) {
-    const int i = held.node;
-    const double given = tie(held).k * excess(held).value;
-    residual_[i] = (1 - held.chi) * (line_balance(i) + slack(i)) + given;
-    throughput_[i] = std::max(throughput_[i], D0_ * std::abs(held.u));
+  for (const PrescribedNode& prescribed : prescribed_) {
+    const int i = prescribed.node;
+    const double given = tie(prescribed).k * excess(prescribed).value;
+    residual_[i] = (1 - prescribed.chi) * (line_balance(i) + slack(i)) + given;
+    throughput_[i] = std::max(throughput_[i], D0_ * std::abs(prescribed.u));
   }
   for (const int node : prescribed_edge_nodes_) {
     residual_[node] = D0_ * (u_[node] - edge_unknown(node));
@@ -380,14 +381,14 @@ void FlowBalance::assemble_jacobian() {
     values_[face.slots[2]] -= q_a;
     values_[face.slots[3]] -= q_b;
   }
-  for (const HeldNode& held : held_) {
-    const int i = held.node;
-    const Tie t = tie(held);
-    const auto [above, slope] = excess(held);
-    if (held.other >= 0) add_line_by_u(held);
-    for (int slot : row_slots_[i]) values_[slot] *= 1 - held.chi;
+  for (const PrescribedNode& prescribed : prescribed_) {
+    const int i = prescribed.node;
+    const Tie t = tie(prescribed);
+    const auto [above, slope] = excess(prescribed);
+    if (prescribed.other >= 0) add_line_by_u(prescribed);
+    for (int slot : row_slots_[i]) values_[slot] *= 1 - prescribed.chi;
     values_[diagonal_slot_[i]] += t.k * slope + t.k_u * above;
-    if (held.other >= 0) values_[slot_to_other(held)] += t.k_u_other * above;
+    if (prescribed.other >= 0) values_[slot_to_other(prescribed)] += t.k_u_other * above;
   }
   for (const int node : prescribed_edge_nodes_) values_[diagonal_slot_[node]] = D0_;
 }
@@ -410,14 +411,14 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   if (relief_.has_pockets()) add_turning_pockets(direction, dr);
   const bool speeds =
       direction.u_shell != 0 || direction.u_journal != 0 || direction.w_shell != 0 || direction.w_journal != 0;
-  const bool turns = direction.phi_journal != 0 && relief_.has_pockets();
+  const bool rotates = direction.phi_journal != 0 && relief_.has_pockets();
   direction_sliding_.assign(static_cast<std::size_t>(model_.grid.n_z), {});
   for (int j = 0; speeds && j < model_.grid.n_z; ++j)
     direction_sliding_[static_cast<std::size_t>(j)] = change_of_sliding(direction, j);
   const auto sliding_at = [this](int node) -> const SlidingChange& {
     return direction_sliding_[static_cast<std::size_t>(node % model_.grid.n_z)];
   };
-  for (std::size_t f = 0; (gap || speeds || turns) && f < faces_.size(); ++f) {
+  for (std::size_t f = 0; (gap || speeds || rotates) && f < faces_.size(); ++f) {
     double q = flow_along(f, direction);
     if (speeds) {
       const auto along = [&](int node) { return flow_of(node, f).along(sliding_at(node)); };
@@ -427,22 +428,23 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     if (!cut || !has_line_row(faces_[f].a)) dr[faces_[f].a] += q;
     if (!cut || !has_line_row(faces_[f].b)) dr[faces_[f].b] -= q;
   }
-  for (const HeldNode& held : held_) {
-    const int i = held.node;
-    const Tie t = tie(held);
-    const auto [above, slope] = excess(held);
-    if (held.other >= 0) dr[i] += line_row_along(held, direction);
+  for (const PrescribedNode& prescribed : prescribed_) {
+    const int i = prescribed.node;
+    const Tie t = tie(prescribed);
+    const auto [above, slope] = excess(prescribed);
+    if (prescribed.other >= 0) dr[i] += line_row_along(prescribed, direction);
     const SlidingChange& sliding = sliding_at(i);
-    const double chi = held.chi_line * direction.phi_supply + held.chi_journal * direction.phi_journal;
-    dr[i] = (1 - held.chi) * dr[i] - chi * (line_balance(i) + slack(i));
+    const double chi = prescribed.chi_line * direction.phi_supply + prescribed.chi_journal * direction.phi_journal;
+    dr[i] = (1 - prescribed.chi) * dr[i] - chi * (line_balance(i) + slack(i));
     double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal + t.k_rate * sliding.rate +
-               t.k_turn * sliding.turn;
+               t.k_rotation * sliding.rotation;
     if (gap) {
       k += t.k_g * direction.g[i];
-      if (held.other >= 0) k += t.k_g_other * direction.g[held.other] + t.k_bend * direction_bends_[line_face(held)];
+      if (prescribed.other >= 0)
+        k += t.k_g_other * direction.g[prescribed.other] + t.k_bend * direction_bends_[line_face(prescribed)];
     }
     dr[i] += k * above;
-    dr[i] += t.k * draws_along(held, direction);
+    dr[i] += t.k * draws_along(prescribed, direction);
   }
   for (const int node : prescribed_edge_nodes_) dr[node] = 0;
 }

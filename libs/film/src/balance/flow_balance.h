@@ -21,43 +21,43 @@ struct Face {
   int a = 0, b = 0;
   double width = 0;            ///< across the flow [m]
   double length = 0;           ///< from a to b [m]
-  double stretch = 1;          ///< by which speeds along phi count there [-]
-  std::array<int, 4> slots{};  ///< where (a,a), (a,b), (b,a), (b,b) stand among the Jacobian's values
+  double stretch = 1;          ///< factor of speeds along phi there [-]
+  std::array<int, 4> slots{};  ///< indices of (a,a), (a,b), (b,a), (b,b) among the Jacobian's values
 };
 
-/// What surfaces carry over a face from a node filled to theta, with derivatives (film.28).
+/// Share of the entrained flow over a face from a node filled to theta, with derivatives (film.28).
 struct Carried {
   double value = 0;   ///< [m^3/s]
   double theta = 0;   ///< with theta [m^3/s]
-  double full = 0;    ///< with what passes when the gap is full [-]
-  double little = 0;  ///< with what passes per fill fraction when there is little oil [-]
+  double full = 0;    ///< with the flow of a full gap [-]
+  double little = 0;  ///< with the flow per fill fraction of a nearly empty gap [-]
 };
 
-/// The flow over a face, linearised (film.16): dq = K d(p_a - p_b) + q_h_a dh_a + q_h_b dh_b + q_bend d bend +
-/// q_fluidity d(1/mu) + q_density d density + q_theta d theta_upwind. Flows are of mass over rho0.
+/// Flow over a face, linearised (film.16): dq = K d(p_a - p_b) + q_h_a dh_a + q_h_b dh_b + q_bend d bend + q_fluidity
+/// d(1/mu) + q_density d density + q_theta d theta_upwind. Flows are masses over rho0.
 struct FaceFlow {
   double K = 0;                  ///< conductance [m^3/(Pa s)]
   double density = 1;            ///< rho/rho0 on the face [-]
-  double q_density = 0;          ///< with it: the volume that flows [m^3/s]
+  double q_density = 0;          ///< with the density: the volume flow [m^3/s]
   double q_h_a = 0;              ///< with the film thickness at a [m^2/s]
-  double q_h_b = 0;              ///< with that at b [m^2/s]
-  double q_bend = 0;             ///< with what the gap on the face has over the mean of both nodes [m^2/s]
-  double q_excess = 0;           ///< with what the control volume upstream has over the gap at its node [m^2/s]
+  double q_h_b = 0;              ///< with the film thickness at b [m^2/s]
+  double q_bend = 0;             ///< with the excess of the gap on the face over the mean of both nodes [m^2/s]
+  double q_excess = 0;           ///< with the excess of the control volume upstream over the gap at its node [m^2/s]
   double q_journal = 0;          ///< with phi_journal [m^3/(s rad)]
   double q_theta = 0;            ///< with the fill fraction upstream [m^3/s]
   double q_fluidity = 0;         ///< with the face's 1/mu
   double couette = 0;            ///< entrained flow of a full gap [m^3/s]
   double little = 0;             ///< entrained flow per fill fraction where there is little oil [m^3/s]
-  double little_by_couette = 0;  ///< where the first is a given multiple of the second; else 0 [-]
-  bool is_deep = false;          ///< over a pocket, which holds oil back
+  double little_by_couette = 0;  ///< ratio of `little` to `couette` where it is limited to a given factor; else 0 [-]
+  bool is_deep = false;          ///< the face lies over a pocket, which retains oil
 
   [[nodiscard]] Carried carried(double theta) const;
 };
 
-/// What pockets under a flow tube do beside its flow.
+/// Flow that recirculates in the pockets under a flow tube.
 struct PocketFlow {
-  double recirculation = 0;  ///< power of the oil that turns in them [W]
-  /// What they add to the integral of h dp over the flow tube and its width [N], with derivatives by the thickness on
+  double recirculation = 0;  ///< power that recirculation dissipates [W]
+  /// Contribution to the integral of h dp over the flow tube and its width [N], with derivatives by the thickness on
   /// the face, the mean of 1/mu, the drop of the walls' pressure, the speed past the pockets' steps and phi_journal.
   struct Moment {
     double value = 0, h = 0, fluidity = 0, drop = 0, past = 0, journal = 0;
@@ -65,24 +65,23 @@ struct PocketFlow {
   Moment moment;
 };
 
-/// A control volume through which the border of a cavity goes, in a film without a fill fraction: what of it is full
-/// (film.60, film.61), with derivatives.
+/// A control volume that the border of a cavity cuts, in a film without a fill fraction: its full share (film.60,
+/// film.61), with derivatives.
 struct CavityBorder {
   int node = 0;
-  int of = 0;  ///< the node that tells: another one on an edge at p_cav
+  int of = 0;  ///< node whose unknowns decide: another one on an edge at p_cav
   double share = 0;
-  double by_u = 0, by_h = 0;          ///< with u and film thickness at `of`
-  double by_rate = 0, by_turn = 0;    ///< with what SlidingChange tells
-  double by_line = 0;                 ///< with phi_supply [1/rad]
-  std::array<int, 4> beside{};        ///< nodes around `of`; -1: none
-  std::array<double, 4> by_beside{};  ///< with their u
+  double by_u = 0, by_h = 0;            ///< with u and film thickness at `of`
+  double by_rate = 0, by_rotation = 0;  ///< with the two members of SlidingChange
+  double by_line = 0;                   ///< with phi_supply [1/rad]
+  std::array<int, 4> beside{};          ///< nodes around `of`; -1: none
+  std::array<double, 4> by_beside{};    ///< with their u
 };
 
 /// Balance of oil (film.2) in every control volume, with the flows (film.1) over its faces, its Jacobian in u and its
-/// derivative along any change of the surfaces.
-///
-/// Rows of the residual [m^3/s]: outflow plus storage in the film, u - u_given times a conductance on an edge at given
-/// pressure, a blend of both beside the supply line and on features (film.17 to film.22).
+/// derivative along any change of the surfaces.  The residual's rows [m^3/s] are outflow plus storage in the film; u -
+/// u_given times a conductance on an edge at prescribed pressure; and a blend of both beside the supply line and on
+/// features (film.17 to film.22).
 class FlowBalance {
  public:
   explicit FlowBalance(const FilmModel& model);
@@ -92,58 +91,59 @@ class FlowBalance {
   [[nodiscard]] const FilmModel& model() const { return model_; }
   [[nodiscard]] int size() const { return model_.grid.size(); }
 
-  /// Flows tell what full nodes would carry if they were not: for sweeps that change fill fractions between
-  /// evaluations.
+  /// Makes evaluations compute the flows that full nodes would carry if they were not full: for sweeps that change fill
+  /// fractions between evaluations.
   void expect_any_fill() { expects_any_fill_ = true; }
 
-  /// Nodes, flows and residual at `u`. Outside the domain nothing of them is to be used.
+  /// Evaluates nodes, flows and residual at `u`. Outside the domain none of them may be used.
   FilmDomain evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
-  /// Values of the Jacobian at the state of the last evaluate(), in the order of the pattern.
+  /// Computes the Jacobian's values at the state of the last evaluate(), in the order of the pattern.
   void assemble_jacobian();
 
   void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
 
-  /// Takes from a right-hand side what the rate at the end of the step brings into the rows beyond what the gap has
-  /// gained over the step (film.15).
+  /// Subtracts from a right-hand side the difference between the flow that the rate at the end of the step brings into
+  /// the rows and the gain of the gap over the step (film.15).
   void subtract_defect(Eigen::VectorXd& rhs) const;
-  /// Oil of the step whose state was last evaluated, with flows changed along `du`.
+  /// Computes the oil of the step whose state was last evaluated, with flows changed along `du`.
   void settle(const Eigen::VectorXd& du, StepOilBalance& oil) const;
-  /// Oil there is, without any flow.
+  /// Sets the initial oil content; flows are undefined.
   void initialise_oil_balance(StepOilBalance& oil) const;
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   /// Share of a control volume in which the film is cavitated (film.62) [-].
   [[nodiscard]] double cavitated_share(int node) const;
-  /// Of a film without a fill fraction.
+  /// Borders of cavities in a film without a fill fraction.
   [[nodiscard]] const std::vector<CavityBorder>& borders() const { return borders_; }
   [[nodiscard]] const std::vector<RoughGap>& rough_gaps() const { return rough_; }
   [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
   [[nodiscard]] const std::vector<FaceFlow>& flows() const { return flows_; }
   [[nodiscard]] const PocketFlow& pocket_flow(std::size_t flow_tube) const { return pocket_flows_[flow_tube]; }
-  [[nodiscard]] double recirculation(std::size_t f) const {  ///< power of the oil that turns in pockets there [W]
+  [[nodiscard]] double recirculation(
+      std::size_t f) const {  ///< power that the oil recirculating in pockets dissipates [W]
     return flow_tube_of_[f] < 0 ? 0 : pocket_flows_[static_cast<std::size_t>(flow_tube_of_[f])].recirculation;
   }
   [[nodiscard]] const Eigen::VectorXd& residual() const { return residual_; }
-  /// Outflow plus storage of every control volume, boundary nodes included: there it is the oil fed from outside.
+  /// Outflow plus storage of every control volume. On boundary nodes it is the oil fed from outside.
   [[nodiscard]] const Eigen::VectorXd& balance() const { return balance_; }
-  /// The face from node (i, j) to the next along phi, and to the next along z. From the last line of a patch no face
-  /// leads on: one of no width stands in its place, from the node to itself.
+  /// Index of the face from node (i, j) to the next along phi, and to the next along z. The last line of a patch has a
+  /// face of no width from the node to itself.
   [[nodiscard]] std::size_t face_after(int i, int j) const { return static_cast<std::size_t>(model_.grid.index(i, j)); }
   [[nodiscard]] std::size_t face_above(int i, int j) const {
     return first_axial_face_ + static_cast<std::size_t>(i * (model_.grid.n_z - 1) + j);
   }
-  /// Faces of a node to those before and after it around, then along the axis; -1: none.
+  /// Faces of a node to those before and after it along phi, then along z; -1: none.
   [[nodiscard]] std::array<int, 4> faces_around(int node) const;
   [[nodiscard]] double storage(int node) const;             ///< [m^3/s]
   [[nodiscard]] double storage_by_content(int node) const;  ///< its derivative with the oil's content [m^3/s]
-  /// The gap that holds oil over a control volume, mean depth of pockets included [m].
+  /// Gap that contains the oil of a control volume, mean depth of pockets included [m].
   [[nodiscard]] double oil_gap(int node) const { return cells_[node].gap + cells_[node].depth; }
-  /// Change of the thickness on face f with that at both its nodes, each, and with its bend [-].
+  /// Derivatives of the thickness on face f by that at each of its nodes, and by its bend [-].
   [[nodiscard]] std::array<double, 2> thickness_shares(std::size_t f) const;
   [[nodiscard]] const PocketRelief& relief() const { return relief_; }
   [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }  ///< without fields
-  /// Of the journal's surface past the shell's in a row of the grid [m/s].
+  /// Velocity of the journal's surface relative to the shell's in a row of the grid [m/s].
   [[nodiscard]] Eigen::Vector2d slip(int j) const;
   [[nodiscard]] double largest_throughput() const { return largest_throughput_; }  ///< of a control volume [m^3/s]
   [[nodiscard]] double relative_residual() const;
@@ -151,22 +151,22 @@ class FlowBalance {
   [[nodiscard]] double area(int node) const { return area_[node]; }  ///< of the control volume [m^2]
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] double speed_phi() const { return speed_phi_; }
-  /// Whether a node lies on an edge whose pressure is given: it has no balance.
+  /// True if a node lies on an edge of prescribed pressure, where it has no balance.
   [[nodiscard]] bool is_given(int node) const { return edges_[node].kind == EdgeNode::Kind::given; }
-  /// Whether it lies on an edge at p_cav.
+  /// True if a node lies on an edge at p_cav.
   [[nodiscard]] bool is_open(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
-  /// u at which an edge at p_cav is as full as what lies outside; -infinity where nothing comes in [Pa].
+  /// u at which an edge at p_cav is as full as its surroundings; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
-  /// True on an edge at p_cav with oil outside: what comes in there is full, whatever the solver leaves of u.
+  /// True on an edge at p_cav with oil outside: oil that comes in there fills the gap, whatever u is.
   [[nodiscard]] bool is_flooded(int node) const { return is_open(node) && edges_[node].ambient == 0; }
-  /// Returns the flow, of several, over the edge on which a node lies.
+  /// Returns the flow over the edge on which a node lies, of all flows over edges.
   template <class Flows>
   [[nodiscard]] double& flow_over_edge(Flows& flows, int node) const {
     if (edges_[node].of_patch) return flow_over_end(flows, node);
     return node % model_.grid.n_z == 0 ? flows.flow_left : flows.flow_right;
   }
-  /// Adds what leaves at a node to the flow over its edge. At a corner between a side and an end, both open, that which
-  /// comes along the side leaves over the end.
+  /// Adds the outflow at a node to the flow over its edge. At a corner between an open side and an open end the oil
+  /// that comes along the side leaves over the end.
   template <class Flows>
   void add_flow_over_edge(Flows& flows, int node, double flow) const {
     const double along = edges_[node].is_corner ? flow_along_side(node) : 0;
@@ -174,52 +174,52 @@ class FlowBalance {
     flow_over_edge(flows, node) += flow - along;
   }
   [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
-  /// The same by the pressure that acts: of a film that bears tension not what that draws in (film.55) [m^3/s].
+  /// Outflow by the pressure that acts: in a film that bears tension it leaves out the inflow that tension draws
+  /// (film.55) [m^3/s].
   [[nodiscard]] double acting_outflow(int node) const;
-  /// The node whose u tells whether the film is full there: on an edge at p_cav without a fill fraction the next one
-  /// from the edge.
+  /// Node whose u decides whether the film is full: on an edge at p_cav without a fill fraction the next one from the
+  /// edge.
   [[nodiscard]] int phase_node(int node) const;
   [[nodiscard]] double supply(int node) const;  ///< oil entering from line or feature at this node [m^3/s]
-  /// What of the supply line's oil goes over the face that it cuts, from a to b, with what the surfaces carry: the line
-  /// gives its oil where it lies (film.21) [m^3/s].
+  /// Share of the supply line's oil that flows over the face that the line cuts, from a to b, together with the
+  /// entrained flow: the line feeds the film at its own position (film.21) [m^3/s].
   [[nodiscard]] double over_cut(std::size_t f) const;
-  [[nodiscard]] double power_of_tie(int node) const;  ///< dissipated between the node and what holds it [W]
-  /// Of that, what beside a line is dissipated in the control volume of the node on its other side, which is `other`
-  /// [-].
+  [[nodiscard]] double power_of_tie(int node) const;  ///< power dissipated between the node and its supply [W]
+  /// Share of power_of_tie() that is dissipated in the control volume `other` on the other side of the line [-].
   struct PowerBeyond {
     int other = 0;
     double share = 0;
   };
   [[nodiscard]] PowerBeyond power_beyond(int node) const;
   [[nodiscard]] int feature_at(int node) const;  ///< the feature that feeds this node; -1 for none
-  /// Of what a feature feeds at an edge, and what leaves there, that which flows straight over the land between its end
-  /// and the edge, beyond what the flow tube from the next node carries (film.22) [m^3/s].
+  /// Flow from a feature straight over the land between its end and the edge, beyond the flow in the flow tube from the
+  /// next node (film.22); it is part of the feature's flow and of the outflow [m^3/s].
   [[nodiscard]] double over_land(int node) const;
-  [[nodiscard]] double drop_over_land(int node) const;   ///< of pressure, on that way [Pa]
+  [[nodiscard]] double drop_over_land(int node) const;   ///< pressure drop over the land [Pa]
   [[nodiscard]] double power_over_land(int node) const;  ///< [W]
-  /// Whether line or feature have a part in a node's row.
-  [[nodiscard]] bool is_held(int node) const { return held_index_[node] >= 0; }
-  /// Share of a node's oil that a supply has mixed [-]: 1 on line and features, on edges too where they reach these,
-  /// though the edge has its own pressure there.
+  /// True if line or feature have a share in a node's row.
+  [[nodiscard]] bool is_prescribed(int node) const { return prescribed_index_[node] >= 0; }
+  /// Share of a node's oil that a supply has mixed [-]: 1 on line and features, and on edges that they reach, although
+  /// the edge has a pressure of its own there.
   [[nodiscard]] double supplied_share(int node) const;
   [[nodiscard]] bool is_supplied(int node) const { return supplied_at(node) != nullptr; }
-  /// The feature that does; -1: the line, or none.
+  /// Feature that has mixed it; -1: the line, or none.
   [[nodiscard]] int supplied_by(int node) const;
   /// Share of a node's own balance in its row: 1 away from line and features, 0 on them.
   [[nodiscard]] double balance_share(int node) const;
-  [[nodiscard]] double supply_conductance(int node) const;  ///< what ties u to the supply in that row [m^3/(Pa s)]
-  [[nodiscard]] double supply_unknown(int node) const;      ///< u that the supply gives [Pa]
-  /// By how much of itself a u < 0, missing oil, draws on the supply [-]: wholly on line and features, not at all from
-  /// the next node.
+  [[nodiscard]] double supply_conductance(
+      int node) const;  ///< conductance between u and the supply in that row [m^3/(Pa s)]
+  [[nodiscard]] double supply_unknown(int node) const;  ///< u of the supply [Pa]
+  /// Share of missing oil, u < 0, that the supply provides [-]: 1 on line and features, 0 at the next node.
   [[nodiscard]] double draws(int node) const;
-  /// Whether the supply gives a node what it lacks, and takes nothing from it.
+  /// True if the supply only provides what a node lacks and takes nothing from it.
   [[nodiscard]] bool only_fills(int node) const;
-  /// What the surfaces carry from a node towards the supply line beside it.
+  /// Entrained flow from a node towards the supply line beside it.
   struct TowardsLine {
-    bool counts = false;     ///< whether the line has a part in the node's row
-    double full = 0;         ///< out of the node, of a full gap [m^3/s]
-    bool from_node = false;  ///< filled as the node is; else the line fills it
-    double strip = 0;        ///< squeezed beyond the middle of the way: the line's, not the node's [m^3/s]
+    bool counts = false;     ///< true if the line has a share in the node's row
+    double full = 0;         ///< flow of a full gap, out of the node [m^3/s]
+    bool from_node = false;  ///< the gap is as full as the node; else the line fills it
+    double strip = 0;        ///< squeezed flow beyond the middle of the way, which belongs to the line [m^3/s]
   };
   [[nodiscard]] TowardsLine towards_line(int node) const;
   [[nodiscard]] bool is_cut(std::size_t f) const;                               ///< by the supply line
@@ -229,78 +229,77 @@ class FlowBalance {
   [[nodiscard]] const std::vector<int>& row_index() const { return row_index_; }
   [[nodiscard]] std::span<const double> values() const { return {values_.data(), row_index_.size()}; }
   [[nodiscard]] int diagonal_slot(int node) const { return diagonal_slot_[node]; }
-  /// Change of the flow over face f with a change of u at its nodes.
+  /// Derivatives of the flow over face f by u at its nodes.
   [[nodiscard]] std::array<double, 2> flow_by_u(std::size_t f) const;
   /// Conductance scale of the model, c^3/(12 mu0) (2 dz/dx + 2 dx/dz) [m^3/(Pa s)].
   [[nodiscard]] double conductance_scale() const { return D0_; }
 
  private:
-  /// A node whose row the supply holds wholly or in part (film.21, film.22):
-  /// r = (1 - chi) (balance + slack) + tie (u - u_given); beside the line the balance is that up to the middle of the
-  /// way.
-  struct HeldNode {
+  /// A node whose pressure the supply prescribes wholly or in part (film.21, film.22): its row is r = (1 - chi)
+  /// (balance + slack) + tie (u - u_given). Beside the line the balance ends in the middle of the way to the line.
+  struct PrescribedNode {
     int node = 0;
-    double chi = 0;            ///< share that the node's own balance loses [-]
+    double chi = 0;            ///< share of the supply in the row [-]
     double chi_line = 0;       ///< with phi_supply [1/rad]
     double chi_journal = 0;    ///< with phi_journal [1/rad]
-    double mixed_share = 0;    ///< share of its oil [-]
-    double draws = 1;          ///< of the oil it lacks [-]
+    double mixed_share = 0;    ///< share of the node's oil that the supply has mixed [-]
+    double draws = 1;          ///< share of missing oil that the supply provides [-]
     double draws_line = 0;     ///< with phi_supply [1/rad]
     double draws_journal = 0;  ///< with phi_journal [1/rad]
-    int feature = -1;          ///< -1: the line
-    double u = 0;              ///< given [Pa]
-    double inwards = 0;        ///< feature: how near to its middle (CoveredNode)
+    int feature = -1;          ///< index of the feature; -1: the line
+    double u = 0;              ///< u of the supply [Pa]
+    double inwards = 0;        ///< feature: one less the distance from its middle (CoveredNode)
     int other = -1;            ///< line: the node on its other side
     double near = 1, far = 0,
            bend = 0;  ///< line: weights by which h on the way to it follows from here, there and bend
     double near_line = 0, bend_line = 0;  ///< line: with phi_supply [1/rad]
     double conductance = 0;               ///< line: width/(12 length of the flow tube) [-]
-    double way = 0;                       ///< line: to it, as a share of the flow tube [-]
+    double way = 0;                       ///< line: distance to it as a share of the flow tube [-]
     double way_line = 0;                  ///< with phi_supply [1/rad]
   };
-  static constexpr double as_written = 1e-9;  ///< of a length that a model's author has written
-  /// A node of an edge within a cell of which a feature ends.
+  static constexpr double as_written = 1e-9;  ///< relative accuracy of a length in the model file
+  /// A node on an edge within a cell of which a feature ends.
   struct Land {
     int node = 0, inside = 0, feature = 0;
     double conductance = 0;  ///< of the land beyond that of the flow tube, per 1/12 of h^3/mu [-]
     double u = 0;            ///< of the feature [Pa]
   };
-  /// A part of a feature's end before such a node, around from it [m].
+  /// Part of a feature's end before such a node, around from it [m].
   struct LandStrip {
     int node = 0, inside = 0, feature = 0;
     double from = 0, to = 0;
     double gain = 0;  ///< 1/land - 1/flow tube [1/m]
     double u = 0;
   };
-  /// What ties a held node to its u [m^3/(Pa s)], with derivatives.
+  /// Conductance between a prescribed node and its supply [m^3/(Pa s)], with derivatives.
   struct Tie {
     double k = 0, k_u = 0, k_g = 0;
     double k_u_other = 0, k_g_other = 0, k_bend = 0, k_line = 0, k_journal = 0;
-    double k_rate = 0, k_turn = 0;  ///< with what SlidingChange tells
+    double k_rate = 0, k_rotation = 0;  ///< with the two members of SlidingChange
   };
-  /// Where a supply line cuts the flow tubes between two columns of nodes.
+  /// Position of a supply line that cuts the flow tubes between two columns of nodes.
   struct Line {
     bool cuts = false;
-    int column = 0;     ///< the nodes before it
-    double share = 0;   ///< of the way to the next [-]
+    int column = 0;     ///< column of nodes before it
+    double share = 0;   ///< share of the distance to the next column [-]
     double by_phi = 0;  ///< with phi_supply [1/rad]
   };
-  /// Gap that a control volume holds oil in, with derivatives (film.14).
+  /// Gap that contains the oil of a control volume, with derivatives (film.14).
   struct Cell {
     double gap = 0, gap_h = 1, gap_excess = 1;            ///< [m]
     double depth = 0, depth_start = 0;                    ///< mean depth of pockets [m]
-    double turning = 0;                                   ///< of them those of the journal [m]
+    double turning = 0;                                   ///< mean depth of the journal's pockets [m]
     double start = 0, start_slope = 1, start_excess = 1;  ///< gap from which the rate leads to the present one [m]
   };
-  /// The gap between two nodes: what of it counts for flow along pressure and with the surfaces, with derivatives by
-  /// the thickness on the face, those at both nodes by themselves, and phi_journal.
+  /// Gap between two nodes: the parts that count for flow along pressure and with the surfaces, with derivatives by the
+  /// thickness on the face, by those at both nodes, and by phi_journal.
   struct FaceGap {
     double cube = 0, cube_h = 0, cube_journal = 0;
     std::array<double, 2> cube_at{};
     double full = 0, full_h = 0, full_journal = 0;
     std::array<double, 2> full_at{};
     double little = 0, little_h = 0, little_excess = 0, little_journal = 0;  ///< by h and excess of the node `from`
-    double little_by_full = 0;  ///< where it is no more than a factor times that; else 0
+    double little_by_full = 0;  ///< ratio of `little` to `full` where it is limited to a factor; else 0
     int from = 0;               ///< upstream
   };
 
@@ -312,19 +311,19 @@ class FlowBalance {
     }
   };
 
-  /// What the edge on which it lies says of a node.
+  /// Properties of a node that its edge determines.
   struct EdgeNode {
     enum class Kind { none, wall, given, open };
     Kind kind = Kind::none;
-    bool of_patch = false;   ///< that of a patch's end
-    bool is_corner = false;  ///< that of a row, where an open end of a patch meets it
+    bool of_patch = false;   ///< the edge is the end of a patch
+    bool is_corner = false;  ///< a row's edge meets an open end of a patch
     int inside = 0;          ///< the next node from the edge
-    double u = 0;            ///< given [Pa]
-    double ambient = 0;      ///< [Pa]
+    double u = 0;            ///< prescribed unknown [Pa]
+    double ambient = 0;      ///< ambient_unknown() [Pa]
   };
 
-  /// Share of a full gap's flow that the surfaces carry over a face that the line cuts, with derivatives: by the fill
-  /// fraction upstream, by thickness at both nodes, by bend, excess upstream and phi_journal.
+  /// Share of a full gap's entrained flow over a face that the line cuts, with derivatives: by the fill fraction
+  /// upstream, by thickness at both nodes, by bend, excess upstream and phi_journal.
   struct CarriedShare {
     double value = 1, theta = 0, h_a = 0, h_b = 0, bend = 0, excess = 0, journal = 0;
   };
@@ -333,50 +332,52 @@ class FlowBalance {
   [[nodiscard]] double& flow_over_end(Flows& flows, int node) const {
     return model_.grid.begins_patch(node / model_.grid.n_z) ? flows.flow_first : flows.flow_last;
   }
-  /// Flow that comes to the corner of a patch along its side [m^3/s].
+  /// Flow along the side of a patch to its corner [m^3/s].
   [[nodiscard]] double flow_along_side(int node) const;
-  [[nodiscard]] std::size_t face_at_edge(int node) const;  ///< from it to the next node from the edge
+  [[nodiscard]] std::size_t face_at_edge(int node) const;  ///< face from the node to the next one from the edge
   /// Oil entering by the row of this node [m^3/s].
   [[nodiscard]] double supply_of_row(int node) const;
   void lay_edges();
   void lay_faces();
   void lay_pattern();
   void find_supply(const SurfaceMotion& motion);
-  void hold_line(double phi);
+  void prescribe_line(double phi);
   void find_strips(int feature, double phi, double u);
   void unite_lands();
   void clear_lands();
   [[nodiscard]] const Land* land_at(int node) const;
-  [[nodiscard]] static bool gives_way(const HeldNode& held, const HeldNode& to);
-  void hold(const HeldNode& held, bool only_oil = false);
-  [[nodiscard]] std::size_t line_face(const HeldNode& held) const;
+  [[nodiscard]] static bool yields_to(const PrescribedNode& prescribed, const PrescribedNode& to);
+  void prescribe(const PrescribedNode& prescribed, bool only_oil = false);
+  [[nodiscard]] std::size_t line_face(const PrescribedNode& prescribed) const;
   [[nodiscard]] bool has_line_row(int node) const;
-  [[nodiscard]] bool is_beside_line(int node) const;  ///< with another one on the line's other side
+  [[nodiscard]] bool is_beside_line(int node) const;  ///< the line's other side has such a row, too
   [[nodiscard]] double line_balance(int node) const;
   void find_carried_share(std::size_t f, const FaceGap& gap, const Carried& carried);
   [[nodiscard]] CarriedShare share_towards_line(int node, const TowardsLine& t) const;
   [[nodiscard]] double share_along(std::size_t f, const CarriedShare& share, const MotionDirection& direction) const;
-  [[nodiscard]] double thickness_towards_line(const HeldNode& held) const;
-  [[nodiscard]] FlowTubeGap gap_towards_line(const HeldNode& held, double h) const;
-  [[nodiscard]] ByGap carried_in_pockets(const HeldNode& held) const;
-  [[nodiscard]] double strip_area(const HeldNode& held) const;  ///< beyond the middle of the way to the line [m^2]
-  void add_line_by_u(const HeldNode& held);
-  [[nodiscard]] double line_row_along(const HeldNode& held, const MotionDirection& direction) const;
-  /// u - u_given as the tie sees it [Pa], and its slope.
-  [[nodiscard]] ValueAndSlope excess(const HeldNode& held) const;
-  [[nodiscard]] double draws_along(const HeldNode& held, const MotionDirection& direction) const;
-  [[nodiscard]] int slot_to_other(const HeldNode& held) const;
+  [[nodiscard]] double thickness_towards_line(const PrescribedNode& prescribed) const;
+  [[nodiscard]] FlowTubeGap gap_towards_line(const PrescribedNode& prescribed, double h) const;
+  [[nodiscard]] ByGap carried_in_pockets(const PrescribedNode& prescribed) const;
+  [[nodiscard]] double strip_area(
+      const PrescribedNode& prescribed) const;  ///< beyond the middle of the way to the line [m^2]
+  void add_line_by_u(const PrescribedNode& prescribed);
+  [[nodiscard]] double line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
+  /// u - u_given [Pa] as it counts in the row, and its slope.
+  [[nodiscard]] ValueAndSlope excess(const PrescribedNode& prescribed) const;
+  [[nodiscard]] double draws_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
+  [[nodiscard]] int slot_to_other(const PrescribedNode& prescribed) const;
   void add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const;
   [[nodiscard]] double step_speed(std::size_t f, const PocketFlowTube& flow_tube) const;  ///< of a pocket's steps [m/s]
-  /// The same around the bearing, from the mean speed and the journal's; linear, so that it serves for changes as well.
+  /// Speed of a pocket's steps around the bearing, from the mean speed and the journal's. It is linear and serves for
+  /// changes as well.
   [[nodiscard]] static double step_of(const PocketFlowTube& flow_tube, double mean, double journal) {
     if (!flow_tube.in_journal) return 0;
     return flow_tube.in_shell ? mean : journal;
   }
-  /// Whether oil that a pocket of the journal holds comes past its step over face f.
+  /// True if the oil in a pocket of the journal passes the pocket's step over face f.
   [[nodiscard]] bool passes_steps(std::size_t f) const;
-  /// What the control volume of the node upstream holds, as far as it goes on over face f, per width [m^2/s].
-  [[nodiscard]] double held_upstream(std::size_t f, int from, const Speeds& speeds) const;
+  /// Flow per width that the surfaces entrain from the control volume upstream of face f if it is full [m^2/s].
+  [[nodiscard]] double entrained_upstream(std::size_t f, int from, const Speeds& speeds) const;
   [[nodiscard]] const Node& upstream(std::size_t f) const {
     return nodes_[flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b];
   }
@@ -384,17 +385,17 @@ class FlowBalance {
   [[nodiscard]] SlidingChange change_of_sliding(const MotionDirection& direction, int j) const;
   /// Change of the flow over face f with the surfaces.
   [[nodiscard]] double flow_along(std::size_t f, const MotionDirection& direction) const;
-  [[nodiscard]] const HeldNode* held_at(int node) const;
-  [[nodiscard]] const HeldNode* supplied_at(int node) const;
-  [[nodiscard]] Tie tie(const HeldNode& held) const;
-  [[nodiscard]] Tie tie_to_line(const HeldNode& held) const;
+  [[nodiscard]] const PrescribedNode* prescribed_at(int node) const;
+  [[nodiscard]] const PrescribedNode* supplied_at(int node) const;
+  [[nodiscard]] Tie tie(const PrescribedNode& prescribed) const;
+  [[nodiscard]] Tie tie_to_line(const PrescribedNode& prescribed) const;
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
-  /// States of the nodes, and the storage in their control volumes into the balance.
+  /// Evaluates the states of the nodes, and adds the storage in their control volumes to the balance.
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
-  /// A line or groove at p_cav holds u = 0 to this, of either sign [Pa].
+  /// Round-off of u on a line or groove at p_cav, where u = 0 [Pa].
   [[nodiscard]] double round_off_of_u() const { return 1e-9 * fill_scale(model_); }
-  /// Speed at which the surfaces slide in a row of the grid, as a share of that in P0 [-].
+  /// Speed at which the surfaces slide in a row of the grid, over that in P0 [-].
   [[nodiscard]] double sliding_share(int j) const;
   void find_borders();
   [[nodiscard]] CavityBorder cut_by_tension(int i, int j) const;
@@ -414,8 +415,8 @@ class FlowBalance {
   [[nodiscard]] bool is_limited(std::size_t f) const;
   void replace_boundary_rows();
   [[nodiscard]] double slack(int node) const;
-  [[nodiscard]] double outflow_of_row(int node) const;  ///< without what flows over land
-  [[nodiscard]] bool lets_nothing_in(int node) const;   ///< on a flooded edge
+  [[nodiscard]] double outflow_of_row(int node) const;  ///< outflow without the flow over land
+  [[nodiscard]] bool blocks_inflow(int node) const;     ///< on a flooded edge
   [[nodiscard]] double slack_u(int node) const;
   [[nodiscard]] double storage_u(int node) const;
   [[nodiscard]] double storage_h(int node) const;
@@ -429,18 +430,18 @@ class FlowBalance {
                     bool for_good) const;
   [[nodiscard]] double start_of(int node) const;  ///< film's gap at the start of the step, pockets apart [m]
   [[nodiscard]] double oil_shown(int node, double content) const;  ///< per area, with a fill fraction of 0 to 1 [m]
-  [[nodiscard]] double pocket_rate(int node) const;                ///< of its mean depth in a steady film [m/s]
+  [[nodiscard]] double pocket_rate(int node) const;                ///< rate of the mean depth in a steady film [m/s]
   [[nodiscard]] bool axial(std::size_t f) const { return f >= first_axial_face_; }
   /// 1/mu of flow along pressure at a node of face f, across it.
   [[nodiscard]] const Fluidity& flow_of(int node, std::size_t f) const { return nodes_[node].flow[axial(f) ? 1 : 0]; }
-  /// Mean speed of both surfaces across face f [m/s]: the oil they carry along.
+  /// Mean speed of both surfaces across face f [m/s], which entrains the oil.
   [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : faces_[f].stretch * speed_phi_; }
   [[nodiscard]] double half_slip(std::size_t f) const {
     return axial(f) ? half_slip_z_ : faces_[f].stretch * half_slip_phi_;
   }
   /// Changes of the speeds across face f.
   [[nodiscard]] Speeds speeds_along(std::size_t f, const MotionDirection& direction) const;
-  /// Flows over face f, of a full gap and of little oil, that belong to a set of speeds.
+  /// Flows over face f, of a full gap and of little oil, at a set of speeds.
   [[nodiscard]] std::array<double, 2> carried_at(std::size_t f, const Speeds& speeds) const;
 
   FilmModel model_;
@@ -451,12 +452,12 @@ class FlowBalance {
   GridGeometry geometry_;
   double D0_ = 0, unit_conductance_ = 0;
   std::vector<EdgeNode> edges_;             ///< of every node
-  std::vector<int> prescribed_edge_nodes_;  ///< nodes on edges whose pressure is given
+  std::vector<int> prescribed_edge_nodes_;  ///< nodes on edges of prescribed pressure
   std::vector<double> area_;                ///< of the control volumes [m^2]
   std::vector<Face> faces_;
   std::size_t first_axial_face_ = 0;
   std::vector<int> column_start_, row_index_, diagonal_slot_;
-  std::vector<std::array<int, 5>> row_slots_;  ///< of every balanced row the slots of its entries
+  std::vector<std::array<int, 5>> row_slots_;  ///< slots of the entries of every balanced row
 
   std::vector<Node> nodes_;
   std::vector<RoughGap> rough_;
@@ -467,25 +468,25 @@ class FlowBalance {
   LayeredViscosity viscosity_;
   GapInterpolation interpolation_;
   PocketRelief relief_;
-  Eigen::VectorXd bends_, excesses_, rate_excesses_;  ///< of gap, gap and its rate
+  Eigen::VectorXd bends_, excesses_, rate_excesses_;  ///< bends of the gap, excesses of the gap and of its rate
   mutable Eigen::VectorXd direction_bends_, direction_excesses_, direction_rate_excesses_;
   mutable std::vector<SlidingChange> direction_sliding_;  ///< of the rows
   std::vector<Cell> cells_;
-  std::vector<int> flow_tube_of_;         ///< of every face its pocket flow tube, -1 for none
+  std::vector<int> flow_tube_of_;         ///< pocket flow tube of every face; -1: none
   std::vector<PocketFlow> pocket_flows_;  ///< of the flow tubes
   Line line_;
-  std::vector<CarriedShare> line_shares_;  ///< of the faces that it cuts, by their axial row
+  std::vector<CarriedShare> line_shares_;  ///< of the faces that the line cuts, by their axial row
   SurfaceMotion speeds_;
   std::vector<Sliding> sliding_;  ///< of the rows
-  std::vector<HeldNode> held_;
-  std::vector<int> held_index_;          ///< of every node its place in held_, -1 for none
-  std::vector<HeldNode> held_at_edges_;  ///< would be held if their edges had no pressure of their own
-  std::vector<int> edge_index_;          ///< likewise
+  std::vector<PrescribedNode> prescribed_;
+  std::vector<int> prescribed_index_;                ///< index of every node in prescribed_; -1: none
+  std::vector<PrescribedNode> supplied_edge_nodes_;  ///< nodes of a supply whose pressure an edge prescribes
+  std::vector<int> edge_index_;                      ///< index of every node in supplied_edge_nodes_; -1: none
   std::vector<Land> lands_;
   std::vector<LandStrip> strips_;
-  std::vector<int> land_index_;  ///< of every node its place there, -1 for none
+  std::vector<int> land_index_;  ///< index of every node in lands_; -1: none
   std::vector<CoveredNode> covered_;
-  bool liner_rests_ = false;  ///< the step starts with the deformation it ends with
+  bool liner_rests_ = false;  ///< the step starts with the deformation with which it ends
   double phi_start_ = 0;
   bool knows_gap_ = false, follows_gap_ = false, expects_any_fill_ = false;
   double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, half_slip_phi_ = 0, half_slip_z_ = 0, largest_throughput_ = 0;

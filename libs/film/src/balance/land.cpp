@@ -1,4 +1,4 @@
-// What flows from a feature over the land to an edge within the same cell (film.22).
+// Flow from a feature over the land to an edge within the same cell (film.22).
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace hersey::film {
 
-// On an edge no pressure can follow the shorter way from where a feature ends within the last cell: the flow over that
-// land is known from both pressures, and no row sees it.
+// No pressure on an edge can represent the shorter way from the end of a feature within the last cell. The flow over
+// that land follows from both pressures and is part of no row.
 void FlowBalance::find_strips(int f, double phi, double u) {
   const SurfaceFeature& feature = model_.features[static_cast<std::size_t>(f)];
   if (!has_straight_ends(feature)) return;
@@ -34,12 +34,12 @@ void FlowBalance::find_strips(int f, double phi, double u) {
         strips_.push_back({node, grid.index(i, next), f, from, to, 1 / land - 1 / flow_tube, u});
         touches = true;
       }
-      if (touches) hold({.node = node, .feature = f, .u = u, .inwards = -land / half}, true);
+      if (touches) prescribe({.node = node, .feature = f, .u = u, .inwards = -land / half}, true);
     }
   }
 }
 
-// Where features overlap the oil takes the shortest land: their order is no matter.
+// Where features overlap the oil takes the shortest land; their order has no effect.
 void FlowBalance::unite_lands() {
   std::stable_sort(strips_.begin(), strips_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   std::vector<double> borders;

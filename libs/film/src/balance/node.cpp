@@ -8,10 +8,10 @@
 namespace hersey::film {
 namespace {
 
-// Of the atmosphere, in which clearances are measured, on the model's scale [Pa].
+// Pressure of the atmosphere, in which clearances are measured, on the model's scale [Pa].
 double pressure_at_rest(const FilmModel& model) { return model.pressures == PressureScale::absolute ? 101325.0 : 0.0; }
 
-// Sliding of surfaces that stand [m/s].
+// Sliding speed that counts as rest [m/s].
 constexpr double standing = 1e-4;
 
 }  // namespace
@@ -100,8 +100,8 @@ void NodeLaw::rheology(const NodeViscosity& viscosity, const Sliding& sliding, N
   node.content_u = node.density_u * node.theta + node.density * node.theta_u;
 }
 
-// What sliding leaves of a viscosity that grows with u by `log_slope` (thermal.24): more pressure drives a
-// flow along the sliding against the tangent of the stress, one across it against the stress itself.
+// A viscosity that grows with u by `log_slope` after shear thinning by sliding (thermal.24): more pressure drives a
+// flow along the sliding against the tangent of the stress, and one across it against the stress itself.
 void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
   const ShearThinning& thinning = model_.lubricant.shear_thinning;
   const double mu_n = node.mu, fluidity = node.flow[0].value, k = thinning.by_viscosity();
@@ -116,12 +116,12 @@ void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
   const Fluidity along = thinned(R.tangent()), across = thinned({R.value, R.slope});
   for (const int axis : {0, 1}) {
     const double share = axis == 0 ? sliding.share_phi : 1 - sliding.share_phi, rest = 1 - share;
-    const double turn = along.value - across.value;
+    const double rotation = along.value - across.value;
     node.flow[axis] = {.value = share * along.value + rest * across.value,
                        .u = share * along.u + rest * across.u,
                        .h = share * along.h + rest * across.h,
                        .rate = share * along.rate + rest * across.rate,
-                       .turn = axis == 0 ? turn : -turn};
+                       .rotation = axis == 0 ? rotation : -rotation};
   }
   node.mu = mu_n * R.value;
   node.mu_u = log_slope * mu_n * (R.value + k * R.slope);
@@ -131,8 +131,8 @@ void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
 
 void NodeLaw::film_thickness(double g, Node& node) const {
   const double C = model_.compliance, pressed = node.wall - pressure_at_rest(model_);
-  // h - g - C (p + p_a(h)) = 0 is increasing and concave in h: Newton from its left side rises to the root. No root
-  // above zero is sought below it, where asperities would be squeezed beyond themselves.
+  // h - g - C (p + p_a(h)) = 0 is increasing and concave in h: Newton's method from the left side rises to the root. A
+  // root above zero is not sought below zero, where asperities would be compressed beyond their height.
   node.h = g + C * pressed;
   if (node.h < 0 && C > 0) {
     contact(0, node);
@@ -158,7 +158,7 @@ void NodeLaw::film_thickness(double g, Node& node) const {
 void NodeLaw::contact(double h, Node& node) const {
   const Asperities& a = model_.asperities;
   if (a.model == AsperityModel::none) return;
-  // A film of h <= 0 is closed: what it bears is nobody's to say.
+  // A film of h <= 0 is closed and has no pressure; the caller decides what follows.
   const double H = (std::max(h, 0.0) - a.mean_summit_height) / a.sigma;
   const ValueAndSlope F =
       a.model == AsperityModel::greenwood_tripp_fit ? greenwood_tripp_fit(H) : greenwood_tripp_exact(H);

@@ -51,7 +51,7 @@ class Fronts {
 
   void relax(int i, int j) {
     const int node = grid_.index(i, j);
-    if (balance_.is_given(node) || balance_.is_held(node)) return;
+    if (balance_.is_given(node) || balance_.is_prescribed(node)) return;
     if (balance_.is_open(node) && ambient_fill(balance_.model(), node) > 0) return;  // oil comes in there
     const double storage_slope = balance_.nodes()[node].density * balance_.storage_by_content(node);
     Balance sum{balance_.storage(node) + storage_slope * (1 - balance_.nodes()[node].theta), storage_slope};

@@ -40,12 +40,12 @@ void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {
     const double whole = area_[i] * oil_gap(i);
     double out = is_open(i) ? slack(i) + slack_u(i) * du[i] : 0;
     // Held rows take what their state needs; the others have what is left to them.
-    const bool given = is_held(i) || is_given(i) || !conserves;
+    const bool given = is_prescribed(i) || is_given(i) || !conserves;
     takes_what_comes[static_cast<std::size_t>(i)] = given ? 1 : 0;
     const double end = given ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
     const double coming = (end - start) / dt_ + leaving[i];
-    if (is_given(i)) out = lets_nothing_in(i) ? 0 : -coming;
-    const double land = over_land(i), fed = (is_held(i) ? coming + out : 0) + land;
+    if (is_given(i)) out = blocks_inflow(i) ? 0 : -coming;
+    const double land = over_land(i), fed = (is_prescribed(i) ? coming + out : 0) + land;
     add_flow_over_edge(oil, i, out + land);
     oil.flow_supply += fed;
     if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] += fed;
@@ -90,9 +90,9 @@ double FlowBalance::pass_along(int j, double carry, const std::vector<char>& tak
     }
     if (takes_what_comes[static_cast<std::size_t>(i)] != 0) {
       const double flow = for_good ? carry / dt_ : 0;
-      if (!is_held(i)) flow_over_edge(oil, i) += flow;
-      if (is_held(i)) oil.flow_supply -= flow;
-      if (const int feature = feature_at(i); is_held(i) && feature >= 0) oil.flow_features[feature] -= flow;
+      if (!is_prescribed(i)) flow_over_edge(oil, i) += flow;
+      if (is_prescribed(i)) oil.flow_supply -= flow;
+      if (const int feature = feature_at(i); is_prescribed(i) && feature >= 0) oil.flow_features[feature] -= flow;
       carry = 0;
       continue;
     }

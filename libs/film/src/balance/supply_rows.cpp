@@ -4,98 +4,99 @@
 #include "balance/flow_balance.h"
 #include "hersey/core/two_pi.h"
 
-// Rows of the residual that supply line and features have a part in (film.21, film.22).
+// Rows of the residual in which supply line and features have a share (film.21, film.22).
 namespace hersey::film {
 namespace {
 
-// Share of a node's own balance in its row below which it lies on line or feature.
+// A node whose own balance has a smaller share than this in its row lies on line or feature.
 constexpr double kNoWay = 1e-6;
 
 }  // namespace
 
-const FlowBalance::HeldNode* FlowBalance::held_at(int node) const {
-  const int index = held_index_[node];
-  return index < 0 ? nullptr : &held_[index];
+const FlowBalance::PrescribedNode* FlowBalance::prescribed_at(int node) const {
+  const int index = prescribed_index_[node];
+  return index < 0 ? nullptr : &prescribed_[index];
 }
 
-const FlowBalance::HeldNode* FlowBalance::supplied_at(int node) const {
-  if (const HeldNode* held = held_at(node); held != nullptr) return held;
+const FlowBalance::PrescribedNode* FlowBalance::supplied_at(int node) const {
+  if (const PrescribedNode* prescribed = prescribed_at(node); prescribed != nullptr) return prescribed;
   const int index = edge_index_[node];
-  return index < 0 ? nullptr : &held_at_edges_[index];
+  return index < 0 ? nullptr : &supplied_edge_nodes_[index];
 }
 
 double FlowBalance::supplied_share(int node) const {
-  const HeldNode* supplied = supplied_at(node);
+  const PrescribedNode* supplied = supplied_at(node);
   return supplied == nullptr ? 0 : supplied->mixed_share;
 }
 
 int FlowBalance::supplied_by(int node) const {
-  const HeldNode* supplied = supplied_at(node);
+  const PrescribedNode* supplied = supplied_at(node);
   return supplied == nullptr ? -1 : supplied->feature;
 }
 
 double FlowBalance::balance_share(int node) const {
-  const HeldNode* held = held_at(node);
-  return held == nullptr ? 1 : 1 - held->chi;
+  const PrescribedNode* prescribed = prescribed_at(node);
+  return prescribed == nullptr ? 1 : 1 - prescribed->chi;
 }
 
 double FlowBalance::supply_unknown(int node) const {
-  const HeldNode* held = held_at(node);
-  return held == nullptr ? 0 : held->u;
+  const PrescribedNode* prescribed = prescribed_at(node);
+  return prescribed == nullptr ? 0 : prescribed->u;
 }
 
 double FlowBalance::supply_conductance(int node) const {
-  const HeldNode* held = held_at(node);
-  return held == nullptr ? 0 : tie(*held).k;
+  const PrescribedNode* prescribed = prescribed_at(node);
+  return prescribed == nullptr ? 0 : tie(*prescribed).k;
 }
 
 double FlowBalance::draws(int node) const {
-  const HeldNode* held = held_at(node);
-  return held == nullptr || cavitation_.has_tension() ? 1 : held->draws;
+  const PrescribedNode* prescribed = prescribed_at(node);
+  return prescribed == nullptr || cavitation_.has_tension() ? 1 : prescribed->draws;
 }
 
-// Between supply and next node only pressure drives oil. On the supply itself the gap is full, whatever comes.
-ValueAndSlope FlowBalance::excess(const HeldNode& held) const {
-  const double u = u_[held.node], share = u < 0 ? draws(held.node) : 1;
-  if (u > 0 && only_fills(held.node)) return {0, 0};
-  return {share * u - held.u, share};
+// Between the supply and the next node only pressure drives oil. On the supply itself the gap is full in any case.
+ValueAndSlope FlowBalance::excess(const PrescribedNode& prescribed) const {
+  const double u = u_[prescribed.node], share = u < 0 ? draws(prescribed.node) : 1;
+  if (u > 0 && only_fills(prescribed.node)) return {0, 0};
+  return {share * u - prescribed.u, share};
 }
 
-// On an edge in air u > 0 is an outflow, which no feature beside it takes.
+// On an edge in air u > 0 is an outflow; a feature beside the edge does not take it.
 bool FlowBalance::only_fills(int node) const {
-  const HeldNode* held = held_at(node);
-  return held != nullptr && held->feature >= 0 && held->chi < 1 && is_open(node);
+  const PrescribedNode* prescribed = prescribed_at(node);
+  return prescribed != nullptr && prescribed->feature >= 0 && prescribed->chi < 1 && is_open(node);
 }
 
 double FlowBalance::power_of_tie(int node) const {
-  const HeldNode* held = held_at(node);
-  // As good as on what holds it there is no way left; what its pressure is off by, round-off, would count over nothing.
-  if (held == nullptr || 1 - held->chi < kNoWay) return 0;
-  const double drop = nodes_[node].p - held->u, acting = nodes_[node].wall - model_.p_cav - held->u;
-  return tie(*held).k / (nodes_[node].density * (1 - held->chi)) * drop * acting;
+  const PrescribedNode* prescribed = prescribed_at(node);
+  // On the supply itself there is no distance left: the round-off of its pressure would be divided by next to nothing.
+  if (prescribed == nullptr || 1 - prescribed->chi < kNoWay) return 0;
+  const double drop = nodes_[node].p - prescribed->u, acting = nodes_[node].wall - model_.p_cav - prescribed->u;
+  return tie(*prescribed).k / (nodes_[node].density * (1 - prescribed->chi)) * drop * acting;
 }
 
 // The pressure falls evenly along the way to the line; the node's control volume ends half a flow tube from it.
 FlowBalance::PowerBeyond FlowBalance::power_beyond(int node) const {
-  const HeldNode* held = held_at(node);
-  if (held == nullptr || held->other < 0) return {node, 0};
-  return {held->other, held->way > 0.5 ? 1 - 0.5 / held->way : 0};
+  const PrescribedNode* prescribed = prescribed_at(node);
+  if (prescribed == nullptr || prescribed->other < 0) return {node, 0};
+  return {prescribed->other, prescribed->way > 0.5 ? 1 - 0.5 / prescribed->way : 0};
 }
 
 int FlowBalance::feature_at(int node) const {
-  if (const HeldNode* held = held_at(node); held != nullptr) return held->feature;
+  if (const PrescribedNode* prescribed = prescribed_at(node); prescribed != nullptr) return prescribed->feature;
   const Land* land = land_at(node);
   return land == nullptr ? -1 : land->feature;
 }
 
-// The film's own conductance: what lies between node and line, or node and edge of the feature, is film.
-FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
-  if (held.other >= 0) return tie_to_line(held);
-  const Node& node = nodes_[held.node];
+// The conductance is that of the film, which fills the distance between node and line, or node and edge of the feature.
+FlowBalance::Tie FlowBalance::tie(const PrescribedNode& prescribed) const {
+  if (prescribed.other >= 0) return tie_to_line(prescribed);
+  const Node& node = nodes_[prescribed.node];
   const double cube = node.h * node.h * node.h, by_h = 3 / node.h;
-  const RoughGap& rough = rough_[held.node];
+  const RoughGap& rough = rough_[prescribed.node];
   const Fluidity &around = node.flow[0], &along = node.flow[1];
-  // Along the axis oil that thins by sliding has another fluidity: of the mean of both directions, with derivatives.
+  // Oil that thins by sliding has another fluidity along the axis: the mean of both directions counts, with
+  // derivatives.
   const double smooth = unit_conductance_ / 12 * node.density * cube;
   const auto by_fluidity = [&](double change_around, double change_along) {
     return 0.5 * smooth * (rough.pressure[0] * change_around + rough.pressure[1] * change_along);
@@ -103,100 +104,101 @@ FlowBalance::Tie FlowBalance::tie(const HeldNode& held) const {
   const double k = by_fluidity(around.value, along.value);
   const double by_node = 0.5 * smooth * (rough.pressure_h[0] * around.value + rough.pressure_h[1] * along.value) +
                          by_fluidity(around.h, along.h) + k * by_h;
-  const double by_laws = by_fluidity(around.u, along.u) + k * node.density_u / node.density, scale = held.chi;
+  const double by_laws = by_fluidity(around.u, along.u) + k * node.density_u / node.density, scale = prescribed.chi;
   return {.k = scale * k,
           .k_u = scale * (by_node * node.h_u + by_laws),
           .k_g = scale * by_node * node.h_g,
-          .k_journal = held.chi_journal * k,
+          .k_journal = prescribed.chi_journal * k,
           .k_rate = scale * by_fluidity(around.rate, along.rate),
-          .k_turn = scale * by_fluidity(around.turn, along.turn)};
+          .k_rotation = scale * by_fluidity(around.rotation, along.rotation)};
 }
 
 // Oil, roughness and gap are those half-way to the line: with the line on the next node, those of a face.
-FlowBalance::Tie FlowBalance::tie_to_line(const HeldNode& held) const {
-  const Node &node = nodes_[held.node], &other = nodes_[held.other];
-  const RoughGap &rough = rough_[held.node], &rough_other = rough_[held.other];
-  const double bend = bends_[static_cast<Eigen::Index>(line_face(held))];
-  const ByGap cube = gap_towards_line(held, thickness_towards_line(held)).cube;
-  const auto between = [&held](double near, double far) { return held.near * near + held.far * far; };
+FlowBalance::Tie FlowBalance::tie_to_line(const PrescribedNode& prescribed) const {
+  const Node &node = nodes_[prescribed.node], &other = nodes_[prescribed.other];
+  const RoughGap &rough = rough_[prescribed.node], &rough_other = rough_[prescribed.other];
+  const double bend = bends_[static_cast<Eigen::Index>(line_face(prescribed))];
+  const ByGap cube = gap_towards_line(prescribed, thickness_towards_line(prescribed)).cube;
+  const auto between = [&prescribed](double near, double far) { return prescribed.near * near + prescribed.far * far; };
   const double fluidity = between(node.flow[0].value, other.flow[0].value),
                density = between(node.density, other.density),
                factor = between(rough.pressure[0], rough_other.pressure[0]);
-  const double k = held.conductance * cube.value * fluidity * density * factor, by_gap = k * cube.h / cube.value;
+  const double k = prescribed.conductance * cube.value * fluidity * density * factor, by_gap = k * cube.h / cube.value;
   const auto by_h = [&](double share, const Node& at, const RoughGap& gap) {
     return share * (by_gap + k * at.flow[0].h / fluidity + k * gap.pressure_h[0] / factor);
   };
   const auto by_laws = [&](double share, const Node& at) {
     return share * k * (at.flow[0].u / fluidity + at.density_u / density);
   };
-  const double near = by_h(held.near, node, rough), far = by_h(held.far, other, rough_other);
+  const double near = by_h(prescribed.near, node, rough), far = by_h(prescribed.far, other, rough_other);
   const double by_near = by_gap * (node.h - other.h) + k * (node.flow[0].value - other.flow[0].value) / fluidity +
                          k * (node.density - other.density) / density +
                          k * (rough.pressure[0] - rough_other.pressure[0]) / factor;
   return {.k = k,
-          .k_u = near * node.h_u + by_laws(held.near, node),
+          .k_u = near * node.h_u + by_laws(prescribed.near, node),
           .k_g = near * node.h_g,
-          .k_u_other = far * other.h_u + by_laws(held.far, other),
+          .k_u_other = far * other.h_u + by_laws(prescribed.far, other),
           .k_g_other = far * other.h_g,
-          .k_bend = by_gap * held.bend,
-          .k_line = held.near_line * by_near + by_gap * held.bend_line * bend,
+          .k_bend = by_gap * prescribed.bend,
+          .k_line = prescribed.near_line * by_near + by_gap * prescribed.bend_line * bend,
           .k_journal = k * cube.journal / cube.value,
           .k_rate = k * between(node.flow[0].rate, other.flow[0].rate) / fluidity,
-          .k_turn = k * between(node.flow[0].turn, other.flow[0].turn) / fluidity};
+          .k_rotation = k * between(node.flow[0].rotation, other.flow[0].rotation) / fluidity};
 }
 
-// Of two that hold a node wholly, that with more pressure, and of equal pressure that whose middle is nearer: never
-// that which the file happens to name first. A line on a node holds it wholly only by how its place is rounded: the
-// feature does.
-bool FlowBalance::gives_way(const HeldNode& held, const HeldNode& to) {
-  constexpr double as_much = 1e-9;  // of a place, by round-off
-  if (std::abs(held.chi - to.chi) > as_much) return held.chi < to.chi;
-  if ((held.feature < 0) != (to.feature < 0)) return held.feature < 0;
-  return held.u != to.u ? held.u < to.u : held.inwards < to.inwards;
+// Of two supplies that prescribe a node wholly the one with more pressure counts, and of equal pressures the one whose
+// middle is nearer, so that the order in the file has no effect. A line on a node prescribes it wholly only to
+// rounding: a feature has precedence.
+bool FlowBalance::yields_to(const PrescribedNode& prescribed, const PrescribedNode& to) {
+  constexpr double as_much = 1e-9;  // relative round-off of a position
+  if (std::abs(prescribed.chi - to.chi) > as_much) return prescribed.chi < to.chi;
+  if ((prescribed.feature < 0) != (to.feature < 0)) return prescribed.feature < 0;
+  return prescribed.u != to.u ? prescribed.u < to.u : prescribed.inwards < to.inwards;
 }
 
-// Edges win where they meet a line or a feature, but for the oil, which is the supply's. One in air is filled there,
-// but its pressure cannot rise.
-void FlowBalance::hold(const HeldNode& held, bool only_oil) {
-  only_oil = only_oil || is_given(held.node);
-  std::vector<HeldNode>& nodes = only_oil ? held_at_edges_ : held_;
-  int& index = (only_oil ? edge_index_ : held_index_)[held.node];
-  if (index >= 0 && !gives_way(nodes[index], held)) return;
+// Edges have precedence over a line or a feature, except for the oil, which is the supply's. An edge in air is filled
+// there, but its pressure cannot rise.
+void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
+  only_oil = only_oil || is_given(prescribed.node);
+  std::vector<PrescribedNode>& nodes = only_oil ? supplied_edge_nodes_ : prescribed_;
+  int& index = (only_oil ? edge_index_ : prescribed_index_)[prescribed.node];
+  if (index >= 0 && !yields_to(nodes[index], prescribed)) return;
   if (index < 0) {
     index = static_cast<int>(nodes.size());
     nodes.emplace_back();
   }
-  nodes[index] = held;
-  if (is_open(held.node)) nodes[index].u = 0;
+  nodes[index] = prescribed;
+  if (is_open(prescribed.node)) nodes[index].u = 0;
 }
 
-// The line cuts the flow tubes between two columns of nodes. Each side is tied to it by what of the flow tube lies on
-// its side, K/t at a share t of the way; the row counts t times, so that a line on a node is a given pressure there.
-void FlowBalance::hold_line(double phi) {
+// The line cuts the flow tubes between two columns of nodes. Each side is connected to it by the part of the flow tube
+// on its side, K/t at a share t of the distance. The row is multiplied by t, so that a line on a node prescribes the
+// pressure there.
+void FlowBalance::prescribe_line(double phi) {
   const Grid& grid = model_.grid;
-  const auto place = geometry_.place_of(phi);
-  const int i = place.node;
-  const double t = place.share;
+  const auto line = geometry_.locate(phi);
+  const int i = line.node;
+  const double t = line.share;
   const int next = grid.next(i);
   line_ = {true, i, t, model_.R / geometry_.dx[i]};
   const double u = model_.supply.pressure - model_.p_cav;
   const auto side = [&](int here, int there, int j, double way, double by_phi) {
-    hold({.node = grid.index(here, j),
-          .chi = 1 - way,
-          .chi_line = -by_phi,
-          .mixed_share = 1 - way,
-          .draws = (1 - way) * (1 - way),
-          .draws_line = -2 * (1 - way) * by_phi,
-          .u = u,
-          .other = grid.index(there, j),
-          .near = 1 - 0.5 * way,
-          .far = 0.5 * way,
-          .bend = way * (2 - way),
-          .near_line = -0.5 * by_phi,
-          .bend_line = 2 * (1 - way) * by_phi,
-          .conductance = geometry_.width_z[j] / (12 * geometry_.step(i, j)),
-          .way = way,
-          .way_line = by_phi});
+    prescribe({.node = grid.index(here, j),
+               .chi = 1 - way,
+               .chi_line = -by_phi,
+               .mixed_share = 1 - way,
+               .draws = (1 - way) * (1 - way),
+               .draws_line = -2 * (1 - way) * by_phi,
+               .u = u,
+               .other = grid.index(there, j),
+               .near = 1 - 0.5 * way,
+               .far = 0.5 * way,
+               .bend = way * (2 - way),
+               .near_line = -0.5 * by_phi,
+               .bend_line = 2 * (1 - way) * by_phi,
+               .conductance = geometry_.width_z[j] / (12 * geometry_.step(i, j)),
+               .way = way,
+               .way_line = by_phi});
   };
   for (int j = 0; j < grid.n_z; ++j) {
     side(i, next, j, t, line_.by_phi);
@@ -205,11 +207,11 @@ void FlowBalance::hold_line(double phi) {
 }
 
 void FlowBalance::find_supply(const SurfaceMotion& motion) {
-  for (const HeldNode& held : held_) held_index_[held.node] = -1;
-  for (const HeldNode& held : held_at_edges_) edge_index_[held.node] = -1;
-  held_.clear(), held_at_edges_.clear(), clear_lands();
+  for (const PrescribedNode& prescribed : prescribed_) prescribed_index_[prescribed.node] = -1;
+  for (const PrescribedNode& prescribed : supplied_edge_nodes_) edge_index_[prescribed.node] = -1;
+  prescribed_.clear(), supplied_edge_nodes_.clear(), clear_lands();
   line_ = {};
-  if (model_.supply.kind != SupplyKind::none) hold_line(motion.phi_supply);
+  if (model_.supply.kind != SupplyKind::none) prescribe_line(motion.phi_supply);
   for (std::size_t f = 0; f < model_.features.size(); ++f) {
     const SurfaceFeature& feature = model_.features[f];
     if (!feature.is_fed) continue;
@@ -223,15 +225,15 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
       if (is_given(node.node) && !edges_[node.node].of_patch &&
           std::abs(geometry_.z[j] - feature.z) > (0.5 + as_written) * feature.length)
         continue;
-      hold({.node = node.node,
-            .chi = node.share,
-            .chi_journal = node.share_phi,
-            .mixed_share = node.mixed_share,
-            .draws = node.draws,
-            .draws_journal = node.draws_phi,
-            .feature = static_cast<int>(f),
-            .u = u,
-            .inwards = node.inwards});
+      prescribe({.node = node.node,
+                 .chi = node.share,
+                 .chi_journal = node.share_phi,
+                 .mixed_share = node.mixed_share,
+                 .draws = node.draws,
+                 .draws_journal = node.draws_phi,
+                 .feature = static_cast<int>(f),
+                 .u = u,
+                 .inwards = node.inwards});
     }
     const bool travels = feature.surface == Surface::journal;
     find_strips(static_cast<int>(f), feature.phi + (travels ? motion.phi_journal : 0.0), u);
@@ -243,114 +245,118 @@ bool FlowBalance::is_cut(std::size_t f) const {
   return line_.cuts && !axial(f) && static_cast<int>(f) / model_.grid.n_z == line_.column;
 }
 
-std::size_t FlowBalance::line_face(const HeldNode& held) const {
-  return face_after(line_.column, held.node % model_.grid.n_z);
+std::size_t FlowBalance::line_face(const PrescribedNode& prescribed) const {
+  return face_after(line_.column, prescribed.node % model_.grid.n_z);
 }
 
 bool FlowBalance::has_line_row(int node) const {
-  const HeldNode* held = held_at(node);
-  return held != nullptr && held->other >= 0;
+  const PrescribedNode* prescribed = prescribed_at(node);
+  return prescribed != nullptr && prescribed->other >= 0;
 }
 
-bool FlowBalance::is_beside_line(int node) const { return has_line_row(node) && has_line_row(held_at(node)->other); }
+bool FlowBalance::is_beside_line(int node) const {
+  return has_line_row(node) && has_line_row(prescribed_at(node)->other);
+}
 
-// With all of it from one node or the other, temperatures would jump as the line passes over a node.
+// If one node took all of it, temperatures would jump as the line passes over a node.
 double FlowBalance::over_cut(std::size_t f) const {
   const Face& face = faces_[f];
   if (!is_cut(f) || !is_beside_line(face.a)) return 0;
   return supply(face.a) - supply_of_row(face.a);
 }
 
-/// Half-way to the line [m].
-double FlowBalance::thickness_towards_line(const HeldNode& held) const {
-  return held.near * nodes_[held.node].h + held.far * nodes_[held.other].h +
-         held.bend * bends_[static_cast<Eigen::Index>(line_face(held))];
+/// Returns the film thickness half-way to the line [m].
+double FlowBalance::thickness_towards_line(const PrescribedNode& prescribed) const {
+  return prescribed.near * nodes_[prescribed.node].h + prescribed.far * nodes_[prescribed.other].h +
+         prescribed.bend * bends_[static_cast<Eigen::Index>(line_face(prescribed))];
 }
 
 // A pocket that the line crosses is as deep beside it as in the flow tube that the line cuts.
-FlowTubeGap FlowBalance::gap_towards_line(const HeldNode& held, double h) const {
-  const int flow_tube = flow_tube_of_[line_face(held)];
+FlowTubeGap FlowBalance::gap_towards_line(const PrescribedNode& prescribed, double h) const {
+  const int flow_tube = flow_tube_of_[line_face(prescribed)];
   if (flow_tube < 0) return {.cube = {h * h * h, 3 * h * h, 0}, .carry = {h, 1, 0}, .excess = {}};
   return relief_.gap(relief_.flow_tubes()[static_cast<std::size_t>(flow_tube)], h);
 }
 
-/// What the surfaces carry in pockets there beside what they carry in the gap, per width [m^2/s].
-ByGap FlowBalance::carried_in_pockets(const HeldNode& held) const {
-  const std::size_t f = line_face(held);
+/// Returns the additional flow that the surfaces carry in pockets there, per width [m^2/s].
+ByGap FlowBalance::carried_in_pockets(const PrescribedNode& prescribed) const {
+  const std::size_t f = line_face(prescribed);
   if (flow_tube_of_[f] < 0) return {};
   const double past = entrainment(f) - step_speed(f, relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])]);
-  const double h = thickness_towards_line(held);
-  const ByGap carry = gap_towards_line(held, h).carry;
+  const double h = thickness_towards_line(prescribed);
+  const ByGap carry = gap_towards_line(prescribed, h).carry;
   return {past * (carry.value - h), past * (carry.h - 1), past * carry.journal};
 }
 
-// A control volume ends in the middle of the way to the line. What the surfaces carry there leaves it, or comes from
-// the line, which fills the gap; what is squeezed between there and the face goes to the line.
+// A control volume ends in the middle of the way to the line. The entrained flow there leaves it, or comes from the
+// line, which fills the gap; the volume squeezed between there and the face goes to the line.
 FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
   if (!has_line_row(node)) return {};
-  const HeldNode& held = *held_at(node);
-  const std::size_t f = line_face(held);
+  const PrescribedNode& prescribed = *prescribed_at(node);
+  const std::size_t f = line_face(prescribed);
   const Face& face = faces_[f];
   const auto at = [&](int k) { return entrainment(f) * rough_[k].mean + half_slip(f) * rough_[k].drag[0]; };
   const double sign = node == face.a ? 1 : -1, density = flows_[f].density;
   TowardsLine t;
   t.counts = true;
-  t.full = sign * density * face.width *
-           (held.near * at(node) + held.far * at(held.other) +
-            held.bend * entrainment(f) * bends_[static_cast<Eigen::Index>(f)] + carried_in_pockets(held).value);
+  t.full =
+      sign * density * face.width *
+      (prescribed.near * at(node) + prescribed.far * at(prescribed.other) +
+       prescribed.bend * entrainment(f) * bends_[static_cast<Eigen::Index>(f)] + carried_in_pockets(prescribed).value);
   if (flow_tube_of_[f] >= 0)
     t.full += sign * density * relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])].swept;
   t.from_node = t.full >= 0;
-  t.strip = density * strip_area(held) * g_rate_[node];
+  t.strip = density * strip_area(prescribed) * g_rate_[node];
   return t;
 }
 
-double FlowBalance::strip_area(const HeldNode& held) const {
-  const Face& face = faces_[line_face(held)];
-  return 0.5 * (1 - held.way) * face.length * face.width;
+double FlowBalance::strip_area(const PrescribedNode& prescribed) const {
+  const Face& face = faces_[line_face(prescribed)];
+  return 0.5 * (1 - prescribed.way) * face.length * face.width;
 }
 
-/// Of a node as its row counts it: beside the line up to the middle of the way there.
+/// Returns the balance of a node as its row counts it: beside the line up to the middle of the way there.
 double FlowBalance::line_balance(int node) const {
   const TowardsLine t = towards_line(node);
   if (!t.counts) return balance_[node];
-  const std::size_t f = line_face(*held_at(node));
+  const std::size_t f = line_face(*prescribed_at(node));
   const double carried = flows_[f].carried(upstream(f).theta).value;
   const double conserved = node == faces_[f].a ? carried : -carried;
   return balance_[node] - conserved + t.full * share_towards_line(node, t).value - t.strip;
 }
 
-/// Of a full gap what the surfaces carry from a node to the line; all of it, where they carry it away from there.
+/// Returns the share of a full gap's entrained flow from a node to the line; 1 where the flow comes from the line.
 FlowBalance::CarriedShare FlowBalance::share_towards_line(int node, const TowardsLine& t) const {
   if (!t.from_node) return {};
-  const std::size_t f = line_face(*held_at(node));
+  const std::size_t f = line_face(*prescribed_at(node));
   if (node == (flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b))
     return line_shares_[f % static_cast<std::size_t>(model_.grid.n_z)];
   return {.value = nodes_[node].theta, .theta = 1};
 }
 
-void FlowBalance::add_line_by_u(const HeldNode& held) {
-  const std::size_t f = line_face(held);
+void FlowBalance::add_line_by_u(const PrescribedNode& prescribed) {
+  const std::size_t f = line_face(prescribed);
   const Face& face = faces_[f];
-  const TowardsLine t = towards_line(held.node);
-  const Node &node = nodes_[held.node], &other = nodes_[held.other];
-  const double sign = held.node == face.a ? 1 : -1, density = flows_[f].density;
-  const CarriedShare share = share_towards_line(held.node, t);
-  const bool is_a = held.node == face.a;
+  const TowardsLine t = towards_line(prescribed.node);
+  const Node &node = nodes_[prescribed.node], &other = nodes_[prescribed.other];
+  const double sign = prescribed.node == face.a ? 1 : -1, density = flows_[f].density;
+  const CarriedShare share = share_towards_line(prescribed.node, t);
+  const bool is_a = prescribed.node == face.a;
   const double scale = sign * share.value * density * face.width;
-  const double deeper = carried_in_pockets(held).h;
+  const double deeper = carried_in_pockets(prescribed).h;
   const auto by_h = [&](int k) {
     return entrainment(f) * rough_[k].mean_h + half_slip(f) * rough_[k].drag_h[0] + deeper;
   };
   const double by_density = 0.5 * (share.value * t.full - t.strip) / density;
-  values_[diagonal_slot_[held.node]] +=
-      scale * held.near * by_h(held.node) * node.h_u + by_density * node.density_u +
+  values_[diagonal_slot_[prescribed.node]] +=
+      scale * prescribed.near * by_h(prescribed.node) * node.h_u + by_density * node.density_u +
       t.full * (share.theta * node.theta_u + (is_a ? share.h_a : share.h_b) * node.h_u);
-  values_[slot_to_other(held)] += scale * held.far * by_h(held.other) * other.h_u + by_density * other.density_u +
-                                  t.full * (is_a ? share.h_b : share.h_a) * other.h_u;
+  values_[slot_to_other(prescribed)] += scale * prescribed.far * by_h(prescribed.other) * other.h_u +
+                                        by_density * other.density_u +
+                                        t.full * (is_a ? share.h_b : share.h_a) * other.h_u;
 }
 
-/// Change of a share of that with the surfaces.
+/// Returns the change of share_towards_line() with the surfaces.
 double FlowBalance::share_along(std::size_t f, const CarriedShare& share, const MotionDirection& direction) const {
   if (share.theta == 0) return 0;
   const Face& face = faces_[f];
@@ -369,56 +375,57 @@ double FlowBalance::share_along(std::size_t f, const CarriedShare& share, const 
          share.excess * direction_excesses_[flow.couette >= 0 ? face.a : face.b];
 }
 
-/// Change of what towards_line() tells with the surfaces.
-double FlowBalance::line_row_along(const HeldNode& held, const MotionDirection& direction) const {
-  const std::size_t f = line_face(held);
+/// Returns the change of the terms of towards_line() with the surfaces.
+double FlowBalance::line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction) const {
+  const std::size_t f = line_face(prescribed);
   const Face& face = faces_[f];
   const auto bend = static_cast<Eigen::Index>(f);
-  const TowardsLine t = towards_line(held.node);
-  const double sign = held.node == face.a ? 1 : -1, density = flows_[f].density;
-  const CarriedShare share = share_towards_line(held.node, t);
+  const TowardsLine t = towards_line(prescribed.node);
+  const double sign = prescribed.node == face.a ? 1 : -1, density = flows_[f].density;
+  const CarriedShare share = share_towards_line(prescribed.node, t);
   const double scale = sign * density * face.width * share.value;
   const auto [speed, half_slip_change, journal] = speeds_along(f, direction);
   const auto carried = [&](int k, double mean, double half) {
     return mean * rough_[k].mean + half * rough_[k].drag[0];
   };
-  const ByGap deeper = carried_in_pockets(held);
+  const ByGap deeper = carried_in_pockets(prescribed);
   const auto by_h = [&](int k) {
     return entrainment(f) * rough_[k].mean_h + half_slip(f) * rough_[k].drag_h[0] + deeper.h;
   };
-  double q = held.near * carried(held.node, speed, half_slip_change) +
-             held.far * carried(held.other, speed, half_slip_change) + held.bend * speed * bends_[bend];
+  double q = prescribed.near * carried(prescribed.node, speed, half_slip_change) +
+             prescribed.far * carried(prescribed.other, speed, half_slip_change) +
+             prescribed.bend * speed * bends_[bend];
   if (direction.g.size() != 0) {
-    q += held.near * by_h(held.node) * nodes_[held.node].h_g * direction.g[held.node] +
-         held.far * by_h(held.other) * nodes_[held.other].h_g * direction.g[held.other] +
-         held.bend * (entrainment(f) + deeper.h) * direction_bends_[bend];
+    q += prescribed.near * by_h(prescribed.node) * nodes_[prescribed.node].h_g * direction.g[prescribed.node] +
+         prescribed.far * by_h(prescribed.other) * nodes_[prescribed.other].h_g * direction.g[prescribed.other] +
+         prescribed.bend * (entrainment(f) + deeper.h) * direction_bends_[bend];
   }
-  const double turn = direction.phi_supply;
-  q += turn * (held.near_line * (carried(held.node, entrainment(f), half_slip(f)) -
-                                 carried(held.other, entrainment(f), half_slip(f)) +
-                                 deeper.h * (nodes_[held.node].h - nodes_[held.other].h)) +
-               held.bend_line * (entrainment(f) + deeper.h) * bends_[bend]);
+  const double rotation = direction.phi_supply;
+  q += rotation * (prescribed.near_line * (carried(prescribed.node, entrainment(f), half_slip(f)) -
+                                           carried(prescribed.other, entrainment(f), half_slip(f)) +
+                                           deeper.h * (nodes_[prescribed.node].h - nodes_[prescribed.other].h)) +
+                   prescribed.bend_line * (entrainment(f) + deeper.h) * bends_[bend]);
   if (flow_tube_of_[f] >= 0) {
     const PocketFlowTube& flow_tube = relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])];
     q += (flow_tube.swept_journal * direction.phi_journal + flow_tube.swept_speed * journal) / face.width;
-    const double h = thickness_towards_line(held), step = step_of(flow_tube, speed, journal);
-    q += (speed - step) * (gap_towards_line(held, h).carry.value - h) + deeper.journal * direction.phi_journal;
+    const double h = thickness_towards_line(prescribed), step = step_of(flow_tube, speed, journal);
+    q += (speed - step) * (gap_towards_line(prescribed, h).carry.value - h) + deeper.journal * direction.phi_journal;
   }
   double row = scale * q + t.full * share_along(f, share, direction);
-  if (direction.g_rate.size() != 0) row -= density * strip_area(held) * direction.g_rate[held.node];
-  return row + 0.5 * held.way_line * turn * density * face.length * face.width * g_rate_[held.node];
+  if (direction.g_rate.size() != 0) row -= density * strip_area(prescribed) * direction.g_rate[prescribed.node];
+  return row + 0.5 * prescribed.way_line * rotation * density * face.length * face.width * g_rate_[prescribed.node];
 }
 
-/// Change of excess() as line and journal move [Pa].
-double FlowBalance::draws_along(const HeldNode& held, const MotionDirection& direction) const {
-  const double u = u_[held.node];
+/// Returns the change of excess() as line and journal move [Pa].
+double FlowBalance::draws_along(const PrescribedNode& prescribed, const MotionDirection& direction) const {
+  const double u = u_[prescribed.node];
   if (u >= 0 || cavitation_.has_tension()) return 0;
-  return (held.draws_line * direction.phi_supply + held.draws_journal * direction.phi_journal) * u;
+  return (prescribed.draws_line * direction.phi_supply + prescribed.draws_journal * direction.phi_journal) * u;
 }
 
-int FlowBalance::slot_to_other(const HeldNode& held) const {
-  const Face& face = faces_[line_face(held)];
-  return held.node == face.a ? face.slots[1] : face.slots[2];
+int FlowBalance::slot_to_other(const PrescribedNode& prescribed) const {
+  const Face& face = faces_[line_face(prescribed)];
+  return prescribed.node == face.a ? face.slots[1] : face.slots[2];
 }
 
 }  // namespace hersey::film

@@ -15,15 +15,15 @@ struct Share {
   double phi = 0;
 };
 
-/// A node's surroundings: how far its neighbours are and how wide its control volume is [m, m], seen by a feature whose
-/// middle lies at a distance `d` around the bearing [rad] and `z` along it [m] behind the node.
+/// Surroundings of a node in the frame of a feature: distances of its neighbours and width of its control volume [m,
+/// m]. The feature's middle lies at a distance `d` around the bearing [rad] and `z` along it [m] behind the node.
 struct Surroundings {
   double d = 0, z = 0;
   double R = 1;                       ///< length per unit of phi [m]
   double to_phi = 0, to_z = 0;        ///< distance of the neighbours towards the feature [m]
   double width_phi = 0, width_z = 0;  ///< of the control volume [m]
   double back = 0, ahead = 0;         ///< half-way to the neighbours around the bearing [rad]
-  double below = 0, above = 0;        ///< likewise along it [m]; both mirrored at an edge unless within_film()
+  double below = 0, above = 0;  ///< half-way to the neighbours along z [m]; mirrored at an edge unless within_film()
 
   [[nodiscard]] bool is_on_edge() const { return below == 0 || above == 0; }
 };
@@ -43,7 +43,7 @@ Surroundings surroundings(const Grid& grid, const GridGeometry& g, int i, int j,
   return s;
 }
 
-/// Those of a node on an edge end there.
+/// Returns the surroundings of a node, cut off at the edges of the film.
 Surroundings within_film(Surroundings s, const Grid& grid, int i, int j) {
   if (j == 0) s.below = 0;
   if (j == grid.n_z - 1) s.above = 0;
@@ -52,15 +52,17 @@ Surroundings within_film(Surroundings s, const Grid& grid, int i, int j) {
   return s;
 }
 
-/// From 1 inside an interval of half-width `half` to 0 one `step` beyond it; d is the distance from its middle.
+/// Returns a ramp from 1 inside an interval of half-width `half` to 0 one `step` beyond it; d is the distance from its
+/// middle.
 Share ramp(double d, double half, double step) {
   const double outside = (std::abs(d) - half) / step;
   if (outside <= 0) return {1, 0};
   return {std::max(1 - outside, 0.0), (d > 0 ? 1 : -1) / step};
 }
 
-/// Row shares (film.22): the conductance from a node to the feature's edge where that is a share of one cell away.
-Share held(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double unit) {
+/// Row shares (film.22) follow from the conductance between a node and the feature's edge, which is a share of one cell
+/// away.
+Share row_share(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double unit) {
   const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / s.R);
   const double along = ramp(s.z, 0.5 * feature.length, s.to_z).value;
   const double covered = around.value * along;
@@ -70,10 +72,11 @@ Share held(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surr
   return {covered / sum, (covered_phi * gap - covered * gap_phi) / (sum * sum)};
 }
 
-/// Share of a node's cell that an ellipse with the given half-axes covers, by Gauss' rule along z and exact around.
+/// Returns the share of a node's cell that an ellipse with the given half-axes covers, by Gauss' rule along z and exact
+/// around.
 Share ellipse_share(const Surroundings& s, double half_arc, double half_length) {
-  // Four points on each half of the cell: Abramowitz and Stegun (1964), table 25.4.
-  static constexpr std::array<double, 4> place{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
+  // Gauss' rule has four points on each half of the cell: Abramowitz and Stegun (1964), table 25.4.
+  static constexpr std::array<double, 4> point{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
                                                0.861136311594052575};
   static constexpr std::array<double, 4> weight{0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
                                                 0.347854845137453857};
@@ -81,13 +84,13 @@ Share ellipse_share(const Surroundings& s, double half_arc, double half_length) 
   const double first = s.d - s.back, last = s.d + s.ahead;
   Share share;
   for (const double half : {0.25, 0.75}) {
-    for (std::size_t k = 0; k < place.size(); ++k) {
-      const double y = (s.z - s.below + height * (half + 0.25 * place[k])) / half_length;
+    for (std::size_t k = 0; k < point.size(); ++k) {
+      const double y = (s.z - s.below + height * (half + 0.25 * point[k])) / half_length;
       if (std::abs(y) >= 1) continue;
       const double reach = half_arc * std::sqrt(1 - y * y);
       const double right = std::min(last, reach), left = std::max(first, -reach);
       if (right <= left) continue;
-      // Seen from the feature the cell moves backwards as the feature turns forwards.
+      // In the frame of the feature the cell moves backwards as the feature rotates forwards.
       const double moving = (first > -reach ? 1.0 : 0.0) - (last < reach ? 1.0 : 0.0);
       share.value += 0.25 * weight[k] * (right - left) / cell;
       share.phi += 0.25 * weight[k] * moving / cell;
@@ -96,18 +99,19 @@ Share ellipse_share(const Surroundings& s, double half_arc, double half_length) 
   return share;
 }
 
-Share held(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double /*unit*/) {
-  // Grown by half a cell all around, as the ramps of a rectangle are: its edge then lies where the ellipse's does.
+Share row_share(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double /*unit*/) {
+  // The ellipse is grown by half a cell all around, as the ramps of a rectangle are: its edge then lies where the
+  // ellipse's does.
   const Share covered =
       ellipse_share(s, 0.5 * (feature.arc + s.back + s.ahead), 0.5 * (feature.length + s.below + s.above));
-  const double unit = 4;  // conductance of all four faces over that of one, both directions alike
+  const double unit = 4;  // conductance of all four faces over that of one, equal in both directions
   const double open = 1 - covered.value, sum = covered.value + unit * open;
   if (covered.value == 0) return {};
   return {covered.value / sum, unit * covered.phi / (sum * sum)};
 }
 
-/// Length of [first, last] that lies within +-half, or within it a whole turn away, and its growth as the interval's
-/// borders move backwards.
+/// Returns the length of [first, last] that lies within +-half, or within +-half a revolution away, and its derivative
+/// as the interval's borders move backwards.
 Share overlap(double first, double last, double half) {
   Share sum;
   for (const double image : {-two_pi, 0.0, two_pi}) {
@@ -119,13 +123,13 @@ Share overlap(double first, double last, double half) {
   return sum;
 }
 
-/// Share of the cell's height that a rectangle covers.
+/// Returns the share of the cell's height that a rectangle covers.
 double overlap_along(const SurfaceFeature& feature, const Surroundings& s) {
   const double half = 0.5 * feature.length;
   return std::max(0.0, std::min(s.z + s.above, half) - std::max(s.z - s.below, -half)) / (s.below + s.above);
 }
 
-/// Of a control volume.
+/// Returns the share of a control volume that a feature covers.
 Share covered(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s) {
   if (feature.arc >= two_pi) return {overlap_along(feature, s), 0};
   const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
@@ -137,8 +141,8 @@ Share covered(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Sur
   return ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length);
 }
 
-/// Of a control volume that a feature covers in part, or, where the feature is the smaller around the bearing, of what
-/// goes around there.
+/// Returns the share of the circumferential flow through a control volume that passes the feature. A feature narrower
+/// than the control volume is passed by all of the flow when it lies inside wholly.
 Share mixed_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
   if (feature.arc >= two_pi) return {1, 0};
   const double smaller = std::min(s.back + s.ahead, feature.arc);
@@ -146,13 +150,14 @@ Share mixed_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
   return {around.value / smaller, around.phi / smaller};
 }
 
-/// Of a share of the oil that passes, what of missing oil is drawn.
+/// Returns the share of missing oil that a feature supplies where it has mixed the given share of the oil that passes.
 Share drawn(double share, double share_phi) {
   const double half = std::min(2 * share, 1.0);
   return {half * half, share < 0.5 ? 4 * half * share_phi : 0};
 }
 
-// What is there of oil that passes a node's control volume, and of oil that it lacks (film.22, thermal.14).
+// mix() sets the feature's shares of the oil that passes a node's control volume and of the oil that it lacks (film.22,
+// thermal.14).
 
 void mix(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
   const Share around = mixed_rectangle(feature, s);
@@ -176,9 +181,9 @@ void mix(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surround
 }  // namespace
 
 SurfaceFeature without_border(SurfaceFeature feature, const FilmModel& model, const GridGeometry& geometry) {
-  if (feature.arc < two_pi) feature.arc -= same_place * geometry.mean_dx / geometry.R;
+  if (feature.arc < two_pi) feature.arc -= same_position * geometry.mean_dx / geometry.R;
   const bool reaches = std::abs(feature.z) + 0.5 * feature.length >= 0.5 * model.L * (1 - 1e-9);  // to round-off
-  if (!reaches) feature.length -= same_place * geometry.mean_dz;
+  if (!reaches) feature.length -= same_position * geometry.mean_dz;
   return feature;
 }
 
@@ -198,7 +203,8 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
       const Surroundings s = surroundings(grid, geometry, i, j, d, geometry.z[j] - feature.z);
       if (std::abs(d) >= 0.5 * feature.arc + s.to_phi / s.R) break;
       if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
-      const Share share = std::visit([&](const auto& shape) { return held(shape, feature, s, unit); }, feature.shape);
+      const Share share =
+          std::visit([&](const auto& shape) { return row_share(shape, feature, s, unit); }, feature.shape);
       const double inwards =
           1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
       if (share.value == 0) continue;

@@ -10,7 +10,7 @@
 namespace hersey::film {
 namespace {
 
-// Patir and Cheng's fits. Rows of Peklenik's ratio 1/9, 1/6, 1/3, 1, 3, 6, 9.
+// Fits of Patir and Cheng; the rows belong to Peklenik's ratio 1/9, 1/6, 1/3, 1, 3, 6, 9.
 struct PressureFit {
   double C, r, from;  ///< 1 - C exp(-r H), for gamma > 1: 1 + C H^-r; for H > from
 };
@@ -44,16 +44,16 @@ constexpr std::array<StressFit, fits> stress_fits{{{14.1, 2.45, 2.30, 0.10},
                                                    {10.1, 2.25, 2.90, 0.18},
                                                    {8.7, 2.15, 2.97, 0.18}}};
 
-// Below this the fits of the shear flow do not hold.
+// Smallest H for which the fits of the shear flow are valid.
 constexpr double smallest_H = 0.5;
 
-/// From 0 at `from` to 1 at `to`, with horizontal tangents.
+/// Returns a function that rises from 0 at `from` to 1 at `to` with horizontal tangents.
 ValueAndSlope smooth_step(double H, double from, double to) {
   const double t = std::clamp((H - from) / (to - from), 0.0, 1.0);
   return {t * t * (3 - 2 * t), 6 * t * (1 - t) / (to - from)};
 }
 
-/// A H^a exp(-b H + c H^2).
+/// Returns A H^a exp(-b H + c H^2).
 ValueAndSlope power_exponential(double H, double A, double a, double b, double c) {
   const double value = A * std::pow(H, a) * std::exp(H * (c * H - b));
   return {value, value * (a / H - b + 2 * c * H)};
@@ -68,8 +68,8 @@ ValueAndSlope pressure_fit(const PressureFit& fit, bool along, double H) {
   return {1 - lack, fit.r * lack};
 }
 
-// Towards contact a factor above 1 goes on along its tangent; one that falls would become negative on it, and goes on
-// along a hyperbola.
+// Towards contact a factor above 1 is continued along its tangent. A factor that falls would become negative on it and
+// is continued along a hyperbola.
 ValueAndSlope pressure_row(int row, double H) {
   const PressureFit& fit = pressure_fits[row];
   const bool along = row > isotropic;
@@ -81,8 +81,7 @@ ValueAndSlope pressure_row(int row, double H) {
   return {limit.value / denominator, limit.slope / (denominator * denominator)};
 }
 
-// Both fits differ by less than 0.1 % where they meet: one fades into the other. Towards contact a parabola leads to
-// zero.
+// Both fits differ by less than 0.1 % where they meet and are blended there. Towards contact a parabola leads to zero.
 ValueAndSlope shear_row(int row, double H) {
   const ShearFit& fit = shear_fits[row];
   if (H < smallest_H) {
@@ -98,7 +97,7 @@ ValueAndSlope shear_row(int row, double H) {
           near.slope + fade.value * (far.slope - near.slope) + fade.slope * (far.value - near.value)};
 }
 
-// The fit ends at H = 7 with a jump of about 0.01: it fades out before.
+// The fit ends at H = 7 with a jump of about 0.01; it is blended to zero before.
 ValueAndSlope stress_row(int row, double H) {
   if (H >= 7) return {};
   const StressFit& fit = stress_fits[row];
@@ -135,7 +134,7 @@ ValueAndSlope PatirCheng::stress(double H) const {
 }
 
 ValueAndSlope couette_stress_factor(double H) {
-  // The mean of z/(z + t) over heights 3 sigma t with the density 35/32 (1 - t^2)^3, z = H/3.
+  // phi_f is the mean of z/(z + t) over heights 3 sigma t with the density 35/32 (1 - t^2)^3, z = H/3.
   const double z = H / 3, z2 = z * z;
   if (z >= 2) {
     double value = 0, slope = 0, term = 1;  // even moments of the density over even powers of z

@@ -25,11 +25,11 @@ class PatirCheng {
   double weight_ = 0;  ///< of the next row
 };
 
-/// phi_f: mean of h over the local gap, for Couette shear; gaps below sigma/100 count as that (film.45). The same for
-/// every gamma.
+/// Returns phi_f, the mean of h over the local gap, for Couette shear; gaps below sigma/100 count as sigma/100
+/// (film.45). It does not depend on gamma.
 [[nodiscard]] ValueAndSlope couette_stress_factor(double H);
 
-/// Mean of the local gap over sigma, 0 where the surfaces overlap, with slope and curvature in H (film.42).
+/// Returns the mean of the local gap over sigma, 0 where the surfaces overlap, with slope and curvature in H (film.42).
 struct MeanGap {
   double value = 0, slope = 0, curvature = 0;
 };

@@ -6,8 +6,8 @@
 namespace hersey::film {
 namespace {
 
-/// Functions that interpolation is exact for, at an angle and their means from one angle to another, each as many as
-/// are asked for: 1, 1 - cos, sin and sin of twice the angle, or powers of it.
+/// Functions for which the interpolation is exact, at an angle and as means between two angles: 1, 1 - cos, sin and sin
+/// of twice the angle, or powers of the angle. As many of them are used as there are weights.
 struct Exact {
   bool is_round = true;
 
@@ -22,12 +22,12 @@ struct Exact {
     return {1, 0.5 * (from + to), (from * from + from * to + to * to) / 3};
   }
 
-  /// Weights of values at these angles that give what the functions have as `wanted`.
+  /// Returns the weights of values at these angles that reproduce `wanted` for all functions.
   template <std::size_t N>
   [[nodiscard]] std::array<double, N> weights(const std::array<double, N>& angle, const Eigen::VectorXd& wanted) const {
     constexpr int n = static_cast<int>(N);
     Eigen::Matrix<double, n, n> basis;  // a column per node
-    // Powers of angles in their own unit: small ones would leave a matrix of all sizes.
+    // Powers of angles are taken in a unit of their own; small angles would make the matrix badly scaled.
     const double unit = is_round ? 1 : *std::max_element(angle.begin(), angle.end()) - angle[0];
     Eigen::Matrix<double, n, 1> right = wanted.head(n);
     for (int k = 0; k < n; ++k) basis.col(k) = at(angle[static_cast<std::size_t>(k)] / unit, n);
@@ -39,7 +39,7 @@ struct Exact {
   }
 };
 
-/// The first of `count` lines in a row about line i, `before` of them before it where its patch has so many.
+/// Returns the first of `count` consecutive lines about line i, `before` of them before it where its patch has so many.
 int first_of(const Grid& grid, int i, int before, int count) {
   if (grid.closes()) return i - before;
   const auto patch = static_cast<std::size_t>(grid.patch_of(i));
@@ -52,8 +52,8 @@ GapInterpolation::GapInterpolation(const Grid& grid, const GridGeometry& geometr
   const int n = grid.n_phi;
   const Exact exact{is_round(geometry.surface)};
   const auto wrapped = [n](int i) { return (i + n) % n; };
-  // Angles of some lines in a row, from the place `origin` beyond line i.
-  const auto place = [&]<std::size_t N>(int i, int first, double origin, std::array<int, N>& lines) {
+  // Returns the angles of consecutive lines, counted from the position `origin` beyond line i.
+  const auto angles_of_lines = [&]<std::size_t N>(int i, int first, double origin, std::array<int, N>& lines) {
     std::array<double, N> angle;
     for (std::size_t k = 0; k < N; ++k) {
       const int line = first + static_cast<int>(k);
@@ -68,14 +68,14 @@ GapInterpolation::GapInterpolation(const Grid& grid, const GridGeometry& geometr
     const int next = grid.next(i), before = grid.before(i);
     Lines<4> face{.line = {i, i, i, i}};
     if (next >= 0) {
-      const auto angle = place(i, first_of(grid, i, 1, 4), 0.5 * geometry.dphi(i), face.line);
+      const auto angle = angles_of_lines(i, first_of(grid, i, 1, 4), 0.5 * geometry.dphi(i), face.line);
       face.weight = exact.weights(angle, exact.at(0, 4));
       for (std::size_t k = 0; k < 4; ++k)
         if (face.line[k] == i || face.line[k] == next) face.weight[k] -= 0.5;
     }
     face_.push_back(face);
     Lines<3> cell;
-    const auto angle = place(i, first_of(grid, i, 1, 3), 0, cell.line);
+    const auto angle = angles_of_lines(i, first_of(grid, i, 1, 3), 0, cell.line);
     const double back = before < 0 ? 0 : 0.5 * geometry.dphi(before), ahead = 0.5 * geometry.dphi(i);
     cell.weight = exact.weights(angle, exact.mean(-back, ahead));
     for (std::size_t k = 0; k < 3; ++k)

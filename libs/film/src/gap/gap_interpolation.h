@@ -9,24 +9,24 @@
 
 namespace hersey::film {
 
-/// Gap and motion of surfaces between the nodes of a grid (theory manual, film.13 and film.14): values on the faces
-/// around the bearing and means over the control volumes, from nodal values. Both are exact for a round journal
-/// anywhere in a round bore, whatever the grid: a gap that travels around the bearing then takes as much oil out of
-/// every control volume by its rate as it brings in over the faces. On a plane they are exact for the powers of phi
-/// instead. Beside the end of a patch they follow from the nodes there are. Along z, where gaps are straight or nearly
-/// so, nodal values and their means do.
+/// Interpolates gap and motion of surfaces between the nodes of a grid (theory manual, film.13 and film.14): values on
+/// the faces around the bearing and means over the control volumes, from nodal values. Both are exact for a round
+/// journal at any position in a round bore, on every grid: a gap that travels around the bearing then takes as much oil
+/// out of every control volume by its rate as it brings in over the faces. On a plane they are exact for powers of phi
+/// instead. At the end of a patch they use the nodes inside it. Along z gaps are straight or nearly so, and nodal
+/// values and their means are used.
 class GapInterpolation {
  public:
   GapInterpolation(const Grid& grid, const GridGeometry& geometry);
 
-  /// By how much a field exceeds the mean of both nodes on the faces after each node around the bearing: shape
+  /// Computes the excess of a field over the mean of both nodes on the faces after each node around the bearing, shape
   /// (grid.size()).
   void bends(const Eigen::VectorXd& field, Eigen::VectorXd& bends) const;
 
-  /// The same on the face after node (i, j) alone.
+  /// Returns the excess on the face after node (i, j) alone.
   [[nodiscard]] double bend(const Eigen::VectorXd& field, int i, int j) const;
 
-  /// By how much its mean over each control volume exceeds the value at the node: shape (grid.size()).
+  /// Computes the excess of the field's mean over each control volume over the value at its node, shape (grid.size()).
   void excesses(const Eigen::VectorXd& field, Eigen::VectorXd& excesses) const;
 
  private:

@@ -36,12 +36,12 @@ Eigen::VectorXd GapShape::shell_slope() const {
   return slope;
 }
 
-void GapShape::turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
-                             Eigen::VectorXd& second) const {
+void GapShape::rotate_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
+                               Eigen::VectorXd& second) const {
   for (auto* field : {&opening, &first, &second}) field->setZero(still_.size());
   for (const Profile& profile : turning_profiles_) {
     for (int k = 0; k < still_.size(); ++k) {
-      // Seen from the journal the node moves backwards.
+      // In the frame of the journal the node moves backwards.
       const Opening o = opening_at(profile, k, phi_journal);
       opening[k] += o.value, first[k] -= o.phi, second[k] += o.phi_phi;
     }
@@ -51,7 +51,7 @@ void GapShape::turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen
 Eigen::VectorXd gap_opening(const FilmModel& model, double phi_journal) {
   GapShape shape(model);
   Eigen::VectorXd profiles, first, second;
-  shape.turn_profiles(phi_journal, profiles, first, second);
+  shape.rotate_profiles(phi_journal, profiles, first, second);
   return shape.still() + profiles;
 }
 

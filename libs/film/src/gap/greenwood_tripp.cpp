@@ -7,8 +7,8 @@ namespace hersey::film {
 
 ValueAndSlope greenwood_tripp_exact(double H) {
   if (H >= 8) return {};
-  // With s = H + t^2 the integral runs over all t of a smooth function that dies at both ends:
-  // F_{5/2} = 1/sqrt(2 pi) int t^6 exp(-(H + t^2)^2/2) dt. The trapezoidal rule then converges exponentially.
+  // With s = H + t^2 the integral runs over all t of a smooth function that decays at both ends: F_{5/2} = 1/sqrt(2 pi)
+  // int t^6 exp(-(H + t^2)^2/2) dt. The trapezoidal rule then converges exponentially.
   constexpr double dt = 1.0 / 12;
   const double reach = std::sqrt(9 - H);
   double f52 = 0, f32 = 0;

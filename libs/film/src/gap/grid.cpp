@@ -9,11 +9,12 @@
 namespace hersey::film {
 namespace {
 
-// Points of the table by which a density is integrated, per node: the places of nodes are then exact to 1e-4 of a cell.
+// Points per node of the table by which a density is integrated; the positions of nodes are then exact to 1e-4 of a
+// cell.
 constexpr int points_per_node = 32;
 
-/// Places of `count` nodes between `first` and `last` so that equal shares of the integral of `density` lie between
-/// neighbours; the last node lies on `last`.
+/// Returns the positions of `count` nodes between `first` and `last`, between which equal shares of the integral of
+/// `density` lie; the last node lies on `last`.
 template <class Density>
 std::vector<double> equal_shares(int count, double first, double last, Density&& density) {
   const int points = points_per_node * count;
@@ -31,13 +32,13 @@ std::vector<double> equal_shares(int count, double first, double last, Density&&
   return nodes;
 }
 
-/// What a place adds to the density of nodes (film.11).
+/// Returns the density of nodes that a refinement adds (film.11).
 double density_at(double distance, const Refinement& r) {
   const double ratio = distance / r.reach;
   return (r.factor - 1) / (1 + ratio * ratio);
 }
 
-/// Places at fractional indices, by straight lines between the nodes.
+/// Returns positions at fractional indices, interpolated linearly between the nodes.
 double between(const std::vector<double>& nodes, double index) {
   const int last = static_cast<int>(nodes.size()) - 1;
   const int below = std::clamp(static_cast<int>(std::floor(index + 1e-9)), 0, last - 1);
@@ -45,8 +46,9 @@ double between(const std::vector<double>& nodes, double index) {
   return t < 1e-9 ? nodes[below] : (1 - t) * nodes[below] + t * nodes[below + 1];
 }
 
-void check(const std::vector<Refinement>& places) {
-  for (const Refinement& r : places) HERSEY_REQUIRE(r.reach > 0 && r.factor >= 1, "a refinement has reach and factor");
+void check(const std::vector<Refinement>& positions) {
+  for (const Refinement& r : positions)
+    HERSEY_REQUIRE(r.reach > 0 && r.factor >= 1, "a refinement has reach and factor");
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, cons
   if (!around.empty()) {
     const auto density = [&](double phi) {
       double sum = 1;
-      for (const Refinement& r : around) sum += density_at(std::remainder(phi - r.place, two_pi), r);
+      for (const Refinement& r : around) sum += density_at(std::remainder(phi - r.position, two_pi), r);
       return sum;
     };
     grid.angles = equal_shares(n_phi + 1, 0, two_pi, density);
@@ -74,7 +76,7 @@ Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, cons
   if (!along.empty()) {
     const auto density = [&](double z) {
       double sum = 1;
-      for (const Refinement& r : along) sum += density_at(z - r.place, r);
+      for (const Refinement& r : along) sum += density_at(z - r.position, r);
       return sum;
     };
     grid.heights = equal_shares(n_z, -0.5, 0.5, density);
@@ -105,11 +107,11 @@ Grid resampled(const Grid& grid, int n_phi, int n_z) {
       other.angles.push_back(between(grid.angles, static_cast<double>(i) * (grid.n_phi - 1) / (n_phi - 1)));
     other.angles.back() = grid.angles.back();
   } else if (!grid.angles.empty()) {
-    std::vector<double> whole_turn = grid.angles;
-    whole_turn.push_back(grid.angles.front() + two_pi);
+    std::vector<double> full_circle = grid.angles;
+    full_circle.push_back(grid.angles.front() + two_pi);
     other.angles.resize(n_phi);
     for (int i = 0; i < n_phi; ++i) {
-      other.angles[i] = between(whole_turn, static_cast<double>(i) * grid.n_phi / n_phi);
+      other.angles[i] = between(full_circle, static_cast<double>(i) * grid.n_phi / n_phi);
     }
   }
   if (!grid.heights.empty()) {

@@ -14,17 +14,18 @@ int end_of_patch(const Grid& grid, std::size_t patch) {
 
 namespace {
 
-/// Integrals over [b, c] of the three parabolas through values at 0, b, c that are 1 at one of them, per length.
+/// Returns the integrals over [b, c] of the three parabolas through values at 0, b, c that are 1 at one of them, per
+/// length.
 Eigen::Vector3d over_second_interval(double before, double length) {
-  // The parabola through (-before, 0), (0, 1), (length, 0) and its kin, integrated from 0 to length.
+  // The parabola through (-before, 0), (0, 1), (length, 0) and the other two are integrated from 0 to length.
   const double s = before + length;
   return {-length * length / (6 * before * s), (length + 3 * before) / (6 * before),
           (2 * length + 3 * before) / (6 * s)};
 }
 
-// Every interval counts the mean of the two parabolas that its nodes share with a neighbour on either side: exact for
-// parabolas, fourth order where the spacing is smooth. On equal spacing these are Gregory's end corrections. The
-// trapezoidal rule would lose 1/(n - 1)^2 of a film's load across the width.
+// Every interval counts the mean of the two parabolas that its nodes share with a neighbour on either side: this is
+// exact for parabolas, and of fourth order where the spacing is smooth. On equal spacing these are Gregory's end
+// corrections. The trapezoidal rule would lose 1/(n - 1)^2 of a film's load across the width.
 template <class Length>
 Eigen::VectorXd parabolic_weights(int n, bool periodic, Length&& length) {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
@@ -46,7 +47,7 @@ Eigen::VectorXd parabolic_weights(int n, bool periodic, Length&& length) {
   return weights;
 }
 
-/// Weights of all lines: a ring's, or each patch its own.
+/// Returns the weights of all lines, of a ring or of each patch.
 template <class Length>
 Eigen::VectorXd weights_of_lines(const Grid& grid, Length&& length) {
   if (grid.closes()) return parabolic_weights(grid.n_phi, true, length);
@@ -109,7 +110,7 @@ GridGeometry::GridGeometry(const FilmModel& model) : R(model.R), surface(model.s
   weight_phi = weights_of_lines(grid, [&](int k) { return dx[k]; });
   weight_z = parabolic_weights(n_z, false, [&](int k) { return dz[k]; });
   stretch.resize(n_z), stretch_over.resize(n_z), stretch_between.resize(n_z - 1);
-  const auto stretch_at = [&](double place) { return film::stretch(surface, R, place); };
+  const auto stretch_at = [&](double position) { return film::stretch(surface, R, position); };
   for (int j = 0; j < n_z; ++j) {
     const double below = j > 0 ? 0.5 * dz[j - 1] : 0, above = j + 1 < n_z ? 0.5 * dz[j] : 0;
     stretch[j] = stretch_at(z[j]);
@@ -127,9 +128,9 @@ double GridGeometry::reported_angle(double angle) const {
   return closes(surface) ? std::fmod(std::fmod(angle, two_pi) + two_pi, two_pi) : angle;
 }
 
-GridGeometry::Place GridGeometry::place_of(double angle) const {
+GridGeometry::Location GridGeometry::locate(double angle) const {
   const auto n = static_cast<int>(phi.size());
-  // Just below a node counts as on it: round-off decides nothing.
+  // An angle just below a node counts as on it, so that round-off decides nothing.
   const double sliver = 1e-9 * two_pi / n;
   double along = angle + sliver - phi[0];
   if (closes(surface)) along = std::fmod(along, two_pi);

@@ -11,28 +11,28 @@
 namespace hersey::film {
 namespace {
 
-// Gauss' rule with four points on [-1, 1]: Abramowitz and Stegun (1964), table 25.4. Two of them in a row, as where the
-// shares of control volumes are counted (feature_cover.cpp), so that a pocket that turns keeps its volume.
-constexpr std::array<double, 4> gauss_place{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
+// Gauss' rule with four points on [-1, 1]: Abramowitz and Stegun (1964), table 25.4. It is applied to both halves of a
+// width, as for the shares of control volumes (feature_cover.cpp), so that a rotating pocket keeps its volume.
+constexpr std::array<double, 4> gauss_point{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
                                             0.861136311594052575};
 constexpr std::array<double, 4> gauss_weight{0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
                                              0.347854845137453857};
 
-/// Calls visit(share of the width, place within it from 0 to 1).
+/// Calls visit(share of the width, position within it from 0 to 1).
 template <class Visit>
 void over_gauss_points(Visit&& visit) {
   for (const double half : {0.25, 0.75}) {
-    for (std::size_t k = 0; k < gauss_place.size(); ++k) visit(0.25 * gauss_weight[k], half + 0.25 * gauss_place[k]);
+    for (std::size_t k = 0; k < gauss_point.size(); ++k) visit(0.25 * gauss_weight[k], half + 0.25 * gauss_point[k]);
   }
 }
 
-/// A place with its rate of turning.
+/// A position with its rate of rotation.
 struct Border {
   double at = 0, rate = 0;
   bool operator<(const Border& other) const { return at < other.at; }
 };
 
-/// Length of the interval from `first` to `last` that lies within +-half or a turn away from there.
+/// Returns the length of the interval from `first` to `last` that lies within +-half or a revolution away from there.
 double length_within(double first, double last, double half) {
   if (half >= 0.5 * two_pi) return last - first;
   double sum = 0;
@@ -55,7 +55,7 @@ struct PocketRelief::Extent {
 
 double swept_area(const SurfaceFeature& pocket, double R, double phi, double low, double high, double start,
                   double end) {
-  // Seen from the pocket the face moves from phi - start back to phi - end.
+  // In the frame of the pocket the face moves from phi - start back to phi - end.
   const double turned = std::remainder(end - start, two_pi), from = std::remainder(phi - pocket.phi - start, two_pi);
   const double first = std::min(from, from - turned), last = std::max(from, from - turned);
   const double sign = turned < 0 ? -1 : 1, half = 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
@@ -64,8 +64,8 @@ double swept_area(const SurfaceFeature& pocket, double R, double phi, double low
     return sign * R * height * length_within(first, last, half);
   }
   double sum = 0;
-  over_gauss_points([&](double share, double place) {
-    const double y = (low + place * (high - low) - pocket.z) / half_length;
+  over_gauss_points([&](double share, double position) {
+    const double y = (low + position * (high - low) - pocket.z) / half_length;
     if (std::abs(y) >= 1) return;
     const double reach = std::visit([y](const auto& shape) { return shape.reach(y); }, pocket.shape);
     sum += share * length_within(first, last, half * reach);
@@ -77,7 +77,7 @@ PocketRelief::PocketRelief(const FilmModel& model, const GridGeometry& geometry)
   for (const SurfaceFeature& feature : model.features) {
     if (feature.depth == 0) continue;
     (feature.is_fed ? fed_ : pockets_).push_back(without_border(feature, model, geometry));
-    any_turns_ = any_turns_ || feature.surface == Surface::journal;
+    any_rotates_ = any_rotates_ || feature.surface == Surface::journal;
   }
 }
 
@@ -91,9 +91,9 @@ void PocketRelief::add_cells(const SurfaceFeature& feature, double phi_journal, 
   }
 }
 
-void PocketRelief::place(double phi_journal, double phi_start, double dt, double speed) {
-  const Placement asked{phi_journal, phi_start, dt, dt > 0 ? 0 : speed};
-  if (placed_ && (!any_turns_ || *placed_ == asked)) return;
+void PocketRelief::set_rotation(double phi_journal, double phi_start, double dt, double speed) {
+  const Arguments asked{phi_journal, phi_start, dt, dt > 0 ? 0 : speed};
+  if (evaluated_ && (!any_rotates_ || *evaluated_ == asked)) return;
   const int n = model_.grid.size();
   covered_.clear();
   for (const auto* features : {&pockets_, &fed_}) {
@@ -103,14 +103,14 @@ void PocketRelief::place(double phi_journal, double phi_start, double dt, double
       for (const CoveredNode& cell : cells_) covered_.push_back({cell.node, cell.share, cell.share_phi, feature.depth});
     }
   }
-  placed_ = asked;
+  evaluated_ = asked;
   if (pockets_.empty()) return;
-  for (auto* field : {&depth_, &depth_start_, &depth_journal_, &turning_depth_}) field->setZero(n);
+  for (auto* field : {&depth_, &depth_start_, &depth_journal_, &rotating_depth_}) field->setZero(n);
   for (const SurfaceFeature& pocket : pockets_) {
-    const bool turns = pocket.surface == Surface::journal;
+    const bool rotates = pocket.surface == Surface::journal;
     add_cells(pocket, phi_journal, depth_, &depth_journal_);
-    add_cells(pocket, turns && dt > 0 ? phi_start : phi_journal, depth_start_, nullptr);
-    if (turns) add_cells(pocket, phi_journal, turning_depth_, nullptr);
+    add_cells(pocket, rotates && dt > 0 ? phi_start : phi_journal, depth_start_, nullptr);
+    if (rotates) add_cells(pocket, phi_journal, rotating_depth_, nullptr);
   }
   locate_flow_tubes(phi_journal);
   sweep(phi_journal, phi_start, dt, speed);
@@ -119,7 +119,7 @@ void PocketRelief::place(double phi_journal, double phi_start, double dt, double
 void PocketRelief::locate_flow_tubes(double phi_journal) {
   flow_tubes_.clear(), strips_.clear(), segments_.clear();
   const Grid& grid = model_.grid;
-  const auto half_turn_from = [this](double middle, double phi) { return middle + geometry_.from_to(middle, phi); };
+  const auto image_nearest_to = [this](double middle, double phi) { return middle + geometry_.from_to(middle, phi); };
   std::vector<Extent> around, along;
   for (int i = 0; i < grid.n_phi; ++i) {
     const double phi = geometry_.phi[i], step = geometry_.dphi(i);
@@ -127,16 +127,16 @@ void PocketRelief::locate_flow_tubes(double phi_journal) {
     const double back = before < 0 ? 0 : 0.5 * geometry_.dphi(before), ahead = 0.5 * step;
     around.clear(), along.clear();
     for (const SurfaceFeature& pocket : pockets_) {
-      const bool turns = pocket.surface == Surface::journal, all_around = pocket.arc >= two_pi;
-      const double rate = turns && !all_around ? 1 : 0;
-      const double middle = half_turn_from(phi + ahead, pocket.phi + (turns ? phi_journal : 0.0));
+      const bool rotates = pocket.surface == Surface::journal, all_around = pocket.arc >= two_pi;
+      const double rate = rotates && !all_around ? 1 : 0;
+      const double middle = image_nearest_to(phi + ahead, pocket.phi + (rotates ? phi_journal : 0.0));
       const double half_arc = all_around ? two_pi : 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
       for (const double image : {-two_pi, 0.0, two_pi}) {
         if (all_around && image != 0) continue;
         const double at = middle + image;
         if (at + half_arc <= phi - back || at - half_arc >= phi + step) continue;
-        around.push_back({pocket.z, at, half_length, half_arc, 0, rate, pocket.shape, turns, pocket.depth});
-        along.push_back({at, pocket.z, half_arc, half_length, rate, 0, pocket.shape, turns, pocket.depth});
+        around.push_back({pocket.z, at, half_length, half_arc, 0, rate, pocket.shape, rotates, pocket.depth});
+        along.push_back({at, pocket.z, half_arc, half_length, rate, 0, pocket.shape, rotates, pocket.depth});
       }
     }
     if (around.empty()) continue;
@@ -176,9 +176,9 @@ void PocketRelief::add_flow_tube(std::size_t face, const std::vector<Extent>& ex
   for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
     const Border &low = borders[k], &high = borders[k + 1];
     const double share = (high.at - low.at) / width, share_rate = (high.rate - low.rate) / width;
-    const auto strip = [&](double part, double place) {
-      add_strip(near, low.at + place * (high.at - low.at), low.rate + place * (high.rate - low.rate), part * share,
-                part * share_rate, along, length);
+    const auto strip = [&](double part, double position) {
+      add_strip(near, low.at + position * (high.at - low.at), low.rate + position * (high.rate - low.rate),
+                part * share, part * share_rate, along, length);
     };
     if (all_straight) {
       strip(1, 0.5);
@@ -234,7 +234,7 @@ FlowTubeGap PocketRelief::gap(const PocketFlowTube& flow_tube, double h) const {
   FlowTubeGap sum;
   for (int s = flow_tube.first_strip; s < flow_tube.first_strip + flow_tube.strips; ++s) {
     const Strip& strip = strips_[s];
-    // I_1 to I_4 and what phi_journal does to I_2 and I_3.
+    // Integrals I_1 to I_4, and the derivatives of I_2 and I_3 with phi_journal.
     std::array<double, 5> I{};
     double I1_journal = 0, I2_journal = 0, I3_journal = 0;
     for (int k = strip.first_segment; k < strip.first_segment + strip.segments; ++k) {
@@ -261,13 +261,13 @@ FlowTubeGap PocketRelief::gap(const PocketFlowTube& flow_tube, double h) const {
   return sum;
 }
 
-// What turns over the faces around the bearing: the mean of the step, so that together with what it does to the depth
-// of the control volumes a pocket brings no oil and takes none away.
+// Sets the volumes that rotate over the faces around the bearing, as means of the step: together with the change of the
+// control volumes' depth a pocket neither brings nor removes oil.
 void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double speed) {
-  if (!any_turns_) return;
+  if (!any_rotates_) return;
   const Grid& grid = model_.grid;
-  // A pocket may have passed a face in the step and cover no flow tube there any more: every face of the pocket's rows
-  // is asked. Tubes come in the order of faces of one kind, not of all.
+  // A pocket may have passed a face in the step and cover no flow tube there any more, so that every face of the
+  // pocket's rows is tested. Flow tubes are in the order of faces of one direction, not of all.
   std::vector<int> tube_of(static_cast<std::size_t>(grid.size()), -1);
   for (std::size_t t = 0; t < flow_tubes_.size(); ++t) {
     if (flow_tubes_[t].face < tube_of.size()) tube_of[flow_tubes_[t].face] = static_cast<int>(t);
@@ -282,7 +282,8 @@ void PocketRelief::sweep(double phi_journal, double phi_start, double dt, double
       for (const SurfaceFeature& pocket : pockets_) {
         if (pocket.surface != Surface::journal) continue;
         if (low >= pocket.z + 0.5 * pocket.length || high <= pocket.z - 0.5 * pocket.length) continue;
-        // Its rate at the present angle: what covers the face, from a step too small to pass anything.
+        // The rate at the present angle is that with which the pocket covers the face, from a step too small to pass
+        // anything.
         const double sliver = 1e-9;
         const double cover = swept_area(pocket, R, face, low, high, phi_journal - sliver, phi_journal) / sliver;
         if (dt > 0) {

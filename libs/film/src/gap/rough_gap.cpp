@@ -8,7 +8,7 @@ double Roughness::composite_sigma() const { return std::hypot(shell.sigma, journ
 
 bool Roughness::counts() const { return flow_factors != FlowFactors::none && composite_sigma() > 0; }
 
-// Pressure flow depends on both surfaces together: their ratio is the mean of ln gamma by variance.
+// Pressure flow depends on both surfaces together: their common ratio is the mean of ln gamma by variance.
 RoughGapLaw::Direction RoughGapLaw::direction(const Roughness& roughness, bool axial) {
   const SurfaceRoughness &s = roughness.shell, &j = roughness.journal;
   const double variance = s.sigma * s.sigma + j.sigma * j.sigma;

@@ -13,7 +13,7 @@ constexpr int samples = 50;
 }  // namespace
 
 bool contains(const SurfaceFeature& feature, double phi, double z) {
-  // A groove all around has no end, wherever its seam is rounded to.
+  // A groove all around has no end, wherever its seam lies after rounding.
   const double x = feature.arc >= two_pi ? 0 : std::remainder(phi - feature.phi, two_pi) / (0.5 * feature.arc);
   const double y = (z - feature.z) / (0.5 * feature.length);
   return std::visit([&](const auto& shape) { return shape.contains(x, y); }, feature.shape);

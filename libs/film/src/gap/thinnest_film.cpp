@@ -12,12 +12,12 @@
 namespace hersey::film {
 namespace {
 
-// Places along each side of a feature's border.
-constexpr int border_places = 64;
+// Number of points along each side of a feature's border.
+constexpr int border_points = 64;
 
-/// Smallest value of the parabola through (0, y0), (a, ya) and (b, yb) within [from, to], and where.
+/// Smallest value of the parabola through (0, y0), (a, ya) and (b, yb) within [from, to], and its position.
 struct Low {
-  double place = 0, value = 0;
+  double offset = 0, value = 0;
 };
 
 Low lowest(double y0, double a, double ya, double b, double yb, double from, double to) {
@@ -36,7 +36,7 @@ class Search {
       if (feature.depth == 0) continue;
       if (feature.surface == Surface::journal) feature.phi += phi_journal;
       deep_.push_back(without_border(feature, model, at));
-      // One that reaches the bearing's edge goes on beyond it.
+      // A feature that reaches the bearing's edge is extended beyond it.
       if (deep_.back().length == feature.length) deep_.back().length *= 1 + 1e-6;
     }
     outside_.assign(static_cast<std::size_t>(grid_.size()), 1);
@@ -54,7 +54,7 @@ class Search {
     const int node = node_in_features();
     if (node >= 0) best.in_features = with_depth(node);
     if (node >= 0 && !std::isfinite(best.value)) {
-      // A groove over all of the bearing: there is no land.
+      // A groove that covers all of the bearing leaves no land.
       best.value = best.in_features, best.phi = at_.phi[node / grid_.n_z], best.z = at_.z[node % grid_.n_z];
     }
     return best;
@@ -66,7 +66,7 @@ class Search {
   }
 
   [[nodiscard]] int wrapped(int i) const { return (i % grid_.n_phi + grid_.n_phi) % grid_.n_phi; }
-  /// Whether the line k further on belongs to the same patch.
+  /// True if the line k further on belongs to the same patch.
   [[nodiscard]] bool is_patch_of(int i, int k) const {
     return grid_.closes() || (i + k >= 0 && i + k < grid_.n_phi && grid_.patch_of(i) == grid_.patch_of(i + k));
   }
@@ -75,8 +75,8 @@ class Search {
     return outside_[static_cast<std::size_t>(grid_.index(wrapped(i), j))] != 0;
   }
 
-  // Between nodes each dip of the row counts: which of two nodes is lower tells only what round-off, or the place of
-  // the nodes, says of two dips that are as deep.
+  // Every dip of the row between nodes is searched: of two dips that are equally deep, round-off or the positions of
+  // the nodes decide which has the lower node.
   void search_row(int j, Thinnest& best) const {
     for (int i = 0; i < grid_.n_phi; ++i) {
       if (outside(i, j)) search_dip(i, j, best);
@@ -95,20 +95,20 @@ class Search {
     const double here = value(i, j), both = around.value + along.value - here;
     const double found = both > 0 ? both : here;
     if (found >= best.value) return;
-    best.value = found, best.z = at_.z[j] + along.place;
-    best.phi = at_.reported_angle(at_.phi[i] + around.place / (at_.R * at_.stretch[j]));
+    best.value = found, best.z = at_.z[j] + along.offset;
+    best.phi = at_.reported_angle(at_.phi[i] + around.offset / (at_.R * at_.stretch[j]));
   }
 
-  /// Whether a node lies no higher than those beside it that count.
+  /// True if a node lies no higher than those beside it that count.
   template <class Value, class Counts>
   [[nodiscard]] static bool is_lowest(Value&& at, Counts&& counts) {
     const auto is_lower = [&](int k) { return counts(k) && at(k) < at(0); };
     return !is_lower(-1) && !is_lower(1);
   }
 
-  // Two parabolas reach between two nodes, one from either side. Where the film is smooth they agree; where it has a
-  // kink the one that dips less is believed. Values, lengths of intervals (k < 0: from node k to k + 1, else from k - 1
-  // to k) and whether a node counts, all by place from the node.
+  // Two parabolas cover the interval between two nodes, one from either side. Where the film is smooth they agree; at a
+  // kink the one that dips less is used. The functions return values, lengths of intervals (k < 0: from node k to k +
+  // 1, else from k - 1 to k) and whether a node counts, all by the offset k from the node.
   template <class Value, class Length, class Counts>
   [[nodiscard]] static Low between_nodes(Value&& at, Length&& length, Counts&& counts) {
     const double here = at(0);
@@ -116,8 +116,8 @@ class Search {
     if (!counts(-1) || !counts(1)) return node;
     const double back = length(-1), ahead = length(1);
     const Low first = lowest(here, -back, at(-1), ahead, at(1), -0.5 * back, 0.5 * ahead);
-    if (first.place == 0) return node;
-    const int way = first.place > 0 ? 1 : -1;
+    if (first.offset == 0) return node;
+    const int way = first.offset > 0 ? 1 : -1;
     if (!counts(2 * way)) return first.value > 0 && first.value < here ? first : node;
     const double a = way * length(way), b = a + way * length(2 * way);
     const Low second = lowest(here, a, at(way), b, at(2 * way), std::min(0.0, 0.5 * a), std::max(0.0, 0.5 * a));
@@ -125,13 +125,13 @@ class Search {
     return believed.value > 0 && believed.value < here ? believed : node;
   }
 
-  /// Along z = 0, where the rows on both sides are joined by straight lines.
+  /// Smallest thickness along z = 0, where the rows on both sides are joined by straight lines.
   [[nodiscard]] double in_the_middle() const {
     int low = 0;
     while (low + 2 < grid_.n_z && at_.z[low + 1] <= 0) ++low;
-    // A row in the middle is that, also where round-off has moved it: the one beside it may lie in a groove.
-    const double place = -at_.z[low] / at_.dz[low],
-                 t = std::abs(place - std::round(place)) < 1e-9 ? std::round(place) : place;
+    // A row within round-off of z = 0 is the middle itself: the one beside it may lie in a groove.
+    const double position = -at_.z[low] / at_.dz[low],
+                 t = std::abs(position - std::round(position)) < 1e-9 ? std::round(position) : position;
     const auto middle = [&](int i) { return (1 - t) * value(i, low) + t * value(i, low + 1); };
     const auto counts = [&](int i) { return (t == 1 || outside(i, low)) && (t == 0 || outside(i, low + 1)); };
     double least = std::numeric_limits<double>::infinity();
@@ -143,32 +143,32 @@ class Search {
       const auto step = [&](int k) { return at_.dx[wrapped(i + (k < 0 ? k : k - 1))]; };
       least = std::min(least, between_nodes(around, step, counts_around).value);
     }
-    return std::isfinite(least) ? least : in_features();  // a groove all around
+    return std::isfinite(least) ? least : in_features();  // a groove covers all of it
   }
 
   void search_border(const SurfaceFeature& f, Thinnest& best) const {
-    for (int k = 0; k < border_places; ++k) {
-      const double s = (k + 0.5) / border_places * 2 - 1;
+    for (int k = 0; k < border_points; ++k) {
+      const double s = (k + 0.5) / border_points * 2 - 1;
       std::visit([&](const auto& shape) { try_border(shape, f, s, best); }, f.shape);
     }
   }
 
-  /// Places on a border, s from -1 to 1.
+  /// Tries the points on a border at s from -1 to 1.
   void try_border(const Rectangle& /*shape*/, const SurfaceFeature& f, double s, Thinnest& best) const {
     const double half_arc = 0.5 * f.arc, half_length = 0.5 * f.length;
     for (const double side : {-1.0, 1.0}) {
-      try_place(f.phi + s * half_arc, f.z + side * half_length, best);
-      if (f.arc < two_pi) try_place(f.phi + side * half_arc, f.z + s * half_length, best);
+      try_point(f.phi + s * half_arc, f.z + side * half_length, best);
+      if (f.arc < two_pi) try_point(f.phi + side * half_arc, f.z + s * half_length, best);
     }
   }
 
   void try_border(const Ellipse& /*shape*/, const SurfaceFeature& f, double s, Thinnest& best) const {
     const double angle = std::numbers::pi * s;
-    try_place(f.phi + 0.5 * f.arc * std::cos(angle), f.z + 0.5 * f.length * std::sin(angle), best);
+    try_point(f.phi + 0.5 * f.arc * std::cos(angle), f.z + 0.5 * f.length * std::sin(angle), best);
   }
 
-  void try_place(double phi, double z, Thinnest& best) const {
-    const double sliver = 1e-9;  // a border is outside its own feature
+  void try_point(double phi, double z, Thinnest& best) const {
+    const double sliver = 1e-9;  // a border lies outside its own feature
     if (std::abs(z) > 0.5 * model_.L * (1 + sliver) || !is_on_land(phi, z)) return;
     const double value = between(phi, std::clamp(z, at_.z[0], at_.z[grid_.n_z - 1]));
     if (value >= best.value) return;
@@ -183,9 +183,9 @@ class Search {
     });
   }
 
-  /// Bilinear: the thickness itself has no step there.
+  /// Bilinear interpolation is used: the thickness itself has no step there.
   [[nodiscard]] double between(double phi, double z) const {
-    const auto [i, t] = at_.place_of(phi);
+    const auto [i, t] = at_.locate(phi);
     int j = 0;
     while (j + 2 < grid_.n_z && at_.z[j + 1] <= z) ++j;
     const double s = (z - at_.z[j]) / at_.dz[j];
@@ -193,7 +193,7 @@ class Search {
            t * ((1 - s) * value(i + 1, j) + s * value(i + 1, j + 1));
   }
 
-  /// Of a node, depth of features included.
+  /// Thickness at a node, depth of features included.
   [[nodiscard]] double with_depth(int k) const {
     double depth = 0;
     for (const SurfaceFeature& f : deep_) {
@@ -202,7 +202,7 @@ class Search {
     return h_[k] + depth;
   }
 
-  /// The node over features where the film is thinnest; -1 where they cover none.
+  /// Node over features where the film is thinnest; -1 where they cover none.
   [[nodiscard]] int node_in_features() const {
     int node = -1;
     double least = std::numeric_limits<double>::infinity();

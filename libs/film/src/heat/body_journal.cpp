@@ -6,7 +6,7 @@ namespace hersey::film {
 JournalConduction on_grid(const JournalConduction& journal, const Grid& from, const Grid& to) {
   JournalConduction result = journal;
   if (!journal.deforms()) return result;
-  const GridTransfer transfer = GridTransfer::by_place(from, to);
+  const GridTransfer transfer = GridTransfer::by_position(from, to);
   result.shape0 = transfer.along(journal.shape0);
   result.shape_by_heat = transfer.along(journal.shape_by_heat);
   result.shape_by_rise = transfer.along(journal.shape_by_rise);

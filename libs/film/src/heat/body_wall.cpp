@@ -20,7 +20,7 @@ MatrixXd at_nodes(const GridTransfer& transfer, const MatrixXd& fields) {
   return result;
 }
 
-/// Half of the distances to both neighbours.
+/// Returns half of the distances to both neighbours.
 VectorXd widths(const Grid& grid) {
   VectorXd width(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
@@ -34,8 +34,8 @@ VectorXd widths(const Grid& grid) {
 }  // namespace
 
 WallConduction on_grid(const WallConduction& wall, const Grid& from, const Grid& to) {
-  // An angle of the coarser grid is a mean of the finer ones, and its heat goes into them by the same weights.
-  const MatrixXd lines = GridTransfer::by_place(to, from).around(MatrixXd::Identity(to.n_phi, to.n_phi));
+  // An angle of the coarser grid is a mean of the finer ones, and its heat is distributed to them by the same weights.
+  const MatrixXd lines = GridTransfer::by_position(to, from).around(MatrixXd::Identity(to.n_phi, to.n_phi));
   MatrixXd means = lines.transpose() * widths(from).asDiagonal();
   means = (means.rowwise().sum().cwiseInverse().asDiagonal() * means).eval();
   WallConduction result = wall;
@@ -43,7 +43,7 @@ WallConduction on_grid(const WallConduction& wall, const Grid& from, const Grid&
   result.rise = means * wall.rise * means.transpose();
   if (wall.rise_body.size() > 0) result.rise_body = wall.rise_body * means.transpose();
   if (!wall.deforms()) return result;
-  const GridTransfer transfer = GridTransfer::by_place(from, to);
+  const GridTransfer transfer = GridTransfer::by_position(from, to);
   result.shape0 = transfer(wall.shape0);
   result.shape_by_heat = at_nodes(transfer, wall.shape_by_heat * means.transpose());
   result.shape_by_rise = transfer(wall.shape_by_rise);

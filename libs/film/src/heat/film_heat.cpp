@@ -77,7 +77,7 @@ HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, doubl
     return T + (rise > 0 ? std::log1p(beta * thicker * rise) / beta : rise);
   };
   image.film = image.film.unaryExpr(thinned);
-  // By so much less a journal grows: it would fill its bore at once.
+  // The journal's heat is reduced likewise; at the heat of `image` the journal would fill its bore.
   if (const JournalConduction* body = conduction_of(thermal.journal); body != nullptr && body->rise > 0) {
     image.journal = thinned(image.journal);
     image.journal_heat = (image.journal - body->T0) / body->rise;
@@ -98,10 +98,10 @@ struct FilmHeat::Impl {
   [[nodiscard]] const Eigen::VectorXd& viscosities_at_rest();
   [[nodiscard]] Eigen::VectorXd viscosities();
   void thin();
-  [[nodiscard]] bool holds_walls() const { return thermal.walls == WallMotion::held; }
+  [[nodiscard]] bool has_fixed_walls() const { return thermal.walls == WallMotion::fixed; }
   void show_rest();
-  /// What is to be seen of the last answer, worked out when it is asked for: iterations of film and heat do not need
-  /// it.
+  /// Computes the observation of the last solution. It is computed on demand, because iterations of film and heat do
+  /// not need it.
   void observe();
   [[nodiscard]] const HeatObservables& look();
   void show_surfaces(const CarryingFilm& film);
@@ -117,7 +117,7 @@ struct FilmHeat::Impl {
   LayerFlows flows;
   HeatEquations equations;
   HeatState state;
-  WallsOverCycles held_walls{thermal};
+  WallsOverCycles fixed_walls{thermal};
   HeatState start_of_step, end_of_step;
   bool is_observed = true;
   double dt = 0;                   // of the last step [s]
@@ -157,7 +157,8 @@ HeatState FilmHeat::Impl::start() const {
   return first;
 }
 
-/// Of the layers at the cavitation pressure [Pa s]. Film and heat ask for them alternately: they are worked out once.
+/// Viscosities of the layers at the cavitation pressure [Pa s]. Film and heat need them alternately; they are computed
+/// once.
 const Eigen::VectorXd& FilmHeat::Impl::viscosities_at_rest() {
   if (T_of_mu.size() == state.film.size() && T_of_mu == state.film) return mu_at_rest;
   const TemperatureLaw& law = flow.model().lubricant.temperature_law;
@@ -176,7 +177,7 @@ Eigen::VectorXd FilmHeat::Impl::viscosities() {
   return mu;
 }
 
-/// By the shear in the film last evaluated.
+/// Viscosities at the shear in the film last evaluated.
 void FilmHeat::Impl::thin() {
   const auto layers = static_cast<std::size_t>(thermal.layers);
   const Lubricant& oil = flow.model().lubricant;
@@ -247,10 +248,10 @@ Eigen::VectorXd FilmHeat::shell_opening() const {
   return wall == nullptr || !wall->deforms() ? Eigen::VectorXd() : wall->shape(impl_->state.wall_heat);
 }
 
-// Before it has settled the body is as warm everywhere (thermal.39).
+// Before it has settled all of the body has one temperature (thermal.39).
 Eigen::VectorXd FilmHeat::shell_opening_in_time() const {
   const WallConduction* wall = conduction_of(impl_->thermal.shell);
-  if (wall == nullptr || !wall->deforms() || impl_->held_walls.have_settled()) return shell_opening();
+  if (wall == nullptr || !wall->deforms() || impl_->fixed_walls.have_settled()) return shell_opening();
   return wall->shape_by_rise * (impl_->state.shell.mean() - wall->T_reference);
 }
 
@@ -259,10 +260,10 @@ Eigen::VectorXd FilmHeat::journal_growth() const {
   return journal == nullptr || !journal->deforms() ? Eigen::VectorXd() : journal->shape(impl_->state.journal_heat);
 }
 
-// Likewise (thermal.62).
+// The same holds for the journal (thermal.62).
 Eigen::VectorXd FilmHeat::journal_growth_in_time() const {
   const JournalConduction* journal = conduction_of(impl_->thermal.journal);
-  if (journal == nullptr || !journal->deforms() || impl_->held_walls.have_settled()) return journal_growth();
+  if (journal == nullptr || !journal->deforms() || impl_->fixed_walls.have_settled()) return journal_growth();
   return journal->shape_by_rise * (impl_->state.journal - journal->T_reference);
 }
 
@@ -317,10 +318,10 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   if (m.shears_layers()) m.thin();
   m.end_of_step = m.state;
   m.is_observed = false;
-  if (terminals_of(m.thermal).has_any() && !(m.holds_walls() && m.dt > 0)) m.find_exchange();
+  if (terminals_of(m.thermal).has_any() && !(m.has_fixed_walls() && m.dt > 0)) m.find_exchange();
 }
 
-// What walls that are nodes take up, and by how much more of a film that follows them (thermal.46).
+// Computes the heat into walls that are nodes, and its derivatives with a film that follows them (thermal.46).
 void FilmHeat::Impl::find_exchange() {
   const CarryingFilm film = carrying();
   const Eigen::Index outside = state.outside.size(), n = 2 + outside;
@@ -336,9 +337,9 @@ void FilmHeat::Impl::find_exchange() {
     return heat;
   };
   by_outside.clear();
-  for (Eigen::Index place = 0; place < outside; ++place) {
-    by_outside.push_back(equations.response_to_outside(place));
-    exchange.by_T.col(2 + place) = into_walls(by_outside.back());
+  for (Eigen::Index terminal = 0; terminal < outside; ++terminal) {
+    by_outside.push_back(equations.response_to_outside(terminal));
+    exchange.by_T.col(2 + terminal) = into_walls(by_outside.back());
   }
   const bool is_shell = std::holds_alternative<NodeWall>(thermal.shell);
   const bool is_journal = std::holds_alternative<NodeWall>(thermal.journal);
@@ -368,8 +369,8 @@ void FilmHeat::move_walls(const Eigen::VectorXd& T) {
     m.state.supplies += dT * change.supplies;
     m.state.outside += dT * change.outside;
   };
-  for (std::size_t place = 0; place < m.by_outside.size(); ++place)
-    move(m.by_outside[place], by[2 + static_cast<Eigen::Index>(place)]);
+  for (std::size_t terminal = 0; terminal < m.by_outside.size(); ++terminal)
+    move(m.by_outside[terminal], by[2 + static_cast<Eigen::Index>(terminal)]);
   if (std::holds_alternative<NodeWall>(m.thermal.shell)) move(m.by_shell, by[0]);
   if (std::holds_alternative<NodeWall>(m.thermal.journal)) move(m.by_journal, by[1]);
   m.exchange.heat += m.exchange.by_T * by;
@@ -381,7 +382,7 @@ void FilmHeat::move_walls(const Eigen::VectorXd& T) {
 double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
   Impl& m = *impl_;
   if (!m.shears_layers()) return 0;
-  (void)m.look();  // of the film before
+  (void)m.look();  // observation of the previous film
   const FilmDomain domain = m.flow.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(m.flow.model(), domain));
   const Eigen::VectorXd before = m.state.thinning;
@@ -391,14 +392,14 @@ double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, c
 
 const WallExchange& FilmHeat::mean_exchange() {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(m.holds_walls() && m.equations.mean().has_steps(), "a mean over steps with walls that are held");
-  return m.held_walls.end_cycle(m.equations.mean(), m.state);
+  HERSEY_REQUIRE(m.has_fixed_walls() && m.equations.mean().has_steps(), "a mean over steps with fixed walls");
+  return m.fixed_walls.end_cycle(m.equations.mean(), m.state);
 }
 
 WallCorrection FilmHeat::settle_walls(const Eigen::VectorXd& T_nodes) {
   Impl& m = *impl_;
-  (void)m.look();  // of the step before
-  const WallCorrection correction = m.held_walls.settle(T_nodes, m.state);
+  (void)m.look();  // observation of the previous step
+  const WallCorrection correction = m.fixed_walls.settle(T_nodes, m.state);
   m.average_walls();
   return correction;
 }
@@ -415,19 +416,19 @@ void FilmHeat::Impl::observe() {
   observed.balance = equations.balance(film, start_of_step, end_of_step);
   observed.T_supplies = end_of_step.supplies;
   if (const WallConduction* wall = conduction_of(thermal.shell); wall != nullptr && wall->T_body0.size() > 0)
-    observed.T_body_max = dt > 0 && !held_walls.have_settled() ? end_of_step.shell.maxCoeff()
-                                                               : wall->body(end_of_step.wall_heat).maxCoeff();
+    observed.T_body_max = dt > 0 && !fixed_walls.have_settled() ? end_of_step.shell.maxCoeff()
+                                                                : wall->body(end_of_step.wall_heat).maxCoeff();
   if (const JournalConduction* body = conduction_of(thermal.journal); body != nullptr && body->T_body0.size() > 0)
     observed.T_journal_body_max =
-        dt > 0 && !held_walls.have_settled() ? end_of_step.journal : body->body(end_of_step.journal_heat).maxCoeff();
+        dt > 0 && !fixed_walls.have_settled() ? end_of_step.journal : body->body(end_of_step.journal_heat).maxCoeff();
   show_surfaces(film);
   find_hottest();
   average(film);
   average_walls();
 }
 
-// On a wall without heat the temperature has no slope: a parabola through the two layers beside it. Elsewhere heat
-// passes half a layer.
+// On a wall without heat the temperature has no slope and follows from a parabola through the two layers beside it.
+// Elsewhere heat passes half a layer.
 void FilmHeat::Impl::show_surfaces(const CarryingFilm& film) {
   const Grid& grid = flow.model().grid;
   const int n = thermal.layers;
@@ -500,9 +501,9 @@ void FilmHeat::persist(Archive& archive) {
   archive.io("T_supplies", impl_->state.supplies);
   if (impl_->state.outside.size() > 0) archive.io("T_outside", impl_->state.outside);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
-  if (!impl_->holds_walls()) return;
+  if (!impl_->has_fixed_walls()) return;
   impl_->equations.mean().persist(archive);
-  impl_->held_walls.persist(archive);
+  impl_->fixed_walls.persist(archive);
 }
 
 }  // namespace hersey::film

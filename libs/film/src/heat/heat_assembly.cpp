@@ -6,21 +6,22 @@
 
 #include "heat/heat_equations.h"
 
-// The rows of layers, ring, journal and supplies (thermal.10 to thermal.15).
+// Rows of layers, ring, journal and supplies (thermal.10 to thermal.15).
 namespace hersey::film {
 namespace {
 
-// Oil that flows across has the mean of two layers' temperatures up to so many times the flow at which conduction alone
-// would still keep each between its neighbours'; flow along the film does that as well.
+// Ratio of the flow across layers to the largest flow at which conduction alone keeps each temperature between its
+// neighbours'. Up to this ratio the oil has the mean of two layers' temperatures, because flow along the film bounds
+// temperatures as well.
 constexpr double trusted = 4;
 
-// Of the largest flow, what a supply without any is given of fresh oil, whose temperature it then has: too little for
-// the balance of heat to see, as in a film without feed that is squeezed slowly.
+// Flow of fresh oil into a supply without any, over the largest flow: it determines the supply's temperature, as in a
+// film without feed that is squeezed slowly, and is too small to affect the balance of heat.
 constexpr double kThreadOfSupply = 1e-11;
 
 }  // namespace
 
-// Layers first, then what stands at their nodes in the place of a film, then the few rows of journal and supplies.
+// The rows of layers come first, then those of supplies at their nodes, then the few rows of journal and supplies.
 void HeatEquations::assemble(const CarryingFilm& film, const HeatState& start) {
   system_.set_zero();
   known_.setZero(system_.size() + 1 + supplies());
@@ -36,20 +37,21 @@ void HeatEquations::assemble(const CarryingFilm& film, const HeatState& start) {
   add_conduction(film);
   add_shell(film, start);
   add_journal(film);
-  if (holds_walls(film)) add_equations_to_mean(film, start);
+  if (has_fixed_walls(film)) add_equations_to_mean(film, start);
   add_supplies(film, start);
   renew(film);
   add_remainder(film, start);
-  if (holds_walls(film)) hold_walls(start);
+  if (has_fixed_walls(film)) fix_walls(start);
 }
 
-// Where nothing flows, threads are those of the film's own oil once a second.
+// Without any flow the scale is that of replacing the film's own oil once a second.
 double HeatEquations::throughput(const CarryingFilm& film) const {
   const double flows = film.balance.largest_throughput();
   return flows > 0 ? flows : model_.c * model_.R * model_.L;
 }
 
-// (thermal.10): without flow a steady film would have no temperature, so that a thread of storage is left to it.
+// Storage follows (thermal.10). Without flow a steady film would have no temperature, so that a small storage term is
+// left to it.
 void HeatEquations::add_storage(const CarryingFilm& film, const HeatState& start) {
   storage_.resize(start.film.size());
   for (int node = 0; node < model_.grid.size(); ++node) {
@@ -72,7 +74,7 @@ double HeatEquations::slope_across(const Eigen::VectorXd& T, int node, int layer
 void HeatEquations::add_flows(const CarryingFilm& film, const HeatState& start) {
   inflow_.setZero(system_.size());
   for (std::size_t f = 0; f < film.balance.faces().size(); ++f) {
-    std::array<std::optional<Upstream>, 2> ways;  // layers may flow either way
+    std::array<std::optional<Upstream>, 2> ways;  // layers may flow in either direction
     for (int l = 0; l < layers(); ++l) {
       const double q = film.flows.over_face(f, l);
       if (q == 0) continue;
@@ -80,7 +82,7 @@ void HeatEquations::add_flows(const CarryingFilm& film, const HeatState& start) 
       if (!way) way = upstream(film, f, q > 0);
       add_flow(*way, l, std::abs(q));
       const Face& face = film.balance.faces()[f];
-      const double most = std::abs(q) * width(l) / 6;  // of oil that flows one way
+      const double most = std::abs(q) * width(l) / 6;  // limit, reached by oil that flows in one direction
       const double lead =
           rc_ * std::clamp(film.flows.lead_over_face(f, l), -most, most) * slope_across(start.film, way->from, l);
       known_[system_.row(face.a, l)] -= lead;
@@ -89,15 +91,15 @@ void HeatEquations::add_flows(const CarryingFilm& film, const HeatState& start) 
   }
 }
 
-// On which side of a node the other lies.
+// Returns the side of a node on which another one lies.
 HeatSystem::Side HeatEquations::side_of(int from, int to) const {
   const int n_z = model_.grid.n_z;
   if (to / n_z == from / n_z) return to > from ? HeatSystem::left : HeatSystem::right;
   return to / n_z == model_.grid.next(from / n_z) ? HeatSystem::before : HeatSystem::after;
 }
 
-// On the face oil has the temperature that the last two nodes extrapolate to (thermal.11). Beside a supply, an edge or
-// an empty node it has that of the last node.
+// On the face oil has the temperature extrapolated from the last two nodes (thermal.11). Beside a supply, an edge or an
+// empty node it has that of the last node.
 HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::size_t f, bool is_forwards) const {
   const Face& face = film.balance.faces()[f];
   const Grid& grid = model_.grid;
@@ -121,7 +123,8 @@ HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::s
   }
   const FlowBalance& b = film.balance;
   if (b.nodes()[behind].content < 1e-3) return way;
-  // By what a line does not mix of both: nothing jumps as it passes over a node. Beside a feature not at all.
+  // The extrapolation counts by the share of oil at both nodes that a line does not mix, so that nothing jumps as the
+  // line passes over a node. Beside a feature it does not count at all.
   const auto own = [&b](int node) {
     const double mixed_share = b.supplied_share(node);
     return mixed_share > 0 && b.supplied_by(node) >= 0 ? 0.0 : 1 - mixed_share;
@@ -130,7 +133,7 @@ HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::s
   return way;
 }
 
-// Oil comes with the temperature of where it has been (thermal.10), and with what it rises by from there to the face.
+// Oil has the temperature of the node upstream (thermal.10) plus its rise from there to the face.
 void HeatEquations::add_flow(const Upstream& way, int layer, double q) {
   const double heat = rc_ * q, extrapolated = heat * way.slope_share;
   system_.diagonal(system_.row(way.to, layer)) += heat;
@@ -142,8 +145,8 @@ void HeatEquations::add_flow(const Upstream& way, int layer, double q) {
   system_.beyond(way.to, layer, way.side) += extrapolated;
 }
 
-// With the mean temperature of both layers, second order, where conduction between them is not next to nothing beside
-// what flows; beyond, towards that upstream (thermal.52).
+// The flow has the mean temperature of both layers, of second order, where conduction between them is comparable with
+// it; beyond that it tends to the temperature upstream (thermal.52).
 void HeatEquations::add_flow_upwards(const CarryingFilm& film) {
   for (int node = 0; node < model_.grid.size(); ++node) {
     for (int l = 0; l + 1 < layers(); ++l) {
@@ -167,8 +170,8 @@ void HeatEquations::add_edges(const CarryingFilm& film) {
       inflow_[row] += in * width(l);
       system_.diagonal(row) += rc_ * in * width(l);
       known_[row] += rc_ * in * width(l) * at_edges(outside_);
-      if (const Eigen::Index place = at_.place_of_oil(thermal_.oil.edges); place >= 0)
-        by_outside_(row, place) += rc_ * in * width(l);
+      if (const Eigen::Index terminal = at_.index_of_oil(thermal_.oil.edges); terminal >= 0)
+        by_outside_(row, terminal) += rc_ * in * width(l);
     }
   }
 }
@@ -185,7 +188,7 @@ void HeatEquations::add_conduction(const CarryingFilm& film) {
   }
 }
 
-// A wall without heat leaves its share of what asperities dissipate to the oil (thermal.54).
+// A wall without heat leaves its share of the asperities' dissipation to the oil (thermal.54).
 void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) {
   const bool is_insulated = !conducts(thermal_.shell);
   const bool has_rows = has_own_temperatures(thermal_.shell);
@@ -214,13 +217,13 @@ void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) 
   if (const WallConduction* body = conduction_of(thermal_.shell)) add_body(*body, film, start);
 }
 
-// A steady body answers all of the heat at once (thermal.37); over a step it keeps its temperatures. Where these are
-// held for a cycle the rows are first balances of heat, of which the mean is taken.
+// In a steady film a body is in balance with all of the heat (thermal.37); over a step it keeps its temperatures. If
+// these are fixed for a cycle, the rows are at first balances of heat, of which the mean is taken.
 void HeatEquations::add_body(const WallConduction& body, const CarryingFilm& film, const HeatState& start) {
   const int n = model_.grid.n_phi, first = system_.ring_row(0);
   if (film.dt > 0) {
     system_.set_answer(nullptr, 1);
-    if (holds_walls(film)) return;
+    if (has_fixed_walls(film)) return;
     for (int node = 0; node < model_.grid.size(); ++node) system_.from_film(node, 0) = system_.from_film(node, 1) = 0;
     for (int i = 0; i < n; ++i) {
       system_.diagonal(first + i) = 1;
@@ -246,8 +249,8 @@ void HeatEquations::add_ring(const CarryingFilm& film, const HeatState& start) {
     system_.ring_before(next) -= ring_.around[i];
     system_.diagonal(row) += ring_.outside[i];
     known_[row] += ring_.outside[i] * at_ring(outside_);
-    if (at_.ambient) by_outside_(row, at_.place_of_ambient()) += ring_.outside[i];
-    if (film.dt == 0 || holds_walls(film)) continue;
+    if (at_.ambient) by_outside_(row, at_.index_of_ambient()) += ring_.outside[i];
+    if (film.dt == 0 || has_fixed_walls(film)) continue;
     system_.diagonal(row) += ring_.capacity[i] / film.dt;
     known_[row] += ring_.capacity[i] / film.dt * start.shell[i];
   }
@@ -268,7 +271,7 @@ void HeatEquations::add_journal(const CarryingFilm& film) {
   }
 }
 
-// What a node's film gives its walls is already that of its share of the area: it is not to be scaled by it once more.
+// The film's heat into its walls is already that of the node's share of the area and must not be scaled again.
 void HeatEquations::add_walls_of_film(const CarryingFilm& film, const HeatState& start, int node, double chi) {
   if (conducts(thermal_.shell)) {
     const WallFlux flux = to_shell(film, node);
@@ -290,52 +293,53 @@ void HeatEquations::add_walls_of_film(const CarryingFilm& film, const HeatState&
   by_journal_[row] += chi * flux.wall();
 }
 
-// A line has no width: what is dissipated at its nodes warms the film's oil at its place, and not all that the line
-// mixes; as much in all layers, which it mixes as well.
-void HeatEquations::add_film_on_line(const CarryingFilm& film, const Held& held, const Eigen::VectorXd& taken_on) {
+// A line has no width: the dissipation at its nodes warms only the film's oil at the line, not all of the oil that the
+// line mixes. It is distributed over all layers, which the line mixes, too.
+void HeatEquations::add_film_on_line(const CarryingFilm& film, const SuppliedNode& supplied,
+                                     const Eigen::VectorXd& taken_on) {
   double heat = 0;
-  for (int l = 0; l < layers(); ++l) heat += held.chi * film.flows.dissipation(held.node, l);
+  for (int l = 0; l < layers(); ++l) heat += supplied.chi * film.flows.dissipation(supplied.node, l);
   const double all = taken_on.sum();
-  for (int l = 0; l < layers() && all > 0; ++l) known_[system_.row(held.node, l)] += heat * taken_on[l] / all;
+  for (int l = 0; l < layers() && all > 0; ++l) known_[system_.row(supplied.node, l)] += heat * taken_on[l] / all;
 }
 
-// Oil comes out of a supply with the temperature there; of what passes a node, the supply's share takes it on
+// Oil leaves a supply at its temperature. Of the oil that passes a node, the supply's share takes that temperature
 // (thermal.14).
 void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& start) {
-  held_.clear();
+  supplied_nodes_.clear();
   supply_of_.assign(static_cast<std::size_t>(model_.grid.size()), -1);
   for (int node = 0; node < model_.grid.size(); ++node) {
     if (!film.balance.is_supplied(node)) continue;
-    Held held{.node = node,
-              .supply = film.balance.supplied_by(node) + (has_line() ? 1 : 0),
-              .chi = film.balance.supplied_share(node),
-              .flow = film.balance.supply(node)};
-    supply_of_[node] = held.supply;
+    SuppliedNode supplied{.node = node,
+                          .supply = film.balance.supplied_by(node) + (has_line() ? 1 : 0),
+                          .chi = film.balance.supplied_share(node),
+                          .flow = film.balance.supply(node)};
+    supply_of_[node] = supplied.supply;
     const double thread = least_fill_ * throughput(film);
     Eigen::VectorXd taken_on(layers());
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
-      const double share = held.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
-      const double in = rc_ * std::max(held.flow, 0.0) * share, passing = rc_ * inflow_[row];
-      held.rows.push_back(
+      const double share = supplied.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
+      const double in = rc_ * std::max(supplied.flow, 0.0) * share, passing = rc_ * inflow_[row];
+      supplied.rows.push_back(
           {system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row], by_outside_.row(row)});
-      held.rows.back().entries.front().second += rc_ * held.flow * share;
-      taken_on[l] = held.chi * std::max(passing + in, rc_ * thread * width(l));
+      supplied.rows.back().entries.front().second += rc_ * supplied.flow * share;
+      taken_on[l] = supplied.chi * std::max(passing + in, rc_ * thread * width(l));
       system_.diagonal(row) += in;
-      system_.scale(row, 1 - held.chi);
-      known_[row] *= 1 - held.chi, by_shell_[row] *= 1 - held.chi, by_journal_[row] *= 1 - held.chi;
-      by_outside_.row(row) *= 1 - held.chi;
+      system_.scale(row, 1 - supplied.chi);
+      known_[row] *= 1 - supplied.chi, by_shell_[row] *= 1 - supplied.chi, by_journal_[row] *= 1 - supplied.chi;
+      by_outside_.row(row) *= 1 - supplied.chi;
       system_.diagonal(row) += taken_on[l];
-      by_supply_[row] = (1 - held.chi) * in + taken_on[l];
+      by_supply_[row] = (1 - supplied.chi) * in + taken_on[l];
     }
-    add_walls_of_film(film, start, node, held.chi);
-    if (is_line(held.supply)) add_film_on_line(film, held, taken_on);
-    held_.push_back(std::move(held));
+    add_walls_of_film(film, start, node, supplied.chi);
+    if (is_line(supplied.supply)) add_film_on_line(film, supplied, taken_on);
+    supplied_nodes_.push_back(std::move(supplied));
   }
 }
 
-// Of a node's oil the supply has mixed what it gives, its share of what passes, and what has been mixed before:
-// beside nodes that it has wholly two passes find all of it.
+// The supply has mixed its own inflow into a node, its share of the oil that passes, and oil that it had mixed before.
+// Beside nodes wholly in the supply two passes find all of it.
 void HeatEquations::find_mixed_shares(const CarryingFilm& film) {
   const auto& faces = film.balance.faces();
   mixed_share_.setZero(system_.size());
@@ -350,47 +354,48 @@ void HeatEquations::find_mixed_shares(const CarryingFilm& film) {
           came[system_.row(to, l)] += std::abs(q) * mixed_share_[system_.row(from, l)];
       }
     }
-    for (const Held& held : held_) {
+    for (const SuppliedNode& supplied : supplied_nodes_) {
       for (int l = 0; l < layers(); ++l) {
-        const int row = system_.row(held.node, l);
-        const double given = std::max(held.flow, 0.0) * width(l), passing = inflow_[row];
-        const double own = given + held.chi * passing + (1 - held.chi) * came[row];
+        const int row = system_.row(supplied.node, l);
+        const double given = std::max(supplied.flow, 0.0) * width(l), passing = inflow_[row];
+        const double own = given + supplied.chi * passing + (1 - supplied.chi) * came[row];
         mixed_share_[row] = passing + given > 0 ? std::min(1.0, own / (passing + given)) : 1;
       }
     }
   }
 }
 
-// Of the film's oil that comes to a supply, a share is not carried over but replaced: of what comes to a node, what the
-// supply mixes there and takes away. Of a node's oil a part may be the supply's own: the film's heat lies above that.
+// A share of the film's oil that reaches a supply is not carried over but replaced: of the oil that reaches a node, the
+// part that the supply mixes there and takes away. A part of a node's oil may already be the supply's own; the film's
+// heat is counted above it.
 void HeatEquations::renew(const CarryingFilm& film) {
   renewals_.clear();
   if (thermal_.carry_over == 1) return;
   find_mixed_shares(film);
-  std::vector<const Held*> held_at(static_cast<std::size_t>(model_.grid.size()), nullptr);
-  for (const Held& held : held_) held_at[static_cast<std::size_t>(held.node)] = &held;
+  std::vector<const SuppliedNode*> supplied_at(static_cast<std::size_t>(model_.grid.size()), nullptr);
+  for (const SuppliedNode& supplied : supplied_nodes_) supplied_at[static_cast<std::size_t>(supplied.node)] = &supplied;
   const double replaced = (1 - thermal_.carry_over) * rc_;
   const auto& faces = film.balance.faces();
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (int l = 0; l < layers(); ++l) {
       const double q = film.flows.over_face(f, l);
       const int from = q > 0 ? faces[f].a : faces[f].b;
-      const Held* held = held_at[static_cast<std::size_t>(q > 0 ? faces[f].b : faces[f].a)];
-      if (held == nullptr || q == 0) continue;
-      const int to = system_.row(held->node, l);
+      const SuppliedNode* supplied = supplied_at[static_cast<std::size_t>(q > 0 ? faces[f].b : faces[f].a)];
+      if (supplied == nullptr || q == 0) continue;
+      const int to = system_.row(supplied->node, l);
       const double taken =
-          std::min(1.0, std::max(-held->flow, 0.0) * film.flows.leaving_share(held->node, l) / inflow_[to]);
-      const double heat = replaced * (held->chi + (1 - held->chi) * taken) * std::abs(q);
+          std::min(1.0, std::max(-supplied->flow, 0.0) * film.flows.leaving_share(supplied->node, l) / inflow_[to]);
+      const double heat = replaced * (supplied->chi + (1 - supplied->chi) * taken) * std::abs(q);
       const double mixed_share = mixed_share_[system_.row(from, l)];
-      // What another supply has mixed is its own matter.
-      const bool is_same = supply_of_[from] == held->supply;
-      renewals_.push_back(
-          {held->supply, system_.row(from, l), is_same ? heat : (1 - mixed_share) * heat, is_same ? mixed_share : 0});
+      // oil that another supply has mixed is part of that supply's balance
+      const bool is_same = supply_of_[from] == supplied->supply;
+      renewals_.push_back({supplied->supply, system_.row(from, l), is_same ? heat : (1 - mixed_share) * heat,
+                           is_same ? mixed_share : 0});
     }
   }
 }
 
-// The balance of a free journal (thermal.13). One in a body passes all of its heat on through the body's resistance,
+// Balance of a free journal (thermal.13). A journal in a body passes all of its heat through the body's resistance,
 // (thermal.60) over that: as to a lumped body of the temperature T_0 with the conductance 1/g.
 void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& start) {
   const int journal = system_.size();
@@ -409,31 +414,32 @@ void HeatEquations::add_journal_row(const CarryingFilm& film, const HeatState& s
     if (body != nullptr) {
       journal_self_ += 1 / body->rise;
       known_[journal] += body->T0 / body->rise;
-    } else if (film.dt > 0 && !holds_walls(film)) {
+    } else if (film.dt > 0 && !has_fixed_walls(film)) {
       journal_self_ += heat_capacity / film.dt;
       known_[journal] += heat_capacity / film.dt * start.journal;
     }
   }
-  if (journal_self_ == 0) hold_journal(body != nullptr && film.dt == 0 ? body->T0 : start.journal);
+  if (journal_self_ == 0) fix_journal(body != nullptr && film.dt == 0 ? body->T0 : start.journal);
 }
 
-// The row of the journal and those of the supplies (thermal.15).
+// Adds the row of the journal and those of the supplies (thermal.15).
 void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& start) {
   const int journal = system_.size();
   add_journal_row(film, start);
   const double thread = rc_ * kThreadOfSupply * throughput(film);
   std::vector<double> flow(static_cast<std::size_t>(supplies()), 0.0);
-  for (const Held& held : held_) {
-    flow[held.supply] += held.flow;
-    for (const Held::Row& row : held.rows) {
-      known_[journal + 1 + held.supply] += row.known;
-      by_shell_[journal + 1 + held.supply] += row.by_shell;
-      by_outside_.row(journal + 1 + held.supply) += row.by_outside;
+  for (const SuppliedNode& supplied : supplied_nodes_) {
+    flow[supplied.supply] += supplied.flow;
+    for (const SuppliedNode::Row& row : supplied.rows) {
+      known_[journal + 1 + supplied.supply] += row.known;
+      by_shell_[journal + 1 + supplied.supply] += row.by_shell;
+      by_outside_.row(journal + 1 + supplied.supply) += row.by_outside;
     }
   }
   const auto give = [&](int supply, double heat) {  // oil at the temperature of fresh oil
     known_[journal + 1 + supply] += heat * fresh(supply, outside_);
-    if (const Eigen::Index place = oil_of(supply); place >= 0) by_outside_(journal + 1 + supply, place) += heat;
+    if (const Eigen::Index terminal = oil_of(supply); terminal >= 0)
+      by_outside_(journal + 1 + supply, terminal) += heat;
   };
   for (const Renewal& renewal : renewals_) give(renewal.supply, renewal.heat * (1 - renewal.mixed_share));
   supply_self_.assign(flow.size(), 0.0);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <variant>
 
-// What heat flows where: conductances to walls and between layers, and the balance of all terms. The rows are laid in
-// heat_assembly.cpp and solved in heat_solution.cpp.
+// Conductances to walls and between layers, and the balance of all terms. The rows are assembled in heat_assembly.cpp
+// and solved in heat_solution.cpp.
 namespace hersey::film {
 
 double HeatEquations::oil_share(const Node& node) { return std::clamp(node.theta, least_fill_, 1.0); }
@@ -32,37 +32,37 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
 
 Eigen::Index HeatEquations::oil_of(int supply) const {
   const int feature = supply - (has_line() ? 1 : 0);
-  if (feature < 0) return at_.place_of_oil(thermal_.oil.line);
+  if (feature < 0) return at_.index_of_oil(thermal_.oil.line);
   return thermal_.oil.features.empty() ? -1
-                                       : at_.place_of_oil(thermal_.oil.features[static_cast<std::size_t>(feature)]);
+                                       : at_.index_of_oil(thermal_.oil.features[static_cast<std::size_t>(feature)]);
 }
 
 double HeatEquations::at_edges(const Eigen::VectorXd& outside) const {
-  const Eigen::Index place = at_.place_of_oil(thermal_.oil.edges);
-  return place < 0 ? thermal_.T_edges : outside[place];
+  const Eigen::Index terminal = at_.index_of_oil(thermal_.oil.edges);
+  return terminal < 0 ? thermal_.T_edges : outside[terminal];
 }
 
 double HeatEquations::at_ring(const Eigen::VectorXd& outside) const {
-  return at_.ambient ? outside[at_.place_of_ambient()] : std::get<RingWall>(thermal_.shell).T_ambient;
+  return at_.ambient ? outside[at_.index_of_ambient()] : std::get<RingWall>(thermal_.shell).T_ambient;
 }
 
-// Oil of a node's temperature, of its own, or the film's (thermal.40).
+// Temperature of the oil supplied: that of a node, its own, or the film's (thermal.40).
 double HeatEquations::fresh(int supply, const Eigen::VectorXd& outside) const {
-  if (const Eigen::Index place = oil_of(supply); place >= 0) return outside[place];
+  if (const Eigen::Index terminal = oil_of(supply); terminal >= 0) return outside[terminal];
   const int feature = supply - (has_line() ? 1 : 0);
   if (feature < 0) return thermal_.T_line.value_or(thermal_.T_supply);
   if (thermal_.T_features.empty()) return thermal_.T_supply;
   return thermal_.T_features[static_cast<std::size_t>(feature)];
 }
 
-// With the weights of the film's own power (film.53), so that what warms is what rubs.
+// The weights are those of the film's own power (film.53), so that heat equals friction.
 double HeatEquations::asperity_power(const CarryingFilm& film, int node) const {
   const GridGeometry& geometry = film.balance.geometry();
   const double area = geometry.weight(node / model_.grid.n_z, node % model_.grid.n_z);
   return area * film.balance.nodes()[node].asperity * film.wrench.friction_power_per_contact(node % model_.grid.n_z);
 }
 
-// Shared by the surfaces' effusivities (thermal.54).
+// The surfaces share it by their effusivities (thermal.54).
 double HeatEquations::shell_friction(const CarryingFilm& film, int node) const {
   return shell_share_ * asperity_power(film, node);
 }
@@ -71,8 +71,8 @@ double HeatEquations::journal_friction(const CarryingFilm& film, int node) const
   return (1 - shell_share_) * asperity_power(film, node);
 }
 
-// By the slope of the temperature at the wall, behind which more may resist. Oil that stands in a supply is no film: it
-// heats no wall.
+// The flux follows from the slope of the temperature at the wall, behind which the wall may have a resistance of its
+// own. Oil in a supply is no film and heats no wall.
 WallFlux HeatEquations::to_wall(const CarryingFilm& film, int node, int layer, double resistance) const {
   const Node& at = film.balance.nodes()[node];
   const double k = model_.lubricant.conductivity * oil_share(at) / at.h;
@@ -117,7 +117,7 @@ double HeatEquations::made(const CarryingFilm& film, int node, int layer) const 
          width(layer);
 }
 
-// With the oil of the end and the rate at which it has changed; pockets of air keep a little.
+// The storage is that of the oil at the end and the rate at which it has changed; air pockets keep a little.
 double HeatEquations::start_volume(const CarryingFilm& film, int node) const {
   const FlowBalance& b = film.balance;
   const double end = b.area(node) * b.nodes()[node].content * b.oil_gap(node);
@@ -148,8 +148,8 @@ double HeatEquations::renewed(const HeatState& state, int supply) const {
   return heat;
 }
 
-// Each term by its own integral; temperatures count from that of the supply, so that a missing drop of oil brings no
-// heat (thermal.17).
+// Each term has its own integral. Temperatures count from that of the supply, so that an error in the mass of oil
+// brings no heat (thermal.17).
 HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& start, const HeatState& end) const {
   const double T0 = thermal_.T_supply;
   HeatBalance sum;
@@ -176,7 +176,7 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
     }
   }
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
-  for (const Held& held : held_) flow[held.supply] += held.flow;
+  for (const SuppliedNode& supplied : supplied_nodes_) flow[supplied.supply] += supplied.flow;
   for (int k = 0; k < supplies(); ++k)
     sum.to_oil += renewed(end, k) - rc_ * flow[k] * ((flow[k] > 0 ? fresh(k, end.outside) : end.supplies[k]) - T0);
   return sum;

@@ -4,18 +4,18 @@
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
 
-// The linear system of all temperatures: products, sweeps as a preconditioner, GMRES, and a factorisation where that
-// does not arrive.
+// Linear system of all temperatures: products, sweeps as a preconditioner, GMRES, and a factorisation where GMRES does
+// not converge.
 namespace hersey::film {
 namespace {
 
-// How far the equations are solved, as a share of what is missing at the start: of a steady film, which is taken in
-// turn with its temperature, and of a step. With 1e-4 turns are up to twice as many: their acceleration takes what is
-// left for an answer of the film.
+// Tolerances of the equations over the initial residual: of a steady film, which is iterated with its temperature, and
+// of a step. With 1e-4 up to twice as many iterations are needed: their acceleration takes the remaining residual for a
+// response of the film.
 constexpr double steady_share = 1e-5, step_share = 1e-9;
-// A body that answers heat as a whole by temperatures has small rows: little is missing in them.
+// The rows of a body that responds to heat as a whole are small, and so are their residuals.
 constexpr double body_share = 1e-7;
-// Likewise the answers to temperatures of walls, which multiply what these move in a step.
+// Tolerance of the responses to temperatures of walls, which are multiplied by the change of these in a step.
 constexpr double response_share = 1e-7;
 
 }  // namespace
@@ -43,9 +43,10 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   if (rows > start.film.size()) end.shell = x.segment(start.film.size(), model_.grid.n_phi);
   end.journal = x[rows];
   end.supplies = x.tail(supplies());
-  if (conduction_of(thermal_.shell) != nullptr && !holds_walls(film)) end.wall_heat = heat_into_shell(film, end);
-  if (conduction_of(thermal_.journal) != nullptr && !holds_walls(film)) end.journal_heat = heat_into_journal(film, end);
-  if (holds_walls(film)) add_heat_to_mean(film, start, end);
+  if (conduction_of(thermal_.shell) != nullptr && !has_fixed_walls(film)) end.wall_heat = heat_into_shell(film, end);
+  if (conduction_of(thermal_.journal) != nullptr && !has_fixed_walls(film))
+    end.journal_heat = heat_into_journal(film, end);
+  if (has_fixed_walls(film)) add_heat_to_mean(film, start, end);
   return end;
 }
 
@@ -57,7 +58,7 @@ void HeatEquations::solve_for(const Eigen::VectorXd& known, double share, Eigen:
   if (!gmres_.solve(A, M, known, wanted, x).solved()) factorise_for(known, x);
 }
 
-// Where oil turns round in cells that sweeps cannot follow.
+// Factorises where oil recirculates in cells that sweeps cannot follow.
 void HeatEquations::factorise_for(const Eigen::VectorXd& known, Eigen::VectorXd& x) const {
   const Eigen::SparseMatrix<double> A = matrix();
   const std::span<const double> values{A.valuePtr(), static_cast<std::size_t>(A.nonZeros())};
@@ -88,10 +89,10 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   for (int node = 0; journal_moves_ && node < model_.grid.size(); ++node)
     for (const auto& [row, entry] : journal_entries(node)) entries.emplace_back(rows, row, entry);
   for (int s = 0; s < supplies(); ++s) entries.emplace_back(rows + 1 + s, rows + 1 + s, supply_self_[s]);
-  for (const Held& held : held_) {
-    for (const Held::Row& row : held.rows) {
-      add(rows + 1 + held.supply, row.entries);
-      entries.emplace_back(rows + 1 + held.supply, rows, -row.by_journal);
+  for (const SuppliedNode& supplied : supplied_nodes_) {
+    for (const SuppliedNode::Row& row : supplied.rows) {
+      add(rows + 1 + supplied.supply, row.entries);
+      entries.emplace_back(rows + 1 + supplied.supply, rows, -row.by_journal);
     }
   }
   for (const Renewal& renewal : renewals_) {
@@ -104,7 +105,7 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   return A;
 }
 
-// Linear in what is known: the system stays, and no heat is made (thermal.46).
+// The response is linear in the known terms: the system stays, and no heat is generated (thermal.46).
 HeatState HeatEquations::response(const Eigen::VectorXd& known) {
   const int rows = system_.size(), film = model_.grid.size() * layers();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(known.size());
@@ -119,13 +120,13 @@ HeatState HeatEquations::response(const Eigen::VectorXd& known) {
   return change;
 }
 
-HeatState HeatEquations::response_to_outside(Eigen::Index place) {
-  HeatState change = response(by_outside_.col(place));
-  change.outside[place] = 1;
+HeatState HeatEquations::response_to_outside(Eigen::Index terminal) {
+  HeatState change = response(by_outside_.col(terminal));
+  change.outside[terminal] = 1;
   return change;
 }
 
-// Oil that leaves over the edges, into a supply that takes it away, or to be replaced by what a supply gives.
+// Oil leaves over the edges, into a supply that removes it, or to be replaced by a supply.
 std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& film) const {
   std::vector<std::pair<int, double>> oil;
   for (int node = 0; node < model_.grid.size(); ++node) {
@@ -134,7 +135,7 @@ std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& f
       oil.emplace_back(system_.row(node, l), rc_ * out * film.flows.leaving_share(node, l));
   }
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
-  for (const Held& held : held_) flow[held.supply] += held.flow;
+  for (const SuppliedNode& supplied : supplied_nodes_) flow[supplied.supply] += supplied.flow;
   for (int s = 0; s < supplies(); ++s)
     if (flow[s] < 0) oil.emplace_back(system_.size() + 1 + s, -rc_ * flow[s]);
   for (const Renewal& renewal : renewals_) {
@@ -144,17 +145,17 @@ std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& f
   return oil;
 }
 
-// A node that oil comes from gives it at its own temperature and grows no colder; what comes back warms it
+// A node from which oil comes gives it at its own temperature and grows no colder; oil that comes back warms it
 // (thermal.55).
 Eigen::VectorXd HeatEquations::into_outside(const CarryingFilm& film, const HeatState& state) const {
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(at_.outside());
   for (int i = 0; at_.ambient && i < model_.grid.n_phi; ++i)
-    heat[at_.place_of_ambient()] += ring_.outside[i] * (state.shell[i] - state.outside[at_.place_of_ambient()]);
+    heat[at_.index_of_ambient()] += ring_.outside[i] * (state.shell[i] - state.outside[at_.index_of_ambient()]);
   if (!at_.drain) return heat;
-  const double T = state.outside[at_.place_of_drain()];
+  const double T = state.outside[at_.index_of_drain()];
   for (const auto& [row, rate] : drained(film)) {
     const int supply = row - system_.size() - 1;
-    heat[at_.place_of_drain()] += rate * ((supply >= 0 ? state.supplies[supply] : state.film[row]) - T);
+    heat[at_.index_of_drain()] += rate * ((supply >= 0 ? state.supplies[supply] : state.film[row]) - T);
   }
   return heat;
 }
@@ -183,7 +184,7 @@ void HeatEquations::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const
   multiply_remainder(x, y);
 }
 
-// Of the row of a journal that its heat moves, by the layers beside it.
+// Contribution of the layers beside it to the row of a journal with a temperature of its own.
 std::array<std::pair<int, double>, 2> HeatEquations::journal_entries(int node) const {
   const WallFlux& flux = into_journal_[node];
   return {{{system_.row(node, top()), -flux.beside}, {system_.row(node, next_to_top()), flux.next}}};
@@ -195,9 +196,9 @@ void HeatEquations::multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd
   for (int node = 0; journal_moves_ && node < model_.grid.size(); ++node)
     for (const auto& [row, entry] : journal_entries(node)) y[rows] += entry * x[row];
   for (int s = 0; s < supplies(); ++s) y[rows + 1 + s] = supply_self_[s] * x[rows + 1 + s];
-  for (const Held& held : held_) {
-    double& sum = y[rows + 1 + held.supply];
-    for (const Held::Row& row : held.rows) {
+  for (const SuppliedNode& supplied : supplied_nodes_) {
+    double& sum = y[rows + 1 + supplied.supply];
+    for (const SuppliedNode::Row& row : supplied.rows) {
       for (const auto& [column, entry] : row.entries) sum += entry * x[column];
       sum -= row.by_journal * x[rows];
     }
@@ -222,8 +223,8 @@ void HeatEquations::precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) c
 // The sweep begins at a supply, where temperatures are known best.
 void HeatEquations::prepare_sweeps(const CarryingFilm& film) {
   int first = 0;
-  for (const Held& held : held_)
-    if (held.chi > 0.5) first = held.node / model_.grid.n_z;
+  for (const SuppliedNode& supplied : supplied_nodes_)
+    if (supplied.chi > 0.5) first = supplied.node / model_.grid.n_z;
   system_.prepare(first, film.balance.speed_phi() >= 0);
   const int rows = system_.size(), ends = 1 + supplies();
   by_remainder_.setZero(rows, ends);

@@ -10,7 +10,7 @@ namespace hersey::film {
 HeatSystem::HeatSystem(const Grid& grid, int layers, bool has_ring) : grid_(grid), layers_(layers) {
   const int n_z = grid.n_z;
   layer_.resize(static_cast<std::size_t>(grid.size() * layers));
-  from_places_.resize(8 * layer_.size());
+  from_slots_.resize(8 * layer_.size());
   is_linked_.resize(static_cast<std::size_t>(8 * grid.size()));
   pivots_.resize(layer_.size());
   if (has_ring) ring_.resize(static_cast<std::size_t>(grid.n_phi));
@@ -25,13 +25,13 @@ HeatSystem::HeatSystem(const Grid& grid, int layers, bool has_ring) : grid_(grid
 
 void HeatSystem::set_zero() {
   layer_.assign(layer_.size(), {});
-  from_places_.assign(from_places_.size(), 0);
+  from_slots_.assign(from_slots_.size(), 0);
   is_linked_.assign(is_linked_.size(), false);
   ring_.assign(ring_.size(), {});
   from_film_.assign(from_film_.size(), 0);
 }
 
-// Loops over the layers of a column are unrolled for the numbers mostly asked for.
+// Loops over the layers of a column are unrolled for the most frequent numbers.
 template <class Action>
 void HeatSystem::for_layers(Action&& action) const {
   if (layers_ == 1) return action(std::integral_constant<int, 1>{});
@@ -45,14 +45,14 @@ HeatSystem::Row HeatSystem::entries(int node, int layer) const {
   Row entries{{at, of.self}};
   if (layer > 0) entries.emplace_back(at - 1, of.below);
   if (layer + 1 < layers_) entries.emplace_back(at + 1, of.above);
-  for (int place = 8 * node; place < 8 * (node + 1); ++place)
-    if (const double entry = from_places_[place * layers_ + layer]; entry != 0)
-      entries.emplace_back(row(node_at(place), layer), entry);
+  for (int slot = 8 * node; slot < 8 * (node + 1); ++slot)
+    if (const double entry = from_slots_[slot * layers_ + layer]; entry != 0)
+      entries.emplace_back(row(node_at(slot), layer), entry);
   if (of.ring != 0) entries.emplace_back(ring_row(node / grid_.n_z), of.ring);
   return entries;
 }
 
-/// What the film at a node adds to the row of the ring there.
+/// Returns the film's contribution at a node to the row of the ring there.
 double HeatSystem::from_film(int node, const Eigen::VectorXd& x) const {
   double sum = 0;
   for (int l = 0; l < lowest(); ++l) sum += from_film_[2 * node + l] * x[row(node, l)];
@@ -71,7 +71,7 @@ HeatSystem::Row HeatSystem::ring_entries(int i) const {
   return entries;
 }
 
-/// All of the ring and of the film beside it.
+/// Computes all entries of the ring and of the film beside it.
 HeatSystem::Row HeatSystem::answer_entries(int i) const {
   Row entries;
   for (int j = 0; j < ring_rows(); ++j) {
@@ -87,7 +87,7 @@ HeatSystem::Row HeatSystem::answer_entries(int i) const {
 void HeatSystem::scale(int row, double factor) {
   for (double* entry : layer_[row].entries()) *entry *= factor;
   const int node = row / layers_, layer = row % layers_;
-  for (int place = 8 * node; place < 8 * (node + 1); ++place) from_places_[place * layers_ + layer] *= factor;
+  for (int slot = 8 * node; slot < 8 * (node + 1); ++slot) from_slots_[slot * layers_ + layer] *= factor;
 }
 
 void HeatSystem::add(double weight, const HeatSystem& other) {
@@ -96,13 +96,13 @@ void HeatSystem::add(double weight, const HeatSystem& other) {
     for (std::size_t k = 0; k < to.size(); ++k) *to[k] += weight * *from[k];
   };
   for (std::size_t row = 0; row < layer_.size(); ++row) add_entries(layer_[row], other.layer_[row]);
-  for (std::size_t k = 0; k < from_places_.size(); ++k) from_places_[k] += weight * other.from_places_[k];
+  for (std::size_t k = 0; k < from_slots_.size(); ++k) from_slots_[k] += weight * other.from_slots_[k];
   for (std::size_t k = 0; k < is_linked_.size(); ++k) is_linked_[k] = is_linked_[k] || other.is_linked_[k];
   for (std::size_t i = 0; i < ring_.size(); ++i) add_entries(ring_[i], other.ring_[i]);
   for (std::size_t k = 0; k < from_film_.size(); ++k) from_film_[k] += weight * other.from_film_[k];
 }
 
-void HeatSystem::hold_ring() {
+void HeatSystem::fix_ring() {
   ring_.assign(ring_.size(), {.self = 1});
   from_film_.assign(from_film_.size(), 0);
 }
@@ -113,7 +113,7 @@ void HeatSystem::persist(Archive& archive) {
     for (int row = 0; row < film_rows(); ++row) {
       for (double* entry : layer_[row].entries()) action(*entry);
       const int node = row / layers_, layer = row % layers_;
-      for (int place = 8 * node; place < 8 * (node + 1); ++place) action(from_places_[place * layers_ + layer]);
+      for (int slot = 8 * node; slot < 8 * (node + 1); ++slot) action(from_slots_[slot * layers_ + layer]);
     }
     for (Ring& of : ring_)
       for (double* entry : of.entries()) action(*entry);
@@ -126,14 +126,14 @@ void HeatSystem::persist(Archive& archive) {
   archive.io("from_film", from_film_);
 }
 
-// What other columns give, from as many sums as there are layers.
+// Subtracts the contributions of other columns from as many sums as there are layers.
 template <int N>
 void HeatSystem::subtract(int begin, int end, const double* x, std::span<double> sums) const {
   const int n = N > 0 ? N : layers_;
   for (int link = begin; link < end; ++link) {
-    const auto& [place, row] = linked_[link];
+    const auto& [slot, row] = linked_[link];
     const double* from = x + row;
-    const double* entry = from_places_.data() + place * n;
+    const double* entry = from_slots_.data() + slot * n;
     for (int l = 0; l < n; ++l) sums[l] -= entry[l] * from[l];
   }
 }
@@ -170,7 +170,7 @@ void HeatSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   if (answer_.is_set()) y.segment(film_rows(), n) = answer_.rows(x.segment(film_rows(), n), y.segment(film_rows(), n));
 }
 
-// Along the axis oil flows from the middle to the edges, as a rule.
+// Along the axis oil usually flows from the middle to the edges.
 void HeatSystem::prepare(int first, bool forwards) {
   order_.clear();
   const int n_phi = grid_.n_phi, middle = grid_.n_z / 2;
@@ -192,26 +192,27 @@ void HeatSystem::prepare(int first, bool forwards) {
   if (!ring_.empty()) prepare_ring();
 }
 
-// Of the four neighbours and those beyond most give a column nothing: oil comes from one side around and one along.
+// Most of the four neighbours and of those beyond contribute nothing to a column: oil comes from one side around and
+// one side along the axis.
 void HeatSystem::find_links() {
-  std::vector<int> turn(order_.size());
-  for (std::size_t k = 0; k < order_.size(); ++k) turn[order_[k]] = static_cast<int>(k);
+  std::vector<int> rank(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) rank[order_[k]] = static_cast<int>(k);
   links_.clear(), linked_.clear();
   const auto count = [this] { return static_cast<int>(linked_.size()); };
   for (int node = 0; node < grid_.size(); ++node) {
     Links links{.begin = count()};
     for (const bool later : {false, true}) {
       if (later) links.later = count();
-      for (int place = 8 * node; place < 8 * (node + 1); ++place)
-        if (is_linked_[place] && (turn[node_at(place)] > turn[node]) == later)
-          linked_.emplace_back(place, row(node_at(place), 0));
+      for (int slot = 8 * node; slot < 8 * (node + 1); ++slot)
+        if (is_linked_[slot] && (rank[node_at(slot)] > rank[node]) == later)
+          linked_.emplace_back(slot, row(node_at(slot), 0));
     }
     links.end = count();
     links_.push_back(links);
   }
 }
 
-// Column by column; those that come later are still zero.
+// Columns are solved one by one; those that follow are still zero.
 template <int N>
 void HeatSystem::sweep_layers(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   const int n = N > 0 ? N : layers_;
@@ -253,7 +254,8 @@ void HeatSystem::sweep(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   solve_ring(x);
 }
 
-// A ring is a tridiagonal chain, closed by two entries: Sherman and Morrison's formula with the chain's answer to them.
+// A ring is a tridiagonal chain, closed by two entries: Sherman and Morrison's formula combines the chain's solutions
+// for them.
 void HeatSystem::prepare_ring() {
   const int n = ring_rows();
   if (answer_.is_set()) {

@@ -8,7 +8,7 @@ RingConductances conductances(const FilmModel& model, const GridGeometry& geomet
   const double R = model.R, Ro = ring.outer_radius, middle = 0.5 * (R + Ro), k = ring.conductivity, L = model.L;
   RingConductances c;
   c.inside = R * std::log(middle / R) / k;
-  // From the middle through the outer half, then over the surface.
+  // Heat flows from the middle through the outer half, then over the surface.
   const double outwards = ring.transfer > 0 ? 1 / (std::log(Ro / middle) / (k * L) + 1 / (ring.transfer * Ro * L)) : 0;
   for (int i = 0; i < model.grid.n_phi; ++i) {
     const double angle = geometry.width_phi[i] / R, both_ends = (Ro * Ro - R * R) * angle;

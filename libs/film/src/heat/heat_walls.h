@@ -15,22 +15,22 @@ struct RingConductances {
   std::vector<double> capacity;  ///< [J/K]
 };
 
-/// Of the ring around the film of `model`.
+/// Returns the conductances of the ring around the film of `model`.
 [[nodiscard]] RingConductances conductances(const FilmModel& model, const GridGeometry& geometry, const RingWall& ring);
 
-/// Whether the temperatures of a shell are found with those of the film, angle by angle.
+/// True if the temperatures of a shell are solved with those of the film, angle by angle.
 [[nodiscard]] bool has_own_temperatures(const ShellWall& shell);
-/// The conduction of a shell in a body; null: it is in none.
+/// Conduction of a shell in a body; null: it is in none.
 [[nodiscard]] const WallConduction* conduction_of(const ShellWall& shell);
 
-/// Likewise of a journal.
+/// Conduction of a journal in a body; null: it is in none.
 [[nodiscard]] const JournalConduction* conduction_of(const JournalWall& journal);
-/// Whether a journal's temperature is found with those of the film, or settles with them over cycles.
+/// True if a journal's temperature is solved with those of the film, or settles with them over cycles.
 [[nodiscard]] bool has_own_temperature(const JournalWall& journal);
 
-/// Whether heat passes between the film and a wall.
+/// True if heat passes between the film and a shell.
 [[nodiscard]] bool conducts(const ShellWall& shell);
-/// Likewise.
+/// True if heat passes between the film and a journal.
 [[nodiscard]] bool conducts(const JournalWall& journal);
 
 }  // namespace hersey::film

@@ -10,7 +10,7 @@ namespace hersey::film {
 
 namespace {
 
-// Half volumes along the edges have at most this share more or less heat than their nodes say.
+// Largest share by which the heat of half volumes along the edges is corrected.
 constexpr double kMostCompleted = 0.5;
 
 }  // namespace
@@ -30,9 +30,9 @@ Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node) {
 }
 
 Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
-  const double held = 1 - balance.balance_share(node);
+  const double supply_share = 1 - balance.balance_share(node);
   const Eigen::Vector2d smooth = pressure_gradient(balance, node);
-  if (held == 0) return smooth;
+  if (supply_share == 0) return smooth;
   const Grid& grid = balance.model().grid;
   const GridGeometry& geometry = balance.geometry();
   const int i = node / grid.n_z, j = node % grid.n_z, last = grid.before(i), next = grid.next(i);
@@ -47,7 +47,7 @@ Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
                after = next < 0 ? 0 : slope(node, grid.index(next, j), geometry.step(i, j));
   const double below = j > 0 ? slope(node - 1, node, geometry.dz[j - 1]) : 0,
                above = j + 1 < grid.n_z ? slope(node, node + 1, geometry.dz[j]) : 0;
-  return (1 - held) * smooth + held * Eigen::Vector2d(weighted(before, after), weighted(below, above));
+  return (1 - supply_share) * smooth + supply_share * Eigen::Vector2d(weighted(before, after), weighted(below, above));
 }
 
 WithinLayers within_layers(const Lubricant& oil) {
@@ -73,8 +73,8 @@ void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, 
   dissipate(balance, wrench, motion);
 }
 
-// Flow along pressure and what each surface carries have profiles of their own. What roughness, pockets and bends of
-// the gap add to the flow carried is shared by all layers.
+// Flow along pressure and the flow carried by each surface have profiles of their own. The additions of roughness,
+// pockets and bends of the gap to the flow carried are shared by all layers.
 void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion& motion) {
   faces_.resize(balance.faces().size() * layers_);
   leads_.resize(faces_.size());
@@ -104,8 +104,8 @@ void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion
   }
 }
 
-// Each layer keeps its share of the node's oil: what else comes in leaves it upwards. Where a model of cavitation loses
-// oil, all layers do.
+// Each layer keeps its share of the node's oil; the rest of its inflow leaves it upwards. Where a cavitation model
+// loses oil, all layers do.
 void LayerFlows::flow_upwards(const FlowBalance& balance) {
   std::vector<double> out(shares_.size() * layers_);
   for (std::size_t k = 0; k < shares_.size(); ++k) {
@@ -134,7 +134,7 @@ void LayerFlows::flow_upwards(const FlowBalance& balance) {
   }
 }
 
-// By flow along pressure, and by sliding.
+// Heat by flow along pressure, and by sliding.
 void LayerFlows::dissipate_in_volumes(const FlowBalance& balance, const FilmWrench& wrench,
                                       const SurfaceMotion& motion) {
   along_pressure_.assign(shares_.size(), 0.0);
@@ -155,7 +155,7 @@ void LayerFlows::dissipate_in_volumes(const FlowBalance& balance, const FilmWren
 }
 
 // Sums over volumes differ from the film's power, an integral of higher order (film.53). Between nodes the error of a
-// sum cancels, up to the half volumes along the edges (Euler and Maclaurin): theirs is the difference (thermal.9).
+// sum cancels, up to the half volumes along the edges (Euler and Maclaurin): they take the difference (thermal.9).
 void LayerFlows::complete_at_edges(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion) {
   const Eigen::VectorXd beyond = power_beyond_volumes(balance, motion, wrench);
   for (int i = 0; i < model_.grid.n_phi; ++i) {
@@ -168,7 +168,7 @@ void LayerFlows::complete_at_edges(const FlowBalance& balance, const FilmWrench&
   }
 }
 
-// What is still missing, next to nothing, is shared by all.
+// The small rest is shared by all.
 void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion) {
   dissipate_in_volumes(balance, wrench, motion);
   complete_at_edges(balance, wrench, motion);

@@ -13,16 +13,16 @@ namespace hersey::film {
 /// Gradient of the pressure that drives the flow at a node, around and along the axis [Pa/m].
 [[nodiscard]] Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node);
 
-/// The same; on supply line and features, where the pressure has a kink, the slopes of both sides, each weighted by its
-/// own size: that of the film beside a groove, and nothing on a peak. Beside them both count by the share that they
-/// hold.
+/// Returns the same gradient. On supply line and features the pressure has a kink and the slopes of both sides count,
+/// each weighted by its own size: the result is that of the film beside a groove, and zero on a peak. Beside line and
+/// features both gradients count by the supply's share in the row.
 [[nodiscard]] Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node);
 
-/// Of oils that thin by shear the layers' own shear says how fluidity differs within them.
+/// Returns the variation of fluidity within layers: that of oils that thin by shear follows from the layers' own shear.
 [[nodiscard]] WithinLayers within_layers(const Lubricant& oil);
 
-/// How the oil of a solved film flows in its layers, and what they dissipate (theory manual, thermal.7 to thermal.9).
-/// Flows of all layers of a face add up to the film's own, dissipation to the film's power.
+/// Flow of the oil of a solved film in its layers, and their dissipation (theory manual, thermal.7 to thermal.9). Flows
+/// of all layers of a face add up to the film's own, dissipation to the film's power.
 class LayerFlows {
  public:
   LayerFlows(const FilmModel& model, int layers);
@@ -32,19 +32,19 @@ class LayerFlows {
                 const Eigen::VectorXd& mu);
 
   [[nodiscard]] int layers() const { return layers_; }
-  /// Over a face, from a to b [m^3/s]; of oil at rho0, as all flows here.
+  /// Flow over a face, from a to b [m^3/s]; of oil at rho0, as all flows here.
   [[nodiscard]] double over_face(std::size_t f, int layer) const { return faces_[at(f, layer)]; }
   /// First moment of that flow about the layer's middle, over the thickness [m^3/s].
   [[nodiscard]] double lead_over_face(std::size_t f, int layer) const { return leads_[at(f, layer)]; }
-  /// Towards the journal, from a layer of a node into the next [m^3/s].
+  /// Flow from a layer of a node into the next, towards the journal [m^3/s].
   [[nodiscard]] double upwards(int node, int layer) const {
     return upwards_[at(static_cast<std::size_t>(node), layer)];
   }
-  /// Of flow that leaves a node along its pressure, the share of a layer [-].
+  /// Share of a layer in the flow that leaves a node along its pressure [-].
   [[nodiscard]] double leaving_share(int node, int layer) const {
     return shares_[static_cast<std::size_t>(node)].pressure_flow[layer];
   }
-  /// Oil that leaves a node without a place to go, where a model of cavitation loses it [m^3/s].
+  /// Oil lost at a node in a cavitation model that does not conserve it [m^3/s].
   [[nodiscard]] double lost(int node) const { return lost_[static_cast<std::size_t>(node)]; }
   /// Dissipation in a layer of a node [W].
   [[nodiscard]] double dissipation(int node, int layer) const {
@@ -52,7 +52,7 @@ class LayerFlows {
   }
 
  private:
-  [[nodiscard]] std::size_t at(std::size_t place, int layer) const { return place * layers_ + layer; }
+  [[nodiscard]] std::size_t at(std::size_t index, int layer) const { return index * layers_ + layer; }
   void flow_over_faces(const FlowBalance& balance, const SurfaceMotion& motion);
   void flow_upwards(const FlowBalance& balance);
   void dissipate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion);
@@ -65,7 +65,7 @@ class LayerFlows {
   WithinLayers within_;
   std::vector<LayerShares> shares_;  ///< of each node
   std::vector<double> faces_, leads_, upwards_, heat_, lost_;
-  std::vector<double> along_pressure_, by_sliding_;  ///< heat of each node by either [W]
+  std::vector<double> along_pressure_, by_sliding_;  ///< heat of each node by pressure flow and by sliding [W]
 };
 
 }  // namespace hersey::film

@@ -9,7 +9,7 @@
 namespace hersey::film {
 namespace {
 
-// Of a layer's fluidity, what its slope takes from it at one end at most.
+// Largest share of a layer's fluidity that its slope removes at one end.
 constexpr double steepest = 0.9;
 
 /// Fluidities 1/mu across the film, in each layer f + s (eta - middle).
@@ -25,7 +25,7 @@ class Fluidities {
     }
   }
 
-  /// That of a layer and its slope.
+  /// Fluidity of a layer and its slope.
   struct Line {
     double f, s;
   };

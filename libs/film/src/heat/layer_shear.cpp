@@ -12,17 +12,17 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-// Newton converges by squares: a change of this share of the largest rate leaves its square. Steps that are shortened
-// are judged by what shear leaves of each layer.
+// Newton's method converges quadratically: after a change of this share of the largest rate its square is left. Steps
+// that are shortened are checked by the ratio R of each layer.
 constexpr double newton_change = 1e-4, shortened_change = 1e-6;
-// Oils whose stress all but stops rising take some 80 steps of the other kind.
+// Oils whose stress hardly rises take some 80 of the shortened steps.
 constexpr int most_newton = 12, most_shortened = 1000;
 
-// Of the fall of the potential at the beginning of a step, what is left of it at its end at most.
+// Largest share of the potential's initial slope that is left at the end of a step.
 constexpr double flat = 0.3;
 
-// A rate that changes by less than this share of itself takes its viscosity along to first order. One next to nothing,
-// where the stress turns, does not.
+// A rate that changes by less than this share of itself determines its viscosity to first order. A rate close to zero,
+// where the stress changes its sign, does not.
 constexpr double first_order = 1e-3;
 
 }  // namespace
@@ -37,7 +37,7 @@ LayerShear::LayerShear(const ShearThinning& thinning, int layers)
 /// Stress in the middle of a layer over that in the middle of the film.
 Vector2d LayerShear::beyond_mean(std::size_t l) const { return (across_.middle(l) - 0.5) * shear_.fall; }
 
-/// Rates between viscosities that are given: the stress is linear across the film.
+/// Rates at given viscosities: the stress is linear across the film.
 void LayerShear::follow(std::span<const double> left) {
   double sum = 0;
   Vector2d by_pressure = Vector2d::Zero();
@@ -58,7 +58,7 @@ void LayerShear::look() {
   }
 }
 
-/// Towards rates whose stresses are linear across the film; all of them still make up the sliding.
+/// Computes steps towards rates whose stresses are linear across the film; all rates still add up to the sliding.
 void LayerShear::find_steps() {
   look();
   Matrix2d all = Matrix2d::Zero();
@@ -76,8 +76,8 @@ void LayerShear::find_steps() {
   for (std::size_t l = 0; l < rates_.size(); ++l) steps_[l] = by_stress_[l] * (mean_ + missing_[l]);
 }
 
-/// Size of the step over the largest rate, or what it changes of what shear leaves of a layer, if that is more. The
-/// latter follows to first order.
+/// Returns the size of the step over the largest rate, or the change of the ratio R of a layer if that is larger. The
+/// latter is computed to first order.
 double LayerShear::take_steps() {
   double largest = 0, change = 0, change_left = 0;
   for (std::size_t l = 0; l < rates_.size(); ++l) {
@@ -103,7 +103,7 @@ bool LayerShear::by_newton(std::span<double> left) {
   return false;
 }
 
-/// Whether the steps change next to nothing of what shear leaves of any layer. NaN is not near.
+/// True if the steps change the ratio R of every layer by next to nothing. NaN is not near.
 bool LayerShear::is_near() const {
   for (std::size_t l = 0; l < rates_.size(); ++l) {
     const double then = thinning_.ratio((rates_[l] + steps_[l]).norm(), mu_n_[l]).value;
@@ -112,8 +112,8 @@ bool LayerShear::is_near() const {
   return true;
 }
 
-/// Slope of the potential (thermal.67) along the steps, at a share of them. They are none in the mean, so that a stress
-/// of all layers does not count.
+/// Returns the slope of the potential (thermal.67) along the steps, at a share of them. The mean of the steps is zero,
+/// so that a stress common to all layers does not count.
 double LayerShear::slope_at(double share) const {
   double slope = 0;
   for (std::size_t l = 0; l < rates_.size(); ++l) {
@@ -124,7 +124,7 @@ double LayerShear::slope_at(double share) const {
   return slope;
 }
 
-/// The potential is convex: its slope rises along the steps, and is bracketed where they go too far.
+/// The potential is convex: its slope rises along the steps, and the minimum is bracketed where they are too long.
 double LayerShear::share_of_steps() const {
   const double enough = flat * std::abs(slope_at(0));
   double low = 0, high = 1, share = 1, slope = slope_at(1);

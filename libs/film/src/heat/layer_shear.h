@@ -9,27 +9,26 @@
 
 namespace hersey::film {
 
-/// What shears the oil at one place.
+/// Loading that shears the oil at one node.
 struct ShearOfGap {
-  Eigen::Vector2d rate = Eigen::Vector2d::Zero();  ///< the journal's speed past the shell over the gap [1/s]
+  Eigen::Vector2d rate = Eigen::Vector2d::Zero();  ///< speed of the journal relative to the shell over the gap [1/s]
   Eigen::Vector2d fall = Eigen::Vector2d::Zero();  ///< gap times the pressure's gradient: tau(h) - tau(0) [Pa]
 };
 
-/// Shear rates of the layers of a film, place by place: every layer is sheared at the rate its own stress takes, and
-/// all rates make up the sliding (thermal.25).
+/// Shear rates of the layers of a film, node by node: every layer is sheared at the rate that its own stress takes, and
+/// all rates add up to the sliding (thermal.25).
 class LayerShear {
  public:
   /// @param thinning  not Newtonian; the caller keeps it alive
   LayerShear(const ShearThinning& thinning, int layers);
 
-  /// Newton's method, or where that does not arrive the same with steps that go down the potential (thermal.67).
-  /// @param mu_n  of the layers at rest at their temperatures and the pressure of the place [Pa s]; the caller keeps it
-  /// @param left  what shear leaves of them, R [-]: a start (1 is one) and the answer
+  /// Uses Newton's method, and where that does not converge the same with a line search on the potential (thermal.67).
+  /// @param mu_n  of the layers at rest at their temperatures and the pressure of the node [Pa s]; the caller keeps it
+  /// @param left  ratios R of the sheared viscosities to these [-]: initial values (1 is one) and the result
   void thin(std::span<const double> mu_n, const ShearOfGap& shear, std::span<double> left);
 
-  /// Of the place last thinned: by what the flow along pressure is easier, around and along the axis, than between
-  /// layers each of which is as thin as in its middle [-]; within a layer it sees the tangent of the stress
-  /// (thermal.26).
+  /// Factor of the flow along pressure at the node last thinned, around and along the axis, over that between layers of
+  /// uniform viscosity [-]; within a layer that flow depends on the tangent of the stress (thermal.26).
   [[nodiscard]] Eigen::Vector2d flow_factors();
 
  private:
@@ -51,7 +50,7 @@ class LayerShear {
   std::vector<Eigen::Vector2d> rates_, steps_, missing_;  ///< around and along the axis [1/s]; [Pa]
   Eigen::Vector2d mean_ = Eigen::Vector2d::Zero();        ///< stress in the middle of the film, after the steps [Pa]
   std::vector<Eigen::Matrix2d> by_stress_;                ///< of the rates [1/(Pa s)]
-  std::vector<ShearRatio> ratios_;                        ///< of the rates last looked at
+  std::vector<ShearRatio> ratios_;                        ///< of the rates last evaluated
   std::vector<double> sizes_;                             ///< of these [1/s]
   std::vector<double> left_, mu_;                         ///< R at the rates; viscosities with it [Pa s]
 };

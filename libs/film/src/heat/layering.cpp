@@ -8,9 +8,9 @@
 namespace hersey::film {
 namespace {
 
-// Between layers all alike (0) and those between Chebyshev's points (1). A fifth makes the outer two of five layers
-// 0.18 thick and the middle one 0.22: there five layers err least in load, and shells as little as with layers all
-// alike.
+// Blend of equal layers (0) and those between Chebyshev's points (1). A fifth makes the outer two of five layers 0.18
+// thick and the middle one 0.22: there five layers have the smallest error in load, and shells as little as with equal
+// layers.
 constexpr double grading = 0.2;
 
 }  // namespace

@@ -61,8 +61,8 @@ void MeanHeat::add_heat(double dt, const Eigen::VectorXd& into, const Eigen::Vec
   into_nodes_ += dt * into_nodes;
 }
 
-// What the film has stored since the beginning, it has taken from walls. A body lacks what its temperatures differ from
-// those that the mean heat would give it (thermal.57).
+// Heat that the film has stored since the beginning has come from walls. A body lacks the difference of its
+// temperatures from those that the mean heat would give it (thermal.57).
 Eigen::VectorXd MeanHeat::missing(const Eigen::VectorXd& shell, double journal) const {
   Eigen::VectorXd missing = into_;
   missing.head(capacity_.size()) += capacity_.cwiseProduct(end_ - begin_) / time_;
@@ -74,13 +74,13 @@ Eigen::VectorXd MeanHeat::missing(const Eigen::VectorXd& shell, double journal) 
   return missing;
 }
 
-// What the row of a journal in a body is multiplied by, of the size of the heat into it [W/K].
+// Factor of the row of a journal in a body, of the size of the heat into it per kelvin [W/K].
 double MeanHeat::journal_scale() const {
   const double by_film = to_journal_.sum() / time_;
   return by_film > 0 ? by_film : 1;
 }
 
-// Of a body: its own temperature, and by the heat into all of its angles those of the film and of itself.
+// Derivatives by a body: by its own temperature, and by the heat into all of its angles.
 HeatSystem::Row MeanHeat::answer_entries(int i) const {
   HeatSystem::Row entries{{system_.ring_row(i), time_}};
   for (int j = 0; j < grid_.n_phi; ++j)
@@ -101,7 +101,7 @@ MeanHeat::Change MeanHeat::change_of(const Eigen::VectorXd& x) const {
   return change;
 }
 
-// Into the journal, of a change of the film beside it [W s].
+// Heat into the journal by a change of the film beside it [W s].
 double MeanHeat::into_journal(const Eigen::VectorXd& x) const {
   double heat = 0;
   for (int node = 0; node < grid_.size(); ++node)
@@ -110,7 +110,7 @@ double MeanHeat::into_journal(const Eigen::VectorXd& x) const {
   return heat;
 }
 
-// Into nodes, of a change of the film between them [W s].
+// Heat into nodes by a change of the film between them [W s].
 Eigen::VectorXd MeanHeat::heat_of(const Eigen::VectorXd& x) const {
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(into_nodes_.size());
   heat.tail(walls_.outside) = outside_.from * x.head(system_.size());
@@ -121,7 +121,8 @@ Eigen::VectorXd MeanHeat::heat_of(const Eigen::VectorXd& x) const {
   return heat;
 }
 
-// Temperatures at which nothing is stored and walls take up no heat (thermal.19); nodes leave that to their network.
+// Solves for temperatures at which nothing is stored and walls absorb no heat (thermal.19); the network does so for
+// nodes.
 MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell, double journal) {
   HERSEY_REQUIRE(has_steps(), "a mean over some time");
   const Eigen::SparseMatrix<double> A = matrix();
@@ -142,12 +143,12 @@ MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell, double journal) 
   const auto column = [this](const Eigen::VectorXd& by, Eigen::Index node, double self) -> Eigen::VectorXd {
     return (heat_of(by) + self * Eigen::VectorXd::Unit(into_nodes_.size(), node)) / time_;
   };
-  for (Eigen::Index place = 0; place < walls_.outside; ++place) {
+  for (Eigen::Index terminal = 0; terminal < walls_.outside; ++terminal) {
     Eigen::VectorXd by(system_.size() + 1);
-    by << outside_.by.col(place), 0;
+    by << outside_.by.col(terminal), 0;
     by = solve(by);
     answer.by_outside.push_back(change_of(by));
-    answer.exchange.by_T.col(2 + place) = column(by, 2 + place, outside_.self[place]);
+    answer.exchange.by_T.col(2 + terminal) = column(by, 2 + terminal, outside_.self[terminal]);
   }
   if (walls_.shell_node) {
     Eigen::VectorXd by_shell(system_.size() + 1);

@@ -14,41 +14,41 @@
 
 namespace hersey::film {
 
-/// Of nodes of a network that are no walls, n of them: what they do to a film of so many rows, and it to them.
+/// Coupling of n nodes of a network that are no walls with a film of so many rows.
 struct OutsideOfMean {
-  Eigen::MatrixXd by = {};    ///< rows, by their temperatures, shape (rows, n) [W/K]
+  Eigen::MatrixXd by = {};    ///< of the film's rows, by the nodes' temperatures, shape (rows, n) [W/K]
   Eigen::MatrixXd from = {};  ///< heat into them by the rows' temperatures, shape (n, rows) [W/K]
-  Eigen::VectorXd self = {};  ///< and by their own, shape (n) [W/K]
+  Eigen::VectorXd self = {};  ///< heat into them by their own temperatures, shape (n) [W/K]
 };
 
-/// What a film gives to walls that keep their temperature, and how that follows them: means over time of the heat that
-/// they take up, and of the film's equations of heat without storage (theory manual, thermal.18, thermal.19).
+/// Heat from a film into walls that keep their temperature, and its derivatives by these: means over time of the heat
+/// that they absorb, and of the film's equations of heat without storage (theory manual, thermal.18, thermal.19).
 class MeanHeat {
  public:
-  /// Walls that take up heat. A ring and a journal of its own temperature settle with the film; nodes of a network with
+  /// Walls that absorb heat. A ring and a journal of its own temperature settle with the film, nodes of a network with
   /// all of its films.
   struct Walls {
     bool ring = false, shell_node = false, own_journal = false, journal_node = false;
     Eigen::Index outside = 0;  ///< nodes that are no walls
-    /// What the ring's rows stand for where it is a body that conducts; null: a ring. Outlives this.
+    /// Body that conducts, where the ring's rows describe one; null: a ring. It must outlive this.
     const WallConduction* body = nullptr;
-    /// Of a journal in a body; null: it is free, or has no temperature of its own. Outlives this.
+    /// Body of the journal; null: it is free, or has no temperature of its own. It must outlive this.
     const JournalConduction* journal_body = nullptr;
   };
 
-  /// The equations of a step, walls' rows included.
+  /// Equations of a step, walls' rows included.
   struct Equations {
     const HeatSystem& system;
-    const Eigen::VectorXd& added;             ///< to the diagonals of the film's rows: they store nothing [W/K]
-    const Eigen::VectorXd& by_journal;        ///< of the rows, by the journal's temperature [W/K]
-    const Eigen::VectorXd& by_shell;          ///< of the rows, by the temperature of a shell that is a node [W/K]
-    const std::vector<WallFlux>& to_shell;    ///< into such a shell, by node
-    const std::vector<WallFlux>& to_journal;  ///< and into the journal
+    const Eigen::VectorXd& added;       ///< added to the diagonals of the film's rows, so that they store nothing [W/K]
+    const Eigen::VectorXd& by_journal;  ///< of the rows, by the journal's temperature [W/K]
+    const Eigen::VectorXd& by_shell;    ///< of the rows, by the temperature of a shell that is a node [W/K]
+    const std::vector<WallFlux>& to_shell;    ///< heat into such a shell, by node
+    const std::vector<WallFlux>& to_journal;  ///< heat into the journal, by node
     const Eigen::VectorXd& capacity;          ///< heat capacity of the film's rows [J/K]
     const OutsideOfMean& outside;             ///< empty where there are no such nodes
   };
 
-  /// Of a ring, or a shell in a body, and a journal of its own temperature [K].
+  /// Temperatures of a ring, or a shell in a body, and a journal of its own temperature [K].
   struct Change {
     Eigen::VectorXd ring;  ///< shape (n_phi), or empty
     double journal = 0;
@@ -56,29 +56,29 @@ class MeanHeat {
     double journal_heat = 0;    ///< into a journal in a body [W]; else 0
   };
 
-  /// Changes after which ring and journal would take up no heat, or bodies what they pass on, and what nodes would
-  /// then.
+  /// Changes after which ring and journal absorb no heat, or bodies as much as they pass on, and the heat into nodes
+  /// after them.
   struct Answer {
     Change without;               ///< with the nodes as they are
     Change by_shell, by_journal;  ///< per kelvin of a node
     std::vector<Change> by_outside;
     Eigen::VectorXd heat = {};  ///< into each angle of a shell in a body, before any change [W]; else empty
-    double journal_heat = 0;    ///< likewise into a journal in a body; else 0
+    double journal_heat = 0;    ///< into a journal in a body, before any change [W]; else 0
     WallExchange exchange;      ///< without temperatures
   };
 
   MeanHeat(const Grid& grid, int layers, const Walls& walls);
 
-  /// Takes those of a step of length dt.
+  /// Adds the equations of a step of length dt.
   void add_equations(double dt, const Equations& equations);
-  /// And what walls lacked in it to keep their temperatures, of system and journal [W]; what went into nodes, in the
-  /// order of WallExchange [W]; the film's temperatures [K].
+  /// Adds the heat that walls absorbed in the step at fixed temperatures, of system and journal [W]; the heat into
+  /// nodes, in the order of WallExchange [W]; and the film's temperatures [K].
   void add_heat(double dt, const Eigen::VectorXd& into, const Eigen::VectorXd& into_nodes, const Eigen::VectorXd& start,
                 const Eigen::VectorXd& end);
-  /// Since the last call of answer().
+  /// True if steps were added since the last call of answer().
   [[nodiscard]] bool has_steps() const { return time_ > 0; }
-  /// By the means since the last call; there is a step since then. @param shell, journal  temperatures of a shell,
-  /// shape (n_phi), and of a journal in a body, which they had all the time [K]
+  /// Solves for the changes by the means since the last call; at least one step is required. @param shell, journal
+  /// temperatures of a shell, shape (n_phi), and of a journal in a body, which were constant over these steps [K]
   [[nodiscard]] Answer answer(const Eigen::VectorXd& shell, double journal);
 
   void persist(Archive& archive);

@@ -7,15 +7,15 @@
 namespace hersey::film {
 namespace {
 
-/// The interval of an ascending axis that `at` lies in, or the one beside it; where it ends.
+/// Returns the interval of an ascending axis in which `at` lies, or the nearest one, by its end.
 std::size_t end_of_interval(const std::vector<double>& axis, double at) {
   return static_cast<std::size_t>(std::upper_bound(axis.begin() + 1, axis.end() - 1, at) - axis.begin());
 }
 
 }  // namespace
 
-// Rows are found by their viscosity at p = 0, which falls from row to row; beyond the first and the last row pressure
-// does what it does there.
+// Rows are found by their viscosity at p = 0, which falls from row to row. Beyond the first and the last row the effect
+// of pressure is that of the nearest row.
 ValueAndSlope TabledPressure::log_ratio(double at, double mu0) const {
   const std::size_t columns = p.size(), rows = log_mu.size() / columns;
   HERSEY_REQUIRE(rows >= 2 && columns >= 2 && log_mu.size() == rows * columns, "two rows and columns at least");

@@ -8,7 +8,7 @@
 namespace hersey::film {
 namespace {
 
-// Of the standard: nu in mm^2/s.
+// Constants of the standard: nu in mm^2/s.
 constexpr double shift = 0.7, mm2_s = 1e-6;
 
 double double_logarithm(double nu) { return std::log10(std::log10(nu / mm2_s + shift)); }

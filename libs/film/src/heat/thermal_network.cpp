@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Index;
 
-/// Nodes that paths lead to from those marked.
+/// Marks the nodes that paths lead to from those marked.
 std::vector<bool> reached(const ThermalNetworkModel& model, std::vector<bool> from) {
   for (bool spreads = true; spreads;) {
     spreads = false;
@@ -46,20 +46,20 @@ ThermalNetwork::ThermalNetwork(ThermalNetworkModel model) : model_(std::move(mod
     HERSEY_REQUIRE(path.a < n && path.b < n && path.conductance >= 0, "a path conducts heat between two nodes");
   for (const ThermalNode& node : model_.nodes)
     HERSEY_REQUIRE(node.is_fixed || node.heat_capacity > 0, "a body holds heat");
-  seen_.T.resize(static_cast<Index>(n));
-  seen_.heat.setZero(static_cast<Index>(n));
-  for (std::size_t i = 0; i < n; ++i) seen_.T[static_cast<Index>(i)] = model_.nodes[i].T;
+  observables_.T.resize(static_cast<Index>(n));
+  observables_.heat.setZero(static_cast<Index>(n));
+  for (std::size_t i = 0; i < n; ++i) observables_.T[static_cast<Index>(i)] = model_.nodes[i].T;
 }
 
-// (thermal.45) by (thermal.47), or (thermal.48): conductances, films and capacities at the end of the step, so that
-// none of them limits it. Solved for the change, which short steps of large bodies would lose in the temperature's
-// digits.
+// Solves (thermal.45) by (thermal.47), or (thermal.48): conductances, films and capacities are those at the end of the
+// step, so that none of them limits it. The unknown is the change, which short steps of large bodies would lose in the
+// digits of the temperature.
 void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {
   const std::size_t n = model_.nodes.size();
-  const Eigen::VectorXd& start = seen_.T;
+  const Eigen::VectorXd& start = observables_.T;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Index>(n), static_cast<Index>(n));
   Eigen::VectorXd b = Eigen::VectorXd::Zero(static_cast<Index>(n));
-  std::vector<bool> holds(n, dt > 0);  // something says what the temperature is
+  std::vector<bool> holds(n, dt > 0);  // true if an equation determines the temperature
   for (const ThermalPath& path : model_.paths) {
     const auto i = static_cast<Index>(path.a), j = static_cast<Index>(path.b);
     const double q = path.conductance * (start[i] - start[j]);
@@ -89,42 +89,43 @@ void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {
     }
   }
   const Eigen::VectorXd change = A.partialPivLu().solve(b);
-  seen_.T += change;
+  observables_.T += change;
   observe(dt, change, films);
 }
 
 void ThermalNetwork::observe(double dt, const Eigen::VectorXd& change, const std::vector<FilmAtNodes>& films) {
-  seen_.heat.setZero();
-  seen_.to_fixed = seen_.stored = 0;
+  observables_.heat.setZero();
+  observables_.to_fixed = observables_.stored = 0;
   for (const FilmAtNodes& film : films) {
     const WallExchange& observed = film.exchange;
     const Eigen::VectorXd heat = observed.heat + observed.by_T * (walls(film.at, observed.T) - observed.T);
-    for (const auto& [row, i] : film.at.nodes()) seen_.heat[i] += heat[row];
+    for (const auto& [row, i] : film.at.nodes()) observables_.heat[i] += heat[row];
   }
   for (std::size_t k = 0; k < model_.nodes.size(); ++k) {
     const auto i = static_cast<Index>(k);
     if (model_.nodes[k].is_fixed) {
-      seen_.to_fixed += seen_.heat[i];
+      observables_.to_fixed += observables_.heat[i];
     } else if (dt > 0) {
-      seen_.stored += model_.nodes[k].heat_capacity / dt * change[i];
+      observables_.stored += model_.nodes[k].heat_capacity / dt * change[i];
     }
   }
   for (const ThermalPath& path : model_.paths) {
-    const double q = path.conductance * (seen_.T[static_cast<Index>(path.a)] - seen_.T[static_cast<Index>(path.b)]);
-    if (model_.nodes[path.b].is_fixed) seen_.to_fixed += q;
-    if (model_.nodes[path.a].is_fixed) seen_.to_fixed -= q;
+    const double q =
+        path.conductance * (observables_.T[static_cast<Index>(path.a)] - observables_.T[static_cast<Index>(path.b)]);
+    if (model_.nodes[path.b].is_fixed) observables_.to_fixed += q;
+    if (model_.nodes[path.a].is_fixed) observables_.to_fixed -= q;
   }
 }
 
 Eigen::VectorXd ThermalNetwork::walls(const FilmTerminals& at, const Eigen::VectorXd& otherwise) const {
   Eigen::VectorXd T = otherwise;
-  for (const auto& [row, i] : at.nodes()) T[row] = seen_.T[i];
+  for (const auto& [row, i] : at.nodes()) T[row] = observables_.T[i];
   return T;
 }
 
 void ThermalNetwork::persist(Archive& archive) {
-  archive.io("T", seen_.T), archive.io("heat", seen_.heat);
-  archive.io("to_fixed", seen_.to_fixed), archive.io("stored", seen_.stored);
+  archive.io("T", observables_.T), archive.io("heat", observables_.heat);
+  archive.io("to_fixed", observables_.to_fixed), archive.io("stored", observables_.stored);
 }
 
 }  // namespace hersey::film

@@ -8,7 +8,7 @@ namespace hersey::film {
 /// (theory manual, thermal.53): beside T_1 - next T_2 - wall() T_wall.
 struct WallFlux {
   double beside = 0;  ///< by the layer beside the wall [W/K]
-  double next = 0;    ///< by the one after it [W/K]
+  double next = 0;    ///< by the layer after that [W/K]
   [[nodiscard]] double wall() const { return beside - next; }
 
   WallFlux& operator+=(const WallFlux& other) {

@@ -4,22 +4,22 @@
 
 namespace hersey::film {
 
-void WallPace::learn(const Eigen::VectorXd& missing, const Eigen::VectorXd& per_kelvin) {
-  constexpr double least = 0.5, most = 1, like = 0.8;  // cosine: what goes elsewhere tells nothing of the pace
+void WallRelaxation::learn(const Eigen::VectorXd& missing, const Eigen::VectorXd& per_kelvin) {
+  constexpr double least = 0.5, most = 1, like = 0.8;  // like: smallest cosine between observed and predicted change
   share_ = 1;
-  if (foretold_.size() == missing.size()) {
-    const Eigen::VectorXd foretold = foretold_.cwiseQuotient(per_kelvin);
+  if (predicted_.size() == missing.size()) {
+    const Eigen::VectorXd predicted = predicted_.cwiseQuotient(per_kelvin);
     const Eigen::VectorXd followed = (missing_ - missing).cwiseQuotient(per_kelvin);
-    const double along = followed.dot(foretold);
-    if (along > like * followed.norm() * foretold.norm())
-      share_ = std::clamp(along / foretold.squaredNorm(), least, most);
+    const double along = followed.dot(predicted);
+    if (along > like * followed.norm() * predicted.norm())
+      share_ = std::clamp(along / predicted.squaredNorm(), least, most);
   }
   missing_ = missing;
 }
 
-void WallPace::persist(Archive& archive) {
+void WallRelaxation::persist(Archive& archive) {
   const Archive::Group group(archive, "pace");
-  archive.io("share", share_), archive.io("missing", missing_), archive.io("foretold", foretold_);
+  archive.io("share", share_), archive.io("missing", missing_), archive.io("foretold", predicted_);
 }
 
 }  // namespace hersey::film

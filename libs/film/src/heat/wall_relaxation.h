@@ -6,22 +6,24 @@
 
 namespace hersey::film {
 
-/// By how much of what was foretold walls follow their corrections from cycle to cycle (theory manual, thermal.65):
-/// less than one where warmer walls bring more heat of their own, as contact does in films that thin.
-class WallPace {
+/// Relaxation of walls that follow their corrections from cycle to cycle, from the ratio of observed to predicted
+/// changes (theory manual, thermal.65). It is less than one where warmer walls increase their own heat, as contact does
+/// in films that thin.
+class WallRelaxation {
  public:
-  /// @param missing  now, of any quantities, shape (n). @param per_kelvin  of each, > 0, shape (n)
+  /// Updates the relaxation. @param missing  present values of any quantities, shape (n). @param per_kelvin  change of
+  /// each with temperature, > 0, shape (n)
   void learn(const Eigen::VectorXd& missing, const Eigen::VectorXd& per_kelvin);
-  /// Between 1/2 and 1; 1 until two corrections are known.
+  /// Relaxation between 1/2 and 1; 1 until two corrections are known.
   [[nodiscard]] double share() const { return share_; }
-  /// By how much the missing is to fall before learn() is called again, at a share of one, shape (n).
-  void foretell(const Eigen::VectorXd& fall) { foretold_ = fall; }
-  /// What is learned.
+  /// Sets the predicted fall of `missing` until the next learn(), at a share of one, shape (n).
+  void predict(const Eigen::VectorXd& fall) { predicted_ = fall; }
+  /// Saves or restores the relaxation.
   void persist(Archive& archive);
 
  private:
   double share_ = 1;
-  Eigen::VectorXd missing_, foretold_;
+  Eigen::VectorXd missing_, predicted_;
 };
 
 }  // namespace hersey::film

@@ -10,7 +10,8 @@
 namespace hersey::film {
 namespace {
 
-/// Ring, or shell in a body, and journal of their own temperatures, as one vector [K].
+/// Returns the temperatures of a ring, or a shell in a body, and of a journal with a temperature of its own as one
+/// vector [K].
 Eigen::VectorXd own_walls(const ThermalModel& thermal, const HeatState& state) {
   const Eigen::Index ring = has_own_temperatures(thermal.shell) ? state.shell.size() : 0;
   Eigen::VectorXd T(ring + (has_own_temperature(thermal.journal) ? 1 : 0));
@@ -30,12 +31,12 @@ Eigen::VectorXd at_terminals(const HeatState& state) {
 const WallExchange& WallsOverCycles::end_cycle(MeanHeat& mean, const HeatState& state) {
   mean_ = mean.answer(state.shell, state.journal);
   mean_.exchange.T = at_terminals(state);
-  pace_.learn(missing(), per_kelvin());
-  mean_.exchange.by_T.topLeftCorner<2, 2>() *= pace_.share();
+  relaxation_.learn(missing(), per_kelvin());
+  mean_.exchange.by_T.topLeftCorner<2, 2>() *= relaxation_.share();
   return mean_.exchange;
 }
 
-// Ring [K], journal [K], and of walls that are nodes the heat they take up [W] (thermal.65).
+// Temperatures of ring [K] and journal [K], and for walls that are nodes the heat that they absorb [W] (thermal.65).
 Eigen::VectorXd WallsOverCycles::missing() const {
   Eigen::VectorXd missing(mean_.without.ring.size() + 3);
   missing << mean_.without.ring, mean_.without.journal, 0, 0;
@@ -54,28 +55,29 @@ Eigen::VectorXd WallsOverCycles::per_kelvin() const {
   return per_kelvin;
 }
 
-void WallsOverCycles::foretell(const Eigen::VectorXd& by_nodes) {
-  Eigen::VectorXd fall = missing() / pace_.share();
-  fall.tail<2>() = -mean_.exchange.by_T.topLeftCorner<2, 2>() * by_nodes.head<2>() / pace_.share();
-  pace_.foretell(fall);
+void WallsOverCycles::predict(const Eigen::VectorXd& by_nodes) {
+  Eigen::VectorXd fall = missing() / relaxation_.share();
+  fall.tail<2>() = -mean_.exchange.by_T.topLeftCorner<2, 2>() * by_nodes.head<2>() / relaxation_.share();
+  relaxation_.predict(fall);
 }
 
-// From what bodies have to what would settle them, by so much as they follow; and all by what nodes do to them.
+// Bodies change by their relaxation from their present temperatures towards those that would settle them; the effects
+// of the nodes are added.
 void WallsOverCycles::move_own_walls(const Eigen::VectorXd& by_nodes, HeatState& state) const {
-  const double pace = 1 / pace_.share();
-  if (mean_.heat.size() > 0) state.wall_heat += pace * (mean_.heat - state.wall_heat);
-  state.journal_heat += pace * (mean_.journal_heat - state.journal_heat);
+  const double factor = 1 / relaxation_.share();
+  if (mean_.heat.size() > 0) state.wall_heat += factor * (mean_.heat - state.wall_heat);
+  state.journal_heat += factor * (mean_.journal_heat - state.journal_heat);
   const auto follow = [&](const MeanHeat::Change& change, double share) {
     if (has_own_temperatures(thermal_->shell)) state.shell += share * change.ring;
     if (change.heat.size() > 0) state.wall_heat += share * change.heat;
     if (has_own_temperature(thermal_->journal)) state.journal += share * change.journal;
     state.journal_heat += share * change.journal_heat;
   };
-  follow(mean_.without, pace);
+  follow(mean_.without, factor);
   if (std::holds_alternative<NodeWall>(thermal_->shell)) follow(mean_.by_shell, by_nodes[0]);
   if (std::holds_alternative<NodeWall>(thermal_->journal)) follow(mean_.by_journal, by_nodes[1]);
-  for (std::size_t place = 0; place < mean_.by_outside.size(); ++place)
-    follow(mean_.by_outside[place], by_nodes[2 + static_cast<Eigen::Index>(place)]);
+  for (std::size_t terminal = 0; terminal < mean_.by_outside.size(); ++terminal)
+    follow(mean_.by_outside[terminal], by_nodes[2 + static_cast<Eigen::Index>(terminal)]);
 }
 
 WallCorrection WallsOverCycles::settle(const Eigen::VectorXd& T_nodes, HeatState& state) {
@@ -100,7 +102,7 @@ WallCorrection WallsOverCycles::settle(const Eigen::VectorXd& T_nodes, HeatState
     state.journal = T_nodes[1];
   }
   state.outside = T_nodes.tail(state.outside.size());
-  foretell(by_nodes);
+  predict(by_nodes);
   have_settled_ = true;
   if (!std::isfinite(correction.rise)) correction.rise = 0;
   return correction;
@@ -108,7 +110,7 @@ WallCorrection WallsOverCycles::settle(const Eigen::VectorXd& T_nodes, HeatState
 
 void WallsOverCycles::persist(Archive& archive) {
   archive.io("has_settled", have_settled_);
-  pace_.persist(archive);
+  relaxation_.persist(archive);
 }
 
 }  // namespace hersey::film

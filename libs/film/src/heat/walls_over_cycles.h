@@ -10,36 +10,36 @@
 
 namespace hersey::film {
 
-/// Temperatures of a film's terminals, in the order of WallExchange [K].
+/// Returns the temperatures of a film's terminals, in the order of WallExchange [K].
 [[nodiscard]] Eigen::VectorXd at_terminals(const HeatState& state);
 
-/// Walls that keep their temperatures over a cycle, and what they take at its end (theory manual, thermal.18,
+/// Walls that keep their temperatures over a cycle, and their new temperatures at its end (theory manual, thermal.18,
 /// thermal.19, thermal.65).
 class WallsOverCycles {
  public:
   /// @param thermal  outlives this
   explicit WallsOverCycles(const ThermalModel& thermal) : thermal_(&thermal) {}
 
-  /// By the means of the cycle, which end with it: what walls that are nodes take up, and how it follows them.
+  /// Ends a cycle by its means: returns the heat that walls that are nodes absorb, and its derivatives.
   const WallExchange& end_cycle(MeanHeat& mean, const HeatState& state);
-  /// After end_cycle(): gives nodes these temperatures, in the order of WallExchange [K], and the other walls those at
-  /// which they would take up no heat. Tells by how much they were off.
+  /// Sets, after end_cycle(), the nodes' temperatures, in the order of WallExchange [K], and gives the other walls
+  /// those at which they would absorb no heat. Returns the size of the correction.
   WallCorrection settle(const Eigen::VectorXd& T_nodes, HeatState& state);
-  /// Whether settle() has been called.
+  /// True if settle() has been called.
   [[nodiscard]] bool have_settled() const { return have_settled_; }
 
-  /// What goes on from cycle to cycle.
+  /// Saves or restores the state that continues from cycle to cycle.
   void persist(Archive& archive);
 
  private:
   [[nodiscard]] Eigen::VectorXd missing() const;
   [[nodiscard]] Eigen::VectorXd per_kelvin() const;
-  void foretell(const Eigen::VectorXd& by_nodes);
+  void predict(const Eigen::VectorXd& by_nodes);
   void move_own_walls(const Eigen::VectorXd& by_nodes, HeatState& state) const;
 
   const ThermalModel* thermal_;
   MeanHeat::Answer mean_;
-  WallPace pace_;
+  WallRelaxation relaxation_;
   bool have_settled_ = false;
 };
 

@@ -6,8 +6,8 @@
 namespace hersey::film {
 namespace {
 
-/// By which the values in the middles of intervals count in an integral over all of them, over the intervals' lengths:
-/// each interval has the parabola through its own value and those of its neighbours.
+/// Returns the weights of values in the middles of intervals in an integral over all of them, over the intervals'
+/// lengths: each interval has the parabola through its own value and those of its neighbours.
 Eigen::VectorXd parabolic_shares(const Eigen::VectorXd& length) {
   const auto n = static_cast<int>(length.size());
   Eigen::VectorXd shares = Eigen::VectorXd::Ones(n);
@@ -23,8 +23,8 @@ Eigen::VectorXd parabolic_shares(const Eigen::VectorXd& length) {
   return shares;
 }
 
-/// By which sums over volumes, which the balance of oil implies, become integrals by the weights of the wrench, which
-/// lose nothing of a film's parabola across the width.
+/// Factors that turn sums over volumes, which the balance of oil implies, into integrals by the weights of the wrench,
+/// which are exact for a film's parabola across the width.
 struct Across {
   Eigen::VectorXd axial;   ///< of faces along the axis
   Eigen::VectorXd around;  ///< of nodes, and of faces around
@@ -34,15 +34,16 @@ Across across(const GridGeometry& geometry) {
   return {parabolic_shares(geometry.dz), geometry.weight_z.cwiseQuotient(geometry.width_z)};
 }
 
-/// Work that oil brings along which a feature feeds over the land before an edge, beyond what a held node says of it.
+/// Work of the oil that a feature feeds over the land before an edge, beyond the part counted at a prescribed node.
 double oil_over_land(const FlowBalance& balance, int node) {
   if (balance.over_land(node) == 0) return 0;
   const double edge = balance.is_open(node) ? 0 : balance.edge_unknown(node);
-  const double counted = balance.is_held(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
+  const double counted =
+      balance.is_prescribed(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
   return (oil_work(balance.model().lubricant, edge + balance.drop_over_land(node)) - counted) * balance.over_land(node);
 }
 
-// Of a film that is sheared over the whole gap: mu slip^2/h, more of it between rough surfaces.
+// Power of a film that is sheared over the whole gap: mu slip^2/h, more of it between rough surfaces.
 double full_sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion, int node) {
   const double stretch = balance.geometry().stretch[node % balance.model().grid.n_z];
   const double slip2_phi = std::pow(stretch * (motion.u_journal - motion.u_shell), 2);
@@ -59,8 +60,8 @@ double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const
   return balance.nodes()[node].share * full_sliding_power(balance, wrench, motion, node);
 }
 
-// Pressure drives oil through the gap: over a face, volume flow times drop. In guembel a face where the pressure is cut
-// off counts the part before the cut.
+// Pressure drives oil through the gap: the power over a face is volume flow times drop. In guembel a face on which the
+// pressure is cut off counts the part before the cut.
 double pressure_power(const FlowBalance& balance, std::size_t f) {
   const Face& face = balance.faces()[f];
   const Node &a = balance.nodes()[face.a], &b = balance.nodes()[face.b];
@@ -103,14 +104,15 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
       const double area = geometry.weight(i, j);
       const double work = oil_work(model.lubricant, node.wall - model.p_cav);
       const double sliding = area * full_sliding_power(balance, wrench, motion, k);
-      o.power_film_other_shear += (node.other_share - node.share) * sliding;  // and what follows does not depend on it
+      o.power_film_other_shear += (node.other_share - node.share) * sliding;  // the terms below do not depend on it
       o.power_film += node.share * sliding +
                       around[j] * (pressure_power(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
       if (j + 1 < grid.n_z) o.power_film += axial[j] * pressure_power(balance, balance.face_above(i, j));
       o.power_film += balance.power_over_land(k);
       o.power_asperity += area * node.asperity * wrench.friction_power_per_contact(j);
-      // What the supply feeds comes at its own pressure: the way to the node dissipates (FlowBalance::power_of_tie).
-      if (balance.is_held(k)) o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
+      // The supply feeds oil at its own pressure: the way to the node dissipates (FlowBalance::power_of_tie).
+      if (balance.is_prescribed(k))
+        o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
       o.power_oil += work * balance.outflow(k) - oil_over_land(balance, k);
       o.power_stored +=
           area * (work * balance.storage(k) / balance.area(k) - (node.wall + node.asperity) * motion.g_rate[k]);

@@ -7,7 +7,7 @@
 namespace hersey::film {
 namespace {
 
-// Boundary friction turns smoothly from one direction of sliding to the other over this speed.
+// Sliding speed over which boundary friction changes its direction smoothly.
 constexpr double friction_speed = 1e-3;
 
 /// A derivative of the nodal field P by differences: sum of weight * P[node].
@@ -16,7 +16,7 @@ struct Stencil {
   std::array<double, 3> weight{};
 };
 
-// The slope at x = 0 of the parabola through three nodes, two of them at x = a and x = b.
+// Returns the slope at x = 0 of the parabola through three nodes, two of them at x = a and x = b.
 std::array<double, 3> parabola_slope(double a, double b) {
   return {-(a + b) / (a * b), b / (a * (b - a)), -a / (b * (b - a))};
 }
@@ -25,7 +25,7 @@ Stencil slope_at(int k, int first, double a, int second, double b) {
   return {{k, first, second}, parabola_slope(a, b)};
 }
 
-// One-sided at the ends of a patch.
+// Differences at the ends of a patch are one-sided.
 Stencil slope_phi(const Grid& grid, const GridGeometry& geometry, int i, int j) {
   const int before = grid.before(i), after = grid.next(i), k = grid.index(i, j), n_z = grid.n_z;
   if (before < 0) {
@@ -37,7 +37,7 @@ Stencil slope_phi(const Grid& grid, const GridGeometry& geometry, int i, int j) 
   return slope_at(k, grid.index(before, j), -back, grid.index(after, j), geometry.step(i, j));
 }
 
-// Second order up to the edges, where the difference is one-sided.
+// Differences are of second order up to the edges, where they are one-sided.
 Stencil slope_z(const Grid& grid, const GridGeometry& geometry, int i, int j) {
   const int k = grid.index(i, j), last = grid.n_z - 1;
   const Eigen::VectorXd& dz = geometry.dz;
@@ -122,12 +122,13 @@ void FilmWrench::take_relief(const FlowBalance& balance) {
     relief_journal_[covered.node] -= covered.share_journal * covered.depth / whole;
   }
   for (std::size_t k = 0; k < relief_.size(); ++k) {
-    if (relief_[k].value < 0) relief_[k] = {0, 0}, relief_journal_[k] = 0;  // two features one over the other
+    if (relief_[k].value < 0) relief_[k] = {0, 0}, relief_journal_[k] = 0;  // two overlapping features
   }
 }
 
-// Pressure falls otherwise over a pocket than over the land: what of it shears the oil, and pushes on the pocket's
-// walls, is half of the integral of d dp each, in the same direction on the surface that has the pocket (film.29).
+// The pressure profile over a pocket differs from that over the land. Its effects on the shear of the oil and on the
+// pocket's walls are half of the integral of d dp each, in the same direction on the surface that has the pocket
+// (film.29).
 void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_gradient) {
   const Grid& grid = model_.grid;
   pushes_.clear();
@@ -159,14 +160,14 @@ void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_grad
       by_u_.col(k) += (by_h * node.h_u + 0.5 * moment.fluidity * flow.u + drop * node.wall_u) * direction;
       by_g_.col(k) += by_h * node.h_g * direction;
       push.by_rate += 0.5 * moment.fluidity * flow.rate;
-      push.by_turn += 0.5 * moment.fluidity * flow.turn;
+      push.by_rotation += 0.5 * moment.fluidity * flow.rotation;
     }
     by_journal_ += moment.journal * direction;
     pushes_.push_back(push);
   }
 }
 
-// What the gap between the nodes, and the speed past steps, change of that.
+// Adds the change of that moment with the gap between the nodes and the speed past steps.
 Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
   Vector6 sum = Vector6::Zero();
   const Grid& grid = model_.grid;
@@ -176,7 +177,7 @@ Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
     const Row& row = rows_[static_cast<std::size_t>(push.row)];
     const SlidingChange sliding = change_of_sliding(
         row.slip, {row.stretch * (direction.u_journal - direction.u_shell), direction.w_journal - direction.w_shell});
-    double change = push.by_rate * sliding.rate + push.by_turn * sliding.turn;
+    double change = push.by_rate * sliding.rate + push.by_rotation * sliding.rotation;
     if (axial) {
       change += push.by_past * 0.5 * (direction.w_shell + direction.w_journal);
     } else {
@@ -208,10 +209,10 @@ FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap& rough, 
   return s;
 }
 
-// Of a film that bears tension the pressure is cut off at p_cav somewhere between two nodes (film.23). The sum over
-// nodes would count the last one for its whole cell: first order in the derivatives, which jump there. A pressure that
-// falls from u_a > 0 to u_b < 0 over a distance l acts on its positive part, the triangle u_a t l/2 with t = u_a/(u_a -
-// u_b).
+// In a film that bears tension the pressure is cut off at p_cav somewhere between two nodes (film.23). The sum over
+// nodes would count the last one for its whole cell: it is of first order, and its derivatives jump there. A pressure
+// that falls from u_a > 0 to u_b < 0 over a distance l acts on its positive part, the triangle u_a t l/2 with t =
+// u_a/(u_a - u_b).
 void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
   const Grid& grid = model_.grid;
   for (int i = 0; i < grid.n_phi; ++i) {
@@ -232,7 +233,7 @@ void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
   }
 }
 
-// Of volumes that the border of a cavity cuts the share under shear follows the nodes around (film.60, film.61).
+// The sheared share of volumes that the border of a cavity cuts follows the nodes around (film.60, film.61).
 void FilmWrench::add_borders(const FlowBalance& balance) {
   for (const CavityBorder& border : balance.borders()) {
     const int i = border.node / model_.grid.n_z, j = border.node % model_.grid.n_z;
@@ -253,20 +254,21 @@ void FilmWrench::add_borders(const FlowBalance& balance) {
     for (const int k : {0, 1}) {
       const SlidingChange change = change_of_sliding(row.slip, Eigen::Vector2d::Unit(k));
       const double stretch = k == 0 ? row.stretch : 1;
-      by_slip_.col(k) += stretch * (border.by_rate * change.rate + border.by_turn * change.turn) * whole;
+      by_slip_.col(k) += stretch * (border.by_rate * change.rate + border.by_rotation * change.rotation) * whole;
     }
   }
 }
 
-// Pressure acts at right angles to the true surface, which leans where the shell's opening d changes: -p grad d beside
-// p e_r (film.52). Oil reaches around the edges, too, and with it the integral is that of d grad p: nothing from a
-// uniform pressure. Contact ends at the edges. Sums over the intervals between nodes give exactly nothing where p or d
-// is the same everywhere.
+// Pressure acts at right angles to the true surface, which is inclined where the shell's opening d changes: -p grad d
+// in addition to p e_r (film.52). Oil reaches around the edges, too, and with it the integral is that of d grad p: a
+// uniform pressure contributes nothing. Contact ends at the edges. Sums over the intervals between nodes are exactly
+// zero where p or d is uniform.
 void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradient) {
   HERSEY_REQUIRE(!std::holds_alternative<Annulus>(model_.surface), "openings of a bore or of a plane pad");
   const bool is_plane = std::holds_alternative<Plane>(model_.surface);
   const Grid& grid = model_.grid;
-  // Adds to the entry `row` of the wrench what the interval from node a to node b gives, `arm` its width and lever.
+  // Adds the contribution of the interval from node a to node b to the entry `row` of the wrench; `arm` is its width
+  // and lever.
   const auto add = [&](int row, int a, int b, double arm) {
     const Node &at_a = nodes[a], &at_b = nodes[b];
     const double mean = 0.5 * arm * (opening_[a] + opening_[b]), fall = arm * (opening_[a] - opening_[b]);

@@ -42,14 +42,13 @@ class FilmWrench {
   /// d total / d(direction) at fixed u.
   [[nodiscard]] Vector6 along(const MotionDirection& direction) const;
   [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& gradient_u() const { return by_u_; }
-  /// What shear() would have more if the cavitated film were sheared as the other CavitatedShear has it, all else being
-  /// the same.
+  /// Difference of shear() with the other CavitatedShear, all else being the same.
   [[nodiscard]] Vector6 more_of_other_shear(const FlowBalance& balance) const;
-  /// What pushes the surfaces apart at each node.
+  /// Forces that push the surfaces apart at each node.
   [[nodiscard]] const NormalForces& normal() const { return normal_; }
 
  private:
-  /// Wrenches of unit tractions at one node; the last two also as the film's shear counts them.
+  /// Wrenches of unit tractions at one node; the last two also multiplied by the factors of the film's shear.
   struct Basis : UnitTractions {
     Vector6 shear_along, shear_across;
   };
@@ -77,24 +76,24 @@ class FilmWrench {
   std::vector<GridLine> lines_;
   Vector6 total_, pressure_, shear_, asperity_;
   NormalForces normal_;
-  /// What the walls of the pockets in a flow tube do as surfaces move.
+  /// Contribution of the walls of the pockets in a flow tube, with its derivatives.
   struct WallPush {
     std::size_t face = 0;
     int row = 0;        ///< of the grid
     Vector6 direction;  ///< of a unit of PocketFlow::Moment
     double by_bend = 0, by_past = 0;
-    double by_rate = 0, by_turn = 0;  ///< with what SlidingChange tells
+    double by_rate = 0, by_rotation = 0;  ///< with the two members of SlidingChange
     bool in_journal = false;
   };
   std::vector<WallPush> pushes_;
-  Vector6 by_journal_;                  ///< with phi_journal, of pockets that turn
+  Vector6 by_journal_;                  ///< with phi_journal, of rotating pockets
   Vector6 by_supply_;                   ///< with phi_supply, of borders of cavities beside the line
   std::vector<double> relief_journal_;  ///< of the factor below [1/rad]
   std::vector<ValueAndSlope> relief_;   ///< factor of Couette shear where features have depth [-, 1/m]; empty: 1
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_, by_opening_;
-  Eigen::VectorXd opening_;              ///< how far the shell lies outside its cylinder [m]; empty: nowhere
+  Eigen::VectorXd opening_;              ///< displacement of the shell outwards from its cylinder [m]; empty: none
   Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi at R and along z
-  /// What a row of the grid, on which all of the surface has one speed, has of its own.
+  /// Quantities of a row of the grid, on which the surfaces have one speed.
   struct Row {
     double stretch = 1;             ///< of that speed along phi [-]
     Eigen::Vector2d slip;           ///< that speed [m/s]

@@ -20,8 +20,8 @@ struct Peak {
   double value = 0, phi = 0, z = 0;
 };
 
-/// Vertex of the parabola through values at -before, 0 and after: place and rise above the middle one. It is sought no
-/// further than half-way to the neighbours.
+/// Vertex of the parabola through values at -before, 0 and after: its position, and its height above the middle value.
+/// It is limited to half-way to the neighbours.
 struct Vertex {
   double offset = 0, rise = 0;
 };
@@ -40,8 +40,8 @@ class PeakFinder {
  public:
   PeakFinder(const FilmModel& model, const GridGeometry& geometry) : grid_(model.grid), at_(geometry) {}
 
-  /// The field's largest value, by parabolas where it is smooth from the node to all its neighbours; else the node's
-  /// own. @param is_smooth whether the field has no kink between two nodes
+  /// Returns the field's largest value, by parabolas where it is smooth from the node to all its neighbours; else the
+  /// node's own. @param is_smooth true if the field has no kink between two nodes
   template <class IsSmooth>
   [[nodiscard]] Peak largest(const Eigen::VectorXd& field, IsSmooth&& is_smooth) const {
     int node = 0;
@@ -63,8 +63,8 @@ class PeakFinder {
     return vertex(value(before), value(i), value(after), at_.dx[before], at_.dx[i]);
   }
 
-  /// Maximum next to node (i, j) by parabolas, along phi always and along z inside the width. Edges count: there only
-  /// phi is interpolated.
+  /// Returns the maximum next to node (i, j) by parabolas, along phi always and along z inside the width. Edges count:
+  /// there only phi is interpolated.
   [[nodiscard]] Peak refine(const Eigen::VectorXd& field, int i, int j) const {
     const auto at = [&](int a, int b) { return field[grid_.index(a, b)]; };
     const Vertex along = around(i, [&](int k) { return at(k, j); });
@@ -78,8 +78,8 @@ class PeakFinder {
   const GridGeometry& at_;
 };
 
-/// Whether the pressure has no kink between a node and another: no edge gives it the pressure, neither a supply line
-/// nor a feature holds one of them, and no border of a pocket lies between.
+/// True if the pressure has no kink between a node and another: neither an edge nor a supply line or feature prescribes
+/// the pressure of one of them, and no border of a pocket lies between.
 bool is_smooth(const FlowBalance& balance, int a, int b) {
   if (balance.is_given(a)) return false;
   if (balance.balance_share(a) < 1 || balance.balance_share(b) < 1) return false;
@@ -87,7 +87,7 @@ bool is_smooth(const FlowBalance& balance, int a, int b) {
   return depth.size() == 0 || std::abs(depth[a] - depth[b]) <= 1e-9 * balance.model().c;
 }
 
-/// The largest pressure. A supply line has its own along its whole way, between nodes too.
+/// Returns the largest pressure. A supply line has its own pressure along its whole length, between nodes too.
 Peak largest_pressure_of(const FlowBalance& balance, const Eigen::VectorXd& p, double phi_supply) {
   const FilmModel& model = balance.model();
   const Peak peak =
@@ -96,7 +96,7 @@ Peak largest_pressure_of(const FlowBalance& balance, const Eigen::VectorXd& p, d
   return {model.supply.pressure, phi_supply - two_pi * std::floor(phi_supply / two_pi), 0};
 }
 
-/// Flows over the boundaries, storage and volume (film.55).
+/// Sums the flows over the boundaries, storage and volume (film.55).
 void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmObservables& o) {
   const FilmModel& model = balance.model();
   const Grid& grid = model.grid;
@@ -122,14 +122,14 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
   double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_first), std::abs(o.flow_last),
                            std::abs(o.flow_supply), std::abs(o.storage_rate), fastest * model.c * model.L});
   if (o.flow_features.size() > 0) scale = std::max(scale, o.flow_features.cwiseAbs().maxCoeff());
-  // Where flows cancel, as in a pure squeeze, what each node gives and takes says what is round-off.
+  // Where flows cancel, as in a pure squeeze, the inflows and outflows of the nodes set the scale of round-off.
   if (!cavitation_law(model).loses_oil()) scale = std::max(scale, gross);
   const double error = o.flow_supply - outflow - o.storage_rate;
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
-/// The journal feels the negative wrench on the shell; about its own axis through e along (t_x, t_y, 1) that is
-/// -M_z - t . M + (e x F)_z.
+/// The journal is subject to the negative wrench on the shell. Its moment about its own axis through e along (t_x, t_y,
+/// 1) is -M_z - t . M + (e x F)_z.
 double torque_on_journal(const Vector6& on_shell, const Eigen::Vector2d& e, const Eigen::Vector2d& tilt) {
   return -on_shell[2] - tilt.dot(on_shell.head<2>()) + e.x() * on_shell[4] - e.y() * on_shell[3];
 }
@@ -174,7 +174,7 @@ FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, cons
 Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal) {
   const GridGeometry geometry(model);
   PocketRelief relief(model, geometry);
-  relief.place(phi_journal, phi_journal, 0, 0);
+  relief.set_rotation(phi_journal, phi_journal, 0, 0);
   Eigen::VectorXd depth = Eigen::VectorXd::Zero(model.grid.size());
   for (const CoveredDepth& covered : relief.covered()) depth[covered.node] += covered.share * covered.depth;
   return depth;

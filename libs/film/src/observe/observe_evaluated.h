@@ -8,7 +8,7 @@
 
 namespace hersey::film {
 
-/// observe_film() of a film whose `balance` and `wrench` have been evaluated at `motion` and `u` already.
+/// Returns observe_film() of a film whose `balance` and `wrench` have been evaluated at `motion` and `u` already.
 [[nodiscard]] FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& wrench,
                                                 const SurfaceMotion& motion, const Eigen::Vector2d& e,
                                                 const Eigen::VectorXd& u, const Eigen::Vector2d& tilt);

@@ -17,7 +17,7 @@ struct CoarseFilm {
 [[nodiscard]] CoarseFilm coarsened(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
                                    const Eigen::VectorXd& u);
 
-/// The unknowns of `model` from those of the coarse film: pressures and fill fractions are kept.
+/// Returns the unknowns of `model` from those of the coarse film: pressures and fill fractions are kept.
 [[nodiscard]] Eigen::VectorXd refined(const CoarseFilm& coarse, const FilmModel& model);
 
 }  // namespace hersey::film

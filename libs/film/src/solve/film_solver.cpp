@@ -93,7 +93,7 @@ bool starved(const FilmModel& model, const Eigen::VectorXd& u) {
 std::string why_empty(const FilmModel& model, const Eigen::VectorXd& u, int node, bool is_steady) {
   const std::string lack = fmt::format(
       "the film is starved at {}: more oil leaves there than can come (the fill fraction would be {:.2g}); ",
-      place_of_node(model, node), 1 + u[node] / fill_scale(model));
+      position_of_node(model, node), 1 + u[node] / fill_scale(model));
   if (!is_steady) return lack + "take a shorter step";
   const bool is_fed = model.supply.kind != SupplyKind::none || !model.features.empty();
   if (is_fed) return lack + "supply it there, at a higher pressure, or by `ambient_fill` at its edges";

@@ -8,7 +8,7 @@
 namespace hersey::film {
 namespace {
 
-// Fewer nodes show no front (around) and no parabola (across).
+// Fewer nodes resolve no front (around) and no parabola (across).
 constexpr int fewest_around = 24, fewest_across = 7;
 
 }  // namespace
@@ -35,7 +35,7 @@ GridTransfer::GridTransfer(const Grid& from, const Grid& to) : GridTransfer(from
   }
 }
 
-GridTransfer GridTransfer::by_place(const Grid& from, const Grid& to) {
+GridTransfer GridTransfer::by_position(const Grid& from, const Grid& to) {
   HERSEY_REQUIRE(from.closes() && to.closes(), "between rings");
   GridTransfer transfer(from);
   const auto phi = [&](int k) { return from.phi(k % from.n_phi) + (k < from.n_phi ? 0 : two_pi); };
@@ -58,23 +58,23 @@ Eigen::VectorXd GridTransfer::operator()(const Eigen::VectorXd& field, int per_n
   HERSEY_REQUIRE(field.size() == static_cast<Eigen::Index>(n_phi_) * n_z_ * per_node,
                  "a field of the grid it is taken from");
   Eigen::VectorXd result(static_cast<Eigen::Index>(around_.size() * along_.size()) * per_node);
-  Eigen::Index place = 0;
+  Eigen::Index index = 0;
   for (const Between& i : around_) {
     for (const Between& j : along_) {
       for (int k = 0; k < per_node; ++k) {
         const auto at = [&](int line, int row) { return field[(line * n_z_ + row) * per_node + k]; };
         const auto on_line = [&](int line) { return (1 - j.share) * at(line, j.first) + j.share * at(line, j.second); };
-        result[place++] = (1 - i.share) * on_line(i.first) + i.share * on_line(i.second);
+        result[index++] = (1 - i.share) * on_line(i.first) + i.share * on_line(i.second);
       }
     }
   }
   return result;
 }
 
-Eigen::MatrixXd GridTransfer::between(const std::vector<Between>& places, const Eigen::MatrixXd& values) {
-  Eigen::MatrixXd result(static_cast<Eigen::Index>(places.size()), values.cols());
+Eigen::MatrixXd GridTransfer::between(const std::vector<Between>& positions, const Eigen::MatrixXd& values) {
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(positions.size()), values.cols());
   Eigen::Index row = 0;
-  for (const Between& at : places)
+  for (const Between& at : positions)
     result.row(row++) = (1 - at.share) * values.row(at.first) + at.share * values.row(at.second);
   return result;
 }
@@ -85,7 +85,7 @@ Eigen::MatrixXd GridTransfer::around(const Eigen::MatrixXd& values) const {
 }
 
 Eigen::MatrixXd GridTransfer::along(const Eigen::MatrixXd& values) const {
-  HERSEY_REQUIRE(values.rows() == n_z_, "one row for each place along the axis of the grid it is taken from");
+  HERSEY_REQUIRE(values.rows() == n_z_, "one row for each position along the axis of the grid it is taken from");
   return between(along_, values);
 }
 

@@ -86,13 +86,13 @@ void LineOperator::relax_from_zero(const LineVector& b, bool ascending, LineVect
     if (k > 0) subtract(upstream, x_at(k - 1));
     if (k == last) subtract(downstream, x_at(0));
     solve_line(line_at(k), here);
-    // What has changed since the line before was solved: its downstream neighbour, this line.
+    // The line before, the downstream neighbour of this one, has changed since it was solved.
     if (k == 0) continue;
     const Row* row_before = rows_at(k - 1);
     Real* r = residual_at(k - 1);
     for (int j = 0; j < n_; ++j) r[j] = -times(&row_before[j][downstream], here, j);
   }
-  // The last line knew both of its neighbours, the first one not yet the last.
+  // The last line was solved with both of its neighbours known, the first one without the last.
   std::fill(residual_at(last), residual_at(last) + n_, Real{0});
   const Row* first = rows_at(0);
   for (int j = 0; j < n_; ++j) residual_at(0)[j] -= times(&first[j][upstream], x_at(last), j);

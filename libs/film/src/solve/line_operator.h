@@ -6,11 +6,12 @@
 
 namespace hersey::film {
 
-/// Multigrid only has to come near the answer, six digits by far: half the memory is half the time on large grids.
+/// Multigrid only has to approximate the solution, and six digits are enough: half the memory is half the time on large
+/// grids.
 using Real = float;
 
-/// A vector over the nodes of all lines, line by line, with one node more at either end that is always finite: the
-/// neighbours of the first and the last node are met with zero coefficients.
+/// A vector over the nodes of all lines, line by line, with one extra node at either end that is always finite: the
+/// missing neighbours of the first and the last node are multiplied by zero coefficients.
 class LineVector {
  public:
   LineVector() = default;
@@ -45,16 +46,16 @@ class LineOperator {
   [[nodiscard]] const Row& row(int node) const { return rows_[node]; }
   void set_zero();
 
-  /// LU of every line's own tridiagonal block, without pivoting. False where a pivot vanishes.
+  /// LU factorisation of every line's own tridiagonal block, without pivoting. False where a pivot vanishes.
   [[nodiscard]] bool factorise_lines();
 
-  /// x of one line from its right-hand side, in place; that of the transposed block likewise.
+  /// Solves one line's block for x in place of its right-hand side; the second does so for the transposed block.
   void solve_line(int line, Real* x) const;
   void solve_line_transposed(int line, Real* x) const;
 
-  /// Line by line, in ascending order or descending: Gauss-Seidel on A x = b.
+  /// Gauss-Seidel on A x = b line by line, in ascending or descending order.
   void relax(const LineVector& b, bool ascending, LineVector& x) const;
-  /// Likewise from x = 0; `residual` becomes b - A x.
+  /// Gauss-Seidel from x = 0; `residual` becomes b - A x.
   void relax_from_zero(const LineVector& b, bool ascending, LineVector& x, LineVector& residual) const;
 
  private:

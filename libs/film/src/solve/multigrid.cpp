@@ -9,7 +9,7 @@ namespace {
 // A ring of fewer lines is solved directly.
 constexpr int fewest_lines_to_coarsen = 8;
 
-/// A coarse line and how a fine line's nodes hang on it.
+/// A coarse line and the interpolation of a fine line's nodes from it.
 struct Parent {
   int line = 0;
   const Real* p = nullptr;
@@ -30,13 +30,14 @@ Multigrid::Multigrid(int lines, int nodes_per_line) {
   }
   scratch_ = LineVector(nodes_per_line);
 
-  // Pattern of the coarsest matrix by columns; it is as good as symmetric, so the neighbours of a column are its rows.
+  // Pattern of the coarsest matrix by columns; it is structurally symmetric, so that the neighbours of a column are its
+  // rows.
   const LineOperator& A = levels_.back().A;
   const int n = nodes_per_line;
   std::vector<int> column_start{0}, row_index;
   for (int column = 0; column < A.size(); ++column) {
     const int line = column / n, j = column % n;
-    std::vector<std::array<int, 2>> rows;  // row and the entry in it that this column is
+    std::vector<std::array<int, 2>> rows;  // row and the entry in it that belongs to this column
     // The line after has this one to its west.
     for (const auto& [other, block] : {std::pair{line, LineOperator::centre},
                                        {A.after(line), LineOperator::west},
@@ -58,9 +59,9 @@ Multigrid::Multigrid(int lines, int nodes_per_line) {
   lu_.analyse(A.size(), column_start, row_index);
 }
 
-// A line that is left out follows its neighbours as T p = -(block towards the neighbour) 1 says, T its own block; what
-// its residual gives to them follows likewise from the transposed blocks. Without variation along the line this is
-// exact elimination (Schaffer 1998).
+// A line that is left out follows its neighbours by T p = -(block towards the neighbour) 1, with T its own block; the
+// restriction of its residual follows from the transposed blocks. Without variation along the line this is exact
+// elimination (Schaffer 1998).
 void Multigrid::weigh(Level& fine, LineVector& scratch) {
   const LineOperator& A = fine.A;
   const int n = A.nodes_per_line();

@@ -10,29 +10,29 @@ namespace hersey::film {
 /// Multigrid for operators on a ring of lines (theory manual, film.37): Gauss-Seidel by whole lines along the flow,
 /// every second line kept on the next coarser grid, all nodes of a line kept, so that a strong coupling along the lines
 /// is solved exactly and one across them is left to coarser grids, whatever the shape of the cells. Transfers and
-/// coarse operators follow from the matrix alone: a line left out is expressed by its two neighbours as its own rows
-/// say for fields that do not vary along the line, and the coarse matrix is R A P.
+/// coarse operators follow from the matrix alone: the rows of a line left out express it by its two neighbours for
+/// fields that do not vary along the line, and the coarse matrix is R A P.
 class Multigrid {
  public:
   Multigrid(int lines, int nodes_per_line);
 
-  /// The finest operator, to be filled before setup(). Rows of inactive nodes are to be those of the identity.
+  /// Finest operator, to be filled before setup(). Rows of inactive nodes are to be those of the identity.
   [[nodiscard]] LineOperator& finest() { return levels_.front().A; }
 
   /// @param active     nodes that take part in coarser grids, one entry per node of the finest
-  /// @param ascending  whether the flow runs towards growing line numbers
+  /// @param ascending  true if the flow runs towards growing line numbers
   /// @returns false where a line's own block or the coarsest matrix is singular
   [[nodiscard]] bool setup(const std::vector<char>& active, bool ascending);
 
-  /// One V-cycle from zero: an approximate solution of A x = b.
+  /// Applies one V-cycle from zero: an approximate solution of A x = b.
   void cycle(const LineVector& b, LineVector& x);
 
  private:
   struct Level {
     LineOperator A;
     std::vector<char> active;
-    // Interpolation to a node from the coarse line at or before it and from the one after, and what its residual
-    // gives to these.
+    // Interpolation to a node from the coarse line at or before it and from the one after, and the restriction of its
+    // residual to these.
     LineVector p_before, p_after, r_before, r_after;
     LineVector x, b, residual;
   };
@@ -46,7 +46,7 @@ class Multigrid {
   bool ascending_ = true;
   LineVector scratch_;
   solver::SparseLu lu_;
-  std::vector<int> slot_node_, slot_entry_;  ///< where the values of the coarsest pattern stand in its rows
+  std::vector<int> slot_node_, slot_entry_;  ///< indices of the values of the coarsest pattern in its rows
   std::vector<double> values_, rhs_;
 };
 

@@ -19,13 +19,13 @@ MultigridSolver::MultigridSolver(int n_phi, int n_z, std::span<const int> column
   for (int column = 0; column < n; ++column) {
     for (int k = column_start[column]; k < column_start[column + 1]; ++k) {
       const int row = row_index[k], lines = (column / n_z - row / n_z + n_phi) % n_phi;
-      const int place = column == row       ? centre
+      const int entry = column == row       ? centre
                         : column == row - 1 ? south
                         : column == row + 1 ? north
                         : lines == 1        ? east
                                             : west;
-      HERSEY_REQUIRE(place != west || lines == n_phi - 1, "a five-point pattern");
-      slot_.push_back(5 * row + place);
+      HERSEY_REQUIRE(entry != west || lines == n_phi - 1, "a five-point pattern");
+      slot_.push_back(5 * row + entry);
     }
   }
   rows_.assign(static_cast<std::size_t>(n), {});
@@ -34,10 +34,10 @@ MultigridSolver::MultigridSolver(int n_phi, int n_z, std::span<const int> column
   preconditioner_ = [this](const Eigen::VectorXd& b, Eigen::VectorXd& x) { precondition(b, x); };
 }
 
-// Rows of nothing but their own unknown are solved by the first relaxation: coarser grids need not know them.
+// Rows that contain only their own unknown are solved by the first relaxation: coarser grids leave them out.
 bool MultigridSolver::setup(std::span<const double> values, bool ascending) {
   for (std::size_t k = 0; k < slot_.size(); ++k) rows_[slot_[k] / 5][slot_[k] % 5] = values[k];
-  // In its own unit the matrix fits the short numbers of multigrid; a preconditioner's factor is of no account.
+  // In its own unit the matrix fits the single precision of multigrid; a factor of the preconditioner has no effect.
   double largest = 0;
   for (const Row& row : rows_) largest = std::max(largest, std::abs(row[centre]));
   const auto entry = [largest](double value) { return static_cast<Real>(value / largest); };

@@ -17,12 +17,12 @@ class MultigridSolver {
   /// @param column_start,row_index  five-point pattern on the grid's ring, node (i, j) at i n_z + j
   MultigridSolver(int n_phi, int n_z, std::span<const int> column_start, std::span<const int> row_index);
 
-  /// Takes a matrix with that pattern.
-  /// @param ascending  whether the flow runs towards growing phi
+  /// Sets a matrix with that pattern.
+  /// @param ascending  true if the flow runs towards growing phi
   /// @returns false where the multigrid operators are singular
   [[nodiscard]] bool setup(std::span<const double> values, bool ascending);
 
-  /// x from A x = b.
+  /// Solves A x = b.
   [[nodiscard]] solver::GmresSummary solve(const Eigen::VectorXd& b, const solver::GmresOptions& options,
                                            Eigen::VectorXd& x);
 
@@ -34,7 +34,7 @@ class MultigridSolver {
   void precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
   int n_phi_, n_z_;
-  std::vector<int> slot_;  ///< of each value of the pattern its place in rows_, five to a node
+  std::vector<int> slot_;  ///< of each value of the pattern its index in rows_, five to a node
   std::vector<Row> rows_;
   std::vector<char> active_;
   Multigrid multigrid_;

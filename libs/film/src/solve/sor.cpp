@@ -16,41 +16,41 @@ namespace {
 
 constexpr int sweeps_per_update = 20;
 
-// Updates in which the residual does not halve: sweeps that go round in circles are none.
+// Number of updates without a halving of the residual after which sweeps are given up: they cycle.
 constexpr int most_without_progress = 50;
 
-// Newton's iterations for the fill fraction of one node, and the change of it with which they end: what is still
-// missing then goes with its square.
+// Largest number of Newton iterations for the fill fraction of one node, and the change of it with which they end: the
+// remaining error is of the order of its square.
 constexpr int most_of_a_node = 10;
 constexpr double near_enough = 1e-7;
 
-// 2^-30 of the way is where the sweeps began.
+// Halvings after which the sweeps are back at their start: 2^-30.
 constexpr int most_shortenings = 30;
 
 constexpr std::size_t most_faces = 4;  // of a node
 
-/// A node's row with everything but its own unknown known: K p + what leaves at its fill fraction + known = 0 [m^3/s].
+/// A node's row with everything known but its own unknown: K p + outflow at its fill fraction + known = 0 [m^3/s].
 class NodeRow {
  public:
   double K = 0;      ///< [m^3/(Pa s)]
   double known = 0;  ///< [m^3/s]
 
   explicit NodeRow(double storage) : storage_(storage) {}
-  /// What leaves over a face: `of_full` times the share of its flow that there is at a fill fraction.
+  /// Outflow over a face: `of_full` times the share of its flow at a fill fraction.
   void add_leaving(double of_full, const FaceFlow& flow) {
     leaving_[static_cast<std::size_t>(count_++)] = {of_full, &flow};
   }
-  /// What leaves whatever the face carries, per fill fraction.
+  /// Outflow that is independent of the faces, per fill fraction.
   void add_storage(double storage) { storage_ += storage; }
 
-  /// What leaves a full gap.
+  /// Outflow of a full gap.
   [[nodiscard]] double full() const {
     double sum = storage_;
     for (const Leaving& l : leaving()) sum += l.of_full;
     return sum;
   }
 
-  /// What leaves at `theta`, with its slope.
+  /// Outflow at `theta`, with its slope.
   [[nodiscard]] ValueAndSlope at(double theta) const {
     ValueAndSlope sum{storage_ * theta, storage_};
     for (const Leaving& l : leaving()) {
@@ -93,7 +93,7 @@ class Sor {
 
  private:
   void start(const Eigen::VectorXd& u);
-  void place(int node, double u);
+  void set_unknown(int node, double u);
   [[nodiscard]] FilmDomain update_coefficients(const Eigen::VectorXd& u);
   [[nodiscard]] FilmDomain enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u);
   void sweep();
@@ -113,8 +113,8 @@ class Sor {
   Eigen::VectorXd storage_known_, storage_theta_;
 };
 
-// Young's factor for the five-point operator between two edges at given pressure; one wall is the middle of a bearing
-// of twice the width, and with two only the periodic direction bounds it.
+// Young's factor for the five-point operator between two edges at given pressure. A bearing with one wall is half of
+// one of twice the width; with two walls only the periodic direction bounds the factor.
 double Sor::over_relaxation() const {
   const Grid& grid = balance_.model().grid;
   const double dphi = mean_step(grid);
@@ -126,8 +126,8 @@ double Sor::over_relaxation() const {
   return 2 / (1 + std::sqrt(1 - rho * rho));
 }
 
-// Share of a change of pressure that thickness and viscosity follow at once: the gain of that loop at a node is
-// 3 dh/h + alpha dp, and changes of neighbours double it.
+// Share of a change of pressure that thickness and viscosity follow at once: the gain of that loop at a node is 3 dh/h
+// + alpha dp, and changes of neighbours double it.
 double Sor::following() const {
   const FilmModel& model = balance_.model();
   double gain = 0;
@@ -141,10 +141,10 @@ double Sor::following() const {
 
 void Sor::start(const Eigen::VectorXd& u) {
   u_ = p_ = theta_ = u;
-  for (int node = 0; node < balance_.size(); ++node) place(node, u[node]);
+  for (int node = 0; node < balance_.size(); ++node) set_unknown(node, u[node]);
 }
 
-void Sor::place(int node, double u) {
+void Sor::set_unknown(int node, double u) {
   u_[node] = u;
   const bool open = balance_.is_open(node);
   const FilmPhase phase = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(node)) : u, scales_);
@@ -164,7 +164,7 @@ FilmDomain Sor::update_coefficients(const Eigen::VectorXd& u) {
   return {};
 }
 
-// Sweeps with the coefficients of one film may end beyond any film: half-way back, as often as it takes.
+// Sweeps with the coefficients of one film may end outside the domain: the step is halved as often as needed.
 FilmDomain Sor::enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u) {
   FilmDomain domain = update_coefficients(u);
   for (int halvings = 0; !domain.is_inside() && halvings < most_shortenings; ++halvings) {
@@ -209,7 +209,7 @@ NodeRow Sor::row(int node) const {
 
 void Sor::relax(int i, int j) {
   const int node = balance_.model().grid.index(i, j);
-  if (balance_.is_given(node)) return place(node, balance_.edge_unknown(node));
+  if (balance_.is_given(node)) return set_unknown(node, balance_.edge_unknown(node));
 
   // Beside line and features the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
   const NodeRow r = row(node);
@@ -220,7 +220,7 @@ void Sor::relax(int i, int j) {
   const double conductance = own * (open ? balance_.conductance_scale() : r.K) + (balance_.only_fills(node) ? 0 : tie);
   const double target = -full / conductance;
   const double u = open ? target : p_[node] + omega_ * (target - p_[node]);
-  if (u >= 0 || cavitation_.has_tension()) return place(node, u);
+  if (u >= 0 || cavitation_.has_tension()) return set_unknown(node, u);
 
   const auto cavitated = [&](double theta) {
     const ValueAndSlope leaves = r.at(theta);
@@ -237,14 +237,14 @@ void Sor::relax(int i, int j) {
     if (std::abs(theta - last) <= near_enough) break;
   }
   const double ambient = balance_.ambient_unknown(node);
-  if (!open || filling >= ambient) return place(node, filling);
-  // Emptier than what lies outside: u is the inflow that keeps it as full (film.19).
+  if (!open || filling >= ambient) return set_unknown(node, filling);
+  // The film is less full than the surroundings: u is the inflow that keeps it as full as these (film.19).
   const CavitatedRow drawing = cavitated(cavitation_.phase(ambient, scales_).theta.value);
   const double lack = drawing.full + (drawing.transport / scales_.fill + drawing.drawn) * ambient;
-  place(node, std::min(ambient, ambient - lack / (drawing.slack + drawing.drawn)));
+  set_unknown(node, std::min(ambient, ambient - lack / (drawing.slack + drawing.drawn)));
 }
 
-// With the flow, so that the fill fraction is carried around in one sweep.
+// Sweeps run with the flow, so that the fill fraction is carried around in one sweep.
 void Sor::sweep() {
   const Grid& grid = balance_.model().grid;
   const bool forwards = balance_.speed_phi() >= 0;
@@ -258,7 +258,7 @@ FilmSolveSummary Sor::solve(const FilmSolveOptions& options, Eigen::VectorXd& u)
   FilmSolveSummary summary;
   const int most = 1000 * options.max_iterations;
   omega_ = over_relaxation();
-  Eigen::VectorXd followed = u;  // where thickness and viscosity are taken
+  Eigen::VectorXd followed = u;  // unknowns at which thickness and viscosity are evaluated
   start(u);
   double least = std::numeric_limits<double>::infinity();
   int since = 0;
@@ -285,7 +285,7 @@ FilmSolveSummary solve_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, c
                               const FilmSolveOptions& options, Eigen::VectorXd& u) {
   Sor sor(reynolds.model(), motion, history);
   FilmSolveSummary summary = sor.solve(options, u);
-  // Leaves the object at the answer, as Newton does.
+  // Leaves the object at the solution, as Newton's method does.
   if (summary.domain.is_inside()) summary.domain = reynolds.linearise(motion, history, u);
   return summary;
 }

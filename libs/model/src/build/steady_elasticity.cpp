@@ -73,7 +73,8 @@ std::vector<std::size_t> frames_with_forces(const Model& model, const Bearing& b
 }
 
 /// Supports of a surface's body, as indices of its frames.
-std::vector<std::size_t> holders(const Model& model, const Bearing& bearing, const Body& body, std::size_t own) {
+std::vector<std::size_t> supporting_frames(const Model& model, const Bearing& bearing, const Body& body,
+                                           std::size_t own) {
   if (std::vector<std::size_t> joints = frames_with_joints(model, body); !joints.empty()) return joints;
   if (std::vector<std::size_t> forces = frames_with_forces(model, bearing, body, own); !forces.empty()) return forces;
   return {own};
@@ -156,7 +157,7 @@ std::shared_ptr<const bearing::SurfaceFlexibility> flexibility(const Model& mode
                                                                const DeformingSurface& surface, const FrameName& on) {
   const Body& body = body_called(model, on.body);
   const std::size_t own = frame_index(body, on.frame);
-  const std::vector<std::size_t> supports = holders(model, bearing, body, own);
+  const std::vector<std::size_t> supports = supporting_frames(model, bearing, body, own);
   const SupportedBody rest(static_shapes(model, body, surface, on.frame), supports);
   const bool has_frame =
       std::any_of(body.frames.begin(), body.frames.end(), [&](const Frame& frame) { return frame.name == on.frame; });
@@ -174,7 +175,7 @@ std::shared_ptr<const bearing::SurfaceFlexibility> flexibility(const Model& mode
   result.by_offset_moment = rest.by_forces() * rest.relative(supports.front()).topRows<3>().transpose() * X.R;
   result.by_spin = rest.by_spin();
   result.body = body.name;
-  for (const std::size_t index : supports) result.held_at.push_back(body.frames[index].name);
+  for (const std::size_t index : supports) result.supported_at.push_back(body.frames[index].name);
   return std::make_shared<const bearing::SurfaceFlexibility>(std::move(result));
 }
 
@@ -184,7 +185,7 @@ void add_body(const Model& model, const Bearing& bearing, const FrameName& on, F
   add_reduction(body, surfaces_on(model, body), print);
   const std::size_t own = frame_index(body, on.frame);
   print.add(static_cast<int>(own));
-  for (const std::size_t index : holders(model, bearing, body, own)) print.add(static_cast<int>(index));
+  for (const std::size_t index : supporting_frames(model, bearing, body, own)) print.add(static_cast<int>(index));
 }
 
 }  // namespace

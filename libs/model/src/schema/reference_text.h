@@ -98,7 +98,7 @@ parameters are numbers, quantities or words; a default may be derived from those
 `${name}` in its values and in its keys, `rod_${n}`, and go before the model's of that name. Templates may use others.
 
 Keys beside `use` go before the template's. A mapping that both have is merged so, key by key; anything else is replaced; a key
-with nothing behind it removes the template's. Two templates of one list may not give the same key. A fault in a template is told
+with nothing behind it removes the template's. Two templates of one list may not give the same key. A fault in a template is reported
 with its own line and that of the use. `--set` and studies change parameters, templates
 (`--set templates.main_bearing.width=18mm`), arguments (`--set bearings.left.use.angle=60deg`) and what came of them
 (`--set bearings.left.width=18mm`). `hersey check --expanded` prints the model with everything put in.

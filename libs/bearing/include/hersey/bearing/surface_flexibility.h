@@ -9,8 +9,8 @@
 
 namespace hersey::bearing {
 
-/// How a surface that deforms answers the film at rest: its body held at some of its frames, in static equilibrium. The
-/// amplitudes of the body's shapes are
+/// Response of a surface that deforms to the film at rest: its body is supported at some of its frames, in static
+/// equilibrium. The amplitudes of the body's shapes are
 ///
 ///     s = C Q + C_W W + s_omega omega^2,
 ///
@@ -21,15 +21,15 @@ struct SurfaceFlexibility {
   Eigen::MatrixXd by_forces;                      ///< C, shape (amplitudes, amplitudes)
   Eigen::MatrixXd by_wrench;                      ///< C_W, shape (amplitudes, 6)
   Eigen::VectorXd by_spin;                        ///< s_omega, shape (amplitudes)
-  /// Rotation of the surface's frame against where the body is held, and against the body's axes, by the amplitudes, in
+  /// Rotation of the surface's frame against the supported frame, and against the body's axes, by the amplitudes, in
   /// its own axes, shape (3, amplitudes) [rad].
   Eigen::MatrixXd turn, turn_in_body;
-  /// A force through the surface's frame and its reaction where the body is held act where the body has moved to: by
-  /// the amplitudes the displacement between the two, (3, amplitudes) [m], and the amplitudes by the moment that the
-  /// force has over it, (amplitudes, 3), in the frame's axes.
+  /// A force through the surface's frame and its reaction on the supported frame act at the displaced positions of
+  /// both: the displacement between the two by the amplitudes, (3, amplitudes) [m], and the amplitudes by the moment
+  /// that the force has over it, (amplitudes, 3), in the frame's axes.
   Eigen::MatrixXd offset, by_offset_moment;
-  std::string body;                  ///< its name
-  std::vector<std::string> held_at;  ///< frames of the body at which it is held
+  std::string body;                       ///< its name
+  std::vector<std::string> supported_at;  ///< frames of the body at which it is supported
 };
 
 /// Both surfaces of a bearing by itself; a null one is rigid.

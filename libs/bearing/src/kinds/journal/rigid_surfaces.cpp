@@ -59,9 +59,9 @@ void RigidSurfaces::evaluate(const ParameterVector& p, film::SurfaceMotion& moti
 
 // The journal's own shape: the gap at a fixed point changes as it passes there (film.25).
 void RigidSurfaces::add_turning(double phi_journal, double omega, film::SurfaceMotion& motion) {
-  if (!shape_.profiles_turn()) return;
+  if (!shape_.profiles_rotate()) return;
   film::MotionDirection &turn = directions_[kRotation], &speed = directions_[kJournalSpeed];
-  shape_.turn_profiles(phi_journal, opening_, first_, second_);
+  shape_.rotate_profiles(phi_journal, opening_, first_, second_);
   motion.g += opening_;
   motion.g_rate += omega * first_;
   turn.g = first_;

@@ -41,7 +41,7 @@ struct JournalConduction {
 [[nodiscard]] Eigen::VectorXd around(const Grid& grid, const Eigen::VectorXd& along);
 
 /// A journal in a body that conducts heat. In a steady film it is in balance with the film; over a time step it keeps
-/// its temperature, and over cycles it takes that of their mean heat (WallMotion::held, theory manual, thermal.63).
+/// its temperature, and over cycles it takes that of their mean heat (WallMotion::fixed, theory manual, thermal.63).
 struct BodyJournal {
   std::shared_ptr<const JournalConduction> conduction;  ///< never null
   std::optional<double> T_start = {};                   ///< with which a simulation begins [K]; unset: the supply's

@@ -37,7 +37,7 @@ struct WallConduction {
 [[nodiscard]] WallConduction on_grid(const WallConduction& wall, const Grid& from, const Grid& to);
 
 /// A shell in a body that conducts heat. In a steady film it is in balance with the film; over a time step it keeps its
-/// temperature, and over cycles it takes that of their mean heat (WallMotion::held, theory manual, thermal.57).
+/// temperature, and over cycles it takes that of their mean heat (WallMotion::fixed, theory manual, thermal.57).
 struct BodyWall {
   std::shared_ptr<const WallConduction> conduction;  ///< never null
   std::optional<double> T_start = {};                ///< with which a simulation begins [K]; unset: the supply's

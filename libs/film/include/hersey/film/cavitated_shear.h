@@ -6,8 +6,8 @@
 
 namespace hersey::film {
 
-/// The choice of how a cavitated film is sheared, and the beginning of what the other one gives: "the cavitated film is
-/// sheared over ...; over ...". For every output that tells friction.
+/// Returns the choice of how a cavitated film is sheared, and the beginning of the result of the other choice: "the
+/// cavitated film is sheared over ...; over ...". Every output that states friction uses it.
 [[nodiscard]] std::string choice_in_words(CavitatedShear shear);
 
 }  // namespace hersey::film

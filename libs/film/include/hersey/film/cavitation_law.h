@@ -6,7 +6,7 @@
 
 namespace hersey::film {
 
-/// State of the film where it would be under tension; see cavitation_law.
+/// State of the film where it would be under tension; cavitation_law() gives the equations.
 enum class Cavitation {
   guembel,          ///< full film solved, negative pressures dropped from the forces (half Sommerfeld)
   reynolds,         ///< p >= p_cav with dp/dn = 0 at rupture; mass is lost where the film re-forms
@@ -16,7 +16,7 @@ enum class Cavitation {
 /// Scales of u where u < 0 is not a pressure [Pa], > 0 each.
 struct CavitationScales {
   double fill = 1;   ///< P0: -u of an empty gap (film.6)
-  double slack = 1;  ///< -u where the film misses all that a gap widening by c in a radian asks for (film.20)
+  double slack = 1;  ///< -u where the film lacks all the oil that a gap widening by c in a radian takes (film.20)
 };
 
 /// Pressure and fill fraction by a node's unknown u (film.3 to film.6), with derivatives by u.

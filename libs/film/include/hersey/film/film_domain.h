@@ -34,6 +34,6 @@ inline constexpr double largest_pressure = 1e11;
 [[nodiscard]] std::string text(const FilmModel& model, const FilmDomain& domain);
 
 /// Says where a node lies in the bearing: "33.7 deg, z = 2.1 mm".
-[[nodiscard]] std::string place_of_node(const FilmModel& model, int node);
+[[nodiscard]] std::string position_of_node(const FilmModel& model, int node);
 
 }  // namespace hersey::film

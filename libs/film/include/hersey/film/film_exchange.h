@@ -4,10 +4,10 @@
 
 #include "hersey/core/spatial.h"
 
-/// What a film and the surfaces around it give to each other: directions in which these move, forces, oil.
+/// Exchange between a film and its surfaces: directions in which the surfaces move, forces, oil.
 namespace hersey::film {
 
-/// A one-parameter change of the surfaces, for derivatives along it: the film's answer to it is a column.
+/// A one-parameter change of the surfaces; the film's derivative along it is a column.
 struct MotionDirection {
   Eigen::VectorXd g;       ///< d gap / d parameter at the nodes; empty means zero
   Eigen::VectorXd g_rate;  ///< d gap rate / d parameter; empty means zero
@@ -34,7 +34,8 @@ struct StepOilBalance {
   [[nodiscard]] double flow_out() const { return flow_left + flow_right + flow_ends(); }  ///< [m^3/s]
   double flow_supply = 0;         ///< in through line and features [m^3/s]
   Eigen::VectorXd flow_features;  ///< in through each feature [m^3/s]
-  /// Largest share of a control volume that the linear way through the film left over [-]; 1 where some found no place.
+  /// Largest volume of oil that a control volume had no room for, or lacked, over its own volume; it was redistributed
+  /// downstream [-]; 1 where no control volume downstream could take it.
   double redistributed_overfill = 0;
 };
 

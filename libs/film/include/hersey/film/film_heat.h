@@ -50,7 +50,7 @@ class FilmHeat {
   /// largest change of a logarithm of viscosity [-]
   double thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
-  /// Returns the heat that fixed walls (WallMotion::held) take up if they are nodes, as means over all steps since the
+  /// Returns the heat that fixed walls (WallMotion::fixed) take up if they are nodes, as means over all steps since the
   /// last call; rings and journals of their own temperature follow. @throws ContractError without a step since then
   const WallExchange& mean_exchange();
   /// Sets, after mean_exchange(), the nodes' temperatures in the order of exchange().T [K]. Rings and journals of their
@@ -61,14 +61,14 @@ class FilmHeat {
   /// Displacement of the shell of a body outwards from its cylinder by temperature [m], shape (grid.size())
   /// (thermal.36); empty: none.
   [[nodiscard]] Eigen::VectorXd shell_opening() const;
-  /// The same in a simulation, where the body's temperatures change by settle_walls() only.
+  /// Displacement of the shell in a simulation, where the body's temperatures change by settle_walls() only [m].
   [[nodiscard]] Eigen::VectorXd shell_opening_in_time() const;
   /// Temperatures of that body at the nodes of its mesh [K]; empty: there is none.
   [[nodiscard]] Eigen::VectorXd body_temperatures() const;
   /// Displacement of a journal in a body outwards from its cylinder by temperature, mean around [m], shape (n_z)
   /// (thermal.61); empty: none.
   [[nodiscard]] Eigen::VectorXd journal_growth() const;
-  /// The same in a simulation.
+  /// Displacement of the journal in a simulation [m].
   [[nodiscard]] Eigen::VectorXd journal_growth_in_time() const;
   /// Temperatures of the journal's body at the nodes of its mesh [K]; empty: there is none.
   [[nodiscard]] Eigen::VectorXd journal_body_temperatures() const;

@@ -24,7 +24,7 @@ struct Lubricant {
   double rho15 = 850;           ///< the same at 15 degC, where it expands [kg/m^3], > 0
   double expansion = 0;         ///< of its volume, from 15 degC [1/K], >= 0
   DensityLaw density_law = {};  ///< rho(p)/rho0
-  /// mu at the cavitation pressure over temperature; only a film with a temperature (FilmHeat) asks it.
+  /// mu at the cavitation pressure over temperature; only a film with a temperature (FilmHeat) evaluates it.
   TemperatureLaw temperature_law = {};
   double specific_heat = 2000;  ///< [J/(kg K)], > 0
   double conductivity = 0.13;   ///< of heat [W/(m K)], >= 0
@@ -89,15 +89,15 @@ enum class CavitatedShear { full, film_share };
 enum class ShearForce { full, torque_only };
 enum class FilmSolver { newton, sor, multigrid };
 
-/// Oil at a given pressure, or a wall no oil passes: two of them make a bearing of infinite width, one a plane of
-/// symmetry or a cap.
+/// Condition on an edge: oil at a prescribed pressure, or a wall that no oil passes. Two walls make a bearing of
+/// infinite width, one a plane of symmetry or a cap.
 enum class EdgeKind { pressure, closed };
 
 /// An edge of the film, z = -L/2 or +L/2, or an end of a patch.
 struct Edge {
   EdgeKind kind = EdgeKind::pressure;
   double pressure = 0;  ///< [Pa], >= p_cav; without meaning at a wall
-  /// Fill fraction of what an edge at p_cav lets in, from 0 (air) to 1 (oil); only where oil is conserved [-].
+  /// Fill fraction outside an edge at p_cav, from 0 (air) to 1 (oil); it counts only where oil is conserved [-].
   double ambient_fill = 0;
 };
 
@@ -130,7 +130,7 @@ struct FilmModel {
   ShearForce shear_force = ShearForce::full;
   double fill_speed =
       1000;  ///< angular speed in P0 (film.6), > 0; one near the film's own keeps Newton's path short [rad/s]
-  std::vector<SurfaceFeature> features;  ///< where several lie over a place, the one that holds more of it counts
+  std::vector<SurfaceFeature> features;  ///< where several overlap, the one that covers more of a node counts
   std::vector<Profile> profiles;         ///< shapes of bore and journal; the surfaces' motion includes them (GapShape)
 };
 
@@ -180,7 +180,7 @@ struct SurfaceMotion {
   double w_journal = 0;                   ///< speed along z of the journal surface [m/s]
   double phi_supply = 0;                  ///< where the supply line is now [rad]; ignored without one
   double phi_journal = 0;                 ///< rotation of the journal over the grid [rad]; moves the journal's features
-  Eigen::VectorXd feature_pressure = {};  ///< of each feature now [Pa], below p_cav counts as p_cav; empty: the model's
+  Eigen::VectorXd feature_pressure = {};  ///< pressure of each feature [Pa], at least p_cav counts; empty: the model's
 };
 
 /// Viscosities of an oil whose temperature varies over the film, at the cavitation pressure: integrals over the layers
@@ -190,7 +190,7 @@ struct LayeredViscosity {
   Eigen::VectorXd fluidity;        ///< 12 F2/h^3, of flow along pressure [1/(Pa s)], shape (grid.size())
   Eigen::VectorXd shear_fluidity;  ///< F0/h, of sliding [1/(Pa s)], same shape
   Eigen::VectorXd skew;  ///< 2 F1/(F0 h) - 1, by which sliding carries more oil with the shell [-], same shape
-  /// Of sliding, without the shear that is in the others [Pa s], same shape; empty: there is none in them.
+  /// Viscosity of sliding without shear thinning [Pa s], same shape; empty: the others include no shear thinning.
   Eigen::VectorXd at_rest = {};
   Eigen::VectorXd axial_fluidity = {};  ///< of flow along the axis, `fluidity` that around it; empty: the same
 };
@@ -202,8 +202,8 @@ struct FilmHistory {
   Eigen::VectorXd theta;    ///< fill fraction at the start [-], shape (grid.size()); unused for dt = 0
   Eigen::VectorXd w;        ///< compliance deformation at the start [m]; empty: it rests (w' = 0); unused for dt = 0
   Eigen::VectorXd density;  ///< rho/rho0 at the start [-]; empty: 1; unused for dt = 0
-  /// Gap that held the film's oil over each control volume at the start, pockets apart [m]; empty: where the rate comes
-  /// from. theta density (gap + pockets) is then the oil that was there.
+  /// Gap that contained the film's oil over each control volume at the start, pockets apart [m]; theta density
+  /// (gap + pockets) is the oil that was there. Empty: the gap from which the rate leads to the present one.
   Eigen::VectorXd gap = {};
   bool by_gap = false;     ///< a full film follows the change of the gap over the step instead of the rate (film.15)
   double phi_journal = 0;  ///< rotation of the journal at the start [rad]; moves its pockets

@@ -18,15 +18,15 @@ struct FilmFields {
   Eigen::VectorXd w;           ///< column deformation [m]
   Eigen::VectorXd p_asperity;  ///< asperity contact pressure [Pa]
   /// Radial displacement of the surfaces of elastic bodies against their frames, away from the bearing's axis [m];
-  /// empty where a surface is rigid. Whoever places the surfaces fills them in.
+  /// empty where a surface is rigid. The bearing fills them in.
   Eigen::VectorXd d_shell, d_journal;
-  /// Temperatures: mean over the thickness, of both surfaces, of the hottest layer [K]; empty without. Whoever has them
-  /// fills them in (TemperatureFields).
+  /// Temperatures: mean over the thickness, of both surfaces, of the hottest layer [K]; empty without. FilmHeat fills
+  /// them in (TemperatureFields).
   Eigen::VectorXd T, T_shell, T_journal, T_hottest;
 };
 
-/// What an engineer asks of a film (docs: definitions as in theory manual, chapter film). Flows and volumes of oil are
-/// those at the density rho0: masses over rho0.
+/// Figures of a solved film, as the theory manual's chapter film defines them. Flows and volumes of oil are those at
+/// the density rho0: masses over rho0.
 struct FilmObservables {
   double h_min = 0, h_min_phi = 0,
          h_min_z = 0;  ///< smallest film thickness beside features with depth, edges included, and where [m, rad, m]
@@ -42,9 +42,8 @@ struct FilmObservables {
   double torque_shell = 0;                              ///< friction torque on the shell about its own axis [N m]
   double sliding_speed = 0;                             ///< of the surfaces against each other [m/s], >= 0
   double power_film = 0;                                ///< viscous dissipation: Couette and Poiseuille [W]
-  /// torque_journal and power_film of the same film if its cavitated part were sheared as the other CavitatedShear has
-  /// it
-  /// (`full` where the model says `film_share`, and the other way round) [N m, W].
+  /// Figures torque_journal and power_film of the same film with the other CavitatedShear: `full` where the model has
+  /// `film_share`, and the other way round [N m, W].
   double torque_journal_other_shear = 0, power_film_other_shear = 0;
   double power_asperity = 0;  ///< boundary friction [W]
   double power_stored = 0;  ///< rate of the energy in liner, asperities and compressed oil, and work against p_cav [W]
@@ -52,7 +51,7 @@ struct FilmObservables {
   /// All of the power that the bodies put into the film, by integrals over its fields (theory manual, film.54) [W].
   [[nodiscard]] double power_taken() const { return power_film + power_asperity + power_stored + power_oil; }
   double flow_left = 0, flow_right = 0;  ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]
-  double flow_first = 0, flow_last = 0;  ///< and over the first and the last ends of patches [m^3/s]
+  double flow_first = 0, flow_last = 0;  ///< oil leaving over the first and the last ends of patches [m^3/s]
   [[nodiscard]] double flow_ends() const { return flow_first + flow_last; }               ///< [m^3/s]
   [[nodiscard]] double flow_out() const { return flow_left + flow_right + flow_ends(); }  ///< [m^3/s]
   double flow_supply = 0;         ///< oil entering through supply line and features [m^3/s]
@@ -60,7 +59,7 @@ struct FilmObservables {
   double storage_rate = 0;        ///< rate of change of the oil volume in the film [m^3/s]
   double oil_volume = 0;          ///< integral of theta h [m^3]
   double mass_balance_error = 0;  ///< |supply - out - storage| over the largest of the flows and U c L [-]
-  /// Where the film at mid-width ruptures and re-forms, with the flow, of its widest cavity [rad]; NaN without one.
+  /// Angles at which the widest cavity at mid-width begins and ends along the flow [rad]; NaN without a cavity.
   double rupture_angle = 0, reformation_angle = 0;
   double cavitated_share =
       0;  ///< share of the area with theta < 1 or (other models) p <= p_cav without film action [-]

@@ -14,13 +14,13 @@ struct FilmSolveOptions {
       true;  ///< where Newton's method cycles, SOR sweeps go on; a step in time may rather be shortened
 };
 
-/// Unsolved, `message` tells why; solved, a film without oil.
+/// Result of a film's solution. `message` states why a film is unsolved, or that a solved one has no oil.
 struct [[nodiscard]] FilmSolveSummary : Outcome {
   int iterations = 0;         ///< Newton iterations, or SOR sweeps, on the film's own grid
-  int coarse_iterations = 0;  ///< likewise on coarser grids, where the start was sought
+  int coarse_iterations = 0;  ///< iterations on coarser grids, from which the start was taken
   double relative_residual = 0;
   int worst_node = 0;
-  FilmDomain domain;  ///< of the last trial; outside: the iteration had nowhere to go
+  FilmDomain domain;  ///< of the last trial; outside: no shorter increment lay inside
 };
 
 }  // namespace hersey::film

@@ -8,18 +8,18 @@
 
 namespace hersey::film {
 
-/// The linear solver a film wants from its Reynolds object.
+/// Returns the linear solver with which a film's Reynolds object is made.
 [[nodiscard]] constexpr LinearSolver linear_solver_of(FilmSolver solver) {
   return solver == FilmSolver::multigrid ? LinearSolver::multigrid : LinearSolver::direct;
 }
 
-/// The solver of a film for which none is asked: Newton's method, from 15,000 nodes on with multigrid, which is then
-/// the faster of the two (a factor's cost grows with the nodes' power of 1.5 to 2, that of multigrid in proportion to
-/// them) and gives the same film. Half or twice that size costs a film some tenths of its time.
+/// Returns the solver of a film for which none is chosen: Newton's method, from 15,000 nodes on with multigrid. There
+/// multigrid is the faster of the two (a factor's cost grows with the nodes' power of 1.5 to 2, that of multigrid in
+/// proportion to them) and gives the same film. Half or twice that size costs a film some tenths of its time.
 [[nodiscard]] FilmSolver usual_solver(const Grid& grid);
 
-/// Where the fill fraction is furthest below zero, -1 where it is nowhere: that is no film, but says that more oil
-/// leaves a node than comes in, though the equations hold.
+/// Returns the node whose fill fraction is furthest below zero; -1: none is. A negative fill fraction is no film: more
+/// oil leaves the node than comes in, though the equations are satisfied.
 [[nodiscard]] int lowest_fill_node(const FilmModel& model, const Eigen::VectorXd& u);
 
 /// Solves the film for u at given surfaces, starting from `u`, from zeros where that is no film there. From all zeros

@@ -7,7 +7,7 @@
 
 namespace hersey::film {
 
-/// Wrenches on the shell at the origin of a film's frame, [moment; force], of unit tractions at one place: along the
+/// Wrenches on the shell at the origin of a film's frame, [moment; force], of unit tractions at one point: along the
 /// normal that points from the film into the shell, along growing phi and along growing z. The three are right-handed
 /// (theory manual, film.58).
 struct UnitTractions {
@@ -29,7 +29,7 @@ struct Cylinder {
   static constexpr bool is_round = true;  ///< true if gaps are sums of cos phi and sin phi; else of powers of phi
   /// Length per unit of phi over R [-].
   [[nodiscard]] static double stretch(double /*R*/, double /*z*/) { return 1; }
-  /// At a place [rad, m].
+  /// Wrenches of unit tractions at (phi [rad], z [m]).
   [[nodiscard]] static UnitTractions tractions(double R, const GridLine& line, double z) {
     const double c = line.cosine, s = line.sine;
     UnitTractions t;
@@ -43,9 +43,9 @@ struct Cylinder {
 /// The plane x = 0, y = R phi: a slider, or the pad of a linear guide. R is any length.
 struct Plane {
   static constexpr bool closes = false, is_round = false;
-  /// As a cylinder's.
+  /// Length per unit of phi over R [-].
   [[nodiscard]] static double stretch(double /*R*/, double /*z*/) { return 1; }
-  /// At a place [rad, m].
+  /// Wrenches of unit tractions at (phi [rad], z [m]).
   [[nodiscard]] static UnitTractions tractions(double R, const GridLine& line, double z) {
     const double y = R * line.phi;
     UnitTractions t;
@@ -60,9 +60,9 @@ struct Plane {
 /// runner above it; the film pushes the shell against the axis.
 struct Annulus {
   static constexpr bool closes = true, is_round = true;
-  /// As a cylinder's.
+  /// Length per unit of phi over R [-].
   [[nodiscard]] static double stretch(double R, double z) { return (R + z) / R; }
-  /// At a place [rad, m].
+  /// Wrenches of unit tractions at (phi [rad], z [m]).
   [[nodiscard]] static UnitTractions tractions(double R, const GridLine& line, double z) {
     const double r = R + z, c = line.cosine, s = line.sine;
     UnitTractions t;
@@ -90,7 +90,7 @@ using FilmSurface = std::variant<Cylinder, Plane, Annulus>;
   return std::visit([&](const auto& s) { return s.stretch(R, z); }, surface);
 }
 
-/// At a place [rad, m].
+/// Returns the wrenches of unit tractions at (phi [rad], z [m]).
 [[nodiscard]] inline UnitTractions tractions(const FilmSurface& surface, double R, const GridLine& line, double z) {
   return std::visit([&](const auto& s) { return s.tractions(R, line, z); }, surface);
 }

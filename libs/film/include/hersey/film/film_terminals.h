@@ -11,7 +11,7 @@
 namespace hersey::film {
 
 /// Nodes of a thermal network that a film's heat depends on; unset: none. Their order is that of WallExchange: shell
-/// and journal, which always have a place, then those of the others that exist.
+/// and journal, which always have an index, then those of the others that exist.
 struct FilmTerminals {
   std::optional<std::size_t> shell, journal;  ///< walls
   std::optional<std::size_t> ambient;         ///< surroundings of a ring
@@ -24,11 +24,12 @@ struct FilmTerminals {
   [[nodiscard]] Eigen::Index outside() const {
     return (ambient ? 1 : 0) + (drain ? 1 : 0) + static_cast<Eigen::Index>(oil.size());
   }
-  /// Index among those; -1: not among them.
-  [[nodiscard]] Eigen::Index place_of_ambient() const { return ambient ? 0 : -1; }
-  [[nodiscard]] Eigen::Index place_of_drain() const { return drain ? (ambient ? 1 : 0) : -1; }
-  /// The same of a node that oil comes from.
-  [[nodiscard]] Eigen::Index place_of_oil(const std::optional<NetworkNode>& from) const;
+  /// Index of the ambient among the nodes that are no walls; -1: not among them.
+  [[nodiscard]] Eigen::Index index_of_ambient() const { return ambient ? 0 : -1; }
+  /// Index of the drain among the nodes that are no walls; -1: not among them.
+  [[nodiscard]] Eigen::Index index_of_drain() const { return drain ? (ambient ? 1 : 0) : -1; }
+  /// Index of a node that oil comes from among the nodes that are no walls; -1: not among them.
+  [[nodiscard]] Eigen::Index index_of_oil(const std::optional<NetworkNode>& from) const;
   /// Returns each index in WallExchange with its node.
   [[nodiscard]] std::vector<std::pair<Eigen::Index, Eigen::Index>> nodes() const;
 };

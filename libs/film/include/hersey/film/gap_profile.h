@@ -9,25 +9,25 @@
 
 namespace hersey::film {
 
-/// By how much a profile widens the gap at a place [m], with its first and second derivative around the bearing.
+/// Widening of the gap by a profile at one point [m], with its first and second derivative around the bearing.
 struct Opening {
   double value = 0, phi = 0, phi_phi = 0;
 };
 
-// Deviations of a surface from its cylinder (film.24), as metal that is missing: by how much they widen the gap at
-// (phi, z), in the frame of their surface. A new one is a struct like these and its name in ProfileShape.
+// Deviations of a surface from its cylinder (film.24), counted as missing metal: they widen the gap at (phi, z), in the
+// frame of their surface. A new one is a struct like these and its name in ProfileShape.
 
-/// Falls off towards both edges as a parabola.
+/// A surface that falls off towards both edges as a parabola.
 struct Barrel {
   double drop = 0;  ///< at the edges [m]
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
-/// Opens along the axis, by nothing at z = 0.
+/// A gap that opens linearly along the axis and is unchanged at z = 0.
 struct Taper {
   double rise = 0;  ///< from z = -L/2 to L/2 [m]
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -35,17 +35,17 @@ struct Taper {
 struct Ovality {
   double amplitude = 0;  ///< [m]
   double angle = 0;      ///< [rad]
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
-/// Equal circular arcs, each with its centre moved by `offset` away from the middle of its arc: there the gap is that
-/// of the clearance, and between two arcs it is widest. Two of them are a lemon bore.
+/// Equal circular arcs, each with its centre moved by `offset` away from the middle of its arc. The gap equals the
+/// clearance in the middle of an arc and is widest between two arcs. Two arcs make a lemon bore.
 struct Lobes {
   int count = 2;      ///< >= 2
   double offset = 0;  ///< [m], >= 0
   double angle = 0;   ///< middle of one arc [rad]
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -54,7 +54,7 @@ struct Lobes {
 struct MeasuredShape {
   std::vector<double> z;                                       ///< ascending [m]
   std::vector<std::shared_ptr<const TableFunction>> openings;  ///< [m] over phi [rad], one for every z, of period 2 pi
-  /// At (phi [rad], z [m]) of a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
@@ -65,9 +65,9 @@ struct Profile {
   ProfileShape shape;
   Surface surface = Surface::shell;
 
-  /// Whether it makes the gap change as its surface turns.
+  /// True if it makes the gap change as its surface rotates.
   [[nodiscard]] bool varies_around() const;
-  /// At (phi [rad], z [m]) in the frame of its surface, in a bearing of width L [m].
+  /// Widening at (phi [rad], z [m]) in the frame of its surface, in a bearing of width L [m].
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 

@@ -29,15 +29,15 @@ class GapShape {
   [[nodiscard]] Eigen::VectorXd shell_slope() const;
 
   /// True if the gap changes as the journal rotates.
-  [[nodiscard]] bool profiles_turn() const { return !turning_profiles_.empty(); }
+  [[nodiscard]] bool profiles_rotate() const { return !turning_profiles_.empty(); }
   /// True if nothing is added to the gap of two cylinders.
-  [[nodiscard]] bool is_round() const { return !profiles_turn() && still_.isZero(0); }
+  [[nodiscard]] bool is_round() const { return !profiles_rotate() && still_.isZero(0); }
 
   /// Evaluates the journal's profiles with the journal rotated by `phi_journal` [rad]: opening [m] and its first and
   /// second derivative with that angle, shape (grid.size()) each. The first times the journal's angular speed is the
   /// rate of the gap (film.25).
-  void turn_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
-                     Eigen::VectorXd& second) const;
+  void rotate_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
+                       Eigen::VectorXd& second) const;
 
  private:
   [[nodiscard]] Opening opening_at(const Profile& profile, int node, double turned) const;

@@ -7,26 +7,26 @@
 
 namespace hersey::film {
 
-/// The grid of half as many nodes in each direction, in the same pattern of spacing.
+/// Returns the grid of half as many nodes in each direction, in the same pattern of spacing.
 [[nodiscard]] Grid half_of(const Grid& grid);
 
-/// Whether a film is left with a shape on half the nodes.
+/// True if half the nodes still resolve a film.
 [[nodiscard]] bool can_be_coarsened(const Grid& grid);
 
-/// Fields on one grid from those on another, linearly between the nodes.
+/// Interpolates fields of one grid on another, linearly between the nodes.
 class GridTransfer {
  public:
-  /// Between grids of one pattern of spacing: fields are functions of the share of the way around the bearing and
-  /// across it, counted in nodes, as on the places of resampled().
+  /// Interpolates between grids of one pattern of spacing: fields are functions of the share of the way around the
+  /// bearing and across it, counted in nodes, as for resampled().
   GridTransfer(const Grid& from, const Grid& to);
-  /// Between any grids: fields are functions of the place.
-  [[nodiscard]] static GridTransfer by_place(const Grid& from, const Grid& to);
+  /// Interpolates between any grids: fields are functions of phi and z.
+  [[nodiscard]] static GridTransfer by_position(const Grid& from, const Grid& to);
 
-  /// @param field  shape (from.size() per_node), `per_node` values of each node side by side
+  /// Interpolates a field. @param field  shape (from.size() per_node), `per_node` values of each node side by side
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& field, int per_node = 1) const;
-  /// Of what has one value at each angle. @param values  shape (from.n_phi, any)
+  /// Interpolates what has one value at each angle. @param values  shape (from.n_phi, any)
   [[nodiscard]] Eigen::MatrixXd around(const Eigen::MatrixXd& values) const;
-  /// Of what has one value at each place along the axis. @param values  shape (from.n_z, any)
+  /// Interpolates what has one value at each axial position. @param values  shape (from.n_z, any)
   [[nodiscard]] Eigen::MatrixXd along(const Eigen::MatrixXd& values) const;
 
  private:
@@ -35,7 +35,7 @@ class GridTransfer {
     double share = 0;  ///< of the second
   };
   explicit GridTransfer(const Grid& from) : n_phi_(from.n_phi), n_z_(from.n_z) {}
-  [[nodiscard]] static Eigen::MatrixXd between(const std::vector<Between>& places, const Eigen::MatrixXd& values);
+  [[nodiscard]] static Eigen::MatrixXd between(const std::vector<Between>& positions, const Eigen::MatrixXd& values);
 
   int n_phi_, n_z_;  // of the grid that fields are taken from
   std::vector<Between> around_, along_;

@@ -6,7 +6,7 @@
 
 namespace hersey::film {
 
-/// Temperatures of a film and of what it touches [K], and what goes with them from step to step.
+/// Temperatures of a film and of its surroundings [K], and the state that is kept with them from step to step.
 struct HeatState {
   Eigen::VectorXd film;   ///< of the layers, shape (grid.size() layers): node by node, from the shell to the journal
   Eigen::VectorXd shell;  ///< of ring or node, or as given, shape (n_phi); of an insulated shell nothing
@@ -14,9 +14,10 @@ struct HeatState {
   Eigen::VectorXd wall_heat = {};  ///< into each angle of a shell in a body [W], shape (n_phi); else nothing
   double journal_heat = 0;         ///< into a journal in a body [W]; else 0
   Eigen::VectorXd outside = {};    ///< of nodes of a network that are no walls (FilmTerminals), or empty
-  Eigen::VectorXd supplies;        ///< of the supply line and then of each feature: what leaves them for the film
-  /// What shear leaves of the layers' viscosities [-], as `film`, and then by what the flow along pressure is easier
-  /// around and along the axis than these say [-], node by node; empty: there is one layer, or nothing thins.
+  Eigen::VectorXd supplies;        ///< of the oil that leaves the supply line, and then each feature, for the film
+  /// Ratios of the layers' sheared viscosities to those at rest [-], shaped as `film`, then the factors by which flow
+  /// along pressure exceeds that of these viscosities, around and along the axis [-], node by node; empty: there is one
+  /// layer, or the oil does not thin.
   Eigen::VectorXd thinning = {};
 };
 
@@ -33,13 +34,13 @@ struct TemperatureFields {
   }
 };
 
-/// By how much walls that keep their temperature over a cycle were off.
+/// Correction of walls that keep their temperature over a cycle.
 struct WallCorrection {
   double largest = 0;  ///< change of temperature [K]
   double rise = 0;     ///< largest temperature over that of the supply, after it [K]
 };
 
-/// Where a film's heat comes from and goes (theory manual, thermal.17), powers in W.
+/// Balance of a film's heat (theory manual, thermal.17), powers in W.
 struct HeatBalance {
   double power = 0;       ///< dissipated in the film, and by asperities
   double source = 0;      ///< made in the oil by anything else
@@ -47,11 +48,11 @@ struct HeatBalance {
   double to_shell = 0;    ///< into the shell
   double to_journal = 0;  ///< into the journal
   double stored = 0;      ///< rate of change of the heat in the film's oil
-  /// What is missing, over the largest of these [-].
+  /// Imbalance over the largest of these powers [-].
   [[nodiscard]] double error() const;
 };
 
-/// What an engineer asks of a film's temperature [K, rad, m].
+/// Figures of a film's temperatures [K, rad, m].
 struct HeatObservables {
   double T_max = 0, T_max_phi = 0, T_max_z = 0;  ///< of the hottest layer
   double T_shell_max = 0, T_shell_max_phi = 0;   ///< on the shell's surface
@@ -61,14 +62,14 @@ struct HeatObservables {
   double T_journal_body_max = 0;                 ///< of the body that the journal is in; else 0
   double T_film_mean = 0;                        ///< over the volume of the oil
   double T_side = 0;                             ///< of the oil that leaves over the edges; NaN where none does
-  /// Means of the walls themselves, with which they expand; of one without heat, of its surface.
+  /// Mean temperatures of the walls themselves, by which they expand; a wall without heat has that of its surface.
   double T_shell_wall = 0, T_journal_wall = 0;
   Eigen::VectorXd T_supplies;  ///< of line and features, mixed; the line first if there is one
   HeatBalance balance;
 };
 
-/// What nodes of a network have taken up, and how that follows their temperatures (theory manual, thermal.46): shell,
-/// journal, zero for a wall that is no node, and the others in the order of FilmTerminals.
+/// Heat that nodes of a network have absorbed, and its derivatives by their temperatures (theory manual, thermal.46):
+/// shell, journal, zero for a wall that is no node, and the others in the order of FilmTerminals.
 struct WallExchange {
   Eigen::VectorXd T = Eigen::Vector2d::Zero();     ///< of these [K]
   Eigen::VectorXd heat = Eigen::Vector2d::Zero();  ///< into them at these temperatures [W]

@@ -7,15 +7,15 @@
 
 namespace hersey::film {
 
-/// Fields at the nodes from the unknown u.
+/// Returns the fields at the nodes for the unknown u.
 [[nodiscard]] FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u);
 
-/// Mean depth of features over the control volumes [m], shape (grid.size()), with the journal turned by `phi_journal`
-/// [rad].
+/// Returns the mean depth of features over the control volumes [m], shape (grid.size()), with the journal rotated by
+/// `phi_journal` [rad].
 [[nodiscard]] Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal);
 
-/// The journal's axis, about which its torque is taken, pierces z = 0 at `e` [m] in the grid's frame with the slope
-/// `tilt` [-].
+/// Returns what a film at `u` shows. The journal's axis, about which its torque is taken, pierces z = 0 at `e` [m] in
+/// the grid's frame with the slope `tilt` [-].
 [[nodiscard]] FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion,
                                            const FilmHistory& history, const Eigen::Vector2d& e,
                                            const Eigen::VectorXd& u,

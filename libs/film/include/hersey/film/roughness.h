@@ -10,13 +10,13 @@ struct SurfaceRoughness {
 
 enum class FlowFactors { none, patir_cheng };
 
-/// What the roughness of both surfaces does to flow and shear of the oil. Contact is another matter (Asperities).
+/// Effect of both surfaces' roughness on flow and shear of the oil. Asperities describes contact.
 struct Roughness {
   FlowFactors flow_factors = FlowFactors::none;
   SurfaceRoughness shell, journal;
 
   [[nodiscard]] double composite_sigma() const;  ///< rms height of both together [m]
-  [[nodiscard]] bool counts() const;             ///< whether it changes anything
+  [[nodiscard]] bool counts() const;             ///< true if it changes anything
 };
 
 }  // namespace hersey::film

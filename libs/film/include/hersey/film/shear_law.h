@@ -7,22 +7,22 @@
 
 namespace hersey::film {
 
-/// What shear leaves of a viscosity: R = mu/mu_n [-], mu_n that at rest at the same temperature and pressure, with its
-/// first and second derivative by the logarithm of the shear rate.
+/// Ratio R = mu/mu_n [-] of a sheared oil's viscosity to that at rest, mu_n, at the same temperature and pressure, with
+/// its first and second derivative by the logarithm of the shear rate.
 struct ShearRatio {
   double value = 1, slope = 0, bend = 0;
-  /// Of the tangent viscosity d tau/d gamma over mu_n, and its slope by that logarithm (thermal.23).
+  /// Tangent viscosity d tau/d gamma over mu_n, and its slope by that logarithm (thermal.23).
   [[nodiscard]] ValueAndSlope tangent() const { return {value + slope, slope + bend}; }
 };
 
 // Each law (thermal.21, thermal.22) gives R at x, the shear rate over the critical one. A new law is a struct like
 // these and its name in ShearLaw.
 
-/// The same viscosity at every shear rate.
+/// The viscosity does not depend on the shear rate.
 struct Newtonian {
-  /// 1.
+  /// R = 1.
   [[nodiscard]] ShearRatio ratio(double /*x*/) const { return {}; }
-  /// Whether more shear always takes more stress.
+  /// True if the stress always rises with the shear rate.
   [[nodiscard]] bool is_monotone() const { return true; }
 };
 
@@ -32,12 +32,13 @@ struct Cross {
   double limit = 0;     ///< mu_inf/mu_n [-], 0 to 1
   double exponent = 1;  ///< m [-], > 0
 
-  /// Half of what shear can take is gone at x = 1.
+  /// R has lost half of 1 - limit at x = 1.
   [[nodiscard]] ShearRatio ratio(double x) const {
     const double m = exponent, left = 1 / (1 + std::pow(x, m)), gone = left * (1 - left), most = 1 - limit;
     return {limit + most * left, -most * m * gone, most * m * m * gone * (1 - 2 * left)};
   }
-  /// With left = 1/(1 + x^m) the tangent is limit + (1 - limit) ((1 - m) left + m left^2): least at (m - 1)/(2 m).
+  /// The tangent viscosity is limit + (1 - limit) ((1 - m) left + m left^2) with left = 1/(1 + x^m). It is least at
+  /// left = (m - 1)/(2 m).
   [[nodiscard]] bool is_monotone() const {
     const double m = exponent;
     return m <= 1 || limit > (1 - limit) * (m - 1) * (m - 1) / (4 * m);
@@ -51,30 +52,30 @@ struct Carreau {
   double exponent = 1;    ///< n: the stress grows with this power of the rate where mu_inf is nothing [-], 0 to 1
   double transition = 2;  ///< a: how suddenly [-], > 0
 
-  /// Falls like x^(n - 1) beyond x = 1.
+  /// R falls like x^(n - 1) beyond x = 1.
   [[nodiscard]] ShearRatio ratio(double x) const {
     const double left = 1 / (1 + std::pow(x, transition)), gone = 1 - left, n_1 = exponent - 1;
     const double power = (1 - limit) * std::pow(left, -n_1 / transition);
     return {limit + power, n_1 * power * gone, n_1 * power * gone * (n_1 * gone + transition * left)};
   }
-  /// No power n >= 0 of the rate falls.
+  /// The stress always rises: no power n >= 0 of the rate falls.
   [[nodiscard]] bool is_monotone() const { return true; }
 };
 
 using ShearLaw = std::variant<Newtonian, Cross, Carreau>;
 
-/// How an oil thins as it is sheared.
+/// Shear thinning of an oil.
 struct ShearThinning {
   ShearLaw law = {};
-  double critical_rate = 0;  ///< gamma_c [1/s], > 0; where no stress is given
-  /// gamma_c mu_n instead [Pa], > 0: of an oil whose critical rate rises as it grows thin by heat. 0: not given.
+  double critical_rate = 0;  ///< gamma_c [1/s], > 0; without meaning where critical_stress is given
+  /// gamma_c mu_n instead [Pa], > 0, of an oil whose critical rate rises as heat thins it. 0: not given.
   double critical_stress = 0;
 
-  /// Whether there is none.
+  /// True if there is none.
   [[nodiscard]] bool is_newtonian() const { return std::holds_alternative<Newtonian>(law); }
   /// d ln x/d ln mu_n at a given shear rate [-].
   [[nodiscard]] double by_viscosity() const { return critical_stress > 0 ? 1 : 0; }
-  /// At a shear rate [1/s] of an oil of viscosity mu_n [Pa s] at rest.
+  /// Ratio at a shear rate [1/s] of an oil of viscosity mu_n [Pa s] at rest.
   [[nodiscard]] ShearRatio ratio(double rate, double mu_n) const {
     const double x = critical_stress > 0 ? rate * mu_n / critical_stress : rate / critical_rate;
     return std::visit([x](const auto& one) { return one.ratio(x); }, law);

@@ -9,36 +9,36 @@ namespace hersey::film {
 
 enum class Surface { shell, journal };
 
-// Outlines of features in phi x z. Places x, y are relative: 0 in the middle, 1 at the end of half the extent. A new
+// Outlines of features in phi x z. Positions x, y are relative: 0 in the middle, 1 at the end of half the extent. A new
 // outline is a struct like these and an alternative of FeatureShape; shares of control volumes that it covers
 // (feature_cover.cpp) and words for it (assumptions.cpp) do not compile without it.
 
 struct Rectangle {
   static constexpr bool has_straight_ends = true;
-  /// Half its extent one way at a place `across` the other way, |across| < 1, over half of the whole.
+  /// Extent in one direction at the position `across` in the other, |across| < 1, over the largest extent [-].
   [[nodiscard]] static double reach(double /*across*/) { return 1; }
-  /// Derivative of that.
+  /// Derivative of reach().
   [[nodiscard]] static double reach_slope(double /*across*/) { return 0; }
-  /// Whether a place lies within.
+  /// True if a point lies within.
   [[nodiscard]] static bool contains(double x, double y) { return std::abs(x) < 1 && std::abs(y) < 1; }
 };
 
 struct Ellipse {
   static constexpr bool has_straight_ends = false;
-  /// As a rectangle's.
+  /// Extent in one direction at the position `across` in the other, |across| < 1, over the largest extent [-].
   [[nodiscard]] static double reach(double across) { return std::sqrt(1 - across * across); }
-  /// Derivative of that.
+  /// Derivative of reach().
   [[nodiscard]] static double reach_slope(double across) { return -across / reach(across); }
-  /// Whether a place lies within.
+  /// True if a point lies within.
   [[nodiscard]] static bool contains(double x, double y) { return x * x + y * y < 1; }
 };
 
 using FeatureShape = std::variant<Rectangle, Ellipse>;
 
-/// A hole, groove or pocket in one of the surfaces: an outline in phi x z, seen in the frame of that surface. One in
-/// the journal travels over the grid with SurfaceMotion::phi_journal. Where it is fed the film has its pressure. Its
-/// depth steps down from the surface and is no part of the gap: without a feed it is film like any other, only thicker,
-/// with one it holds the pressure of the supply and only thins the shear.
+/// A hole, groove or pocket in one of the surfaces: an outline in phi x z, in the frame of that surface. A feature of
+/// the journal travels over the grid with SurfaceMotion::phi_journal. Its depth is a step down from the surface and no
+/// part of the gap. A fed feature has the pressure of its supply, and its depth only reduces the shear; a feature
+/// without a feed is a thicker film.
 struct SurfaceFeature {
   std::string name;
   FeatureShape shape = Rectangle{};
@@ -47,20 +47,20 @@ struct SurfaceFeature {
   double z = 0;                            ///< its middle [m]
   double arc = 2 * std::numbers::pi / 18;  ///< whole extent around the bearing [rad], in (0, 2 pi]
   double length = 1e-3;                    ///< whole extent along the axis [m], > 0
-  double pressure = 0;                     ///< [Pa]; SurfaceMotion::feature_pressure takes its place
+  double pressure = 0;                     ///< [Pa]; SurfaceMotion::feature_pressure overrides it
   bool is_fed = true;                      ///< without it the pressure means nothing
   double depth = 0;                        ///< [m], >= 0
 };
 
-/// Whether its outline ends with straight borders.
+/// True if its outline ends with straight borders.
 [[nodiscard]] inline bool has_straight_ends(const SurfaceFeature& feature) {
   return std::visit([](const auto& shape) { return shape.has_straight_ends; }, feature.shape);
 }
 
-/// Whether a place seen in the frame of its surface [rad, m] lies within a feature.
+/// True if a point, given in the frame of the feature's surface [rad, m], lies within the feature.
 [[nodiscard]] bool contains(const SurfaceFeature& feature, double phi, double z);
 
-/// Whether two features of one surface have a part in common, to a fiftieth of their size.
+/// True if two features of one surface overlap, to a fiftieth of their size.
 [[nodiscard]] bool overlap(const SurfaceFeature& a, const SurfaceFeature& b);
 
 }  // namespace hersey::film

@@ -14,7 +14,7 @@ inline constexpr double zero_celsius = 273.15;
 // Each law (thermal.1 to thermal.3) gives ln mu and its slope [1/K] at a temperature T [K], mu in Pa s at the
 // cavitation pressure. A new law is a struct like these and its name in TemperatureLaw.
 
-/// The same viscosity at every temperature.
+/// mu does not depend on temperature.
 struct FixedViscosity {
   double mu = 0.015;  ///< [Pa s], > 0
   /// ln mu, slope 0.
@@ -27,7 +27,7 @@ struct ExponentialViscosity {
   double mu_ref = 0.015;  ///< [Pa s], > 0
   double T_ref = 313.15;  ///< [K]
   double beta = 0.03;     ///< [1/K], >= 0
-  /// Falls in proportion.
+  /// ln mu falls in proportion to T.
   [[nodiscard]] ValueAndSlope log_viscosity(double T) const { return {std::log(mu_ref) - beta * (T - T_ref), -beta}; }
 };
 
@@ -37,17 +37,17 @@ struct VogelViscosity {
   double a = 5e-5;  ///< [Pa s], > 0
   double b = 1000;  ///< [K], >= 0
   double c = 170;   ///< [K], below every temperature of the film
-  /// Runs to infinity as T falls to c; a tenth of a kelvin above it is as near as it goes.
+  /// ln mu grows without bound as T falls to c; nearer than a tenth of a kelvin it stays constant.
   [[nodiscard]] ValueAndSlope log_viscosity(double T) const {
     const double above = std::fmax(T - c, 0.1);
     return {std::log(a) + b / above, T - c > 0.1 ? -b / (above * above) : 0};
   }
 };
 
-/// By which mineral oils expand at 15 degC [1/K].
+/// Expansion of mineral oils at 15 degC [1/K].
 inline constexpr double mineral_oil_expansion = 0.00065;
 
-/// Density at T [K] of an oil that has rho15 at 15 degC and expands from there [1/K] (thermal.28).
+/// Returns the density at T [K] of an oil that has rho15 at 15 degC and expands from there [1/K] (thermal.28).
 [[nodiscard]] inline double density_at(double T, double rho15, double expansion) {
   return rho15 * (1 - expansion * (T - 288.15));
 }
@@ -59,33 +59,33 @@ struct WaltherViscosity {
   double rho15 = 870;                        ///< density at 15 degC [kg/m^3], > 0
   double expansion = mineral_oil_expansion;  ///< [1/K]
 
-  /// Through kinematic viscosities [m^2/s] at 40 and 100 degC.
+  /// Fits kinematic viscosities [m^2/s] at 40 and 100 degC.
   [[nodiscard]] static WaltherViscosity through(double nu40, double nu100, double rho15);
-  /// Through kinematic viscosities [m^2/s] at any two temperatures [K].
+  /// Fits kinematic viscosities [m^2/s] at any two temperatures [K].
   [[nodiscard]] static WaltherViscosity through(double nu_a, double T_a, double nu_b, double T_b, double rho15);
 
   /// Kinematic viscosity [m^2/s], and its slope.
   [[nodiscard]] ValueAndSlope kinematic(double T) const;
-  /// Of the dynamic viscosity.
+  /// Logarithm of the dynamic viscosity, and its slope.
   [[nodiscard]] ValueAndSlope log_viscosity(double T) const;
-  /// Itself [Pa s], at two thirds of what its logarithm takes.
+  /// Dynamic viscosity [Pa s], computed in two thirds of the time that its logarithm takes.
   [[nodiscard]] double viscosity(double T) const { return kinematic(T).value * density(T); }
   /// Density [kg/m^3].
   [[nodiscard]] double density(double T) const { return density_at(T, rho15, expansion); }
 };
 
-/// Between the rows of a table ln mu is linear in 1/T, as are the first and the last interval beyond them.
+/// ln mu is linear in 1/T between the rows of a table, and goes on beyond them as in the first and the last interval.
 struct TabledViscosity {
   std::vector<double> T;   ///< ascending [K], two at least
   std::vector<double> mu;  ///< falling [Pa s], > 0
-  /// By the interval T lies in.
+  /// ln mu in the interval in which T lies, and its slope.
   [[nodiscard]] ValueAndSlope log_viscosity(double T) const;
 };
 
 using TemperatureLaw =
     std::variant<FixedViscosity, ExponentialViscosity, VogelViscosity, WaltherViscosity, TabledViscosity>;
 
-/// Viscosity at the cavitation pressure [Pa s].
+/// Returns the viscosity at the cavitation pressure [Pa s].
 [[nodiscard]] inline double viscosity_at(const TemperatureLaw& law, double T) {
   const auto at = [T](const auto& l) {
     if constexpr (requires { l.viscosity(T); }) return l.viscosity(T);
@@ -94,7 +94,7 @@ using TemperatureLaw =
   return std::visit(at, law);
 }
 
-/// Whether the viscosity knows temperatures.
+/// True if the viscosity depends on temperature.
 [[nodiscard]] inline bool depends_on_temperature(const TemperatureLaw& law) {
   return !std::holds_alternative<FixedViscosity>(law);
 }

@@ -13,10 +13,10 @@
 
 namespace hersey::film {
 
-/// How many layers a film is divided into across its thickness, at most.
+/// Largest number of layers across a film's thickness.
 inline constexpr int most_layers = 64;
 
-/// No heat passes.
+/// A surface that no heat passes.
 struct InsulatedWall {};
 
 /// A surface whose temperature is given.
@@ -28,7 +28,7 @@ struct WallAtTemperature {
 /// A node of a ThermalNetwork.
 struct NetworkNode {
   double T = 293.15;      ///< at the start [K]
-  std::size_t node = 0;   ///< place in the network
+  std::size_t node = 0;   ///< index in the network
   std::string name = {};  ///< of that node
 };
 
@@ -41,11 +41,11 @@ struct RingWall {
   double T_ambient = 313.15;     ///< of these [K]
   double heat_capacity = 3.6e6;  ///< per volume [J/(m^3 K)], > 0; of no account to a steady film
   std::optional<double> T_start = {};            ///< with which a simulation begins [K]; unset: the supply's
-  std::optional<NetworkNode> surroundings = {};  ///< whose temperature T_ambient is, and which the heat warms
+  std::optional<NetworkNode> surroundings = {};  ///< node at T_ambient, which the heat warms
 };
 
-/// A journal of one temperature that gives off no heat but to the film: turning fast, every point of it sees the mean
-/// (theory manual, thermal.13).
+/// A journal of one temperature that gives off heat only to the film: it rotates fast, and each of its points takes the
+/// mean temperature (theory manual, thermal.13).
 struct FreeJournal {
   double heat_capacity = 0;            ///< of the whole journal [J/K], > 0; of no account to a steady film
   std::optional<double> T_start = {};  ///< with which a simulation begins [K]; unset: the supply's
@@ -55,49 +55,49 @@ struct FreeJournal {
 /// (theory manual, thermal.45).
 using NodeWall = NetworkNode;
 
-/// Nodes that oil comes from, in place of temperatures that are given, and goes to (theory manual, thermal.55).
+/// Nodes that oil comes from, instead of prescribed temperatures, and goes to (theory manual, thermal.55).
 struct OilNodes {
   std::optional<NetworkNode> line = {}, edges = {};
   std::vector<std::optional<NetworkNode>> features = {};  ///< empty: none of them
-  std::optional<NetworkNode> drain = {};                  ///< that oil warms which leaves the film
+  std::optional<NetworkNode> drain = {};                  ///< node that is warmed by the oil that leaves the film
 };
 
 using ShellWall = std::variant<InsulatedWall, WallAtTemperature, RingWall, BodyWall, NodeWall>;
 using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall, BodyJournal, NodeWall>;
 
-/// How a bearing's clearance follows the mean temperatures of its walls.
+/// Change of a bearing's clearance with the mean temperatures of its walls.
 struct ThermalExpansion {
   double shell = 0, journal = 0;  ///< coefficients of linear expansion [1/K]
   double T_reference = 293.15;    ///< of both walls, at which the clearance is as given [K]
 
-  /// By how much the radial clearance of a bearing of radius R [m] is larger between walls at these temperatures [K]
-  /// (theory manual, thermal.42).
+  /// Returns the increase of the radial clearance of a bearing of radius R [m] between walls at these temperatures [K]
+  /// (theory manual, thermal.42) [m].
   [[nodiscard]] double growth(double R, double T_shell, double T_journal) const {
     return R * (shell * (T_shell - T_reference) - journal * (T_journal - T_reference));
   }
 };
 
-/// What a wall's surface is made of: how it takes up the heat that asperities make on it.
+/// Material of a wall's surface; it decides about the share of the asperities' heat that the wall absorbs.
 struct SurfaceMaterial {
   double conductivity = 50;      ///< k [W/(m K)], > 0
   double heat_capacity = 3.6e6;  ///< per volume, rho c [J/(m^3 K)], > 0
 
-  /// sqrt(k rho c) [W s^(1/2)/(m^2 K)]: heat goes into half-spaces of one surface temperature in proportion to it.
+  /// sqrt(k rho c) [W s^(1/2)/(m^2 K)]: half-spaces of one surface temperature absorb heat in proportion to it.
   [[nodiscard]] double effusivity() const { return std::sqrt(conductivity * heat_capacity); }
 };
 
-/// Share of the friction's heat that goes into the first of two surfaces that rub (theory manual, thermal.54).
+/// Returns the share of the friction's heat that the first of two rubbing surfaces absorbs (theory manual, thermal.54).
 [[nodiscard]] inline double friction_share(const SurfaceMaterial& first, const SurfaceMaterial& second) {
   return first.effusivity() / (first.effusivity() + second.effusivity());
 }
 
-/// What rings and free journals do in a simulation.
+/// Temperatures of rings and free journals in a simulation.
 enum class WallMotion {
-  by_their_heat,  ///< warm as their heat capacity lets them
-  held,           ///< keep their temperatures until FilmHeat::settle_walls()
+  by_their_heat,  ///< change with the heat they absorb, by their heat capacity
+  fixed,          ///< keep their temperatures until FilmHeat::settle_walls()
 };
 
-/// What a film's heat depends on beside the film (theory manual, chapter thermal).
+/// Data of a film's heat beside the film itself (theory manual, chapter thermal).
 struct ThermalModel {
   int layers = 5;                       ///< across the film, 1 to most_layers
   double T_supply = 313.15;             ///< of the oil that comes through line and features [K]
@@ -111,12 +111,12 @@ struct ThermalModel {
   double carry_over = 1;  ///< share of the film's oil that passes a groove with it [-], 0 (all is renewed) to 1
   std::optional<ThermalExpansion> expansion = {};            ///< of the walls; unset: they keep their size
   SurfaceMaterial shell_surface = {}, journal_surface = {};  ///< share the asperities' heat; steel
-  /// Heat that anything but friction makes in the oil, in its layers node by node [W/m^3], shape (grid.size() layers);
-  /// empty: none (theory manual, thermal.66).
+  /// Heat sources in the oil beside friction, in its layers node by node [W/m^3], shape (grid.size() layers); empty:
+  /// none (theory manual, thermal.66).
   Eigen::VectorXd source = {};
 };
 
-/// Whether one of the walls is a node of a network.
+/// True if one of the walls is a node of a network.
 [[nodiscard]] inline bool has_node_walls(const ThermalModel& thermal) {
   return std::holds_alternative<NodeWall>(thermal.shell) || std::holds_alternative<NodeWall>(thermal.journal);
 }

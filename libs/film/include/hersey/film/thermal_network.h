@@ -19,7 +19,7 @@ struct ThermalNode {
   bool is_fixed = false;     ///< surroundings: T is given
 };
 
-/// What conducts heat between two nodes.
+/// A conductance between two nodes.
 struct ThermalPath {
   std::string name;
   std::size_t a = 0, b = 0;  ///< nodes
@@ -37,17 +37,17 @@ struct FilmAtNodes {
   WallExchange exchange;
 };
 
-/// What a network's heat has done over a step; powers in W.
+/// Observation of a network over a step; powers in W.
 struct NetworkObservables {
   Eigen::VectorXd T;     ///< of the nodes [K]
   Eigen::VectorXd heat;  ///< from films into each node
   double to_fixed = 0;   ///< into surroundings
   double stored = 0;     ///< rate of the bodies' heat
-  /// What is missing in (thermal.49), over the largest of these [-].
+  /// Imbalance of (thermal.49) over the largest of these powers [-].
   [[nodiscard]] double error() const;
 };
 
-/// Whether heat of the node can reach surroundings along paths.
+/// True if heat of the node can reach surroundings along paths.
 [[nodiscard]] bool reaches_surroundings(const ThermalNetworkModel& model, std::size_t node);
 
 /// Lumped bodies and surroundings, connected by conductances and warmed by films (theory manual, thermal.45 to
@@ -58,30 +58,31 @@ class ThermalNetwork {
   /// capacity
   explicit ThermalNetwork(ThermalNetworkModel model);
 
-  /// As given.
+  /// The model, as it was given.
   [[nodiscard]] const ThermalNetworkModel& model() const { return model_; }
-  /// Now [K].
-  [[nodiscard]] const Eigen::VectorXd& temperatures() const { return seen_.T; }
+  /// Present temperatures of the nodes [K].
+  [[nodiscard]] const Eigen::VectorXd& temperatures() const { return observables_.T; }
 
-  /// Temperatures at the end of a step of length dt [s], implicitly, with what all films exchange with the nodes; of a
-  /// balance without time where dt = 0: bodies that neither a film nor surroundings hold keep theirs.
+  /// Advances the temperatures implicitly over a step of length dt [s] with the heat that all films exchange with the
+  /// nodes. dt = 0 takes them to a steady balance, in which bodies without a path to a film or to surroundings keep
+  /// their temperatures.
   void advance(double dt, const std::vector<FilmAtNodes>& films);
 
-  /// Temperatures now at a film's terminals, in the order of WallExchange [K]; those of `otherwise` where a wall is no
-  /// node.
+  /// Returns the present temperatures at a film's terminals, in the order of WallExchange [K]; those of `otherwise`
+  /// where a wall is no node.
   [[nodiscard]] Eigen::VectorXd walls(const FilmTerminals& at, const Eigen::VectorXd& otherwise) const;
 
-  /// Of the last step; before the first one of temperatures only.
-  [[nodiscard]] const NetworkObservables& observables() const { return seen_; }
+  /// Observation of the last step; before the first one of temperatures only.
+  [[nodiscard]] const NetworkObservables& observables() const { return observables_; }
 
-  /// Temperatures and what is shown.
+  /// Saves or restores temperatures and the observation.
   void persist(Archive& archive);
 
  private:
   void observe(double dt, const Eigen::VectorXd& change, const std::vector<FilmAtNodes>& films);
 
   ThermalNetworkModel model_;
-  NetworkObservables seen_;
+  NetworkObservables observables_;
 };
 
 }  // namespace hersey::film

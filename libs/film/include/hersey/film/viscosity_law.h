@@ -13,7 +13,7 @@ namespace hersey::film {
 
 /// mu = mu0.
 struct ConstantViscosity {
-  /// 0 at every pressure.
+  /// The logarithm is 0 at every pressure.
   [[nodiscard]] ValueAndSlope log_ratio(double /*p*/, double /*mu0*/) const { return {}; }
 };
 
@@ -21,7 +21,7 @@ struct ConstantViscosity {
 /// @see Barus (1893), Am. J. Sci. 45, 87-96.
 struct Barus {
   double alpha = 0;  ///< pressure-viscosity coefficient [1/Pa], >= 0
-  /// alpha p, whatever mu0 is.
+  /// The logarithm is alpha p and does not depend on mu0.
   [[nodiscard]] ValueAndSlope log_ratio(double p, double /*mu0*/) const { return {alpha * p, alpha}; }
 };
 
@@ -33,7 +33,7 @@ struct Roelands {
   static constexpr double pole_pressure = 196.2e6;          ///< [Pa]
   static constexpr double smallest_viscosity = 6.3151e-05;  ///< exp(-9.67) [Pa s]: mu0 lies above it
 
-  /// At p above p_cav [Pa]; mu0 [Pa s], > smallest_viscosity.
+  /// Logarithm at p above p_cav [Pa] for mu0 [Pa s], > smallest_viscosity.
   [[nodiscard]] ValueAndSlope log_ratio(double p, double mu0) const {
     const double size = std::log(mu0 / smallest_viscosity), slope = size * z / pole_pressure;
     const double power = std::pow(1 + p / pole_pressure, z);
@@ -41,20 +41,20 @@ struct Roelands {
   }
 };
 
-/// Between the columns of a table over temperature and pressure ln mu is linear in p, beyond them as in the interval
-/// beside, and between its rows in 1/T (thermal.27). The temperature of a place is that of its viscosity at p = 0.
+/// A table over temperature and pressure: ln mu is linear in p between its columns and beyond them, and linear in 1/T
+/// between its rows (thermal.27). The local viscosity at p = 0 selects the row.
 struct TabledPressure {
   std::vector<double> p;       ///< ascending from 0 [Pa], two at least
   std::vector<double> log_mu;  ///< of mu [Pa s] row by row of falling viscosity, shape (rows, p.size())
-  /// mu0 [Pa s] tells the row.
+  /// Logarithm at `at` above p_cav [Pa]; mu0 [Pa s] selects the row.
   [[nodiscard]] ValueAndSlope log_ratio(double at, double mu0) const;
 };
 
-/// Logarithm of the largest viscosity ratio that a law may mean: exp(20) = 5e8 times the viscosity is no oil.
+/// Logarithm of the largest viscosity ratio within a law's range: an oil of exp(20) = 5e8 times the viscosity is solid.
 inline constexpr double largest_log_viscosity = 20;
 
-/// A logarithm beyond +-largest_log_viscosity runs smoothly into a limit half as large again (film.9). No answer lies
-/// there, but trials on the way to one do: their viscosities stay finite, and slopes are those of the values.
+/// Limits a logarithm beyond +-largest_log_viscosity smoothly to half as much again (film.9). No answer lies there, but
+/// trials of an iteration do: their viscosities stay finite, and slopes are those of the values.
 [[nodiscard]] inline ValueAndSlope saturated(const ValueAndSlope& log_ratio) {
   constexpr double room = 0.5 * largest_log_viscosity;
   const double beyond = std::abs(log_ratio.value) - largest_log_viscosity;

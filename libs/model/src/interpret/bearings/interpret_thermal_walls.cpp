@@ -34,7 +34,7 @@ void interpret_thermal_walls(Context& context) {
   if (model.thermal_walls == ThermalWalls::cycle_mean) require_way_out_of_drains(context);
   if (model.thermal_walls == ThermalWalls::transient) return;
   for (Bearing& bearing : model.bearings)
-    if (auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) heat->walls = film::WallMotion::held;
+    if (auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) heat->walls = film::WallMotion::fixed;
 }
 
 }  // namespace hersey::model

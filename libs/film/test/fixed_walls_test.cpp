@@ -10,11 +10,11 @@
 
 // Walls that keep their temperature over a cycle and settle at its end.
 namespace hersey::film {
-namespace held_walls_test {
+namespace fixed_walls_test {
 
 FilmModel bearing() { return small_bearing_with_hole(0.5, 36, 9); }
 
-/// With a ring as thick as the bore's radius, and a free shaft.
+/// The ring is as thick as the bore's radius, and the shaft is free.
 ThermalModel walls(WallMotion motion) {
   ThermalModel thermal = supplied_at_40(4);
   thermal.shell = RingWall{.outer_radius = 0.05, .transfer = 80, .T_ambient = 30 + zero_celsius};
@@ -23,7 +23,8 @@ ThermalModel walls(WallMotion motion) {
   return thermal;
 }
 
-/// A film whose journal goes to and fro along a line, `swing` about the middle position, in steps of 50 to the period.
+/// A film whose journal oscillates along a line, with the amplitude `swing` about the middle position, in steps of 50
+/// to the period.
 class Machine {
  public:
   Machine(const FilmModel& model, const ThermalModel& thermal, double swing)
@@ -55,9 +56,9 @@ class Machine {
   double c_, swing_, start_;
 };
 
-TEST_CASE("HeldWalls_SettleAtThoseOfTheSteadyFilm") {
+TEST_CASE("FixedWalls_SettleAtThoseOfTheSteadyFilm") {
   const FilmModel model = bearing();
-  Machine machine(model, walls(WallMotion::held), 0);
+  Machine machine(model, walls(WallMotion::fixed), 0);
   std::vector<double> corrections;
   for (int cycle = 0; cycle < 8; ++cycle) {
     machine.run_cycle();
@@ -74,10 +75,10 @@ TEST_CASE("HeldWalls_SettleAtThoseOfTheSteadyFilm") {
   CHECK(std::abs(machine.film.heat.observables().T_shell_max - steady.heat.T_shell_max) < last);
 }
 
-// Films that thin as walls warm bring them more heat than the mean of their equations knows, as contact does in an
-// engine; here the journal turns faster. The first corrections tell by how much.
-TEST_CASE("HeldWalls_ThatDrawMoreHeatAsTheyWarmSettleAsSoon") {
-  Machine machine(bearing(), walls(WallMotion::held), 0);
+// Films that thin as walls warm heat them more than the mean of their equations predicts, as contact does in an engine;
+// here the journal rotates faster. The first corrections show the ratio.
+TEST_CASE("FixedWalls_ThatDrawMoreHeatAsTheyWarmSettleAsSoon") {
+  Machine machine(bearing(), walls(WallMotion::fixed), 0);
   machine.faster_per_kelvin = 0.03;
   std::vector<double> corrections;
   for (int cycle = 0; cycle < 6; ++cycle) {
@@ -89,27 +90,27 @@ TEST_CASE("HeldWalls_ThatDrawMoreHeatAsTheyWarmSettleAsSoon") {
 }
 
 // Walls that follow their heat and are large enough swing little about the same temperatures.
-TEST_CASE("HeldWalls_TakeUpNoHeatOverACycle") {
+TEST_CASE("FixedWalls_AbsorbNoHeatOverACycle") {
   const FilmModel model = bearing();
-  Machine held(model, walls(WallMotion::held), 0.35);
+  Machine fixed(model, walls(WallMotion::fixed), 0.35);
   for (int cycle = 0; cycle < 8; ++cycle) {
-    held.run_cycle();
-    (void)held.film.settle();
+    fixed.run_cycle();
+    (void)fixed.film.settle();
   }
-  CHECK(std::abs(held.heat_into_journal) < 0.05);  // W, of 120 in the first cycle
+  CHECK(std::abs(fixed.heat_into_journal) < 0.05);  // W, of 120 in the first cycle
   ThermalModel warming = walls(WallMotion::by_their_heat);
   std::get<RingWall>(warming.shell).heat_capacity = 3e3;
   std::get<FreeJournal>(warming.journal).heat_capacity = 0.3;
   Machine other(model, warming, 0.35);
   for (int cycle = 0; cycle < 25; ++cycle) other.run_cycle();
-  CHECK(std::abs(held.film.heat.state().journal - other.temperature_of_journal) < 0.1);  // which swings by 0.7 K
+  CHECK(std::abs(fixed.film.heat.state().journal - other.temperature_of_journal) < 0.1);  // which swings by 0.7 K
 }
 
 // A shell and a journal that are bodies of a network, which the film's answer to them brings into balance as it does a
 // ring and a free journal.
-TEST_CASE("HeldNodes_SettleWithTheirNetwork") {
+TEST_CASE("FixedNodes_SettleWithTheirNetwork") {
   const FilmModel model = bearing();
-  ThermalModel thermal = walls(WallMotion::held);
+  ThermalModel thermal = walls(WallMotion::fixed);
   thermal.shell = NodeWall{.T = 40 + zero_celsius, .node = 0, .name = "shell"};
   thermal.journal = NodeWall{.T = 40 + zero_celsius, .node = 1, .name = "journal"};
   const ThermalNetworkModel bodies{.nodes = {{"shell", 1e3, 40 + zero_celsius, false},
@@ -123,15 +124,15 @@ TEST_CASE("HeldNodes_SettleWithTheirNetwork") {
     machine.film.settle(network);
   }
   machine.run_cycle();
-  // The journal, which only the film reaches, takes up nothing; what the shell does goes to the air.
+  // The journal, which only the film reaches, absorbs nothing; the heat into the shell flows to the air.
   constexpr double last = 1e-3;  // W, of 110 in the first cycle: what the last corrections amount to
   CHECK(std::abs(machine.heat_into_journal) < last);
   const double to_air = 2.0 * (network.temperatures()[0] - (30 + zero_celsius));
   CHECK(std::abs(machine.film.heat.observables().balance.to_shell - to_air) < last);
 }
 
-TEST_CASE("HeldNodes_ThatDrawMoreHeatAsTheyWarmSettleAsSoon") {
-  ThermalModel thermal = walls(WallMotion::held);
+TEST_CASE("FixedNodes_ThatDrawMoreHeatAsTheyWarmSettleAsSoon") {
+  ThermalModel thermal = walls(WallMotion::fixed);
   thermal.shell = WallAtTemperature{.T = 40 + zero_celsius};
   thermal.journal = NodeWall{.T = 40 + zero_celsius, .node = 0, .name = "journal"};
   ThermalNetwork network({.nodes = {{"journal", 1e3, 40 + zero_celsius, false}}, .paths = {}});
@@ -148,15 +149,15 @@ TEST_CASE("HeldNodes_ThatDrawMoreHeatAsTheyWarmSettleAsSoon") {
 }
 
 // A checkpoint in the middle of a cycle keeps every bit of what follows.
-TEST_CASE("HeldWalls_ResumeToTheSameNumbers") {
+TEST_CASE("FixedWalls_ResumeToTheSameNumbers") {
   const FilmModel model = bearing();
-  Machine machine(model, walls(WallMotion::held), 0.2);
+  Machine machine(model, walls(WallMotion::fixed), 0.2);
   machine.run_cycle();
   (void)machine.film.settle();
   machine.run_cycle();
   Archive saved;
   machine.film.heat.persist(saved);
-  FilmHeat resumed(model, walls(WallMotion::held));
+  FilmHeat resumed(model, walls(WallMotion::fixed));
   Archive archive(saved.content());
   resumed.persist(archive);
   CHECK(archive.unread().empty());
@@ -166,8 +167,8 @@ TEST_CASE("HeldWalls_ResumeToTheSameNumbers") {
   CHECK(machine.film.heat.state().journal == resumed.state().journal);
 }
 
-// Without heat on one side, with a temperature given there, through a line instead of a hole.
-TEST_CASE("HeldWallsOfAllKinds_SettleAtThoseOfTheSteadyFilm") {
+// Walls without heat on one side, with a prescribed temperature there, and with a line instead of a hole.
+TEST_CASE("FixedWallsOfAllKinds_SettleAtThoseOfTheSteadyFilm") {
   const RingWall ring{.outer_radius = 0.05, .transfer = 80, .T_ambient = 30 + zero_celsius};
   const std::vector<std::pair<ShellWall, JournalWall>> kinds{
       {InsulatedWall{}, FreeJournal{.heat_capacity = 100}},
@@ -180,7 +181,7 @@ TEST_CASE("HeldWallsOfAllKinds_SettleAtThoseOfTheSteadyFilm") {
     FilmModel model = bearing();
     model.features.clear();
     model.supply = {SupplyKind::fixed_angle, 0, 3e5};
-    ThermalModel thermal = walls(WallMotion::held);
+    ThermalModel thermal = walls(WallMotion::fixed);
     thermal.shell = kind.first, thermal.journal = kind.second;
     Machine machine(model, thermal, 0);
     for (int cycle = 0; cycle < 8; ++cycle) {
@@ -198,13 +199,13 @@ TEST_CASE("HeldWallsOfAllKinds_SettleAtThoseOfTheSteadyFilm") {
 }
 
 // A journal of its own heat and one that is a node which nothing else reaches, beside either kind of shell.
-TEST_CASE("HeldNodeThatNothingReaches_IsAFreeJournal") {
+TEST_CASE("FixedNodeThatNothingReaches_IsAFreeJournal") {
   const FilmModel model = bearing();
   for (const bool has_ring : {false, true}) {
     CAPTURE(has_ring);
     std::array<double, 2> journal{}, shell{};
     for (const bool is_node : {false, true}) {
-      ThermalModel thermal = walls(WallMotion::held);
+      ThermalModel thermal = walls(WallMotion::fixed);
       if (!has_ring) thermal.shell = NodeWall{.T = 40 + zero_celsius, .node = 0, .name = "shell"};
       if (is_node) thermal.journal = NodeWall{.T = 40 + zero_celsius, .node = 1, .name = "journal"};
       ThermalNetwork network({.nodes = {{"shell", 1e3, 40 + zero_celsius, false},
@@ -227,8 +228,8 @@ TEST_CASE("HeldNodeThatNothingReaches_IsAFreeJournal") {
 }
 
 // Walls of given temperatures have nothing to settle.
-TEST_CASE("HeldWallsThatAreGiven_StayAsTheyAre") {
-  ThermalModel thermal = walls(WallMotion::held);
+TEST_CASE("FixedWallsOfGivenTemperature_KeepIt") {
+  ThermalModel thermal = walls(WallMotion::fixed);
   thermal.shell = WallAtTemperature{.T = 45 + zero_celsius};
   thermal.journal = WallAtTemperature{.T = 50 + zero_celsius};
   Machine machine(bearing(), thermal, 0.2);
@@ -239,18 +240,18 @@ TEST_CASE("HeldWallsThatAreGiven_StayAsTheyAre") {
   CHECK(machine.film.heat.state().journal == 50 + zero_celsius);
 }
 
-// Where oil comes from and what surrounds a ring are nodes that keep their temperatures, or such temperatures: through
-// a line, with a hole that takes oil away, all of it renewed in part.
-TEST_CASE("HeldWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
+// The origins of oil and the surroundings of a ring are nodes that keep their temperatures, or such temperatures: with
+// a line, with a hole that removes oil, and with partial renewal of all oil.
+TEST_CASE("FixedWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
   FilmModel model = bearing();
   model.supply = {SupplyKind::fixed_angle, 0, 3e5};
   model.features[0].phi = 2.6, model.features[0].pressure = 0;
-  ThermalModel thermal = walls(WallMotion::held);
+  ThermalModel thermal = walls(WallMotion::fixed);
   thermal.carry_over = 0.7;
   Machine by_temperature(model, thermal, 0.1);
   thermal.oil.line = NetworkNode{.T = 40 + zero_celsius, .node = 0, .name = "oil"};
   std::get<RingWall>(thermal.shell).surroundings = NetworkNode{.T = 30 + zero_celsius, .node = 1, .name = "air"};
-  REQUIRE(terminals_of(thermal).place_of_drain() == -1);
+  REQUIRE(terminals_of(thermal).index_of_drain() == -1);
   Machine by_node(model, thermal, 0.1);
   ThermalNetwork network(
       {.nodes = {{"oil", 0, 40 + zero_celsius, true}, {"air", 0, 30 + zero_celsius, true}}, .paths = {}});
@@ -264,34 +265,34 @@ TEST_CASE("HeldWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
   }
 }
 
-// A film at rest does not ask what walls would do over time.
-TEST_CASE("SteadyFilmWithHeldNodes_IsTheSteadyFilm") {
+// A steady film does not depend on the motion of walls over time.
+TEST_CASE("SteadyFilmWithFixedNodes_IsTheSteadyFilm") {
   const FilmModel model = bearing();
   std::array<WallExchange, 2> observed;
-  for (const bool held : {false, true}) {
-    ThermalModel thermal = walls(held ? WallMotion::held : WallMotion::by_their_heat);
+  for (const bool fixed : {false, true}) {
+    ThermalModel thermal = walls(fixed ? WallMotion::fixed : WallMotion::by_their_heat);
     thermal.journal = NodeWall{.T = 40 + zero_celsius, .node = 0, .name = "journal"};
     FilmOverTime film(model, thermal, turning(model, 0.5, 300));
     film.advance(0);
-    observed[held ? 1 : 0] = film.heat.exchange();
+    observed[fixed ? 1 : 0] = film.heat.exchange();
   }
   CHECK(observed[1].heat == observed[0].heat);
   CHECK(observed[1].by_T == observed[0].by_T);
 }
 
-// What goes elsewhere than foretold tells nothing of the pace.
-TEST_CASE("PaceOfWalls_IsLearnedOfWhatGoesTheSameWay") {
-  const Eigen::Vector2d ones(1, 1), foretold(10, 0);
+// A change in another direction than predicted leaves the relaxation at one.
+TEST_CASE("WallRelaxation_FollowsChangesInThePredictedDirection") {
+  const Eigen::Vector2d ones(1, 1), predicted(10, 0);
   for (const auto& [then, share] : std::vector<std::pair<Eigen::Vector2d, double>>{
            {{0, 0}, 1.0}, {{2.5, 0}, 0.75}, {{9, 0}, 0.5}, {{0, 10}, 1.0}, {{12, 0}, 1.0}}) {
-    WallPace pace;
-    pace.learn(Eigen::Vector2d(10, 0), ones);
-    CHECK(pace.share() == 1);
-    pace.foretell(foretold);
-    pace.learn(then, ones);
-    CHECK(pace.share() == relative(share).epsilon(1e-15));  // eps
+    WallRelaxation relaxation;
+    relaxation.learn(Eigen::Vector2d(10, 0), ones);
+    CHECK(relaxation.share() == 1);
+    relaxation.predict(predicted);
+    relaxation.learn(then, ones);
+    CHECK(relaxation.share() == relative(share).epsilon(1e-15));  // eps
   }
 }
 
-}  // namespace held_walls_test
+}  // namespace fixed_walls_test
 }  // namespace hersey::film

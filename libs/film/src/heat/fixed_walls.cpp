@@ -4,30 +4,31 @@
 
 #include "heat/heat_equations.h"
 
-// The part of the equations of heat that walls which keep their temperature over a cycle need.
+// Part of the equations of heat that concerns walls that keep their temperature over a cycle.
 namespace hersey::film {
 namespace {
 
-// Of the mean of a cycle, rows through which nothing flows keep this share of their storage.
+// Share of their storage that rows without any flow keep in the mean of a cycle.
 constexpr double least_storage = 1e-6;
 
 }  // namespace
 
-bool HeatEquations::holds_walls(const CarryingFilm& film) const {
-  return film.dt > 0 && thermal_.walls == WallMotion::held;
+bool HeatEquations::has_fixed_walls(const CarryingFilm& film) const {
+  return film.dt > 0 && thermal_.walls == WallMotion::fixed;
 }
 
-// The walls' rows say that temperatures stay.
-void HeatEquations::hold_walls(const HeatState& start) {
+// The walls' rows become those of prescribed temperatures.
+void HeatEquations::fix_walls(const HeatState& start) {
   if (has_own_temperatures(thermal_.shell)) {
-    system_.hold_ring();
+    system_.fix_ring();
     known_.segment(system_.ring_row(0), model_.grid.n_phi) = start.shell;
     by_outside_.middleRows(system_.ring_row(0), model_.grid.n_phi).setZero();
   }
-  hold_journal(start.journal);
+  fix_journal(start.journal);
 }
 
-// Of the oil that a supply gives, line and then features: what is not the film's own that it has taken in elsewhere.
+// Shares of fresh oil in the oil that each supply feeds, line first, then features; the rest is oil that the supply has
+// taken from the film.
 std::vector<double> HeatEquations::fresh_shares(const CarryingFilm& film) const {
   std::vector<double> given(static_cast<std::size_t>(supplies()), 0.0), net = given;
   for (int node = 0; node < model_.grid.size(); ++node) {
@@ -39,42 +40,42 @@ std::vector<double> HeatEquations::fresh_shares(const CarryingFilm& film) const 
   return net;
 }
 
-// What the nodes that are no walls do to the film in the mean, and it to them: fresh oil comes at a node's temperature,
-// what leaves the film takes its own along.
+// Mean coupling of the film with the nodes that are no walls: fresh oil comes at a node's temperature, and oil that
+// leaves the film does so at its own.
 OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std::vector<double>& fresh) const {
   const Eigen::Index n = at_.outside(), rows = system_.size();
   OutsideOfMean mean{Eigen::MatrixXd::Zero(rows, n), Eigen::MatrixXd::Zero(n, rows), Eigen::VectorXd::Zero(n)};
-  const auto take = [&mean](Eigen::Index place, int row, double rate) {
-    mean.from(place, row) += rate, mean.self[place] -= rate;
+  const auto take = [&mean](Eigen::Index terminal, int row, double rate) {
+    mean.from(terminal, row) += rate, mean.self[terminal] -= rate;
   };
   for (int i = 0; at_.ambient && i < model_.grid.n_phi; ++i) {
-    mean.by(system_.ring_row(i), at_.place_of_ambient()) += ring_.outside[i];
-    take(at_.place_of_ambient(), system_.ring_row(i), ring_.outside[i]);
+    mean.by(system_.ring_row(i), at_.index_of_ambient()) += ring_.outside[i];
+    take(at_.index_of_ambient(), system_.ring_row(i), ring_.outside[i]);
   }
-  const Eigen::Index drain = at_.place_of_drain(), edges = at_.place_of_oil(thermal_.oil.edges);
+  const Eigen::Index drain = at_.index_of_drain(), edges = at_.index_of_oil(thermal_.oil.edges);
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double out = film.balance.outflow(node), given = film.balance.supply(node);
-    const bool is_held = film.balance.is_supplied(node);
-    const int supply = is_held ? film.balance.supplied_by(node) + (has_line() ? 1 : 0) : -1;
-    const double share = is_held ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
-    const double replaced = is_held ? (1 - thermal_.carry_over) * film.balance.supplied_share(node) : 0;
+    const bool is_supplied = film.balance.is_supplied(node);
+    const int supply = is_supplied ? film.balance.supplied_by(node) + (has_line() ? 1 : 0) : -1;
+    const double share = is_supplied ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
+    const double replaced = is_supplied ? (1 - thermal_.carry_over) * film.balance.supplied_share(node) : 0;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       if (edges >= 0 && out < 0) mean.by(row, edges) -= rc_ * out * width(l);
-      if (const Eigen::Index oil = is_held ? oil_of(supply) : -1; oil >= 0)
+      if (const Eigen::Index oil = is_supplied ? oil_of(supply) : -1; oil >= 0)
         mean.by(row, oil) += rc_ * (share * width(l) + replaced * inflow_[row]);
       if (drain < 0) continue;
       if (out > 0) take(drain, row, rc_ * out * film.flows.leaving_share(node, l));
-      if (is_held && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_share(node, l));
-      if (is_held) take(drain, row, rc_ * replaced * inflow_[row]);
+      if (is_supplied && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_share(node, l));
+      if (is_supplied) take(drain, row, rc_ * replaced * inflow_[row]);
     }
   }
   return mean;
 }
 
-// As if nothing were mixed: a supply may go round with the journal, and the mean of what it mixes is none. Without
-// storage; fresh oil comes at its temperature; and where oil is warmer, less heat is made: at a given speed in
-// proportion to its viscosity.
+// The mean is taken as if nothing were mixed: a supply may rotate with the journal, and the mean of its mixing has no
+// meaning. Storage is left out, fresh oil comes at its temperature, and where oil is warmer less heat is generated: at
+// a given speed in proportion to its viscosity.
 void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatState& start) {
   const std::vector<double> fresh = fresh_shares(film);
   Eigen::VectorXd added = -(1 - least_storage) * storage_;
@@ -106,12 +107,12 @@ void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatSt
                                 .outside = at_.outside() > 0 ? outside_of_mean(film, fresh) : OutsideOfMean{}});
 }
 
-void HeatEquations::hold_journal(double T) {
+void HeatEquations::fix_journal(double T) {
   journal_self_ = 1, journal_moves_ = false;
   known_[system_.size()] = T;
 }
 
-// What walls lack to keep their temperatures (thermal.18).
+// Adds the heat that walls would have to give off to keep their temperatures (thermal.18).
 void HeatEquations::add_heat_to_mean(const CarryingFilm& film, const HeatState& start, const HeatState& end) {
   const int rows = system_.size(), n = model_.grid.n_phi;
   Eigen::VectorXd into = Eigen::VectorXd::Zero(rows + 1);
