@@ -1,5 +1,5 @@
 // Loops with more constraints than motions: what is dropped, that it holds by itself, and how reactions are shared.
-#include "../src/tree/redundancy.h"
+#include "../src/mechanism/redundancy.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "tree/shared_reactions.h"
+#include "mechanism/shared_reactions.h"
 
 #include <algorithm>
 #include <map>

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "hersey/mbd/mechanism.h"
-#include "tree/mechanism_parts.h"
-#include "tree/redundancy.h"
+#include "mechanism/mechanism_parts.h"
+#include "mechanism/redundancy.h"
 #include "tree/start_of.h"
 
 namespace hersey::mbd {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "hersey/mbd/mechanism.h"
-#include "tree/mechanism_parts.h"
+#include "mechanism/mechanism_parts.h"
 
 namespace hersey::mbd {
 namespace {

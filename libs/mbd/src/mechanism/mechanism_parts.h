@@ -10,10 +10,10 @@
 #include "hersey/mbd/energy_view.h"
 #include "hersey/mbd/mechanism_spec.h"
 #include "hersey/mbd/observation.h"
+#include "mechanism/shared_reactions.h"
 #include "tree/assembly.h"
 #include "tree/coupling.h"
 #include "tree/drive_motion.h"
-#include "tree/shared_reactions.h"
 #include "tree/tree.h"
 #include "tree/tree_motion.h"
 

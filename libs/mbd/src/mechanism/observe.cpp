@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "hersey/mbd/mechanism.h"
-#include "tree/mechanism_parts.h"
+#include "mechanism/mechanism_parts.h"
 
 namespace hersey::mbd {
 namespace {

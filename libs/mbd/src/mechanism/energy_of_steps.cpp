@@ -6,7 +6,7 @@
 
 #include "hersey/mbd/energy_view.h"
 #include "hersey/mbd/mechanism.h"
-#include "tree/mechanism_parts.h"
+#include "mechanism/mechanism_parts.h"
 
 namespace hersey::mbd {
 namespace {

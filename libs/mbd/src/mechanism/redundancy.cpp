@@ -1,4 +1,4 @@
-#include "tree/redundancy.h"
+#include "mechanism/redundancy.h"
 
 #include <algorithm>
 #include <cmath>

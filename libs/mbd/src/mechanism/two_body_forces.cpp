@@ -6,7 +6,7 @@
 #include "hersey/core/stopwatch.h"
 #include "hersey/core/task_pool.h"
 #include "hersey/mbd/mechanism.h"
-#include "tree/mechanism_parts.h"
+#include "mechanism/mechanism_parts.h"
 
 namespace hersey::mbd {
 

@@ -7,7 +7,7 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/core/stopwatch.h"
-#include "tree/mechanism_parts.h"
+#include "mechanism/mechanism_parts.h"
 #include "tree/tree_builder.h"
 
 namespace hersey::mbd {
