@@ -1,5 +1,5 @@
 // The mesh of a reduced body in its file: the data for loads on faces, pictures and stresses.
-#include "mesh/mesh_data.h"
+#include "reduction/mesh_data.h"
 
 #include <fmt/format.h>
 
