@@ -1,5 +1,5 @@
 // Films between surfaces of elastic bodies: the gap they make, and the forces that go back to their shapes.
-#include "force/deforming_surfaces.h"
+#include "gap/deforming_surfaces.h"
 
 #include <doctest/doctest.h>
 

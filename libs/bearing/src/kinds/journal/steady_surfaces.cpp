@@ -1,23 +1,10 @@
-#include "hersey/bearing/operating_point.h"
+#include "hersey/bearing/steady_surfaces.h"
 
 #include <cmath>
 
 #include "hersey/film/gap_shape.h"
 
 namespace hersey::bearing {
-
-film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point) {
-  const double omega = point.film_speed(clearance(model));
-  if (omega > 0) model.fill_speed = omega;
-  return model;
-}
-
-OperatingPoint with_growth(OperatingPoint point, const film::FilmModel& model, double growth) {
-  const double before = clearance(model, point);
-  point.growth = growth;
-  point.e *= clearance(model, point) / before;
-  return point;
-}
 
 film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point, const Coordinates& e) {
   RigidSurfaces surfaces(model);
@@ -33,17 +20,6 @@ film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmMod
   // The bearing's axes rest: a shell that turns takes its shape along.
   if (point.shell_speed != 0) motion.g_rate -= point.shell_speed * film::GapShape(model).shell_slope();
   return motion;
-}
-
-void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion) {
-  if (shape.size() == 0) return;
-  motion.g += shape;
-  if (motion.shell_opening.size() == 0) motion.shell_opening.setZero(shape.size());
-  motion.shell_opening += shape;
-}
-
-void add_to_journal(const Eigen::VectorXd& shape, film::SurfaceMotion& motion) {
-  if (shape.size() > 0) motion.g -= shape;
 }
 
 ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point, const Coordinates& e) {

@@ -1,4 +1,4 @@
-#include "force/deforming_surfaces.h"
+#include "gap/deforming_surfaces.h"
 
 #include <limits>
 #include <utility>
