@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "check/check.h"
 #include "hersey/core/spelling.h"
-#include "interpret/check/check.h"
 
 namespace hersey::model {
 namespace {

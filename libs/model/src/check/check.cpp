@@ -1,14 +1,14 @@
-#include "interpret/check/check.h"
+#include "check/check.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "check/bare_numbers_in.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/quantity_formula.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
-#include "interpret/check/bare_numbers_in.h"
 
 namespace hersey::model {
 namespace {

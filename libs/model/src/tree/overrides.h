@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "interpret/tree/source_tree.h"
+#include "tree/source_tree.h"
 
 namespace hersey::model {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "interpret/tree/source_tree.h"
+#include "tree/source_tree.h"
 
 namespace hersey::model {
 

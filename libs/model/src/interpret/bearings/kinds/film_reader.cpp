@@ -1,4 +1,4 @@
-#include "interpret/bearings/film_reader.h"
+#include "interpret/bearings/kinds/film_reader.h"
 
 #include <fmt/format.h>
 

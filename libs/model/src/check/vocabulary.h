@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "check/check.h"
+#include "check/schema_type.h"
 #include "hersey/core/contract.h"
-#include "interpret/check/check.h"
-#include "schema/schema_type.h"
 
 namespace hersey::model {
 

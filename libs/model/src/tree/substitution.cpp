@@ -1,4 +1,4 @@
-#include "interpret/tree/substitution.h"
+#include "tree/substitution.h"
 
 #include <fmt/format.h>
 

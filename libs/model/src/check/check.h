@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "interpret/tree/source_tree.h"
-#include "schema/schema_type.h"
+#include "check/schema_type.h"
+#include "tree/source_tree.h"
 
 namespace hersey::model {
 

@@ -1,4 +1,4 @@
-#include "interpret/tree/source_tree.h"
+#include "tree/source_tree.h"
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>

@@ -1,4 +1,4 @@
-#include "interpret/tree/tree_digest.h"
+#include "tree/tree_digest.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "schema/schema_type.h"
+#include "check/schema_type.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "interpret/tree/source_tree.h"
+#include "tree/source_tree.h"
 
 namespace hersey::model {
 

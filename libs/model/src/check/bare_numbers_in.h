@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "check/schema_type.h"
 #include "hersey/model/bare_number.h"
-#include "interpret/tree/source_tree.h"
-#include "schema/schema_type.h"
+#include "tree/source_tree.h"
 
 namespace hersey::model {
 

@@ -1,4 +1,4 @@
-#include "interpret/tree/overrides.h"
+#include "tree/overrides.h"
 
 #include <algorithm>
 #include <charconv>
