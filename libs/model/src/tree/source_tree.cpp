@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "tree/extent.h"
+
 namespace hersey::model {
 namespace {
 
@@ -25,23 +27,6 @@ struct TooLarge {
   SourcePosition position;
   std::string found, expected;
 };
-
-/// How much a copy of a value is.
-struct Extent {
-  std::size_t nodes = 1, bytes = 0, depth = 1;
-};
-
-Extent extent_of(const Node& node) {
-  Extent extent{.bytes = node.text.size()};
-  const auto add = [&extent](const Extent& part) {
-    extent.nodes += part.nodes;
-    extent.bytes += part.bytes;
-    extent.depth = std::max(extent.depth, 1 + part.depth);
-  };
-  for (const Node& item : node.items) add(extent_of(item));
-  for (const Entry& entry : node.entries) add(extent_of(entry.value));
-  return extent;
-}
 
 /// Builds the tree from the parser's events, which, unlike yaml-cpp's own nodes, keep duplicate keys and their
 /// locations.
@@ -118,7 +103,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void count_repeated(const Node& node, const SourcePosition& at) {
     const Extent extent = extent_of(node);
     repeated_nodes_ += extent.nodes;
-    repeated_bytes_ += extent.bytes;
+    repeated_bytes_ += extent.text_bytes;
     if (repeated_nodes_ > most_repeated_nodes)
       throw TooLarge{at, "aliases that repeat more than 100000 values", "at most 100000 values repeated by aliases"};
     if (repeated_bytes_ > most_repeated_bytes)
