@@ -118,7 +118,7 @@ FAULTS = [
     Fault("mbd: gyroscopic term", "mbd/src/tree/inertia.cpp", "F_[l] = IA + Vh;", "F_[l] = IA;"),
     Fault("mbd: row of a universal joint", "mbd/src/tree/joint_kind.cpp",
           ".rows = {{t1}, {t2}, {axis}, {t1, t2}}},", ".rows = {{t1}, {t2}, {axis}, {t1, axis}}},"),
-    Fault("mbd: lever of a reaction", "mbd/src/tree/observe.cpp",
+    Fault("mbd: lever of a reaction", "mbd/src/mechanism/observe.cpp",
           "(through[j].head<3>() - X_WI.r.cross(f));", "through[j].head<3>();"),
     Fault("mbd: Coriolis force of a deforming body", "mbd/src/elastic/modal_body.cpp",
           "w.Omega * w.S + 2 * omega.cross(w.S_rate) + w.S_acc;", "w.Omega * w.S + omega.cross(w.S_rate) + w.S_acc;"),

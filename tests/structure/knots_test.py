@@ -12,6 +12,9 @@ SOURCE = os.path.abspath(sys.argv.pop(1))
 
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 IMPORT = re.compile(r'^(?:import|export)\b[^;"]*"\./([^"]+)"', re.MULTILINE)
+# Also those that wait within a function until it is called.
+FROM = re.compile(r'^ *from (?:\.|hersey(?:_study)?\.)(\w+) import', re.MULTILINE)
+SEVERAL = re.compile(r'^ *from \. import (.+)', re.MULTILINE)
 
 
 def stem(path):
@@ -51,6 +54,11 @@ def knots(graph):
     return found
 
 
+def one_by_one(text):
+    """A Python file's text with an import of several of its neighbours written as one of each."""
+    return SEVERAL.sub(lambda line: "\n".join(f"from .{name.split()[0]} import *" for name in line[1].split(",")), text)
+
+
 def read_all(*patterns):
     files = {}
     for pattern in patterns:
@@ -86,6 +94,14 @@ class Knots(unittest.TestCase):
         if faults:
             self.fail("files that import each other:\n" + "\n".join(faults))
 
+    def test_files_of_python_packages_do_not_import_each_other(self):
+        faults = []
+        for package in ("python/hersey", "python/hersey_study"):
+            files = {path: one_by_one(text) for path, text in read_all(f"{package}/*.py").items()}
+            faults += self.told(package, files, FROM)
+        if faults:
+            self.fail("files that import each other:\n" + "\n".join(faults))
+
     def test_a_circle_is_found(self):
         files = {"a.h": '#include "b.h"\n', "b.cpp": '#include "b.h"\n#include "c.h"\n', "b.h": "",
                  "c.h": '#include "a.h"\n#include "d.h"\n', "d.h": ""}
@@ -94,6 +110,8 @@ class Knots(unittest.TestCase):
         self.assertEqual(knots(uses(files, INCLUDE)), [])
         imports = {"p.ts": 'import { q } from "./q";\n', "q.ts": 'import type {\n  P,\n} from "./p";\n'}
         self.assertEqual(knots(uses(imports, IMPORT)), [["p", "q"]])
+        modules = {"p.py": one_by_one("from . import n, q\n"), "q.py": "def a():\n    from .p import b\n"}
+        self.assertEqual(knots(uses(modules, FROM)), [["p", "q"]])
 
 
 if __name__ == "__main__":

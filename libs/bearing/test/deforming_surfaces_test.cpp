@@ -1,5 +1,5 @@
 // Films between surfaces of elastic bodies: the gap they make, and the forces that go back to their shapes.
-#include "force/deforming_surfaces.h"
+#include "gap/deforming_surfaces.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hersey/bearing/journal_bearing.h"
+#include "rough_film.h"
 
 namespace hersey::bearing {
 namespace deforming_surfaces_test {
@@ -28,20 +29,6 @@ std::shared_ptr<const ElasticSurface> random_surface(double width, Index amplitu
   ElasticSurface surface{SurfaceFunctions(9, 4, width), MatrixXd(36, amplitudes)};
   for (Index i = 0; i < surface.D.size(); ++i) surface.D.data()[i] = uniform(random);
   return std::make_shared<ElasticSurface>(surface);
-}
-
-film::FilmModel rough_film() {
-  film::FilmModel model;
-  model.c = 34e-6;
-  model.grid = {.n_phi = 30, .n_z = 5};
-  model.lubricant.viscosity_law = film::Barus{1.28e-10};
-  model.supply = {.kind = film::SupplyKind::widest_gap, .phi = 0, .pressure = 2e5};
-  model.asperities = {.model = film::AsperityModel::greenwood_tripp_fit,
-                      .sigma = 3e-6,
-                      .elastic_factor = 3e-3,
-                      .composite_modulus = 57e9,
-                      .mu_friction = 0.1};
-  return model;
 }
 
 BearingOptions between_elastic_surfaces(double width) {

@@ -5,20 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "rough_film.h"
+
 namespace hersey::bearing {
 namespace journal_bearing_test {
 
 film::FilmModel rough_elastic_film() {
-  film::FilmModel model;
-  model.c = 34e-6;
-  model.grid = {.n_phi = 30, .n_z = 5};
-  model.lubricant.viscosity_law = film::Barus{1.28e-10};
-  model.supply = {.kind = film::SupplyKind::widest_gap, .phi = 0, .pressure = 2e5};
-  model.asperities = {.model = film::AsperityModel::greenwood_tripp_fit,
-                      .sigma = 3e-6,
-                      .elastic_factor = 3e-3,
-                      .composite_modulus = 57e9,
-                      .mu_friction = 0.1};
+  film::FilmModel model = rough_film();
   model.compliance = 0.0225 / 57e9;
   model.profiles = {
       {film::Ovality{3e-6, 0.4}}, {film::Barrel{2e-6}}, {film::Lobes{3, 4e-6, 0.1}, film::Surface::journal}};

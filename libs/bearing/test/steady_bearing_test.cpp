@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hersey/bearing/bearing_numbers.h"
+#include "hersey/bearing/steady_surfaces.h"
 #include "kinds/journal/short_bearing.h"
 #include "source_dir.h"
 

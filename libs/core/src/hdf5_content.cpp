@@ -6,30 +6,15 @@
 #include <algorithm>
 #include <vector>
 
+#include "hersey/core/hdf5_handle.h"
 #include "hersey/core/memory.h"
 
 namespace hersey {
 namespace {
 
-static_assert(sizeof(hid_t) == sizeof(std::int64_t), "the header names HDF5's identifiers so");
-
 constexpr int kDeepest = 32;
 constexpr double kMostCompressed = 2000;  // deflate makes at most 1032 bytes of one
 constexpr double kSmall = 1 << 20;        // [bytes] always accepted
-
-class Identifier {
- public:
-  explicit Identifier(hid_t id) : id_(id) {}
-  Identifier(const Identifier&) = delete;
-  Identifier& operator=(const Identifier&) = delete;
-  ~Identifier() {
-    if (id_ >= 0) H5Idec_ref(id_);
-  }
-  [[nodiscard]] hid_t get() const { return id_; }
-
- private:
-  hid_t id_;
-};
 
 struct Link {
   std::string name;
@@ -60,7 +45,7 @@ class Survey {
   std::string of_link(hid_t group, const Link& link, const std::string& path, int depth) const {
     if (link.type == H5L_TYPE_SOFT) return fmt::format("a soft link: '{}'", path);
     if (link.type != H5L_TYPE_HARD) return fmt::format("a link to another file: '{}'", path);
-    const Identifier object(H5Oopen(group, link.name.c_str(), H5P_DEFAULT));
+    const Hdf5Handle object(H5Oopen(group, link.name.c_str(), H5P_DEFAULT));
     H5O_info_t info{};
     if (object.get() < 0 || H5Oget_info(object.get(), &info) < 0)
       return fmt::format("an object that cannot be read: '{}'", path);
@@ -72,14 +57,12 @@ class Survey {
   }
 
   std::string of_data(hid_t data, const std::string& path) const {
-    const Identifier space(H5Dget_space(data)), type(H5Dget_type(data)), made(H5Dget_create_plist(data));
+    const Hdf5Handle space(H5Dget_space(data)), type(H5Dget_type(data)), made(H5Dget_create_plist(data));
     if (H5Pget_external_count(made.get()) != 0 || H5Pget_layout(made.get()) == H5D_VIRTUAL)
       return fmt::format("a data set whose numbers lie in another file: '{}'", path);
     // The product of integers may overflow; that of doubles does not.
-    std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.get()), 0)));
-    if (!shape.empty()) H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
     double bytes = static_cast<double>(H5Tget_size(type.get()));
-    for (const hsize_t length : shape) bytes *= static_cast<double>(length);
+    for (const std::size_t length : extent_of(space.get())) bytes *= static_cast<double>(length);
     if (bytes > kSmall && bytes > kMostCompressed * file_size_)
       return fmt::format("a data set of {:.3g} GB in a file of {:.3g} GB: '{}'", bytes / 1e9, file_size_ / 1e9, path);
     if (bytes > usable_memory())
@@ -96,7 +79,7 @@ class Survey {
 std::string foreign_content(std::int64_t file, const std::filesystem::path& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  const Identifier root(H5Gopen2(file, "/", H5P_DEFAULT));
+  const Hdf5Handle root(H5Gopen2(file, "/", H5P_DEFAULT));
   if (error || root.get() < 0) return "no group '/'";
   return Survey(static_cast<double>(size)).of_group(root.get(), "", 0);
 }

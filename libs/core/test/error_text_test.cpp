@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "edited.h"
 #include "hersey/core/contract.h"
 
 namespace hersey {
@@ -23,8 +24,6 @@ std::string text_of(const std::function<void()>& what) {
   }
   return "";
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("ErrorText_OfABugIsARequestAndALocationOnItsOwnLine") {
   const std::string text = text_of([] { divide(0); });

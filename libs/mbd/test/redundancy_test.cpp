@@ -1,6 +1,6 @@
 // Loops with more constraints than motions: constraints that are dropped are satisfied all the same, and reactions are
 // shared.
-#include "../src/tree/redundancy.h"
+#include "../src/mechanism/redundancy.h"
 
 #include <doctest/doctest.h>
 

@@ -4,6 +4,7 @@
 #include "hersey/film/thermal_model.h"
 #include "hersey/model/plausibility.h"
 #include "hersey/model/wall_conduction.h"
+#include "meshed_bearing.h"
 #include "model_text.h"
 #include "ring_file.h"
 
@@ -11,39 +12,20 @@
 namespace hersey::model {
 namespace body_heat_test {
 
-const std::string machine_text = R"(hersey: 1
-title: A ring that conducts
-bodies:
-  ring:
-    flexible:
-      mesh: body_heat_test_ring.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      heat:
-        conductivity: 46 W/m/K
-        expansion: 12e-6 1/K
-        cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}
-    frames:
-      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
-  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
-joints:
-  clamp: {type: fixed, between: [ground, ring.hub]}
-  slide: {type: planar, between: [ground, shaft]}
-lubricants:
-  oil: {grade: iso_vg_46}
-bearings:
-  main:
-    shell: ring.hub
-    journal: shaft
-    diameter: 45 mm
-    width: 15.6 mm
-    radial_clearance: 34 um
-    lubricant: oil
-    edge_pressure: 1 bar
-    grid: {circumferential: 24, axial: 5}
-    thermal: {model: film, supply_temperature: 50 degC, shell: {wall: body, temperature: 70 degC}}
-simulation: {duration: 1 ms, step: 0.1 ms}
-)";
+const std::string machine_text =
+    MeshedBearing{.title = "A ring that conducts",
+                  .ring = {"body_heat_test_ring.inp",
+                           "heat:\n"
+                           "  conductivity: 46 W/m/K\n"
+                           "  expansion: 12e-6 1/K\n"
+                           "  cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}",
+                           kHub},
+                  .load = "",
+                  .oil = "{grade: iso_vg_46}",
+                  .film =
+                      "grid: {circumferential: 24, axial: 5}\n"
+                      "thermal: {model: film, supply_temperature: 50 degC, shell: {wall: body, temperature: 70 degC}}"}
+        .text();
 
 /// The ring, and a hollow shaft that fits into it.
 struct WrittenRing {
@@ -62,8 +44,6 @@ struct WrittenRing {
 std::string faults_after(const std::string& from, const std::string& to) {
   return faults_of(edited(machine_text, from, to));
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("ShellInABody_IsReadAndItsConductionFound") {
   const WrittenRing file;

@@ -4,6 +4,7 @@
 #include "hersey/fem/reduced_body_file.h"
 #include "hersey/fem/reduction.h"
 #include "hersey/model/build.h"
+#include "meshed_bearing.h"
 #include "model_text.h"
 #include "ring_file.h"
 
@@ -11,35 +12,11 @@
 namespace hersey::model {
 namespace film_surface_test {
 
-const std::string machine_text = R"(hersey: 1
-title: A ring around a journal
-bodies:
-  ring:
-    flexible:
-      mesh: film_surface_test_ring.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      modes: 2
-    frames:
-      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
-  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
-joints:
-  clamp: {type: fixed, between: [ground, ring.hub]}
-  slide: {type: planar, between: [ground, shaft]}
-lubricants:
-  oil: {viscosity: 15 mPa.s}
-bearings:
-  main:
-    shell: ring.hub
-    journal: shaft
-    diameter: 45 mm
-    width: 15.6 mm
-    radial_clearance: 34 um
-    lubricant: oil
-    edge_pressure: 1 bar
-    shell_surface: {within: 0.01 mm, functions: [16, 3], modes: 12}
-simulation: {duration: 1 ms, step: 0.1 ms}
-)";
+const std::string machine_text =
+    MeshedBearing{.ring = {"film_surface_test_ring.inp", "modes: 2", kHub},
+                  .load = "",
+                  .film = "shell_surface: {within: 0.01 mm, functions: [16, 3], modes: 12}"}
+        .text();
 
 /// The mesh lies in the folder of the model file: the working directory.
 struct WrittenRing {
@@ -52,8 +29,6 @@ struct WrittenRing {
 std::string faults_after(const std::string& from, const std::string& to) {
   return faults_of(edited(machine_text, from, to));
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const std::string surface = "{within: 0.01 mm, functions: [16, 3], modes: 12}";
 

@@ -64,8 +64,6 @@ std::string faults_with(const std::string& from, const std::string& to) {
   return faults_of(edited(kMachine, from, to));
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 TEST_CASE("FlexibleBody_IsReadAndBuilt") {
   const MeshFile file;
   const Model model = read_text(kMachine, "m.yaml");

@@ -5,18 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "edited.h"
 #include "good_model.h"
 #include "hersey/model/read.h"
 
 namespace hersey::model {
-
-/// `text` with the one occurrence of `from` replaced by `to`.
-inline std::string edited(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  text.replace(at, from.size(), to);
-  return text;
-}
 
 /// Returns the faults that the reader reports for `text`, one a line.
 inline std::string faults_of(const std::string& text, const std::vector<std::string>& overrides = {}) {

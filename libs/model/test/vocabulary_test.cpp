@@ -1,10 +1,10 @@
 #include <doctest/doctest.h>
 
 #include "interpret/context/interpret.h"
-#include "interpret/tree/source_tree.h"
 #include "schema/film_vocabulary.h"
 #include "schema/machine_vocabulary.h"
 #include "schema/oil_laws.h"
+#include "tree/source_tree.h"
 
 // Words of the model file: format and reading are one table.
 namespace hersey::model {

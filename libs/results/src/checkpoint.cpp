@@ -158,9 +158,7 @@ class Contents {
 
   [[nodiscard]] Archive::Numbers numbers(const std::string& name) const {
     const Handle dataset(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT)), space(H5Dget_space(dataset.get()));
-    std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.get()), 0)));
-    if (!shape.empty()) H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
-    Archive::Numbers result{{shape.begin(), shape.end()}, {}};
+    Archive::Numbers result{extent_of(space.get()), {}};
     result.values.resize(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
     if (!result.values.empty() &&
         H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data()) < 0)

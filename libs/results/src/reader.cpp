@@ -20,13 +20,6 @@ namespace {
 constexpr int newest_format = 1;
 constexpr int deepest_group = 32;
 
-std::vector<std::size_t> shape_of(hid_t space) {
-  const int rank = H5Sget_simple_extent_ndims(space);
-  std::vector<hsize_t> sizes(static_cast<std::size_t>(std::max(rank, 0)));
-  if (!sizes.empty()) H5Sget_simple_extent_dims(space, sizes.data(), nullptr);
-  return {sizes.begin(), sizes.end()};
-}
-
 bool grows(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 1) return false;
@@ -86,10 +79,7 @@ struct Reader::Impl {
   [[nodiscard]] bool exists(const std::string& name) const {
     if (known.contains(name)) return true;
     if (name == "/") return true;
-    for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
-      if (H5Lexists(file.get(), name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-      if (end == std::string::npos) return true;
-    }
+    return has_object(file.get(), name);
   }
 
   [[nodiscard]] Handle attribute(std::string_view object, std::string_view name) const {
@@ -175,7 +165,7 @@ struct Reader::Impl {
   void count_rows(const std::string& name, hid_t object) {
     const Handle space(H5Dget_space(object));
     if (!grows(space.get())) return;
-    const std::size_t rows = shape_of(space.get())[0];
+    const std::size_t rows = extent_of(space.get())[0];
     const auto [entry, added] = complete_rows.try_emplace(growth_group(name), rows);
     entry->second = std::min(entry->second, rows);
   }
@@ -190,7 +180,7 @@ struct Reader::Impl {
 
   [[nodiscard]] DatasetInfo info(const std::string& name, const Handle& dataset, const Handle& space) const {
     DatasetInfo info;
-    info.shape = shape_of(space.get());
+    info.shape = extent_of(space.get());
     info.grows = grows(space.get());
     if (info.grows) info.shape[0] = std::min(info.shape[0], complete_rows.at(growth_group(name)));
     const Handle type(H5Dget_type(dataset.get()));

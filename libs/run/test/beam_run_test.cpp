@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "edited.h"
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
@@ -43,10 +44,6 @@ results::Reader run_in(const TemporaryDirectory& folder, const std::string& text
   INFO(summary.message);
   REQUIRE(summary.status == Status::completed);
   return results::Reader(folder / "r.h5");
-}
-
-std::string edited(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
 }
 
 TEST_CASE("TurningBlade_HasTheFrequenciesOfTheClosedForm") {

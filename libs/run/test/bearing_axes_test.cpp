@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "edited.h"
 #include "hersey/run/simulate.h"
 #include "small_rig.h"
 
@@ -30,8 +31,6 @@ std::vector<std::string> axis_warnings_of(const std::string& text) {
     if (warning.text().find("axis") != std::string::npos) warnings.push_back(warning.text());
   return warnings;
 }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("JointAcrossItsBearing_IsWarnedOf") {
   // The shell is ground's by a fixed joint: journal and shell are joined all the same.

@@ -7,9 +7,11 @@
 #include <fstream>
 #include <string>
 
+#include "edited.h"
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
+#include "meshed_bearing.h"
 #include "ring_file.h"
 #include "small_rig.h"
 #include "temporary_directory.h"
@@ -17,62 +19,19 @@
 namespace hersey::run {
 namespace facing_surfaces_test {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 /// A ring around a hollow shaft, both meshes.
-const std::string two_meshes = R"(hersey: 1
-title: A ring around a hollow shaft
-bodies:
-  ground:
-    frames:
-      middle: {origin: 0 0 0 mm}
-  ring:
-    flexible:
-      mesh: ring.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      modes: 1
-      damping: {stiffness: 2 us}
-    frames:
-      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
-  shaft:
-    flexible:
-      mesh: shaft.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      modes: 1
-      damping: {stiffness: 2 us}
-    frames:
-      pin: {nodes: bore, connection: average, origin: 0 0 0 mm}
-joints:
-  clamp: {type: fixed, between: [ground, ring.hub]}
-  slide: {type: planar, between: [ground.middle, shaft.pin]}
-drives:
-  motor: {joint: slide, coordinate: rotation, speed: 3000 rpm}
-forces:
-  push: {type: force, body: shaft.pin, components: [0 N, -2 kN, 0 N]}
-lubricants:
-  oil: {viscosity: 15 mPa.s}
-bearings:
-  main:
-    shell: ring.hub
-    journal: shaft.pin
-    diameter: 45 mm
-    width: 15.6 mm
-    radial_clearance: 34 um
-    lubricant: oil
-    edge_pressure: 1 bar
-    grid: {circumferential: 24, axial: 5}
-    shell_surface: {within: 0.1 mm, modes: 4}
-    journal_surface: {within: 0.1 mm, modes: 4}
-simulation: {duration: 0.2 ms, step: 0.1 ms}
-)";
-
-std::string edited(std::string text, const std::string& old, const std::string& replacement) {
-  const std::size_t at = text.find(old);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, old.size(), replacement);
-}
+const std::string two_meshes = MeshedBearing{.title = "A ring around a hollow shaft",
+                                             .ground = "middle: {origin: 0 0 0 mm}",
+                                             .ring = {"ring.inp", "modes: 1\ndamping: {stiffness: 2 us}", kHub},
+                                             .shaft = {"shaft.inp", "modes: 1\ndamping: {stiffness: 2 us}", kPin},
+                                             .journal = "shaft.pin",
+                                             .guided_on = "ground.middle",
+                                             .film =
+                                                 "grid: {circumferential: 24, axial: 5}\n"
+                                                 "shell_surface: {within: 0.1 mm, modes: 4}\n"
+                                                 "journal_surface: {within: 0.1 mm, modes: 4}",
+                                             .simulation = "{duration: 0.2 ms, step: 0.1 ms}"}
+                                   .text();
 
 /// The machine in a folder of its own.
 struct Machine {

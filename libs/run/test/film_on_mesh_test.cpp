@@ -15,6 +15,7 @@
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
+#include "meshed_bearing.h"
 #include "ring_file.h"
 #include "small_rig.h"
 #include "temporary_directory.h"
@@ -24,52 +25,20 @@ namespace hersey::run {
 namespace film_on_mesh_test {
 
 /// A hollow shaft rotating in a ring, both meshes.
-const std::string machine = R"(hersey: 1
-title: A hollow shaft in a ring
-bodies:
-  ring:
-    flexible:
-      mesh: ring.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      modes: 2
-      damping: {stiffness: 2 us}
-    frames:
-      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
-  shaft:
-    flexible:
-      mesh: shaft.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      modes: 2
-      damping: {stiffness: 2 us}
-    frames:
-      pin: {nodes: bore, connection: average, origin: 0 0 0 mm}
-joints:
-  clamp: {type: fixed, between: [ground, ring.hub]}
-  slide: {type: planar, between: [ground, shaft.pin], initial: {rotation: 25 deg}}
-drives:
-  motor: {joint: slide, coordinate: rotation, speed: 3000 rpm}
-forces:
-  push: {type: force, body: shaft.pin, components: [0 N, -2 kN, 0 N]}
-lubricants:
-  oil: {viscosity: 15 mPa.s}
-bearings:
-  main:
-    shell: ring.hub
-    journal: shaft.pin
-    diameter: 45 mm
-    width: 15.6 mm
-    radial_clearance: 34 um
-    lubricant: oil
-    edge_pressure: 1 bar
-    grid: {circumferential: 48, axial: 9}
-    asperities: {model: greenwood_tripp, roughness: 2 um, elastic_factor: 0.003, composite_modulus: 115 GPa}
-    shell_surface: {faces: bore, modes: 12}
-    journal_surface: {within: 0.1 mm, modes: 12}
-simulation: {duration: 1 ms, step: 0.1 ms}
-output: {meshes_at: [0.35 ms, 1 ms, 0.8 ms]}
-)";
+const std::string machine =
+    MeshedBearing{
+        .title = "A hollow shaft in a ring",
+        .ring = {"ring.inp", "modes: 2\ndamping: {stiffness: 2 us}", kHub},
+        .shaft = {"shaft.inp", "modes: 2\ndamping: {stiffness: 2 us}", kPin},
+        .journal = "shaft.pin",
+        .initial = "{rotation: 25 deg}",
+        .film =
+            "grid: {circumferential: 48, axial: 9}\n"
+            "asperities: {model: greenwood_tripp, roughness: 2 um, elastic_factor: 0.003, composite_modulus: 115 GPa}\n"
+            "shell_surface: {faces: bore, modes: 12}\n"
+            "journal_surface: {within: 0.1 mm, modes: 12}",
+        .sections = "output: {meshes_at: [0.35 ms, 1 ms, 0.8 ms]}"}
+        .text();
 
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;

@@ -8,6 +8,7 @@
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
+#include "meshed_bearing.h"
 #include "ring_file.h"
 #include "temporary_directory.h"
 
@@ -15,76 +16,20 @@
 namespace hersey::run {
 namespace film_surface_run_test {
 
-const char* const shell_model = R"(hersey: 1
-title: A ring around a journal
-bodies:
-  ring:
-    flexible:
-      mesh: ring.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      modes: 4
-      damping: {stiffness: 2 us}
-    frames:
-      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
-  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
-joints:
-  clamp: {type: fixed, between: [ground, ring.hub]}
-  slide: {type: planar, between: [ground, shaft]}
-drives:
-  motor: {joint: slide, coordinate: rotation, speed: 3000 rpm}
-forces:
-  push: {type: force, body: shaft, components: [0 N, -2 kN, 0 N]}
-lubricants:
-  oil: {viscosity: 15 mPa.s}
-bearings:
-  main:
-    shell: ring.hub
-    journal: shaft
-    diameter: 45 mm
-    width: 15.6 mm
-    radial_clearance: 34 um
-    lubricant: oil
-    edge_pressure: 1 bar
-    grid: {circumferential: 36, axial: 7}
-    shell_surface: {faces: bore}
-simulation: {duration: 1.5 ms, step: 0.1 ms}
-)";
+const std::string shell_model =
+    MeshedBearing{.ring = {"ring.inp", "modes: 4\ndamping: {stiffness: 2 us}", kHub},
+                  .film = "grid: {circumferential: 36, axial: 7}\nshell_surface: {faces: bore}",
+                  .simulation = "{duration: 1.5 ms, step: 0.1 ms}"}
+        .text();
 
 /// The same film in a rigid bore, around a hollow shaft that gives way.
-const char* const journal_model = R"(hersey: 1
-title: A hollow shaft
-bodies:
-  shaft:
-    flexible:
-      mesh: shaft.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      modes: 4
-      damping: {stiffness: 2 us}
-    frames:
-      pin: {nodes: bore, connection: average, origin: 0 0 0 mm}
-joints:
-  slide: {type: planar, between: [ground, shaft.pin]}
-drives:
-  motor: {joint: slide, coordinate: rotation, speed: 3000 rpm}
-forces:
-  push: {type: force, body: shaft.pin, components: [0 N, -2 kN, 0 N]}
-lubricants:
-  oil: {viscosity: 15 mPa.s}
-bearings:
-  main:
-    shell: ground
-    journal: shaft.pin
-    diameter: 45 mm
-    width: 15.6 mm
-    radial_clearance: 34 um
-    lubricant: oil
-    edge_pressure: 1 bar
-    grid: {circumferential: 36, axial: 7}
-    journal_surface: {within: 0.1 mm}
-simulation: {duration: 1.5 ms, step: 0.1 ms}
-)";
+const std::string journal_model =
+    MeshedBearing{.title = "A hollow shaft",
+                  .shaft = {"shaft.inp", "modes: 4\ndamping: {stiffness: 2 us}", kPin},
+                  .journal = "shaft.pin",
+                  .film = "grid: {circumferential: 36, axial: 7}\njournal_surface: {within: 0.1 mm}",
+                  .simulation = "{duration: 1.5 ms, step: 0.1 ms}"}
+        .text();
 
 /// Smallest film thickness and peak pressure of the last instant, the worst power balance over the largest power.
 struct Outcome {
@@ -94,7 +39,7 @@ struct Outcome {
   std::vector<std::pair<std::string, std::string>> assumptions;
 };
 
-Outcome run(const char* text, const std::vector<std::string>& overrides) {
+Outcome run(const std::string& text, const std::vector<std::string>& overrides) {
   const TemporaryDirectory folder;
   std::ofstream(folder / "ring.inp") << RingFile().text();
   std::ofstream(folder / "shaft.inp") << RingFile{.inner = 12, .outer = 22.466}.text();
@@ -118,7 +63,7 @@ Outcome run(const char* text, const std::vector<std::string>& overrides) {
 double deviation(double a, double b) { return std::abs(a / b - 1); }
 
 /// The same once the start, at which stiff shapes are not loaded yet, is forgotten.
-Outcome run_on(const char* text, std::vector<std::string> overrides) {
+Outcome run_on(const std::string& text, std::vector<std::string> overrides) {
   overrides.insert(overrides.end(), {"simulation.duration=8 ms", "simulation.step=50 us"});
   return run(text, overrides);
 }

@@ -12,6 +12,7 @@
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
+#include "meshed_bearing.h"
 #include "ring_file.h"
 #include "temporary_directory.h"
 
@@ -19,44 +20,21 @@
 namespace hersey::run {
 namespace heated_run_test {
 
-const std::string model_text = R"(hersey: 1
-title: A warm ring around a journal
-bodies:
-  ring:
-    flexible:
-      mesh: ring.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      modes: 0
-      heat:
-        conductivity: 46 W/m/K
-        expansion: 12e-6 1/K
-        cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}
-    frames:
-      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
-  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
-joints:
-  clamp: {type: fixed, between: [ground, ring.hub]}
-  slide: {type: planar, between: [ground, shaft]}
-drives:
-  motor: {joint: slide, coordinate: rotation, speed: 3000 rpm}
-forces:
-  push: {type: force, body: shaft, components: [0 N, -500 N, 0 N]}
-lubricants:
-  oil: {grade: iso_vg_46}
-bearings:
-  main:
-    shell: ring.hub
-    journal: shaft
-    diameter: 45 mm
-    width: 15.6 mm
-    radial_clearance: 34 um
-    lubricant: oil
-    edge_pressure: 1 bar
-    grid: {circumferential: 36, axial: 7}
-    thermal: {model: film, supply_temperature: 50 degC, shell: {wall: body, temperature: 70 degC}}
-simulation: {duration: 1 ms, step: 0.1 ms}
-)";
+const std::string model_text =
+    MeshedBearing{.title = "A warm ring around a journal",
+                  .ring = {"ring.inp",
+                           "modes: 0\n"
+                           "heat:\n"
+                           "  conductivity: 46 W/m/K\n"
+                           "  expansion: 12e-6 1/K\n"
+                           "  cooling: {outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}}",
+                           kHub},
+                  .load = "500 N",
+                  .oil = "{grade: iso_vg_46}",
+                  .film =
+                      "grid: {circumferential: 36, axial: 7}\n"
+                      "thermal: {model: film, supply_temperature: 50 degC, shell: {wall: body, temperature: 70 degC}}"}
+        .text();
 
 struct Outcome {
   double h_min = 0, heat_to_shell = 0, T_shell = 0;

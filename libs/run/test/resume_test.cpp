@@ -7,6 +7,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "bouncing_ball.h"
+#include "edited.h"
 #include "hersey/core/input_error.h"
 #include "hersey/model/read.h"
 #include "hersey/results/checkpoint.h"
@@ -100,12 +102,6 @@ simulation: {duration: 0.1 s, step: 0.5 ms}
 )";
 
 TEST_CASE("ResumedMechanism_IsTheSame") { check_resumed(kMechanism, 37, 81); }
-
-std::string edited(std::string text, const std::string& old, const std::string& replacement) {
-  const std::size_t at = text.find(old);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, old.size(), replacement);
-}
 
 TEST_CASE("ResumedRunOfControlledError_IsTheSame") {
   // Interrupted before and after the table's bend, where the method starts afresh.
@@ -221,26 +217,6 @@ TEST_CASE("ResumedFlexibleBodies_AreTheSame") {
     }
   }
 }
-
-const std::string kBall = R"(hersey: 1
-gravity: 0 0 -9.81 m/s^2
-bodies:
-  ball:
-    mass: 40 g
-    inertia: {xx: 6.4e-6 kg.m^2, yy: 6.4e-6 kg.m^2, zz: 6.4e-6 kg.m^2}
-    shapes: {surface: {shape: sphere, diameter: 40 mm}}
-  ground:
-    shapes: {floor: {shape: half_space, point: 0 0 1 mm, normal: 0 0 1}}
-joints:
-  flight: {type: free, between: [ground, ball], initial: {position: 0 0 22 mm, velocity: 0.5 0 -1 m/s}}
-contacts:
-  bounce:
-    between: [ball.surface, ground.floor]
-    stiffness: {force: 50 N, penetration: 1 mm}
-    damping: {restitution: 0.8, speed: 1 m/s}
-    friction: {coefficient: 0.4, slip_speed: 1 mm/s}
-simulation: {duration: 20 ms, step: 0.05 ms}
-)";
 
 TEST_CASE("ResumedContact_IsTheSame") { check_resumed(kBall, 60, 100); }
 

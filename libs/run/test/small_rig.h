@@ -1,9 +1,9 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "edited.h"
 #include "hersey/model/read.h"
 
 namespace hersey::run {
@@ -46,10 +46,7 @@ simulation:
 
 /// The rig with one text replaced by another.
 inline std::string rig_with(const std::string& old, const std::string& replacement) {
-  std::string text = kSmallRig;
-  const std::size_t at = text.find(old);
-  if (at == std::string::npos) throw std::logic_error("the rig has no '" + old + "'");
-  return text.replace(at, old.size(), replacement);
+  return edited(kSmallRig, old, replacement);
 }
 
 inline model::Model rig(const std::string& text = kSmallRig, const std::vector<std::string>& overrides = {}) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "edited.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
 #include "relative.h"
@@ -15,12 +16,6 @@
 // Machines whose films warm lumped bodies and whose clearances follow.
 namespace hersey::run {
 namespace warm_machine_test {
-
-std::string edited(std::string text, const std::string& old, const std::string& replacement) {
-  const std::size_t at = text.find(old);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, old.size(), replacement);
-}
 
 const std::string network = R"(thermal:
   nodes:

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <type_traits>
@@ -19,7 +18,6 @@ Group operating_point() {
   using Number = bearing::BearingNumbers;
   using Error = bearing::GridError;
   // What is given has no error.
-  const auto load_error = [](const Solution& s) { return is_load_given(s) ? -1 : s.grid_error.load; };
   const auto ratio_error = [](const Solution& s) { return is_load_given(s) ? s.grid_error.eccentricity_ratio : -1; };
   return {"operating point",
           {{"journal_speed", kRpm, point(&bearing::OperatingPoint::journal_speed)},
@@ -48,10 +46,7 @@ Group film_figures() {
            {"h_min_angle", "  at the angle", kDegree, film(&Film::h_min_phi)},
            {"h_min_z", "  at z", kMillimetre, height(&Film::h_min_z)},
            {"h_min_centre", kMicrometre, film(&Film::h_min_centre)},
-           {"h_min_features",
-            kMicrometre,
-            film(&Film::h_min_features),
-            {.only = [](const Solution& s) { return std::isfinite(s.state.film.h_min_features); }}},
+           minimum_thickness_over_features(),
            {"p_max", kMegapascal, film(&Film::p_max), {.grid_error = error_of(&Error::p_max)}},
            {"p_max_angle", "  at the angle", kDegree, film(&Film::p_max_phi)},
            {"p_max_z", "  at z", kMillimetre, height(&Film::p_max_z)},
@@ -103,12 +98,6 @@ double power_put_in(const Solution& s) {
          s.state.load.dot(s.state.point.e_rate);
 }
 
-}  // namespace
-
-bool shears_differ(const Solution& s) { return s.state.film.power_film_other_shear != s.state.film.power_film; }
-
-namespace {
-
 Group friction() {
   using Film = film::FilmObservables;
   using Number = bearing::BearingNumbers;
@@ -133,31 +122,13 @@ Group friction() {
        {"load_on_shear", kNone, load_on_shear},
        {"power_asperity", kWatt, film(&Film::power_asperity)},
        {"power_put_in", "power put in by torques and load", kWatt, power_put_in},
-       {"power_error_share",
-        "  of it not explained by the film's integrals",
-        kNone,
-        [](const Solution& s) { return power_put_in(s) / s.state.film.power_taken() - 1; },
-        {.only = [](const Solution& s) { return s.state.film.power_taken() > 0; }}},
+       power_not_explained(power_put_in),
        {"asperity_share", kNone, numbers(&Number::asperity_share)},
        {"film_ratio", kNone, numbers(&Number::film_ratio)}}};
 }
 
-}  // namespace
-
-std::vector<std::string> feature_names(const Solution& s) {
-  std::vector<std::string> names;
-  for (Eigen::Index f = 0; f < s.state.film.flow_features.size(); ++f)
-    names.push_back(s.model.features[static_cast<std::size_t>(f)].name);
-  return names;
-}
-
-bool conserves_oil(const Solution& s) { return !film::cavitation_law(s.model).loses_oil(); }
-
-namespace {
-
 Group oil() {
   using Film = film::FilmObservables;
-  const auto ruptures = [](const Solution& s) { return std::isfinite(s.state.film.rupture_angle); };
   return {"oil",
           {{"side_flow",
             "side flow",
@@ -167,18 +138,9 @@ Group oil() {
            {"flow_left", kFlow, film(&Film::flow_left)},
            {"flow_right", kFlow, film(&Film::flow_right)},
            {"flow_supply", kFlow, film(&Film::flow_supply)},
-           {"flow_feature_<name>",
-            "  through <name>",
-            kFlow,
-            [](const Solution& s, std::size_t k) { return s.state.film.flow_features[static_cast<Eigen::Index>(k)]; },
-            {.each = feature_names}},
+           flow_through_features(),
            {"oil_volume", kVolume, film(&Film::oil_volume)},
-           {"mass_balance_error",
-            kNone,
-            [](const Solution& s) {
-              return conserves_oil(s) ? s.state.film.mass_balance_error : std::numeric_limits<double>::quiet_NaN();
-            },
-            {.words = [](const Solution& s) { return conserves_oil(s) ? "" : "oil is not conserved by reynolds"; }}},
+           mass_balance_error(),
            {"cavitated_share", kNone, film(&Film::cavitated_share)},
            {"rupture_angle", kDegree, film(&Film::rupture_angle), {.only = ruptures}},
            {"reformation_angle", "  and re-forms at", kDegree, film(&Film::reformation_angle), {.only = ruptures}}}};

@@ -122,13 +122,23 @@ inline auto height(double film::FilmObservables::*z) {
   return [z](const Solution& s) { return without_round_off(s.state.film.*z, s.model.L); };
 }
 
-/// Names of the film's features, for families of figures.
-[[nodiscard]] std::vector<std::string> feature_names(const Solution& s);
 /// False of Reynolds' condition, which loses oil where the film ruptures and creates it where it re-forms: that
 /// imbalance is no error of the solution.
 [[nodiscard]] bool conserves_oil(const Solution& s);
 /// True if the film is cavitated somewhere, so that it matters over how much of the gap it is sheared there.
 [[nodiscard]] bool shears_differ(const Solution& s);
+
+/// True if the film is cavitated at mid-width.
+[[nodiscard]] bool ruptures(const Solution& s);
+/// Returns the grid's error of the load, which has none where it is given.
+[[nodiscard]] double load_error(const Solution& s);
+
+// Lines that films of every kind have.
+[[nodiscard]] Line minimum_thickness_over_features();
+/// @param put_in  power that the moving surface and the load bring [W]
+[[nodiscard]] Line power_not_explained(double (*put_in)(const Solution&));
+[[nodiscard]] Line flow_through_features();
+[[nodiscard]] Line mass_balance_error();
 
 /// The table of a plane slider's figures, in the order in which they are reported.
 [[nodiscard]] std::vector<Group> plane_slider_figures();

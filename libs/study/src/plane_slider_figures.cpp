@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 
 #include "figure_table.h"
 
@@ -27,7 +26,6 @@ double centre_across(const Solution& s) {
 }
 
 Group point_figures() {
-  const auto load_error = [](const Solution& s) { return is_load_given(s) ? -1 : s.grid_error.load; };
   constexpr Unit kMetrePerSecond{"m/s", "m/s", 1};
   return {"operating point",
           {{"sliding_speed", kMetrePerSecond, speed_of},
@@ -48,10 +46,7 @@ Group pad_film() {
           {{"h_min", kMicrometre, film(&Film::h_min), {.grid_error = error_of(&Error::h_min)}},
            {"h_min_y", "  at y", kMillimetre, film(&Film::h_min_phi)},
            {"h_min_z", "  at z", kMillimetre, height(&Film::h_min_z)},
-           {"h_min_features",
-            kMicrometre,
-            film(&Film::h_min_features),
-            {.only = [](const Solution& s) { return std::isfinite(s.state.film.h_min_features); }}},
+           minimum_thickness_over_features(),
            {"p_max", kMegapascal, film(&Film::p_max), {.grid_error = error_of(&Error::p_max)}},
            {"p_max_y", "  at y", kMillimetre, film(&Film::p_max_phi)},
            {"p_max_z", "  at z", kMillimetre, height(&Film::p_max_z)},
@@ -89,11 +84,7 @@ Group pad_friction() {
            {"power_film_other_shear", kWatt, film(&Film::power_film_other_shear), {.only = shears_differ}},
            {"power_asperity", kWatt, film(&Film::power_asperity)},
            {"power_put_in", "power put in by drag and load", kWatt, put_in},
-           {"power_error_share",
-            "  of it not explained by the film's integrals",
-            kNone,
-            [](const Solution& s) { return put_in(s) / s.state.film.power_taken() - 1; },
-            {.only = [](const Solution& s) { return s.state.film.power_taken() > 0; }}},
+           power_not_explained(put_in),
            {"asperity_share",
             kNone,
             [](const Solution& s) { return s.state.film.force_asperity.x() / load_of(s); },
@@ -102,7 +93,6 @@ Group pad_friction() {
 
 Group pad_oil() {
   using Film = film::FilmObservables;
-  const auto ruptures = [](const Solution& s) { return std::isfinite(s.state.film.rupture_angle); };
   return {"oil",
           {{"flow_leading", kFlow, film(&Film::flow_first)},
            {"flow_trailing", kFlow, film(&Film::flow_last)},
@@ -114,18 +104,9 @@ Group pad_oil() {
            {"flow_left", kFlow, film(&Film::flow_left)},
            {"flow_right", kFlow, film(&Film::flow_right)},
            {"flow_supply", kFlow, film(&Film::flow_supply)},
-           {"flow_feature_<name>",
-            "  through <name>",
-            kFlow,
-            [](const Solution& s, std::size_t k) { return s.state.film.flow_features[static_cast<Eigen::Index>(k)]; },
-            {.each = feature_names}},
+           flow_through_features(),
            {"oil_volume", kVolume, film(&Film::oil_volume)},
-           {"mass_balance_error",
-            kNone,
-            [](const Solution& s) {
-              return conserves_oil(s) ? s.state.film.mass_balance_error : std::numeric_limits<double>::quiet_NaN();
-            },
-            {.words = [](const Solution& s) { return conserves_oil(s) ? "" : "oil is not conserved by reynolds"; }}},
+           mass_balance_error(),
            {"cavitated_share", kNone, film(&Film::cavitated_share)},
            {"rupture_y", kMillimetre, film(&Film::rupture_angle), {.only = ruptures}},
            {"reformation_y", "  and re-forms at y", kMillimetre, film(&Film::reformation_angle), {.only = ruptures}}}};

@@ -14,6 +14,7 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
 #include "hersey/study/bearing_study.h"
+#include "meshed_bearing.h"
 #include "ring_file.h"
 #include "temporary_directory.h"
 
@@ -26,45 +27,23 @@ constexpr double pi = std::numbers::pi;
 constexpr double c = 34e-6;
 
 /// A shaft turning in a ring that a foot holds, its bearing's frame the mean of the bore.
-const std::string machine = R"(hersey: 1
-title: A shaft in a ring on a foot
-bodies:
-  ring:
-    flexible:
-      mesh: ring.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      form: nodal
-      damping: {stiffness: 20 us}
-    frames:
-      foot: {nodes: foot, origin: 0 0 0 mm}
-      bore: {nodes: bore, connection: average, origin: 0 0 0 mm}
-  shaft:
-    mass: 0.1 kg
-    inertia: {xx: 1e-4 kg.m^2, yy: 1e-4 kg.m^2, zz: 1e-4 kg.m^2}
-joints:
-  clamp: {type: fixed, between: [ground, ring.foot]}
-  slide: {type: planar, between: [ground, shaft], initial: {x: 6 um, y: -24 um, rotation_rate: 3000 rpm}}
-drives:
-  motor: {joint: slide, coordinate: rotation, speed: 3000 rpm}
-forces:
-  push: {type: force, body: shaft, components: [0 N, -1.5 kN, 0 N]}
-lubricants:
-  oil: {viscosity: 15 mPa.s}
-bearings:
-  main:
-    shell: ring.bore
-    journal: shaft
-    diameter: 45 mm
-    width: 15.6 mm
-    radial_clearance: 34 um
-    lubricant: oil
-    edge_pressure: 1 bar
-    grid: {circumferential: 40, axial: 7}
-    shell_surface: {faces: bore, functions: [16, 3]}
-    operating_point: {journal_speed: 3000 rpm, load: 1.5 kN, load_angle: -90 deg}
-simulation: {duration: 150 ms, step: 1 ms, spectral_radius: 0.6, settle: {tolerance: 1e-8, over: 10 ms}}
-)";
+const std::string machine =
+    MeshedBearing{
+        .title = "A shaft in a ring on a foot",
+        .ring = {"ring.inp", "form: nodal\ndamping: {stiffness: 20 us}",
+                 "foot: {nodes: foot, origin: 0 0 0 mm}\n"
+                 "bore: {nodes: bore, connection: average, origin: 0 0 0 mm}"},
+        .rigid_shaft = "{mass: 0.1 kg, inertia: {xx: 1e-4 kg.m^2, yy: 1e-4 kg.m^2, zz: 1e-4 kg.m^2}}",
+        .held = "ring.foot",
+        .shell = "ring.bore",
+        .initial = "{x: 6 um, y: -24 um, rotation_rate: 3000 rpm}",
+        .load = "1.5 kN",
+        .film =
+            "grid: {circumferential: 40, axial: 7}\n"
+            "shell_surface: {faces: bore, functions: [16, 3]}\n"
+            "operating_point: {journal_speed: 3000 rpm, load: 1.5 kN, load_angle: -90 deg}",
+        .simulation = "{duration: 150 ms, step: 1 ms, spectral_radius: 0.6, settle: {tolerance: 1e-8, over: 10 ms}}"}
+        .text();
 
 /// The same rotationally symmetric ring: supported at its outside.
 const std::vector<std::string> round = {"bodies.ring.frames.foot.nodes=outside",

@@ -9,6 +9,7 @@
 
 #include "hersey/core/input_error.h"
 #include "hersey/study/bearing_study.h"
+#include "meshed_bearing.h"
 #include "ring_file.h"
 
 // Bearings whose shell is in a body that conducts heat, from the model file to the figures.
@@ -17,47 +18,32 @@ namespace heated_body_test {
 
 /// Case F3 of an independent program that conducts heat in three dimensions: a steel ring of 200 mm in air around a
 /// film.
-const std::string machine = R"(hersey: 1
-title: A ring that conducts
-bodies:
-  ring:
-    flexible:
-      mesh: heated_body_test_ring.inp
-      length_unit: 1 mm
-      material: {youngs_modulus: 210 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3}
-      heat:
-        conductivity: 50 W/m/K
-        cooling:
-          outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}
-          ends: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}
-    frames:
-      hub: {nodes: outside, connection: average, origin: 0 0 0 mm}
-  shaft: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
-joints:
-  clamp: {type: fixed, between: [ground, ring.hub]}
-  slide: {type: planar, between: [ground, shaft]}
-lubricants:
-  oil:
-    viscosity: {law: exponential, viscosity: 27.7 mPa.s, reference: 40 degC, coefficient: 0.034 1/K}
-    density: 860 kg/m^3
-    specific_heat: 2000 J/kg/K
-    conductivity: 0.13 W/m/K
-bearings:
-  main:
-    shell: ring.hub
-    journal: shaft
-    diameter: 100 mm
-    width: 80 mm
-    radial_clearance: 145 um
-    lubricant: oil
-    shear_force: torque_only
-    grid: {circumferential: 60, axial: 13}
-    features:
-      groove: {shape: axial_groove, angle: 0 deg, arc: 18 deg, length: 70 mm, pressure: 70 kPa}
-    thermal: {model: film, supply_temperature: 40 degC, shell: {wall: body}}
-    operating_point: {journal_speed: 2000 rpm, eccentricity_ratio: 0.7, eccentricity_angle: 230 deg}
-simulation: {duration: 1 ms, step: 0.1 ms}
-)";
+const std::string machine =
+    MeshedBearing{
+        .title = "A ring that conducts",
+        .ring = {"heated_body_test_ring.inp",
+                 "heat:\n"
+                 "  conductivity: 50 W/m/K\n"
+                 "  cooling:\n"
+                 "    outside: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}\n"
+                 "    ends: {heat_transfer: 80 W/m^2/K, ambient: 40 degC}",
+                 kHub},
+        .load = "",
+        .oil =
+            "{viscosity: {law: exponential, viscosity: 27.7 mPa.s, reference: 40 degC, coefficient: 0.034 1/K}, "
+            "density: 860 kg/m^3, specific_heat: 2000 J/kg/K, conductivity: 0.13 W/m/K}",
+        .diameter = "100 mm",
+        .width = "80 mm",
+        .clearance = "145 um",
+        .edge_pressure = "",
+        .film =
+            "shear_force: torque_only\n"
+            "grid: {circumferential: 60, axial: 13}\n"
+            "features:\n"
+            "  groove: {shape: axial_groove, angle: 0 deg, arc: 18 deg, length: 70 mm, pressure: 70 kPa}\n"
+            "thermal: {model: film, supply_temperature: 40 degC, shell: {wall: body}}\n"
+            "operating_point: {journal_speed: 2000 rpm, eccentricity_ratio: 0.7, eccentricity_angle: 230 deg}"}
+        .text();
 
 /// Model and mesh in the working directory.
 struct Written {

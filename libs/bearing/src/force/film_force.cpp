@@ -7,14 +7,14 @@
 #include <numbers>
 #include <utility>
 
-#include "force/deforming_surfaces.h"
 #include "force/film_element.h"
 #include "force/thermal_surfaces.h"
 #include "force/wrench_exchange.h"
+#include "gap/deforming_surfaces.h"
 #include "gap/hot_clearance.h"
+#include "gap/oil_temperatures.h"
 #include "hersey/bearing/clearance.h"
 #include "hersey/core/contract.h"
-#include "steady/temperature_path.h"
 
 namespace hersey::bearing {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/oil_temperatures.h"
 #include "hersey/bearing/global_heat.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/solver/fixed_point_iteration.h"

@@ -5,7 +5,7 @@
 
 #include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/clearance.h"
-#include "hersey/bearing/rigid_surfaces.h"
+#include "hersey/bearing/steady_surfaces.h"
 #include "hersey/core/contract.h"
 
 namespace hersey::bearing {

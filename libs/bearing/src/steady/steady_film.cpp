@@ -7,7 +7,6 @@
 
 #include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/clearance.h"
-#include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/core/contract.h"
 #include "hersey/film/observables.h"
 

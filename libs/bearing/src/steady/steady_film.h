@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "force/deforming_surfaces.h"
+#include "gap/deforming_surfaces.h"
 #include "hersey/bearing/operating_point.h"
 #include "hersey/bearing/steady_coordinates.h"
 #include "hersey/bearing/surface_flexibility.h"

@@ -10,6 +10,7 @@
 
 #include "gap/clearance_growth.h"
 #include "gap/hot_clearance.h"
+#include "gap/oil_temperatures.h"
 #include "hersey/film/grid_transfer.h"
 #include "hersey/film/thermal_network.h"
 #include "steady/steady_search.h"

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/film/film_heat.h"
 #include "steady/steady_film.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gap/oil_temperatures.h"
 #include "kinds/journal/short_bearing.h"
 
 namespace hersey::bearing {

@@ -10,12 +10,6 @@
 
 namespace hersey::bearing {
 
-/// No oil is one above: mineral and synthetic oils have cracked or burnt before [K].
-inline constexpr double hottest_oil = 673.15;
-
-/// No trial on the way to an answer is colder or hotter [K]: laws of viscosity mean nothing there.
-inline constexpr double coldest_trial = 200, hottest_trial = 800;
-
 /// Temperatures, and how far layers thin by shear, on the way to those of the film they make (thermal.16): accelerated,
 /// nearer to the last ones that had a film where they have none, and step by step where acceleration goes round.
 class TemperaturePath {

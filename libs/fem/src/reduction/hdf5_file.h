@@ -4,11 +4,10 @@
 
 #include <Eigen/Dense>
 #include <filesystem>
-#include <mutex>
 #include <string>
 #include <vector>
 
-#include "hersey/core/hdf5_lock.h"
+#include "hersey/core/hdf5_handle.h"
 
 namespace hersey::fem {
 
@@ -17,13 +16,8 @@ namespace hersey::fem {
 /// object exists, its thread alone uses HDF5.
 class Hdf5File {
  public:
-  static Hdf5File create(const std::filesystem::path& path);
-  static Hdf5File open(const std::filesystem::path& path);
-  Hdf5File(Hdf5File&& other) noexcept;
-  Hdf5File(const Hdf5File&) = delete;
-  Hdf5File& operator=(const Hdf5File&) = delete;
-  Hdf5File& operator=(Hdf5File&&) = delete;
-  ~Hdf5File();
+  static Hdf5File create(const std::filesystem::path& path) { return {path, true}; }
+  static Hdf5File open(const std::filesystem::path& path) { return {path, false}; }
 
   /// A matrix as (rows, columns), first index slowest.
   void write(const std::string& name, const Eigen::MatrixXd& values);
@@ -38,15 +32,13 @@ class Hdf5File {
   [[nodiscard]] std::string read_text(const std::string& name) const;
 
  private:
-  using Lock = std::unique_lock<std::recursive_mutex>;
-
-  Hdf5File(Lock lock, hid_t file) : lock_(std::move(lock)), file_(file) {}
+  Hdf5File(const std::filesystem::path& path, bool is_new);
   void write(const std::string& name, hid_t stored, hid_t type, const std::vector<hsize_t>& shape, const void* values);
-  [[nodiscard]] std::vector<hsize_t> shape_of(const std::string& name) const;
+  [[nodiscard]] std::vector<std::size_t> shape_of(const std::string& name) const;
   void read(const std::string& name, hid_t type, void* values) const;
 
-  Lock lock_;  // released after the file is closed
-  hid_t file_;
+  Hdf5Session session_;  // ends after the file is closed
+  Hdf5Handle file_;
 };
 
 }  // namespace hersey::fem

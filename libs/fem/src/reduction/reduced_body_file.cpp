@@ -9,8 +9,8 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/sealed_file.h"
 #include "hersey/core/untrusted_file.h"
-#include "mesh/mesh_data.h"
 #include "reduction/hdf5_file.h"
+#include "reduction/mesh_data.h"
 
 namespace hersey::fem {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "elastic/momentum_share.h"
 #include "hersey/core/contract.h"
+#include "tree/momentum_share.h"
 
 namespace hersey::mbd {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "elastic/modal_workspace.h"
-#include "elastic/momentum_share.h"
 #include "hersey/core/contract.h"
+#include "tree/momentum_share.h"
 
 namespace hersey::mbd {
 namespace {

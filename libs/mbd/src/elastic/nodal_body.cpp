@@ -3,12 +3,12 @@
 #include <utility>
 
 #include "elastic/modal_workspace.h"
-#include "elastic/momentum_share.h"
 #include "elastic/nodal_factors.h"
 #include "elastic/nodal_fields.h"
 #include "elastic/nodal_setup.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
+#include "tree/momentum_share.h"
 
 namespace hersey::mbd {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/quadrature.h"
 #include "hersey/core/contract.h"
+#include "tree/quadrature.h"
 
 namespace hersey::mbd {
 

@@ -1,7 +1,7 @@
 #include "hersey/mbd/spring_damper.h"
 
-#include "contact/quadrature.h"
 #include "hersey/core/contract.h"
+#include "tree/quadrature.h"
 
 namespace hersey::mbd {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/quadrature.h"
 #include "hersey/core/settable_function.h"
+#include "tree/quadrature.h"
 
 namespace hersey::mbd {
 namespace {

@@ -1,5 +1,5 @@
-#include "elastic/momentum_share.h"
 #include "tree/assembly.h"
+#include "tree/momentum_share.h"
 
 namespace hersey::mbd {
 namespace {

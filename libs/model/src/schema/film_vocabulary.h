@@ -1,9 +1,9 @@
 #pragma once
 
+#include "check/vocabulary.h"
 #include "hersey/film/film_model.h"
 #include "hersey/model/model.h"
 #include "hersey/solver/fixed_point_iteration.h"
-#include "schema/vocabulary.h"
 
 // Words of bearings and their oil.
 namespace hersey::model {

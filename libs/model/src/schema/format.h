@@ -1,6 +1,6 @@
 #pragma once
 
-#include "schema/schema_type.h"
+#include "check/schema_type.h"
 
 namespace hersey::model {
 

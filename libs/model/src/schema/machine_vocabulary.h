@@ -1,7 +1,7 @@
 #pragma once
 
+#include "check/vocabulary.h"
 #include "hersey/model/model.h"
-#include "schema/vocabulary.h"
 
 // Words of bodies, forces and simulations.
 namespace hersey::model {

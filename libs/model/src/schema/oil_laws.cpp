@@ -1,6 +1,6 @@
 #include "schema/oil_laws.h"
 
-#include "interpret/context/interpret.h"
+#include "check/members.h"
 
 namespace hersey::model {
 namespace {

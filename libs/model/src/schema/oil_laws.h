@@ -1,10 +1,10 @@
 #pragma once
 
+#include "check/vocabulary.h"
 #include "hersey/film/density_law.h"
 #include "hersey/film/shear_law.h"
 #include "hersey/film/temperature_law.h"
 #include "hersey/film/viscosity_law.h"
-#include "schema/vocabulary.h"
 
 namespace hersey::model {
 

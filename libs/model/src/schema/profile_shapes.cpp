@@ -1,6 +1,6 @@
 #include "schema/profile_shapes.h"
 
-#include "interpret/context/interpret.h"
+#include "check/members.h"
 
 namespace hersey::model {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "check/vocabulary.h"
 #include "hersey/film/gap_profile.h"
-#include "schema/vocabulary.h"
 
 namespace hersey::model {
 

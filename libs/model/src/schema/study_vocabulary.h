@@ -1,7 +1,7 @@
 #pragma once
 
+#include "check/vocabulary.h"
 #include "hersey/model/study_settings.h"
-#include "schema/vocabulary.h"
 
 namespace hersey::model {
 

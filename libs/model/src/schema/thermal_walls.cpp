@@ -1,6 +1,6 @@
 #include "schema/thermal_walls.h"
 
-#include "interpret/context/interpret.h"
+#include "check/members.h"
 #include "schema/oil_laws.h"
 
 namespace hersey::model {

@@ -8,7 +8,6 @@
 
 #include "hersey/bearing/clearance.h"
 #include "hersey/bearing/coordinates.h"
-#include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_heat.h"
 #include "hersey/film/film_model.h"
@@ -70,20 +69,9 @@ struct SteadyOptions {
 /// slowest speeds (film.6).
 [[nodiscard]] film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point);
 
-/// Surfaces of a film around a journal at `e`.
-[[nodiscard]] film::SurfaceMotion steady_surfaces(const film::FilmModel& model, const OperatingPoint& point,
-                                                  const Coordinates& e);
-/// Returns the same by an object made for `model`, for repeated use.
-[[nodiscard]] film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmModel& model,
-                                                  const OperatingPoint& point, const Coordinates& e);
-
 /// Moves the shell outwards at the nodes by `shape` [m]; an empty one changes nothing.
 void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
 /// Moves the journal outwards in the same way.
 void add_to_journal(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
-
-/// Position of rigid bodies and their motion with the journal at `e`.
-[[nodiscard]] ParameterVector parameters_of(const film::FilmModel& model, const OperatingPoint& point,
-                                            const Coordinates& e);
 
 }  // namespace hersey::bearing

@@ -7,6 +7,7 @@
 
 #include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/journal_gap.h"
+#include "hersey/bearing/steady_surfaces.h"
 #include "kinds/journal/short_bearing.h"
 
 namespace hersey::bearing {

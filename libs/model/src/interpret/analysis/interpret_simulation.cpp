@@ -5,8 +5,8 @@
 
 #include "hersey/core/spelling.h"
 #include "interpret/context/interpret.h"
-#include "interpret/tree/overrides.h"
 #include "schema/machine_vocabulary.h"
+#include "tree/overrides.h"
 
 namespace hersey::model {
 namespace {

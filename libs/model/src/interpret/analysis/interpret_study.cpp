@@ -6,8 +6,8 @@
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
 #include "interpret/context/interpret.h"
-#include "interpret/tree/overrides.h"
 #include "schema/study_vocabulary.h"
+#include "tree/overrides.h"
 
 namespace hersey::model {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "hersey/core/contract.h"
 #include "hersey/film/film_solver.h"
-#include "interpret/bearings/film_reader.h"
+#include "interpret/bearings/kinds/film_reader.h"
 #include "interpret/bearings/kinds/kinds.h"
 #include "schema/bearing_keys.h"
 #include "schema/film_vocabulary.h"

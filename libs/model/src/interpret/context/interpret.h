@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "check/members.h"
 #include "hersey/model/model.h"
-#include "interpret/check/check.h"
 
 namespace hersey::model {
 
@@ -29,15 +29,6 @@ struct Context {
   /// Reports warnings in the same way: Model::warnings.
   void warnings_in_file(const Value& at, const std::vector<Fault>& warnings_of_file);
 };
-
-// Members of a mapping by key; zero, empty or null where missing or broken.
-[[nodiscard]] double number_of(const Value& parent, const std::string& key);
-[[nodiscard]] int integer_of(const Value& parent, const std::string& key);
-[[nodiscard]] std::string text_of(const Value& parent, const std::string& key);
-[[nodiscard]] Vector3 vector_of(const Value& parent, const std::string& key);
-/// The named things in the section `key` of the file, in its order.
-[[nodiscard]] const std::vector<Member>& section(const Value& root, const std::string& key);
-[[nodiscard]] std::vector<std::string> names_in(const Value& root, const std::string& key);
 
 /// Path of a file that the model names, which lies relative to the model file; notes its content in Model::files.
 [[nodiscard]] std::filesystem::path referenced_file(Context& context, const std::string& name);

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "interpret/check/bare_numbers_in.h"
+#include "check/bare_numbers_in.h"
 #include "interpret/read/reader.h"
 #include "schema/format.h"
 

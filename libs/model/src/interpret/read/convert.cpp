@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "interpret/tree/source_tree.h"
+#include "tree/source_tree.h"
 
 namespace hersey::model {
 namespace {

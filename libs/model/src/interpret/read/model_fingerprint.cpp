@@ -3,7 +3,7 @@
 #include "hersey/model/read.h"
 #include "hersey/model/study.h"
 #include "interpret/read/reader.h"
-#include "interpret/tree/tree_digest.h"
+#include "tree/tree_digest.h"
 
 namespace hersey::model {
 std::string model_fingerprint(const std::string& path) {

@@ -4,15 +4,15 @@
 #include <filesystem>
 #include <tuple>
 
+#include "check/check.h"
 #include "hersey/core/input_file.h"
 #include "hersey/model/convert.h"
-#include "interpret/check/check.h"
 #include "interpret/context/interpret.h"
 #include "interpret/context/interpret_size.h"
 #include "interpret/read/reader.h"
 #include "interpret/read/templates.h"
-#include "interpret/tree/substitution.h"
 #include "schema/format.h"
+#include "tree/substitution.h"
 
 namespace hersey::model {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "hersey/model/model.h"
 #include "interpret/read/templates.h"
-#include "interpret/tree/overrides.h"
+#include "tree/overrides.h"
 
 namespace hersey::model {
 

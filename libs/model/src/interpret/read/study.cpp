@@ -9,7 +9,7 @@
 #include "hersey/core/units.h"
 #include "hersey/model/read.h"
 #include "interpret/read/reader.h"
-#include "interpret/tree/tree_digest.h"
+#include "tree/tree_digest.h"
 
 namespace hersey::model {
 namespace {

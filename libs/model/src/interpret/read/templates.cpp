@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "check/check.h"
 #include "hersey/core/spelling.h"
-#include "interpret/check/check.h"
+#include "tree/extent.h"
 
 namespace hersey::model {
 namespace {
@@ -52,22 +53,6 @@ void merge(Node& node, Node part) {
       (void)take(node, entry.key);
     }
   }
-}
-
-struct PartExtent {
-  std::size_t nodes = 1, bytes = 0, depth = 1;
-};
-
-PartExtent part_extent(const Node& node) {
-  PartExtent extent{.bytes = node.text.size()};
-  const auto add = [&extent](const PartExtent& part) {
-    extent.nodes += part.nodes;
-    extent.bytes += part.bytes;
-    extent.depth = std::max(extent.depth, 1 + part.depth);
-  };
-  for (const Node& item : node.items) add(part_extent(item));
-  for (const Entry& entry : node.entries) add(part_extent(entry.value)), extent.bytes += entry.key.size();
-  return extent;
 }
 
 }  // namespace
@@ -230,9 +215,9 @@ void Templates::note_use(const Template& chosen, const Node& use, const Location
 }
 
 bool Templates::is_within_limits(const Node& node, const Node& use, const Location& location) {
-  const PartExtent extent = part_extent(node);
+  const Extent extent = extent_of(node);
   nodes_ += extent.nodes;
-  bytes_ += extent.bytes;
+  bytes_ += extent.text_bytes + extent.key_bytes;
   const auto refuse = [&](const char* found, const char* expected) {
     report(use.position, location.path, found, expected);
     is_over_limit_ = true;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "interpret/tree/substitution.h"
+#include "tree/substitution.h"
 
 namespace hersey::model {
 

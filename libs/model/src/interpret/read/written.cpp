@@ -10,7 +10,7 @@
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
 #include "interpret/read/reader.h"
-#include "interpret/tree/overrides.h"
+#include "tree/overrides.h"
 
 namespace hersey::model {
 namespace {

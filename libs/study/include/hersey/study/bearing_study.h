@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hersey/bearing/bearing_numbers.h"
+#include "hersey/bearing/steady_surfaces.h"  // who shows a solution draws its surfaces
 #include "hersey/model/study.h"
 
 namespace hersey::study {

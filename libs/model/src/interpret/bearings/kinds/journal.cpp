@@ -7,7 +7,7 @@
 
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/film/film_solver.h"
-#include "interpret/bearings/film_reader.h"
+#include "interpret/bearings/kinds/film_reader.h"
 #include "interpret/bearings/kinds/kinds.h"
 #include "schema/film_vocabulary.h"
 

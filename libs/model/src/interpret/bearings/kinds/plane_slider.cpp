@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpret/bearings/film_reader.h"
+#include "interpret/bearings/kinds/film_reader.h"
 #include "interpret/bearings/kinds/kinds.h"
 
 // A pad on a plane runner, from the values of its mapping.
