@@ -69,7 +69,7 @@ film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
   return summary;
 }
 
-film::FilmSolveSummary FilmElement::stay(const film::SurfaceMotion& surfaces) {
+film::FilmSolveSummary FilmElement::solve_steady(const film::SurfaceMotion& surfaces) {
   history_.dt = 0;
   history_.phi_journal = surfaces.phi_journal;
   has_started_ = false;
@@ -140,7 +140,7 @@ film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces) {
 
 bool FilmElement::is_step_consistent(const film::SurfaceMotion& surfaces) {
   if (!has_started_) return true;
-  close_oil(surfaces);
+  compute_oil_balance(surfaces);
   if (oil_.of_step().redistributed_overfill <= kLargestRedistributedOverfill || history_.by_gap) return true;
   history_.by_gap = true;
   Eigen::VectorXd film = u_;
@@ -151,7 +151,7 @@ bool FilmElement::is_step_consistent(const film::SurfaceMotion& surfaces) {
 }
 
 // Uses up the linearisation of the film.
-void FilmElement::close_oil(const film::SurfaceMotion& surfaces) {
+void FilmElement::compute_oil_balance(const film::SurfaceMotion& surfaces) {
   oil_.close_step(reynolds_, surfaces, history_, u_);
   has_step_oil_ = true;
   is_linearised_ = false;
@@ -163,7 +163,7 @@ void FilmElement::accept_step(const film::SurfaceMotion& surfaces) {
   history_accepted_ = history_;
   const bool is_step = has_started_;
   if (is_step) {
-    if (!has_step_oil_) close_oil(surfaces);
+    if (!has_step_oil_) compute_oil_balance(surfaces);
   } else {
     oil_.initialise(reynolds_, surfaces, history_, u_);
     has_started_ = true;

@@ -23,18 +23,18 @@ class FilmElement {
  public:
   struct Options {
     film::FilmSolveOptions solve;
-    double initial_dt;  ///< the film at the start is that of a full gap after a step of this length [s], > 0
-    std::optional<film::ThermalModel> thermal;
-    bool is_rigid;                     ///< surfaces without shapes of their own
-    std::vector<Eigen::Index> angles;  ///< parameters that are the same after a whole revolution
+    double initial_dt;  ///< the film at the start follows from a gap that was full this long before [s], > 0
+    std::optional<film::ThermalModel> thermal;  ///< unset: an isothermal film at the model's temperature
+    bool is_rigid;                              ///< no surface has amplitudes of its own
+    std::vector<Eigen::Index> angles;           ///< parameters that are the same after a whole revolution
   };
   FilmElement(const film::FilmModel& model, Options options);
 
-  /// The film of a freshly filled gap at the start of a run; a liner has yielded to it and rests. Not solved: why not,
-  /// or where outside the domain.
+  /// Solves the film of a freshly filled gap at the start of a run, a compliant liner in static equilibrium with it. On
+  /// failure the summary gives the reason, and the node where the film leaves its domain.
   [[nodiscard]] film::FilmSolveSummary start(const film::SurfaceMotion& surfaces);
-  /// The steady film of surfaces that go on moving as they do, from the last one on.
-  [[nodiscard]] film::FilmSolveSummary stay(const film::SurfaceMotion& surfaces);
+  /// Solves the steady film of the surfaces' present motion, starting from the last film.
+  [[nodiscard]] film::FilmSolveSummary solve_steady(const film::SurfaceMotion& surfaces);
   /// Starts a step of length dt from the film accepted last.
   void begin_step(double dt);
 
@@ -58,15 +58,15 @@ class FilmElement {
   /// u += du of the last increment.
   void take_increment() { u_ += du_; }
 
-  /// False where the oil of the step needs another film than the one found, which then follows the change of the gap
-  /// over the step instead of its rate (theory manual, film.15); u is a film of that kind, if there is one.
+  /// False if the oil balance over the step contradicts the film found with the gap's rate at its end (theory manual,
+  /// film.15). If a film with the change of the gap over the step exists, u is that film on return.
   [[nodiscard]] bool is_step_consistent(const film::SurfaceMotion& surfaces);
   /// Accepts the film at the end of a step, or at the start of a run: oil, temperatures and history move on.
   void accept_step(const film::SurfaceMotion& surfaces);
   /// The film is evaluated anew.
   void reset_linearisation() { is_linearised_ = false; }
-  /// The oil closed last belongs to another evaluation of the film.
-  void reset_oil() { has_step_oil_ = false; }
+  /// Discards the oil balance of the step, which belongs to an earlier evaluation of the film.
+  void discard_oil_balance() { has_step_oil_ = false; }
 
   [[nodiscard]] const film::FilmModel& model() const { return reynolds_.model(); }
   [[nodiscard]] const film::Reynolds& reynolds() const { return reynolds_; }
@@ -77,7 +77,7 @@ class FilmElement {
   /// Film linearisations in the current step.
   [[nodiscard]] int iterations() const { return iterations_; }
   [[nodiscard]] const OilBalance& oil() const { return oil_; }
-  /// Null: the film has one temperature.
+  /// Null: the film is isothermal.
   [[nodiscard]] film::FilmHeat* heat() { return heat_ ? &*heat_ : nullptr; }
   [[nodiscard]] const film::FilmHeat* heat() const { return heat_ ? &*heat_ : nullptr; }
   /// Temperatures of the step accepted last have changed: the next step sees their viscosities.
@@ -99,7 +99,7 @@ class FilmElement {
 
  private:
   void follow(const Eigen::VectorXd& parameters);
-  void close_oil(const film::SurfaceMotion& surfaces);
+  void compute_oil_balance(const film::SurfaceMotion& surfaces);
 
   Options options_;
   film::Reynolds reynolds_;

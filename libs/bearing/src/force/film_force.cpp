@@ -64,13 +64,13 @@ void FilmForce::evaluate_surfaces(const mbd::RelativeMotion& motion) {
   parameters_.tail(motion.s.size()) = motion.s_rate;
   thermal_->add_to(surfaces_);
   deforming_->add_displacements(motion.s, motion.s_rate, gap_->turning(), surfaces_);
-  feed(motion.t);
+  set_supply_pressures(motion.t);
   // A liner may be pushed beyond its undeformed surface; surfaces without one may not meet.
   const double gap = smallest_gap();
   if (!std::isfinite(gap) || (model().compliance == 0 && gap <= 0)) report_contact();
 }
 
-void FilmForce::feed(double t) {
+void FilmForce::set_supply_pressures(double t) {
   const auto& pressures = options_.feature_pressures;
   surfaces_.feature_pressure.resize(static_cast<Eigen::Index>(pressures.size()));
   for (std::size_t f = 0; f < pressures.size(); ++f) {
@@ -106,10 +106,11 @@ void FilmForce::report(const film::FilmDomain& domain) {
 }
 
 void FilmForce::start_film() {
-  const film::FilmSolveSummary summary = options_.is_steady ? film_->stay(surfaces_) : film_->start(surfaces_);
+  const film::FilmSolveSummary summary =
+      options_.starts_steady ? film_->solve_steady(surfaces_) : film_->start(surfaces_);
   if (!summary.domain.is_inside()) return report(summary.domain);
   if (!summary.solved())
-    domain_error_ = (options_.is_steady ? "no steady film: " : "no film at the start: ") + summary.message;
+    domain_error_ = (options_.starts_steady ? "no steady film: " : "no film at the start: ") + summary.message;
 }
 
 void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {
@@ -122,7 +123,7 @@ void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {
 
 void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
   response.set_zero(deforming_->amplitudes());
-  film_->reset_oil();
+  film_->discard_oil_balance();
   evaluate_surfaces(motion);
   if (!domain_error_.empty()) return;
   const bool is_start = motion.dt == 0;

@@ -69,7 +69,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
     model.lubricant = film::at_temperature(model.lubricant, from + rise);
     const OperatingPoint at =
         heat.expansion ? with_growth(point, model, heat.expansion->growth(model.R, from + rise)) : point;
-    if (clearance(model, at) <= seized * clearance(model) || gap_at_first(model, at, options) <= 0)
+    if (clearance(model, at) <= seized * clearance(model) || initial_gap(model, at, options) <= 0)
       return seizure(model, at, from + rise);
     summary = solve_steady(model, at, next, state);
     linearisations += summary.iterations;

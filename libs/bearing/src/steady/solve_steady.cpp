@@ -8,7 +8,7 @@
 
 namespace hersey::bearing {
 
-double gap_at_first(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options) {
+double initial_gap(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options) {
   const std::unique_ptr<SteadyCoordinates> coordinates =
       (options.kind ? options.kind : journal_kind())->steady_coordinates(model);
   return coordinates->smallest_gap(point, point.load ? coordinates->widest() : point.e);
@@ -21,7 +21,7 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   HERSEY_REQUIRE(
       point.film_speed(clearance(model)) > 0 || model.asperities.model != film::AsperityModel::none || is_fed,
       "speeds that move oil in the gap, a feed, or asperities");
-  HERSEY_REQUIRE(gap_at_first(model, point, options) > 0, "a journal inside its bore");
+  HERSEY_REQUIRE(initial_gap(model, point, options) > 0, "a journal inside its bore");
   if (options.thermal) return solve_with_heat(model, point, options, state);
   SteadySearch search(model, point, options);
   const SteadySummary summary = search.solve();

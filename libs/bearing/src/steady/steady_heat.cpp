@@ -129,7 +129,7 @@ SteadySummary iterate_film_and_heat(const film::FilmModel& model, const SteadyOp
     if (is_near) ++turns_near;
     const bool is_balanced =
         path.heat().observables().balance.error() <= kBalanceTolerance || turns_near > kTurnsForTheBalance;
-    if (is_near && (is_only_begun || (is_balanced && search.is_settled()))) {
+    if (is_near && (is_only_begun || (is_balanced && search.accept_if_converged()))) {
       tell_runaway(path.heat().observables(), false, summary);
       return summary;
     }

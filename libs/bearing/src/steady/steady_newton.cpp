@@ -11,8 +11,8 @@
 namespace hersey::bearing {
 namespace {
 
-// One Newton step may turn the journal by this angle [rad].
-constexpr double kLargestTurn = 0.3;
+// Largest change of the attitude angle in one Newton step where the supply is at the widest gap [rad].
+constexpr double kLargestAttitudeChange = 0.3;
 
 // Iterations on film and position together without getting nearer by half, after which they are solved alternately.
 constexpr int kPatience = 6;
@@ -27,35 +27,36 @@ constexpr double kCurvature = 3;
 constexpr int kMostOnChord = 3;
 constexpr double kFarOnChord = 0.01;
 
-// Of the tolerance, what they may leave: they leave it, where Newton's method arrives far below.
-constexpr double kShareOnChord = 0.1;
+// Error allowed after chord steps as a share of the tolerance. They end just below their bound, steps of Newton's
+// method far below the tolerance: so the bound is stricter.
+constexpr double kChordTolerance = 0.1;
 
 // A step of the journal over the smallest gap that needs no care.
 constexpr double kSmallStep = 0.05;
 
 }  // namespace
 
-Coordinates SteadySearch::force_deficit(const Coordinates& target) const {
+Coordinates SteadySearch::log_force_residual(const Coordinates& target) const {
   const double F = force_.norm(), W = target.norm();
-  const double turn = angle_between(force_, target);
-  if (F < kForceFloor * W || std::abs(turn) > 0.5 * std::numbers::pi) return target - force_;
+  const double angle = angle_between(force_, target);
+  if (F < kForceFloor * W || std::abs(angle) > 0.5 * std::numbers::pi) return target - force_;
   Coordinates missing = std::log(W / F) * force_;
-  if (turn != 0) missing += turn * Eigen::Vector2d(-force_.y(), force_.x());
+  if (angle != 0) missing += angle * Eigen::Vector2d(-force_.y(), force_.x());
   return missing;
 }
 
-double SteadySearch::distance_to(const Coordinates& target) const {
+double SteadySearch::log_force_error(const Coordinates& target) const {
   const double F = std::max(force_.norm(), 1e-300), W = target.norm();
-  const double turn = angle_between(force_, target);
-  return std::hypot(std::log(W / F), turn);
+  const double angle = angle_between(force_, target);
+  return std::hypot(std::log(W / F), angle);
 }
 
 SteadySearch::Step SteadySearch::newton_step(const Coordinates& target) {
   const Eigen::MatrixXd K = force_by_position();
-  Step step{K.fullPivLu().solve(force_deficit(target)), film_.increment()};
+  Step step{K.fullPivLu().solve(log_force_residual(target)), film_.increment()};
   if (!step.de.allFinite()) step.de.setZero();
   step.de *= std::min(1.0, 0.5 * coordinates_of().scale(point_, e_) / std::max(step.de.norm(), 1e-300));
-  if (!film_.may_overlap()) step.de *= share_of_gap(step.de);
+  if (!film_.may_overlap()) step.de *= log_gap_step_factor(step.de);
   step.dx += dx_de_ * step.de;
   double share = 1;
   while (share > 1e-6 && !film_.reuses_film(e_, x_, e_ + share * step.de, x_ + share * step.dx)) share *= 0.7;
@@ -64,7 +65,7 @@ SteadySearch::Step SteadySearch::newton_step(const Coordinates& target) {
   return step;
 }
 
-double SteadySearch::share_of_gap(const Coordinates& de) const {
+double SteadySearch::log_gap_step_factor(const Coordinates& de) const {
   const double gap = gap_at(e_), tiny = 1e-3;
   const double x = (gap - gap_at(e_ + tiny * de)) / (tiny * gap);
   return std::abs(x) < 1e-6 ? 1 : std::min(2.0, -std::expm1(-x) / x);
@@ -72,7 +73,7 @@ double SteadySearch::share_of_gap(const Coordinates& de) const {
 
 bool SteadySearch::rotates_far(const Coordinates& from, const Coordinates& to) const {
   if (model_.supply.kind != film::SupplyKind::widest_gap) return false;
-  return std::abs(angle_between(from, to)) > kLargestTurn;
+  return std::abs(angle_between(from, to)) > kLargestAttitudeChange;
 }
 
 bool SteadySearch::is_converged(const Coordinates& target) {
@@ -96,13 +97,13 @@ bool SteadySearch::take_one_step(const Coordinates& target) {
   if (!(de.norm() < kSmallStep * gap_at(e_))) return false;
   e_ += de;
   x_ += film_.increment() + dx_de_ * de;
-  if (film_.has_factor()) changed_ = off;
+  if (film_.has_factor()) change_since_factor_ = off;
   return true;
 }
 
 // (thermal.31)
 bool SteadySearch::take_chord_steps(const Coordinates& target) {
-  if (!changed_) return false;
+  if (!change_since_factor_) return false;
   const Coordinates e = e_;
   const Eigen::VectorXd x = x_;
   for (int k = 0; k < kMostOnChord && film_.chord_about(e_, x_).is_inside(); ++k) {
@@ -113,11 +114,11 @@ bool SteadySearch::take_chord_steps(const Coordinates& target) {
     e_ += de;
     x_ += film_.increment() + dx_de_ * de;
     if (((x.array() < 0) != (x_.array() < 0)).any()) break;
-    *changed_ += off;
-    if (kCurvature * off * *changed_ <= kShareOnChord * rtol_) return true;
+    *change_since_factor_ += off;
+    if (kCurvature * off * *change_since_factor_ <= kChordTolerance * rtol_) return true;
   }
   e_ = e, x_ = x;
-  changed_.reset();
+  change_since_factor_.reset();
   return false;
 }
 
@@ -128,9 +129,9 @@ bool SteadySearch::solve_jointly(const Coordinates& target) {
   for (int k = 0; k < options_.max_iterations && idle < kPatience; ++k) {
     if (is_converged(target)) {
       if (take_last_increment()) return true;
-      if (!film_at(e_)) return false;  // which knows a way out
+      if (!film_at(e_)) return false;  // solves the film alone, which can leave such a root
     }
-    const double now = distance_to(target) + film_.relative_residual();
+    const double now = log_force_error(target) + film_.relative_residual();
     idle = now < 0.5 * best ? 0 : idle + 1;
     best = std::min(best, now);
     const Step step = newton_step(target);
@@ -151,13 +152,13 @@ bool SteadySearch::solve_nested(const Coordinates& target) {
     if (is_converged(target) && take_last_increment()) return true;
     const Coordinates e = e_;
     const Eigen::VectorXd x = x_;
-    const double distance = distance_to(target);
+    const double distance = log_force_error(target);
     const Step step = newton_step(target);
     bool nearer = false;
     for (double share = 1; !nearer && share > 1e-4 && !is_over_budget(); share /= 2) {
       x_ = x + share * step.dx;
       if (!film::check_unknowns(model_, film_.film_of(x_)).is_inside()) x_ = x;
-      nearer = film_at(e + share * step.de) && distance_to(target) < distance;
+      nearer = film_at(e + share * step.de) && log_force_error(target) < distance;
     }
     if (!nearer) return false;
   }

@@ -30,7 +30,7 @@ constexpr double kFreshTurn = 0.2;
 
 std::string SteadySearch::failure_message() const {
   if (!limit_.why.empty() && 0 < limit_.force && limit_.force < point_.load->norm()) {
-    if (limit_.is_unsolved) return unsolved_message();
+    if (limit_.solver_failed) return unsolved_message();
     return fmt::format(
         "no equilibrium: along this load of {:.4g} N the film bears at most about {:.4g} N, at {}; "
         "further out {}{}",
@@ -67,8 +67,8 @@ bool SteadySearch::continue_nested() {
   if (!film_at_start()) return false;
   const Coordinates start = e_;
   const Eigen::VectorXd film = x_;
-  const double distance = distance_to(*point_.load);
-  if (!film_at(here) || distance_to(*point_.load) > distance) {
+  const double distance = log_force_error(*point_.load);
+  if (!film_at(here) || log_force_error(*point_.load) > distance) {
     x_ = film;
     if (!film_at(start)) return false;
   }
@@ -123,35 +123,35 @@ bool SteadySearch::track(const Coordinates& target) {
   return film_at(e) && solve_nested(target);
 }
 
-SteadySearch::Look SteadySearch::rotate_to_load(Position& at) {
+SteadySearch::Probe SteadySearch::rotate_to_load(Position& at) {
   const Coordinates& W = *point_.load;
   double turn = std::numbers::pi;
   for (int k = 0; k < kMostTurns && !is_over_budget(); ++k) {
     if (std::abs(turn) > kFreshTurn) x_.head(model_.grid.size()).setZero();
-    if (!film_at(coordinates_of().at(point_, at.r, at.angle))) return Look::no_film;
+    if (!film_at(coordinates_of().at(point_, at.r, at.angle))) return Probe::no_film;
     turn = angle_between(force_, W);
     if (std::abs(turn) < kAligned) {
       at.x = x_;
-      return force_.norm() < W.norm() ? Look::too_weak : Look::strong;
+      return force_.norm() < W.norm() ? Probe::below_load : Probe::above_load;
     }
     at.angle += turn;
   }
-  return Look::across;
+  return Probe::not_aligned;
 }
 
-void SteadySearch::look_at(double r, Bounds& bounds) {
+void SteadySearch::probe(double r, Bounds& bounds) {
   Position at{r, bounds.angle, {}};
-  const Look observed = rotate_to_load(at);
-  if (observed == Look::across) return;
-  if (observed == Look::no_film) {
+  const Probe observed = rotate_to_load(at);
+  if (observed == Probe::not_aligned) return;
+  if (observed == Probe::no_film) {
     limit_.why = summary_.message;
-    limit_.is_unsolved = is_unsolved_;
+    limit_.solver_failed = solver_failed_;
     bounds.outer = r;
     return;
   }
   if (force_.norm() > limit_.force) limit_.force = force_.norm(), limit_.where = position_text();
   bounds.angle = at.angle;
-  if (observed == Look::strong)
+  if (observed == Probe::above_load)
     bounds.outer = r, bounds.strong = at;
   else
     bounds.inner = r;
@@ -162,11 +162,11 @@ bool SteadySearch::search_outwards() {
   Bounds bounds{.angle = start.size() == 2 ? std::atan2(start.y(), start.x()) : 0};
   for (const double r : coordinates_of().distances(point_, film_.depth(*point_.load))) {
     if (bounds.outer || is_over_budget()) break;
-    look_at(r, bounds);
+    probe(r, bounds);
   }
   for (int k = 0; k < kMostHalvings && bounds.outer && !is_over_budget(); ++k) {
     if (is_reached(bounds)) return true;
-    look_at(0.5 * (bounds.inner + *bounds.outer), bounds);
+    probe(0.5 * (bounds.inner + *bounds.outer), bounds);
   }
   if (!bounds.outer && !is_over_budget()) limit_.why = "the surfaces all but touch";
   return is_reached(bounds);

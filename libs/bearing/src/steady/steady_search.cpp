@@ -11,15 +11,15 @@
 namespace hersey::bearing {
 namespace {
 
-// ln of the viscosity over that at rest from which on no film between rigid surfaces is an oil's. Of Weibull's
-// transformation alpha p = -ln(1 - alpha p_iso): 1 - alpha p_iso = 6e-6.
-constexpr double kSolid = 12;
+// ln(mu(p)/mu0) above which the oil counts as a solid, and a film between rigid surfaces is no answer. In terms of the
+// reduced pressure of Weibull (1925), alpha p = -ln(1 - alpha p_iso): 1 - alpha p_iso = 6e-6.
+constexpr double kLogViscosityOfSolid = 12;
 
 // Positions tried on the way from the start to the bearing's centre, where the film at the start cannot be found.
 constexpr int kMostStarts = 5;
 
-// Linearisations that the search from the inside out may take beside those of the paths from the start, as a share.
-constexpr double kShareOfSearch = 0.6;
+// Linearisations allowed to search_outwards() in addition to those of the paths from the start, as a share of these.
+constexpr double kOutwardSearchBudget = 0.6;
 
 }  // namespace
 
@@ -30,16 +30,16 @@ SteadySearch::SteadySearch(const film::FilmModel& model, const OperatingPoint& p
 
 bool SteadySearch::film_at(const Coordinates& e) {
   e_ = e;
-  is_unsolved_ = false;
+  solver_failed_ = false;
   if (!has_open_gap()) return false;
   const film::FilmSolveSummary solved = film_.solve(e, x_);
   (is_swept() ? summary_.film_iterations : summary_.iterations) += solved.iterations;
   summary_.message = solved.message;
-  is_unsolved_ = is_unsolved(solved);
+  solver_failed_ = solver_failed(solved);
   return solved.solved() && is_fluid() && linearise();
 }
 
-bool SteadySearch::is_unsolved(const film::FilmSolveSummary& solved) const {
+bool SteadySearch::solver_failed(const film::FilmSolveSummary& solved) const {
   using Violation = film::FilmDomain::Violation;
   if (solved.domain.is_inside()) return solved.relative_residual > rtol_;
   const bool stiffens = !std::holds_alternative<film::ConstantViscosity>(model_.lubricant.viscosity_law);
@@ -49,7 +49,7 @@ bool SteadySearch::is_unsolved(const film::FilmSolveSummary& solved) const {
 bool SteadySearch::is_fluid() {
   Eigen::Index node = 0;
   const double p = film_.film_of(x_).maxCoeff(&node);
-  if (film_.may_overlap() || film::log_viscosity_ratio(model_.lubricant, p).value < kSolid) return true;
+  if (film_.may_overlap() || film::log_viscosity_ratio(model_.lubricant, p).value < kLogViscosityOfSolid) return true;
   summary_.message =
       film::text(model_, {.violation = film::FilmDomain::Violation::pressure, .node = static_cast<int>(node)});
   return false;
@@ -84,7 +84,7 @@ SteadySummary SteadySearch::under_load() {
   }
   budget_ = options_.max_linearisations;
   const bool found = solve_jointly(*point_.load) || raise_from_light_load() || continue_nested() || raise_load();
-  budget_ = summary_.iterations + static_cast<int>(kShareOfSearch * options_.max_linearisations);
+  budget_ = summary_.iterations + static_cast<int>(kOutwardSearchBudget * options_.max_linearisations);
   if (!found && !search_outwards()) {
     summary_.message = failure_message();
     return summary_;
@@ -110,7 +110,7 @@ SteadySummary SteadySearch::retry() {
   return summary_;
 }
 
-bool SteadySearch::is_settled() {
+bool SteadySearch::accept_if_converged() {
   if (!linearise() || film_.relative_residual() > options_.rtol) return false;
   if (point_.load) {
     summary_.force_error = (force_ - *point_.load).norm() / point_.load->norm();
@@ -174,7 +174,7 @@ bool SteadySearch::carries_no_load() {
 }
 
 bool SteadySearch::linearise() {
-  changed_.reset();
+  change_since_factor_.reset();
   const int linearisations = film_.linearise_near(e_, x_);
   force_ = film_.force();
   summary_.iterations += linearisations;

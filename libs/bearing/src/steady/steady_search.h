@@ -32,8 +32,9 @@ class SteadySearch {
   void begin_at(const Coordinates& e, const Eigen::VectorXd& u, const Eigen::VectorXd& s = {});
   /// True if there is a film to continue from.
   [[nodiscard]] bool has_film() const { return has_film_; }
-  /// Linearises anew; true if film and position are within the tolerance of the options.
-  [[nodiscard]] bool is_settled();
+  /// Linearises anew; if film and force are within the tolerance of the options, adds the last increment to the film
+  /// and returns true.
+  [[nodiscard]] bool accept_if_converged();
 
   void set_viscosity(film::LayeredViscosity viscosity) { film_.set_viscosity(std::move(viscosity)); }
   void set_thermal_shapes(Eigen::VectorXd shell, Eigen::VectorXd journal) {
@@ -73,7 +74,7 @@ class SteadySearch {
     double force = 0;
     std::string where;
     std::string why;
-    bool is_unsolved = false;
+    bool solver_failed = false;
   };
 
   /// A step of position, and of film and deformation.
@@ -88,9 +89,9 @@ class SteadySearch {
   [[nodiscard]] bool film_at(const Coordinates& e);
   /// True if each film is solved by relaxation, which has no linearisation to share with the position.
   [[nodiscard]] bool is_swept() const { return options_.solver == film::FilmSolver::sor && !film_.deforms(); }
-  /// True if a solver has not converged. A film that closes, starves or whose oil stiffens without bound does not
-  /// exist: that is an answer.
-  [[nodiscard]] bool is_unsolved(const film::FilmSolveSummary& solved) const;
+  /// True if the solver did not converge although a film may exist; false if there is none, because the gap closes or
+  /// the viscosity grows without bound.
+  [[nodiscard]] bool solver_failed(const film::FilmSolveSummary& solved) const;
   /// False where oil between rigid surfaces is a solid: beyond Weibull's limit the equations have numerical solutions.
   [[nodiscard]] bool is_fluid();
   /// True if no pressure builds up anywhere, so that no position carries a load.
@@ -105,16 +106,17 @@ class SteadySearch {
   [[nodiscard]] SteadySummary under_load();
   /// Returns K, the change of the force with the position, and sets dx_de_.
   [[nodiscard]] Eigen::MatrixXd force_by_position();
-  /// Returns the force that is missing to the target as if the force followed a power of the film thickness: the
-  /// logarithm of the ratio along the force and the angle across it, to first order their difference.
-  [[nodiscard]] Coordinates force_deficit(const Coordinates& target) const;
-  /// Returns the size of that deficit, relative: 0 at the target.
-  [[nodiscard]] double distance_to(const Coordinates& target) const;
+  /// Returns the force residual in logarithmic form: ln(W/F) F along the present force plus the angle to the target
+  /// times F across it. To first order this is target - force; the logarithm suits a force that follows a power of the
+  /// film thickness. Returns target - force for a tiny force, or one more than 90 degrees off.
+  [[nodiscard]] Coordinates log_force_residual(const Coordinates& target) const;
+  /// Returns sqrt(ln(W/F)^2 + angle^2) of that residual, 0 at the target.
+  [[nodiscard]] double log_force_error(const Coordinates& target) const;
   /// Returns Newton's step (bearing.18) towards `target`, limited to where the linear film is valid.
   [[nodiscard]] Step newton_step(const Coordinates& target);
-  /// Returns the share of a step for rigid surfaces: the force follows a power of the gap, so a step changes its
-  /// logarithm in proportion.
-  [[nodiscard]] double share_of_gap(const Coordinates& de) const;
+  /// Returns the factor (1 - exp(-x))/x, at most 2, that makes a step of rigid surfaces linear in ln(gap); x is the
+  /// relative decrease of the gap by the full step, linearised.
+  [[nodiscard]] double log_gap_step_factor(const Coordinates& de) const;
   [[nodiscard]] double gap_at(const Coordinates& e) const { return film_.undeformed_gap(e); }
   [[nodiscard]] SteadyCoordinates& coordinates_of() const { return film_.coordinates(); }
   [[nodiscard]] std::string position_text() const { return coordinates_of().position_text(point_, e_); }
@@ -124,12 +126,14 @@ class SteadySearch {
   [[nodiscard]] bool rotates_far(const Coordinates& from, const Coordinates& to) const;
   /// True if film and force are within their tolerance.
   [[nodiscard]] bool is_converged(const Coordinates& target);
-  /// Adds the last increment, unless it leaves less than no oil somewhere: that satisfies the equations and is no film.
+  /// Adds the increment of the last linearisation. Returns false, and adds nothing, if a fill fraction would become
+  /// negative: such a root of the equations is no film.
   [[nodiscard]] bool take_last_increment();
   /// Near the solution, takes one Newton step from the present linearisation; its remainder is known to be small.
   [[nodiscard]] bool take_one_step(const Coordinates& target);
-  /// Near the solution, takes chord steps with the linearisation of the last such step: each leaves the deficit times
-  /// all that has changed since. Not where nodes fill or cavitate.
+  /// Near the solution, takes steps of the chord method with the factor of the last such step. Each reduces the error
+  /// to a share that is proportional to change_since_factor_. Gives up if a node changes between full film and
+  /// cavitation.
   [[nodiscard]] bool take_chord_steps(const Coordinates& target);
   /// Newton's method on film and position at once, one linearisation per iteration.
   [[nodiscard]] bool solve_jointly(const Coordinates& target);
@@ -152,12 +156,13 @@ class SteadySearch {
   /// deformation then change together.
   [[nodiscard]] bool track(const Coordinates& target);
 
-  enum class Look { no_film, across, too_weak, strong };
+  /// What is found at one distance: no film, a force that points along the load at no angle, or one below or above it.
+  enum class Probe { no_film, not_aligned, below_load, above_load };
   /// Rotates the position at the distance at.r about the bearing's centre until the force points along the load. A
   /// round bearing without features needs one rotation, since its force rotates with the position.
-  [[nodiscard]] Look rotate_to_load(Position& at);
+  [[nodiscard]] Probe rotate_to_load(Position& at);
   /// Examines one distance: moves one of the bounds, and records the force found.
-  void look_at(double r, Bounds& bounds);
+  void probe(double r, Bounds& bounds);
   /// Searches outwards, as the force of a film grows with the distance, without bound or up to where the film ends,
   /// until it exceeds the load; then bisects, then applies Newton's method (bearing.20). Its findings say, where there
   /// is no equilibrium, what the film carries at most.
@@ -178,14 +183,16 @@ class SteadySearch {
   Coordinates e_, force_;
   Eigen::VectorXd x_;  // film and deformation
   Eigen::MatrixXd dx_de_;
-  Eigen::MatrixXd K_;              // change of the force with the position in the last take_one_step()
-  std::optional<double> changed_;  // by how much of itself the film has since; unset: there is none
+  Eigen::MatrixXd K_;  // change of the force with the position in the last take_one_step()
+  /// Sum of the relative residuals since the Jacobian of the last take_one_step() was factorised; unset: there is no
+  /// factor to reuse.
+  std::optional<double> change_since_factor_;
   SteadySummary summary_;
   Limit limit_;
   double rtol_ = options_.rtol;
-  bool has_film_ = false;     // to go on from
-  bool is_unsolved_ = false;  // the solver has not found the film last sought
-  int budget_ = 0;            // of linearisations
+  bool has_film_ = false;       // to go on from
+  bool solver_failed_ = false;  // the solver has not found the film last sought
+  int budget_ = 0;              // of linearisations
 };
 
 }  // namespace hersey::bearing

@@ -94,7 +94,7 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const PrescribedNode* prescribed = prescribed_at(k);
   CavityBorder border{.node = k, .of = k, .share = is_full ? 1.0 : 0.0};
   if (is_full || is_given(k) || (prescribed != nullptr && prescribed->other < 0)) return border;
-  const PrescribedNode line = prescribed == nullptr ? PrescribedNode{.draws = 0, .way = 1} : *prescribed;
+  const PrescribedNode line = prescribed == nullptr ? PrescribedNode{.draws = 0, .distance = 1} : *prescribed;
   border.beside = nodes_beside(model_.grid, i, j);
   const std::array<int, 4> faces = faces_around(k);
   const Node& node = nodes_[k];
@@ -105,13 +105,13 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
     const Face& face = faces_[f];
     const Fluidity& flow = node.flow[side < 2 ? 0 : 1];
     const double unit = face.width / (12 * face.length);
-    border.by_beside[side] = line.way * unit * node.h * node.h * node.h * flow.value;
+    border.by_beside[side] = line.distance * unit * node.h * node.h * node.h * flow.value;
     by_nodes.add(unit * u_[other], node.h, flow);
   }
   per_pressure.add(line.conductance, node.h, node.flow[0]);
   const double lack = -u_[k], of_line = std::max(line.u, 0.0), drawn = line.draws * lack;
-  double in = line.way * by_nodes.value + of_line * per_pressure.value;
-  const double missing = line.way * D0_ * lack + drawn * per_pressure.value,
+  double in = line.distance * by_nodes.value + of_line * per_pressure.value;
+  const double missing = line.distance * D0_ * lack + drawn * per_pressure.value,
                least = kLeastSlack * sliding_share(j) * D0_ * scales_.slack;
   const bool is_little = missing < least;
   if (is_little) in += least - missing;
@@ -120,26 +120,26 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const double whole = in + missing, by_in = missing / (whole * whole),
                by_missing = -in / (whole * whole) - (is_little ? by_in : 0);
   const auto change = [&](double of_nodes, double of_tie) {
-    return by_in * (line.way * of_nodes + of_line * of_tie) + by_missing * drawn * of_tie;
+    return by_in * (line.distance * of_nodes + of_line * of_tie) + by_missing * drawn * of_tie;
   };
-  border.by_u = -by_missing * (line.way * D0_ + line.draws * per_pressure.value);
+  border.by_u = -by_missing * (line.distance * D0_ + line.draws * per_pressure.value);
   border.by_h = change(by_nodes.h, per_pressure.h);
   border.by_rate = change(by_nodes.rate, per_pressure.rate) + (is_little ? by_in * least : 0);
   border.by_rotation = change(by_nodes.rotation, per_pressure.rotation);
-  border.by_line = (by_in * by_nodes.value + by_missing * D0_ * lack) * line.way_line +
+  border.by_line = (by_in * by_nodes.value + by_missing * D0_ * lack) * line.distance_line +
                    by_missing * line.draws_line * lack * per_pressure.value;
   for (double& by_beside : border.by_beside) by_beside *= by_in;
   return border;
 }
 
-void FlowBalance::show_border(const CavityBorder& border) {
+void FlowBalance::apply_border(const CavityBorder& border) {
   Node& node = nodes_[border.node];
   (model_.cavitated_shear == CavitatedShear::full ? node.other_share : node.share) = border.share;
   if (border.share > 0 && border.share < 1) borders_.push_back(border);
 }
 
 // An edge at p_cav has u = 0 whether the film beside it is full or cavitated: it takes the state of the next node.
-void FlowBalance::take_borders_to_edges() {
+void FlowBalance::extend_borders_to_edges() {
   const std::size_t count = borders_.size();  // in the order of their nodes
   for (const int edge : prescribed_edge_nodes_) {
     const int next = phase_node(edge);
@@ -178,9 +178,9 @@ void FlowBalance::find_borders() {
   const Grid& grid = model_.grid;
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j)
-      show_border(cavitation_.has_tension() ? cut_by_tension(i, j) : filled_by_pressure(i, j));
+      apply_border(cavitation_.has_tension() ? cut_by_tension(i, j) : filled_by_pressure(i, j));
   }
-  if (cavitation_.loses_oil()) take_borders_to_edges();
+  if (cavitation_.loses_oil()) extend_borders_to_edges();
 }
 
 }  // namespace hersey::film

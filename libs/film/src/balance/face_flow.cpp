@@ -20,7 +20,7 @@ double fourth(double x) { return x * x * x * x; }
 
 // A nearly empty node is left by its whole content, a full one by the flow that the gap behind it carries. Between both
 // the smooth monotone law with these limits applies (film.28).
-Carried FaceFlow::carried(double theta) const {
+EntrainedFlow FaceFlow::carried(double theta) const {
   if (little == couette) return {theta * couette, couette, theta, 0};
   if (theta < 0) return {theta * little, little, 0, theta};
   const double y = theta * little / couette;
@@ -85,7 +85,7 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap) {
   gap.cube_journal = factor * deep.cube.journal;
 
   // Past a step the oil is carried at the surfaces' mean speed relative to the step.
-  const double past = entrainment(f) - step_speed(f, flow_tube);
+  const double past = entrainment(f) - pocket_edge_speed(f, flow_tube);
   gap.full += past * (deep.carry.value - h) + flow_tube.swept / face.width;
   gap.full_h += past * (deep.carry.h - 1);
   gap.full_journal = past * deep.carry.journal + flow_tube.swept_journal / face.width;
@@ -101,7 +101,7 @@ void FlowBalance::deepen(std::size_t f, double h, FaceGap& gap) {
   m.journal = drag * past * deep.excess.journal + face.width * deep.carry.journal * drop;
 }
 
-bool FlowBalance::passes_steps(std::size_t f) const {
+bool FlowBalance::oil_crosses_pocket_edge(std::size_t f) const {
   const double speed = entrainment(f);
   return axial(f) || (speed - faces_[f].stretch * speeds_.u_journal) * speed > 0;
 }
@@ -109,14 +109,15 @@ bool FlowBalance::passes_steps(std::size_t f) const {
 double FlowBalance::entrained_upstream(std::size_t f, int from, const Speeds& speeds) const {
   const Cell& cell = cells_[from];
   double entrained = speeds.mean * (cell.gap + cell.depth) + speeds.half_slip * rough_[from].drag[axial(f) ? 1 : 0];
-  if (cell.turning > 0 && !axial(f)) entrained -= (passes_steps(f) ? speeds.journal : speeds.mean) * cell.turning;
+  if (cell.turning > 0 && !axial(f))
+    entrained -= (oil_crosses_pocket_edge(f) ? speeds.journal : speeds.mean) * cell.turning;
   return entrained;
 }
 
 // Flow of little oil (film.28): the content of the control volume upstream moves at the surfaces' mean speed; the
 // content of a rotating pocket only at the speed relative to its step, in addition to the oil that rotates over the
 // face with the pocket.
-void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
+void FlowBalance::add_starved_limit(std::size_t f, FaceGap& gap) const {
   gap.little = gap.full;
   gap.from = gap.full >= 0 ? faces_[f].a : faces_[f].b;
   if (gap.full == 0 || (nodes_[gap.from].theta == 1 && !expects_any_fill_)) return;
@@ -131,15 +132,15 @@ void FlowBalance::carry_little(std::size_t f, FaceGap& gap) const {
   if (little * gap.full <= 0 || (is_deep && std::abs(little) <= std::abs(gap.full))) return;
   const double ratio = little / gap.full;
   if (!is_deep && (ratio > most_widening || ratio * most_widening < 1)) {
-    gap.little_by_full = ratio > 1 ? most_widening : 1 / most_widening;
-    gap.little = gap.little_by_full * gap.full;
+    gap.little_over_full = ratio > 1 ? most_widening : 1 / most_widening;
+    gap.little = gap.little_over_full * gap.full;
     return;
   }
   gap.little = little;
   gap.little_h = speed * cells_[gap.from].gap_h + half_slip * rough.drag_h[k];
   gap.little_excess = speed * cells_[gap.from].gap_excess;
   if (is_deep) gap.little_journal = flow_tube->swept_journal / faces_[f].width;
-  if (relief_.has_pockets() && passes_steps(f)) {
+  if (relief_.has_pockets() && oil_crosses_pocket_edge(f)) {
     gap.little_journal += (axial(f) ? speed : speed - journal) * relief_.depth_by_journal()[gap.from];
   }
 }
@@ -149,18 +150,18 @@ std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
   return {0.5, axial(f) ? 0.0 : 1.0};
 }
 
-double FlowBalance::step_speed(std::size_t f, const PocketFlowTube& flow_tube) const {
-  return axial(f) ? 0 : step_of(flow_tube, entrainment(f), faces_[f].stretch * speeds_.u_journal);
+double FlowBalance::pocket_edge_speed(std::size_t f, const PocketFlowTube& flow_tube) const {
+  return axial(f) ? 0 : edge_speed_of(flow_tube, entrainment(f), faces_[f].stretch * speeds_.u_journal);
 }
 
 // The line's rows count this share of the flow half-way to it.
-void FlowBalance::find_carried_share(std::size_t f, const FaceGap& gap, const Carried& carried) {
+void FlowBalance::find_carried_share(std::size_t f, const FaceGap& gap, const EntrainedFlow& carried) {
   const FaceFlow& flow = flows_[f];
-  CarriedShare& share = line_shares_[f % static_cast<std::size_t>(model_.grid.n_z)];
+  CutFaceFraction& share = line_shares_[f % static_cast<std::size_t>(model_.grid.n_z)];
   share = {};
   if (flow.couette == 0) return;
   share.value = carried.value / flow.couette, share.theta = carried.theta / flow.couette;
-  const double by_full = (carried.full + gap.little_by_full * carried.little - share.value) / gap.full;
+  const double by_full = (carried.full + gap.little_over_full * carried.little - share.value) / gap.full;
   const double by_little = carried.little / gap.full;
   const auto [half, by_bend] = thickness_shares(f);
   share.h_a = by_full * (half * gap.full_h + gap.full_at[0]);
@@ -185,20 +186,20 @@ void FlowBalance::add_face(std::size_t f) {
   roughen(f, gap);
   flow.is_deep = flow_tube_of_[f] >= 0;
   if (flow.is_deep) deepen(f, h, gap);
-  carry_little(f, gap);
+  add_starved_limit(f, gap);
 
   // The flow (film.16) is q = rho [h^3/(12 mu) b/l (p_a - p_b) + entrained flow].
   const double unit = face.width / (12 * face.length);
   flow.K = flow.density * unit * gap.cube * fluidity;
   flow.couette = flow.density * face.width * gap.full;
   flow.little = flow.density * face.width * gap.little;
-  flow.little_by_couette = gap.little_by_full;
+  flow.little_over_couette = gap.little_over_full;
   flow.q_fluidity = is_cut(f) ? 0 : flow.density * unit * gap.cube * drop;
-  const Carried carried = flow.carried(upstream(f).theta);
+  const EntrainedFlow carried = flow.carried(upstream(f).theta);
   flow.q_theta = carried.theta;
   flow.q_density = unit * gap.cube * fluidity * drop + carried.value / flow.density;
   const double by_cube = flow.density * unit * fluidity * drop;
-  const double by_full = flow.density * face.width * (carried.full + gap.little_by_full * carried.little),
+  const double by_full = flow.density * face.width * (carried.full + gap.little_over_full * carried.little),
                by_little = flow.density * face.width * carried.little;
   const double by_h = by_cube * gap.cube_h + by_full * gap.full_h;
   const auto [share, by_bend] = thickness_shares(f);
@@ -242,15 +243,15 @@ std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speed
   double swept = 0;
   if (flow_tube_of_[f] >= 0) {
     const PocketFlowTube& flow_tube = relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])];
-    const double step = axial(f) ? 0 : step_of(flow_tube, speeds.mean, speeds.journal);
+    const double step = axial(f) ? 0 : edge_speed_of(flow_tube, speeds.mean, speeds.journal);
     swept = flow_tube.swept_speed * speeds.journal / face.width;
     full += (speeds.mean - step) * (relief_.gap(flow_tube, h).carry.value - h) + swept;
   }
   const FaceFlow& flow = flows_[f];
   const int from = flow.couette >= 0 ? face.a : face.b;
   const double own = entrained_upstream(f, from, speeds) + swept;
-  const double limited = flow.little_by_couette * full;
-  const double little = flow.little == flow.couette ? full : flow.little_by_couette > 0 ? limited : own;
+  const double limited = flow.little_over_couette * full;
+  const double little = flow.little == flow.couette ? full : flow.little_over_couette > 0 ? limited : own;
   return {face.width * full, face.width * little};
 }
 
@@ -271,7 +272,7 @@ double FlowBalance::flow_along(std::size_t f, const MotionDirection& direction) 
   double q = 0;
   if (speeds.mean != 0 || speeds.half_slip != 0) {
     const auto [full, little] = carried_at(f, speeds);
-    const Carried carried = flow.carried(upstream(f).theta);
+    const EntrainedFlow carried = flow.carried(upstream(f).theta);
     q += flow.density * (carried.full * full + carried.little * little);
   }
   const bool gap = direction.g.size() != 0;

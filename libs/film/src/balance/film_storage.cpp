@@ -29,7 +29,7 @@ void FlowBalance::evaluate_cell(int i, const SurfaceMotion& motion) {
     cell.turning = relief_.turning_depth()[i];
   }
   if (dt_ == 0) return;
-  if (follows_gap_) {
+  if (uses_gap_difference_) {
     cell.start = gap_start_[i], cell.start_slope = cell.start_excess = 0;
     return;
   }
@@ -37,7 +37,7 @@ void FlowBalance::evaluate_cell(int i, const SurfaceMotion& motion) {
   const ValueAndSlope from = rough_law_.mean(h);
   cell.start = from.value + excesses_[i] - dt_ * rate_excesses_[i];
   cell.start_slope = from.slope;
-  const double least = !knows_gap_ ? 0 : least_start * gap_start_[i];
+  const double least = !has_start_gap_ ? 0 : least_start * gap_start_[i];
   if (cell.start < least) cell.start = least, cell.start_slope = cell.start_excess = 0;
 }
 
@@ -66,15 +66,15 @@ double FlowBalance::storage_u(int i) const {
 double FlowBalance::storage_h(int i) const {
   const Cell& cell = cells_[i];
   if (dt_ > 0) {
-    return area_[i] * (nodes_[i].content * cell.gap_h - (liner_rests_ ? content_start_[i] * cell.start_slope : 0)) /
-           dt_;
+    return area_[i] *
+           (nodes_[i].content * cell.gap_h - (freezes_deformation_ ? content_start_[i] * cell.start_slope : 0)) / dt_;
   }
   return area_[i] * nodes_[i].content * (g_rate_[i] + rate_excesses_[i]) * rough_[i].mean_hh;
 }
 
 double FlowBalance::storage_g(int i) const {
   const double now = storage_h(i) * nodes_[i].h_g;
-  return dt_ == 0 || liner_rests_ ? now : now - area_[i] * content_start_[i] * cells_[i].start_slope / dt_;
+  return dt_ == 0 || freezes_deformation_ ? now : now - area_[i] * content_start_[i] * cells_[i].start_slope / dt_;
 }
 
 double FlowBalance::storage_excess(int i) const {

@@ -165,10 +165,10 @@ void FlowBalance::take_history(const FilmHistory& history) {
   viscosity_ = history.viscosity;
   HERSEY_REQUIRE(viscosity_.fluidity.size() == 0 || viscosity_.fluidity.size() == size(),
                  "viscosities of shape (grid.size()) or empty");
-  knows_gap_ = false;
+  has_start_gap_ = false;
   if (dt_ == 0) return;
-  liner_rests_ = history.w.size() == 0;
-  HERSEY_REQUIRE(history.theta.size() == size() && (liner_rests_ || history.w.size() == size()),
+  freezes_deformation_ = history.w.size() == 0;
+  HERSEY_REQUIRE(history.theta.size() == size() && (freezes_deformation_ || history.w.size() == size()),
                  "history of shape (grid.size())");
   content_start_.setOnes();
   if (cavitation_.has_fill()) content_start_ = history.theta;
@@ -176,12 +176,12 @@ void FlowBalance::take_history(const FilmHistory& history) {
     HERSEY_REQUIRE(history.density.size() == size(), "density at the start of shape (grid.size()) or empty");
     content_start_.array() *= history.density.array();
   }
-  if (!liner_rests_) w_start_ = history.w;
+  if (!freezes_deformation_) w_start_ = history.w;
   HERSEY_REQUIRE(history.gap.size() == 0 || history.gap.size() == size(),
                  "gap at the start of shape (grid.size()) or empty");
   gap_start_ = history.gap;
-  knows_gap_ = gap_start_.size() != 0;
-  follows_gap_ = history.by_gap && knows_gap_;
+  has_start_gap_ = gap_start_.size() != 0;
+  uses_gap_difference_ = history.by_gap && has_start_gap_;
 }
 
 void FlowBalance::take_motion(const SurfaceMotion& motion) {
@@ -265,7 +265,7 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
       law_.evaluate(motion.g[i], u[i], i, sliding, nodes_[i]);
     if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Violation::not_finite, i};
     if (nodes_[i].h <= 0) return {FilmDomain::Violation::closed, i};
-    if (liner_rests_) w_start_[i] = nodes_[i].w;
+    if (freezes_deformation_) w_start_[i] = nodes_[i].w;
     rough_[i] = rough_law_.state(nodes_[i].h);
     if (is_layered()) skew(viscosity_.skew[i], nodes_[i].h, rough_[i]);
     evaluate_cell(i, motion);
@@ -338,7 +338,7 @@ double FlowBalance::supply_of_row(int node) const {
 double FlowBalance::supply(int node) const {
   if (!is_beside_line(node)) return supply_of_row(node);
   const PrescribedNode& prescribed = *prescribed_at(node);
-  return (1 - prescribed.way) * (supply_of_row(node) + supply_of_row(prescribed.other));
+  return (1 - prescribed.distance) * (supply_of_row(node) + supply_of_row(prescribed.other));
 }
 
 void FlowBalance::replace_boundary_rows() {

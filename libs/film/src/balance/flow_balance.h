@@ -25,33 +25,33 @@ struct Face {
   std::array<int, 4> slots{};  ///< indices of (a,a), (a,b), (b,a), (b,b) among the Jacobian's values
 };
 
-/// Share of the entrained flow over a face from a node filled to theta, with derivatives (film.28).
-struct Carried {
+/// Entrained (Couette) flow over a face whose upstream node is filled to theta, and its derivatives (film.28).
+struct EntrainedFlow {
   double value = 0;   ///< [m^3/s]
-  double theta = 0;   ///< with theta [m^3/s]
-  double full = 0;    ///< with the flow of a full gap [-]
-  double little = 0;  ///< with the flow per fill fraction of a nearly empty gap [-]
+  double theta = 0;   ///< d/d theta [m^3/s]
+  double full = 0;    ///< d/d (flow of a full gap) [-]
+  double little = 0;  ///< d/d (flow per fill fraction of a nearly empty gap) [-]
 };
 
 /// Flow over a face, linearised (film.16): dq = K d(p_a - p_b) + q_h_a dh_a + q_h_b dh_b + q_bend d bend + q_fluidity
 /// d(1/mu) + q_density d density + q_theta d theta_upwind. Flows are masses over rho0.
 struct FaceFlow {
-  double K = 0;                  ///< conductance [m^3/(Pa s)]
-  double density = 1;            ///< rho/rho0 on the face [-]
-  double q_density = 0;          ///< with the density: the volume flow [m^3/s]
-  double q_h_a = 0;              ///< with the film thickness at a [m^2/s]
-  double q_h_b = 0;              ///< with the film thickness at b [m^2/s]
-  double q_bend = 0;             ///< with the excess of the gap on the face over the mean of both nodes [m^2/s]
-  double q_excess = 0;           ///< with the excess of the control volume upstream over the gap at its node [m^2/s]
-  double q_journal = 0;          ///< with phi_journal [m^3/(s rad)]
-  double q_theta = 0;            ///< with the fill fraction upstream [m^3/s]
-  double q_fluidity = 0;         ///< with the face's 1/mu
-  double couette = 0;            ///< entrained flow of a full gap [m^3/s]
-  double little = 0;             ///< entrained flow per fill fraction where there is little oil [m^3/s]
-  double little_by_couette = 0;  ///< ratio of `little` to `couette` where it is limited to a given factor; else 0 [-]
-  bool is_deep = false;          ///< the face lies over a pocket, which retains oil
+  double K = 0;                    ///< conductance [m^3/(Pa s)]
+  double density = 1;              ///< rho/rho0 on the face [-]
+  double q_density = 0;            ///< d/d density: the volume flow [m^3/s]
+  double q_h_a = 0;                ///< d/d thickness at a [m^2/s]
+  double q_h_b = 0;                ///< d/d thickness at b [m^2/s]
+  double q_bend = 0;               ///< d/d (gap on the face less the mean of both nodes) [m^2/s]
+  double q_excess = 0;             ///< d/d (mean gap of the control volume upstream less the gap at its node) [m^2/s]
+  double q_journal = 0;            ///< d/d phi_journal [m^3/(s rad)]
+  double q_theta = 0;              ///< d/d theta upstream [m^3/s]
+  double q_fluidity = 0;           ///< d/d (1/mu on the face)
+  double couette = 0;              ///< entrained flow of a full gap [m^3/s]
+  double little = 0;               ///< entrained flow per fill fraction of a nearly empty gap [m^3/s]
+  double little_over_couette = 0;  ///< ratio of `little` to `couette` where that is clamped; else 0 [-]
+  bool is_deep = false;            ///< the face lies over a pocket, which retains oil
 
-  [[nodiscard]] Carried carried(double theta) const;
+  [[nodiscard]] EntrainedFlow carried(double theta) const;
 };
 
 /// Flow that recirculates in the pockets under a flow tube.
@@ -65,23 +65,24 @@ struct PocketFlow {
   Moment moment;
 };
 
-/// A control volume that the border of a cavity cuts, in a film without a fill fraction: its full share (film.60,
-/// film.61), with derivatives.
+/// A control volume that the border of a cavity cuts, in a film without a fill fraction: the fraction of it that is
+/// full (film.60, film.61), and its derivatives.
 struct CavityBorder {
   int node = 0;
-  int of = 0;  ///< node whose unknowns decide: another one on an edge at p_cav
+  int of = 0;  ///< node whose unknowns determine the border; differs from `node` only on an edge at p_cav
   double share = 0;
-  double by_u = 0, by_h = 0;            ///< with u and film thickness at `of`
-  double by_rate = 0, by_rotation = 0;  ///< with the two members of SlidingChange
-  double by_line = 0;                   ///< with phi_supply [1/rad]
+  double by_u = 0, by_h = 0;            ///< by u and film thickness at `of`
+  double by_rate = 0, by_rotation = 0;  ///< by the two members of SlidingChange
+  double by_line = 0;                   ///< by phi_supply [1/rad]
   std::array<int, 4> beside{};          ///< nodes around `of`; -1: none
-  std::array<double, 4> by_beside{};    ///< with their u
+  std::array<double, 4> by_beside{};    ///< by their u
 };
 
-/// Balance of oil (film.2) in every control volume, with the flows (film.1) over its faces, its Jacobian in u and its
-/// derivative along any change of the surfaces.  The residual's rows [m^3/s] are outflow plus storage in the film; u -
-/// u_given times a conductance on an edge at prescribed pressure; and a blend of both beside the supply line and on
-/// features (film.17 to film.22).
+/// Balance of oil (film.2) in every control volume, with the flows (film.1) over its faces, its Jacobian by u and its
+/// derivative along any change of the surfaces. u [Pa] is the one unknown of a node: u >= 0 is a full film at p_cav +
+/// u; u < 0 is a cavitated film, theta = 1 + u/fill_scale where it has a fill fraction (film.5).  The residual's rows
+/// [m^3/s] are outflow plus storage in the film; u - u_given times a conductance on an edge at prescribed pressure; and
+/// a blend of both beside the supply line and on features (film.17 to film.22).
 class FlowBalance {
  public:
   explicit FlowBalance(const FilmModel& model);
@@ -91,9 +92,9 @@ class FlowBalance {
   [[nodiscard]] const FilmModel& model() const { return model_; }
   [[nodiscard]] int size() const { return model_.grid.size(); }
 
-  /// Makes evaluations compute the flows that full nodes would carry if they were not full: for sweeps that change fill
+  /// Makes evaluations compute FaceFlow::little also where the node upstream is full: for sweeps, which change fill
   /// fractions between evaluations.
-  void expect_any_fill() { expects_any_fill_ = true; }
+  void always_evaluate_starved_flow() { expects_any_fill_ = true; }
 
   /// Evaluates nodes, flows and residual at `u`. Outside the domain none of them may be used.
   FilmDomain evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
@@ -103,10 +104,10 @@ class FlowBalance {
 
   void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
 
-  /// Subtracts from a right-hand side the difference between the flow that the rate at the end of the step brings into
-  /// the rows and the gain of the gap over the step (film.15).
-  void subtract_defect(Eigen::VectorXd& rhs) const;
-  /// Computes the oil of the step whose state was last evaluated, with flows changed along `du`.
+  /// Subtracts from a right-hand side the defect of the squeeze term over a time step: the control volume's area times
+  /// the difference between the gap's rate at the end of the step and its mean rate over the step (film.15).
+  void subtract_squeeze_defect(Eigen::VectorXd& rhs) const;
+  /// Computes the oil balance of the time step whose state was last evaluated, with flows changed along `du`.
   void settle(const Eigen::VectorXd& du, StepOilBalance& oil) const;
   /// Sets the initial oil content; flows are undefined.
   void initialise_oil_balance(StepOilBalance& oil) const;
@@ -136,7 +137,7 @@ class FlowBalance {
   /// Faces of a node to those before and after it along phi, then along z; -1: none.
   [[nodiscard]] std::array<int, 4> faces_around(int node) const;
   [[nodiscard]] double storage(int node) const;             ///< [m^3/s]
-  [[nodiscard]] double storage_by_content(int node) const;  ///< its derivative with the oil's content [m^3/s]
+  [[nodiscard]] double storage_by_content(int node) const;  ///< its derivative by the oil's content [m^3/s]
   /// Gap that contains the oil of a control volume, mean depth of pockets included [m].
   [[nodiscard]] double oil_gap(int node) const { return cells_[node].gap + cells_[node].depth; }
   /// Derivatives of the thickness on face f by that at each of its nodes, and by its bend [-].
@@ -151,9 +152,10 @@ class FlowBalance {
   [[nodiscard]] double area(int node) const { return area_[node]; }  ///< of the control volume [m^2]
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] double speed_phi() const { return speed_phi_; }
-  /// True if a node lies on an edge of prescribed pressure, where it has no balance.
+  /// True if a node lies on an edge of prescribed pressure, where its row prescribes u in place of a balance.
   [[nodiscard]] bool is_given(int node) const { return edges_[node].kind == EdgeNode::Kind::given; }
-  /// True if a node lies on an edge at p_cav.
+  /// True if a node lies on an edge at p_cav of a film with a fill fraction: oil leaves freely, and its row is a
+  /// balance.
   [[nodiscard]] bool is_open(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
   /// u at which an edge at p_cav is as full as its surroundings; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
@@ -181,23 +183,23 @@ class FlowBalance {
   /// edge.
   [[nodiscard]] int phase_node(int node) const;
   [[nodiscard]] double supply(int node) const;  ///< oil entering from line or feature at this node [m^3/s]
-  /// Share of the supply line's oil that flows over the face that the line cuts, from a to b, together with the
-  /// entrained flow: the line feeds the film at its own position (film.21) [m^3/s].
-  [[nodiscard]] double over_cut(std::size_t f) const;
-  [[nodiscard]] double power_of_tie(int node) const;  ///< power dissipated between the node and its supply [W]
-  /// Share of power_of_tie() that is dissipated in the control volume `other` on the other side of the line [-].
-  struct PowerBeyond {
+  /// Part of the supply line's flow that crosses the face which the line cuts, from a to b, since the line feeds the
+  /// film at its own position (film.21) [m^3/s].
+  [[nodiscard]] double line_flow_through_face(std::size_t f) const;
+  [[nodiscard]] double supply_dissipation(int node) const;  ///< power dissipated between the node and its supply [W]
+  /// Share of supply_dissipation() that is dissipated in the control volume `other` on the other side of the line [-].
+  struct DissipationSplit {
     int other = 0;
     double share = 0;
   };
-  [[nodiscard]] PowerBeyond power_beyond(int node) const;
+  [[nodiscard]] DissipationSplit split_of_dissipation(int node) const;
   [[nodiscard]] int feature_at(int node) const;  ///< the feature that feeds this node; -1 for none
   /// Flow from a feature straight over the land between its end and the edge, beyond the flow in the flow tube from the
   /// next node (film.22); it is part of the feature's flow and of the outflow [m^3/s].
   [[nodiscard]] double over_land(int node) const;
   [[nodiscard]] double drop_over_land(int node) const;   ///< pressure drop over the land [Pa]
   [[nodiscard]] double power_over_land(int node) const;  ///< [W]
-  /// True if line or feature have a share in a node's row.
+  /// True if the supply line or a feature contributes to a node's row.
   [[nodiscard]] bool is_prescribed(int node) const { return prescribed_index_[node] >= 0; }
   /// Share of a node's oil that a supply has mixed [-]: 1 on line and features, and on edges that they reach, although
   /// the edge has a pressure of its own there.
@@ -216,10 +218,11 @@ class FlowBalance {
   [[nodiscard]] bool only_fills(int node) const;
   /// Entrained flow from a node towards the supply line beside it.
   struct TowardsLine {
-    bool counts = false;     ///< true if the line has a share in the node's row
+    bool counts = false;     ///< true if the line contributes to the node's row
     double full = 0;         ///< flow of a full gap, out of the node [m^3/s]
-    bool from_node = false;  ///< the gap is as full as the node; else the line fills it
-    double strip = 0;        ///< squeezed flow beyond the middle of the way, which belongs to the line [m^3/s]
+    bool from_node = false;  ///< the flow has the node's fill fraction; else the line's
+    double strip =
+        0;  ///< squeeze flow of the half of the distance nearer to the line, which counts as the line's [m^3/s]
   };
   [[nodiscard]] TowardsLine towards_line(int node) const;
   [[nodiscard]] bool is_cut(std::size_t f) const;                               ///< by the supply line
@@ -240,32 +243,33 @@ class FlowBalance {
   struct PrescribedNode {
     int node = 0;
     double chi = 0;            ///< share of the supply in the row [-]
-    double chi_line = 0;       ///< with phi_supply [1/rad]
-    double chi_journal = 0;    ///< with phi_journal [1/rad]
+    double chi_line = 0;       ///< d/d phi_supply [1/rad]
+    double chi_journal = 0;    ///< d/d phi_journal [1/rad]
     double mixed_share = 0;    ///< share of the node's oil that the supply has mixed [-]
     double draws = 1;          ///< share of missing oil that the supply provides [-]
-    double draws_line = 0;     ///< with phi_supply [1/rad]
-    double draws_journal = 0;  ///< with phi_journal [1/rad]
+    double draws_line = 0;     ///< d/d phi_supply [1/rad]
+    double draws_journal = 0;  ///< d/d phi_journal [1/rad]
     int feature = -1;          ///< index of the feature; -1: the line
     double u = 0;              ///< u of the supply [Pa]
-    double inwards = 0;        ///< feature: one less the distance from its middle (CoveredNode)
+    double centrality = 0;     ///< feature: 1 - distance from its centre over half its size (CoveredNode) [-]
     int other = -1;            ///< line: the node on its other side
-    double near = 1, far = 0,
-           bend = 0;  ///< line: weights by which h on the way to it follows from here, there and bend
-    double near_line = 0, bend_line = 0;  ///< line: with phi_supply [1/rad]
+    /// Line: weights of h at this node, of h at `other` and of the bend of the gap in the thickness between node and
+    /// line.
+    double near = 1, far = 0, bend = 0;
+    double near_line = 0, bend_line = 0;  ///< line: d/d phi_supply [1/rad]
     double conductance = 0;               ///< line: width/(12 length of the flow tube) [-]
-    double way = 0;                       ///< line: distance to it as a share of the flow tube [-]
-    double way_line = 0;                  ///< with phi_supply [1/rad]
+    double distance = 0;                  ///< line: distance to it over the length of the flow tube [-]
+    double distance_line = 0;             ///< d/d phi_supply [1/rad]
   };
   static constexpr double as_written = 1e-9;  ///< relative accuracy of a length in the model file
-  /// A node on an edge within a cell of which a feature ends.
+  /// A node on an edge with less than a cell of land between the edge and a feature's end.
   struct Land {
     int node = 0, inside = 0, feature = 0;
-    double conductance = 0;  ///< of the land beyond that of the flow tube, per 1/12 of h^3/mu [-]
+    double conductance = 0;  ///< of the land, in addition to that of the flow tube, per h^3/(12 mu) [-]
     double u = 0;            ///< of the feature [Pa]
   };
-  /// Part of a feature's end before such a node, around from it [m].
-  struct LandStrip {
+  /// Interval around the node, measured from it, over which a feature's end faces it [m].
+  struct LandInterval {
     int node = 0, inside = 0, feature = 0;
     double from = 0, to = 0;
     double gain = 0;  ///< 1/land - 1/flow tube [1/m]
@@ -275,14 +279,14 @@ class FlowBalance {
   struct Tie {
     double k = 0, k_u = 0, k_g = 0;
     double k_u_other = 0, k_g_other = 0, k_bend = 0, k_line = 0, k_journal = 0;
-    double k_rate = 0, k_rotation = 0;  ///< with the two members of SlidingChange
+    double k_rate = 0, k_rotation = 0;  ///< by the two members of SlidingChange
   };
   /// Position of a supply line that cuts the flow tubes between two columns of nodes.
   struct Line {
     bool cuts = false;
     int column = 0;     ///< column of nodes before it
     double share = 0;   ///< share of the distance to the next column [-]
-    double by_phi = 0;  ///< with phi_supply [1/rad]
+    double by_phi = 0;  ///< d/d phi_supply [1/rad]
   };
   /// Gap that contains the oil of a control volume, with derivatives (film.14).
   struct Cell {
@@ -291,7 +295,7 @@ class FlowBalance {
     double turning = 0;                                   ///< mean depth of the journal's pockets [m]
     double start = 0, start_slope = 1, start_excess = 1;  ///< gap from which the rate leads to the present one [m]
   };
-  /// Gap between two nodes: the parts that count for flow along pressure and with the surfaces, with derivatives by the
+  /// Gap between two nodes: the parts that count for pressure-driven and for entrained flow, with derivatives by the
   /// thickness on the face, by those at both nodes, and by phi_journal.
   struct FaceGap {
     double cube = 0, cube_h = 0, cube_journal = 0;
@@ -299,8 +303,8 @@ class FlowBalance {
     double full = 0, full_h = 0, full_journal = 0;
     std::array<double, 2> full_at{};
     double little = 0, little_h = 0, little_excess = 0, little_journal = 0;  ///< by h and excess of the node `from`
-    double little_by_full = 0;  ///< ratio of `little` to `full` where it is limited to a factor; else 0
-    int from = 0;               ///< upstream
+    double little_over_full = 0;  ///< ratio of `little` to `full` where that is clamped; else 0
+    int from = 0;                 ///< upstream
   };
 
   /// Speeds across a face: mean of both surfaces, half their difference, the journal's [m/s].
@@ -322,9 +326,9 @@ class FlowBalance {
     double ambient = 0;      ///< ambient_unknown() [Pa]
   };
 
-  /// Share of a full gap's entrained flow over a face that the line cuts, with derivatives: by the fill fraction
-  /// upstream, by thickness at both nodes, by bend, excess upstream and phi_journal.
-  struct CarriedShare {
+  /// Fraction of a full gap's entrained flow that crosses a face which the line cuts, with derivatives: by the fill
+  /// fraction upstream, by thickness at both nodes, by bend, excess upstream and phi_journal.
+  struct CutFaceFraction {
     double value = 1, theta = 0, h_a = 0, h_b = 0, bend = 0, excess = 0, journal = 0;
   };
 
@@ -343,7 +347,7 @@ class FlowBalance {
   void find_supply(const SurfaceMotion& motion);
   void prescribe_line(double phi);
   void find_strips(int feature, double phi, double u);
-  void unite_lands();
+  void merge_land_intervals();
   void clear_lands();
   [[nodiscard]] const Land* land_at(int node) const;
   [[nodiscard]] static bool yields_to(const PrescribedNode& prescribed, const PrescribedNode& to);
@@ -352,14 +356,14 @@ class FlowBalance {
   [[nodiscard]] bool has_line_row(int node) const;
   [[nodiscard]] bool is_beside_line(int node) const;  ///< the line's other side has such a row, too
   [[nodiscard]] double line_balance(int node) const;
-  void find_carried_share(std::size_t f, const FaceGap& gap, const Carried& carried);
-  [[nodiscard]] CarriedShare share_towards_line(int node, const TowardsLine& t) const;
-  [[nodiscard]] double share_along(std::size_t f, const CarriedShare& share, const MotionDirection& direction) const;
+  void find_carried_share(std::size_t f, const FaceGap& gap, const EntrainedFlow& carried);
+  [[nodiscard]] CutFaceFraction share_towards_line(int node, const TowardsLine& t) const;
+  [[nodiscard]] double share_along(std::size_t f, const CutFaceFraction& share, const MotionDirection& direction) const;
   [[nodiscard]] double thickness_towards_line(const PrescribedNode& prescribed) const;
   [[nodiscard]] FlowTubeGap gap_towards_line(const PrescribedNode& prescribed, double h) const;
   [[nodiscard]] ByGap carried_in_pockets(const PrescribedNode& prescribed) const;
   [[nodiscard]] double strip_area(
-      const PrescribedNode& prescribed) const;  ///< beyond the middle of the way to the line [m^2]
+      const PrescribedNode& prescribed) const;  ///< of the half of the distance nearer to the line [m^2]
   void add_line_by_u(const PrescribedNode& prescribed);
   [[nodiscard]] double line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
   /// u - u_given [Pa] as it counts in the row, and its slope.
@@ -367,15 +371,16 @@ class FlowBalance {
   [[nodiscard]] double draws_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
   [[nodiscard]] int slot_to_other(const PrescribedNode& prescribed) const;
   void add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const;
-  [[nodiscard]] double step_speed(std::size_t f, const PocketFlowTube& flow_tube) const;  ///< of a pocket's steps [m/s]
-  /// Speed of a pocket's steps around the bearing, from the mean speed and the journal's. It is linear and serves for
+  [[nodiscard]] double pocket_edge_speed(std::size_t f,
+                                         const PocketFlowTube& flow_tube) const;  ///< of the edges of a pocket [m/s]
+  /// Speed of a pocket's edges around the bearing, from the mean speed and the journal's. It is linear and serves for
   /// changes as well.
-  [[nodiscard]] static double step_of(const PocketFlowTube& flow_tube, double mean, double journal) {
+  [[nodiscard]] static double edge_speed_of(const PocketFlowTube& flow_tube, double mean, double journal) {
     if (!flow_tube.in_journal) return 0;
     return flow_tube.in_shell ? mean : journal;
   }
-  /// True if the oil in a pocket of the journal passes the pocket's step over face f.
-  [[nodiscard]] bool passes_steps(std::size_t f) const;
+  /// True if oil crosses the edge of a pocket of the journal over face f.
+  [[nodiscard]] bool oil_crosses_pocket_edge(std::size_t f) const;
   /// Flow per width that the surfaces entrain from the control volume upstream of face f if it is full [m^2/s].
   [[nodiscard]] double entrained_upstream(std::size_t f, int from, const Speeds& speeds) const;
   [[nodiscard]] const Node& upstream(std::size_t f) const {
@@ -400,8 +405,8 @@ class FlowBalance {
   void find_borders();
   [[nodiscard]] CavityBorder cut_by_tension(int i, int j) const;
   [[nodiscard]] CavityBorder filled_by_pressure(int i, int j) const;
-  void show_border(const CavityBorder& border);
-  void take_borders_to_edges();
+  void apply_border(const CavityBorder& border);
+  void extend_borders_to_edges();
   [[nodiscard]] NodeViscosity viscosity_of(int node) const;
   [[nodiscard]] bool is_layered() const { return viscosity_.fluidity.size() != 0; }
   static void skew(double skew, double h, RoughGap& gap);
@@ -410,13 +415,13 @@ class FlowBalance {
   [[nodiscard]] FaceGap smooth_gap(std::size_t f, double h) const;
   void roughen(std::size_t f, FaceGap& gap) const;
   void deepen(std::size_t f, double h, FaceGap& gap);
-  void carry_little(std::size_t f, FaceGap& gap) const;
+  void add_starved_limit(std::size_t f, FaceGap& gap) const;
   [[nodiscard]] double thickness_on(std::size_t f) const;
   [[nodiscard]] bool is_limited(std::size_t f) const;
   void replace_boundary_rows();
   [[nodiscard]] double slack(int node) const;
   [[nodiscard]] double outflow_of_row(int node) const;  ///< outflow without the flow over land
-  [[nodiscard]] bool blocks_inflow(int node) const;     ///< on a flooded edge
+  [[nodiscard]] bool blocks_inflow(int node) const;     ///< on an edge at p_cav of prescribed pressure
   [[nodiscard]] double slack_u(int node) const;
   [[nodiscard]] double storage_u(int node) const;
   [[nodiscard]] double storage_h(int node) const;
@@ -424,15 +429,16 @@ class FlowBalance {
   [[nodiscard]] double storage_excess(int node) const;
   [[nodiscard]] double storage_g_rate(int node) const;
   [[nodiscard]] double storage_excess_rate(int node) const;
-  void pass_on(const std::vector<char>& takes_what_comes, StepOilBalance& oil) const;
-  void leave(double rest, int node, const std::vector<char>& takes_what_comes, StepOilBalance& oil) const;
-  double pass_along(int j, double carry, const std::vector<char>& takes_what_comes, StepOilBalance& oil,
-                    bool for_good) const;
+  /// Moves oil in excess of full control volumes, or lacking in empty ones, on with the flow to nodes that can take it.
+  void redistribute_surplus(const std::vector<char>& accepts_surplus, StepOilBalance& oil) const;
+  void discharge_surplus(double rest, int node, const std::vector<char>& accepts_surplus, StepOilBalance& oil) const;
+  double sweep_surplus(int j, double carry, const std::vector<char>& accepts_surplus, StepOilBalance& oil,
+                       bool is_final_sweep) const;
   [[nodiscard]] double start_of(int node) const;  ///< film's gap at the start of the step, pockets apart [m]
   [[nodiscard]] double oil_shown(int node, double content) const;  ///< per area, with a fill fraction of 0 to 1 [m]
   [[nodiscard]] double pocket_rate(int node) const;                ///< rate of the mean depth in a steady film [m/s]
   [[nodiscard]] bool axial(std::size_t f) const { return f >= first_axial_face_; }
-  /// 1/mu of flow along pressure at a node of face f, across it.
+  /// 1/mu of pressure-driven flow at a node of face f, across it.
   [[nodiscard]] const Fluidity& flow_of(int node, std::size_t f) const { return nodes_[node].flow[axial(f) ? 1 : 0]; }
   /// Mean speed of both surfaces across face f [m/s], which entrains the oil.
   [[nodiscard]] double entrainment(std::size_t f) const { return axial(f) ? speed_z_ : faces_[f].stretch * speed_phi_; }
@@ -475,7 +481,7 @@ class FlowBalance {
   std::vector<int> flow_tube_of_;         ///< pocket flow tube of every face; -1: none
   std::vector<PocketFlow> pocket_flows_;  ///< of the flow tubes
   Line line_;
-  std::vector<CarriedShare> line_shares_;  ///< of the faces that the line cuts, by their axial row
+  std::vector<CutFaceFraction> line_shares_;  ///< of the faces that the line cuts, by their axial row
   SurfaceMotion speeds_;
   std::vector<Sliding> sliding_;  ///< of the rows
   std::vector<PrescribedNode> prescribed_;
@@ -483,12 +489,12 @@ class FlowBalance {
   std::vector<PrescribedNode> supplied_edge_nodes_;  ///< nodes of a supply whose pressure an edge prescribes
   std::vector<int> edge_index_;                      ///< index of every node in supplied_edge_nodes_; -1: none
   std::vector<Land> lands_;
-  std::vector<LandStrip> strips_;
+  std::vector<LandInterval> strips_;
   std::vector<int> land_index_;  ///< index of every node in lands_; -1: none
   std::vector<CoveredNode> covered_;
-  bool liner_rests_ = false;  ///< the step starts with the deformation with which it ends
+  bool freezes_deformation_ = false;  ///< the step starts with the deformation with which it ends
   double phi_start_ = 0;
-  bool knows_gap_ = false, follows_gap_ = false, expects_any_fill_ = false;
+  bool has_start_gap_ = false, uses_gap_difference_ = false, expects_any_fill_ = false;
   double dt_ = 0, speed_phi_ = 0, speed_z_ = 0, half_slip_phi_ = 0, half_slip_z_ = 0, largest_throughput_ = 0;
 };
 

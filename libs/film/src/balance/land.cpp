@@ -34,18 +34,18 @@ void FlowBalance::find_strips(int f, double phi, double u) {
         strips_.push_back({node, grid.index(i, next), f, from, to, 1 / land - 1 / flow_tube, u});
         touches = true;
       }
-      if (touches) prescribe({.node = node, .feature = f, .u = u, .inwards = -land / half}, true);
+      if (touches) prescribe({.node = node, .feature = f, .u = u, .centrality = -land / half}, true);
     }
   }
 }
 
 // Where features overlap the oil takes the shortest land; their order has no effect.
-void FlowBalance::unite_lands() {
+void FlowBalance::merge_land_intervals() {
   std::stable_sort(strips_.begin(), strips_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   std::vector<double> borders;
   for (auto first = strips_.begin(); first != strips_.end();) {
-    const auto last = std::find_if(first, strips_.end(), [&](const LandStrip& s) { return s.node != first->node; });
-    const auto flow = [](const LandStrip& s) { return (s.to - s.from) * s.gain; };
+    const auto last = std::find_if(first, strips_.end(), [&](const LandInterval& s) { return s.node != first->node; });
+    const auto flow = [](const LandInterval& s) { return (s.to - s.from) * s.gain; };
     const auto main = std::max_element(first, last, [&](const auto& a, const auto& b) { return flow(a) < flow(b); });
     borders.clear();
     for (auto strip = first; strip != last; ++strip) borders.insert(borders.end(), {strip->from, strip->to});

@@ -12,9 +12,9 @@ constexpr double round_off = 1e-9;
 
 }  // namespace
 
-double FlowBalance::start_of(int i) const { return !knows_gap_ ? cells_[i].start : gap_start_[i]; }
+double FlowBalance::start_of(int i) const { return !has_start_gap_ ? cells_[i].start : gap_start_[i]; }
 
-void FlowBalance::subtract_defect(Eigen::VectorXd& rhs) const {
+void FlowBalance::subtract_squeeze_defect(Eigen::VectorXd& rhs) const {
   for (int i = 0; i < size(); ++i) {
     if (is_given(i)) continue;
     rhs[i] -= balance_share(i) * area_[i] * content_start_[i] * (cells_[i].start - start_of(i)) / dt_;
@@ -34,14 +34,14 @@ void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {
   }
   initialise_oil_balance(oil);
   const bool conserves = cavitation_.has_fill();
-  std::vector<char> takes_what_comes(static_cast<std::size_t>(size()), 0);
+  std::vector<char> accepts_surplus(static_cast<std::size_t>(size()), 0);
   for (int i = 0; i < size(); ++i) {
     const double start = area_[i] * content_start_[i] * (start_of(i) + cells_[i].depth_start);
     const double whole = area_[i] * oil_gap(i);
     double out = is_open(i) ? slack(i) + slack_u(i) * du[i] : 0;
-    // Held rows take what their state needs; the others have what is left to them.
+    // A prescribed row takes the oil that its state needs; the others keep what their flows leave.
     const bool given = is_prescribed(i) || is_given(i) || !conserves;
-    takes_what_comes[static_cast<std::size_t>(i)] = given ? 1 : 0;
+    accepts_surplus[static_cast<std::size_t>(i)] = given ? 1 : 0;
     const double end = given ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
     const double coming = (end - start) / dt_ + leaving[i];
     if (is_given(i)) out = blocks_inflow(i) ? 0 : -coming;
@@ -51,45 +51,46 @@ void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {
     if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] += fed;
     oil.content[i] = end / whole;
   }
-  if (conserves) pass_on(takes_what_comes, oil);
+  if (conserves) redistribute_surplus(accepts_surplus, oil);
   oil.volume = 0;
   for (int i = 0; i < size(); ++i) oil.volume += area_[i] * oil_shown(i, oil.content[i]);
 }
 
-// What a full control volume cannot hold, and what an empty one has not, goes on with the flow to the next that can: a
-// film in which pressure carries oil knows no delay. Lines and features take what comes. A first round only finds what
-// arrives where the rows begin, so that no place around the bearing is the first.
-void FlowBalance::pass_on(const std::vector<char>& takes_what_comes, StepOilBalance& oil) const {
+// Oil that a full control volume cannot hold, or that an empty one lacks, moves on with the flow to the next volume
+// that can take it: pressure carries oil without delay. Supply lines and features accept any amount. A first sweep only
+// finds what arrives at the first column, so that the result does not depend on which column is the first.
+void FlowBalance::redistribute_surplus(const std::vector<char>& accepts_surplus, StepOilBalance& oil) const {
   for (int j = 0; j < model_.grid.n_z; ++j) {
     const bool closes = model_.grid.closes();
-    const double arriving = closes ? pass_along(j, 0, takes_what_comes, oil, false) : 0;
-    const double left = pass_along(j, arriving, takes_what_comes, oil, true) - arriving;
+    const double arriving = closes ? sweep_surplus(j, 0, accepts_surplus, oil, false) : 0;
+    const double left = sweep_surplus(j, arriving, accepts_surplus, oil, true) - arriving;
     const int last = closes || speed_phi_ < 0 ? 0 : model_.grid.n_phi - 1;
-    leave(left, model_.grid.index(last, j), takes_what_comes, oil);
+    discharge_surplus(left, model_.grid.index(last, j), accepts_surplus, oil);
   }
 }
 
-// At a node from where no flow carries it on.
-void FlowBalance::leave(double rest, int node, const std::vector<char>& takes_what_comes, StepOilBalance& oil) const {
-  const double homeless = rest / (area_[node] * oil_gap(node));
-  if (takes_what_comes[static_cast<std::size_t>(node)] == 0) oil.content[node] += homeless;
-  if (std::abs(homeless) > round_off) oil.redistributed_overfill = 1;
+// Leaves the surplus at a node from which no flow carries it on.
+void FlowBalance::discharge_surplus(double rest, int node, const std::vector<char>& accepts_surplus,
+                                    StepOilBalance& oil) const {
+  const double left_over = rest / (area_[node] * oil_gap(node));
+  if (accepts_surplus[static_cast<std::size_t>(node)] == 0) oil.content[node] += left_over;
+  if (std::abs(left_over) > round_off) oil.redistributed_overfill = 1;
 }
 
-// Once around with the flow; what is carried on at the end [m^3]. It is handed out where it is meant `for_good`.
-double FlowBalance::pass_along(int j, double carry, const std::vector<char>& takes_what_comes, StepOilBalance& oil,
-                               bool for_good) const {
+// Sweeps once around with the flow and returns the surplus at the end [m^3]. Contents change in the final sweep only.
+double FlowBalance::sweep_surplus(int j, double carry, const std::vector<char>& accepts_surplus, StepOilBalance& oil,
+                                  bool is_final_sweep) const {
   const Grid& grid = model_.grid;
   const bool forwards = speed_phi_ >= 0;
   for (int step = 0; step < grid.n_phi; ++step) {
     const int line = forwards ? step : grid.n_phi - 1 - step, i = grid.index(line, j);
     if ((forwards ? grid.before(line) : grid.next(line)) < 0) {
-      // A patch begins: what another one before it had left stays there.
-      if (step > 0) leave(carry, forwards ? i - grid.n_z : i + grid.n_z, takes_what_comes, oil);
+      // At the beginning of a patch the surplus of the patch before stays in that.
+      if (step > 0) discharge_surplus(carry, forwards ? i - grid.n_z : i + grid.n_z, accepts_surplus, oil);
       carry = 0;
     }
-    if (takes_what_comes[static_cast<std::size_t>(i)] != 0) {
-      const double flow = for_good ? carry / dt_ : 0;
+    if (accepts_surplus[static_cast<std::size_t>(i)] != 0) {
+      const double flow = is_final_sweep ? carry / dt_ : 0;
       if (!is_prescribed(i)) flow_over_edge(oil, i) += flow;
       if (is_prescribed(i)) oil.flow_supply -= flow;
       if (const int feature = feature_at(i); is_prescribed(i) && feature >= 0) oil.flow_features[feature] -= flow;
@@ -100,7 +101,7 @@ double FlowBalance::pass_along(int j, double carry, const std::vector<char>& tak
     const double there = oil.content[i] * whole + carry;
     const double holds = u_[i] >= 0 ? full : std::clamp(there, 0.0, full);
     carry = there - holds;
-    if (!for_good) continue;
+    if (!is_final_sweep) continue;
     oil.content[i] = holds / whole;
     oil.redistributed_overfill = std::max(oil.redistributed_overfill, std::abs(carry) / whole);
   }

@@ -67,7 +67,7 @@ bool FlowBalance::only_fills(int node) const {
   return prescribed != nullptr && prescribed->feature >= 0 && prescribed->chi < 1 && is_open(node);
 }
 
-double FlowBalance::power_of_tie(int node) const {
+double FlowBalance::supply_dissipation(int node) const {
   const PrescribedNode* prescribed = prescribed_at(node);
   // On the supply itself there is no distance left: the round-off of its pressure would be divided by next to nothing.
   if (prescribed == nullptr || 1 - prescribed->chi < kNoWay) return 0;
@@ -76,10 +76,10 @@ double FlowBalance::power_of_tie(int node) const {
 }
 
 // The pressure falls evenly along the way to the line; the node's control volume ends half a flow tube from it.
-FlowBalance::PowerBeyond FlowBalance::power_beyond(int node) const {
+FlowBalance::DissipationSplit FlowBalance::split_of_dissipation(int node) const {
   const PrescribedNode* prescribed = prescribed_at(node);
   if (prescribed == nullptr || prescribed->other < 0) return {node, 0};
-  return {prescribed->other, prescribed->way > 0.5 ? 1 - 0.5 / prescribed->way : 0};
+  return {prescribed->other, prescribed->distance > 0.5 ? 1 - 0.5 / prescribed->distance : 0};
 }
 
 int FlowBalance::feature_at(int node) const {
@@ -153,7 +153,7 @@ bool FlowBalance::yields_to(const PrescribedNode& prescribed, const PrescribedNo
   constexpr double as_much = 1e-9;  // relative round-off of a position
   if (std::abs(prescribed.chi - to.chi) > as_much) return prescribed.chi < to.chi;
   if ((prescribed.feature < 0) != (to.feature < 0)) return prescribed.feature < 0;
-  return prescribed.u != to.u ? prescribed.u < to.u : prescribed.inwards < to.inwards;
+  return prescribed.u != to.u ? prescribed.u < to.u : prescribed.centrality < to.centrality;
 }
 
 // Edges have precedence over a line or a feature, except for the oil, which is the supply's. An edge in air is filled
@@ -182,23 +182,23 @@ void FlowBalance::prescribe_line(double phi) {
   const int next = grid.next(i);
   line_ = {true, i, t, model_.R / geometry_.dx[i]};
   const double u = model_.supply.pressure - model_.p_cav;
-  const auto side = [&](int here, int there, int j, double way, double by_phi) {
+  const auto side = [&](int here, int there, int j, double distance, double by_phi) {
     prescribe({.node = grid.index(here, j),
-               .chi = 1 - way,
+               .chi = 1 - distance,
                .chi_line = -by_phi,
-               .mixed_share = 1 - way,
-               .draws = (1 - way) * (1 - way),
-               .draws_line = -2 * (1 - way) * by_phi,
+               .mixed_share = 1 - distance,
+               .draws = (1 - distance) * (1 - distance),
+               .draws_line = -2 * (1 - distance) * by_phi,
                .u = u,
                .other = grid.index(there, j),
-               .near = 1 - 0.5 * way,
-               .far = 0.5 * way,
-               .bend = way * (2 - way),
+               .near = 1 - 0.5 * distance,
+               .far = 0.5 * distance,
+               .bend = distance * (2 - distance),
                .near_line = -0.5 * by_phi,
-               .bend_line = 2 * (1 - way) * by_phi,
+               .bend_line = 2 * (1 - distance) * by_phi,
                .conductance = geometry_.width_z[j] / (12 * geometry_.step(i, j)),
-               .way = way,
-               .way_line = by_phi});
+               .distance = distance,
+               .distance_line = by_phi});
   };
   for (int j = 0; j < grid.n_z; ++j) {
     side(i, next, j, t, line_.by_phi);
@@ -233,12 +233,12 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
                  .draws_journal = node.draws_phi,
                  .feature = static_cast<int>(f),
                  .u = u,
-                 .inwards = node.inwards});
+                 .centrality = node.centrality});
     }
     const bool travels = feature.surface == Surface::journal;
     find_strips(static_cast<int>(f), feature.phi + (travels ? motion.phi_journal : 0.0), u);
   }
-  unite_lands();
+  merge_land_intervals();
 }
 
 bool FlowBalance::is_cut(std::size_t f) const {
@@ -259,7 +259,7 @@ bool FlowBalance::is_beside_line(int node) const {
 }
 
 // If one node took all of it, temperatures would jump as the line passes over a node.
-double FlowBalance::over_cut(std::size_t f) const {
+double FlowBalance::line_flow_through_face(std::size_t f) const {
   const Face& face = faces_[f];
   if (!is_cut(f) || !is_beside_line(face.a)) return 0;
   return supply(face.a) - supply_of_row(face.a);
@@ -282,7 +282,8 @@ FlowTubeGap FlowBalance::gap_towards_line(const PrescribedNode& prescribed, doub
 ByGap FlowBalance::carried_in_pockets(const PrescribedNode& prescribed) const {
   const std::size_t f = line_face(prescribed);
   if (flow_tube_of_[f] < 0) return {};
-  const double past = entrainment(f) - step_speed(f, relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])]);
+  const double past =
+      entrainment(f) - pocket_edge_speed(f, relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])]);
   const double h = thickness_towards_line(prescribed);
   const ByGap carry = gap_towards_line(prescribed, h).carry;
   return {past * (carry.value - h), past * (carry.h - 1), past * carry.journal};
@@ -312,10 +313,10 @@ FlowBalance::TowardsLine FlowBalance::towards_line(int node) const {
 
 double FlowBalance::strip_area(const PrescribedNode& prescribed) const {
   const Face& face = faces_[line_face(prescribed)];
-  return 0.5 * (1 - prescribed.way) * face.length * face.width;
+  return 0.5 * (1 - prescribed.distance) * face.length * face.width;
 }
 
-/// Returns the balance of a node as its row counts it: beside the line up to the middle of the way there.
+/// Returns the balance of a node as its row counts it: beside the line up to half the distance to it.
 double FlowBalance::line_balance(int node) const {
   const TowardsLine t = towards_line(node);
   if (!t.counts) return balance_[node];
@@ -326,7 +327,7 @@ double FlowBalance::line_balance(int node) const {
 }
 
 /// Returns the share of a full gap's entrained flow from a node to the line; 1 where the flow comes from the line.
-FlowBalance::CarriedShare FlowBalance::share_towards_line(int node, const TowardsLine& t) const {
+FlowBalance::CutFaceFraction FlowBalance::share_towards_line(int node, const TowardsLine& t) const {
   if (!t.from_node) return {};
   const std::size_t f = line_face(*prescribed_at(node));
   if (node == (flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b))
@@ -340,7 +341,7 @@ void FlowBalance::add_line_by_u(const PrescribedNode& prescribed) {
   const TowardsLine t = towards_line(prescribed.node);
   const Node &node = nodes_[prescribed.node], &other = nodes_[prescribed.other];
   const double sign = prescribed.node == face.a ? 1 : -1, density = flows_[f].density;
-  const CarriedShare share = share_towards_line(prescribed.node, t);
+  const CutFaceFraction share = share_towards_line(prescribed.node, t);
   const bool is_a = prescribed.node == face.a;
   const double scale = sign * share.value * density * face.width;
   const double deeper = carried_in_pockets(prescribed).h;
@@ -357,7 +358,7 @@ void FlowBalance::add_line_by_u(const PrescribedNode& prescribed) {
 }
 
 /// Returns the change of share_towards_line() with the surfaces.
-double FlowBalance::share_along(std::size_t f, const CarriedShare& share, const MotionDirection& direction) const {
+double FlowBalance::share_along(std::size_t f, const CutFaceFraction& share, const MotionDirection& direction) const {
   if (share.theta == 0) return 0;
   const Face& face = faces_[f];
   const FaceFlow& flow = flows_[f];
@@ -365,7 +366,7 @@ double FlowBalance::share_along(std::size_t f, const CarriedShare& share, const 
   double change = share.journal * direction.phi_journal;
   if (speeds.mean != 0 || speeds.half_slip != 0) {
     const auto [full, little] = carried_at(f, speeds);
-    const Carried carried = flow.carried(upstream(f).theta);
+    const EntrainedFlow carried = flow.carried(upstream(f).theta);
     change += flow.density * ((carried.full - share.value) * full + carried.little * little) / flow.couette;
   }
   if (direction.g.size() == 0) return change;
@@ -382,7 +383,7 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
   const auto bend = static_cast<Eigen::Index>(f);
   const TowardsLine t = towards_line(prescribed.node);
   const double sign = prescribed.node == face.a ? 1 : -1, density = flows_[f].density;
-  const CarriedShare share = share_towards_line(prescribed.node, t);
+  const CutFaceFraction share = share_towards_line(prescribed.node, t);
   const double scale = sign * density * face.width * share.value;
   const auto [speed, half_slip_change, journal] = speeds_along(f, direction);
   const auto carried = [&](int k, double mean, double half) {
@@ -408,12 +409,13 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
   if (flow_tube_of_[f] >= 0) {
     const PocketFlowTube& flow_tube = relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])];
     q += (flow_tube.swept_journal * direction.phi_journal + flow_tube.swept_speed * journal) / face.width;
-    const double h = thickness_towards_line(prescribed), step = step_of(flow_tube, speed, journal);
+    const double h = thickness_towards_line(prescribed), step = edge_speed_of(flow_tube, speed, journal);
     q += (speed - step) * (gap_towards_line(prescribed, h).carry.value - h) + deeper.journal * direction.phi_journal;
   }
   double row = scale * q + t.full * share_along(f, share, direction);
   if (direction.g_rate.size() != 0) row -= density * strip_area(prescribed) * direction.g_rate[prescribed.node];
-  return row + 0.5 * prescribed.way_line * rotation * density * face.length * face.width * g_rate_[prescribed.node];
+  return row +
+         0.5 * prescribed.distance_line * rotation * density * face.length * face.width * g_rate_[prescribed.node];
 }
 
 /// Returns the change of excess() as line and journal move [Pa].

@@ -205,11 +205,11 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
       if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
       const Share share =
           std::visit([&](const auto& shape) { return row_share(shape, feature, s, unit); }, feature.shape);
-      const double inwards =
+      const double centrality =
           1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
       if (share.value == 0) continue;
       CoveredNode& node = nodes.emplace_back();
-      node = {.node = grid.index(i, j), .share = share.value, .share_phi = share.phi, .inwards = inwards};
+      node = {.node = grid.index(i, j), .share = share.value, .share_phi = share.phi, .centrality = centrality};
       const Surroundings inside = within_film(s, grid, i, j);
       std::visit([&](const auto& shape) { mix(shape, feature, inside, node); }, feature.shape);
       if (!travels) node.share_phi = node.draws_phi = 0;

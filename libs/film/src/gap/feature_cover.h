@@ -12,7 +12,7 @@ struct CoveredNode {
   int node = 0;
   double share = 0;
   double share_phi = 0;
-  double inwards = 0;      ///< one less the distance from the middle over the half size [-]; below 0 outside
+  double centrality = 0;   ///< one less the distance from the middle over the half size [-]; below 0 outside
   double mixed_share = 0;  ///< share of the oil passing the node's control volume that passes the feature in it [-]
   double draws = 0;        ///< share of the missing oil that the feature supplies [-], and its derivative
   double draws_phi = 0;

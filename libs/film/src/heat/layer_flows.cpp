@@ -84,7 +84,7 @@ void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion
     const FaceFlow& flow = balance.flows()[f];
     const Node &a = balance.nodes()[face.a], &b = balance.nodes()[face.b];
     const LayerShares &at_a = shares_[face.a], &at_b = shares_[face.b];
-    const double along_pressure = flow.K * (a.p - b.p) + balance.over_cut(f);
+    const double along_pressure = flow.K * (a.p - b.p) + balance.line_flow_through_face(f);
     const double carried = flow.carried((flow.couette >= 0 ? a : b).theta).value;
     const double stretch = f < first_axial ? balance.geometry().stretch[face.a % model_.grid.n_z] : 1;
     const double u_shell = stretch * (f < first_axial ? motion.u_shell : motion.w_shell);
@@ -146,8 +146,8 @@ void LayerFlows::dissipate_in_volumes(const FlowBalance& balance, const FilmWren
   }
   for (int k = 0; k < model_.grid.size(); ++k) {
     const auto at_node = static_cast<std::size_t>(k);
-    const double by_tie = balance.power_of_tie(k);
-    const auto [other, beyond] = balance.power_beyond(k);
+    const double by_tie = balance.supply_dissipation(k);
+    const auto [other, beyond] = balance.split_of_dissipation(k);
     along_pressure_[static_cast<std::size_t>(other)] += beyond * by_tie;
     along_pressure_[at_node] += (1 - beyond) * by_tie + balance.power_over_land(k);
     by_sliding_[at_node] = balance.area(k) * sliding_power(balance, wrench, motion, k);

@@ -80,8 +80,8 @@ Eigen::VectorXd power_beyond_volumes(const FlowBalance& balance, const SurfaceMo
     for (int j = 0; j < grid.n_z; ++j) {
       const int k = grid.index(i, j);
       const double to_next = 0.5 * around[j] * pressure_power(balance, balance.face_after(i, j));
-      const auto [other, share] = balance.power_beyond(k);
-      const double by_tie = around[j] * balance.power_of_tie(k);
+      const auto [other, share] = balance.split_of_dissipation(k);
+      const double by_tie = around[j] * balance.supply_dissipation(k);
       beyond[i] += around[j] * balance.area(k) * sliding_power(balance, wrench, motion, k) + to_next;
       beyond[next] += to_next;
       beyond[i] += (1 - share) * by_tie;
@@ -106,11 +106,11 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
       const double sliding = area * full_sliding_power(balance, wrench, motion, k);
       o.power_film_other_shear += (node.other_share - node.share) * sliding;  // the terms below do not depend on it
       o.power_film += node.share * sliding +
-                      around[j] * (pressure_power(balance, balance.face_after(i, j)) + balance.power_of_tie(k));
+                      around[j] * (pressure_power(balance, balance.face_after(i, j)) + balance.supply_dissipation(k));
       if (j + 1 < grid.n_z) o.power_film += axial[j] * pressure_power(balance, balance.face_above(i, j));
       o.power_film += balance.power_over_land(k);
       o.power_asperity += area * node.asperity * wrench.friction_power_per_contact(j);
-      // The supply feeds oil at its own pressure: the way to the node dissipates (FlowBalance::power_of_tie).
+      // The supply feeds oil at its own pressure: the way to the node dissipates (FlowBalance::supply_dissipation).
       if (balance.is_prescribed(k))
         o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
       o.power_oil += work * balance.outflow(k) - oil_over_land(balance, k);

@@ -400,7 +400,7 @@ void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, c
   const FilmDomain domain = m.balance.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(m.balance.model(), domain));
   m.rhs = -m.balance.residual();
-  m.balance.subtract_defect(m.rhs);
+  m.balance.subtract_squeeze_defect(m.rhs);
   m.balance.assemble_jacobian();
   m.solve_for_settling();
   m.balance.settle(m.answer, oil);

@@ -54,7 +54,7 @@ class NodeRow {
   [[nodiscard]] ValueAndSlope at(double theta) const {
     ValueAndSlope sum{storage_ * theta, storage_};
     for (const Leaving& l : leaving()) {
-      const Carried carried = l.flow->carried(theta);
+      const EntrainedFlow carried = l.flow->carried(theta);
       sum.value += l.of_full * carried.value / l.flow->couette;
       sum.slope += l.of_full * carried.theta / l.flow->couette;
     }
@@ -82,7 +82,7 @@ class Sor {
         cavitation_(cavitation_law(model)),
         scales_(cavitation_scales(model)),
         around_(balance_.size()) {
-    if (cavitation_.has_fill()) balance_.expect_any_fill();
+    if (cavitation_.has_fill()) balance_.always_evaluate_starved_flow();
     for (std::size_t f = 0; f < balance_.faces().size(); ++f) {
       around_[balance_.faces()[f].a].push_back(static_cast<int>(f));
       around_[balance_.faces()[f].b].push_back(static_cast<int>(f));

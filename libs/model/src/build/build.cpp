@@ -384,7 +384,7 @@ class Builder {
     options.relaxation = bearing.coupling.relaxation;
     options.film.solver = bearing.solver;
     options.initial_dt = model_.simulation.step;
-    options.is_steady = !model_.simulation.has_duration();
+    options.starts_steady = !model_.simulation.has_duration();
     if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) {
       options.thermal = *heat;
       if (auto* body = std::get_if<film::BodyWall>(&options.thermal->shell))

@@ -29,19 +29,21 @@ struct BearingOptions {
   Coupling coupling = Coupling::monolithic;
   solver::Acceleration acceleration =
       solver::Acceleration::quasi_newton;  ///< partitioned: how the exchanged wrench is corrected
-  double relaxation = 0.1;                 ///< partitioned: share of the first correction taken, in (0, 1]
+  double relaxation = 0.1;                 ///< partitioned: under-relaxation of the first iteration, in (0, 1]
   /// The film's own solver: initial film, and every film solve of a partitioned coupling. `multigrid` also solves the
   /// linear systems of a monolithic one.
   film::FilmSolveOptions film;
-  double initial_dt = 1e-4;  ///< the film at the start is that of a full gap after a step of this length [s], > 0
-  /// With motion.dt = 0 the film is the steady one of the motion there, which goes on as it is, in place of a freshly
-  /// filled one: for a machine at rest or in a steady motion, and small motions about it. Without `thermal`.
-  bool is_steady = false;
-  /// Pressure of each of the film's features over time [Pa]; empty: the pressures of the film model.
+  double initial_dt = 1e-4;  ///< the film at the start follows from a gap that was full this long before [s], > 0
+  /// With motion.dt = 0, solve the steady film of the surfaces' present motion instead of that of a freshly filled gap:
+  /// for machines at rest or in steady motion, and for small motions about it. A partitioned coupling is monolithic
+  /// there. Not together with `thermal`.
+  bool starts_steady = false;
+  /// Supply pressure over time of each groove, hole or pocket of the film model [Pa]; empty: constant, as in the model.
   std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
-  /// Of a film with temperatures, which move on with each accepted step; unset: one temperature, the model's.
+  /// Thermal model of the film, whose temperatures are advanced at each accepted step; unset: an isothermal film at the
+  /// model's temperature.
   std::optional<film::ThermalModel> thermal = {};
-  double growth = 0;  ///< of the clearance of a film with one temperature, at that [m]
+  double growth = 0;  ///< thermal change of the clearance of an isothermal film [m]
   /// Surfaces of elastic bodies; null: rigid. Their amplitudes come with the motion, the shell's before the journal's.
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
@@ -59,8 +61,8 @@ class WrenchExchange;
 /// linearised anew, and the wrench is returned with the film eliminated: the exact Schur complement of the full system.
 /// Partitioned: `evaluate` takes the surfaces to be the bodies' answer to the wrench it returned last, solves the film
 /// there to the end, corrects the wrench by what the film says (FixedPointIteration) and returns it without
-/// derivatives. Where its exchange has come to no end, that step, shorter, and some more are taken monolithically:
-/// `exchanges` of their observations is 0.
+/// derivatives. If this iteration does not converge, the step is repeated, shorter and monolithic, and so are some
+/// steps after it: `exchanges` of their observations is 0.
 class FilmForce : public mbd::TwoBodyForce {
  public:
   /// @param name  as it stands in messages and results
@@ -78,17 +80,17 @@ class FilmForce : public mbd::TwoBodyForce {
   /// The coupling of the options. A single step may be monolithic in a partitioned coupling, too.
   [[nodiscard]] Coupling coupling() const { return options_.coupling; }
 
-  /// With motion.dt = 0 (start of a run) the film is solved to the end instead: freshly filled, theta = 1 before a step
-  /// of options.initial_dt, so that a node is full or just emptying; steady with options.is_steady.
+  /// With motion.dt = 0 (start of a run) the film is solved to the end instead: from theta = 1 everywhere a time
+  /// options.initial_dt before, so that a node is full or just emptying; steady with options.starts_steady.
   void evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) override;
   void begin_step(const mbd::RelativeMotion& start, double dt) override;
-  /// False where the oil that has come in over the step fills another film than the one found: that follows the change
-  /// of the gap over the step instead of its rate (theory manual, film.15).
+  /// False if the oil balance over the step contradicts the film found with the gap's rate at its end. The step is then
+  /// solved again with the change of the gap over the step in place of the rate (theory manual, film.15).
   [[nodiscard]] bool is_step_consistent() override;
   void accept_step(const mbd::RelativeMotion& end) override;
   [[nodiscard]] bool is_costly() const override { return true; }
   [[nodiscard]] bool has_tangent() const override {
-    return options_.coupling == Coupling::monolithic || options_.is_steady;
+    return options_.coupling == Coupling::monolithic || options_.starts_steady;
   }
   [[nodiscard]] bool has_condensed_unknowns() const override { return true; }
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
@@ -100,7 +102,7 @@ class FilmForce : public mbd::TwoBodyForce {
   const film::WallExchange& mean_exchange();
   /// Calls film::FilmHeat::settle_walls() at the end of a cycle.
   void settle_walls(const Eigen::VectorXd& T_nodes);
-  /// Temperatures of the film; null: it has one given temperature.
+  /// Temperatures of the film; null: the film is isothermal.
   [[nodiscard]] const film::FilmHeat* heat() const;
   /// Calls film::FilmHeat::move_walls() after a step has been accepted.
   void move_walls(const Eigen::VectorXd& T);
@@ -117,7 +119,7 @@ class FilmForce : public mbd::TwoBodyForce {
 
  private:
   void evaluate_surfaces(const mbd::RelativeMotion& motion);
-  void feed(double t);
+  void set_supply_pressures(double t);
   void report_contact();
   void report(const film::FilmDomain& domain);
   [[nodiscard]] double smallest_gap() const;
