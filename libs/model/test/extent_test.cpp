@@ -1,6 +1,6 @@
-#include "tree/extent.h"
-
 #include <doctest/doctest.h>
+
+#include "tree/source_tree.h"
 
 namespace hersey::model {
 namespace extent_test {

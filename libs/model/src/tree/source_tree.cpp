@@ -9,8 +9,6 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "tree/extent.h"
-
 namespace hersey::model {
 namespace {
 
@@ -255,6 +253,22 @@ Fault syntax_fault(const YAML::Exception& error, const std::string& text, const 
 }
 
 }  // namespace
+
+Extent extent_of(const Node& node) {
+  Extent extent{.text_bytes = node.text.size()};
+  const auto add = [&extent](const Extent& part) {
+    extent.nodes += part.nodes;
+    extent.text_bytes += part.text_bytes;
+    extent.key_bytes += part.key_bytes;
+    extent.depth = std::max(extent.depth, 1 + part.depth);
+  };
+  for (const Node& item : node.items) add(extent_of(item));
+  for (const Entry& entry : node.entries) {
+    add(extent_of(entry.value));
+    extent.key_bytes += entry.key.size();
+  }
+  return extent;
+}
 
 const Node* Node::find(const std::string& key) const {
   for (const Entry& entry : entries) {

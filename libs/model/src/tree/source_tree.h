@@ -36,6 +36,14 @@ struct Entry {
   Node value;
 };
 
+/// How much a copy of a value would be.
+struct Extent {
+  std::size_t nodes = 1, depth = 1;
+  std::size_t text_bytes = 0, key_bytes = 0;  ///< of its scalars, and of the keys in it
+};
+
+[[nodiscard]] Extent extent_of(const Node& node);
+
 /// The scalar as the user may recognise it: with parameters in parentheses where they are part of a formula.
 [[nodiscard]] const std::string& written(const Node& node);
 

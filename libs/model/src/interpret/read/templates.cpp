@@ -4,7 +4,6 @@
 
 #include "check/check.h"
 #include "hersey/core/spelling.h"
-#include "tree/extent.h"
 
 namespace hersey::model {
 namespace {
