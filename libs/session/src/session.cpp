@@ -71,7 +71,7 @@ Check Session::check() const {
   if (!model_.study || model_.study->is_written_out())
     runs = this->runs();
   else
-    (void)model::check_study(source_, overrides_);
+    (void)study_parameters();
   found.warnings = run::warnings_of(model_);
   for (const model::StudyRun& run : runs) add_new(run::warnings_of(source_.read(run.overrides)), found.warnings);
   found.runs = std::max<std::size_t>(runs.size(), 1);
@@ -79,6 +79,8 @@ Check Session::check() const {
 }
 
 std::vector<model::StudyRun> Session::runs() const { return model::expand_study(source_, overrides_); }
+
+std::vector<model::StudyParameter> Session::study_parameters() const { return model::check_study(source_, overrides_); }
 
 std::vector<model::StudyRun> Session::runs(const std::vector<std::string>& overrides,
                                            const std::vector<model::StudyParameter>& parameters) const {

@@ -14,7 +14,7 @@
 namespace hersey::session {
 namespace session_test {
 
-// A journal that rotates in a floating bush under a load: forty steps, each with a checkpoint.
+// A journal that rotates in a floating bush under a load: forty steps.
 const std::string kRig = R"(hersey: 1
 parameters: {load: 500 N}
 bodies:
@@ -40,7 +40,7 @@ bearings:
     lubricant: oil
     grid: {circumferential: 24, axial: 5}
     supply: {line: widest_gap, pressure: 1 bar}
-simulation: {duration: 4 ms, step: 0.1 ms, spectral_radius: 0.6, checkpoint: {every: 0.1 ms}}
+simulation: {duration: 4 ms, step: 0.1 ms, spectral_radius: 0.6}
 )";
 const std::string kStudy = kRig + "study: {parameters: {load: [300 N, 500 N]}}\n";
 
@@ -136,6 +136,18 @@ TEST_CASE("FaultOfOneRunOfAStudy_IsFoundByCheck") {
   CHECK(Session(kRig, "rig.yaml", {}).check().runs == 1);
 }
 
+TEST_CASE("WarningsOfAllRuns_AreToldOnce") {
+  CHECK(Session(kRig, "rig.yaml", {}).check().warnings.empty());
+  // The second clearance is far from what is usual, with either load.
+  const std::string key = "bearings.big_end.radial_clearance";
+  const Session session(kRig + "study: {parameters: {" + key + ": [34 um, 300 um], load: [300 N, 500 N]}}\n",
+                        "rig.yaml", {});
+  const Check found = session.check();
+  CHECK(found.runs == 4);
+  REQUIRE(found.warnings.size() == 1);
+  CHECK(found.warnings.front().path == key);
+}
+
 TEST_CASE("OtherOverrides_AreOfTheSameText") {
   const Session session(kRig, "rig.yaml", {"load=300 N"});
   const Session other = session.with({"load=400 N"});
@@ -199,6 +211,20 @@ TEST_CASE("InterruptedRun_LeavesReadableResults_AndGoesOn") {
   // No operation differs.
   for (const char* name : {"/time", "/bearings/big_end/h_min", "/bodies/rod/position"})
     CHECK(results::Reader(parts).read(name).values == results::Reader(whole).read(name).values);
+}
+
+TEST_CASE("ExistingResults_AreRefusedBeforeAnythingIsDone") {
+  const TemporaryDirectory scratch;
+  const Session session(kStudy, "rig.yaml", {});
+  const std::vector<model::StudyRun> runs = session.runs();
+  const std::filesystem::path existing = scratch / (runs[1].slug + ".h5");
+  std::ofstream(existing) << "not mine";
+  Notes notes;
+  CHECK_THROWS_AS((void)session.run(existing, {.check_start = true}, notes), results::FileExists);
+  CHECK_THROWS_AS((void)session.run_all(runs, scratch.path(), {.check_start = true}, notes), results::FileExists);
+  CHECK_THROWS_AS((void)session.simulation(existing), results::FileExists);
+  CHECK(notes.events(0).empty());
+  CHECK(!std::filesystem::exists(scratch / (runs[0].slug + ".h5")));
 }
 
 TEST_CASE("ResultsOfAnInterruptedRun_AreResumedOrReplaced") {
@@ -291,7 +317,8 @@ TEST_CASE("Bearing_IsSolvedByItself") {
   CHECK(found.front().parameter == load);
   CHECK(std::count_if(found.begin(), found.end(), [&](const auto& one) { return one.parameter == load; }) == 1);
   Listener nobody;
-  CHECK_THROWS_AS((void)session.run("main.h5", {}, nobody), InputError);  // there is nothing to simulate
+  CHECK_THROWS_AS((void)session.run("none/main.h5", {}, nobody), InputError);  // there is nothing to simulate
+  CHECK(!std::filesystem::exists("none"));
 }
 
 }  // namespace session_test

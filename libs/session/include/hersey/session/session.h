@@ -64,6 +64,8 @@ class Session {
   /// Runs that the study writes out; empty without one, and if the overrides fix all its parameters.
   /// @throws InputError as model::expand_study
   [[nodiscard]] std::vector<model::StudyRun> runs() const;
+  /// Parameters of the study that vary, each checked at all its values. @throws InputError as model::check_study
+  [[nodiscard]] std::vector<model::StudyParameter> study_parameters() const;
   /// Every combination of `parameters`, which need not stand in the text, with `overrides` in place of the present
   /// ones; without parameters those of the study. @throws InputError as model::expand_parameters
   [[nodiscard]] std::vector<model::StudyRun> runs(const std::vector<std::string>& overrides,
