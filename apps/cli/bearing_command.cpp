@@ -15,11 +15,10 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/write_file.h"
 #include "hersey/fem/vtu_file.h"
-#include "hersey/model/read.h"
 #include "hersey/model/short_names.h"
 #include "hersey/results/error.h"
-#include "hersey/study/sensitivity.h"
-#include "output_file.h"
+#include "hersey/session/output_file.h"
+#include "hersey/session/session.h"
 #include "standard_streams.h"
 
 namespace hersey::cli {
@@ -74,8 +73,7 @@ void replace_other(const ShortNames& names, const model::Bearing& bearing, Plan&
   if (is_set(load) && !is_set(position) && !has_load) plan.overrides.push_back(names.key_path(position) + "=none");
 }
 
-Plan plan_of(const BearingArguments& arguments) {
-  const model::Model model = model::read(arguments.model, arguments.overrides);
+Plan plan_of(const BearingArguments& arguments, const model::Model& model) {
   const model::Bearing& bearing = study::bearing_called(model, arguments.bearing);
   const ShortNames names(model, bearing);
   Plan plan{arguments.overrides, {}};
@@ -101,10 +99,8 @@ Plan plan_of(const BearingArguments& arguments) {
   return plan;
 }
 
-std::vector<model::StudyRun> runs_of(const BearingArguments& arguments, const Plan& plan) {
-  std::vector<model::StudyRun> runs = plan.sweeps.empty()
-                                          ? model::expand_study(arguments.model, plan.overrides)
-                                          : model::expand_parameters(arguments.model, plan.overrides, plan.sweeps);
+std::vector<model::StudyRun> runs_of(const session::Session& session, const Plan& plan) {
+  std::vector<model::StudyRun> runs = session.runs(plan.overrides, plan.sweeps);
   if (runs.empty()) runs.push_back({plan.overrides, "", "", {}});
   // The last part of a key path suffices in a table.
   for (model::StudyRun& run : runs) {
@@ -163,17 +159,13 @@ void write_bodies(const BearingArguments& arguments, const model::Model& model,
 
 // One list per solution.
 std::vector<std::vector<study::Sensitivity>> sensitivities_of(const BearingArguments& arguments,
+                                                              const session::Session& session,
                                                               const study::BearingStudyOptions& options,
                                                               const std::vector<study::BearingSolution>& solutions) {
   std::vector<std::vector<study::Sensitivity>> all(solutions.size());
   if (!arguments.sensitivity && arguments.sensitivity_to.empty()) return all;
-  for (std::size_t k = 0; k < solutions.size(); ++k) {
-    std::vector<std::string> keys = arguments.sensitivity_to;
-    if (arguments.sensitivity)
-      for (std::string& key : study::usual_parameters(arguments.model, solutions[k].run.overrides, arguments.bearing))
-        if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(std::move(key));
-    all[k] = study::sensitivities(arguments.model, solutions[k], options, keys);
-  }
+  for (std::size_t k = 0; k < solutions.size(); ++k)
+    all[k] = session.sensitivities(solutions[k], options, arguments.sensitivity_to, arguments.sensitivity);
   return all;
 }
 
@@ -200,13 +192,15 @@ void print(const BearingArguments& arguments, const std::vector<study::BearingSo
 }  // namespace
 
 int bearing_command(const BearingArguments& arguments) {
-  const std::vector<model::StudyRun> runs = runs_of(arguments, plan_of(arguments));
-  const model::Model model = model::read(arguments.model, runs.front().overrides);
-  require_separate({{"--csv", arguments.csv},
-                    {"--fields", arguments.fields},
-                    {"--vtu", arguments.vtu},
-                    {"--report", arguments.report}},
-                   files_of(model));
+  const session::Session given(arguments.model, arguments.overrides);
+  const std::vector<model::StudyRun> runs = runs_of(given, plan_of(arguments, given.model()));
+  const session::Session session = given.with(runs.front().overrides);
+  const model::Model& model = session.model();
+  session::require_separate({{"--csv", arguments.csv},
+                             {"--fields", arguments.fields},
+                             {"--vtu", arguments.vtu},
+                             {"--report", arguments.report}},
+                            session.files());
   warn(model.warnings);
   require_one(arguments, model, runs.size());
   const auto coefficients = arguments.thermal_coefficients == "total" ? study::ThermalCoefficients::total
@@ -215,10 +209,9 @@ int bearing_command(const BearingArguments& arguments) {
   const study::BearingStudyOptions options{.bearing = arguments.bearing,
                                            .grid_error = !arguments.no_grid_error,
                                            .thermal_coefficients = coefficients,
-                                           .threads = arguments.jobs,
-                                           .first = &model};
-  const std::vector<study::BearingSolution> solutions = study::solve_bearings(arguments.model, runs, options);
-  print(arguments, solutions, sensitivities_of(arguments, options, solutions));
+                                           .threads = arguments.jobs};
+  const std::vector<study::BearingSolution> solutions = session.solve_bearings(runs, options);
+  print(arguments, solutions, sensitivities_of(arguments, session, options, solutions));
   bool all_solved = true;
   for (const study::BearingSolution& solution : solutions) {
     for (const std::string& warning : solution.warnings)
@@ -231,7 +224,7 @@ int bearing_command(const BearingArguments& arguments) {
   if (!arguments.fields.empty() && all_solved) write(arguments.fields, bearing_fields_csv(solutions.front()));
   if (!arguments.vtu.empty() && all_solved) write_bodies(arguments, model, solutions.front());
   if (!arguments.report.empty()) {
-    report::write_html(bearing_page(arguments, solutions), arguments.report);
+    report::write_html(bearing_page(arguments, model, solutions), arguments.report);
     if (!arguments.json) fmt::print("report: {}\n", arguments.report.string());
   }
   return all_solved ? kOk : kFailed;

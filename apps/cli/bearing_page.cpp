@@ -8,7 +8,6 @@
 
 #include "bearing_table.h"
 #include "hersey/core/version.h"
-#include "hersey/model/read.h"
 #include "hersey/run/assumptions.h"
 #include "hersey/run/film_fields.h"
 #include "hersey/study/shear_remarks.h"
@@ -69,8 +68,8 @@ PageSolution page_of(const BearingSolution& solution) {
 
 }  // namespace
 
-report::BearingPage bearing_page(const BearingArguments& arguments, const std::vector<BearingSolution>& solutions) {
-  const model::Model model = model::read(arguments.model, solutions.front().run.overrides);
+report::BearingPage bearing_page(const BearingArguments& arguments, const model::Model& model,
+                                 const std::vector<BearingSolution>& solutions) {
   const model::Bearing& bearing = study::bearing_called(model, arguments.bearing);
   report::BearingPage page;
   page.title = model.title.empty() ? bearing.name : model.title;

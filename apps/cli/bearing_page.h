@@ -9,8 +9,8 @@
 namespace hersey::cli {
 
 /// Contents of the report of `solutions`.
-/// @throws InputError as the model does.
-[[nodiscard]] report::BearingPage bearing_page(const BearingArguments& arguments,
+/// @param model  of the first of them
+[[nodiscard]] report::BearingPage bearing_page(const BearingArguments& arguments, const model::Model& model,
                                                const std::vector<study::BearingSolution>& solutions);
 
 }  // namespace hersey::cli

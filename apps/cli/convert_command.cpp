@@ -5,14 +5,14 @@
 #include "hersey/core/write_file.h"
 #include "hersey/model/convert.h"
 #include "hersey/model/read.h"
-#include "output_file.h"
+#include "hersey/session/output_file.h"
 #include "standard_streams.h"
 
 namespace hersey::cli {
 
 int convert_command(const ConvertArguments& arguments) {
   const std::string file = arguments.model.string();
-  require_separate({{"--output", arguments.output}}, {arguments.model});
+  session::require_separate({{"--output", arguments.output}}, {arguments.model});
   const model::Conversion conversion = model::converted(model::file_text(file), file);
   for (const model::Change& change : conversion.changes)
     say("{}:{}:{}: {}: {}\n", file, change.position.line, change.position.column, change.path, change.what);

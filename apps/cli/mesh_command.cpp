@@ -14,8 +14,8 @@
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/skin.h"
 #include "hersey/fem/vtu_file.h"
+#include "hersey/session/output_file.h"
 #include "option_value.h"
-#include "output_file.h"
 #include "standard_streams.h"
 #include "table.h"
 
@@ -245,7 +245,7 @@ void write_named(Mesh mesh, const std::vector<fem::FoundSurface>& found, const s
 int mesh_command(const MeshArguments& arguments) {
   const bool is_cad = is_cad_file(arguments.file);
   const std::filesystem::path output = output_of(arguments);
-  require_separate({{"--output", output}, {"--vtu", arguments.vtu}}, {arguments.file});
+  session::require_separate({{"--output", output}, {"--vtu", arguments.vtu}}, {arguments.file});
   Loaded loaded;
   std::string unit = arguments.length_unit.empty() ? "m" : arguments.length_unit, made;
   if (is_cad) {

@@ -16,7 +16,8 @@
 #include "hersey/model/read.h"
 #include "hersey/report/curve_page.h"
 #include "hersey/run/assumptions.h"
-#include "output_file.h"
+#include "hersey/session/output_file.h"
+#include "hersey/session/session.h"
 #include "standard_streams.h"
 #include "table.h"
 
@@ -47,7 +48,8 @@ NamedOil of_grade(const model::OilGrade& grade) {
 }
 
 NamedOil of_model(const OilArguments& arguments, const std::string& file, const std::string& wanted) {
-  const model::Model model = model::read(file, arguments.overrides);
+  const session::Session session(file, arguments.overrides);
+  const model::Model& model = session.model();
   std::vector<std::string> names;
   for (const model::Lubricant& lubricant : model.lubricants) names.push_back(lubricant.name);
   const auto fault = [&](const std::string& found) {
@@ -67,7 +69,7 @@ NamedOil of_model(const OilArguments& arguments, const std::string& file, const 
             lubricant.data,
             lubricant.validity,
             grade != nullptr ? oil_points(*grade) : "",
-            files_of(model)};
+            session.files()};
   }
   fault("unknown lubricant '" + wanted + "'");
   return {};
@@ -309,7 +311,7 @@ std::string oil_text(const NamedOil& named, const Conditions& at) {
 
 int oil_command(const OilArguments& arguments) {
   const NamedOil named = oil_of(arguments);
-  require_separate({{"--report", arguments.report}}, named.files);
+  session::require_separate({{"--report", arguments.report}}, named.files);
   const Conditions at = conditions_of(arguments, named);
   const std::vector<std::string> warnings = oil_warnings(named, at);
   if (arguments.json) {

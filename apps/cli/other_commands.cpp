@@ -9,12 +9,11 @@
 #include "hersey/core/input_error.h"
 #include "hersey/model/read.h"
 #include "hersey/model/schema.h"
-#include "hersey/model/study.h"
 #include "hersey/report/report.h"
 #include "hersey/run/quantities.h"
-#include "hersey/run/simulate.h"
+#include "hersey/session/output_file.h"
+#include "hersey/session/session.h"
 #include "hersey/study/quantities_page.h"
-#include "output_file.h"
 #include "standard_streams.h"
 #include "table.h"
 
@@ -25,22 +24,6 @@ std::string contents(const model::Model& model, std::size_t runs) {
   return fmt::format("{} bodies, {} joints, {} drives, {} forces, {} bearings, {} {}", model.bodies.size(),
                      model.joints.size(), model.drives.size(), model.forces.size(), model.bearings.size(), runs,
                      runs == 1 ? "run" : "runs");
-}
-
-/// Warnings of the model and of its start.
-std::vector<Fault> warnings_of(const model::Model& model) {
-  std::vector<Fault> warnings = model.warnings;
-  for (Fault& warning : run::check(model)) warnings.push_back(std::move(warning));
-  return warnings;
-}
-
-/// Adds warnings that are new: runs of a study share most of them.
-void add_new(const std::vector<Fault>& more, std::vector<Fault>& warnings) {
-  for (const Fault& warning : more) {
-    const bool known = std::any_of(warnings.begin(), warnings.end(),
-                                   [&](const Fault& other) { return other.text() == warning.text(); });
-    if (!known) warnings.push_back(warning);
-  }
 }
 
 /// One for each file, and no two the same.
@@ -62,13 +45,6 @@ void require_names(const ReportArguments& arguments) {
                              ""});
 }
 
-/// Runs of a study that lists them; for any other study its parameters are checked.
-std::vector<model::StudyRun> runs_of(const model::Model& model, const CheckArguments& arguments) {
-  if (!model.study || model.study->is_written_out()) return model::expand_study(arguments.model, arguments.overrides);
-  (void)model::check_study(arguments.model, arguments.overrides);
-  return {};
-}
-
 }  // namespace
 
 void warn(const std::vector<Fault>& warnings) {
@@ -83,14 +59,12 @@ int check_command(const CheckArguments& arguments) {
   nlohmann::json document{
       {"model", arguments.model}, {"faults", nlohmann::json::array()}, {"warnings", nlohmann::json::array()}};
   try {
-    const model::Model model = model::read(arguments.model, arguments.overrides);
-    const std::vector<model::StudyRun> runs = runs_of(model, arguments);
-    std::vector<Fault> warnings = warnings_of(model);
-    for (const model::StudyRun& run : runs) add_new(warnings_of(model::read(arguments.model, run.overrides)), warnings);
-    for (const Fault& warning : warnings) document["warnings"].push_back(fault_json(warning));
+    const session::Session session(arguments.model, arguments.overrides);
+    const session::Check check = session.check();
+    for (const Fault& warning : check.warnings) document["warnings"].push_back(fault_json(warning));
     if (!arguments.json) {
-      warn(warnings);
-      fmt::print("{}: good ({})\n", arguments.model, contents(model, std::max<std::size_t>(runs.size(), 1)));
+      warn(check.warnings);
+      fmt::print("{}: good ({})\n", arguments.model, contents(session.model(), check.runs));
     }
   } catch (const InputError& error) {
     if (!arguments.json) throw;
@@ -106,7 +80,7 @@ int report_command(const ReportArguments& arguments) {
   const std::filesystem::path page =
       arguments.output.empty() ? arguments.results.front().parent_path() / "report.html" : arguments.output;
   require_names(arguments);
-  require_separate({{"--output", page}}, arguments.results);
+  session::require_separate({{"--output", page}}, arguments.results);
   report::write_html(arguments.results, page, {.names = arguments.names});
   if (arguments.json) {
     fmt::print("{}\n", report::summary_json(arguments.results, arguments.names));

@@ -16,9 +16,9 @@
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduced_body_file.h"
+#include "hersey/session/output_file.h"
 #include "option_value.h"
 #include "orthotropic_option.h"
-#include "output_file.h"
 #include "table.h"
 
 namespace hersey::cli {
@@ -178,7 +178,7 @@ int reduce_command(const ReduceArguments& arguments) {
   std::vector<std::filesystem::path> inputs{arguments.file};
   for (const std::filesystem::path& matrix : {arguments.stiffness, arguments.mass})
     if (!matrix.empty()) inputs.push_back(matrix);
-  require_separate({{"--output", arguments.output}}, inputs);
+  session::require_separate({{"--output", arguments.output}}, inputs);
   if (std::filesystem::exists(arguments.output) && !arguments.force)
     fail("--output", fmt::format("{} exists", arguments.output.string()), "a new file", "use --force to replace it");
   std::vector<Fault> warnings, material_faults;

@@ -8,17 +8,14 @@
 
 #include "commands.h"
 #include "exit_code.h"
-#include "hersey/core/input_error.h"
-#include "hersey/model/read.h"
 #include "hersey/model/study.h"
 #include "hersey/report/report.h"
 #include "hersey/results/error.h"
-#include "hersey/results/output_lock.h"
+#include "hersey/run/checkpoint.h"
 #include "hersey/run/simulate.h"
 #include "hersey/run/summary_json.h"
-#include "hersey/study/study.h"
+#include "hersey/session/session.h"
 #include "interrupt.h"
-#include "output_file.h"
 #include "progress_bar.h"
 #include "standard_streams.h"
 #include "table.h"
@@ -27,37 +24,6 @@ namespace hersey::cli {
 namespace {
 
 using Paths = std::vector<std::filesystem::path>;
-
-// results/<folder> for <folder>/model.yaml, results/<stem> for any other name.
-std::filesystem::path output_folder(const RunArguments& arguments) {
-  if (!arguments.output.empty()) return arguments.output;
-  const std::filesystem::path model = std::filesystem::absolute(arguments.model);
-  const bool plain = model.stem() == "model" && !model.parent_path().filename().empty();
-  return std::filesystem::path("results") / (plain ? model.parent_path().filename() : model.stem());
-}
-
-void refuse_existing(const Paths& files, bool force) {
-  for (const std::filesystem::path& file : files) {
-    results::require_idle(file);  // a file that is being written can neither be replaced nor resumed
-    if (!force && std::filesystem::exists(file)) throw results::FileExists(file);
-  }
-}
-
-/// Refuses outputs of a run that are inputs of the model.
-void require_own_files(const model::Model& model, const std::filesystem::path& folder, const Paths& results) {
-  std::vector<OutputFile> outputs{{"--output", folder / "report.html"}};
-  for (const std::filesystem::path& file : results) {
-    outputs.push_back({"--output", file});
-    outputs.push_back({"--output", run::checkpoint_file(file)});
-  }
-  require_separate(outputs, files_of(model));
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw results::WriteError(folder, "the folder cannot be made: " + error.message());
-}
 
 int exit_code(run::Status status) {
   switch (status) {
@@ -207,93 +173,70 @@ void report_work(const run::Summary& summary) {
   }
 }
 
-int run_one(const RunArguments& arguments, const std::filesystem::path& folder) {
-  const model::Model model = model::read(arguments.model, arguments.overrides);
-  run::Options options;
-  options.results = folder / "results.h5";
-  options.overwrite = arguments.force;
-  options.resume = arguments.resume;
-  options.step_error = arguments.step_error;
-  options.stop = &catch_interrupts();
-  options.on_stopping = interrupt_is_heeded;
-  require_own_files(model, folder, {options.results});
-  refuse_existing({options.results}, arguments.force || arguments.resume);
-  ProgressBar bar;
-  options.on_progress = [&](const run::Progress& progress) {
-    note_step();
-    bar.show("", progress);
-  };
-  options.on_cycle = [&](const run::CycleProgress& cycle) {
-    bar.clear();
-    report(cycle);
-  };
-  warn(run::check(model));
-  make_folder(folder);
-  const run::Summary summary = run::simulate(model, options);
-  interrupt_is_heeded();
-  bar.clear();
-  report("", summary);
-  report_work(summary);
-  return close(arguments, folder, {options.results}, {summary}, exit_code(summary.status));
-}
-
-/// Warnings that several runs of a study share are printed with the first of them.
-void report_once(const std::string& run, const std::vector<Fault>& warnings, std::set<std::string>& reported) {
-  for (const Fault& warning : warnings) {
-    if (const std::string text = warning.text(); reported.insert(text).second) say("warning: {}: {}\n", run, text);
+/// Shows a run, or all runs of a study, while they go on.
+class Display : public session::Listener {
+ public:
+  /// @param model  whose warnings have been printed
+  /// @param runs   of a study; empty: a single run
+  Display(const model::Model& model, const std::vector<model::StudyRun>& runs) : runs_(runs) {
+    for (const Fault& warning : model.warnings) reported_.insert(warning.text());
   }
-}
 
-int run_all(const RunArguments& arguments, const model::Model& model, const std::filesystem::path& folder,
-            const std::vector<model::StudyRun>& runs) {
-  study::Options options;
-  options.directory = folder;
-  options.overwrite = arguments.force;
-  options.resume = arguments.resume;
-  options.step_error = arguments.step_error;
-  options.threads = arguments.jobs;
-  options.stop = &catch_interrupts();
-  options.on_stopping = interrupt_is_heeded;
-  Paths planned;
-  for (const model::StudyRun& run : runs) planned.push_back(study::results_file(options, run));
-  require_own_files(model, folder, planned);
-  refuse_existing(planned, arguments.force || arguments.resume);
-  make_folder(folder);
+  /// Warnings that several runs of a study share are printed with the first of them.
+  void warned(std::size_t run, const std::vector<Fault>& warnings) override {
+    bar_.clear();
+    const std::string name = runs_.empty() ? "" : runs_[run].label + ": ";
+    for (const Fault& warning : warnings)
+      if (const std::string text = warning.text(); reported_.insert(text).second) say("warning: {}{}\n", name, text);
+  }
 
-  ProgressBar bar;
-  std::size_t finished = 0;
-  std::set<std::string> reported;
-  for (const Fault& warning : model.warnings) reported.insert(warning.text());
-  options.on_warnings = [&](std::size_t i, const std::vector<Fault>& warnings) {
-    bar.clear();
-    report_once(runs[i].label, warnings, reported);
-  };
-  options.on_progress = [&](std::size_t i, const run::Progress& progress) {
+  void stepped(std::size_t run, const run::Progress& progress) override {
     note_step();
-    bar.show(fmt::format("{}/{} {}", finished, runs.size(), runs[i].label), progress);
-  };
-  options.on_finished = [&](std::size_t i, const study::RunResult& result) {
-    ++finished;
-    bar.clear();
-    const std::string label = fmt::format("{}/{} {}", finished, runs.size(), runs[i].label);
-    if (result.solved()) {
-      report(label, result.summary);
-    } else {
-      say("hersey: {}: {}\n", label, result.message);
-    }
-  };
-  const std::vector<study::RunResult> results = study::simulate_all(arguments.model, runs, options);
-  interrupt_is_heeded();
+    bar_.show(label(run), progress);
+  }
 
+  void cycle_ended(std::size_t /*run*/, const run::CycleProgress& cycle) override {
+    bar_.clear();
+    report(cycle);
+  }
+
+  void stopping() override { interrupt_is_heeded(); }
+
+  void finished(std::size_t run, const study::RunResult& result) override {
+    if (runs_.empty()) interrupt_is_heeded();
+    ++finished_;
+    bar_.clear();
+    if (result.solved()) {
+      report(label(run), result.summary);
+    } else {
+      say("hersey: {}: {}\n", label(run), result.message);
+    }
+    if (runs_.empty()) report_work(result.summary);
+  }
+
+ private:
+  [[nodiscard]] std::string label(std::size_t run) const {
+    return runs_.empty() ? "" : fmt::format("{}/{} {}", finished_, runs_.size(), runs_[run].label);
+  }
+
+  const std::vector<model::StudyRun>& runs_;
+  ProgressBar bar_;
+  std::size_t finished_ = 0;
+  std::set<std::string> reported_;
+};
+
+int run_all(const RunArguments& arguments, const session::Session& session, const std::filesystem::path& folder,
+            const std::vector<model::StudyRun>& runs, const session::RunOptions& options, Display& display) {
   int code = kOk;
   Paths files;
   std::vector<run::Summary> summaries;
-  for (const study::RunResult& result : results) {
+  for (const study::RunResult& result : session.run_all(runs, folder, options, display)) {
     code = std::max(code, exit_code(result));
     if (!result.solved()) continue;
     files.push_back(result.summary.results);
     summaries.push_back(result.summary);
   }
+  interrupt_is_heeded();
   if (files.empty()) return code;
   return close(arguments, folder, files, summaries, code);
 }
@@ -301,20 +244,22 @@ int run_all(const RunArguments& arguments, const model::Model& model, const std:
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
-  const std::filesystem::path folder = output_folder(arguments);
-  const model::Model model = model::read(arguments.model, arguments.overrides);
-  warn(model.warnings);
-  if (model.is_of_bearings_alone()) {
-    throw InputError(Fault{{arguments.model, 0, 0},
-                           "",
-                           "bearings alone",
-                           "bodies and a simulation to run",
-                           "'hersey bearing' solves bearings by themselves"});
-  }
-  const std::vector<model::StudyRun> runs = model::expand_study(arguments.model, arguments.overrides);
+  const session::Session session(arguments.model, arguments.overrides);
+  const std::filesystem::path folder = arguments.output.empty() ? session.results_folder() : arguments.output;
+  warn(session.model().warnings);
+  run::require_machine(session.model());
+  std::vector<model::StudyRun> runs = session.runs();
   // A study with every parameter fixed by --set is a single run.
-  const bool varies = !runs.empty() && !runs.front().values.empty();
-  return varies ? run_all(arguments, model, folder, runs) : run_one(arguments, folder);
+  if (!runs.empty() && runs.front().values.empty()) runs.clear();
+  session::RunOptions options{.step_error = arguments.step_error, .check_start = true, .threads = arguments.jobs};
+  if (arguments.force) options.existing = session::Existing::replace;
+  if (arguments.resume) options.existing = session::Existing::resume;
+  options.stop = &catch_interrupts();
+  options.pages = {folder / "report.html"};
+  Display display(session.model(), runs);
+  if (!runs.empty()) return run_all(arguments, session, folder, runs, options, display);
+  const run::Summary summary = session.run(folder / "results.h5", options, display);
+  return close(arguments, folder, {summary.results}, {summary}, exit_code(summary.status));
 }
 
 }  // namespace hersey::cli

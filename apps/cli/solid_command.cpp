@@ -11,7 +11,7 @@
 #include "hersey/fem/vibration.h"
 #include "hersey/fem/vtu_file.h"
 #include "hersey/film/temperature_law.h"
-#include "output_file.h"
+#include "hersey/session/output_file.h"
 #include "solid_heat.h"
 #include "solid_setup.h"
 #include "standard_streams.h"
@@ -118,7 +118,7 @@ nlohmann::json json_of(const fem::ElasticBody& body, const SolidHeat& heat) {
 }  // namespace
 
 int modes_command(const SolidArguments& arguments) {
-  require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
+  session::require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
   const fem::ElasticBody body = solid_of(arguments, true);
   const fem::Vibration modes =
       fem::natural_modes(body, fixed_dofs_of(arguments, body.mesh), {.count = arguments.count});
@@ -141,7 +141,7 @@ int modes_command(const SolidArguments& arguments) {
 }
 
 int stress_command(const SolidArguments& arguments) {
-  require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
+  session::require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
   const fem::ElasticBody body = solid_of(arguments, !arguments.gravity.empty());
   StressResult result{
       .solution = {}, .stress = {}, .heat = heat_of(arguments, body), .displacement = {}, .von_mises = {}};

@@ -19,9 +19,9 @@
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
 #include "hersey/core/version.h"
-#include "hersey/model/read.h"
 #include "hersey/model/study.h"
 #include "hersey/report/study_page.h"
+#include "hersey/session/session.h"
 #include "hersey/study/run_figures.h"
 #include "standard_streams.h"
 
@@ -167,11 +167,12 @@ std::filesystem::path own_path(const std::string& fallback) {
 }  // namespace
 
 int study_plan_command(const StudyPlanArguments& arguments) {
-  const model::Model model = model::read(arguments.model, arguments.overrides);
+  const session::Session session(arguments.model, arguments.overrides);
+  const model::Model& model = session.model();
   if (!model.study)
     throw InputError(Fault{{arguments.model, 0, 0}, "study", "no study", "a section `study` in the model file", ""});
   warn(model.warnings);
-  const std::vector<model::StudyParameter> parameters = model::check_study(arguments.model, arguments.overrides);
+  const std::vector<model::StudyParameter> parameters = session.study_parameters();
   if (!arguments.any_figure) check_figures(model);
   const model::Study& study = *model.study;
   json document{{"model", std::filesystem::absolute(arguments.model).lexically_normal().string()},

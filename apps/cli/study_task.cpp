@@ -18,10 +18,9 @@
 #include "exit_code.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/task_pool.h"
-#include "hersey/model/read.h"
 #include "hersey/report/report.h"
-#include "hersey/run/checkpoint.h"
-#include "hersey/run/simulate.h"
+#include "hersey/results/reader.h"
+#include "hersey/session/session.h"
 #include "hersey/study/bearing_study.h"
 #include "hersey/study/run_figures.h"
 #include "hersey/study/sensitivity.h"
@@ -129,27 +128,25 @@ class Task {
   }
 
   void simulate(const model::StudyRun& run, const json& request, json& reply) {
-    run::Options options;
-    options.results = request.at("results").get<std::string>();
+    const std::filesystem::path file = request.at("results").get<std::string>();
     // A run that was killed goes on from its checkpoint.
-    options.resume = std::filesystem::exists(run::checkpoint_file(options.results));
-    options.overwrite = !options.resume;
+    session::RunOptions options{.existing = session::Existing::resume_or_replace};
     if (request.contains("values"))
       for (const json& value : request.at("values"))
         options.study_parameters.push_back({value.at(0).get<std::string>(), value.at(1).get<std::string>()});
-    const model::Model model = model::read(arguments_.model, run.overrides);
-    const run::Summary summary = run::simulate(model, options);
+    session::Listener nobody;
+    const run::Summary summary = session::Session(arguments_.model, run.overrides).run(file, options, nobody);
     if (summary.status != run::Status::completed) throw std::runtime_error(summary.message);
-    const results::Reader reader(options.results);
+    const results::Reader reader(file);
     for (const study::RunFigure& figure : study::figures_of(reader, arguments_.outputs))
       add(figure.key, figure.value, figure.text, display_unit(figure.si_unit), figure.si_unit,
           display_size(figure.si_unit));
     if (request.contains("report")) {
-      report::write_html(std::vector{options.results}, request.at("report").get<std::string>());
+      report::write_html(std::vector{file}, request.at("report").get<std::string>());
       reply["report"] = request.at("report");
     }
     const std::string keep = request.value("keep", "results");
-    if (keep == "figures") std::filesystem::remove(options.results);
+    if (keep == "figures") std::filesystem::remove(file);
   }
 
   static std::string display_unit(const std::string& si) {

@@ -12,7 +12,6 @@
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_file.h"
 #include "hersey/core/unit_database.h"
-#include "hersey/model/read.h"
 
 namespace hersey::fmu {
 namespace {
@@ -28,18 +27,20 @@ std::string text_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-Instance::Instance(std::string name, const std::string& token, std::filesystem::path resources, Log log)
-    : name_(std::move(name)), resources_(std::move(resources)), log_(std::move(log)) {
+Instance::Instance(const char* name, const char* token, const char* token_word, const std::filesystem::path& resources,
+                   bool logging, Log log)
+    : log_(std::move(log)), is_logging_(logging) {
+  if (name == nullptr || *name == '\0') throw std::runtime_error("an instance without a name");
+  if (token == nullptr) throw std::runtime_error(fmt::format("an instance without {}", token_word));
   use_one_blas_thread();
-  use_unit_database(resources_ / "udunits" / "udunits2.xml");
-  variables_ = from_json(text_of(resources_ / "variables.json"));
+  use_unit_database(resources / "udunits" / "udunits2.xml");
+  variables_ = from_json(text_of(resources / "variables.json"));
   if (token != variables_.token)
     throw std::runtime_error(
         fmt::format("the model description is of another FMU: its token is '{}', that of the resources '{}'", token,
                     variables_.token));
   // All that the resources hold is read here and now: importers may take their folder away again.
-  file_.emplace((resources_ / "model.yaml").string());
-  as_exported_ = file_->read(variables_.overrides);
+  session_.emplace((resources / "model.yaml").string(), variables_.overrides);
   (void)reset();
 }
 
@@ -82,14 +83,14 @@ void Instance::build() {
     overrides.push_back(fmt::format("{}={}{}", one.source, values_[i], one.unit == "1" ? "" : " " + one.unit));
   }
   const bool is_as_exported = overrides.size() == variables_.overrides.size();
-  model::Model model = is_as_exported ? as_exported_ : file_->read(overrides);
-  model.file = "model.yaml";  // the same wherever it has been unpacked
-  model::Simulation& plan = model.simulation;
+  session::Session session = is_as_exported ? *session_ : session_->with(overrides);
+  session.model().file = "model.yaml";  // the same wherever it has been unpacked
+  model::Simulation& plan = session.model().simulation;
   if (is_set_up_) plan.start = start_time_;
   if (stop_time_ && !plan.cycle) plan.duration = std::max(plan.duration, *stop_time_ - plan.start);
   time_ = plan.start;
   simulation_.reset();
-  simulation_ = std::make_unique<run::Simulation>(std::move(model));
+  simulation_ = std::make_unique<run::Simulation>(session.simulation());
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < simulation_->outputs().size(); ++i) index_of[simulation_->outputs()[i].name] = i;
   outputs_.assign(variables_.list.size(), 0);
@@ -181,9 +182,9 @@ CallStatus Instance::set(const unsigned* references, std::size_t count, const do
   });
 }
 
-CallStatus Instance::step(double time, double length, double& reached, bool& ends) {
-  reached = time_;
-  ends = false;
+CallStatus Instance::step(double time, double length) {
+  last_successful_time_ = time_;
+  has_ended_ = false;
   if (phase_ != Phase::stepping) return error("steps are taken behind the initialisation, and not behind a failure");
   if (!std::isfinite(length) || length < 0) return error(fmt::format("a communication step of {} s", length));
   if (!(std::abs(time - time_) <= kSameTime * std::max({std::abs(time), std::abs(time_), length})))
@@ -191,13 +192,13 @@ CallStatus Instance::step(double time, double length, double& reached, bool& end
   return guarded([&] {
     const run::Advance advance = simulation_->advance_to(time + length);
     if (advance.status == run::Advance::Status::advanced) {
-      reached = time_ = time + length;
+      last_successful_time_ = time_ = time + length;
       say(CallStatus::ok, "logAll", fmt::format("t = {:.9g} s", time_));
       return CallStatus::ok;
     }
-    reached = time_ = simulation_->time();
+    last_successful_time_ = time_ = simulation_->time();
     if (advance.status == run::Advance::Status::ended) {
-      ends = true;
+      has_ended_ = true;
       say(CallStatus::discard, "logStatusDiscard", advance.message);
       return CallStatus::discard;
     }
@@ -220,49 +221,52 @@ CallStatus Instance::reset() {
   is_set_.assign(values_.size(), false);
   is_set_up_ = false;
   stop_time_.reset();
-  start_time_ = time_ = 0;
+  start_time_ = time_ = last_successful_time_ = 0;
+  has_ended_ = false;
   return CallStatus::ok;
 }
 
-CallStatus Instance::save(std::unique_ptr<InstanceState>& state) {
-  return guarded([&] {
-    auto saved = std::make_unique<InstanceState>();
-    saved->phase = phase_;
-    saved->values = values_;
-    saved->is_set = is_set_;
-    saved->start_time = start_time_;
-    saved->is_set_up = is_set_up_;
-    saved->stop_time = stop_time_;
-    saved->time = time_;
-    if (simulation_) saved->simulation = simulation_->save();
-    state = std::move(saved);
-    return CallStatus::ok;
-  });
+CallStatus Instance::set_logging(bool is_on) {
+  is_logging_ = is_on;
+  return CallStatus::ok;
 }
 
-CallStatus Instance::restore(const InstanceState& state) {
-  return guarded([&] {
-    if (state.values.size() != values_.size()) throw std::runtime_error("the state is of another FMU");
-    bool is_same_machine = simulation_ != nullptr && state.is_set_up == is_set_up_ && state.start_time == start_time_ &&
-                           state.stop_time == stop_time_;
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      if (variables_.list[i].kind == Variable::Kind::parameter && values_[i] != state.values[i])
-        is_same_machine = false;
-    values_ = state.values;
-    is_set_ = state.is_set;
-    start_time_ = state.start_time;
-    is_set_up_ = state.is_set_up;
-    stop_time_ = state.stop_time;
-    if (!state.simulation) {
-      simulation_.reset();
-    } else {
-      if (!is_same_machine) build();
-      simulation_->restore(*state.simulation);
-    }
-    time_ = state.time;
-    phase_ = state.phase;
-    return CallStatus::ok;
-  });
+CallStatus Instance::require_none(std::size_t count, const char* type) {
+  return count == 0 ? CallStatus::ok : error(fmt::format("this FMU has no variables of type {}", type));
+}
+
+InstanceState Instance::state_now() {
+  InstanceState state;
+  state.phase = phase_;
+  state.values = values_;
+  state.is_set = is_set_;
+  state.start_time = start_time_;
+  state.is_set_up = is_set_up_;
+  state.stop_time = stop_time_;
+  state.time = time_;
+  if (simulation_) state.simulation = simulation_->save();
+  return state;
+}
+
+void Instance::take(const InstanceState& state) {
+  if (state.values.size() != values_.size()) throw std::runtime_error("the state is of another FMU");
+  bool is_same_machine = simulation_ != nullptr && state.is_set_up == is_set_up_ && state.start_time == start_time_ &&
+                         state.stop_time == stop_time_;
+  for (std::size_t i = 0; i < values_.size(); ++i)
+    if (variables_.list[i].kind == Variable::Kind::parameter && values_[i] != state.values[i]) is_same_machine = false;
+  values_ = state.values;
+  is_set_ = state.is_set;
+  start_time_ = state.start_time;
+  is_set_up_ = state.is_set_up;
+  stop_time_ = state.stop_time;
+  if (!state.simulation) {
+    simulation_.reset();
+  } else {
+    if (!is_same_machine) build();
+    simulation_->restore(*state.simulation);
+  }
+  time_ = state.time;
+  phase_ = state.phase;
 }
 
 }  // namespace hersey::fmu

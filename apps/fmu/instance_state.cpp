@@ -148,4 +148,59 @@ InstanceState from_bytes(const unsigned char* bytes, std::size_t size) {
   return state;
 }
 
+namespace {
+
+// Puts a state into a place of the importer's, which may hold one already.
+void keep(InstanceState state, void** kept) {
+  if (*kept == nullptr) *kept = new KeptState;
+  *static_cast<KeptState*>(*kept) = {std::move(state)};
+}
+
+}  // namespace
+
+CallStatus Instance::save(void** kept) {
+  if (kept == nullptr) return error("no room for a state");
+  return guarded([&] {
+    keep(state_now(), kept);
+    return CallStatus::ok;
+  });
+}
+
+CallStatus Instance::restore(void* kept) {
+  if (kept == nullptr) return error("no state to restore");
+  return guarded([&] {
+    take(static_cast<KeptState*>(kept)->state);
+    return CallStatus::ok;
+  });
+}
+
+CallStatus Instance::serialised_size(void* kept, std::size_t* size) {
+  if (kept == nullptr || size == nullptr) return error("no state to serialise");
+  auto& one = *static_cast<KeptState*>(kept);
+  if (one.bytes.empty()) one.bytes = to_bytes(one.state);
+  *size = one.bytes.size();
+  return CallStatus::ok;
+}
+
+CallStatus Instance::serialise(void* kept, unsigned char* bytes, std::size_t size) {
+  std::size_t needed = 0;
+  if (const CallStatus outcome = serialised_size(kept, &needed); outcome != CallStatus::ok) return outcome;
+  if (bytes == nullptr || size < needed) return error("too little room for the serialised state");
+  std::memcpy(bytes, static_cast<KeptState*>(kept)->bytes.data(), needed);
+  return CallStatus::ok;
+}
+
+CallStatus Instance::deserialise(const unsigned char* bytes, std::size_t size, void** kept) {
+  if (bytes == nullptr || kept == nullptr) return error("no bytes of a serialised state");
+  keep(from_bytes(bytes, size), kept);
+  return CallStatus::ok;
+}
+
+CallStatus Instance::free_state(void** kept) {
+  if (kept == nullptr) return CallStatus::ok;
+  delete static_cast<KeptState*>(*kept);
+  *kept = nullptr;
+  return CallStatus::ok;
+}
+
 }  // namespace hersey::fmu

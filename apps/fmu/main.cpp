@@ -12,10 +12,8 @@
 #include "hersey/core/blas_threads.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
-#include "hersey/core/input_file.h"
 #include "hersey/core/unit_database.h"
-#include "hersey/model/read.h"
-#include "hersey/run/simulation.h"
+#include "hersey/session/session.h"
 #include "licence.h"
 #include "package.h"
 #include "variables.h"
@@ -24,7 +22,6 @@ namespace hersey::fmu {
 namespace {
 
 constexpr int kFailed = 1, kWrongInput = 2;
-constexpr std::uintmax_t kLargestModelFile = std::uintmax_t{1} << 26;
 
 struct Arguments {
   std::string model;
@@ -84,17 +81,17 @@ int export_fmu(const Arguments& arguments) {
     fmt::print(stderr, "hersey: {} exists already; use --force to replace it\n", target.string());
     return kWrongInput;
   }
-  const model::Model model = model::read(arguments.model, arguments.overrides);
-  for (const auto& [name, hash] : model.files) {
+  const session::Session session(arguments.model, arguments.overrides);
+  const model::Model& model = session.model();
+  for (const std::filesystem::path& file : session.files()) {
     std::error_code ignored;
-    if (std::filesystem::equivalent(std::filesystem::path(model.file).parent_path() / name, target, ignored))
+    if (std::filesystem::equivalent(file, target, ignored))
       throw InputError(Fault{{"--fmu", 0, 0}, "", target.string() + ", which the model reads", "another file", ""});
   }
-  const std::string text = read_input_file(arguments.model, kLargestModelFile).content;
-  run::Simulation simulation(model);
+  run::Simulation simulation = session.simulation();
   Variables variables;
-  variables.list = variables_of(text, simulation);
-  const PackedModel packed = pack(model, text, arguments.overrides);
+  variables.list = variables_of(session.text(), simulation);
+  const PackedModel packed = pack(model, session.text(), arguments.overrides);
   variables.overrides = packed.overrides;
   variables.token = token_of(description_xml(model, variables, arguments.version), packed, model);
   std::vector<PackedFile> files = packed.files;

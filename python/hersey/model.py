@@ -37,7 +37,7 @@ class Model:
     hersey.errors.InputError: ...
     """
 
-    def __init__(self, checked: "_core.CheckedModel", solver: Optional["_core.BearingSolver"] = None,
+    def __init__(self, checked: "_core.Session", solver: Optional["_core.BearingSolver"] = None,
                  is_dictionary: bool = False):
         self._checked = checked
         self._solver = solver or _core.BearingSolver()  # knows the bodies it has observed
@@ -102,7 +102,7 @@ class Model:
 
     __hash__ = None  # type: ignore[assignment]  # it can be changed
 
-    def _as(self, checked: "_core.CheckedModel") -> "Model":
+    def _as(self, checked: "_core.Session") -> "Model":
         model = Model(checked, self._solver, self._is_dictionary)
         model._functions = dict(self._functions)
         return model
@@ -207,7 +207,7 @@ class Model:
         written = json.loads(_core.written_json(self.text, self.file, [], ""))
         return (written or {}).get("parameters") or {}
 
-    def _with(self, values: Mapping[str, Any]) -> "_core.CheckedModel":
+    def _with(self, values: Mapping[str, Any]) -> "_core.Session":
         if not values:
             return self._checked
         kept = [change for change in self._checked.overrides if change.partition("=")[0] not in values]
@@ -216,7 +216,7 @@ class Model:
         return _in_si(lambda: self._read(kept + assignments(given)), given,
                       lambda: _core.bare_numbers(self.text, self.file, kept + assignments(given)))
 
-    def _read(self, overrides: list[str]) -> "_core.CheckedModel":
+    def _read(self, overrides: list[str]) -> "_core.Session":
         try:
             return _core.read_text(self.text, self.file, overrides)
         except InputError as error:
@@ -372,13 +372,11 @@ class Model:
 
     def runs(self) -> list["Model"]:
         """A model for each combination of the file's study; the model itself where it has none."""
-        models = []
-        varied = {name: texts for name, texts in self.study.items()
-                  if not any(change.startswith(name + "=") for change in self.changes)}
-        for chosen in itertools.product(*varied.values()):
-            changes = self.changes + [f"{name}={text}" for name, text in zip(varied, chosen)]
-            models.append(self._as(self._read(changes)))
-        return models
+        try:
+            runs = self._checked.runs() or [self.changes]
+        except InputError as error:
+            raise self._told(error) from None
+        return [self._as(self._read(changes)) for changes in runs]
 
     def run(self, output: Optional[PathLike] = None, *, overwrite: bool = False, resume: bool = False,
             step_error: bool = False, progress: Union[bool, Callable[["_core.Progress"], Any]] = False):
@@ -442,6 +440,6 @@ def _from_parts(text: str, file: str, changes: list[str], functions: dict[str, F
     return model
 
 
-def _with_functions(checked: "_core.CheckedModel", functions: Mapping[str, Function]):
+def _with_functions(checked: "_core.Session", functions: Mapping[str, Function]):
     return _core.with_functions(checked, [(path, each.function, each.derivative, len(each.variables))
                                           for path, each in functions.items()])

@@ -17,9 +17,7 @@ from .results import Results, Summary
 def results_file(model: Any, output: Optional[Any]) -> Path:
     """Where results go: as `hersey run` chooses, or `output`, a folder or an .h5 file."""
     if output is None:
-        path = Path(model.file).absolute()
-        plain = path.stem == "model" and path.parent.name
-        return Path("results") / (path.parent.name if plain else path.stem) / "results.h5"
+        return Path("results") / _core.model_name(model.file) / "results.h5"
     path = Path(os.fspath(output))
     return path if path.suffix == ".h5" else path / "results.h5"
 
@@ -69,11 +67,6 @@ def run(model: Any, output: Optional[Any], *, overwrite: bool, resume: bool, ste
     """See `Model.run`."""
     require_one_run(model)
     file = results_file(model, output)
-    _core.require_idle(os.fspath(file))
-    if file.exists() and not (overwrite or resume):
-        raise FileExistsError(f"{file}: the results file exists already and was kept; overwrite=True replaces it, "
-                              "resume=True goes on with it")
-    file.parent.mkdir(parents=True, exist_ok=True)
     bar = _Bar(model.title or Path(model.file).stem) if progress is True else None
     listener = bar or (progress if callable(progress) else None)
     checked, calls = model._runnable()
@@ -85,6 +78,8 @@ def run(model: Any, output: Optional[Any], *, overwrite: bool, resume: bool, ste
         text, raised, t = _core.simulate(checked, os.fspath(file), overwrite, resume, step_error, listener, has_fault)
     except InputError as error:
         raise model._told(error) from None
+    except FileExistsError as error:
+        raise FileExistsError(f"{error}; overwrite=True replaces it, resume=True goes on with it") from None
     finally:
         if bar:
             bar.close()

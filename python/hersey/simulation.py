@@ -47,8 +47,6 @@ class Simulation:
         """
         require_one_run(model)
         self._file = None if output is None else results_file(model, output)
-        if self._file is not None:
-            self._file.parent.mkdir(parents=True, exist_ok=True)
         checked, self._calls = model._runnable()
         try:
             self._core = _core.Simulation(checked, "" if self._file is None else os.fspath(self._file), overwrite)

@@ -9,6 +9,7 @@ import subprocess
 from pathlib import Path
 from typing import Any, Optional, Union
 
+from . import _core
 from .errors import InputError, RunError, Stopped
 from .model import Model, PathLike
 from .overrides import assignments, has_numbers, plain
@@ -119,7 +120,7 @@ def study(model: Union[Model, PathLike], output: Optional[PathLike] = None, *, j
         known = model if isinstance(model, Model) else Model.load(file)
         changes = known.copy().set(given).changes
         given = {}
-    folder = Path(output) if output is not None else Path("studies") / _name_of(file)
+    folder = Path(output) if output is not None else Path("studies") / _core.model_name(file)
     command = [find_program(), "study", file, "--out", str(folder), "--on", on,
                *(f"--set={change}" for change in [*changes, *assignments(given)])]
     if jobs:
@@ -156,7 +157,3 @@ def _file_of(model: Union[Model, PathLike]) -> tuple[str, list[str]]:
         raise InputError(f"{model.file}: no file: expected a model that was loaded from one; model.text can be written to it")
     return model.file, model.changes
 
-
-def _name_of(file: str) -> str:
-    path = Path(file).absolute()
-    return path.parent.name if path.stem == "model" and path.parent.name else path.stem

@@ -1,19 +1,14 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <future>
-#include <optional>
 
 #include "bindings.h"
 #include "hersey/bearing/steady_bearing.h"
-#include "hersey/model/read.h"
 #include "hersey/run/film_fields.h"
-#include "hersey/study/bearing_study.h"
-#include "hersey/study/sensitivity.h"
-#include "model_binding.h"
+#include "hersey/session/session.h"
+#include "interruption.h"
 
 namespace hersey::python {
 namespace {
@@ -31,32 +26,24 @@ study::BearingStudyOptions options_of(const std::string& bearing, bool grid_erro
   return options;
 }
 
-BearingSolution solve(const study::BearingSolver& solver, const CheckedModel& checked, const std::string& bearing,
+BearingSolution solve(const study::BearingSolver& solver, const session::Session& session, const std::string& bearing,
                       bool grid_error, const std::string& coefficients) {
-  return solver.solve(checked.model, options_of(bearing, grid_error, coefficients));
+  return session.solve_bearing(solver, options_of(bearing, grid_error, coefficients));
 }
 
 // One combination of a sweep: label, overrides, and the values that tell neighbours.
 using Combination = std::tuple<std::string, std::vector<std::string>, std::vector<std::string>>;
 
-/// Waits for `work`, which holds no lock of the interpreter, and asks meanwhile whether Python has something to say:
-/// Ctrl-C sets `stop`. Returns what Python raised, or None.
-py::object wait_for(const std::future<std::vector<BearingSolution>>& work, std::atomic<bool>& stop) {
-  std::optional<py::error_already_set> raised;
-  const auto listen = [&] {
-    if (stop || PyErr_CheckSignals() == 0) return;
-    raised.emplace();
-    stop = true;
-  };
-  for (bool is_done = false; !is_done; listen()) {
+/// Waits for `work`, which holds no lock of the interpreter, and asks meanwhile whether Python has something to say.
+void wait_for(const std::future<std::vector<BearingSolution>>& work, Interruption& interruption) {
+  for (bool is_done = false; !is_done; interruption.listen()) {
     const py::gil_scoped_release open;
     is_done = work.wait_for(kPause) == std::future_status::ready;
   }
-  return raised ? py::object(raised->value()) : py::none();
 }
 
 // The solutions, and what Python raised meanwhile, or None: then runs that were not begun have none.
-py::tuple solve_all(const CheckedModel& checked, const std::vector<Combination>& combinations,
+py::tuple solve_all(const session::Session& session, const std::vector<Combination>& combinations,
                     const std::string& bearing, bool grid_error, const std::string& coefficients, int threads) {
   std::vector<model::StudyRun> runs;
   for (const auto& [label, overrides, values] : combinations) {
@@ -67,30 +54,22 @@ py::tuple solve_all(const CheckedModel& checked, const std::vector<Combination>&
   }
   study::BearingStudyOptions options = options_of(bearing, grid_error, coefficients);
   options.threads = threads;
-  const auto read = [&](const std::vector<std::string>& overrides) {
-    return model::read_text(checked.text, checked.file, overrides);
-  };
-  std::atomic<bool> stop{false};
-  options.stop = &stop;
+  Interruption interruption;
+  options.stop = &interruption.stop();
   std::future<std::vector<BearingSolution>> work =
-      std::async(std::launch::async, [&] { return study::solve_bearings(study::ModelReader(read), runs, options); });
-  const py::object raised = wait_for(work, stop);
-  return py::make_tuple(work.get(), raised);
+      std::async(std::launch::async, [&] { return session.solve_bearings(runs, options); });
+  wait_for(work, interruption);
+  return py::make_tuple(work.get(), interruption.raised());
 }
 
 // key path, value, unit, whether exact, why there is none, derivative of each figure; `usual`: those to the keys that
 // decide about a bearing, too.
-py::list sensitivities(const CheckedModel& checked, const BearingSolution& solution, const std::string& bearing,
-                       const std::string& coefficients, bool usual, std::vector<std::string> keys) {
+py::list sensitivities(const session::Session& session, const BearingSolution& solution, const std::string& bearing,
+                       const std::string& coefficients, bool usual, const std::vector<std::string>& keys) {
   std::vector<study::Sensitivity> found;
   {
     const py::gil_scoped_release open;
-    BearingSolution here = solution;
-    here.run.overrides = checked.overrides;
-    if (usual)
-      for (std::string& key : study::usual_parameters(checked.text, checked.file, checked.overrides, bearing))
-        if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(std::move(key));
-    found = study::sensitivities(checked.text, checked.file, here, options_of(bearing, false, coefficients), keys);
+    found = session.sensitivities(solution, options_of(bearing, false, coefficients), keys, usual);
   }
   py::list list;
   for (const study::Sensitivity& each : found)

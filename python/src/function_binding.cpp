@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "bindings.h"
-#include "model_binding.h"
+#include "hersey/session/session.h"
 #include "user_function.h"
 
 namespace hersey::python {
@@ -35,16 +35,16 @@ using Given = std::tuple<std::string, py::object, py::object, std::size_t>;
 
 // The model with Python's functions where expressions stand for them: "1 + 0*t" in the function's unit, which is so
 // worth one unit in SI. What they cost is counted in the calls returned, in the same order.
-std::pair<std::shared_ptr<CheckedModel>, std::vector<std::shared_ptr<UserCalls>>> with_functions(
-    const CheckedModel& checked, const std::vector<Given>& functions) {
-  auto result = std::make_shared<CheckedModel>(checked);
+std::pair<std::shared_ptr<session::Session>, std::vector<std::shared_ptr<UserCalls>>> with_functions(
+    const session::Session& session, const std::vector<Given>& functions) {
+  auto result = std::make_shared<session::Session>(session);
   std::vector<std::shared_ptr<UserCalls>> all;
   for (const auto& [path, function, derivative, variables] : functions) {
     auto calls = std::make_shared<UserCalls>();
     calls->name = path;
     bool found = false;
-    for_each_function(result->model, [&, &path = path, &function = function, &derivative = derivative,
-                                      count = variables](model::Function& place) {
+    for_each_function(result->model(), [&, &path = path, &function = function, &derivative = derivative,
+                                        count = variables](model::Function& place) {
       if (place.path != path || !place.value || place.variables.size() != count) return;
       const std::vector<double> zeros(place.variables.size());
       const double unit = place.value->value(zeros);
@@ -52,7 +52,8 @@ std::pair<std::shared_ptr<CheckedModel>, std::vector<std::shared_ptr<UserCalls>>
       found = true;
     });
     if (!found)
-      throw InputError(Fault{result->model.position_of(path), path, "a Python function where the model has no function",
+      throw InputError(Fault{result->model().position_of(path), path,
+                             "a Python function where the model has no function",
                              "a force, drive, pressure, tension, coupling or speed that may be an expression", ""});
     all.push_back(std::move(calls));
   }

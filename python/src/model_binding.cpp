@@ -1,32 +1,29 @@
-#include "model_binding.h"
-
 #include <pybind11/stl.h>
+
+#include <memory>
 
 #include "bindings.h"
 #include "hersey/core/units.h"
 #include "hersey/model/bare_numbers.h"
-#include "hersey/model/read.h"
 #include "hersey/model/schema.h"
 #include "hersey/model/short_names.h"
 #include "hersey/model/written.h"
 #include "hersey/run/simulate.h"
+#include "hersey/session/session.h"
 
 namespace hersey::python {
 namespace {
 
 namespace py = pybind11;
+using session::Session;
 using Texts = std::vector<std::string>;
 
-std::shared_ptr<CheckedModel> read_file(const std::string& path, const Texts& overrides) {
-  // The text is what stands in the file: overrides are put into it again with every change.
-  model::Model plain = model::read(path, overrides);
-  std::string text = plain.resolved_text;
-  for (std::size_t k = 0; k < overrides.size(); ++k) text.erase(0, text.find('\n') + 1);
-  return std::make_shared<CheckedModel>(CheckedModel{std::move(text), path, overrides, std::move(plain)});
+std::shared_ptr<Session> read_file(const std::string& path, const Texts& overrides) {
+  return std::make_shared<Session>(path, overrides);
 }
 
-std::shared_ptr<CheckedModel> read_text(const std::string& text, const std::string& file, const Texts& overrides) {
-  return std::make_shared<CheckedModel>(CheckedModel{text, file, overrides, model::read_text(text, file, overrides)});
+std::shared_ptr<Session> read_text(const std::string& text, const std::string& file, const Texts& overrides) {
+  return std::make_shared<Session>(text, file, overrides);
 }
 
 Texts texts_of(const std::vector<Fault>& faults) {
@@ -35,22 +32,29 @@ Texts texts_of(const std::vector<Fault>& faults) {
   return texts;
 }
 
-Texts bearings_of(const CheckedModel& checked) {
+Texts bearings_of(const Session& session) {
   Texts names;
-  for (const model::Bearing& bearing : checked.model.bearings) names.push_back(bearing.name);
+  for (const model::Bearing& bearing : session.model().bearings) names.push_back(bearing.name);
   return names;
 }
 
-std::vector<std::pair<std::string, Texts>> study_of(const CheckedModel& checked) {
+std::vector<std::pair<std::string, Texts>> study_of(const Session& session) {
   std::vector<std::pair<std::string, Texts>> parameters;
-  if (!checked.model.study) return parameters;
-  for (const model::StudyParameter& parameter : checked.model.study->parameters)
+  if (!session.model().study) return parameters;
+  for (const model::StudyParameter& parameter : session.model().study->parameters)
     parameters.emplace_back(parameter.name, parameter.values);
   return parameters;
 }
 
-py::tuple position_of(const CheckedModel& checked, const std::string& path) {
-  const SourcePosition position = checked.model.position_of(path);
+// The overrides of each run that the study writes out.
+std::vector<Texts> runs_of(const Session& session) {
+  std::vector<Texts> runs;
+  for (model::StudyRun& run : session.runs()) runs.push_back(std::move(run.overrides));
+  return runs;
+}
+
+py::tuple position_of(const Session& session, const std::string& path) {
+  const SourcePosition position = session.model().position_of(path);
   return py::make_tuple(position.file, position.line, position.column);
 }
 
@@ -63,11 +67,11 @@ py::list bare_numbers(const std::string& text, const std::string& file, const Te
 }
 
 /// Names of the kind of a bearing that is there, with the paths that its short names have in this model.
-model::BearingKindNames names_of(const CheckedModel& checked, const std::string& bearing) {
-  for (const model::Bearing& candidate : checked.model.bearings) {
+model::BearingKindNames names_of(const Session& session, const std::string& bearing) {
+  for (const model::Bearing& candidate : session.model().bearings) {
     if (candidate.name != bearing) continue;
     model::BearingKindNames names = model::names_of_kind(candidate.kind->name(), bearing, candidate.lubricant).value();
-    names.short_names = model::short_names(checked.model, candidate);
+    names.short_names = model::short_names(session.model(), candidate);
     return names;
   }
   throw py::key_error(bearing);
@@ -91,22 +95,23 @@ void bind_model(py::module_& core) {
       .def_property_readonly("paths", &paths_of)
       .def_property_readonly("load_or_position",
                              [](const model::BearingKindNames& n) { return n.short_names.load_or_position; });
-  py::class_<CheckedModel, std::shared_ptr<CheckedModel>>(core, "CheckedModel")
-      .def_readonly("text", &CheckedModel::text)
-      .def_readonly("file", &CheckedModel::file)
-      .def_readonly("overrides", &CheckedModel::overrides)
-      .def_property_readonly("title", [](const CheckedModel& c) { return c.model.title; })
-      .def_property_readonly("description", [](const CheckedModel& c) { return c.model.description; })
-      .def_property_readonly("warnings", [](const CheckedModel& c) { return texts_of(c.model.warnings); })
-      .def_property_readonly("resolved_text", [](const CheckedModel& c) { return c.model.resolved_text; })
-      .def_property_readonly("is_of_bearings_alone",
-                             [](const CheckedModel& c) { return c.model.is_of_bearings_alone(); })
+  py::class_<Session, std::shared_ptr<Session>>(core, "Session")
+      .def_property_readonly("text", &Session::text)
+      .def_property_readonly("file", &Session::file)
+      .def_property_readonly("overrides", &Session::overrides)
+      .def_property_readonly("title", [](const Session& s) { return s.model().title; })
+      .def_property_readonly("description", [](const Session& s) { return s.model().description; })
+      .def_property_readonly("warnings", [](const Session& s) { return texts_of(s.model().warnings); })
+      .def_property_readonly("resolved_text", [](const Session& s) { return s.model().resolved_text; })
+      .def_property_readonly("is_of_bearings_alone", [](const Session& s) { return s.model().is_of_bearings_alone(); })
       .def_property_readonly("bearings", &bearings_of)
       .def_property_readonly("study", &study_of)
       .def("names_of", &names_of)
       .def("position_of", &position_of)
+      .def("runs", &runs_of, Guard())
       .def(
-          "check", [](const CheckedModel& c) { return texts_of(run::check(c.model)); }, Guard());
+          "check", [](const Session& s) { return texts_of(run::check(s.model())); }, Guard());
+  core.def("model_name", &session::model_name);
   core.def("names_of_kind", &model::names_of_kind);
   core.def("read_file", &read_file, Guard());
   core.def("read_text", &read_text, Guard());

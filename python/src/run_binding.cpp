@@ -1,15 +1,12 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
-#include <atomic>
 #include <chrono>
-#include <optional>
 
 #include "bindings.h"
-#include "hersey/results/output_lock.h"
-#include "hersey/run/simulate.h"
 #include "hersey/run/summary_json.h"
-#include "model_binding.h"
+#include "hersey/session/session.h"
+#include "interruption.h"
 
 namespace hersey::python {
 namespace {
@@ -22,63 +19,52 @@ constexpr std::chrono::milliseconds kPatience{50};
 
 /// Between a run, which holds no lock of the interpreter, and Python: progress one way, Ctrl-C and exceptions the
 /// other.
-class Listener {
+class RunListener : public session::Listener {
  public:
-  explicit Listener(py::object on_progress) : on_progress_(std::move(on_progress)) {}
+  explicit RunListener(py::object on_progress) : on_progress_(std::move(on_progress)) {}
 
-  void tell(const run::Progress& progress) {
+  void stepped(std::size_t /*run*/, const run::Progress& progress) override {
     const Clock::time_point now = Clock::now();
     t_ = progress.t;
     const bool is_asked_for = !on_progress_.is_none();
-    if (stop_ || (!is_asked_for && now - last_ < kPatience)) return;
+    if (interruption_.stop() || (!is_asked_for && now - last_ < kPatience)) return;
     last_ = now;
     const py::gil_scoped_acquire lock;
-    try {
+    interruption_.listen([&] {
       if (is_asked_for) on_progress_(progress);
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    } catch (py::error_already_set& error) {
-      raised_.emplace(std::move(error));
-      stop_ = true;
-    }
+    });
   }
 
-  [[nodiscard]] const std::atomic<bool>& stop() const { return stop_; }
+  [[nodiscard]] const Interruption& interruption() const { return interruption_; }
   /// The time the run had come to [s].
   [[nodiscard]] double t() const { return t_; }
-  /// What Python raised meanwhile, or None.
-  [[nodiscard]] py::object raised() const { return raised_ ? py::object(raised_->value()) : py::none(); }
 
  private:
   py::object on_progress_;
-  std::optional<py::error_already_set> raised_;
-  std::atomic<bool> stop_{false};
+  Interruption interruption_;
   Clock::time_point last_ = Clock::now();
   double t_ = 0;
 };
 
 // The summary as JSON, the exception that ended the run, or None, and the time it had come to. A run that could not
 // begin gives no summary where a function of Python's is why; Python looks after that.
-py::tuple simulate(const CheckedModel& checked, const std::string& results, bool overwrite, bool resume,
+py::tuple simulate(const session::Session& session, const std::string& results, bool overwrite, bool resume,
                    bool step_error, py::object on_progress, const std::function<bool()>& has_fault) {
-  Listener listener(std::move(on_progress));
-  run::Options options;
-  options.results = results;
-  options.overwrite = overwrite;
-  options.resume = resume;
-  options.step_error = step_error;
-  options.stop = &listener.stop();
-  options.on_progress = [&](const run::Progress& progress) { listener.tell(progress); };
+  RunListener listener(std::move(on_progress));
+  session::RunOptions options{.step_error = step_error, .stop = &listener.interruption().stop()};
+  if (overwrite) options.existing = session::Existing::replace;
+  if (resume) options.existing = session::Existing::resume;
   std::string json;
   {
     const py::gil_scoped_release open;
     try {
-      json = run::summary_json(run::simulate(checked.model, options));
+      json = run::summary_json(session.run(results, options, listener));
     } catch (const std::exception&) {
       const py::gil_scoped_acquire lock;
       if (!has_fault()) throw;
     }
   }
-  return py::make_tuple(json, listener.raised(), listener.t());
+  return py::make_tuple(json, listener.interruption().raised(), listener.t());
 }
 
 }  // namespace
@@ -93,7 +79,6 @@ void bind_run(py::module_& core) {
       .def_readonly("moft", &run::Progress::moft)
       .def_readonly("elapsed", &run::Progress::elapsed);
   core.def("simulate", &simulate);
-  core.def("require_idle", [](const std::string& results) { results::require_idle(results); });
 }
 
 }  // namespace hersey::python

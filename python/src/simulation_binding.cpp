@@ -5,9 +5,8 @@
 #include <memory>
 
 #include "bindings.h"
-#include "hersey/run/simulation.h"
 #include "hersey/run/summary_json.h"
-#include "model_binding.h"
+#include "hersey/session/session.h"
 
 // Stepping: what hersey.Simulation is made of. Steps hold no lock of the interpreter; functions of Python's in the
 // model take it themselves.
@@ -47,11 +46,8 @@ SavedState state_of(const py::tuple& parts) {
   return state;
 }
 
-std::unique_ptr<run::Simulation> make(const CheckedModel& checked, const std::string& results, bool overwrite) {
-  run::Options options;
-  options.results = results;
-  options.overwrite = overwrite;
-  return std::make_unique<run::Simulation>(checked.model, options);
+std::unique_ptr<run::Simulation> make(const session::Session& session, const std::string& results, bool overwrite) {
+  return std::make_unique<run::Simulation>(session.simulation(results, overwrite));
 }
 
 py::tuple told(const run::Advance& advance) {

@@ -103,6 +103,23 @@ def test_study_becomes_a_model_for_each_combination():
         model.run()
 
 
+def test_study_that_lists_its_runs_becomes_one_model_for_each():
+    study = {"plan": "list", "parameters": {"bearings.main.width": ["15 mm", "16 mm"],
+                                            "bearings.main.radial_clearance": ["30 um", "40 um"]}}
+    models = hersey.Model.from_dict({"lubricants": {"oil": {"viscosity": "15 mPa.s"}}, "study": study, "bearings": {
+        "main": {"diameter": "45 mm", "width": "15 mm", "radial_clearance": "34 um", "lubricant": "oil"}}}).runs()
+    assert [(each["bearings.main.width"], each["bearings.main.radial_clearance"]) for each in models] == [
+        ("15 mm", "30 um"), ("16 mm", "40 um")]
+
+
+def test_study_that_draws_its_runs_becomes_no_models():
+    study = {"plan": "sobol", "samples": 8, "parameters": {"bearings.main.width": ["15 mm", "16 mm"]}}
+    model = hersey.Model.from_dict({"lubricants": {"oil": {"viscosity": "15 mPa.s"}}, "study": study, "bearings": {
+        "main": {"diameter": "45 mm", "width": "15 mm", "radial_clearance": "34 um", "lubricant": "oil"}}})
+    with pytest.raises(hersey.InputError, match=r"a plan that draws or looks for its runs.*hersey.study\(\) runs this one"):
+        model.runs()
+
+
 def test_equal_models_are_equal_and_others_not(alone, machine, bearing_file):
     assert alone == hersey.Model.load(bearing_file) == alone.copy() == copy.copy(alone) == copy.deepcopy(alone)
     changed = alone.copy().set(load="1 kN")

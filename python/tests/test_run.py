@@ -66,6 +66,17 @@ def test_existing_results_are_kept(machine, tmp_path):
     model.run(tmp_path, overwrite=True)
 
 
+def test_results_do_not_replace_what_the_model_reads(machine, tmp_path):
+    file = tmp_path / "rig.h5"  # a model file, whatever its name
+    text = hersey.Model.from_dict(machine).text
+    file.write_text(text)
+    model = hersey.Model.load(file)
+    for run in (lambda: model.run(file, overwrite=True), lambda: hersey.Simulation(model, file, overwrite=True)):
+        with pytest.raises(hersey.InputError, match="output: .*which is read as"):
+            run()
+    assert file.read_text() == text
+
+
 def test_progress_is_told_at_the_start_and_after_every_step(machine, tmp_path):
     times = []
     results = hersey.Model.from_dict(machine).run(tmp_path, progress=lambda progress: times.append(progress.t))

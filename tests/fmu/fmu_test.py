@@ -561,6 +561,10 @@ class Cases:
             file.write(RIG.replace("34 um", "34 kg"))
         self.assertIn("radial_clearance", run("export", broken, "--fmu", self.path + "2", expect=2))
         self.assertFalse(os.path.exists(self.path + "2"))
+        told = run("export", self.model, "--fmu", self.model, "--force", expect=2)
+        self.assertIn("which the model reads", told)
+        with open(self.model, encoding="utf-8") as file:
+            self.assertEqual(file.read(), RIG)
 
     def test_every_function_answers(self):
         one = Instance(self.fmu).initialise()

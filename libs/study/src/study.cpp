@@ -40,7 +40,7 @@ class Computing {
   bool computes_ = true;
 };
 
-RunResult simulate_one(const std::string& path, const model::StudyRun& run, const Options& options, std::size_t index,
+RunResult simulate_one(const ModelReader& read, const model::StudyRun& run, const Options& options, std::size_t index,
                        Queue& queue) {
   RunResult result;
   result.run = run;
@@ -64,10 +64,9 @@ RunResult simulate_one(const std::string& path, const model::StudyRun& run, cons
     options.on_progress(index, progress);
   };
   try {
-    const model::Model model = model::read(path, run.overrides);
+    const model::Model model = read(run.overrides);
     if (options.on_warnings) {
-      std::vector<Fault> warnings = model.warnings;
-      for (Fault& warning : run::check(model)) warnings.push_back(std::move(warning));
+      const std::vector<Fault> warnings = run::warnings_of(model);
       const std::scoped_lock lock(queue.speak);
       options.on_warnings(index, warnings);
     }
@@ -85,14 +84,14 @@ std::filesystem::path results_file(const Options& options, const model::StudyRun
   return options.directory / (run.slug + ".h5");
 }
 
-std::vector<RunResult> simulate_all(const std::string& path, const std::vector<model::StudyRun>& runs,
+std::vector<RunResult> simulate_all(const ModelReader& read, const std::vector<model::StudyRun>& runs,
                                     const Options& options) {
   std::vector<RunResult> results(runs.size());
   Queue queue;
   const auto work = [&] {
     const TaskPool::OwnThread one(TaskPool::shared());
     for (std::size_t i = queue.next++; i < runs.size(); i = queue.next++) {
-      results[i] = simulate_one(path, runs[i], options, i, queue);
+      results[i] = simulate_one(read, runs[i], options, i, queue);
       const std::scoped_lock lock(queue.speak);
       if (options.on_finished) options.on_finished(i, results[i]);
     }
@@ -103,6 +102,12 @@ std::vector<RunResult> simulate_all(const std::string& path, const std::vector<m
   work();
   threads.clear();
   return results;
+}
+
+std::vector<RunResult> simulate_all(const std::string& path, const std::vector<model::StudyRun>& runs,
+                                    const Options& options) {
+  return simulate_all([&](const std::vector<std::string>& overrides) { return model::read(path, overrides); }, runs,
+                      options);
 }
 
 }  // namespace hersey::study

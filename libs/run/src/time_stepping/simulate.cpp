@@ -247,14 +247,23 @@ std::vector<Fault> check(const model::Model& model) {
   return warnings;
 }
 
+std::vector<Fault> warnings_of(const model::Model& model) {
+  std::vector<Fault> warnings = model.warnings;
+  for (Fault& warning : check(model)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+void require_machine(const model::Model& model) {
+  if (!model.is_of_bearings_alone()) return;
+  throw InputError(Fault{{model.file, 0, 0},
+                         "",
+                         "bearings alone",
+                         "bodies and a simulation to run",
+                         "'hersey bearing' solves bearings by themselves"});
+}
+
 Summary simulate(const model::Model& model, const Options& options) {
-  if (model.is_of_bearings_alone()) {
-    throw InputError(Fault{{model.file, 0, 0},
-                           "",
-                           "bearings alone",
-                           "bodies and a simulation to run",
-                           "'hersey bearing' solves bearings by themselves"});
-  }
+  require_machine(model);
   const results::OutputLock lock(options.results);
   return simulate_locked(model, options);
 }

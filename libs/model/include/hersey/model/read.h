@@ -31,6 +31,10 @@ class ModelFile {
 
   /// As model::read. @throws InputError
   [[nodiscard]] Model read(const std::vector<std::string>& overrides = {}) const;
+  /// Its text, as it was when it was opened.
+  [[nodiscard]] const std::string& text() const;
+  /// What names it in faults.
+  [[nodiscard]] const std::string& file() const;
 
  private:
   struct Content;

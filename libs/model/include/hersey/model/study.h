@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hersey/model/model.h"
+#include "hersey/model/read.h"
 
 namespace hersey::model {
 
@@ -26,6 +27,9 @@ struct StudyRun {
 /// The parameters of the study that vary: a parameter named in `overrides` is fixed at that value. Each is checked at
 /// every value, or at the ends of its distribution. None if the model has no study.
 /// @throws InputError with the faults of the file and of every such value.
+[[nodiscard]] std::vector<StudyParameter> check_study(const ModelFile& file,
+                                                      const std::vector<std::string>& overrides = {});
+/// Opens the file at `path` first.
 [[nodiscard]] std::vector<StudyParameter> check_study(const std::string& path,
                                                       const std::vector<std::string>& overrides = {});
 
@@ -39,11 +43,16 @@ struct StudyRun {
 /// parameter varying fastest; empty if the model has no study. A study parameter named in `overrides` is fixed at that
 /// value and no longer varied.
 /// @throws InputError with the faults of the file and of every combination; for a plan that draws its runs.
+[[nodiscard]] std::vector<StudyRun> expand_study(const ModelFile& file, const std::vector<std::string>& overrides = {});
+/// Opens the file at `path` first.
 [[nodiscard]] std::vector<StudyRun> expand_study(const std::string& path,
                                                  const std::vector<std::string>& overrides = {});
 
 /// Every combination of `parameters`, as expand_study for parameters that do not stand in the file.
 /// @throws InputError with the faults of the file and of every value.
+[[nodiscard]] std::vector<StudyRun> expand_parameters(const ModelFile& file, const std::vector<std::string>& overrides,
+                                                      const std::vector<StudyParameter>& parameters);
+/// Opens the file at `path` first.
 [[nodiscard]] std::vector<StudyRun> expand_parameters(const std::string& path,
                                                       const std::vector<std::string>& overrides,
                                                       const std::vector<StudyParameter>& parameters);

@@ -149,6 +149,10 @@ ModelFile::ModelFile(std::string text, std::string file) {
   content_ = std::move(content);
 }
 
+const std::string& ModelFile::text() const { return content_->text; }
+
+const std::string& ModelFile::file() const { return content_->file; }
+
 Model ModelFile::read(const std::vector<std::string>& overrides) const {
   std::vector<Fault> faults;
   const std::vector<Override> changes = parse_overrides(overrides, faults);

@@ -93,18 +93,18 @@ void explain_reach(std::vector<Fault>& faults, std::size_t from) {
 }
 
 /// Reads the model once with each single value of the study; its faults point at the study's lines.
-void check_values(const std::string& path, const std::vector<std::string>& overrides,
+void check_values(const ModelFile& file, const std::vector<std::string>& overrides,
                   const std::vector<StudyParameter>& parameters) {
   std::vector<Fault> faults;
   const std::vector<Override> given = parse_overrides(overrides, faults);
-  const Node root = parse_yaml(file_text(path), path, faults).value_or(Node{});
+  const Node root = parse_yaml(file.text(), file.file(), faults).value_or(Node{});
   for (const StudyParameter& parameter : parameters) {
     const std::size_t before = faults.size();
     for (const std::string& text : values_to_check(parameter)) {
       std::vector<Override> changes = given;
-      changes.push_back({parameter.name, parse_yaml(text, path, faults).value_or(Node{}), parameter.position});
+      changes.push_back({parameter.name, parse_yaml(text, file.file(), faults).value_or(Node{}), parameter.position});
       move_to(changes.back().value, parameter.position);
-      (void)read_tree(root, path, changes, faults);
+      (void)read_tree(root, file.file(), changes, faults);
     }
     if (parameter.distribution && !parameter.distribution->is_bounded()) explain_reach(faults, before);
   }
@@ -115,7 +115,7 @@ void check_values(const std::string& path, const std::vector<std::string>& overr
 
 }  // namespace
 
-std::vector<StudyRun> expand_parameters(const std::string& path, const std::vector<std::string>& overrides,
+std::vector<StudyRun> expand_parameters(const ModelFile& file, const std::vector<std::string>& overrides,
                                         const std::vector<StudyParameter>& parameters) {
   std::size_t count = 1;
   for (const StudyParameter& parameter : parameters) {
@@ -124,11 +124,16 @@ std::vector<StudyRun> expand_parameters(const std::string& path, const std::vect
     throw InputError(Fault{parameter.position, "study.parameters", "more than 100000 combinations",
                            "at most 100000 runs in a study", "leave out values"});
   }
-  check_values(path, overrides, parameters);
+  check_values(file, overrides, parameters);
   std::vector<StudyRun> runs;
   for (std::size_t i = 0; i < count; ++i) runs.push_back(run_of(parameters, i, overrides));
   make_slugs_unique(runs);
   return runs;
+}
+
+std::vector<StudyRun> expand_parameters(const std::string& path, const std::vector<std::string>& overrides,
+                                        const std::vector<StudyParameter>& parameters) {
+  return expand_parameters(ModelFile(path), overrides, parameters);
 }
 
 namespace {
@@ -137,9 +142,9 @@ namespace {
 /// loads leaves one bearing, not seven equal ones.
 class Varying {
  public:
-  Varying(const std::string& path, const std::vector<std::string>& overrides)
-      : path_(path), overrides_(parse_overrides(overrides, faults_)) {
-    root_ = parse_yaml(file_text(path), path, faults_).value_or(Node{});
+  Varying(const ModelFile& file, const std::vector<std::string>& overrides)
+      : path_(file.file()), overrides_(parse_overrides(overrides, faults_)) {
+    root_ = parse_yaml(file.text(), path_, faults_).value_or(Node{});
   }
 
   /// True if an option has set everything that the parameter sets: its values make a difference only without options.
@@ -177,9 +182,9 @@ class Varying {
 };
 
 /// Parameters that no option has set, by their own name or by setting the keys they set.
-std::vector<StudyParameter> varied_by(const Study& study, const std::string& path,
+std::vector<StudyParameter> varied_by(const Study& study, const ModelFile& file,
                                       const std::vector<std::string>& overrides) {
-  Varying varying(path, overrides);
+  Varying varying(file, overrides);
   std::vector<StudyParameter> varied;
   for (const StudyParameter& parameter : study.parameters) {
     if (is_fixed_by(overrides, parameter.name)) continue;
@@ -207,26 +212,34 @@ std::vector<StudyRun> expand_list(const std::vector<StudyParameter>& parameters,
 
 }  // namespace
 
-std::vector<StudyParameter> check_study(const std::string& path, const std::vector<std::string>& overrides) {
-  const Model model = read(path, overrides);
+std::vector<StudyParameter> check_study(const ModelFile& file, const std::vector<std::string>& overrides) {
+  const Model model = file.read(overrides);
   if (!model.study) return {};
-  const std::vector<StudyParameter> varied = varied_by(*model.study, path, overrides);
-  check_values(path, overrides, varied);
+  const std::vector<StudyParameter> varied = varied_by(*model.study, file, overrides);
+  check_values(file, overrides, varied);
   return varied;
 }
 
-std::vector<StudyRun> expand_study(const std::string& path, const std::vector<std::string>& overrides) {
-  const Model model = read(path, overrides);
+std::vector<StudyParameter> check_study(const std::string& path, const std::vector<std::string>& overrides) {
+  return check_study(ModelFile(path), overrides);
+}
+
+std::vector<StudyRun> expand_study(const ModelFile& file, const std::vector<std::string>& overrides) {
+  const Model model = file.read(overrides);
   if (!model.study) return {};
-  const std::vector<StudyParameter> varied = varied_by(*model.study, path, overrides);
+  const std::vector<StudyParameter> varied = varied_by(*model.study, file, overrides);
   if (varied.empty()) return {};
   if (!model.study->is_written_out())
     throw InputError(Fault{model.position_of("study.plan"), "study.plan", "a plan that draws or looks for its runs",
                            "`full_factorial` or `list`, whose runs are written out",
                            "`hersey study` runs this one; --set PARAMETER=VALUE for each gives a single run"});
-  if (model.study->plan == StudyPlan::full_factorial) return expand_parameters(path, overrides, varied);
-  check_values(path, overrides, varied);
+  if (model.study->plan == StudyPlan::full_factorial) return expand_parameters(file, overrides, varied);
+  check_values(file, overrides, varied);
   return expand_list(varied, overrides);
+}
+
+std::vector<StudyRun> expand_study(const std::string& path, const std::vector<std::string>& overrides) {
+  return expand_study(ModelFile(path), overrides);
 }
 
 }  // namespace hersey::model

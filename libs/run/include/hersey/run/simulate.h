@@ -36,4 +36,11 @@ namespace hersey::run {
 /// @throws InputError as `simulate`, and if error-controlled steps would have to hit an unlimited number of instants.
 std::vector<Fault> check(const model::Model& model);
 
+/// Warnings of the model itself, then those of its start.
+/// @throws InputError as check().
+[[nodiscard]] std::vector<Fault> warnings_of(const model::Model& model);
+
+/// @throws InputError for a model of bearings alone, which has nothing to simulate.
+void require_machine(const model::Model& model);
+
 }  // namespace hersey::run

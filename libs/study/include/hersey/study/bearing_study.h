@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "hersey/bearing/bearing_numbers.h"
 #include "hersey/bearing/steady_surfaces.h"  // who shows a solution draws its surfaces
 #include "hersey/model/study.h"
+#include "hersey/study/model_reader.h"
 
 namespace hersey::study {
 
@@ -62,9 +62,6 @@ struct BearingStudyOptions {
 
 /// @throws InputError where temperatures that follow the motion are not to be had of this bearing's coefficients.
 void require_coefficients(const model::Bearing& bearing, ThermalCoefficients coefficients);
-
-/// Function that returns the model with overrides applied, as model::read does; called from several threads at once.
-using ModelReader = std::function<model::Model(const std::vector<std::string>& overrides)>;
 
 /// Solves the bearing of the model that `read` returns for every run of `runs`, several at a time. A run that fails is
 /// repeated from the solution of a neighbour, a run that differs in one value only; a run without a solution does not

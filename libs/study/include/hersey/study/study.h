@@ -9,6 +9,7 @@
 
 #include "hersey/model/study.h"
 #include "hersey/run/simulate.h"
+#include "hersey/study/model_reader.h"
 
 namespace hersey::study {
 
@@ -42,8 +43,11 @@ struct Options {
 /// The results file of one run.
 [[nodiscard]] std::filesystem::path results_file(const Options& options, const model::StudyRun& run);
 
-/// Simulates every run of `runs` (model::expand_study) from the model file at `path`, several at a time. A run that
-/// fails does not stop the others.
+/// Simulates every run of `runs` (model::expand_study) with the model that `read` returns, several at a time. A run
+/// that fails does not stop the others.
+[[nodiscard]] std::vector<RunResult> simulate_all(const ModelReader& read, const std::vector<model::StudyRun>& runs,
+                                                  const Options& options);
+/// Simulates the runs of the model file at `path`.
 [[nodiscard]] std::vector<RunResult> simulate_all(const std::string& path, const std::vector<model::StudyRun>& runs,
                                                   const Options& options);
 

@@ -4,11 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "hersey/model/model.h"
+namespace hersey::session {
 
-namespace hersey::cli {
-
-/// A file that a command writes.
+/// A file that a client writes.
 struct OutputFile {
   std::string option;          ///< that names it
   std::filesystem::path path;  ///< empty: it is not asked for
@@ -19,7 +17,4 @@ struct OutputFile {
 /// @throws InputError naming option and file.
 void require_separate(const std::vector<OutputFile>& outputs, const std::vector<std::filesystem::path>& inputs);
 
-/// A model's own file and all that it names.
-[[nodiscard]] std::vector<std::filesystem::path> files_of(const model::Model& model);
-
-}  // namespace hersey::cli
+}  // namespace hersey::session

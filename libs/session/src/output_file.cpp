@@ -1,10 +1,10 @@
-#include "output_file.h"
+#include "hersey/session/output_file.h"
 
 #include <map>
 
 #include "hersey/core/input_error.h"
 
-namespace hersey::cli {
+namespace hersey::session {
 namespace {
 
 /// Canonical path of a file, links followed, that need not exist yet.
@@ -37,11 +37,4 @@ void require_separate(const std::vector<OutputFile>& outputs, const std::vector<
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-std::vector<std::filesystem::path> files_of(const model::Model& model) {
-  const std::filesystem::path file = model.file;
-  std::vector<std::filesystem::path> files{file};
-  for (const auto& [name, digest] : model.files) files.push_back(file.parent_path() / name);
-  return files;
-}
-
-}  // namespace hersey::cli
+}  // namespace hersey::session
