@@ -157,8 +157,8 @@ FAULTS = [
     Fault("run: energy of a cycle", "run/src/cycle/bearing_cycle.cpp",
           "cycle_.energy_film += 0.5 * dt * (last_.power_film + next.power_film);",
           "cycle_.energy_film += dt * (last_.power_film + next.power_film);"),
-    Fault("results: unit of the oil's volume", "run/src/series/bearing_record.cpp",
-          '{"oil_volume", "m^3",', '{"oil_volume", "m^3/s",', r"^run\."),
+    Fault("results: unit of the oil's volume", "bearing/src/quantities/film_quantities.cpp",
+          '{"oil_volume", "", "m^3",', '{"oil_volume", "", "m^3/s",', r"^run\."),
     Fault("study: revolutions per minute", "study/src/figure_table.h",
           'kRpm{"rpm", "rad/s", std::numbers::pi / 30};', 'kRpm{"rpm", "rad/s", std::numbers::pi / 60};'),
 ]

@@ -313,6 +313,7 @@ nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<s
   for (const BearingFigure& f : study::figures_of(solution)) {
     nlohmann::json& entry = document["figures"][f.key];
     entry = {{"name", f.name}, {"value", f.si * f.value}, {"unit", f.si_unit}};
+    if (f.label != f.name) entry["label"] = f.label;  // in the printed table
     if (f.grid_error >= 0) entry["grid_error"] = f.si * f.grid_error;
     if (!f.words.empty()) entry["value"] = nullptr, entry["words"] = f.words;
   }

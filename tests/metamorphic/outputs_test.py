@@ -113,7 +113,7 @@ class Outputs(unittest.TestCase):
             self.assertGreater(len(told), 30)
 
             def is_same(figure, line):
-                return figure["name"].strip() == line[0] and abs(line[1] - figure["value"]) <= OF_TABLE * abs(figure["value"])
+                return figure.get("label", figure["name"]).strip() == line[0] and abs(line[1] - figure["value"]) <= OF_TABLE * abs(figure["value"])
 
             for figure in figures:
                 with self.subTest(f"{name} {figure['name']}"):

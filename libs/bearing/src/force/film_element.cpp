@@ -13,13 +13,6 @@ namespace {
 // Share of a control volume that may be left to the next one at the end of a step.
 constexpr double kLargestRedistributedOverfill = 0.02;
 
-// Linearisations of a step from which on nodes that empty do so as their oil says: one that the linear film empties far
-// too much and the next one fills again would do so for ever. Between surfaces that deform the gap would not follow.
-constexpr int kFrontUpdateAfter = 4;
-
-// Linearisations of a step from which on only half of the nodes that would cavitate or fill do so.
-constexpr int kAntiCyclingAfter = 6;
-
 // Films at the start of a run whose layers thin by their shear, and the change of viscosity with which they end.
 constexpr int kMostFirstFilms = 20;
 constexpr double kAsThin = 1e-6;
@@ -92,9 +85,6 @@ void FilmElement::follow(const Eigen::VectorXd& parameters) {
     parameter_change_[k] = std::remainder(parameter_change_[k], 2 * std::numbers::pi);
   reynolds_.follow(parameter_change_, du_);
   u_ = u_linearised_ + du_;
-  const bool is_rigid = options_.is_rigid && model().compliance == 0;
-  if (is_rigid && iterations_ > kFrontUpdateAfter) reynolds_.advance_rupture_front(u_);
-  if (iterations_ > kAntiCyclingAfter) reynolds_.limit_active_set_changes(u_linearised_, iterations_, u_);
 }
 
 film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters) {

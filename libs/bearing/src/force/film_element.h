@@ -25,7 +25,6 @@ class FilmElement {
     film::FilmSolveOptions solve;
     double initial_dt;  ///< the film at the start follows from a gap that was full this long before [s], > 0
     std::optional<film::ThermalModel> thermal;  ///< unset: an isothermal film at the model's temperature
-    bool is_rigid;                              ///< no surface has amplitudes of its own
     std::vector<Eigen::Index> angles;           ///< parameters that are the same after a whole revolution
   };
   FilmElement(const film::FilmModel& model, Options options);

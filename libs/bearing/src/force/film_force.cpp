@@ -38,7 +38,6 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
       film_(std::make_unique<FilmElement>(model, FilmElement::Options{.solve = options.film,
                                                                       .initial_dt = options.initial_dt,
                                                                       .thermal = options.thermal,
-                                                                      .is_rigid = !deforming_->deform(),
                                                                       .angles = angles_of(*gap_)})),
       thermal_(std::make_unique<ThermalSurfaces>(film_->model(), film_->heat(), options.growth)),
       exchange_(std::make_unique<WrenchExchange>(options.acceleration, options.relaxation, deforming_->amplitudes(),

@@ -208,17 +208,6 @@ void Reynolds::newton_increment(Eigen::VectorXd& du, double rtol) {
   impl_->solve(impl_->rhs, rtol, du);
 }
 
-void Reynolds::regularised_increment(Eigen::VectorXd& du) {
-  Impl& m = *impl_;
-  HERSEY_REQUIRE(m.linearised, "linearise() comes first");
-  if (m.lu.size() == 0) m.lu.analyse(m.balance.size(), m.balance.column_start(), m.balance.row_index());
-  m.find_row_sizes();
-  m.factorised = false;  // as far as the Jacobian itself is asked for
-  if (!m.factorise_shifted(1e-3)) return newton_increment(du);
-  du = -m.balance.residual();
-  m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
-}
-
 bool Reynolds::has_factor() const { return impl_->linearised && impl_->factorised; }
 
 FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
@@ -241,10 +230,6 @@ void Reynolds::advance_rupture_front(Eigen::VectorXd& u) const { film::advance_r
 
 void Reynolds::press_filled_nodes(const Eigen::VectorXd& u, Eigen::VectorXd& du) const {
   film::press_filled_nodes(impl_->balance, u, du);
-}
-
-void Reynolds::limit_active_set_changes(const Eigen::VectorXd& before, int iteration, Eigen::VectorXd& u) const {
-  film::limit_active_set_changes(impl_->balance.model(), before, iteration, u);
 }
 
 void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial) {

@@ -77,10 +77,6 @@ class Reynolds {
   /// residual.
   void newton_increment(Eigen::VectorXd& du, double rtol = 1e-10);
 
-  /// Likewise with a thousandth of each row's largest entry added to the Jacobian's diagonal: a bounded step where the
-  /// Jacobian is all but singular and its own increment runs away.
-  void regularised_increment(Eigen::VectorXd& du);
-
   /// A step of the chord method: du = -J^{-1} residual(u) with the factor that the last linearisation has. Residual and
   /// wrench are then those at `u`, all derivatives still those of that linearisation. Says where `u` lies outside the
   /// domain, and is then without a linearisation. @pre has_factor()
@@ -95,9 +91,6 @@ class Reynolds {
   /// Of nodes that a Newton step `du` from the last linearisation fills, steps to a pressure in place of what is too
   /// much of the oil that was missing (film.31).
   void press_filled_nodes(const Eigen::VectorXd& u, Eigen::VectorXd& du) const;
-  /// Anti-cycling: of the nodes that would cavitate or fill between the unknowns `before` and `u`, about half keep
-  /// their state; the half alternates with `iteration`.
-  void limit_active_set_changes(const Eigen::VectorXd& before, int iteration, Eigen::VectorXd& u) const;
 
   /// Answer to a change of the surfaces (film.39): `du` = -J^{-1} dr/d(parameter), and the wrench's *partial*
   /// derivative at fixed u. The total derivative is  partial + wrench_gradient(du).
