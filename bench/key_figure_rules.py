@@ -64,7 +64,7 @@ ZERO = {"m": 1e-12, "rad": 1e-9, "1": 1e-9, "": 1e-9, "N": 1e-5, "N.m": 1e-8, "P
         "degC": 1e-6, "Hz": 1e-6, "N/m": 10.0, "N.s/m": 0.1, "N.m.s": 1e-9, "kg": 1e-6, "rad/s": 1e-6, "m/s": 1e-9}
 
 NOT_OF_A_BEARING = re.compile("|".join([
-    r".*_error",                                      # balances: round-off, or the error of the grid
+    r".*_error(_share)?",                                # balances: round-off, or the error of the grid
     r"(h_min|p_max|T_max|T_shell_max)_(angle|y|z)",   # places: they leap between nodes of nearly equal values
     r"(rupture|reformation)_(angle|y)",
     r"load_angle|speed|journal_speed|shell_speed",    # given by the model
