@@ -94,7 +94,8 @@ TEST_CASE("FiguresOfASlider_AreOfSecondOrder") {
     CAPTURE(key);
     const double fine = entry.second.value, half = grids[1].at(key).value, quarter = grids[0].at(key).value;
     const double last = std::abs(fine - half), before = std::abs(half - quarter);
-    if (key == "power_error_share" || key == "cavitated_share" || key == "mass_balance_error") continue;  // errors themselves
+    if (key == "power_error_share" || key == "cavitated_share" || key == "mass_balance_error")
+      continue;                                           // errors themselves
     if (last <= 1e-6 * std::abs(fine) + 1e-12) continue;  // exact on every grid, or zero
     // A quarter, with the next order of the coarsest grid: shear sees the slope of the pressure at the corners.
     CHECK(last < 0.4 * before);
