@@ -174,6 +174,21 @@ TEST_CASE("RingAsNarrowAsAThread_IsLeftToTheDirectSolver") {
   CHECK(du[1] == du[0]);
 }
 
+// An earlier factor has no effect on it.
+TEST_CASE("RegularisedIncrement_IsTheSameForANewFilm") {
+  const FilmModel m = big_end();
+  const SurfaceMotion motion = surfaces(m, turning(m, 0.7, omega));
+  const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());
+  Reynolds fresh(m), used(m);
+  Eigen::VectorXd du, other, newton;
+  CHECK_FALSE(fresh.has_factor());
+  REQUIRE((fresh.linearise(motion, {}, u).is_inside() && used.linearise(motion, {}, u).is_inside()));
+  used.newton_increment(newton);
+  fresh.regularised_increment(du), used.regularised_increment(other);
+  CHECK((du - other).norm() < 1e-10 * du.norm());  // pivots of another matrix: round-off times the condition
+  CHECK(du.norm() < newton.norm());
+}
+
 TEST_CASE("ChordOutsideTheDomain_IsReportedAndLeavesNoFactor") {
   const FilmModel m = big_end();
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(m.grid.size());

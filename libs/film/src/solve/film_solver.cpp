@@ -132,7 +132,8 @@ double linear_tolerance(double rtol, double residual, double last_residual) {
   return std::clamp(0.1 * nearer * nearer, std::min(roughest, 0.1 * rtol / residual), roughest);
 }
 
-// Linearises at the end of a step, which is halved until the film is open there.
+// Linearises at the end of a step: half of it, as often as it takes, where the film closes; where a pressure runs away
+// the Jacobian is all but singular, or a law of viscosity is, and one careful step from where it began may do.
 FilmDomain enter_domain(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                         const Eigen::VectorXd& before, Eigen::VectorXd& u) {
   FilmDomain domain = reynolds.linearise(motion, history, u);
@@ -141,7 +142,12 @@ FilmDomain enter_domain(Reynolds& reynolds, const SurfaceMotion& motion, const F
     u = 0.5 * (before + u);
     domain = reynolds.linearise(motion, history, u);
   }
-  return domain;
+  if (domain.violation != FilmDomain::Violation::pressure) return domain;
+  Eigen::VectorXd du;
+  (void)reynolds.linearise(motion, history, before);
+  reynolds.regularised_increment(du);
+  u = before + step_share(reynolds.model(), motion, before, du) * du;
+  return reynolds.linearise(motion, history, u);
 }
 
 // Newton's method (film.31). `least` is the smallest unknown an iterate may have [Pa].

@@ -208,6 +208,17 @@ void Reynolds::newton_increment(Eigen::VectorXd& du, double rtol) {
   impl_->solve(impl_->rhs, rtol, du);
 }
 
+void Reynolds::regularised_increment(Eigen::VectorXd& du) {
+  Impl& m = *impl_;
+  HERSEY_REQUIRE(m.linearised, "linearise() comes first");
+  if (m.lu.size() == 0) m.lu.analyse(m.balance.size(), m.balance.column_start(), m.balance.row_index());
+  m.find_row_sizes();
+  m.factorised = false;  // as far as the Jacobian itself is asked for
+  if (!m.factorise_shifted(1e-3)) return newton_increment(du);
+  du = -m.balance.residual();
+  m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
+}
+
 bool Reynolds::has_factor() const { return impl_->linearised && impl_->factorised; }
 
 FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,

@@ -77,6 +77,10 @@ class Reynolds {
   /// residual.
   void newton_increment(Eigen::VectorXd& du, double rtol = 1e-10);
 
+  /// Likewise with a thousandth of each row's largest entry added to the Jacobian's diagonal: a bounded step where the
+  /// Jacobian is all but singular and its own increment runs away.
+  void regularised_increment(Eigen::VectorXd& du);
+
   /// A step of the chord method: du = -J^{-1} residual(u) with the factor that the last linearisation has. Residual and
   /// wrench are then those at `u`, all derivatives still those of that linearisation. Says where `u` lies outside the
   /// domain, and is then without a linearisation. @pre has_factor()
