@@ -106,3 +106,19 @@ export const padRunReport = {
     assert.match(await page.locator(".machine-legend").innerText(), /film of pad, 0 to [\d.]+ MPa/);
   },
 };
+
+/** Of a machine's steady state, which has one instant. */
+export const padStateReport = {
+  "verdict and key numbers are on the first screen": everyReport["verdict and key numbers are on the first screen"],
+  "title, assumptions and status come first": everyReport["title, assumptions and status come first"],
+  ...everyPad,
+
+  "quantities over time are numbers, not empty axes": async (page) => {
+    for (const kind of ["thickness", "peak-pressure", "force", "power", "flow"]) {
+      const figure = page.locator(`[data-figure="${kind}"]`).first();
+      assert.equal(await figure.locator("canvas").count(), 0, `${kind} is drawn over one instant`);
+      assert.ok((await figure.locator("tr").count()) > 0, `${kind} says nothing`);
+    }
+    assert.match(await page.locator('[data-figure="force"] table').first().innerText(), /magnitude\s+98[01](\.\d+)?\sN/, "the film does not carry the carriage");
+  },
+};

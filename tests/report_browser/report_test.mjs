@@ -5,7 +5,7 @@ import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { bearingReport, besideReport, everyReport, comparisonReport, machineReport, runReport, runUpReport, spectraReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
-import { padReport, padRunReport, padSweepReport } from "./pad_checks.mjs";
+import { padReport, padRunReport, padStateReport, padSweepReport } from "./pad_checks.mjs";
 import { samplingReport } from "./sampling_checks.mjs";
 
 const flags = [
@@ -161,7 +161,8 @@ async function testReport(browser, file) {
   const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : runReport), ...(isStudy && !isComparison ? spectraReport : {}), ...everyReport };
   const ofBearing = { ...(isStudy ? sweepReport : {}), ...bearingReport };
   const isPad = (await page.locator("h1").innerText()).startsWith("A pad");
-  const ofPad = isBearing ? { ...(isStudy ? padSweepReport : {}), ...padReport } : padRunReport;
+  const isState = (await page.locator(".figure.state").count()) > 0;
+  const ofPad = isBearing ? { ...(isStudy ? padSweepReport : {}), ...padReport } : isState ? padStateReport : padRunReport;
   const tests = isPad ? ofPad : isSampling ? samplingReport : isRunUp ? runUpReport : hasMore ? besideReport : isModes ? modesReport : isBearing ? ofBearing : isMachine ? machineReport : ofSimulation;
   for (const [name, test] of Object.entries(tests)) await findings.check(name, () => test(page));
   await testAccess(page, findings);

@@ -10,6 +10,7 @@ import { furtherFigures } from "./further_series";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Orbit } from "./orbit";
 import { Axis, curve, magnitude, scaled, type Abscissa } from "./series";
+import { stateFigure } from "./state_table";
 import { axisName, surfaceOf, type Surface } from "./surface";
 import { cubicMillimetrePerSecond, degree, megapascal, micrometre, micrometrePerMetre, millimetre, newtonMillimetre, percent, plain, type Display } from "./units";
 
@@ -122,6 +123,7 @@ export class BearingView {
 
   private addAround(): void {
     const time = this.run.column("/time");
+    if (this.axis.isOneInstant) return;
     const map = AngleTimeMap.of(this.run, this.bearing, this.axis, (row) => this.pickTime(time?.[row] ?? 0));
     if (!map) return;
     this.followers.push((t) => map.mark(this.axis.at(t)));
@@ -134,6 +136,7 @@ export class BearingView {
 
   private add(name: string, caption: string, left: LineFigure["left"], curves: Curve[], right?: LineFigure["right"], into: HTMLElement = this.element): void {
     if (curves.length === 0) return;
+    if (this.axis.isOneInstant) return into.append(stateFigure(name, caption, curves));
     const time = this.run.column("/time");
     const plot = new LinePlot({
       name: `${this.bearing}-${name}`,

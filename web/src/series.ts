@@ -42,6 +42,11 @@ export class Axis {
     this.x = { label: kind === "angle" && angle ? "crank angle" : "time", unit: display.unit, values: scaled(values, display.factor) };
   }
 
+  /** Whether the run is one state, of which there are no curves. */
+  get isOneInstant(): boolean {
+    return this.time.length === 1;
+  }
+
   /** Where a time lies on the abscissa, linear between rows. */
   at(time: number): number | null {
     const n = this.time.length;

@@ -8,6 +8,7 @@ import { mechanismGraph } from "./mechanism_graph";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Axis, columns, curve, scaled, timeDisplay, type Abscissa } from "./series";
 import { SpectraView } from "./spectra_view";
+import { stateFigure } from "./state_table";
 import { summaryTables } from "./summary_table";
 import { degree, millimetre, plain, type Display } from "./units";
 
@@ -74,6 +75,7 @@ export class SystemView {
 
   private add(body: HTMLElement, name: string, caption: string, left: LineFigure["left"], curves: Curve[]): void {
     if (curves.length === 0) return;
+    if (this.axis.isOneInstant) return body.append(stateFigure(name, caption, curves));
     const time = this.run.column("/time");
     const pick = (row: number) => this.pickTime(time?.[row] ?? 0);
     const plot = new LinePlot({ name, x: this.axis.x, left, curves, height: 200, pick, hover: this.hoverRow });

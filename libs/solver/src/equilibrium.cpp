@@ -293,9 +293,10 @@ class EquilibriumSearch {
     Index farthest = 0;
     if (moved.maxCoeff(&farthest) < std::max(kSteady, kFixedShare * kLargestMove * deformed)) return true;
     summary_.message = fmt::format(
-        "no steady motion: {} does not keep still while the drives rotate; its surroundings must be the same all "
-        "around the "
-        "axis of rotation, gravity must act along this axis, and the speeds of the drives must be constant",
+        "no steady motion: {} does not keep still while the drives rotate; in its coordinates loads, unbalances and "
+        "surroundings must be the same at every angle (gravity along the axis of coordinates that rotate), and the "
+        "speeds "
+        "of the drives must be constant",
         equations_.name_of_row(farthest));
     return false;
   }
