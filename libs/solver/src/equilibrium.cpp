@@ -23,6 +23,7 @@ constexpr double kSolved = 1e-10;        // rad, or sizes of the system: increme
 constexpr int kLongestPath = 20;         // in steps of Newton's method, times those allowed to a search
 constexpr double kSmallestShare = 1e-5;  // of the load that one step of following it may add
 constexpr double kShortest = 1e-2;       // of a step of Newton's method towards a steady motion
+constexpr double kContraction = 0.5;     // of the increments of Newton's method, for a step that one of them solves
 constexpr double kNeutral = 1e-12;       // of the terms whose sum is a stiffness
 constexpr double kSteady = 1e-8;         // rad, or sizes of the system: ten times what Newton's tolerance leaves
 constexpr double kFixedShare = 1e-2;  // largest share of the deformation that may be fixed in space in a steady motion
@@ -206,7 +207,7 @@ class EquilibriumSearch {
   /// where nothing moves. Near the singular tangents at which Newton's method halts, films still resist all motions.
   /// Theory manual eq. (integrator.35).
   bool drift_to_steady_motion(const State& start) {
-    constexpr double contraction = 0.5, fast = 0.1, longest = 1e-6;
+    constexpr double fast = 0.1, longest = 1e-6;
     here_ = start;
     if (!assemble(here_)) return false;
     const double fastest = std::max(here_.v.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>(), 1e-300);
@@ -215,7 +216,7 @@ class EquilibriumSearch {
       if (worst_ <= 1) return true;
       keep_damping();
       const double remaining = try_to_drift(mu);
-      if (!(remaining <= contraction)) {
+      if (!(remaining <= kContraction)) {
         mu *= 4;
       } else if (remaining < fast) {
         mu = std::max(mu / 4, longest * fastest);
@@ -242,7 +243,7 @@ class EquilibriumSearch {
       remaining = next_increment().cwiseQuotient(reach_).norm() / dx.cwiseQuotient(reach_).norm();
       residual_ -= mu * (weight_ * increment_);
     }
-    if (remaining <= 0.5) {
+    if (remaining <= kContraction) {
       walked_ += dx;
       return remaining;
     }
