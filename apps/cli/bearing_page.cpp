@@ -26,6 +26,7 @@ void add_fields(const BearingSolution& solution, PageSolution& page) {
   page.z.resize(model.grid.n_z);
   page.is_plane = !film::is_round(model.surface);
   for (int i = 0; i < model.grid.n_phi; ++i) page.phi[i] = model.grid.phi(i);
+  if (!page.is_plane && !model.grid.closes()) page.arcs = film::arc_of_lines(model.grid);
   for (int j = 0; j < model.grid.n_z; ++j) page.z[j] = model.L * model.grid.z_over_L(j);
   for (const run::FilmField& field : run::film_fields())
     if (Eigen::VectorXd values = field.values(fields); values.size() > 0)

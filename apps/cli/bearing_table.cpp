@@ -54,8 +54,12 @@ std::string pressures_of(const film::FilmModel& film) {
     if (is_open && edge.ambient_fill > 0 && edge.ambient_fill < 1)
       text += fmt::format(", {} one in {:.3g} of oil", name, edge.ambient_fill);
   };
-  for (const film::PatchEnds& end : film.ends)
-    text += fmt::format(", ends {} and {}", outside(end.first), outside(end.last));
+  std::string ends;
+  for (const film::PatchEnds& end : film.ends) {
+    const std::string own = fmt::format(", ends {} and {}", outside(end.first), outside(end.last));
+    if (own != ends) text += own;  // those of equal arcs are said once
+    ends = own;
+  }
   fill("left", film.edge_left);
   fill("right", film.edge_right);
   return film.pressures == film::PressureScale::absolute ? text + " (absolute)" : text;

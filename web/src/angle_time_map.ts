@@ -58,7 +58,7 @@ export class AngleTimeMap extends Drawing {
     const row = (k: number) => all.length - 1 - (rows - 1 - k) * run.aroundStride;
     if (!nodes || rows < 2 || row(0) < 0) return null;
     const x = Float64Array.from({ length: rows }, (_, k) => all[row(k)]!);
-    return new AngleTimeMap(fields, new FilmAxis(along, nodes), x, axis.x, (k) => pick(row(k)));
+    return new AngleTimeMap(fields, new FilmAxis(along, nodes, run.dataset(`/bearings/${bearing}/fields/arc`)?.values), x, axis.x, (k) => pick(row(k)));
   }
 
   choose(kind: FieldKind): void {
@@ -102,7 +102,7 @@ export class AngleTimeMap extends Drawing {
     const { label, display } = this.kind;
     const value = this.sample(this.rowAt(this.valueAt(u)), this.along.index(v));
     return [
-      `${label} ${withUnit(value * display.factor, display.unit)}`,
+      Number.isNaN(value) ? "between arcs" : `${label} ${withUnit(value * display.factor, display.unit)}`,
       `${told(this.along.coordinate, this.along.valueAt(v))}, ${this.axis.label} ${withUnit(this.valueAt(u), this.axis.unit, 5)}`,
     ];
   }
@@ -147,6 +147,7 @@ export class AngleTimeMap extends Drawing {
     const n = along.nodes.length;
     const r = Math.min(this.x.length - 2, Math.floor(row));
     const i = Math.min(along.cells - 1, Math.floor(place));
+    if (!along.isFilm(i)) return NaN;
     const [s, t] = [row - r, place - i];
     const at = (k: number) => values[k * n + along.node(i)]! * (1 - t) + values[k * n + along.node(i + 1)]! * t;
     return at(r) * (1 - s) + at(r + 1) * s;
@@ -164,7 +165,7 @@ export class AngleTimeMap extends Drawing {
       const place = this.along.index(1 - (y + 0.5) / height);
       for (let column = 0; column < width; column++) {
         const value = (this.sample(rows[column]!, place) - low) * factor;
-        words[y * width + column] = colourTable[value <= 0 ? 0 : value >= 255 ? 255 : Math.round(value)]!;
+        if (!Number.isNaN(value)) words[y * width + column] = colourTable[value <= 0 ? 0 : value >= 255 ? 255 : Math.round(value)]!;
       }
     }
     context.putImageData(pixels, 0, 0);

@@ -86,8 +86,9 @@ export class FieldMap extends Drawing {
     if (u < 0 || u > 1 || v < 0 || v > 1 || !field) return null;
     const { along, across } = this.fields;
     const { label, display } = this.kind;
+    const value = this.sample(field, along.index(u), across.index(v)) * display.factor;
     return [
-      `${label} ${withUnit(this.sample(field, along.index(u), across.index(v)) * display.factor, display.unit)}`,
+      Number.isNaN(value) ? "between arcs" : `${label} ${withUnit(value, display.unit)}`,
       `${told(along.coordinate, along.valueAt(u))}, ${told(across.coordinate, across.valueAt(v))}`,
     ];
   }
@@ -117,11 +118,12 @@ export class FieldMap extends Drawing {
     return [box.left + ((along - low) / (high - low || 1)) * box.width, box.top + (1 - this.fields.across.share(across)) * box.height];
   }
 
-  /** Bilinear between the nodes; x and y are fractional indices along and across the motion. */
+  /** Bilinear between the nodes, NaN between arcs; x and y are fractional indices along and across the motion. */
   private sample(field: ArrayLike<number>, x: number, y: number): number {
     const { along, across } = this.fields;
     const nz = across.nodes.length;
     const i = Math.min(along.cells - 1, Math.floor(x));
+    if (!along.isFilm(i)) return NaN;
     const j = Math.min(nz - 2, Math.floor(y));
     const [s, t] = [x - i, y - j];
     const low = along.node(i) * nz + j;
@@ -143,7 +145,7 @@ export class FieldMap extends Drawing {
       const across = this.fields.across.index(1 - (row + 0.5) / height);
       for (let column = 0; column < width; column++) {
         const value = (this.sample(field, places[column]!, across) - low) * factor;
-        words[row * width + column] = colourTable[value <= 0 ? 0 : value >= 255 ? 255 : Math.round(value)]!;
+        if (!Number.isNaN(value)) words[row * width + column] = colourTable[value <= 0 ? 0 : value >= 255 ? 255 : Math.round(value)]!;
       }
     }
     context.putImageData(pixels, 0, 0);
@@ -162,7 +164,7 @@ export class FieldMap extends Drawing {
     context.lineWidth = 1.2;
     context.beginPath();
     for (let i = 0; i < along.cells; i++)
-      for (let j = 0; j < nz - 1; j++) {
+      for (let j = 0; along.isFilm(i) && j < nz - 1; j++) {
         const corners: [number, number][] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
         const crossings: [number, number][] = [];
         corners.forEach(([ia, ja], k) => {

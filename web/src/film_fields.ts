@@ -2,7 +2,7 @@
 
 import type { Dataset, Numbers, Run } from "./data";
 import { capital } from "./summary_table";
-import { FilmAxis, surfaceOf, type Surface } from "./surface";
+import { FilmAxis, surfaceOf, type Coordinate, type Surface } from "./surface";
 import { displayOf, megapascal, micrometre, percent, type Display } from "./units";
 
 export interface FieldKind {
@@ -24,10 +24,12 @@ const fieldKinds = ({ held, moving }: Surface): FieldKind[] => [
 /** The nodes of a bearing's film; null where the file tells none. */
 function nodesOf(run: Run, bearing: string): { surface: Surface; along: FilmAxis; across: FilmAxis } | null {
   const surface = surfaceOf(run, bearing);
-  const [along, across] = [surface.along, surface.across].map((coordinate) => {
-    const nodes = run.dataset(`/bearings/${bearing}/fields/${coordinate.key}`)?.values;
-    return nodes && nodes.length > 1 ? new FilmAxis(coordinate, nodes) : null;
-  });
+  const values = (key: string) => run.dataset(`/bearings/${bearing}/fields/${key}`)?.values;
+  const axis = (coordinate: Coordinate, arcs?: Numbers) => {
+    const nodes = values(coordinate.key);
+    return nodes && nodes.length > 1 ? new FilmAxis(coordinate, nodes, arcs) : null;
+  };
+  const [along, across] = [axis(surface.along, values("arc")), axis(surface.across)];
   return along && across ? { surface, along, across } : null;
 }
 

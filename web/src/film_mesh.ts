@@ -28,7 +28,7 @@ export class FilmMesh {
     const { along, across, surface } = fields;
     this.largest = fields.range("pressure")[1];
     const places = Array.from({ length: along.cells + 1 }, (_, i) => along.place(i));
-    const geometry = patch(surface, places, across.nodes, size);
+    const geometry = patch(surface, places, across.nodes, size, (cell) => along.isFilm(cell));
     this.colours = new BufferAttribute(new Float32Array(3 * places.length * across.nodes.length), 3);
     geometry.setAttribute("color", this.colours);
     // A body's face in the plane of a flat film does not hide it in patches.
@@ -72,18 +72,18 @@ export function pose({ centre, axis, start }: Frame): Matrix4 {
   return new Matrix4().makeBasis(start, new Vector3().crossVectors(axis, start), axis).setPosition(centre);
 }
 
-function patch(surface: Surface, along: ArrayLike<number>, across: ArrayLike<number>, size: Size): BufferGeometry {
+function patch(surface: Surface, along: ArrayLike<number>, across: ArrayLike<number>, size: Size, isShown: (cell: number) => boolean = () => true): BufferGeometry {
   const places = Array.from(along).flatMap((x) => Array.from(across).flatMap((y) => surface.point(x, y, size)));
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(places), 3));
-  geometry.setIndex(triangles(along.length, across.length));
+  geometry.setIndex(triangles(along.length, across.length, isShown));
   return geometry;
 }
 
-function triangles(along: number, across: number): number[] {
+function triangles(along: number, across: number, isShown: (cell: number) => boolean): number[] {
   const list: number[] = [];
   for (let i = 0; i + 1 < along; i++)
-    for (let j = 0; j + 1 < across; j++) {
+    for (let j = 0; isShown(i) && j + 1 < across; j++) {
       const [a, b] = [i * across + j, (i + 1) * across + j];
       list.push(a, b, b + 1, a, b + 1, a + 1);
     }

@@ -109,9 +109,9 @@ export function told({ symbol, display, digits }: Coordinate, value: number): st
   return `${symbol} ${withUnit(value * display.factor, display.unit, digits)}`;
 }
 
-/** The nodes of a film along one of its coordinates; they ascend, and may be graded. */
+/** The nodes of a film along one of its coordinates; they ascend, and may be graded. Between the arcs of a bore there is no film. */
 export class FilmAxis {
-  /** What a map shows: a whole turn, or from the first node to the last. */
+  /** What a map shows: a whole turn, of arcs from the first on, or from the first node to the last. */
   readonly low: number;
   readonly high: number;
   /** Between neighbours; as many as nodes where the film closes. */
@@ -120,12 +120,19 @@ export class FilmAxis {
   constructor(
     readonly coordinate: Coordinate,
     readonly nodes: Numbers,
+    /** Number of the arc on which each node lies; nothing where the film is whole. */
+    private readonly arcs?: Numbers,
   ) {
     const { period } = coordinate;
     const last = nodes.length - 1;
-    this.low = period === undefined ? nodes[0]! : 0;
-    this.high = period ?? nodes[last]!;
+    this.low = period === undefined || arcs ? nodes[0]! : 0;
+    this.high = period === undefined ? nodes[last]! : this.low + period;
     this.cells = period === undefined ? last : nodes.length;
+  }
+
+  /** True of a cell that holds film: it does not lie between two arcs. */
+  isFilm(cell: number): boolean {
+    return !this.arcs || (cell + 1 < this.nodes.length && this.arcs[cell] === this.arcs[cell + 1]);
   }
 
   /** The node with an index, which may go on beyond the last one where the film closes. */
@@ -161,7 +168,8 @@ export class FilmAxis {
   index(share: number): number {
     const { nodes } = this;
     const value = this.valueAt(share);
-    const at = value < nodes[0]! && this.coordinate.period !== undefined ? value + this.coordinate.period : value;
+    const { period } = this.coordinate;
+    const at = period === undefined ? value : value - period * Math.floor((value - nodes[0]!) / period);
     const i = Math.max(0, Math.min(this.cells - 1, lastNotAbove(nodes, at)));
     const [from, to] = [this.place(i), this.place(i + 1)];
     return to > from ? i + Math.min(1, Math.max(0, (at - from) / (to - from))) : i;
@@ -185,14 +193,17 @@ export class FilmAxis {
     return axisLabel(name ?? symbol, display.unit);
   }
 
-  /** Numbers of the nodes times a factor, the first once more at the end where the film closes. */
+  /** Numbers of the nodes times a factor, the first once more at the end where the film closes; NaN between arcs. */
   closed(values: ArrayLike<number>, factor = 1): number[] {
-    return Array.from({ length: this.cells + 1 }, (_, i) => values[this.node(i)]! * factor);
+    if (!this.arcs) return Array.from({ length: this.cells + 1 }, (_, i) => values[this.node(i)]! * factor);
+    return Array.from(this.nodes).flatMap((_, i) => (this.isFilm(i) ? [values[i]! * factor] : [values[i]! * factor, NaN]));
   }
 
   /** Places of the nodes in the unit displayed, likewise. */
   shown(): number[] {
-    return Array.from({ length: this.cells + 1 }, (_, i) => this.place(i) * this.coordinate.display.factor);
+    const { factor } = this.coordinate.display;
+    if (!this.arcs) return Array.from({ length: this.cells + 1 }, (_, i) => this.place(i) * factor);
+    return Array.from(this.nodes).flatMap((x, i) => (this.isFilm(i) ? [x * factor] : [x * factor, x * factor]));
   }
 
   /** Ticks of an axis so long [px] with their places, as shares of it. */
@@ -200,7 +211,8 @@ export class FilmAxis {
     const { display, step } = this.coordinate;
     const [low, high] = [this.low * display.factor, this.high * display.factor];
     const width = step?.(length);
-    const values = width === undefined ? ticks(low, high, most) : Array.from({ length: Math.floor((high - low) / width + 1.000001) }, (_, i) => low + i * width);
+    const first = width === undefined ? low : width * Math.ceil(low / width - 1e-6);
+    const values = width === undefined ? ticks(low, high, most) : Array.from({ length: Math.floor((high - first) / width + 1.000001) }, (_, i) => first + i * width);
     return values.map((value) => ({ share: (value - low) / (high - low || 1), text: format(value, 3) }));
   }
 }

@@ -30,6 +30,8 @@ json datasets(const PageSolution& solution, const std::string& bearing) {
   json result;
   result[fields + "time"] = dataset(Eigen::VectorXd::Zero(1), {1}, "s");
   result[fields + (solution.is_plane ? "y" : "phi")] = dataset(solution.phi, {n_phi}, solution.is_plane ? "m" : "rad");
+  if (!solution.arcs.empty())
+    result[fields + "arc"] = dataset(Eigen::Map<const Eigen::VectorXd>(solution.arcs.data(), n_phi), {n_phi}, "1");
   result[fields + "z"] = dataset(solution.z, {n_z}, "m");
   for (const PageField& field : solution.fields)
     result[fields + field.name] = dataset(field.values, {1, n_phi, n_z}, field.unit, field.text);

@@ -133,10 +133,12 @@ Group oil() {
           {{"side_flow",
             "side flow",
             kFlow,
-            [](const Solution& s) { return s.state.film.flow_out(); },
+            film(&Film::flow_sides),
             {.grid_error = error_of(&bearing::GridError::side_flow)}},
            {"flow_left", kFlow, film(&Film::flow_left)},
            {"flow_right", kFlow, film(&Film::flow_right)},
+           {"flow_leading", kFlow, film(&Film::flow_first), {.only = has_arcs}},
+           {"flow_trailing", kFlow, film(&Film::flow_last), {.only = has_arcs}},
            {"flow_supply", kFlow, film(&Film::flow_supply)},
            flow_through_features(),
            {"oil_volume", kVolume, film(&Film::oil_volume)},
@@ -338,9 +340,9 @@ Group stability() {
 
 /// The table of a journal bearing's figures, in the order in which they are reported.
 const std::vector<Group>& journal_table() {
-  static const std::vector<Group> groups{operating_point(), film_figures(), deformation(), dimensionless(),
-                                         friction(),        oil(),          heat(),        dynamics(),
-                                         stability()};
+  static const std::vector<Group> groups{operating_point(), film_figures(), arc_figures(), deformation(),
+                                         dimensionless(),   friction(),     oil(),         heat(),
+                                         dynamics(),        stability()};
   return groups;
 }
 

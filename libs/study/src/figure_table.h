@@ -140,6 +140,11 @@ inline auto height(double film::FilmObservables::*z) {
 [[nodiscard]] Line flow_through_features();
 [[nodiscard]] Line mass_balance_error();
 
+/// Figures of each arc of a bore that consists of arcs.
+[[nodiscard]] Group arc_figures();
+/// True if the bore consists of arcs.
+[[nodiscard]] bool has_arcs(const Solution& s);
+
 /// The table of a plane slider's figures, in the order in which they are reported.
 [[nodiscard]] std::vector<Group> plane_slider_figures();
 

@@ -99,7 +99,7 @@ Group pad_oil() {
            {"side_flow",
             "flow out over both sides",
             kFlow,
-            [](const Solution& s) { return s.state.film.flow_left + s.state.film.flow_right; },
+            film(&Film::flow_sides),
             {.grid_error = error_of(&bearing::GridError::side_flow)}},
            {"flow_left", kFlow, film(&Film::flow_left)},
            {"flow_right", kFlow, film(&Film::flow_right)},

@@ -29,7 +29,7 @@ Figures plain_figures_of(const SteadyState& state) {
       .attitude = 0,
       .load = state.load.norm(),
       .friction_journal = std::abs(state.film.wrench_on_shell[4] + state.tilt.x() * state.load[0]) / state.load.norm(),
-      .side_flow = state.film.flow_left + state.film.flow_right,
+      .side_flow = state.film.flow_sides(),
       .torque_journal = 0,
       .torque_shell = 0,
       .power_film = state.film.power_film,
@@ -49,7 +49,7 @@ Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
             .attitude = n.attitude,
             .load = n.load,
             .friction_journal = n.friction_journal,
-            .side_flow = state.film.flow_out(),
+            .side_flow = state.film.flow_sides(),
             .torque_journal = state.film.torque_journal,
             .torque_shell = state.film.torque_shell,
             .power_film = state.film.power_film,
@@ -65,7 +65,7 @@ Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
 }
 
 film::FilmModel with_half_grid(film::FilmModel model) {
-  model.grid = film::resampled(model.grid, (model.grid.n_phi + 1) / 2, model.grid.n_z / 2 + 1);
+  model.grid = film::halved(model.grid);
   return model;
 }
 

@@ -25,7 +25,7 @@ film::LayeredViscosity taken_over(const film::GridTransfer& transfer, const film
 std::vector<TurnedFilm> turned_films(const film::FilmModel& model, const SteadyState& state,
                                      const SteadyOptions& options) {
   std::vector<TurnedFilm> films;
-  if (!model.grid.closes()) return films;
+  if (!film::closes(model.surface)) return films;
   OperatingPoint fixed = state.point;
   fixed.load.reset();
   fixed.e = state.e;

@@ -25,7 +25,7 @@ EffectiveTemperature balance(const film::Lubricant& oil, const GlobalHeat& heat,
     const double T = heat.T_ambient + power / (heat.transfer * heat.area);
     return {T, T};
   }
-  const double rise = power / (oil.density * oil.specific_heat * film.flow_out());
+  const double rise = power / (oil.density * oil.specific_heat * film.flow_sides());
   return {heat.T_supply + 0.5 * rise, heat.T_supply + rise};
 }
 
@@ -82,7 +82,7 @@ SteadySummary solve_global(film::FilmModel& model, const OperatingPoint& point, 
       continue;
     }
     carried = rise;
-    if (!heat.cools_by_surroundings && !(state.film.flow_out() > 0)) {
+    if (!heat.cools_by_surroundings && !(state.film.flow_sides() > 0)) {
       summary.set_solved(false);
       summary.message = "no oil leaves over the edges to take the heat along: give `cooling` by the surroundings";
       return summary;

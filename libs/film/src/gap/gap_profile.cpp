@@ -21,6 +21,24 @@ Opening Lobes::opening(double phi, double /*z*/, double /*L*/) const {
   return {offset - C, offset * std::sin(from_middle), C};
 }
 
+namespace {
+
+/// Angle from a point to the nearest end of an arc [rad]; negative within it.
+double beyond(const Arc& arc, double phi) {
+  const double half = 0.5 * (arc.to - arc.from);
+  return std::abs(std::remainder(phi - arc.from - half, 2 * std::numbers::pi)) - half;
+}
+
+}  // namespace
+
+Opening Arcs::opening(double phi, double /*z*/, double /*L*/) const {
+  if (arcs.empty()) return {};
+  const auto nearest = std::min_element(arcs.begin(), arcs.end(),
+                                        [phi](const Arc& a, const Arc& b) { return beyond(a, phi) < beyond(b, phi); });
+  const double C = nearest->offset * std::cos(phi - nearest->thinnest);
+  return {nearest->extra_clearance + nearest->offset - C, nearest->offset * std::sin(phi - nearest->thinnest), C};
+}
+
 Opening MeasuredShape::opening(double phi, double height, double /*L*/) const {
   const auto along = [&](std::size_t k) {
     Opening o{openings[k]->value({&phi, 1})};

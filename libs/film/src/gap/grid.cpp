@@ -61,27 +61,65 @@ double mean_step(const Grid& grid) {
   return sum / (grid.n_phi - static_cast<int>(grid.patches.size()));
 }
 
+namespace {
+
+/// Density of nodes at an angle of a ring.
+double density_around(double phi, const std::vector<Refinement>& around) {
+  double sum = 1;
+  for (const Refinement& r : around) sum += density_at(std::remainder(phi - r.position, two_pi), r);
+  return sum;
+}
+
+std::vector<double> graded_heights(int n_z, const std::vector<Refinement>& along) {
+  if (along.empty()) return {};
+  return equal_shares(n_z, -0.5, 0.5, [&](double z) {
+    double sum = 1;
+    for (const Refinement& r : along) sum += density_at(z - r.position, r);
+    return sum;
+  });
+}
+
+}  // namespace
+
 Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, const std::vector<Refinement>& along) {
   check(around), check(along);
-  Grid grid{.n_phi = n_phi, .n_z = n_z};
-  if (!around.empty()) {
-    const auto density = [&](double phi) {
-      double sum = 1;
-      for (const Refinement& r : around) sum += density_at(std::remainder(phi - r.position, two_pi), r);
-      return sum;
-    };
-    grid.angles = equal_shares(n_phi + 1, 0, two_pi, density);
-    grid.angles.pop_back();
-  }
-  if (!along.empty()) {
-    const auto density = [&](double z) {
-      double sum = 1;
-      for (const Refinement& r : along) sum += density_at(z - r.position, r);
-      return sum;
-    };
-    grid.heights = equal_shares(n_z, -0.5, 0.5, density);
+  Grid grid{.n_phi = n_phi, .n_z = n_z, .heights = graded_heights(n_z, along)};
+  if (around.empty()) return grid;
+  grid.angles = equal_shares(n_phi + 1, 0, two_pi, [&](double phi) { return density_around(phi, around); });
+  grid.angles.pop_back();
+  return grid;
+}
+
+Grid graded_grid(const std::vector<Patch>& patches, int n_z, const std::vector<Refinement>& around,
+                 const std::vector<Refinement>& along) {
+  check(around), check(along);
+  Grid grid = patch_grid(patches, n_z);
+  grid.heights = graded_heights(n_z, along);
+  for (std::size_t p = 0; p < patches.size() && !around.empty(); ++p) {
+    const Patch& patch = patches[p];
+    const std::vector<double> lines =
+        equal_shares(patch.lines, patch.from, patch.to, [&](double phi) { return density_around(phi, around); });
+    std::copy(lines.begin(), lines.end(), grid.angles.begin() + grid.patches[p]);
   }
   return grid;
+}
+
+Grid halved(const Grid& grid) {
+  const int n_z = grid.n_z / 2 + 1;
+  if (grid.patches.size() <= 1) return resampled(grid, (grid.n_phi + 1) / 2, n_z);
+  Grid half = resampled(grid, grid.n_phi, n_z);
+  half.angles.clear(), half.patches.clear();
+  for (std::size_t p = 0; p < grid.patches.size(); ++p) {
+    const int first = grid.patches[p], end = p + 1 < grid.patches.size() ? grid.patches[p + 1] : grid.n_phi;
+    const std::vector<double> lines(grid.angles.begin() + first, grid.angles.begin() + end);
+    const int count = std::max(4, (end - first + 1) / 2);
+    half.patches.push_back(static_cast<int>(half.angles.size()));
+    for (int k = 0; k + 1 < count; ++k)
+      half.angles.push_back(between(lines, static_cast<double>(k) * (end - first - 1) / (count - 1)));
+    half.angles.push_back(lines.back());
+  }
+  half.n_phi = static_cast<int>(half.angles.size());
+  return half;
 }
 
 Grid patch_grid(const std::vector<Patch>& patches, int n_z) {
@@ -124,8 +162,26 @@ Grid resampled(const Grid& grid, int n_phi, int n_z) {
   return other;
 }
 
+namespace {
+
+Grid moved_within_patches(const Grid& grid, double share) {
+  Grid other{.n_phi = 0, .n_z = grid.n_z, .heights = grid.heights};
+  for (int i = 0; i < grid.n_phi; ++i) {
+    if (grid.begins_patch(i)) {
+      other.patches.push_back(static_cast<int>(other.angles.size()));
+      other.angles.push_back(grid.phi(i));
+    }
+    other.angles.push_back(grid.next(i) < 0 ? grid.phi(i) : grid.phi(i) + share * (grid.phi(i + 1) - grid.phi(i)));
+  }
+  other.n_phi = static_cast<int>(other.angles.size());
+  return other;
+}
+
+}  // namespace
+
 Grid turned(const Grid& grid, double share) {
-  HERSEY_REQUIRE(grid.closes() && share >= 0 && share < 1, "a ring, and a share of its cells");
+  HERSEY_REQUIRE(share >= 0 && share < 1, "a share of the cells");
+  if (!grid.closes()) return share > 0 ? moved_within_patches(grid, share) : grid;
   Grid other = grid;
   other.angles.resize(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {

@@ -35,15 +35,31 @@ GridTransfer::GridTransfer(const Grid& from, const Grid& to) : GridTransfer(from
   }
 }
 
-GridTransfer GridTransfer::by_position(const Grid& from, const Grid& to) {
-  HERSEY_REQUIRE(from.closes() && to.closes(), "between rings");
-  GridTransfer transfer(from);
+void GridTransfer::lay_around_ring(const Grid& from, const Grid& to) {
   const auto phi = [&](int k) { return from.phi(k % from.n_phi) + (k < from.n_phi ? 0 : two_pi); };
   for (int i = 0; i < to.n_phi; ++i) {
     const double at = to.phi(i) < phi(0) ? to.phi(i) + two_pi : to.phi(i);
     int k = 0;
     while (k + 1 < from.n_phi && phi(k + 1) <= at) ++k;
-    transfer.around_.push_back({k, (k + 1) % from.n_phi, (at - phi(k)) / (phi(k + 1) - phi(k))});
+    around_.push_back({k, (k + 1) % from.n_phi, (at - phi(k)) / (phi(k + 1) - phi(k))});
+  }
+}
+
+void GridTransfer::lay_around_patches(const Grid& from, const Grid& to) {
+  for (int i = 0; i < to.n_phi; ++i) {
+    int k = from.patches[static_cast<std::size_t>(to.patch_of(i))];
+    while (from.next(k + 1) >= 0 && from.phi(k + 1) <= to.phi(i)) ++k;
+    around_.push_back({k, k + 1, (to.phi(i) - from.phi(k)) / (from.phi(k + 1) - from.phi(k))});
+  }
+}
+
+GridTransfer GridTransfer::by_position(const Grid& from, const Grid& to) {
+  HERSEY_REQUIRE(from.patches.size() == to.patches.size(), "between rings, or between grids of the same patches");
+  GridTransfer transfer(from);
+  if (from.closes()) {
+    transfer.lay_around_ring(from, to);
+  } else {
+    transfer.lay_around_patches(from, to);
   }
   for (int j = 0, k = 0; j < to.n_z; ++j) {
     const double at = to.z_over_L(j);

@@ -128,6 +128,18 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
+void observe_patches(const FlowBalance& balance, const FilmFields& fields, FilmObservables& o) {
+  const Grid& grid = balance.model().grid;
+  o.patches.resize(grid.patches.size());
+  for (std::size_t p = 0; p < grid.patches.size(); ++p) {
+    const int first = grid.index(grid.patches[p], 0), end = grid.index(end_of_patch(grid, p), 0);
+    PatchObservables& patch = o.patches[p];
+    patch.h_min = fields.h.segment(first, end - first).minCoeff();
+    patch.p_max = fields.p.segment(first, end - first).maxCoeff();
+    for (int k = first; k < end; ++k) balance.add_flow_over_edge(patch, k, balance.acting_outflow(k));
+  }
+}
+
 /// The journal is subject to the negative wrench on the shell. Its moment about its own axis through e along (t_x, t_y,
 /// 1) is -M_z - t . M + (e x F)_z.
 double torque_on_journal(const Vector6& on_shell, const Eigen::Vector2d& e, const Eigen::Vector2d& tilt) {
@@ -207,6 +219,7 @@ FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& 
   observe_forces(balance, wrench, e, tilt, o);
   o.normal_forces = wrench.normal().value;
   observe_oil(balance, motion, o);
+  observe_patches(balance, fields, o);
   const Cavity cavity = widest_cavity(balance, u, motion.u_shell + motion.u_journal < 0);
   o.rupture_angle = cavity.rupture, o.reformation_angle = cavity.reformation;
   o.sliding_speed = std::hypot(motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell);

@@ -54,6 +54,7 @@ double power_error(const BearingRow& row) {
 
 bool has_axis(const BearingPlan& plan) { return plan.bearing.kind->has_axis(); }
 
+bool has_ends(const BearingPlan& plan) { return !plan.bearing.film.ends.empty(); }
 bool is_plane(const BearingPlan& plan) { return !has_axis(plan); }
 
 bool has_depth(const BearingPlan& plan) {
@@ -142,7 +143,7 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       {"fields/phi"}};
   static const std::string of_film_heat = "this and the following: of films with `thermal: {model: film}`";
   static const std::string per_angle = "four bytes a number";
-  static const std::string of_plane = "of a plane slider";
+  static const std::string of_plane = "of a plane slider", of_ends = "of a plane slider, or of a bore of arcs";
   static const QuantityTable<BearingRow, BearingPlan> table{
       line("h_min", of_film(&Film::h_min),
            {.summary_entries = {{Statistic::smallest, "minimum film thickness (MOFT)", "µm", true},
@@ -220,12 +221,12 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
            {.only = has_axis, .summary_entries = {{Statistic::mean, "mean friction torque on the journal", "N·mm"}}}),
       line("torque_shell", of_film(&Film::torque_shell), {.only = has_axis}),
       line("flow_leading", of_film(&Film::flow_first),
-           {.note = of_plane,
-            .only = is_plane,
+           {.note = of_ends,
+            .only = has_ends,
             .summary_entries = {{Statistic::mean, "mean flow out over the leading end", "mm³/s"}}}),
       line("flow_trailing", of_film(&Film::flow_last),
-           {.note = of_plane,
-            .only = is_plane,
+           {.note = of_ends,
+            .only = has_ends,
             .summary_entries = {{Statistic::mean, "mean flow out over the trailing end", "mm³/s"}}}),
       line("flow_left", of_film(&Film::flow_left),
            {.summary_entries = {{Statistic::mean, "mean side flow, left", "mm³/s"}}}),
@@ -352,6 +353,13 @@ const std::vector<Constant<BearingPlan>>& film_nodes() {
        },
        {},
        {.note = "of a plane slider", .only = is_plane}},
+      {"fields/arc",
+       "1",
+       "number of the arc on which the nodes lie, from 0",
+       "[n_phi]",
+       [](const BearingPlan& plan) { return film::arc_of_lines(plan.bearing.film.grid); },
+       {},
+       {.note = "of a bore of arcs", .only = [](const BearingPlan& plan) { return has_axis(plan) && has_ends(plan); }}},
       {"fields/z", "m", "axial position of the nodes", "[n_z]",
        [](const BearingPlan& plan) {
          const film::FilmModel& film = plan.bearing.film;

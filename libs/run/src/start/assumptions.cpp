@@ -326,9 +326,11 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
                                                              : "its torque only (`shear_force: torque_only`)"));
   row("pressures",
       film.pressures == film::PressureScale::absolute ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
-  for (const film::PatchEnds& end : film.ends) {
-    row("edge pressure leading", edge(film, end.first));
-    row("edge pressure trailing", edge(film, end.last));
+  const film::Arcs* bore = film::arcs_of(film);
+  for (std::size_t k = 0; k < film.ends.size(); ++k) {
+    const std::string arc = bore != nullptr ? " of " + bore->arcs[k].name : "";
+    row(("edge pressure leading" + arc).c_str(), edge(film, film.ends[k].first));
+    row(("edge pressure trailing" + arc).c_str(), edge(film, film.ends[k].last));
   }
   row("edge pressure left", edge(film, film.edge_left));
   row("edge pressure right", edge(film, film.edge_right));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/journal_gap.h"
@@ -16,6 +17,9 @@ namespace {
 // Eccentricity over the clearance below which no gap is the widest.
 constexpr double kNearCentre = 1e-6;
 
+// A journal that no arc stops moves by so many clearances at most.
+constexpr double kMostRoom = 4;
+
 // A gap of this share of the clearance counts as none.
 constexpr double kLeastGap = 3e-3;
 
@@ -26,8 +30,21 @@ class JournalKind final : public BearingKind {
   [[nodiscard]] std::string fixed_surface() const override { return "shell"; }
   [[nodiscard]] std::string moving_surface() const override { return "journal"; }
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> description(
-      const film::FilmModel& /*model*/) const override {
-    return {};  // clearance and shape are stated with the temperatures of the walls
+      const film::FilmModel& model) const override {
+    std::vector<std::pair<std::string, std::string>>
+        rows;  // clearance and shape are stated with the walls' temperatures
+    const film::Arcs* bore = film::arcs_of(model);
+    if (bore == nullptr) return rows;
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    for (const film::Arc& arc : bore->arcs) {
+      const double c_b = model.c + arc.extra_clearance, c_p = c_b + arc.offset;
+      rows.emplace_back(
+          "arc " + arc.name,
+          fmt::format("from {:.5g} to {:.5g} deg, clearance {:.4g} um where it is nearest, at {:.5g} deg, "
+                      "preload {:.4g}",
+                      kDegrees * arc.from, kDegrees * arc.to, 1e6 * c_b, kDegrees * arc.thinnest, 1 - c_b / c_p));
+    }
+    return rows;
   }
   [[nodiscard]] std::unique_ptr<GapKinematics> gap(const film::FilmModel& model,
                                                    bool moving_surface_deforms) const override {
@@ -79,7 +96,25 @@ double JournalCoordinates::scale(const OperatingPoint& point, const Coordinates&
   return clearance(model_, point);
 }
 
-Coordinates JournalCoordinates::start(const OperatingPoint& point) { return ocvirk_position(model_, point); }
+// Each node of an arc is reached where the motion towards it equals the gap of a central journal.
+double JournalCoordinates::room_towards(const OperatingPoint& point, double angle) {
+  const film::Grid& grid = model_.grid;
+  if (grid.closes()) return 1;
+  const Eigen::VectorXd g = surfaces(point, Coordinates::Zero(2)).g;
+  const double c = clearance(model_, point);
+  double room = kMostRoom;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const double towards = std::cos(grid.phi(i) - angle) * c;
+    if (towards > 0) room = std::min(room, g.segment(grid.index(i, 0), grid.n_z).minCoeff() / towards);
+  }
+  return room;
+}
+
+// The bore's equilibrium, as far on its way to the nearest arc as it is to the bore there.
+Coordinates JournalCoordinates::start(const OperatingPoint& point) {
+  const Eigen::Vector2d e = ocvirk_position(model_, point);
+  return room_towards(point, std::atan2(e.y(), e.x())) * e;
+}
 
 Coordinates JournalCoordinates::opened(const OperatingPoint& /*point*/, const Coordinates& e, int k) {
   return std::exp2(-k) * e;
@@ -97,8 +132,8 @@ std::vector<double> JournalCoordinates::distances(const OperatingPoint& point, d
   return result;
 }
 
-Coordinates JournalCoordinates::at(const OperatingPoint& /*point*/, double distance, double angle) {
-  return distance * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+Coordinates JournalCoordinates::at(const OperatingPoint& point, double distance, double angle) {
+  return room_towards(point, angle) * distance * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
 std::string JournalCoordinates::position_text(const OperatingPoint& point, const Coordinates& e) const {

@@ -26,6 +26,10 @@ class JournalCoordinates final : public SteadyCoordinates {
   [[nodiscard]] std::string position_text(const OperatingPoint& point, const Coordinates& e) const override;
 
  private:
+  /// How far the journal moves in the direction `angle` [rad] until it touches an arc, over the clearance; 1 in a whole
+  /// bore.
+  [[nodiscard]] double room_towards(const OperatingPoint& point, double angle);
+
   const film::FilmModel& model_;
   RigidSurfaces surfaces_;
   ForceRows force_rows_;

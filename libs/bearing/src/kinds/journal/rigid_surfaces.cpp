@@ -49,7 +49,7 @@ void RigidSurfaces::evaluate(const ParameterVector& p, film::SurfaceMotion& moti
   motion.phi_supply = model_.supply.kind == film::SupplyKind::fixed_angle ? model_.supply.phi : p[kSupplyAngle];
   motion.phi_journal = p[kRotation];
   add_turning(p[kRotation], p[kJournalSpeed] / model_.R, motion);
-  if (shape_.is_round()) {
+  if (shape_.is_round() && model_.grid.closes()) {
     const auto offset = [&](double z) { return (p.segment<2>(kEx) + p.segment<2>(kTx) * z).norm(); };
     smallest_gap_ = c - std::max(offset(-0.5 * model_.L), offset(0.5 * model_.L));
   } else {

@@ -140,15 +140,31 @@ struct FilmModel {
   return j == model.grid.n_z - 1 ? &model.edge_right : nullptr;
 }
 
-/// The edge on which a node lies; null between them. Where two meet, one with a pressure counts before a wall, and that
-/// of the row before that of the line.
+/// Share of oil in what a film draws in over an edge: 1 above the cavitation pressure, none through a wall [-].
+[[nodiscard]] inline double fill_outside(const FilmModel& model, const Edge& edge) {
+  if (edge.kind == EdgeKind::closed) return -1;
+  return edge.pressure > model.p_cav ? 1 : edge.ambient_fill;
+}
+
+/// The edge on which a node lies; null between them. Where two meet, one with a pressure counts before a wall, then the
+/// one with more oil outside, which fills the corner, then that of the row.
 [[nodiscard]] inline const Edge* edge_of_node(const FilmModel& model, int node) {
   const Grid& grid = model.grid;
   const Edge* of_row = edge_of_row(model, node % grid.n_z);
   const int line = node / grid.n_z;
-  if (grid.closes() || !grid.is_end(line) || (of_row != nullptr && of_row->kind == EdgeKind::pressure)) return of_row;
+  if (grid.closes() || !grid.is_end(line)) return of_row;
   const PatchEnds& ends = model.ends[static_cast<std::size_t>(grid.patch_of(line))];
-  return grid.begins_patch(line) ? &ends.first : &ends.last;
+  const Edge& of_line = grid.begins_patch(line) ? ends.first : ends.last;
+  if (of_row == nullptr) return &of_line;
+  const bool is_wall = of_row->kind == EdgeKind::closed;
+  return is_wall || fill_outside(model, of_line) > fill_outside(model, *of_row) ? &of_line : of_row;
+}
+
+/// The arcs that the bore of a film of patches consists of; null: it is none.
+[[nodiscard]] inline const Arcs* arcs_of(const FilmModel& model) {
+  for (const Profile& profile : model.profiles)
+    if (const auto* arcs = std::get_if<Arcs>(&profile.shape)) return arcs;
+  return nullptr;
 }
 
 /// True if walls close the film on both sides.

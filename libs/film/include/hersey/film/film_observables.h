@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <vector>
 
 #include "hersey/core/spatial.h"
 
@@ -23,6 +24,13 @@ struct FilmFields {
   /// Temperatures: mean over the thickness, of both surfaces, of the hottest layer [K]; empty without. FilmHeat fills
   /// them in (TemperatureFields).
   Eigen::VectorXd T, T_shell, T_journal, T_hottest;
+};
+
+/// Figures of one patch of a film.
+struct PatchObservables {
+  double h_min = 0, p_max = 0;           ///< least thickness and largest pressure of its nodes [m, Pa]
+  double flow_left = 0, flow_right = 0;  ///< oil leaving over its sides z = -L/2, +L/2 [m^3/s]
+  double flow_first = 0, flow_last = 0;  ///< oil leaving over its first and last end [m^3/s]
 };
 
 /// Figures of a solved film, as the theory manual's chapter film defines them. Flows and volumes of oil are those at
@@ -52,13 +60,15 @@ struct FilmObservables {
   [[nodiscard]] double power_taken() const { return power_film + power_asperity + power_stored + power_oil; }
   double flow_left = 0, flow_right = 0;  ///< oil leaving over the edges z = -L/2, +L/2 [m^3/s]
   double flow_first = 0, flow_last = 0;  ///< oil leaving over the first and the last ends of patches [m^3/s]
+  [[nodiscard]] double flow_sides() const { return flow_left + flow_right; }              ///< [m^3/s]
   [[nodiscard]] double flow_ends() const { return flow_first + flow_last; }               ///< [m^3/s]
   [[nodiscard]] double flow_out() const { return flow_left + flow_right + flow_ends(); }  ///< [m^3/s]
-  double flow_supply = 0;         ///< oil entering through supply line and features [m^3/s]
-  Eigen::VectorXd flow_features;  ///< oil entering through each feature [m^3/s]
-  double storage_rate = 0;        ///< rate of change of the oil volume in the film [m^3/s]
-  double oil_volume = 0;          ///< integral of theta h [m^3]
-  double mass_balance_error = 0;  ///< |supply - out - storage| over the largest of the flows and U c L [-]
+  std::vector<PatchObservables> patches = {};  ///< of each patch of the grid; empty: a ring
+  double flow_supply = 0;                      ///< oil entering through supply line and features [m^3/s]
+  Eigen::VectorXd flow_features;               ///< oil entering through each feature [m^3/s]
+  double storage_rate = 0;                     ///< rate of change of the oil volume in the film [m^3/s]
+  double oil_volume = 0;                       ///< integral of theta h [m^3]
+  double mass_balance_error = 0;               ///< |supply - out - storage| over the largest of the flows and U c L [-]
   /// Angles at which the widest cavity at mid-width begins and ends along the flow [rad]; NaN without a cavity.
   double rupture_angle = 0, reformation_angle = 0;
   double cavitated_share =

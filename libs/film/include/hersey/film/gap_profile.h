@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -49,6 +50,23 @@ struct Lobes {
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
+/// One of the arcs that a bore is made of: part of a circle about a centre of its own, which lies `offset` from the
+/// bearing's axis on the side away from `thinnest`. There the gap of a central journal is least.
+struct Arc {
+  std::string name;
+  double from = 0, to = 0;     ///< the angles at which it begins and ends [rad], from < to
+  double thinnest = 0;         ///< [rad]; it may lie beyond the arc's ends
+  double offset = 0;           ///< of the arc's centre from the axis [m], c_p - c_b of machined and assembled clearance
+  double extra_clearance = 0;  ///< its assembled clearance beyond that of the bearing [m]
+};
+
+/// A bore of arcs with grooves between them (film.24): the film of each is a patch of the grid.
+struct Arcs {
+  std::vector<Arc> arcs;  ///< in ascending order
+  /// Widening at (phi [rad], z [m]) of a bearing of width L [m]; between arcs that of the nearest one.
+  [[nodiscard]] Opening opening(double phi, double z, double L) const;
+};
+
 /// A measured surface: closed smooth curves around the bearing at some heights, straight in between and constant beyond
 /// them.
 struct MeasuredShape {
@@ -58,7 +76,7 @@ struct MeasuredShape {
   [[nodiscard]] Opening opening(double phi, double z, double L) const;
 };
 
-using ProfileShape = std::variant<Barrel, Taper, Ovality, Lobes, MeasuredShape>;
+using ProfileShape = std::variant<Barrel, Taper, Ovality, Lobes, Arcs, MeasuredShape>;
 
 /// A shape made in one of the surfaces.
 struct Profile {

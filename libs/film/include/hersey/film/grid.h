@@ -51,6 +51,13 @@ struct Grid {
   [[nodiscard]] bool is_uniform() const { return angles.empty() && heights.empty(); }
 };
 
+/// Returns the number of the patch on which each line lies, for results, shape (n_phi).
+[[nodiscard]] inline std::vector<double> arc_of_lines(const Grid& grid) {
+  std::vector<double> arc;
+  for (int i = 0; i < grid.n_phi; ++i) arc.push_back(grid.patch_of(i));
+  return arc;
+}
+
 /// Returns the mean distance of its lines [rad].
 [[nodiscard]] double mean_step(const Grid& grid);
 
@@ -64,10 +71,10 @@ struct Refinement {
 /// A patch of film from one angle to another [rad].
 struct Patch {
   double from = 0, to = 1;
-  int lines = 30;  ///< >= 4, equally spaced, those on its edges included
+  int lines = 30;  ///< >= 4, those on its edges included
 };
 
-/// Returns a grid of patches in ascending order.
+/// Returns a grid of patches in ascending order, equally spaced in each.
 [[nodiscard]] Grid patch_grid(const std::vector<Patch>& patches, int n_z);
 
 /// Returns a grid with cells that shrink smoothly towards the positions given: the density of nodes is 1 + sum of
@@ -77,12 +84,21 @@ struct Patch {
 [[nodiscard]] Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around,
                                const std::vector<Refinement>& along);
 
+/// Returns a grid of patches with cells that shrink towards the positions given, as those of a ring do.
+[[nodiscard]] Grid graded_grid(const std::vector<Patch>& patches, int n_z, const std::vector<Refinement>& around,
+                               const std::vector<Refinement>& along);
+
+/// Returns the grid with about half as many lines and rows: every second one where their number allows it, of each
+/// patch by itself.
+[[nodiscard]] Grid halved(const Grid& grid);
+
 /// Returns a grid of the same pattern of spacing with other numbers of nodes. Where they divide, nodes of the coarser
 /// grid are nodes of the finer one.
 [[nodiscard]] Grid resampled(const Grid& grid, int n_phi, int n_z);
 
-/// Returns the same ring with its lines further on by `share` of the cell before the next one. The mean over several
-/// shares has a higher order in figures that depend on the position of fronts between lines.
+/// Returns the same grid with its lines further on by `share` of the cell before the next one; patches keep their ends
+/// and, for a share above 0, get one line more. The mean over several shares has a higher order in figures that depend
+/// on the position of fronts between lines.
 /// @param share  0 to below 1.
 [[nodiscard]] Grid turned(const Grid& grid, double share);
 

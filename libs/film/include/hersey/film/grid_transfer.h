@@ -19,7 +19,7 @@ class GridTransfer {
   /// Interpolates between grids of one pattern of spacing: fields are functions of the share of the way around the
   /// bearing and across it, counted in nodes, as for resampled().
   GridTransfer(const Grid& from, const Grid& to);
-  /// Interpolates between any grids: fields are functions of phi and z.
+  /// Interpolates between any two rings or grids of the same patches: fields are functions of phi and z.
   [[nodiscard]] static GridTransfer by_position(const Grid& from, const Grid& to);
 
   /// Interpolates a field. @param field  shape (from.size() per_node), `per_node` values of each node side by side
@@ -34,6 +34,8 @@ class GridTransfer {
     int first = 0, second = 0;
     double share = 0;  ///< of the second
   };
+  void lay_around_ring(const Grid& from, const Grid& to);
+  void lay_around_patches(const Grid& from, const Grid& to);
   explicit GridTransfer(const Grid& from) : n_phi_(from.n_phi), n_z_(from.n_z) {}
   [[nodiscard]] static Eigen::MatrixXd between(const std::vector<Between>& positions, const Eigen::MatrixXd& values);
 

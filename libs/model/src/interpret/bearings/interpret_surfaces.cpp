@@ -38,11 +38,27 @@ struct Cells {
   double around = 0, along = 0;
 };
 
+/// Width of the widest cell of patches that a feature touches [rad].
+double widest_cell_below(const film::Grid& grid, const film::SurfaceFeature& feature) {
+  double widest = 0;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    if (grid.next(i) < 0) continue;
+    const double width = grid.phi(i + 1) - grid.phi(i), middle = 0.5 * (grid.phi(i) + grid.phi(i + 1));
+    if (std::abs(std::remainder(middle - feature.phi, two_pi)) < 0.5 * (feature.arc + width))
+      widest = std::max(widest, width);
+  }
+  return widest > 0 ? widest : film::mean_step(grid);
+}
+
 Cells cells_across(const film::FilmModel& film, const film::SurfaceFeature& feature) {
   const film::Grid& grid = film.grid;
   const double bottom = (feature.z - 0.5 * feature.length) / film.L, top = (feature.z + 0.5 * feature.length) / film.L;
   Cells cells;
   cells.along = index_of_height(grid, top) - index_of_height(grid, bottom);
+  if (!grid.closes()) {
+    cells.around = feature.arc / widest_cell_below(grid, feature);
+    return cells;
+  }
   if (feature.surface == film::Surface::shell) {
     cells.around =
         index_of_angle(grid, feature.phi + 0.5 * feature.arc) - index_of_angle(grid, feature.phi - 0.5 * feature.arc);
@@ -300,9 +316,10 @@ class SurfaceReader {
     if (grid == nullptr || grid->broken) return;
     film_.grid = {.n_phi = integer_of(*grid, "circumferential"), .n_z = integer_of(*grid, "axial")};
     const Value* refine = grid->find("refine");
-    if (refine == nullptr || context_.has_fault_in(grid->path) || film_.L <= 0 || film_.R <= 0) return;
+    if (context_.has_fault_in(grid->path) || film_.L <= 0 || film_.R <= 0) return;
+    if (refine == nullptr && film_.ends.empty()) return;
     std::vector<film::Refinement> around, along;
-    for (const auto& [index, region] : refine->members) {
+    for (const auto& [index, region] : refine != nullptr ? refine->members : std::vector<Member>()) {
       if (region.text == "angle") {
         around.push_back({number_of(region, "angle"), number_of(region, "reach"), number_of(region, "factor")});
       } else if (region.text == "edges") {
@@ -311,7 +328,20 @@ class SurfaceReader {
         refine_features(region, around, along);
       }
     }
-    film_.grid = film::graded_grid(film_.grid.n_phi, film_.grid.n_z, around, along);
+    film_.grid = film_.ends.empty() ? film::graded_grid(film_.grid.n_phi, film_.grid.n_z, around, along)
+                                    : film::graded_grid(patches_of_arcs(), film_.grid.n_z, around, along);
+  }
+
+  /// Lines at the same distance in all arcs: as many as `circumferential` would lay around a whole bore. Their number
+  /// lets two coarser grids have every second and every fourth of them.
+  [[nodiscard]] std::vector<film::Patch> patches_of_arcs() const {
+    std::vector<film::Patch> patches;
+    for (const film::Arc& arc : film::arcs_of(film_)->arcs) {
+      const double quarters = 0.25 * film_.grid.n_phi * (arc.to - arc.from) / two_pi;
+      patches.push_back(
+          {.from = arc.from, .to = arc.to, .lines = 4 * std::max(1, static_cast<int>(std::lround(quarters))) + 1});
+    }
+    return patches;
   }
 
   void refine_edges(const Value& region, std::vector<film::Refinement>& along) const {

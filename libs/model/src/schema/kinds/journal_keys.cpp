@@ -3,6 +3,7 @@
 
 #include "schema/bearing_keys.h"
 #include "schema/film_vocabulary.h"
+#include "schema/kinds/arc_keys.h"
 
 namespace hersey::model {
 namespace {
@@ -101,6 +102,10 @@ std::vector<Key> journal_keys() {
       defaulted("thermal", thermal_format(), "isothermal", "Temperature of the film."),
       optional("supply", supply, "A line along the whole width that is kept full at a given pressure.", "none"),
       optional("features", features_format(), "Holes and grooves through which oil is fed.", "none"),
+      optional("bore", bore_format(), "Equal arcs with axial grooves between them, instead of a whole bore.",
+               "one whole bore"),
+      optional("arcs", arcs_format(), "Arcs one by one, instead of a `bore`; the film ends where an arc does.",
+               "one whole bore"),
       optional("shape", shape_format(), "What makes bore and journal differ from cylinders; all add up.", "cylinders"),
       defaulted("shell_surface", deforming_surface_format(), "rigid",
                 "Whether the bore deforms as the mesh of the shell's body does."),

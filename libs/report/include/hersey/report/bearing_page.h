@@ -44,6 +44,7 @@ struct [[nodiscard]] PageSolution : Outcome {
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< on the journal [N]
   bool is_plane = false;                           ///< a slider: no clearance, position and load as vectors
   Eigen::VectorXd phi, z;                          ///< positions of the nodes [rad, m]; of a slider [m, m]
+  std::vector<double> arcs;  ///< number of the arc on which each node of phi lies; empty: a whole bore
   std::vector<PageField> fields;
 };
 

@@ -93,7 +93,7 @@ void FilmReader::read_shear() {
 void FilmReader::warn_of_starvation(const std::vector<film::Edge>& edges_of_film) {
   if (!film::cavitation_law(film_).has_fill()) return;
   for (const film::Edge& edge : edges_of_film) {
-    if (edge.kind == film::EdgeKind::pressure && edge.pressure > film_.p_cav) return;
+    if (edge.kind == film::EdgeKind::pressure && film::fill_outside(film_, edge) > 0) return;
   }
   if (film_.supply.kind != film::SupplyKind::none) return;
   for (std::size_t f = 0; f < film_.features.size(); ++f) {

@@ -8,6 +8,7 @@
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/film/film_solver.h"
 #include "interpret/bearings/kinds/film_reader.h"
+#include "interpret/bearings/kinds/journal_arcs.h"
 #include "interpret/bearings/kinds/kinds.h"
 #include "schema/film_vocabulary.h"
 
@@ -33,6 +34,7 @@ class JournalFilmReader {
     read_edges();
     read_ambient_fill();
     read_supply();
+    read_arcs(context_, value_, bearing_, reader_);
     read_surfaces(context_, value_, bearing_);
     if (const Value* most = value_.find("permissible_pressure"); most != nullptr && !most->broken)
       bearing_.permissible_pressure = most->number;
@@ -40,20 +42,28 @@ class JournalFilmReader {
     read_thermal(context_, value_, reader_.lubricant(), bearing_);
     reader_.read_pressure_scale();
     reader_.read_shear();
+    check_with_arcs(context_, value_, bearing_);
     if (context_.has_fault_in(value_.path)) return;
     require_a_pressure();
-    if (!film::is_closed(film_)) reader_.warn_of_starvation({film_.edge_left, film_.edge_right});
+    if (!film::is_closed(film_) && !has_open_ends()) reader_.warn_of_starvation({film_.edge_left, film_.edge_right});
+    if (has_open_ends()) reader_.warn_of_starvation(edges());
   }
 
  private:
   /// Between closed edges the pressure is known up to a constant only, unless something holds it.
   void require_a_pressure() {
-    if (!film::is_closed(film_) || film_.supply.kind != film::SupplyKind::none) return;
+    if (!film::is_closed(film_) || film_.supply.kind != film::SupplyKind::none || has_open_ends()) return;
     for (const film::SurfaceFeature& feature : film_.features) {
       if (feature.is_fed) return;
     }
     context_.fault_at_key(*value_.find("edge_pressure"), "closed edges and no supply: the pressure is given nowhere",
                           "a 'supply', or a hole or groove with a pressure in 'features'");
+  }
+
+  [[nodiscard]] bool has_open_ends() const {
+    return std::any_of(film_.ends.begin(), film_.ends.end(), [](const film::PatchEnds& ends) {
+      return ends.first.kind == film::EdgeKind::pressure || ends.last.kind == film::EdgeKind::pressure;
+    });
   }
 
   /// Lubrication theory takes the gap to be thin: a clearance of the bearing's own size is a wrong unit.
@@ -77,6 +87,12 @@ class JournalFilmReader {
                      psi),
          fmt::format("0.0005 to 0.002 of the radius, {:.3g} to {:.3g} um", 5e2 * film_.R, 2e3 * film_.R),
          "is it in the right unit?"});
+  }
+
+  [[nodiscard]] std::vector<film::Edge> edges() const {
+    std::vector<film::Edge> all{film_.edge_left, film_.edge_right};
+    for (const film::PatchEnds& ends : film_.ends) all.insert(all.end(), {ends.first, ends.last});
+    return all;
   }
 
   void read_edges() {
@@ -195,6 +211,9 @@ std::optional<JournalPoint> operating_point_of(Context& context, const Value& be
                   "surfaces that carry oil: half the sum of both speeds does, a radial_velocity presses it out",
                   "rough surfaces bear loads at rest: asperities");
   }
+  if (!film.ends.empty() && point.shell_speed != 0)
+    context.fault(*value->find("shell_speed"), "a bore of arcs that turns under its load",
+                  "0 rpm: the film of arcs that turn is never steady", "a simulation turns it");
   if (!context.has_fault_in(value->path)) check_room(context, bearing.path, *value, film, point);
   return point;
 }
