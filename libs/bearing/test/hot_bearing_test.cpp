@@ -110,7 +110,7 @@ TEST_CASE("OneEffectiveTemperature_IsThatOfAnOilThatThinsByShear") {
 
 // A load that the film carries with cold oil and not with the oil it warms, and a film whose heat leaves it only
 // with oil of impossible temperature are reported as such, with the position where layers are solved.
-TEST_CASE("ThermalRunaway_IsToldAsSuch") {
+TEST_CASE("ThermalRunaway_IsReportedAsSuch") {
   const film::Lubricant oil = vg46(323.15);
   const film::ThermalModel thermal{.layers = 3, .T_supply = 323.15, .T_edges = 323.15};
   struct Trial {
@@ -257,7 +257,7 @@ TEST_CASE("BoreAndJournalThatGrowAlike_KeepTheirClearance") {
   CHECK(both.film.p_max == relative(rigid.film.p_max).epsilon(1e-3));  // likewise
 }
 
-TEST_CASE("JournalThatFillsItsBore_IsTold") {
+TEST_CASE("JournalThatFillsItsBore_IsReported") {
   film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
   auto journal = std::make_shared<film::JournalConduction>(*even_journal(model.grid, 0.1, 5e-8).conduction);
   journal->shape0 = Eigen::VectorXd::LinSpaced(model.grid.n_z, 0, 51e-6);  // at one end of the bearing
@@ -491,7 +491,7 @@ TEST_CASE("OneEffectiveTemperature_MovesTheClearance") {
   CHECK(state.point.growth == relative(-0.05 * 12e-6 * 50).epsilon(1e-12));  // round-off
 }
 
-TEST_CASE("ClearanceThatCloses_IsToldAsASeizure") {
+TEST_CASE("ClearanceThatCloses_IsReportedAsASeizure") {
   film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
   SteadyOptions options{.thermal = ring_at_50()};
   options.thermal->expansion = film::ThermalExpansion{.shell = 0, .journal = 60e-6, .T_reference = 293.15};

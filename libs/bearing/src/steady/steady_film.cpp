@@ -34,7 +34,7 @@ std::shared_ptr<const ElasticSurface> surface_of(const std::shared_ptr<const Sur
   return flexibility ? flexibility->surface : nullptr;
 }
 
-/// A wrench seen in axes from which its own stand turned by `angle` about z.
+/// A wrench expressed in axes from which its own are turned by `angle` about z.
 Matrix6 about_z(double angle) {
   Matrix6 R = Matrix6::Zero();
   R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
@@ -102,7 +102,7 @@ void SteadyFilm::gather_flexibility(const SteadyElasticity& elasticity) {
     const SurfaceFlexibility& journal = *elasticity.journal;
     const Index count = journal.by_forces.rows();
     C_.bottomRightCorner(count, count) = journal.by_forces;
-    // The journal takes the opposite wrench, seen in its axes, which stand turned.
+    // The journal takes the opposite wrench, expressed in its own axes, which are turned.
     const Matrix6 to_journal = about_z(-point_.journal_angle);
     C_W_.bottomRows(count) = -journal.by_wrench * to_journal;
     tilt_by_s_.rightCols(count) = slopes(to_journal.topLeftCorner<3, 3>().transpose() * journal.turn);

@@ -8,7 +8,7 @@
 #include "steady/steady_search.h"
 
 // Ways to the load where Newton's method does not arrive from the start (bearing.19, bearing.20), and what they have
-// seen.
+// found.
 namespace hersey::bearing {
 namespace {
 

@@ -56,7 +56,7 @@ constexpr double coarse_rtol = 1e-4;
 constexpr int largest_direct = 4000;
 
 /// The share of the step du that keeps viscosity and film thickness within `largest_change` at every node, and the film
-/// open. Only pressures count: switching a node between full and cavitated bends no law and is never held back.
+/// open. Only pressures count: switching a node between full and cavitated bends no law and is never limited.
 double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u,
                   const Eigen::VectorXd& du) {
   const double C = model.compliance;
@@ -216,8 +216,8 @@ FilmSolveSummary sweep_on(Reynolds& reynolds, const SurfaceMotion& motion, const
 }
 
 // Where steps of Newton's method cycle (a viscosity that rises by decades under a gap that jumps), sweeps with
-// viscosity and thickness held back do not: they lead near the answer, Newton the rest of the way. Where it cycles
-// around the answer itself, sweeps go there, too.
+// relaxed viscosity and thickness do not: they lead near the answer, Newton the rest of the way. Where it
+// cycles around the answer itself, sweeps go there, too.
 FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                const FilmSolveOptions& options, const Eigen::VectorXd& start, Eigen::VectorXd& u) {
   FilmSolveOptions sweeps = options;
