@@ -162,7 +162,7 @@ TEST_CASE("BoreThatHeatWidens_IsOneOfLargerClearance") {
   CHECK(summary.heat_iterations <= 25);
   REQUIRE(grown.thermal_shape.size() == model.grid.size());
   const double growth = grown.thermal_shape[0];
-  CHECK(growth > 3e-6);  // a share of the clearance of 50 um that matters
+  CHECK(growth > 3e-6);  // a fraction of the clearance of 50 um that matters
   CHECK(growth == relative(5e-8 * grown.heat->observed.balance.to_shell).epsilon(1e-7));  // 1e-8 of temperatures
   CHECK(grown.heat->observed.T_body_max - grown.heat->T_body[0] == 0);
   CHECK(grown.heat->T_body[0] == relative(313.15 + 0.1 * grown.heat->observed.balance.to_shell).epsilon(1e-12));  // eps
@@ -215,7 +215,7 @@ TEST_CASE("JournalThatHeatGrows_IsOneInASmallerClearance") {
   const film::HeatObservables& observed = grown.heat->observed;
   CHECK(observed.balance.error() < 1e-8);  // what the last change of temperature leaves
   const double growth = grown.journal_shape[0];
-  CHECK(growth > 3e-6);  // a share of the clearance of 50 um that matters
+  CHECK(growth > 3e-6);  // a fraction of the clearance of 50 um that matters
   CHECK(growth == relative(2e-8 * observed.balance.to_journal).epsilon(1e-7));  // 1e-8 of temperatures
   CHECK(grown.heat->T_journal_body[0] == relative(313.15 + 0.1 * observed.balance.to_journal).epsilon(1e-12));  // eps
   CHECK(observed.T_journal_body_max == grown.heat->T_journal_body[0]);

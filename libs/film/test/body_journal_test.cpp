@@ -99,7 +99,7 @@ TEST_CASE("JournalInABody_IsALumpedBodyOfItsConductance") {
       lumped.heat.move_walls(network.walls(at, lumped.heat.exchange().T));
     }
     const HeatState &one = body.heat.state(), &other = lumped.heat.state();
-    constexpr double solved = 1e-5;  // K: of some 30 K, the share to which the equations of heat are solved
+    constexpr double solved = 1e-5;  // K: of some 30 K, the fraction to which the equations of heat are solved
     CHECK(std::abs(one.journal - other.journal) < solved);
     CHECK((one.film - other.film).cwiseAbs().maxCoeff() < solved);
     CHECK(one.journal_heat == relative(body.heat.observables().balance.to_journal).epsilon(1e-12));  // round-off

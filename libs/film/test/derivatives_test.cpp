@@ -272,7 +272,7 @@ constexpr double tolerance = 1e3 * d * d + 10 * std::numeric_limits<double>::eps
 SurfaceMotion moved(const SurfaceMotion& motion, const MotionDirection& direction, double step) {
   SurfaceMotion m = motion;
   if (direction.g.size()) m.g += step * direction.g;
-  if (direction.shell_share != 0) m.shell_opening += step * direction.shell_share * direction.g;
+  if (direction.shell_fraction != 0) m.shell_opening += step * direction.shell_fraction * direction.g;
   if (direction.g_rate.size()) m.g_rate += step * direction.g_rate;
   m.u_shell += step * direction.u_shell;
   m.u_journal += step * direction.u_journal;
@@ -296,7 +296,7 @@ std::vector<std::pair<std::string, MotionDirection>> directions(const State& s) 
       {"w_journal", {.g = {}, .g_rate = {}, .w_journal = speed}},
       {"phi_journal", {.g = {}, .g_rate = {}, .phi_journal = 0.1}}};
   if (s.motion.shell_opening.size() != 0)
-    all.push_back({"gap by the shell's surface", {.g = 1e-6 * random, .g_rate = {}, .shell_share = 1}});
+    all.push_back({"gap by the shell's surface", {.g = 1e-6 * random, .g_rate = {}, .shell_fraction = 1}});
   if (s.model.supply.kind != SupplyKind::none)
     all.push_back({"phi_supply", {.g = {}, .g_rate = {}, .phi_supply = 0.1}});
   return all;

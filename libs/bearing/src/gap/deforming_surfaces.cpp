@@ -24,7 +24,7 @@ DeformingSurfaces::DeformingSurfaces(const film::FilmModel& model, std::shared_p
   if (journal_) turn_journal(0);
   for (Index a = 0; a < count; ++a) {
     directions_[static_cast<std::size_t>(a)].g = openings_.col(a);
-    directions_[static_cast<std::size_t>(a)].shell_share = a < shell_count() ? 1 : 0;
+    directions_[static_cast<std::size_t>(a)].shell_fraction = a < shell_count() ? 1 : 0;
     directions_[static_cast<std::size_t>(count + a)].g_rate = openings_.col(a);
   }
 }

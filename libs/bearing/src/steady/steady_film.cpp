@@ -17,11 +17,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// One Newton step may thin the film at a node to this share of itself, an elastic one may thicken it by this factor.
+// One Newton step may thin the film at a node to this fraction of itself, an elastic one may thicken it by this factor.
 constexpr double kThinnest = 0.3, kThickest = 5;
 
-// Shares of a step below this are none.
-constexpr double kSmallestShare = 1e-6;
+// Step lengths below this count as none.
+constexpr double kSmallestStepLength = 1e-6;
 
 // Iterations on film and deformation together without getting nearer by half, after which they are solved alternately,
 // and iterations of either at most.
@@ -244,8 +244,8 @@ film::FilmSolveSummary SteadyFilm::solve_nested(const Coordinates& e, VectorXd& 
     const VectorXd from = x, dx = limit_step(e, x, dx_);
     const double missing = r_s_.norm();
     bool nearer = false;
-    for (double share = 1; !nearer && share > 1e-3; share /= 2) {
-      x = from + share * dx;
+    for (double step_length = 1; !nearer && step_length > 1e-3; step_length /= 2) {
+      x = from + step_length * dx;
       nearer = film_at(x) && (r_s_.norm() < missing || relative_residual() <= film_options_.rtol);
     }
     if (!nearer) break;
@@ -255,9 +255,9 @@ film::FilmSolveSummary SteadyFilm::solve_nested(const Coordinates& e, VectorXd& 
 }
 
 VectorXd SteadyFilm::limit_step(const Coordinates& e, const VectorXd& x, const VectorXd& dx) {
-  double share = 1;
-  while (share > kSmallestShare && !reuses_film(e, x, e, x + share * dx)) share *= 0.7;
-  return share * dx;
+  double step_length = 1;
+  while (step_length > kSmallestStepLength && !reuses_film(e, x, e, x + step_length * dx)) step_length *= 0.7;
+  return step_length * dx;
 }
 
 bool SteadyFilm::reuses_film(const Coordinates& e, const VectorXd& x, const Coordinates& e_next,

@@ -52,7 +52,7 @@ FlowBalance::FlowBalance(const FilmModel& model)
   content_start_.setOnes(n);
   cells_.resize(static_cast<std::size_t>(n));
   flow_tube_of_.assign(faces_.size(), -1);
-  line_shares_.resize(static_cast<std::size_t>(grid.n_z));
+  line_fractions_.resize(static_cast<std::size_t>(grid.n_z));
   prescribed_index_.assign(n, -1);
   edge_index_.assign(n, -1);
   land_index_.assign(n, -1);
@@ -327,7 +327,7 @@ std::size_t FlowBalance::face_at_edge(int node) const {
   return edges_[node].of_patch ? face_after(i, j) : face_above(i, j);
 }
 
-// Oil that is lost where the film is cavitated has no source, except for the share that the supply provides.
+// Oil that is lost where the film is cavitated has no source, except for the fraction that the supply provides.
 double FlowBalance::supply_of_row(int node) const {
   const double land = over_land(node);
   if (!is_prescribed(node)) return land;

@@ -7,7 +7,7 @@
 namespace hersey::film {
 namespace {
 
-// Share of a control volume that may be left at the end of a row in which nothing can take it.
+// Fraction of a control volume that may be left at the end of a row in which nothing can take it.
 constexpr double round_off = 1e-9;
 
 }  // namespace
@@ -17,7 +17,7 @@ double FlowBalance::start_of(int i) const { return !has_start_gap_ ? cells_[i].s
 void FlowBalance::subtract_squeeze_defect(Eigen::VectorXd& rhs) const {
   for (int i = 0; i < size(); ++i) {
     if (is_given(i)) continue;
-    rhs[i] -= balance_share(i) * area_[i] * content_start_[i] * (cells_[i].start - start_of(i)) / dt_;
+    rhs[i] -= balance_weight(i) * area_[i] * content_start_[i] * (cells_[i].start - start_of(i)) / dt_;
   }
 }
 

@@ -13,10 +13,10 @@ namespace {
 // cell.
 constexpr int points_per_node = 32;
 
-/// Returns the positions of `count` nodes between `first` and `last`, between which equal shares of the integral of
+/// Returns the positions of `count` nodes between `first` and `last`, between which equal parts of the integral of
 /// `density` lie; the last node lies on `last`.
 template <class Density>
-std::vector<double> equal_shares(int count, double first, double last, Density&& density) {
+std::vector<double> equal_parts(int count, double first, double last, Density&& density) {
   const int points = points_per_node * count;
   const double step = (last - first) / points;
   std::vector<double> integral(points + 1, 0.0);
@@ -24,9 +24,9 @@ std::vector<double> equal_shares(int count, double first, double last, Density&&
   std::vector<double> nodes(count);
   int k = 0;
   for (int i = 0; i < count; ++i) {
-    const double share = integral.back() * i / (count - 1);
-    while (k + 1 < points && integral[k + 1] < share) ++k;
-    nodes[i] = first + step * (k + (share - integral[k]) / (integral[k + 1] - integral[k]));
+    const double fraction = integral.back() * i / (count - 1);
+    while (k + 1 < points && integral[k + 1] < fraction) ++k;
+    nodes[i] = first + step * (k + (fraction - integral[k]) / (integral[k + 1] - integral[k]));
   }
   nodes.front() = first, nodes.back() = last;
   return nodes;
@@ -70,7 +70,7 @@ Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, cons
       for (const Refinement& r : around) sum += density_at(std::remainder(phi - r.position, two_pi), r);
       return sum;
     };
-    grid.angles = equal_shares(n_phi + 1, 0, two_pi, density);
+    grid.angles = equal_parts(n_phi + 1, 0, two_pi, density);
     grid.angles.pop_back();
   }
   if (!along.empty()) {
@@ -79,7 +79,7 @@ Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, cons
       for (const Refinement& r : along) sum += density_at(z - r.position, r);
       return sum;
     };
-    grid.heights = equal_shares(n_z, -0.5, 0.5, density);
+    grid.heights = equal_parts(n_z, -0.5, 0.5, density);
   }
   return grid;
 }
@@ -124,13 +124,13 @@ Grid resampled(const Grid& grid, int n_phi, int n_z) {
   return other;
 }
 
-Grid turned(const Grid& grid, double share) {
-  HERSEY_REQUIRE(grid.closes() && share >= 0 && share < 1, "a ring, and a share of its cells");
+Grid turned(const Grid& grid, double fraction) {
+  HERSEY_REQUIRE(grid.closes() && fraction >= 0 && fraction < 1, "a ring, and a fraction of its cells");
   Grid other = grid;
   other.angles.resize(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
     const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + two_pi;
-    other.angles[i] = grid.phi(i) + share * (next - grid.phi(i));
+    other.angles[i] = grid.phi(i) + fraction * (next - grid.phi(i));
   }
   return other;
 }

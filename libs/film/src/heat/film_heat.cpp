@@ -474,7 +474,7 @@ void FilmHeat::Impl::average(const CarryingFilm& film) {
     const double leaves = std::max(flow.outflow(node), 0.0);
     out += leaves;
     for (int l = 0; l < thermal.layers; ++l)
-      observed.T_side += leaves * film.flows.leaving_share(node, l) * end_of_step.film[node * thermal.layers + l];
+      observed.T_side += leaves * film.flows.leaving_fraction(node, l) * end_of_step.film[node * thermal.layers + l];
   }
   observed.T_shell_mean /= area, observed.T_journal /= area;
   observed.T_film_mean = oil > 0 ? observed.T_film_mean / oil : std::numeric_limits<double>::quiet_NaN();

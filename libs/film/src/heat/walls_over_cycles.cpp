@@ -32,7 +32,7 @@ const WallExchange& WallsOverCycles::end_cycle(MeanHeat& mean, const HeatState& 
   mean_ = mean.answer(state.shell, state.journal);
   mean_.exchange.T = at_terminals(state);
   relaxation_.learn(missing(), per_kelvin());
-  mean_.exchange.by_T.topLeftCorner<2, 2>() *= relaxation_.share();
+  mean_.exchange.by_T.topLeftCorner<2, 2>() *= relaxation_.factor();
   return mean_.exchange;
 }
 
@@ -56,22 +56,22 @@ Eigen::VectorXd WallsOverCycles::per_kelvin() const {
 }
 
 void WallsOverCycles::predict(const Eigen::VectorXd& by_nodes) {
-  Eigen::VectorXd fall = missing() / relaxation_.share();
-  fall.tail<2>() = -mean_.exchange.by_T.topLeftCorner<2, 2>() * by_nodes.head<2>() / relaxation_.share();
+  Eigen::VectorXd fall = missing() / relaxation_.factor();
+  fall.tail<2>() = -mean_.exchange.by_T.topLeftCorner<2, 2>() * by_nodes.head<2>() / relaxation_.factor();
   relaxation_.predict(fall);
 }
 
 // Bodies change by their relaxation from their present temperatures towards those that would settle them; the effects
 // of the nodes are added.
 void WallsOverCycles::move_own_walls(const Eigen::VectorXd& by_nodes, HeatState& state) const {
-  const double factor = 1 / relaxation_.share();
+  const double factor = 1 / relaxation_.factor();
   if (mean_.heat.size() > 0) state.wall_heat += factor * (mean_.heat - state.wall_heat);
   state.journal_heat += factor * (mean_.journal_heat - state.journal_heat);
-  const auto follow = [&](const MeanHeat::Change& change, double share) {
-    if (has_own_temperatures(thermal_->shell)) state.shell += share * change.ring;
-    if (change.heat.size() > 0) state.wall_heat += share * change.heat;
-    if (has_own_temperature(thermal_->journal)) state.journal += share * change.journal;
-    state.journal_heat += share * change.journal_heat;
+  const auto follow = [&](const MeanHeat::Change& change, double factor) {
+    if (has_own_temperatures(thermal_->shell)) state.shell += factor * change.ring;
+    if (change.heat.size() > 0) state.wall_heat += factor * change.heat;
+    if (has_own_temperature(thermal_->journal)) state.journal += factor * change.journal;
+    state.journal_heat += factor * change.journal_heat;
   };
   follow(mean_.without, factor);
   if (std::holds_alternative<NodeWall>(thermal_->shell)) follow(mean_.by_shell, by_nodes[0]);

@@ -36,7 +36,7 @@ struct Reynolds::Impl {
   void factorise();
   [[nodiscard]] bool is_finite() const;
   void find_row_sizes();
-  [[nodiscard]] bool factorise_shifted(double share);
+  [[nodiscard]] bool factorise_shifted(double shift);
   [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
@@ -77,9 +77,9 @@ void Reynolds::Impl::find_row_sizes() {
   }
 }
 
-bool Reynolds::Impl::factorise_shifted(double share) {
+bool Reynolds::Impl::factorise_shifted(double shift) {
   shifted.assign(balance.values().begin(), balance.values().end());
-  for (int i = 0; i < balance.size(); ++i) shifted[balance.diagonal_slot(i)] += share * row_size[i];
+  for (int i = 0; i < balance.size(); ++i) shifted[balance.diagonal_slot(i)] += shift * row_size[i];
   ++counts.factorisations;
   return lu.factorise(shifted);
 }
@@ -96,9 +96,9 @@ void Reynolds::Impl::factorise() {
   factorised = lu.factorise(balance.values());
   if (factorised) return;
   row_size.setConstant(balance.size(), balance.conductance_scale());
-  for (double share = 1e-9; !factorised && share < 1; share *= 100) factorised = factorise_shifted(share);
+  for (double shift = 1e-9; !factorised && shift < 1; shift *= 100) factorised = factorise_shifted(shift);
   if (!factorised) find_row_sizes();
-  for (double share = 1e-9; !factorised && share < 1e4; share *= 100) factorised = factorise_shifted(share);
+  for (double shift = 1e-9; !factorised && shift < 1e4; shift *= 100) factorised = factorise_shifted(shift);
   HERSEY_REQUIRE(factorised, "a matrix of finite numbers with a heavy diagonal has a factor");
 }
 

@@ -108,7 +108,7 @@ class FilmForce : public mbd::TwoBodyForce {
   void move_walls(const Eigen::VectorXd& T);
   /// Describes, at the state last accepted, a clearance that temperatures close, or oil that warms without bound, and
   /// where; empty if neither is the case.
-  /// @param closed  share of the clearance as given below which it counts as closed [-]
+  /// @param closed  fraction of the clearance as given below which it counts as closed [-]
   [[nodiscard]] std::string thermal_failure(double closed) const;
 
   /// Returns all figures of the state last accepted (or initialised).

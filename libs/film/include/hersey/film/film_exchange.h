@@ -12,7 +12,7 @@ struct MotionDirection {
   Eigen::VectorXd g;       ///< d gap / d parameter at the nodes; empty means zero
   Eigen::VectorXd g_rate;  ///< d gap rate / d parameter; empty means zero
   double u_shell = 0, u_journal = 0, w_shell = 0, w_journal = 0, phi_supply = 0, phi_journal = 0;
-  double shell_share = 0;  ///< of `g`, which opens the gap by the shell's surface; the rest by the journal's [-]
+  double shell_fraction = 0;  ///< of `g`, which opens the gap by the shell's surface; the rest by the journal's [-]
 };
 
 /// Forces that push the surfaces apart at the nodes, film and asperities together: pressure times the node's area,

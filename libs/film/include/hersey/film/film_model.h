@@ -172,7 +172,7 @@ struct SurfaceMotion {
   Eigen::VectorXd g;       ///< gap of the undeformed surfaces at the nodes [m], shape (grid.size())
   Eigen::VectorXd g_rate;  ///< d g/dt at fixed grid points [m/s], same shape
   /// Displacement of the shell's surface outwards from its cylinder [m], same shape; empty: none. It is the shell's
-  /// share of the difference of g from the gap of two cylinders; pressure on its slopes acts on the shell (film.52).
+  /// fraction of the difference of g from the gap of two cylinders; pressure on its slopes acts on the shell (film.52).
   Eigen::VectorXd shell_opening = {};
   double u_shell = 0;                     ///< speed of the shell surface (y = 0) along phi at R [m/s]
   double u_journal = 0;                   ///< speed of the journal surface (y = h) along phi at R [m/s]

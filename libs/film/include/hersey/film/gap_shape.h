@@ -22,7 +22,7 @@ class GapShape {
 
   /// Opening that does not change as the journal rotates [m], shape (grid.size()).
   [[nodiscard]] const Eigen::VectorXd& still() const { return still_; }
-  /// Its share in the shell [m], same shape.
+  /// Its part in the shell [m], same shape.
   [[nodiscard]] const Eigen::VectorXd& of_shell() const { return of_shell_; }
 
   /// Derivative of of_shell() around the bearing [m/rad]: a shell that rotates moves it past a fixed point.

@@ -16,7 +16,7 @@ namespace hersey::film {
 /// Interpolates fields of one grid on another, linearly between the nodes.
 class GridTransfer {
  public:
-  /// Interpolates between grids of one pattern of spacing: fields are functions of the share of the way around the
+  /// Interpolates between grids of one pattern of spacing: fields are functions of the fraction of the way around the
   /// bearing and across it, counted in nodes, as for resampled().
   GridTransfer(const Grid& from, const Grid& to);
   /// Interpolates between any grids: fields are functions of phi and z.
@@ -32,7 +32,7 @@ class GridTransfer {
  private:
   struct Between {
     int first = 0, second = 0;
-    double share = 0;  ///< of the second
+    double weight = 0;  ///< of the second
   };
   explicit GridTransfer(const Grid& from) : n_phi_(from.n_phi), n_z_(from.n_z) {}
   [[nodiscard]] static Eigen::MatrixXd between(const std::vector<Between>& positions, const Eigen::MatrixXd& values);

@@ -116,7 +116,7 @@ class Reynolds {
   /// At the state last linearised.
   [[nodiscard]] const NormalForces& normal_forces() const;
 
-  /// The film's share `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
+  /// The film's part `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
   /// (theory manual, bearing.9). Comes after `condense` and before the next `linearise` inside the domain: a trial
   /// outside leaves what it takes.
   void follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du);
