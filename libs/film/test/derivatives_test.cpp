@@ -455,7 +455,7 @@ TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
           1e-8 * film.wrench.norm());
     for (Eigen::Index k = 0; k < answers.cols(); ++k) {
       const Vector6 total = partial.col(k) + reynolds.wrench_gradient(answers.col(k));
-      CHECK((film.wrench_ds.col(k) - total).norm() <= kLinear * total.norm());
+      CHECK((film.wrench_by_s.col(k) - total).norm() <= kLinear * total.norm());
       Eigen::VectorXd force = normal.by_u.cwiseProduct(answers.col(k));
       const MotionDirection& direction = all[static_cast<std::size_t>(k)];
       if (direction.g.size() > 0) force += normal.by_g.cwiseProduct(direction.g);

@@ -168,10 +168,10 @@ TEST_CASE("RowWeights_HaveTheirDerivative") {
     double largest = 0, largest_drawn = 0;
     for (std::size_t k = 0; k < here.size(); ++k) {
       // Differences of step 1e-7: round-off over it.
-      CHECK(std::abs(here[k].fraction_phi - (after[k].fraction - before[k].fraction) / (2 * d)) < 1e-6);
-      CHECK(std::abs(here[k].draws_phi - (after[k].draws - before[k].draws) / (2 * d)) < 1e-6);  // likewise
-      largest = std::max(largest, std::abs(here[k].fraction_phi));
-      largest_drawn = std::max(largest_drawn, std::abs(here[k].draws_phi));
+      CHECK(std::abs(here[k].fraction_journal - (after[k].fraction - before[k].fraction) / (2 * d)) < 1e-6);
+      CHECK(std::abs(here[k].draws_journal - (after[k].draws - before[k].draws) / (2 * d)) < 1e-6);  // likewise
+      largest = std::max(largest, std::abs(here[k].fraction_journal));
+      largest_drawn = std::max(largest_drawn, std::abs(here[k].draws_journal));
     }
     CHECK(largest > 0.5);
     CHECK(largest_drawn > 0.5);

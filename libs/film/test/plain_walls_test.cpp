@@ -221,8 +221,8 @@ TEST_CASE("FilmWithoutShapes_IsCondensedToTheSameWrench") {
     reynolds.condense(directions, Eigen::MatrixXd(m.grid.size(), 0), plain);
     reynolds.condense(directions, Eigen::MatrixXd::Ones(m.grid.size(), 1), shaped);
     CHECK(plain.Q.size() == 0);
-    CHECK((plain.wrench - shaped.wrench).norm() < 1e-9 * shaped.wrench.norm());           // the solver leaves 1e-10
-    CHECK((plain.wrench_ds - shaped.wrench_ds).norm() < 1e-9 * shaped.wrench_ds.norm());  // likewise
+    CHECK((plain.wrench - shaped.wrench).norm() < 1e-9 * shaped.wrench.norm());  // the solver leaves 1e-10
+    CHECK((plain.wrench_by_s - shaped.wrench_by_s).norm() < 1e-9 * shaped.wrench_by_s.norm());  // likewise
   }
 }
 

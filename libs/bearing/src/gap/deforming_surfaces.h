@@ -49,7 +49,7 @@ class DeformingSurfaces {
 
  private:
   using Functions = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< (nodes, functions)
-  /// Values at the nodes and first and second derivatives with phi of a surface's functions rotated by `phi`.
+  /// Values at the nodes and first and second derivatives by phi of a surface's functions rotated by `phi`.
   [[nodiscard]] std::array<Functions, 3> at_nodes(const SurfaceFunctions& functions, double phi) const;
   void turn_journal(double phi);
   [[nodiscard]] Eigen::Index shell_count() const { return shell_ ? shell_->D.cols() : 0; }

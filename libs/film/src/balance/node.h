@@ -28,7 +28,7 @@ struct SlidingChange {
 /// A fluidity 1/mu [1/(Pa s)] with its derivatives.
 struct Fluidity {
   double value = 0;
-  double u = 0;                   ///< with u, at a fixed film thickness
+  double u = 0;                   ///< by u, at a fixed film thickness
   double h = 0;                   ///< with the film thickness
   double rate = 0, rotation = 0;  ///< with the two members of SlidingChange
 

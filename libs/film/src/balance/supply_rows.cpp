@@ -227,10 +227,10 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
         continue;
       prescribe({.node = node.node,
                  .chi = node.fraction,
-                 .chi_journal = node.fraction_phi,
+                 .chi_journal = node.fraction_journal,
                  .mixed_fraction = node.mixed_fraction,
                  .draws = node.draws,
-                 .draws_journal = node.draws_phi,
+                 .draws_journal = node.draws_journal,
                  .feature = static_cast<int>(f),
                  .u = u,
                  .centrality = node.centrality});

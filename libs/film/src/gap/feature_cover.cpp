@@ -9,7 +9,7 @@
 namespace hersey::film {
 namespace {
 
-/// A fraction of a cell and its derivative with the feature's angle.
+/// A fraction of a cell and its derivative by the feature's angle.
 struct Fraction {
   double value = 0;
   double phi = 0;
@@ -152,9 +152,9 @@ Fraction mixed_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
 
 /// Returns the fraction of missing oil that a feature supplies where it has mixed the given fraction of the oil that
 /// passes.
-Fraction drawn(double fraction, double fraction_phi) {
+Fraction drawn(double fraction, double fraction_journal) {
   const double half = std::min(2 * fraction, 1.0);
-  return {half * half, fraction < 0.5 ? 4 * half * fraction_phi : 0};
+  return {half * half, fraction < 0.5 ? 4 * half * fraction_journal : 0};
 }
 
 // mix() sets the feature's fractions of the oil that passes a node's control volume and of the oil that it lacks
@@ -166,7 +166,7 @@ void mix(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surrou
   const Fraction draws = drawn(around.value, around.phi);
   const double draws_along = s.is_on_edge() ? 1 : drawn(higher * along, 0).value;
   node.mixed_fraction = around.value * along;
-  node.draws = draws.value * draws_along, node.draws_phi = draws.phi * draws_along;
+  node.draws = draws.value * draws_along, node.draws_journal = draws.phi * draws_along;
 }
 
 void mix(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
@@ -176,7 +176,7 @@ void mix(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surround
   const Fraction draws =
       s.is_on_edge() ? Fraction{1, 0} : drawn(wider * higher * covered.value, wider * higher * covered.phi);
   node.mixed_fraction = std::min(1.0, wider * covered.value);
-  node.draws = draws.value, node.draws_phi = draws.phi;
+  node.draws = draws.value, node.draws_journal = draws.phi;
 }
 
 }  // namespace
@@ -210,11 +210,13 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
           1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
       if (fraction.value == 0) continue;
       CoveredNode& node = nodes.emplace_back();
-      node = {
-          .node = grid.index(i, j), .fraction = fraction.value, .fraction_phi = fraction.phi, .centrality = centrality};
+      node = {.node = grid.index(i, j),
+              .fraction = fraction.value,
+              .fraction_journal = fraction.phi,
+              .centrality = centrality};
       const Surroundings inside = within_film(s, grid, i, j);
       std::visit([&](const auto& shape) { mix(shape, feature, inside, node); }, feature.shape);
-      if (!travels) node.fraction_phi = node.draws_phi = 0;
+      if (!travels) node.fraction_journal = node.draws_journal = 0;
     }
   }
 }
@@ -232,7 +234,7 @@ void cover_cells(const FilmModel& model, const GridGeometry& geometry, const Sur
           std::visit([&](const auto& shape) { return covered(shape, feature, s); }, feature.shape);
       if (fraction.value > 0)
         nodes.push_back(
-            {.node = grid.index(i, j), .fraction = fraction.value, .fraction_phi = travels ? fraction.phi : 0});
+            {.node = grid.index(i, j), .fraction = fraction.value, .fraction_journal = travels ? fraction.phi : 0});
     }
   }
 }

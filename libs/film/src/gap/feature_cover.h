@@ -7,16 +7,16 @@
 
 namespace hersey::film {
 
-/// Fraction of a node that a feature covers, and its derivative with phi_journal [-, 1/rad].
+/// Fraction of a node that a feature covers, and its derivative by phi_journal [-, 1/rad].
 struct CoveredNode {
   int node = 0;
   double fraction = 0;
-  double fraction_phi = 0;
+  double fraction_journal = 0;
   double centrality = 0;  ///< one less the distance from the middle over the half size [-]; below 0 outside
   double mixed_fraction =
       0;             ///< fraction of the oil passing the node's control volume that passes the feature in it [-]
   double draws = 0;  ///< fraction of the missing oil that the feature supplies [-], and its derivative
-  double draws_phi = 0;
+  double draws_journal = 0;
 };
 
 /// Fraction of a cell's length within which two positions count as the same.

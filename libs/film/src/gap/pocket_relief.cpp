@@ -26,9 +26,9 @@ void over_gauss_points(Visit&& visit) {
   }
 }
 
-/// A position with its rate of rotation.
+/// A position and its derivative by phi_journal.
 struct Border {
-  double at = 0, rate = 0;
+  double at = 0, journal = 0;
   bool operator<(const Border& other) const { return at < other.at; }
 };
 
@@ -47,7 +47,7 @@ double length_within(double first, double last, double half) {
 struct PocketRelief::Extent {
   double across = 0, along = 0;  ///< middle
   double half_across = 0, half_along = 0;
-  double across_rate = 0, along_rate = 0;  ///< by which the middle moves with phi_journal
+  double across_journal = 0, along_journal = 0;  ///< of the middle by phi_journal
   FeatureShape shape;
   bool in_journal = false;
   double depth = 0;
@@ -87,7 +87,7 @@ void PocketRelief::add_cells(const SurfaceFeature& feature, double phi_journal, 
   cover_cells(model_, geometry_, feature, phi_journal, cells_);
   for (const CoveredNode& cell : cells_) {
     depth[cell.node] += feature.depth * cell.fraction;
-    if (slope != nullptr) (*slope)[cell.node] += feature.depth * cell.fraction_phi;
+    if (slope != nullptr) (*slope)[cell.node] += feature.depth * cell.fraction_journal;
   }
 }
 
@@ -101,7 +101,7 @@ void PocketRelief::set_rotation(double phi_journal, double phi_start, double dt,
       cells_.clear();
       cover_cells(model_, geometry_, feature, phi_journal, cells_);
       for (const CoveredNode& cell : cells_)
-        covered_.push_back({cell.node, cell.fraction, cell.fraction_phi, feature.depth});
+        covered_.push_back({cell.node, cell.fraction, cell.fraction_journal, feature.depth});
     }
   }
   evaluated_ = asked;
@@ -129,15 +129,15 @@ void PocketRelief::locate_flow_tubes(double phi_journal) {
     around.clear(), along.clear();
     for (const SurfaceFeature& pocket : pockets_) {
       const bool rotates = pocket.surface == Surface::journal, all_around = pocket.arc >= two_pi;
-      const double rate = rotates && !all_around ? 1 : 0;
+      const double journal = rotates && !all_around ? 1 : 0;
       const double middle = image_nearest_to(phi + ahead, pocket.phi + (rotates ? phi_journal : 0.0));
       const double half_arc = all_around ? two_pi : 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
       for (const double image : {-two_pi, 0.0, two_pi}) {
         if (all_around && image != 0) continue;
         const double at = middle + image;
         if (at + half_arc <= phi - back || at - half_arc >= phi + step) continue;
-        around.push_back({pocket.z, at, half_length, half_arc, 0, rate, pocket.shape, rotates, pocket.depth});
-        along.push_back({at, pocket.z, half_arc, half_length, rate, 0, pocket.shape, rotates, pocket.depth});
+        around.push_back({pocket.z, at, half_length, half_arc, 0, journal, pocket.shape, rotates, pocket.depth});
+        along.push_back({at, pocket.z, half_arc, half_length, journal, 0, pocket.shape, rotates, pocket.depth});
       }
     }
     if (around.empty()) continue;
@@ -170,16 +170,16 @@ void PocketRelief::add_flow_tube(std::size_t face, const std::vector<Extent>& ex
     all_straight = all_straight && is_straight;
     if (!is_straight) continue;
     for (const double at : {e.across - e.half_across, e.across + e.half_across}) {
-      if (at > across && at < across + width) borders.push_back({at, e.across_rate});
+      if (at > across && at < across + width) borders.push_back({at, e.across_journal});
     }
   }
   std::sort(borders.begin(), borders.end());
   for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
     const Border &low = borders[k], &high = borders[k + 1];
-    const double fraction = (high.at - low.at) / width, fraction_rate = (high.rate - low.rate) / width;
+    const double fraction = (high.at - low.at) / width, fraction_journal = (high.journal - low.journal) / width;
     const auto strip = [&](double part, double position) {
-      add_strip(near, low.at + position * (high.at - low.at), low.rate + position * (high.rate - low.rate),
-                part * fraction, part * fraction_rate, along, length);
+      add_strip(near, low.at + position * (high.at - low.at), low.journal + position * (high.journal - low.journal),
+                part * fraction, part * fraction_journal, along, length);
     };
     if (all_straight) {
       strip(1, 0.5);
@@ -191,8 +191,8 @@ void PocketRelief::add_flow_tube(std::size_t face, const std::vector<Extent>& ex
   flow_tubes_.push_back(flow_tube);
 }
 
-void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, double y_rate, double fraction,
-                             double fraction_rate, double along, double length) {
+void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, double y_journal, double fraction,
+                             double fraction_journal, double along, double length) {
   struct Covered {
     Border from, to;
     double depth;
@@ -205,23 +205,23 @@ void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, doubl
     const auto [chord, slope] =
         std::visit([off](const auto& shape) { return std::pair(shape.reach(off), shape.reach_slope(off)); }, e.shape);
     const double reach = e.half_along * chord;
-    const double reach_rate = e.half_along * slope * (y_rate - e.across_rate) / e.half_across;
-    const auto clipped = [&](double at, double rate) {
+    const double reach_journal = e.half_along * slope * (y_journal - e.across_journal) / e.half_across;
+    const auto clipped = [&](double at, double journal) {
       if (at <= along) return Border{along, 0};
       if (at >= along + length) return Border{along + length, 0};
-      borders.push_back({at, rate});
-      return Border{at, rate};
+      borders.push_back({at, journal});
+      return Border{at, journal};
     };
-    intervals.push_back({clipped(e.along - reach, e.along_rate - reach_rate),
-                         clipped(e.along + reach, e.along_rate + reach_rate), e.depth});
+    intervals.push_back({clipped(e.along - reach, e.along_journal - reach_journal),
+                         clipped(e.along + reach, e.along_journal + reach_journal), e.depth});
   }
   std::sort(borders.begin(), borders.end());
-  Strip strip{fraction, fraction_rate, static_cast<int>(segments_.size()), 0};
+  Strip strip{fraction, fraction_journal, static_cast<int>(segments_.size()), 0};
   for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
     const Border &from = borders[k], &to = borders[k + 1];
     if (to.at <= from.at) continue;
     const double middle = 0.5 * (from.at + to.at);
-    Segment segment{(to.at - from.at) / length, (to.rate - from.rate) / length, 0};
+    Segment segment{(to.at - from.at) / length, (to.journal - from.journal) / length, 0};
     for (const Covered& c : intervals) {
       if (c.from.at < middle && middle < c.to.at) segment.depth += c.depth;
     }
@@ -235,7 +235,7 @@ FlowTubeGap PocketRelief::gap(const PocketFlowTube& flow_tube, double h) const {
   FlowTubeGap sum;
   for (int s = flow_tube.first_strip; s < flow_tube.first_strip + flow_tube.strips; ++s) {
     const Strip& strip = strips_[s];
-    // Integrals I_1 to I_4, and the derivatives of I_2 and I_3 with phi_journal.
+    // Integrals I_1 to I_4, and the derivatives of I_2 and I_3 by phi_journal.
     std::array<double, 5> I{};
     double I1_journal = 0, I2_journal = 0, I3_journal = 0;
     for (int k = strip.first_segment; k < strip.first_segment + strip.segments; ++k) {

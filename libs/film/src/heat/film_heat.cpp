@@ -321,7 +321,7 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   if (terminals_of(m.thermal).has_any() && !(m.has_fixed_walls() && m.dt > 0)) m.find_exchange();
 }
 
-// Computes the heat into walls that are nodes, and its derivatives with a film that follows them (thermal.46).
+// Computes the heat into walls that are nodes, and its derivatives for a film that follows them (thermal.46).
 void FilmHeat::Impl::find_exchange() {
   const CarryingFilm film = carrying();
   const Eigen::Index outside = state.outside.size(), n = 2 + outside;

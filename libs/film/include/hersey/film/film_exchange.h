@@ -19,7 +19,7 @@ struct MotionDirection {
 /// shape (n) each.
 struct NormalForces {
   Eigen::VectorXd value;       ///< [N]
-  Eigen::VectorXd by_u, by_g;  ///< derivatives with the node's unknown [m^2] and gap [N/m]
+  Eigen::VectorXd by_u, by_g;  ///< derivatives by the node's unknown [m^2] and gap [N/m]
 };
 
 /// The oil of one step: flows as means over it, with which what is in the film at its end is what was there at its
@@ -39,12 +39,12 @@ struct StepOilBalance {
   double redistributed_overfill = 0;
 };
 
-/// Forces of a film whose unknowns are eliminated, and their derivatives with directions in which the surfaces move.
+/// Forces of a film whose unknowns are eliminated, and their derivatives along directions in which the surfaces move.
 struct CondensedFilm {
-  Vector6 wrench = Vector6::Zero();                    ///< on the shell
-  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds;  ///< a column per direction
-  Eigen::VectorXd Q;                                   ///< forces on shapes
-  Eigen::MatrixXd Q_ds;                                ///< (shapes, directions)
+  Vector6 wrench = Vector6::Zero();                      ///< on the shell
+  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_by_s;  ///< a column per direction
+  Eigen::VectorXd Q;                                     ///< forces on shapes
+  Eigen::MatrixXd Q_ds;                                  ///< (shapes, directions)
 };
 
 }  // namespace hersey::film

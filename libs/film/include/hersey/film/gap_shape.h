@@ -34,7 +34,7 @@ class GapShape {
   [[nodiscard]] bool is_round() const { return !profiles_rotate() && still_.isZero(0); }
 
   /// Evaluates the journal's profiles with the journal rotated by `phi_journal` [rad]: opening [m] and its first and
-  /// second derivative with that angle, shape (grid.size()) each. The first times the journal's angular speed is the
+  /// second derivative by that angle, shape (grid.size()) each. The first times the journal's angular speed is the
   /// rate of the gap (film.25).
   void rotate_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
                        Eigen::VectorXd& second) const;
