@@ -459,7 +459,7 @@ TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
       Eigen::VectorXd force = normal.by_u.cwiseProduct(answers.col(k));
       const MotionDirection& direction = all[static_cast<std::size_t>(k)];
       if (direction.g.size() > 0) force += normal.by_g.cwiseProduct(direction.g);
-      CHECK((film.Q_ds.col(k) - pushed(force)).norm() <= kLinear * pushed(force).norm());
+      CHECK((film.Q_by_s.col(k) - pushed(force)).norm() <= kLinear * pushed(force).norm());
     }
     reynolds.follow(ds, du);
     CHECK((du - du0 - answers * ds).norm() < kLinear * du.norm());

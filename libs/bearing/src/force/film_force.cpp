@@ -177,14 +177,14 @@ void FilmForce::condense_film(mbd::ForceResponse& response) {
   response.dW_dX.noalias() = -by_journal * gap_->d_dX();
   response.dW_dV.noalias() = -by_journal * gap_->d_dV();
   if (m == 0) return;
-  deforming_->add_turning_forces(gap_->turning(), film_->reynolds().normal_forces().value, film.Q_ds);
+  deforming_->add_turning_forces(gap_->turning(), film_->reynolds().normal_forces().value, film.Q_by_s);
   response.Q = film.Q;
   response.dW_ds = -film.wrench_by_s.middleCols(gap_parameter_count_, m);
   response.dW_dr = -film.wrench_by_s.rightCols(m);
-  response.dQ_dX.noalias() = film.Q_ds.leftCols(gap_parameter_count_) * gap_->d_dX();
-  response.dQ_dV.noalias() = film.Q_ds.leftCols(gap_parameter_count_) * gap_->d_dV();
-  response.dQ_ds = film.Q_ds.middleCols(gap_parameter_count_, m);
-  response.dQ_dr = film.Q_ds.rightCols(m);
+  response.dQ_dX.noalias() = film.Q_by_s.leftCols(gap_parameter_count_) * gap_->d_dX();
+  response.dQ_dV.noalias() = film.Q_by_s.leftCols(gap_parameter_count_) * gap_->d_dV();
+  response.dQ_ds = film.Q_by_s.middleCols(gap_parameter_count_, m);
+  response.dQ_dr = film.Q_by_s.rightCols(m);
 }
 
 // Wrench and forces on shapes after the film's own increment (bearing.10), without derivatives.

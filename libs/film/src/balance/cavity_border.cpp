@@ -93,7 +93,7 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const bool is_full = u_[k] >= -round_off_of_u();
   const PrescribedNode* prescribed = prescribed_at(k);
   CavityBorder border{.node = k, .of = k, .fraction = is_full ? 1.0 : 0.0};
-  if (is_full || is_given(k) || (prescribed != nullptr && prescribed->other < 0)) return border;
+  if (is_full || is_on_prescribed_edge(k) || (prescribed != nullptr && prescribed->other < 0)) return border;
   const PrescribedNode line = prescribed == nullptr ? PrescribedNode{.draws = 0, .distance = 1} : *prescribed;
   border.beside = nodes_beside(model_.grid, i, j);
   const std::array<int, 4> faces = faces_around(k);

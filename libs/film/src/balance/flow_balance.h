@@ -153,14 +153,14 @@ class FlowBalance {
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] double speed_phi() const { return speed_phi_; }
   /// True if a node lies on an edge of prescribed pressure, where its row prescribes u in place of a balance.
-  [[nodiscard]] bool is_given(int node) const { return edges_[node].kind == EdgeNode::Kind::given; }
+  [[nodiscard]] bool is_on_prescribed_edge(int node) const { return edges_[node].kind == EdgeNode::Kind::prescribed; }
   /// True if a node lies on an edge at p_cav of a film with a fill fraction: oil leaves freely, and its row is a
   /// balance.
-  [[nodiscard]] bool is_open(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
+  [[nodiscard]] bool is_on_open_edge(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
   /// u at which an edge at p_cav is as full as its surroundings; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
   /// True on an edge at p_cav with oil outside: oil that comes in there fills the gap, whatever u is.
-  [[nodiscard]] bool is_flooded(int node) const { return is_open(node) && edges_[node].ambient == 0; }
+  [[nodiscard]] bool is_flooded(int node) const { return is_on_open_edge(node) && edges_[node].ambient == 0; }
   /// Returns the flow over the edge on which a node lies, of all flows over edges.
   template <class Flows>
   [[nodiscard]] double& flow_over_edge(Flows& flows, int node) const {
@@ -201,7 +201,7 @@ class FlowBalance {
   [[nodiscard]] double drop_over_land(int node) const;   ///< pressure drop over the land [Pa]
   [[nodiscard]] double power_over_land(int node) const;  ///< [W]
   /// True if the supply line or a feature contributes to a node's row.
-  [[nodiscard]] bool is_prescribed(int node) const { return prescribed_index_[node] >= 0; }
+  [[nodiscard]] bool is_on_supply(int node) const { return prescribed_index_[node] >= 0; }
   /// Fraction of a node's oil that a supply has mixed [-]: 1 on line and features, and on edges that they reach,
   /// although the edge has a pressure of its own there.
   [[nodiscard]] double supplied_fraction(int node) const;
@@ -318,7 +318,7 @@ class FlowBalance {
 
   /// Properties of a node that its edge determines.
   struct EdgeNode {
-    enum class Kind { none, wall, given, open };
+    enum class Kind { none, wall, prescribed, open };
     Kind kind = Kind::none;
     bool of_patch = false;   ///< the edge is the end of a patch
     bool is_corner = false;  ///< a row's edge meets an open end of a patch

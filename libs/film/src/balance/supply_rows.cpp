@@ -64,7 +64,7 @@ ValueAndSlope FlowBalance::excess(const PrescribedNode& prescribed) const {
 // On an edge in air u > 0 is an outflow; a feature beside the edge does not take it.
 bool FlowBalance::only_fills(int node) const {
   const PrescribedNode* prescribed = prescribed_at(node);
-  return prescribed != nullptr && prescribed->feature >= 0 && prescribed->chi < 1 && is_open(node);
+  return prescribed != nullptr && prescribed->feature >= 0 && prescribed->chi < 1 && is_on_open_edge(node);
 }
 
 double FlowBalance::supply_dissipation(int node) const {
@@ -159,7 +159,7 @@ bool FlowBalance::yields_to(const PrescribedNode& prescribed, const PrescribedNo
 // Edges have precedence over a line or a feature, except for the oil, which is the supply's. An edge in air is filled
 // there, but its pressure cannot rise.
 void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
-  only_oil = only_oil || is_given(prescribed.node);
+  only_oil = only_oil || is_on_prescribed_edge(prescribed.node);
   std::vector<PrescribedNode>& nodes = only_oil ? supplied_edge_nodes_ : prescribed_;
   int& index = (only_oil ? edge_index_ : prescribed_index_)[prescribed.node];
   if (index >= 0 && !yields_to(nodes[index], prescribed)) return;
@@ -168,7 +168,7 @@ void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
     nodes.emplace_back();
   }
   nodes[index] = prescribed;
-  if (is_open(prescribed.node)) nodes[index].u = 0;
+  if (is_on_open_edge(prescribed.node)) nodes[index].u = 0;
 }
 
 // The line cuts the flow tubes between two columns of nodes. Each side is connected to it by the part of the flow tube
@@ -222,7 +222,7 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
     cover(model_, geometry_, feature, motion.phi_journal, covered_);
     for (const CoveredNode& node : covered_) {
       const int j = node.node % model_.grid.n_z;
-      if (is_given(node.node) && !edges_[node.node].of_patch &&
+      if (is_on_prescribed_edge(node.node) && !edges_[node.node].of_patch &&
           std::abs(geometry_.z[j] - feature.z) > (0.5 + as_written) * feature.length)
         continue;
       prescribe({.node = node.node,

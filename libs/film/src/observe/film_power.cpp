@@ -37,9 +37,9 @@ Across across(const GridGeometry& geometry) {
 /// Work of the oil that a feature feeds over the land before an edge, beyond the part counted at a prescribed node.
 double oil_over_land(const FlowBalance& balance, int node) {
   if (balance.over_land(node) == 0) return 0;
-  const double edge = balance.is_open(node) ? 0 : balance.edge_unknown(node);
+  const double edge = balance.is_on_open_edge(node) ? 0 : balance.edge_unknown(node);
   const double counted =
-      balance.is_prescribed(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
+      balance.is_on_supply(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
   return (oil_work(balance.model().lubricant, edge + balance.drop_over_land(node)) - counted) * balance.over_land(node);
 }
 
@@ -112,7 +112,7 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
       o.power_film += balance.power_over_land(k);
       o.power_asperity += area * node.asperity * wrench.friction_power_per_contact(j);
       // The supply feeds oil at its own pressure: the way to the node dissipates (FlowBalance::supply_dissipation).
-      if (balance.is_prescribed(k))
+      if (balance.is_on_supply(k))
         o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
       o.power_oil += work * balance.outflow(k) - oil_over_land(balance, k);
       o.power_stored +=

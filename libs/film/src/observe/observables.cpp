@@ -81,7 +81,7 @@ class PeakFinder {
 /// True if the pressure has no kink between a node and another: neither an edge nor a supply line or feature prescribes
 /// the pressure of one of them, and no border of a pocket lies between.
 bool is_smooth(const FlowBalance& balance, int a, int b) {
-  if (balance.is_given(a)) return false;
+  if (balance.is_on_prescribed_edge(a)) return false;
   if (balance.balance_weight(a) < 1 || balance.balance_weight(b) < 1) return false;
   const Eigen::VectorXd& depth = balance.relief().depth();
   return depth.size() == 0 || std::abs(depth[a] - depth[b]) <= 1e-9 * balance.model().c;

@@ -149,7 +149,7 @@ void Reynolds::Impl::condense_by_adjoint(const Eigen::MatrixXd& openings, Conden
   film.wrench_by_s.noalias() -= adjoint.leftCols<6>().transpose() * residual_by_s;
   if (openings.cols() == 0) return;
   film.Q.noalias() -= adjoint.rightCols(openings.cols()).transpose() * balance.residual();
-  film.Q_ds.noalias() -= adjoint.rightCols(openings.cols()).transpose() * residual_by_s;
+  film.Q_by_s.noalias() -= adjoint.rightCols(openings.cols()).transpose() * residual_by_s;
 }
 
 void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film) {
@@ -165,7 +165,7 @@ void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, Conden
     answers.col(k) = answer;
     film.wrench_by_s.col(k) += wrench.change_by_u(answer);
     rhs = wrench.normal().by_u.cwiseProduct(answer);
-    film.Q_ds.col(k).noalias() += openings.transpose() * rhs;
+    film.Q_by_s.col(k).noalias() += openings.transpose() * rhs;
   }
 }
 
@@ -279,7 +279,7 @@ void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen
   m.condensed = true;
   m.residual_by_s.resize(size(), static_cast<Eigen::Index>(directions.size()));
   film.wrench_by_s.resize(6, m.residual_by_s.cols());
-  film.Q_ds.setZero(openings.cols(), m.residual_by_s.cols());
+  film.Q_by_s.setZero(openings.cols(), m.residual_by_s.cols());
   const bool contact_pushes = openings.cols() > 0 && !now.normal().by_g.isZero(0);
   for (Eigen::Index k = 0; k < m.residual_by_s.cols(); ++k) {
     const MotionDirection& direction = directions[static_cast<std::size_t>(k)];
@@ -288,7 +288,7 @@ void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen
     film.wrench_by_s.col(k) = now.along(direction);
     if (!contact_pushes || direction.g.size() == 0) continue;
     m.rhs = now.normal().by_g.cwiseProduct(direction.g);
-    film.Q_ds.col(k).noalias() = openings.transpose() * m.rhs;
+    film.Q_by_s.col(k).noalias() = openings.transpose() * m.rhs;
   }
   film.wrench = now.total();
   film.Q.noalias() = openings.transpose() * now.normal().value;

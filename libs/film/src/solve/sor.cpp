@@ -147,7 +147,7 @@ void Sor::start(const Eigen::VectorXd& u) {
 
 void Sor::set_unknown(int node, double u) {
   u_[node] = u;
-  const bool open = balance_.is_open(node);
+  const bool open = balance_.is_on_open_edge(node);
   const FilmPhase phase = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(node)) : u, scales_);
   p_[node] = open ? 0 : phase.p.value;
   theta_[node] = phase.theta.value;
@@ -210,11 +210,11 @@ NodeRow Sor::row(int node) const {
 
 void Sor::relax(int i, int j) {
   const int node = balance_.model().grid.index(i, j);
-  if (balance_.is_given(node)) return set_unknown(node, balance_.edge_unknown(node));
+  if (balance_.is_on_prescribed_edge(node)) return set_unknown(node, balance_.edge_unknown(node));
 
   // Beside line and features the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
   const NodeRow r = row(node);
-  const bool open = balance_.is_open(node);
+  const bool open = balance_.is_on_open_edge(node);
   const double own = balance_.balance_weight(node), tie = balance_.supply_conductance(node);
   const double supplied = tie * balance_.supply_unknown(node);
   const double full = own * (r.known + r.full()) - supplied;

@@ -44,7 +44,7 @@ struct CondensedFilm {
   Vector6 wrench = Vector6::Zero();                      ///< on the shell
   Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_by_s;  ///< a column per direction
   Eigen::VectorXd Q;                                     ///< forces on shapes
-  Eigen::MatrixXd Q_ds;                                  ///< (shapes, directions)
+  Eigen::MatrixXd Q_by_s;                                ///< (shapes, directions)
 };
 
 }  // namespace hersey::film
