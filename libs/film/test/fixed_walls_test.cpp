@@ -161,7 +161,7 @@ TEST_CASE("FixedWalls_ResumeToTheSameNumbers") {
   Archive archive(saved.content());
   resumed.persist(archive);
   CHECK(archive.unread().empty());
-  const WallExchange observed = resumed.mean_exchange();
+  const WallHeatFlow observed = resumed.mean_heat_flow();
   CHECK(machine.film.settle().largest == resumed.settle_walls(observed.T).largest);
   CHECK(machine.film.heat.state().shell == resumed.state().shell);
   CHECK(machine.film.heat.state().journal == resumed.state().journal);
@@ -268,13 +268,13 @@ TEST_CASE("FixedWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
 // A steady film does not depend on the motion of walls over time.
 TEST_CASE("SteadyFilmWithFixedNodes_IsTheSteadyFilm") {
   const FilmModel model = bearing();
-  std::array<WallExchange, 2> observed;
+  std::array<WallHeatFlow, 2> observed;
   for (const bool fixed : {false, true}) {
     ThermalModel thermal = walls(fixed ? WallMotion::fixed : WallMotion::by_their_heat);
     thermal.journal = NodeWall{.T = 40 + zero_celsius, .node = 0, .name = "journal"};
     FilmOverTime film(model, thermal, turning(model, 0.5, 300));
     film.advance(0);
-    observed[fixed ? 1 : 0] = film.heat.exchange();
+    observed[fixed ? 1 : 0] = film.heat.heat_flow();
   }
   CHECK(observed[1].heat == observed[0].heat);
   CHECK(observed[1].by_T == observed[0].by_T);

@@ -103,7 +103,7 @@ TEST_CASE("NodeBesideAShellWithoutHeat_SetsTheFilmsTemperature") {
   thermal.journal = NodeWall{.T = 320, .node = 0, .name = "shaft"};
   FilmOverTime film(model, thermal, loaded), other(model, thermal, loaded);
   film.advance(1e-3);
-  const WallExchange observed = film.heat.exchange();
+  const WallHeatFlow observed = film.heat.heat_flow();
   Eigen::VectorXd T = observed.T;
   T[1] += 10;
   film.heat.move_walls(T);

@@ -234,9 +234,9 @@ void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   exchange_->accept_step();
 }
 
-const film::WallExchange& FilmForce::mean_exchange() {
+const film::WallHeatFlow& FilmForce::mean_heat_flow() {
   HERSEY_REQUIRE(film_->heat() != nullptr, "a film with temperatures");
-  return film_->heat()->mean_exchange();
+  return film_->heat()->mean_heat_flow();
 }
 
 void FilmForce::settle_walls(const Eigen::VectorXd& T_nodes) {

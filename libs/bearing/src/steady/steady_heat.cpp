@@ -55,8 +55,8 @@ constexpr double kCoarsest = 1e-3;
 // Bodies of a network in balance with the film's heat, and the film with their temperatures (thermal.48).
 void balance(film::ThermalNetwork& network, film::FilmHeat& heat) {
   const film::FilmTerminals at = film::terminals_of(heat.thermal());
-  network.advance(0, {{at, heat.exchange()}});
-  heat.move_walls(network.walls(at, heat.exchange().T));
+  network.advance(0, {{at, heat.heat_flow()}});
+  heat.move_walls(network.walls(at, heat.heat_flow().T));
 }
 
 double celsius(double T) { return T - film::zero_celsius; }

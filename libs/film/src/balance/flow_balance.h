@@ -11,8 +11,8 @@
 #include "gap/pocket_relief.h"
 #include "gap/rough_gap.h"
 #include "hersey/film/film_domain.h"
-#include "hersey/film/film_exchange.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_response.h"
 
 namespace hersey::film {
 

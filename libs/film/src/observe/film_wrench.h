@@ -8,8 +8,8 @@
 #include "gap/grid_geometry.h"
 #include "gap/rough_gap.h"
 #include "hersey/core/spatial.h"
-#include "hersey/film/film_exchange.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_response.h"
 
 namespace hersey::film {
 

@@ -98,8 +98,8 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }
   void persist(Archive& archive) override;
 
-  /// Returns film::FilmHeat::mean_exchange() of the cycle of the machine that ended with the step last accepted.
-  const film::WallExchange& mean_exchange();
+  /// Returns film::FilmHeat::mean_heat_flow() of the cycle of the machine that ended with the step last accepted.
+  const film::WallHeatFlow& mean_heat_flow();
   /// Calls film::FilmHeat::settle_walls() at the end of a cycle.
   void settle_walls(const Eigen::VectorXd& T_nodes);
   /// Temperatures of the film; null: the film is isothermal.

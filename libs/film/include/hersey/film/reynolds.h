@@ -8,9 +8,9 @@
 #include "hersey/core/archive.h"
 #include "hersey/core/spatial.h"
 #include "hersey/film/film_domain.h"
-#include "hersey/film/film_exchange.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/film_observables.h"
+#include "hersey/film/film_response.h"
 
 namespace hersey::film {
 

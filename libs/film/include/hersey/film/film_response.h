@@ -4,7 +4,7 @@
 
 #include "hersey/core/spatial.h"
 
-/// Exchange between a film and its surfaces: directions in which the surfaces move, forces, oil.
+/// What a film answers to its surfaces: directions in which these move, forces, oil.
 namespace hersey::film {
 
 /// A one-parameter change of the surfaces; the film's derivative along it is a column.
