@@ -137,7 +137,8 @@ class SteadySearch {
   [[nodiscard]] bool take_chord_steps(const Coordinates& target);
   /// Newton's method on film and position at once, one linearisation per iteration.
   [[nodiscard]] bool solve_jointly(const Coordinates& target);
-  /// Newton's method on the position with the film solved at each; a step that does not reduce the distance is halved.
+  /// Newton's method on the position with the film solved at each; a step that does not reduce log_force_error() is
+  /// halved.
   [[nodiscard]] bool solve_nested(const Coordinates& target);
 
   // Paths to the load
