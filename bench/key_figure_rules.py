@@ -56,7 +56,7 @@ LEFT_OUT = {}
 
 # Two figures are equal within a millionth. Sums in another order have moved figures by up to 1e-11 between two programs of equal
 # formulation; iterations that start elsewhere and end at residuals of 1e-8 of their scale could by 1e-7. What a formulation
-# changes within its stated error (1e-4 and more) is seen.
+# changes within its stated error (1e-4 and more) is noticed.
 RELATIVE = 1e-6
 # Below these a figure is zero: what symmetry makes vanish is left with round-off, 1e-10 or less of the terms that cancel.
 # A figure of an example that means something is ten times as large, and most are a million times.

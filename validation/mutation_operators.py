@@ -25,8 +25,8 @@ SKIP = re.compile(r"^\s*(//|#|\*|using |namespace |static_assert|template|HERSEY
 
 # Changes that are no faults: (file, part of the line, part of the changed line, empty where any change of it): kind and reason.
 EQUIVALENT = {
-    ("film/src/balance/flow_balance.cpp", "has_tension() || !is_given(node)) return outflow(node);", "has_tension() && "):
-        "nothing changes: nodes that are not given have, under laws with tension, neither u on an edge nor an outflow of their row; laws "
+    ("film/src/balance/flow_balance.cpp", "has_tension() || !is_on_prescribed_edge(node)) return outflow(node);", "has_tension() && "):
+        "nothing changes: nodes that are on no prescribed edge have, under laws with tension, neither u on an edge nor an outflow of their row; laws "
         "without it no p < 0",
     ("solver/src/symmetric_factor.cpp", "icntl(7) = 5;", ""): "cost: the ordering of a factor, whose answers do not depend on it",
     ("solver/src/kinematics.cpp", "Index worst = 0;", ""): "nothing changes: where the largest stands is written there in any case",

@@ -6,8 +6,8 @@
 #include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/finite_strain.h"
 
-/// A whole mesh in equilibrium under large displacements: what bodies of nodes, and bars pulled and bent far, are held
-/// against.
+/// A whole mesh in equilibrium under large displacements: what bodies of nodes, and bars pulled and bent far, are
+/// compared with.
 namespace hersey::verification {
 
 struct LargeDisplacement {
@@ -20,13 +20,13 @@ inline bool reach(double share, const fem::ElasticBody& body, const std::vector<
                   const Eigen::VectorXd& f, Eigen::VectorXd& u) {
   double size = 0;
   for (const Vector3& x : body.mesh.nodes) size = std::max(size, (x - body.mesh.nodes[0]).norm());
-  std::vector<int> held;
+  std::vector<int> fixed;
   Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(u.size());
   for (const fem::Support& s : supports) {
-    held.push_back(s.dof);
+    fixed.push_back(s.dof);
     prescribed[s.dof] = share * s.displacement - u[s.dof];
   }
-  fem::ConstrainedStiffness stiffness(body.K, body.m, held);
+  fem::ConstrainedStiffness stiffness(body.K, body.m, fixed);
   for (int i = 0; i < 25; ++i) {
     fem::FiniteStrain inner;
     fem::finite_strain(body, u, inner);

@@ -34,7 +34,7 @@ class Rotor:
     approach: float  # time to come to the speed [s]
     mass: float  # [kg]
     step: float  # [ms]
-    pairs: int  # vibrations that are still seen after the approach
+    pairs: int  # vibrations that are still measurable after the approach
 
 
 RIGID = Rotor("model.yaml", (9500, 10000, 10500, 11000), 9000, 0.02, 0.01, 40, 0.1, 1)
@@ -52,9 +52,9 @@ def hersey(program, *arguments):
 
 def film_coefficients(program, rotor, speed, settings):
     """Stiffness [N/m] and damping [N s/m] of one bearing, (2, 2) each."""
-    told = hersey(program, "bearing", os.path.join(HERE, rotor.model), "--bearing", "left", "--speed", f"{speed}rpm", "--load",
+    printed = hersey(program, "bearing", os.path.join(HERE, rotor.model), "--bearing", "left", "--speed", f"{speed}rpm", "--load",
                   f"{rotor.mass * GRAVITY / 2}N", "--load-angle", "-90deg", "--no-grid-error", "--json", *settings)
-    figures = json.loads(told)["solutions"][0]["figures"]
+    figures = json.loads(printed)["solutions"][0]["figures"]
 
     def matrix(name):
         return np.array([[figures[f"{name}_{a}{b}"]["value"] for b in "xy"] for a in "xy"])
@@ -108,7 +108,7 @@ def predicted(rotor, K_film, B_film):
     return least_stable(M, B, K)
 
 
-def seen(t, e, whirl_guess, pairs):
+def least_stable_of(t, e, whirl_guess, pairs):
     """Growth + i frequency [1/s] of the least stable part of a motion e(t), (n, 2), about a place that need not be known.
 
     e is taken to be a sum of `pairs` vibrations; sampled at intervals T of about a quarter of a turn it then obeys
@@ -141,7 +141,7 @@ def observed(program, rotor, speed, settings, whirl_guess, folder):
         t, e = file["time"][:], file["bearings/left/eccentricity"][:]
     kept = t > begin + 0.03
     last = e[t > t[-1] - 2 * np.pi / whirl_guess]
-    return seen(t[kept], e[kept], whirl_guess, rotor.pairs), 1e6 * np.ptp(last, axis=0).max() / 2
+    return least_stable_of(t[kept], e[kept], whirl_guess, rotor.pairs), 1e6 * np.ptp(last, axis=0).max() / 2
 
 
 def crossing(speeds, growth):

@@ -158,7 +158,7 @@ class Model:
         try:
             written = _core.written_json(self.text, self.file, self.changes, self._path(path))
         except InputError as error:
-            raise self._told(error.hinting(lambda _: did_you_mean(path, self._parameters()))) from None
+            raise self._located(error.hinting(lambda _: did_you_mean(path, self._parameters()))) from None
         return value_of(json.loads(written))
 
     def __setitem__(self, path: str, value: Any) -> None:
@@ -220,9 +220,9 @@ class Model:
         try:
             return _core.read_text(self.text, self.file, overrides)
         except InputError as error:
-            raise self._told(error) from None
+            raise self._located(error) from None
 
-    def _told(self, error: InputError) -> InputError:
+    def _located(self, error: InputError) -> InputError:
         """The error with the places of the model's file; those of a dictionary are its keys."""
         return error.of_dictionary(self.file) if self._is_dictionary else error.at(self._checked.position_of)
 
@@ -263,7 +263,7 @@ class Model:
                 paths = [self._path(next(iter(self._keys(name, {key: None})))) if "." not in key else key for key in keys]
                 solution.take(_core.sensitivities(checked, found, name, thermal_coefficients, sensitivity, paths))
         except InputError as error:
-            raise self._told(self._hinting(error, name, [*values, *keys])) from None
+            raise self._located(self._hinting(error, name, [*values, *keys])) from None
         return solution
 
     def sweep(self, name: Optional[str] = None, *, grid_error: bool = True, thermal_coefficients: str = "frozen",
@@ -287,7 +287,7 @@ class Model:
             base, lists, combinations = self._combinations(name, lists)
             found, raised = _core.solve_all(base, combinations, name, grid_error, thermal_coefficients, threads)
         except InputError as error:
-            raise self._told(self._hinting(error, name, values)) from None
+            raise self._located(self._hinting(error, name, values)) from None
         results = sweep(lists, found)
         if isinstance(raised, KeyboardInterrupt):
             done = sum(solution.error != _core.not_begun for solution in found)
@@ -303,7 +303,7 @@ class Model:
                 self._with(self._keys(name, {given: "?"}))  # of what kind a value has to be does not matter here
             except InputError as error:
                 if any(_is_unknown(fault, given) for fault in error.faults):
-                    raise self._told(self._hinting(error, name, [given])) from None
+                    raise self._located(self._hinting(error, name, [given])) from None
 
     def _combinations(self, name: str, lists: Mapping[str, list[Any]]):
         """The model at the first values, the lists with units, and of each combination label, changes, and texts."""
@@ -368,14 +368,14 @@ class Model:
         try:
             return self._runnable()[0].check()
         except InputError as error:
-            raise self._told(error) from None
+            raise self._located(error) from None
 
     def runs(self) -> list["Model"]:
         """A model for each combination of the file's study; the model itself where it has none."""
         try:
             runs = self._checked.runs() or [self.changes]
         except InputError as error:
-            raise self._told(error) from None
+            raise self._located(error) from None
         return [self._as(self._read(changes)) for changes in runs]
 
     def run(self, output: Optional[PathLike] = None, *, overwrite: bool = False, resume: bool = False,

@@ -48,8 +48,8 @@ def opened(path: Path) -> Iterator[Any]:
 
 def _refusal(path: Path, error: OSError) -> OSError:
     """The error in words that name the file."""
-    told = str(error)
-    if str(path) in told and "errno" not in told:
+    message = str(error)
+    if str(path) in message and "errno" not in message:
         return error
     if not Path(path).exists():
         return FileNotFoundError(f"{path}: no such results file")
@@ -58,9 +58,9 @@ def _refusal(path: Path, error: OSError) -> OSError:
     for sign, reason in (("signature not found", "no HDF5 file"), ("truncated file", "cut off: the file is shorter than it says"),
                          ("Permission denied", "it may not be read"), ("unable to lock", "another program writes it"),
                          ("checksum", "damaged"), ("read data", "damaged")):
-        if sign in told:
-            return OSError(f"{path}: {reason} ({told})")
-    return OSError(f"{path}: {told}")
+        if sign in message:
+            return OSError(f"{path}: {reason} ({message})")
+    return OSError(f"{path}: {message}")
 
 
 def _content(dataset: Any, rows: Any) -> np.ndarray:

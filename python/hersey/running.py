@@ -38,7 +38,7 @@ class _Bar:
     """A bar of tqdm's where there is tqdm, else a line now and then."""
 
     def __init__(self, label: str):
-        self._label, self._told = label, 0.0
+        self._label, self._shown_at = label, 0.0
         self._bar: Any = None
 
     def __call__(self, progress: "_core.Progress") -> None:
@@ -46,8 +46,8 @@ class _Bar:
         try:
             from tqdm.auto import tqdm
         except ImportError:
-            if progress.elapsed - self._told > 5:
-                self._told = progress.elapsed
+            if progress.elapsed - self._shown_at > 5:
+                self._shown_at = progress.elapsed
                 print(f"{self._label} {100 * share:.0f} %, t = {progress.t:.5g} s", file=sys.stderr)
             return
         if self._bar is None:
@@ -77,7 +77,7 @@ def run(model: Any, output: Optional[Any], *, overwrite: bool, resume: bool, ste
     try:
         text, raised, t = _core.simulate(checked, os.fspath(file), overwrite, resume, step_error, listener, has_fault)
     except InputError as error:
-        raise model._told(error) from None
+        raise model._located(error) from None
     except FileExistsError as error:
         raise FileExistsError(f"{error}; overwrite=True replaces it, resume=True goes on with it") from None
     finally:

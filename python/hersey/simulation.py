@@ -53,7 +53,7 @@ class Simulation:
         except RuntimeError as error:
             raise_fault_of(self._calls, 0.0, None)
             if isinstance(error, InputError):
-                raise model._told(error) from None
+                raise model._located(error) from None
             raise
         self.inputs = {name: Port(name, unit, text) for name, unit, text, _ in self._core.inputs()}
         self.outputs = {name: Port(name, unit, text, tuple(shape), tuple(components))
@@ -131,9 +131,9 @@ class Simulation:
     @property
     def summary(self) -> Summary:
         """The figures of all steps so far."""
-        return self._told(self._core.summary_json())
+        return self._summary_of(self._core.summary_json())
 
-    def _told(self, text: str) -> Summary:
+    def _summary_of(self, text: str) -> Summary:
         content = json.loads(text)
         if self._calls:
             content["functions"] = cost_of(self._calls)
@@ -141,7 +141,7 @@ class Simulation:
 
     def finish(self) -> Union[Results, Summary]:
         """Closes the results; no step follows. The `Results`, or without a file the summary."""
-        summary = self._told(self._core.finish_json())
+        summary = self._summary_of(self._core.finish_json())
         return summary if self._file is None else Results(self._file, summary=summary)
 
     def __enter__(self) -> "Simulation":

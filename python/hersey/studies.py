@@ -129,11 +129,11 @@ def study(model: Union[Model, PathLike], output: Optional[PathLike] = None, *, j
         command.append("--again")
     if runner:
         command += ["--runner", runner]
-    told = _result_of(command, progress)
-    if told.returncode == WRONG_INPUT:
-        raise InputError((told.stderr or "the study cannot be done; why is told above").strip())
-    if told.returncode not in (0, 1) or told.stdout is None or "study:" not in told.stdout:
-        raise RunError((told.stderr or "the study has no answer; why is told above").strip())
+    ended = _result_of(command, progress)
+    if ended.returncode == WRONG_INPUT:
+        raise InputError((ended.stderr or "the study cannot be done; the reason is printed above").strip())
+    if ended.returncode not in (0, 1) or ended.stdout is None or "study:" not in ended.stdout:
+        raise RunError((ended.stderr or "the study has no answer; the reason is printed above").strip())
     return Study(folder)
 
 

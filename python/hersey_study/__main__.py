@@ -30,7 +30,7 @@ def say(text):
 
 
 def has_packages(settings):
-    """Told before anything is computed, not when it is all done."""
+    """Refused before anything is computed, not when it is all done."""
     import importlib.util
 
     from .study import is_drawn

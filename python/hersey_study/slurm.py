@@ -21,7 +21,7 @@ MOST_IDLE_ROUNDS = 3
 RUNS_PER_TASK = 50
 # Seconds for which a controller that does not answer is waited for.
 PATIENCE = 600.0
-# Seconds without a task at work after which it is told why; the environment's are the tests'.
+# Seconds without a task at work after which the reason is reported; the environment's are the tests'.
 QUIET = float(os.environ.get("HERSEY_STUDY_PATIENCE", "30"))
 
 
@@ -85,7 +85,7 @@ class Array:
                    *(["--partition", args.partition] if args.partition else []), script]
         self.job = _call(command, patience=PATIENCE, tell=study.tell).strip().split(";")[0]
         self.place = place
-        self._at_work, self._told = time.monotonic(), ""
+        self._at_work, self._reported = time.monotonic(), ""
 
     def is_under_way(self, study):
         """Whether it has tasks left. Tells why where none of them has been at work for a while."""
@@ -93,10 +93,10 @@ class Array:
         states = [line.split(" ", 1) for line in out.splitlines() if line.strip()]
         now = time.monotonic()
         if any(state[0] != "PENDING" for state in states) or not states:
-            self._at_work, self._told = now, ""
-        elif now - self._at_work > QUIET and states[0][-1] != self._told:
-            self._told = states[0][-1]
-            study.tell(f"no task is at work; the cluster says: {self._told}")
+            self._at_work, self._reported = now, ""
+        elif now - self._at_work > QUIET and states[0][-1] != self._reported:
+            self._reported = states[0][-1]
+            study.tell(f"no task is at work; the cluster says: {self._reported}")
         return bool(states)
 
     def cancel(self):
@@ -105,7 +105,7 @@ class Array:
 
 
 class Watch:
-    """Records that appear in the files of tasks, each told once."""
+    """Records that appear in the files of tasks, each reported once."""
 
     def __init__(self, folder):
         self.folder, self.read = folder, {}

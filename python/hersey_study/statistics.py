@@ -98,13 +98,13 @@ def surrogate(settings, inputs, values):
         ends[:, k] += [-step, step]
         below, above = np.array(model(ot.Sample(ends))).ravel() * spread
         slopes.append(float((above - below) / (2 * step)))
-    # Error on runs that were left out: five parts, each foretold from the other four.
+    # Error on runs that were left out: five parts, each predicted from the other four.
     parts = np.arange(len(scaled)) % 5
-    foretold = np.empty_like(scaled)
+    predicted = np.empty_like(scaled)
     for part in range(5):
         out = parts == part
-        foretold[out] = np.array(fit(inputs[~out], scaled[~out], chosen_degree).getMetaModel()(ot.Sample(inputs[out]))).ravel()
-    error = float(((foretold - scaled) ** 2).mean() / scaled.var())
+        predicted[out] = np.array(fit(inputs[~out], scaled[~out], chosen_degree).getMetaModel()(ot.Sample(inputs[out]))).ravel()
+    error = float(((predicted - scaled) ** 2).mean() / scaled.var())
     return {"terms": len(result.getIndices()), "degree": chosen_degree, "cross_validated_error": error,
             "first": [indices.getSobolIndex(k) for k in range(count)],
             "total": [indices.getSobolTotalIndex(k) for k in range(count)],

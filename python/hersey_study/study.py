@@ -48,7 +48,7 @@ def is_drawn(settings):
 
 
 def runs_of_model(study):
-    """Figures that are told where the study names none."""
+    """Figures that are shown where the study names none."""
     kinds = ("h_min", "p_max", "power_film") if study["analysis"] == "steady" else ("moft", "pofp", "film_loss")
     return [f"bearings.{bearing}.{kind}" for bearing in study["bearings"] for kind in kinds]
 

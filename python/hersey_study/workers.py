@@ -35,7 +35,7 @@ class Worker:
         try:
             self.process.stdin.write((json.dumps(request) + "\n").encode())
         except BrokenPipeError:
-            pass  # it has ended: that is told where its answers are read
+            pass  # it has ended: that is noticed where its answers are read
 
     def answers(self):
         """Lines that have come; None at the end of the process."""
@@ -117,9 +117,9 @@ def answer_all(study, requests, jobs):
                         raise RunnerError(f"{command[0]} ended with code {code} before any answer")
                     if lost:
                         returned.extend(lost[1:])
-                        told = f"signal {-code}" if code < 0 else f"exit code {code}"
+                        ending = f"signal {-code}" if code < 0 else f"exit code {code}"
                         yield lost[0], {"run": lost[0]["run"], "status": "failed",
-                                        "error": f"the process that did it ended with {told}"}
+                                        "error": f"the process that did it ended with {ending}"}
                     if returned or lost:
                         start()
                     continue

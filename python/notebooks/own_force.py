@@ -7,7 +7,7 @@
 import hersey
 
 model = hersey.Model.from_dict({
-    "title": "A shaft held by a magnet",
+    "title": "A shaft supported by a magnet",
     "gravity": "0 -9.81 0 m/s^2",
     "lubricants": {"oil": {"viscosity": "15 mPa.s"}},
     "bodies": {"shaft": {"mass": "2 kg", "inertia": {"xx": "1e-3 kg.m^2", "yy": "1e-3 kg.m^2", "zz": "1e-3 kg.m^2"}}},

@@ -85,11 +85,11 @@ std::vector<fem::ElementFace> faces_of(const fem::Mesh& mesh, const std::string&
   return faces;
 }
 
-std::vector<int> held_by(const fem::Mesh& mesh, const Names& hold) {
-  std::vector<int> held;
+std::vector<int> fixed_dofs(const fem::Mesh& mesh, const Names& hold) {
+  std::vector<int> dofs;
   for (const std::string& set : hold)
-    for (const int dof : fem::dofs_of(nodes_of(mesh, set))) held.push_back(dof);
-  return held;
+    for (const int dof : fem::dofs_of(nodes_of(mesh, set))) dofs.push_back(dof);
+  return dofs;
 }
 
 RowMajor by_node(const Eigen::VectorXd& u) { return Eigen::Map<const RowMajor>(u.data(), u.size() / 3, 3); }
@@ -97,7 +97,7 @@ RowMajor by_node(const Eigen::VectorXd& u) { return Eigen::Map<const RowMajor>(u
 // frequencies [Hz], shapes (modes, nodes, 3), rigid modes
 std::tuple<Eigen::VectorXd, std::vector<RowMajor>, int> modes(const fem::ElasticBody& body, const Names& hold,
                                                               int count) {
-  const fem::Vibration found = fem::natural_modes(body, held_by(body.mesh, hold), {.count = count});
+  const fem::Vibration found = fem::natural_modes(body, fixed_dofs(body.mesh, hold), {.count = count});
   if (!found.solved()) throw std::runtime_error(found.message);
   std::vector<RowMajor> shapes;
   for (Eigen::Index k = 0; k < found.omega.size(); ++k) shapes.push_back(by_node(found.shapes.col(k)));
@@ -119,7 +119,7 @@ StaticResult solve_static(const fem::ElasticBody& body, const Names& hold,
     if (total.norm() > 0)
       f += total.norm() * fem::spread_force(body.mesh, faces_of(body.mesh, name), total.normalized());
   std::vector<fem::Support> supports;
-  for (const int dof : held_by(body.mesh, hold)) supports.push_back({dof, 0});
+  for (const int dof : fixed_dofs(body.mesh, hold)) supports.push_back({dof, 0});
   const fem::StaticSolution solution = fem::solve_static(body, supports, f);
   if (!solution.is_supported) refuse("hold", solution.message, "sets that leave no motion free");
   if (!solution.solved()) throw std::runtime_error(solution.message);

@@ -50,7 +50,7 @@ std::unique_ptr<run::Simulation> make(const session::Session& session, const std
   return std::make_unique<run::Simulation>(session.simulation(results, overwrite));
 }
 
-py::tuple told(const run::Advance& advance) {
+py::tuple as_tuple(const run::Advance& advance) {
   static constexpr const char* names[]{"failed", "advanced", "ended"};
   return py::make_tuple(names[static_cast<int>(advance.status)], advance.message);
 }
@@ -61,7 +61,7 @@ py::tuple advance_to(run::Simulation& simulation, double t) {
     const py::gil_scoped_release open;
     advance = simulation.advance_to(t);
   }
-  return told(advance);
+  return as_tuple(advance);
 }
 
 py::tuple step(run::Simulation& simulation) {
@@ -70,7 +70,7 @@ py::tuple step(run::Simulation& simulation) {
     const py::gil_scoped_release open;
     advance = simulation.step();
   }
-  return told(advance);
+  return as_tuple(advance);
 }
 
 py::list inputs(const run::Simulation& simulation) {

@@ -66,9 +66,9 @@ auto UserFunction::in_python(Work work) const {
     return result;
   } catch (py::error_already_set& error) {
     if (!calls_->exception) calls_->exception = error.value();
-    const std::string told =
+    const std::string raised =
         error.type().attr("__name__").cast<std::string>() + ": " + py::str(error.value()).cast<std::string>();
-    refuse("raised " + told);
+    refuse("raised " + raised);
   }
 }
 

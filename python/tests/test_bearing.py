@@ -79,7 +79,7 @@ def test_sweep_tells_of_solutions_that_are_not_found():
         model.bearing(load="1e8 N", grid_error=False)
 
 
-def test_wrong_names_are_told(alone):
+def test_wrong_names_are_reported(alone):
     with pytest.raises(hersey.InputError, match="no bearing 'big_end'"):
         alone.bearing("big_end")
     with pytest.raises(hersey.InputError, match="unknown key 'widht'; did you mean 'width'"):
@@ -108,9 +108,9 @@ def test_sensitivities_are_the_program_s(alone, program, bearing_file):
     film = alone.bearing(sensitivity=True, sensitivity_to=["bearings.main.supply.pressure", "load"])
     run = subprocess.run([program, "bearing", bearing_file, "--json", "--sensitivity", "--sensitivity-to",
                           "bearings.main.supply.pressure"], capture_output=True, text=True, check=True)
-    told = {each["parameter"]: each for each in json.loads(run.stdout)["solutions"][0]["sensitivities"]}
-    assert set(told) <= set(film.sensitivities) and "bearings.main.radial_clearance" in told
-    for key, each in told.items():
+    reported = {each["parameter"]: each for each in json.loads(run.stdout)["solutions"][0]["sensitivities"]}
+    assert set(reported) <= set(film.sensitivities) and "bearings.main.radial_clearance" in reported
+    for key, each in reported.items():
         found = film.sensitivities[key]
         assert (found.value, found.exact) == (each["value"], each["exact"]), key
         assert (found.error, found.derivatives) == (in_words(each.get("error", "")), each.get("derivatives", {})), key

@@ -26,10 +26,10 @@ def rod(mesh):
 
 
 def test_modes_are_the_program_s(rod, mesh, program):
-    told = subprocess.run([program, "modes", mesh, *OPTIONS, "--hold", "big_end", "--count", "4", "--json"],
+    reported = subprocess.run([program, "modes", mesh, *OPTIONS, "--hold", "big_end", "--count", "4", "--json"],
                           capture_output=True, text=True, check=True)
     found = rod.modes(hold=["big_end"], count=4)
-    assert found["frequency"].values.tolist() == json.loads(told.stdout)["frequencies"]
+    assert found["frequency"].values.tolist() == json.loads(reported.stdout)["frequencies"]
     assert found["shape"].dims == ("mode", "node", "axis")
 
 
@@ -52,7 +52,7 @@ def test_reduced_body_keeps_rigid_motion_and_file(rod, tmp_path):
     assert (tmp_path / "rod.h5").stat().st_size > 0
 
 
-def test_faults_are_told(rod, mesh):
+def test_faults_are_reported(rod, mesh):
     with pytest.raises(hersey.InputError, match="no set 'big_emd'.*did you mean 'big_end'"):
         rod.modes(hold=["big_emd"])
     with pytest.raises(hersey.InputError, match="leave no motion free"):

@@ -1,4 +1,4 @@
-"""Functions of the user's own: the same numbers as expressions, their cost told, their faults told with name and time."""
+"""Functions of the user's own: the same numbers as expressions, their cost reported, their faults reported with name and time."""
 
 import math
 
@@ -56,7 +56,7 @@ def test_controller_is_a_function_of_coordinates_and_rates(machine, tmp_path):
     assert results.status == "completed" and np.ptp([y for y, _ in observed]) > 1e-6
 
 
-def test_cost_is_told(machine, tmp_path):
+def test_cost_is_reported(machine, tmp_path):
     calls = []
     model = hersey.Model.from_dict(machine)
     model[PATH] = hersey.Function(lambda t: calls.append(t) or -500.0, unit="N")
@@ -64,33 +64,33 @@ def test_cost_is_told(machine, tmp_path):
     assert cost["calls"] == len(calls) > 50 and 0 < cost["seconds"] < 10
 
 
-@pytest.mark.parametrize("bad, told", [
+@pytest.mark.parametrize("bad, words", [
     (lambda t: 1 / 0, "raised ZeroDivisionError: division by zero"),
     (lambda t: math.nan, "gave nan: expected a finite number"),
     (lambda t: np.zeros(3), "expected one finite number"),
     (lambda t: "much", "gave 'much': expected one finite number"),
 ])
-def test_fault_in_a_function_tells_name_and_time_and_keeps_results(machine, tmp_path, bad, told):
+def test_fault_in_a_function_tells_name_and_time_and_keeps_results(machine, tmp_path, bad, words):
     model = hersey.Model.from_dict(machine)
     model[PATH] = hersey.Function(lambda t: bad(t) if t > 5.1e-3 else -500.0, unit="N")
     with pytest.raises(hersey.UserFunctionError) as caught:
         model.run(tmp_path)
     error = caught.value
-    assert error.name == PATH and error.t == pytest.approx(5e-3) and told in str(error)
+    assert error.name == PATH and error.t == pytest.approx(5e-3) and words in str(error)
     assert "t = 0.005 s" in str(error)
     assert float(error.results.bearing()["time"][-1]) == pytest.approx(5e-3)
-    if "raised" in told:
+    if "raised" in words:
         assert isinstance(error.__cause__, ZeroDivisionError)
 
 
-def test_fault_at_the_start_is_told_too(machine, tmp_path):
+def test_fault_at_the_start_is_reported_too(machine, tmp_path):
     model = hersey.Model.from_dict(machine)
     model[PATH] = hersey.Function(lambda t: math.nan, unit="N")
     with pytest.raises(hersey.UserFunctionError, match="expected a finite number, at t = 0 s"):
         model.run(tmp_path)
 
 
-def test_wrong_derivatives_are_told(machine, tmp_path):
+def test_wrong_derivatives_are_reported(machine, tmp_path):
     model = hersey.Model.from_dict(machine)
     model[PATH] = hersey.Function(lambda y: -500.0 - 1e5 * y, of="free.y", unit="N", derivative=lambda y: (1e5, 0))
     with pytest.raises(hersey.UserFunctionError, match="expected 1 numbers"):

@@ -18,12 +18,12 @@ def test_values_read_as_written(alone):
     assert alone["bearings.main.operating_point.load"] == "2500 N"  # its parameter in place
 
 
-def test_assigned_value_is_in_the_model_and_in_what_the_program_is_told(alone, program, bearing_file):
+def test_assigned_value_is_in_the_model_and_in_what_the_program_is_given(alone, program, bearing_file):
     alone["bearings.main.radial_clearance"] = "40 um"
     alone["load"] = "1 kN"
     assert alone["bearings.main.radial_clearance"] == "40 um"
-    told = [part for change in alone.changes for part in ("--set", change)]
-    run = subprocess.run([program, "bearing", bearing_file, "--json", *told], capture_output=True, text=True, check=True)
+    options = [part for change in alone.changes for part in ("--set", change)]
+    run = subprocess.run([program, "bearing", bearing_file, "--json", *options], capture_output=True, text=True, check=True)
     figures = json.loads(run.stdout)["solutions"][0]["figures"]
     solution = alone.bearing()
     for key, figure in figures.items():
@@ -48,7 +48,7 @@ def test_wrong_value_tells_file_line_and_key_and_changes_nothing(alone, bearing_
     assert alone["bearings.main.radial_clearance"] == "34 um"
 
 
-def test_every_fault_of_a_file_is_told(tmp_path, alone):
+def test_every_fault_of_a_file_is_reported(tmp_path, alone):
     file = tmp_path / "model.yaml"
     file.write_text(alone.text.replace("diameter: 45 mm", "diamter: 45 mm").replace("width: 15.6 mm", "width: 15.6"))
     with pytest.raises(hersey.InputError) as caught:
@@ -57,7 +57,7 @@ def test_every_fault_of_a_file_is_told(tmp_path, alone):
     assert any("did you mean 'diameter'?" in fault.text and fault.line > 0 for fault in caught.value.faults)
 
 
-def test_missing_file_is_told_as_by_the_program(tmp_path):
+def test_missing_file_is_reported_as_by_the_program(tmp_path):
     with pytest.raises(hersey.InputError, match="nothing.yaml"):
         hersey.Model.load(tmp_path / "nothing.yaml")
 
@@ -140,8 +140,8 @@ def test_models_pickle(alone, machine):
 
 
 def wrong_messages(alone, machine):
-    """What is told of wrong things in many places."""
-    def told(action):
+    """What is said of wrong things in many places."""
+    def message_of(action):
         with pytest.raises(hersey.InputError) as caught:
             action()
         assert all("--" not in part and "hersey run" not in part for fault in caught.value.faults for part in map(str, fault))
@@ -152,18 +152,18 @@ def wrong_messages(alone, machine):
         content["bearings"]["main"].update(bearing)
         return hersey.Model.from_dict(content)
 
-    yield told(lambda: dictionary(widht="20 mm"))
-    yield told(lambda: dictionary(width="20 kPa", diameter="${size}"))
-    yield told(lambda: hersey.Model.from_dict(machine).set({"bearings.main.width": "3 kPa"}))
-    yield told(lambda: hersey.Model.from_dict(machine).set(load="3 parrots"))
-    yield told(lambda: hersey.Model.from_dict(machine).set(lod="3 N"))
-    yield told(lambda: hersey.Model.from_dict(machine)["lod"])
-    yield told(lambda: hersey.Model.from_dict(machine).bearing())
-    yield told(lambda: hersey.Model.from_dict(machine).run("out", overwrite=True) if machine["joints"].clear() else dictionary())
-    yield told(lambda: alone.set(load="3 parrots"))
-    yield told(lambda: alone.copy().bearing(width="20 kPa"))
-    yield told(lambda: hersey.Model.load(alone.file, load="3 parrots"))
-    yield told(lambda: hersey.Model.load(alone.file, lod="3 N"))
+    yield message_of(lambda: dictionary(widht="20 mm"))
+    yield message_of(lambda: dictionary(width="20 kPa", diameter="${size}"))
+    yield message_of(lambda: hersey.Model.from_dict(machine).set({"bearings.main.width": "3 kPa"}))
+    yield message_of(lambda: hersey.Model.from_dict(machine).set(load="3 parrots"))
+    yield message_of(lambda: hersey.Model.from_dict(machine).set(lod="3 N"))
+    yield message_of(lambda: hersey.Model.from_dict(machine)["lod"])
+    yield message_of(lambda: hersey.Model.from_dict(machine).bearing())
+    yield message_of(lambda: hersey.Model.from_dict(machine).run("out", overwrite=True) if machine["joints"].clear() else dictionary())
+    yield message_of(lambda: alone.set(load="3 parrots"))
+    yield message_of(lambda: alone.copy().bearing(width="20 kPa"))
+    yield message_of(lambda: hersey.Model.load(alone.file, load="3 parrots"))
+    yield message_of(lambda: hersey.Model.load(alone.file, lod="3 N"))
 
 
 def test_messages_are_in_python_s_words(alone, machine):

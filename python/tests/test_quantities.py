@@ -53,8 +53,8 @@ def test_every_form_is_assigned_and_swept(form, alone):
 def test_numbers_become_quantities_that_the_program_understands(alone, program, bearing_file):
     alone.set({"bearings.main.radial_clearance": 40e-6, "load": 1000.0})
     assert alone.changes == ["bearings.main.radial_clearance=4e-05 m", "load=1000.0 N"]
-    told = [part for change in alone.changes for part in ("--set", change)]
-    run = subprocess.run([program, "bearing", bearing_file, "--json", *told], capture_output=True, text=True, check=True)
+    options = [part for change in alone.changes for part in ("--set", change)]
+    run = subprocess.run([program, "bearing", bearing_file, "--json", *options], capture_output=True, text=True, check=True)
     assert json.loads(run.stdout)["solutions"][0]["figures"]["h_min"]["value"] == alone.bearing()["h_min"]
     loaded = hersey.Model.load(bearing_file, load=1000.0)
     assert loaded.changes == ["load=1000.0 N"]

@@ -120,7 +120,7 @@ def test_report_is_one_page(results, tmp_path):
         results.report(tmp_path / "nowhere" / "x.html")
 
 
-def test_missing_things_are_told(results, tmp_path):
+def test_missing_things_are_reported(results, tmp_path):
     with pytest.raises(KeyError, match="expected one of main"):
         results.bearing("big_end")
     with pytest.raises(KeyError, match="no group 'bearing/main'"):
@@ -137,7 +137,7 @@ def test_runs_are_laid_over_each_other_by_their_names(machine, tmp_path):
     assert len(runs[0].table()) > 5
 
 
-def test_files_that_are_no_results_are_told_with_path_and_reason(results, tmp_path):
+def test_files_that_are_no_results_are_reported_with_path_and_reason(results, tmp_path):
     text, short, foreign = tmp_path / "text.h5", tmp_path / "short.h5", tmp_path / "foreign.h5"
     text.write_text("no HDF5", encoding="utf-8")
     short.write_bytes(results.path.read_bytes()[:5000])
@@ -174,7 +174,7 @@ def test_every_number_of_a_run_from_python_is_the_program_s(machine, program, tm
     file.write_text(json.dumps({"hersey": 1, **machine}), encoding="utf-8")  # JSON is YAML
     results = hersey.Model.load(file).run(tmp_path / "by_python")
     run = subprocess.run([program, "run", file, "--output", tmp_path / "by_program", "--json"], capture_output=True, text=True, check=True)
-    told = json.loads(run.stdout)
+    reported = json.loads(run.stdout)
     compared = set()
     with h5py.File(tmp_path / "by_program" / "results.h5") as written:
         for group in ["/", *results.groups]:
@@ -192,11 +192,11 @@ def test_every_number_of_a_run_from_python_is_the_program_s(machine, program, tm
 
         written.visititems(visit)
         assert len(every) > 100 and every <= compared, sorted(every - compared)
-    for key, value in told["runs"][0].items():
+    for key, value in reported["runs"][0].items():
         if key in results.summary and key not in ("wall_time", "work", "results"):  # times and places
             assert value == results.summary[key], key
     table = results.table()
     shown = [(*row.Index, row.value) for row in table.itertuples()]
-    for figure in told["summary"]:
+    for figure in reported["summary"]:
         if figure["group"] != "computing" and isinstance(figure["value"], float):  # computing: times of this machine
             assert (figure["group"], figure["name"], figure["value"]) in shown

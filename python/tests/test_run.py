@@ -24,9 +24,9 @@ def test_run_has_the_bits_of_the_program(machine, tmp_path, program):
     file = tmp_path / "model.yaml"
     file.write_text(model.text)
     subprocess.run([program, "run", file, "--output", tmp_path / "program"], check=True, capture_output=True)
-    with h5py.File(tmp_path / "program" / "results.h5") as told:
+    with h5py.File(tmp_path / "program" / "results.h5") as other:
         for name in ("h_min", "force", "p_max"):
-            assert np.array_equal(results["bearings/main"][name].values, told[f"bearings/main/{name}"][:]), name
+            assert np.array_equal(results["bearings/main"][name].values, other[f"bearings/main/{name}"][:]), name
     assert results.status == "completed" and results.summary["steps"] == 50
 
 
@@ -77,7 +77,7 @@ def test_results_do_not_replace_what_the_model_reads(machine, tmp_path):
     assert file.read_text() == text
 
 
-def test_progress_is_told_at_the_start_and_after_every_step(machine, tmp_path):
+def test_progress_is_reported_at_the_start_and_after_every_step(machine, tmp_path):
     times = []
     results = hersey.Model.from_dict(machine).run(tmp_path, progress=lambda progress: times.append(progress.t))
     assert len(set(times)) == results.summary["steps"] + 1 and times == sorted(times)
@@ -177,15 +177,15 @@ def test_an_output_that_another_run_writes_is_locked_and_says_so(machine, tmp_pa
     file = tmp_path / "model.yaml"
     file.write_text(model.text, encoding="utf-8")
     writing = hersey.Simulation(model, tmp_path / "out")  # one that goes on writing
-    told = rf"results.h5: another run \(process {os.getpid()} on .*\) is writing this file"
+    refusal = rf"results.h5: another run \(process {os.getpid()} on .*\) is writing this file"
     for options in ({}, {"overwrite": True}, {"resume": True}):
-        with pytest.raises(BlockingIOError, match=told):
+        with pytest.raises(BlockingIOError, match=refusal):
             model.run(tmp_path / "out", **options)
-    with pytest.raises(BlockingIOError, match=told):
+    with pytest.raises(BlockingIOError, match=refusal):
         hersey.Simulation(model, tmp_path / "out", overwrite=True)
     for option in ([], ["--force"], ["--resume"]):
         run = subprocess.run([program, "run", file, "--output", tmp_path / "out", *option], capture_output=True, text=True)
-        assert run.returncode == 2 and re.search(told, run.stderr), run.stderr
+        assert run.returncode == 2 and re.search(refusal, run.stderr), run.stderr
     while writing.step():
         pass
     assert writing.finish().status == "completed"

@@ -83,7 +83,7 @@ def test_unknown_names_have_the_nearest(machine):
         sim[next(iter(sim.inputs))] = "3 parrots"
 
 
-def test_failure_is_told_with_the_last_good_time(machine, tmp_path):
+def test_failure_is_reported_with_the_last_good_time(machine, tmp_path):
     machine["forces"]["push"]["components"] = ["0 N", {"expression": "t < 0.004 ? -500 : log(-1)", "unit": "N"}, "0 N"]
     machine["simulation"]["smallest_step"] = "0.1 ms"
     sim = hersey.Simulation(hersey.Model.from_dict(machine), tmp_path)

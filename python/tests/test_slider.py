@@ -142,8 +142,8 @@ def test_sweeps_without_points_have_the_figures_of_the_kind(pad, alone):
 
 def test_gradient_is_the_slope_of_solutions(pad, program, pad_file):
     film = pad.bearing(sensitivity=True, grid_error=False)
-    told = solutions_of(program, pad_file, "--no-grid-error", "--sensitivity")[0]["sensitivities"]
-    assert {each["parameter"]: each["derivatives"] for each in told} == {
+    reported = solutions_of(program, pad_file, "--no-grid-error", "--sensitivity")[0]["sensitivities"]
+    assert {each["parameter"]: each["derivatives"] for each in reported} == {
         key: each.derivatives for key, each in film.sensitivities.items()}
     for name, path, value in (("load", "operating_point.load", 1000.0), ("length", "length", 0.05)):
         low, high = (pad.bearing(**{name: factor * value}, grid_error=False)["h_min"] for factor in (0.999, 1.001))

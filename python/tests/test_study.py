@@ -50,7 +50,7 @@ def test_a_model_in_hand_is_studied_with_its_changes(file, tmp_path):
         hersey.study(hersey.Model.from_text(MODEL, tmp_path / "nowhere.yaml"))
 
 
-def test_failed_runs_stop_nothing_and_are_told(file, tmp_path):
+def test_failed_runs_stop_nothing_and_are_reported(file, tmp_path):
     script = tmp_path / "answers.py"
     script.write_text("import json, sys\nfor line in sys.stdin:\n    run = json.loads(line)\n"
                       "    good = '30' in run['set'][0]\n"
@@ -60,14 +60,14 @@ def test_failed_runs_stop_nothing_and_are_told(file, tmp_path):
     assert found.failed == {"too wide": 1} and len(found.table) == 1
 
 
-def test_wrong_studies_are_told_with_the_nearest_name(file, tmp_path):
+def test_wrong_studies_are_reported_with_the_nearest_name(file, tmp_path):
     file.write_text(MODEL.replace("main.h_min", "main.h_mni"), encoding="utf-8")
     with pytest.raises(hersey.InputError, match="did you mean 'bearings.main.h_min'"):
         hersey.study(file, tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 
-def test_a_program_that_is_not_there_is_told(monkeypatch, file, tmp_path):
+def test_a_program_that_is_not_there_is_reported(monkeypatch, file, tmp_path):
     from hersey import studies
 
     monkeypatch.delenv("HERSEY_PROGRAM")

@@ -189,12 +189,12 @@ def msh_sets(path):
 
 def mesh(program):
     """Where the named sets of the rod's mesh are: the nodes seen along the bores."""
-    told = json.loads(program("mesh", "examples/meshes/conrod.msh", "--length-unit", "mm", "--json"))
+    printed = json.loads(program("mesh", "examples/meshes/conrod.msh", "--length-unit", "mm", "--json"))
     sets = msh_sets("examples/meshes/conrod.msh")
     figure, axes = plot.subplots(figsize=(8, 3.2))
     for name, colour, size in (("rod", GREY, 1), ("cap", VIOLET, 1), ("big_end", BLUE, 4), ("small_end", RED, 4)):
         points = sets[name]
-        axes.plot(points[:, 1], points[:, 0], ".", color=colour, markersize=size, rasterized=True, label=f"{name}: {told['sets']['nodes'][name]} nodes")
+        axes.plot(points[:, 1], points[:, 0], ".", color=colour, markersize=size, rasterized=True, label=f"{name}: {printed['sets']['nodes'][name]} nodes")
     axes.set(aspect="equal", xlabel="y [mm]", ylabel="x [mm]")
     axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1, 0.5), markerscale=3)
     return figure

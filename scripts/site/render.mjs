@@ -1,4 +1,4 @@
-// Reads [{tex, display}] from standard input and writes the HTML of each; a mistake in one is told with its text.
+// Reads [{tex, display}] from standard input and writes the HTML of each; a mistake in one is reported with its text.
 import { createRequire } from 'node:module';
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';

@@ -116,7 +116,7 @@ class CommandLine(unittest.TestCase):
 
     def test_licences_name_every_library_that_is_linked(self):
         with open(os.path.join(HERE, "../../THIRD_PARTY.md"), encoding="utf-8") as file:
-            told = file.read()
+            printed = file.read()
         dynamic = subprocess.run(["readelf", "-d", HERSEY], capture_output=True, text=True, check=True).stdout
         libraries = re.findall(r"NEEDED.*\[lib(\w+?)[-.\]]", dynamic)
         self.assertGreater(len(libraries), 8)
@@ -125,7 +125,7 @@ class CommandLine(unittest.TestCase):
                     "gcc_s": "gcc-s1", "blas": "openblas", "lapack": "openblas"}
         for library in libraries:
             if library not in ("c", "m", "dl", "pthread"):
-                self.assertIn("lib" + packages.get(library, library), told, library)
+                self.assertIn("lib" + packages.get(library, library), printed, library)
 
     def test_unknown_option_or_no_command_is_a_usage_error(self):
         for arguments in ((), ("run", MODEL, "--outptu", "x"), ("rnu", MODEL), ("run",)):
@@ -133,7 +133,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(run.returncode, WRONG_INPUT, arguments)
             self.assertTrue(run.stderr.strip(), "a usage error says what is wrong")
 
-    def test_unknown_command_is_told_with_the_nearest(self):
+    def test_unknown_command_is_reported_with_the_nearest(self):
         run = hersey("rnu", MODEL)
         self.assertEqual((run.returncode, run.stderr), (WRONG_INPUT, "hersey: unknown command 'rnu': did you mean 'run'?\n"))
         run = hersey("simulate", MODEL)
@@ -360,7 +360,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, WRONG_INPUT)
         self.assertIn("'small_end'", run.stderr)
 
-    def test_reduce_refuses_matrices_of_a_body_that_is_held(self):
+    def test_reduce_refuses_matrices_of_a_body_that_is_fixed(self):
         tetrahedron = os.path.join(self._folder.name, "t.inp")
         with open(tetrahedron, "w", encoding="utf-8") as file:
             file.write("*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=all\n17,1,2,3,4\n")
@@ -382,12 +382,12 @@ class CommandLine(unittest.TestCase):
         pressed = ("--pressure", "big_end=30MPa:0,-1,0")
         run = hersey(*arguments, *pressed, "--youngs-modulus", "208GPa", "--poisson-ratio", "0.3")
         self.assertEqual(run.returncode, OK, run.stderr)
-        told = json.loads(run.stdout)
-        self.assertAlmostEqual(told["reaction"][1] / 16540.4, 1, delta=1e-5)
+        printed = json.loads(run.stdout)
+        self.assertAlmostEqual(printed["reaction"][1] / 16540.4, 1, delta=1e-5)
         nine = "208GPa,208GPa,208GPa,0.3,0.3,0.3,80GPa,80GPa,80GPa"
         run = hersey(*arguments, *pressed, "--orthotropic", nine)
         self.assertEqual(run.returncode, OK, run.stderr)
-        self.assertAlmostEqual(json.loads(run.stdout)["strain_energy"] / told["strain_energy"], 1, delta=1e-9)
+        self.assertAlmostEqual(json.loads(run.stdout)["strain_energy"] / printed["strain_energy"], 1, delta=1e-9)
         for wrong, remedy in ((nine.replace("0.3,0.3", "1.3,0.3"), "constants of no material"), ("1GPa,2GPa", "nine")):
             run = hersey(*arguments, *pressed, "--orthotropic", wrong)
             self.assertEqual(run.returncode, WRONG_INPUT)
@@ -397,30 +397,30 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(run.returncode, WRONG_INPUT)
             self.assertIn("--pressure", run.stderr)
 
-    def test_modes_of_a_held_body_are_those_of_calculix(self):
+    def test_modes_of_a_fixed_body_are_those_of_calculix(self):
         mesh = os.path.join(HERE, "../../verification/data/meshes/cant_tet10.inp")
         vtu = os.path.join(self._folder.name, "modes.vtu")
         run = hersey("modes", mesh, "--hold", "FIX", "--count", "6", "--vtu", vtu, "--json")
         self.assertEqual(run.returncode, OK, run.stderr)
-        told = json.loads(run.stdout)
-        for frequency, reference in zip(told["frequencies"], (50.252, 83.228, 309.852, 499.221, 664.174, 846.585)):
+        printed = json.loads(run.stdout)
+        for frequency, reference in zip(printed["frequencies"], (50.252, 83.228, 309.852, 499.221, 664.174, 846.585)):
             self.assertAlmostEqual(frequency / reference, 1, delta=2e-5)
         with open(vtu, "rb") as file:
             self.assertIn(b'Name="mode_6"', file.read())
-        self.assertEqual((told["units"], told["held"]), ({"frequencies": "Hz", "mass": "kg"}, ["FIX"]))
+        self.assertEqual((printed["units"], printed["held"]), ({"frequencies": "Hz", "mass": "kg"}, ["FIX"]))
         free = hersey("modes", mesh, "--count", "7").stdout
         self.assertRegex(free, r"free +6 rigid motions")
         self.assertRegex(free, r"1 +0 +rigid")
         self.assertIn("315.06", free)
 
-    def test_stress_of_a_held_body(self):
+    def test_stress_of_a_fixed_body(self):
         mesh = os.path.join(HERE, "../../verification/data/meshes/cant_tet10.inp")
         vtu = os.path.join(self._folder.name, "stress.vtu")
         run = hersey("stress", mesh, "--hold", "FIX", "--gravity", "0,0,-9.81", "--vtu", vtu, "--json")
         self.assertEqual(run.returncode, OK, run.stderr)
-        told = json.loads(run.stdout)
-        self.assertAlmostEqual(told["largest_displacement"]["value"] / 1.5177e-4, 1, delta=2e-3)
-        self.assertAlmostEqual(told["reaction"][2] / (47.1 * 9.81), 1, delta=1e-6)
+        printed = json.loads(run.stdout)
+        self.assertAlmostEqual(printed["largest_displacement"]["value"] / 1.5177e-4, 1, delta=2e-3)
+        self.assertAlmostEqual(printed["reaction"][2] / (47.1 * 9.81), 1, delta=1e-6)
         with open(vtu, "rb") as file:
             content = file.read()
         for field in (b'Name="displacement"', b'Name="stress"', b'Name="von_mises"'):
@@ -455,7 +455,7 @@ class CommandLine(unittest.TestCase):
             for word in words:
                 self.assertIn(word, run.stderr, wrong)
 
-    def test_what_a_solid_lacks_is_told(self):
+    def test_what_a_solid_lacks_is_reported(self):
         mesh = os.path.join(HERE, "../../verification/data/meshes/cant_tet10.inp")
         block = os.path.join(HERE, "../../libs/fem/test/data/block_22.msh")
         steel = ("--youngs-modulus", "210GPa", "--poisson-ratio", "0.3")
@@ -487,7 +487,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run.returncode, WRONG_INPUT)
         self.assertIn("--length-unit", run.stderr)
 
-    def test_material_that_the_mesh_file_lacks_is_told_with_both_names(self):
+    def test_material_that_the_mesh_file_lacks_is_reported_with_both_names(self):
         mesh = os.path.join(self._folder.name, "dangling.inp")
         with open(mesh, "w", encoding="utf-8") as file:
             file.write("*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=all\n1,1,2,3,4\n"
@@ -495,17 +495,17 @@ class CommandLine(unittest.TestCase):
                        "*MATERIAL,NAME=Alu\n*DENSITY\n2700\n*ELASTIC\n7e10,0.3\n"
                        "*MATERIAL,NAME=Steel\n*DENSITY\n7850\n*ELASTIC\n2.1e11,0.3\n"
                        "*SOLID SECTION,ELSET=all,MATERIAL=STELL\n")
-        told = f"{mesh}:20: the section of 'all' names the material 'STELL', which the file does not define"
+        printed = f"{mesh}:20: the section of 'all' names the material 'STELL', which the file does not define"
         run = hersey("mesh", mesh)
         self.assertEqual(run.returncode, 0)
-        self.assertIn(told, run.stderr)
+        self.assertIn(printed, run.stderr)
         self.assertIn("mass      unknown", run.stdout)
         run = hersey("modes", mesh, "--hold", "floor", "--count", "1")
         self.assertEqual(run.returncode, WRONG_INPUT)
-        self.assertIn(told, run.stderr)
+        self.assertIn(printed, run.stderr)
         run = hersey("reduce", mesh, "--frame", "floor", "--output", os.path.join(self._folder.name, "dangling.h5"))
         self.assertEqual(run.returncode, WRONG_INPUT)
-        self.assertIn(told, run.stderr)
+        self.assertIn(printed, run.stderr)
         # What the command line says of the material stands above the file.
         constants = ("--youngs-modulus", "210GPa", "--poisson-ratio", "0.3", "--density", "7850kg/m^3")
         self.assertEqual(hersey("modes", mesh, "--hold", "floor", "--count", "1", *constants).returncode, 0)
@@ -552,7 +552,7 @@ class CommandLine(unittest.TestCase):
         with open(os.path.join(self.out, "report.html"), encoding="utf-8") as file:
             self.assertIn("Journal in a fixed bush", file.read())
 
-    def test_energy_that_goes_nowhere_is_told(self):
+    def test_energy_that_goes_nowhere_is_reported(self):
         path = os.path.join(self._folder.name, "model.yaml")
         with open(path, "w", encoding="utf-8") as file:
             file.write("""hersey: 1
@@ -717,9 +717,9 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
         for file in (vtu, os.path.join(self._folder.name, "pedestal_journal.vtu")):
             with open(file, "rb") as content:
                 self.assertIn(b'Name="temperature"', content.read())
-        told = hersey("bearing", pedestal, *both, "--no-grid-error")
-        self.assertIn("growth of the journal's radius by temperature, mean", told.stdout)
-        self.assertIn("radial clearance with what bodies have grown (hot), mean", told.stdout)
+        printed = hersey("bearing", pedestal, *both, "--no-grid-error")
+        self.assertIn("growth of the journal's radius by temperature, mean", printed.stdout)
+        self.assertIn("radial clearance with what bodies have grown (hot), mean", printed.stdout)
         run = hersey("bearing", pedestal, *both, "--set", "bearings.main.thermal.shell=insulated", "--speed", "0 rpm",
                      "--shell-speed", "10 rpm")
         self.assertEqual(run.returncode, WRONG_INPUT)
@@ -1026,7 +1026,7 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
         with hdf5(os.path.join(self.out, "results.h5")) as file:
             self.assertEqual(file.attrs["status"], "completed")
 
-    def test_output_that_cannot_be_written_is_told(self):
+    def test_output_that_cannot_be_written_is_reported(self):
         with open("/dev/full", "w", encoding="utf-8") as full:
             run = subprocess.run([HERSEY, "schema"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
         self.assertEqual(run.returncode, FAILED)
@@ -1111,10 +1111,10 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
         self.assertEqual({row["run"] for row in rows}, {"before", "after"})
         with open(page, encoding="utf-8") as text:
             self.assertIn('"name":"after"', text.read())
-        for names, told in (("before", "names: 1, results files: 2"), ("same,same", "'same' twice")):
+        for names, words in (("before", "names: 1, results files: 2"), ("same,same", "'same' twice")):
             wrong = hersey("report", *files, "--names", names, "--output", os.path.join(self.out, "none.html"))
             self.assertEqual(wrong.returncode, WRONG_INPUT, names)
-            self.assertIn(told, wrong.stderr)
+            self.assertIn(words, wrong.stderr)
             self.assertFalse(os.path.exists(os.path.join(self.out, "none.html")))
 
     def test_resume_of_another_model_is_refused(self):
@@ -1159,7 +1159,7 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
         self.assertEqual(self.results(), [first, second])
         self.assertEqual(os.stat(first).st_mtime_ns, stamp)
 
-    def test_cycles_are_told_as_they_end(self):
+    def test_cycles_are_reported_as_they_end(self):
         path = self.model_with('  duration: "${duration}"\n  step: 0.1 ms',
                                "  cycle: {period: 5 ms, until_converged: 0.05, most: 40}\n  step: 0.1 ms")
         run = hersey("run", path, "--output", self.out)

@@ -29,7 +29,7 @@ class FirstSteps(unittest.TestCase):
         return subprocess.run([HERSEY, *arguments], capture_output=True, text=True, cwd=self.folder, check=False)
 
     def begin_and_run(self, model, *larger_steps):
-        """Writes a model and runs the command that init names to its end, in fewer steps where they are told; its output."""
+        """Writes a model and runs the command that init names to its end, in fewer steps where they are reported; its output."""
         written = self.hersey("init", model, "my_model")
         self.assertEqual(written.returncode, OK, written.stderr)
         check = self.hersey("check", "my_model.yaml")

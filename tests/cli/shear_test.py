@@ -63,13 +63,13 @@ class Shear(unittest.TestCase):
                    for word in ("film_share", "full")}
         for word, other in (("film_share", "full"), ("full", "film_share")):
             for key in ("power_film", "torque_journal"):
-                told = choices[word][key + "_other_shear"]["value"]
-                self.assertAlmostEqual(told / choices[other][key]["value"], 1, delta=1e-9)  # of Newton's 1e-10
+                reported = choices[word][key + "_other_shear"]["value"]
+                self.assertAlmostEqual(reported / choices[other][key]["value"], 1, delta=1e-9)  # of Newton's 1e-10
         self.assertGreater(choices["full"]["power_film"]["value"], 1.3 * choices["film_share"]["power_film"]["value"])
         text = hersey("bearing", path, "--no-grid-error").stdout.splitlines()
         self.assertIn("the oil's share of the gap (`cavitated_shear: film_share`); over the whole gap (`full`)", text[1])
-        told = self.solution(path)["figures"]["power_film_other_shear"]["value"]
-        self.assertIn(f"{told:.4g} W", text[1])
+        reported = self.solution(path)["figures"]["power_film_other_shear"]["value"]
+        self.assertIn(f"{reported:.4g} W", text[1])
         table = hersey("bearing", path, "--no-grid-error", "--sweep", "load=100lbf,500lbf").stdout.splitlines()
         self.assertIn("`cavitated_shear: film_share`", table[0])
         self.assertIn("cavitated shear", self.solution(path)["conditions"])
@@ -96,7 +96,7 @@ class Shear(unittest.TestCase):
         named = {row["name"] for row in document["summary"]}
         self.assertIn("mean power loss in the film, cavitated film sheared the other way", named)
 
-    def test_net_force_of_shear_is_told_where_it_bears_the_load(self):
+    def test_net_force_of_shear_is_reported_where_it_bears_the_load(self):
         narrow = ("--set", "bearings.main.width=2.25 mm", "--eccentricity-ratio", "0.1", "--eccentricity-angle", "-60deg")
         solution = self.solution(ALONE, *narrow)
         share = solution["figures"]["load_on_shear"]["value"]

@@ -120,9 +120,9 @@ def branches(source, build):
     run([tool("llvm-profdata"), "merge", "-sparse", *(profile_of(build, m) for m in MODULES), "-o", merged])
     programs = [os.path.join(build, f"{m}_test") for m in MODULES]
     objects = [part for program in programs[1:] for part in ("-object", program)]
-    told = json.loads(run([tool("llvm-cov"), "export", "-instr-profile", merged, programs[0], *objects, "-skip-functions"]))
+    exported = json.loads(run([tool("llvm-cov"), "export", "-instr-profile", merged, programs[0], *objects, "-skip-functions"]))
     sources, found = Sources(source), collections.Counter()
-    for entry in told["data"][0]["files"]:
+    for entry in exported["data"][0]["files"]:
         file = os.path.relpath(entry["filename"], source)
         if not re.match(rf"libs/({'|'.join(MODULES)})/(src|include)/", file):
             continue

@@ -160,7 +160,7 @@ class Defects(unittest.TestCase):
 
     # -- 5 and 6: start
 
-    def test_start_moves_by_the_least_and_is_told(self):
+    def test_start_moves_by_the_least_and_is_reported(self):
         results, said = self.run_model("start_changed.yaml")
         crank = results["joints/main/coordinates"][0]
         self.assertAlmostEqual(math.degrees(float(crank.ravel()[0])), 45, delta=0.001)
@@ -260,7 +260,7 @@ class Defects(unittest.TestCase):
         self.assertEqual(results.attrs["status"], "completed")
         self.assertGreaterEqual(results["time"][-1], 4.99)
         self.assertGreater(results["solver/rejected_steps"][:].sum(), 0)
-        # What the steps cost in energy is told, not hidden.
+        # What the steps cost in energy is reported, not hidden.
         self.assertGreater(abs(results["energy/since_start/unexplained"][-1]), 0.01)
 
     def test_stiff_bar_that_turns_starts_and_keeps_turning(self):
@@ -286,12 +286,12 @@ class Defects(unittest.TestCase):
                 mass = mass or results["bodies/bar"].attrs["mass"]
                 self.assertAlmostEqual(abs(force[2]) / (9.81 * mass), 1, delta=1e-9)
 
-    def test_closed_edges_of_a_run_let_no_oil_pass_and_are_told(self):
+    def test_closed_edges_of_a_run_let_no_oil_pass_and_are_reported(self):
         results, _ = self.run_model("../cli/bearing.yaml", "bearings.main.edge_pressure=closed")
         b = results["bearings/main"]
         self.assertEqual(max(abs(b["flow_left"][:]).max(), abs(b["flow_right"][:]).max()), 0)
-        told = {name: str(item[()]) for name, item in b.items() if "assumptions" in name} | dict(b.attrs)
-        self.assertIn("closed: no oil passes", str(told))
+        reported = {name: str(item[()]) for name, item in b.items() if "assumptions" in name} | dict(b.attrs)
+        self.assertIn("closed: no oil passes", str(reported))
 
     # -- heat
 

@@ -157,9 +157,9 @@ class TheoryTables(unittest.TestCase):
     def test_tables_hold_every_equation(self):
         for page in pages("docs/theory/*.md"):
             text = read(page)
-            held = {number for cells in self.rows(page, text) for number in equations_named_in(cells[0])}
+            listed = {number for cells in self.rows(page, text) for number in equations_named_in(cells[0])}
             self.faults += [f"{page}: ({number}) is not in the closing table"
-                            for number in equations_shown_in(text) if number not in held]
+                            for number in equations_shown_in(text) if number not in listed]
         if self.faults:
             self.fail("\n".join(self.faults))
 

@@ -34,8 +34,8 @@ def versions(folder=SOURCE):
 
 class Release(unittest.TestCase):
     def assert_one_number(self, number, folder=SOURCE):
-        told, day, cited = versions(folder)
-        for path, numbers in told.items():
+        stated, day, cited = versions(folder)
+        for path, numbers in stated.items():
             self.assertTrue(numbers, path)
             self.assertEqual(set(numbers), {number}, path)
         self.assertEqual(cited, day, "CITATION.cff and CHANGELOG.md give two days")

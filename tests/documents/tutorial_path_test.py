@@ -59,7 +59,7 @@ class NewUser(unittest.TestCase):
         return subprocess.run(["bash", "-euo", "pipefail", "-c", command], cwd=cls.folder, text=True, capture_output=True,
                               stdin=subprocess.DEVNULL, timeout=120, check=False)
 
-    def told(self, pattern):
+    def number_after(self, pattern):
         found = re.search(pattern, self.page.replace("\n", " "))
         self.assertTrue(found, f"{PAGE} does not say: {pattern}")
         return float(found[1])
@@ -77,20 +77,20 @@ class NewUser(unittest.TestCase):
         self.assertLessEqual(len(self.commands), 10, self.commands)
 
     def test_the_demo_tells_where_its_report_is(self):
-        told = re.search(r"open in a browser: file://(\S+)", self.ended[0][1].stdout)
-        self.assertTrue(told, self.ended[0][1].stdout)
-        self.assertTrue(report(told[1])["runs"])
+        printed = re.search(r"open in a browser: file://(\S+)", self.ended[0][1].stdout)
+        self.assertTrue(printed, self.ended[0][1].stdout)
+        self.assertTrue(report(printed[1])["runs"])
 
     def test_the_first_report_shows_what_the_page_says(self):
         found = figures(os.path.join(self.folder, "build/tutorial/bearing.html"))
         # The page gives three digits: half a unit of the last one, and its rounding.
         for key, pattern, unit in (("eccentricity_ratio", r"eccentricity ratio of ([\d.]+)", 0.0006), ("h_min", r"smallest film is ([\d.]+) um, the peak", 0.06),
                                    ("p_max", r"the peak pressure ([\d.]+) MPa", 0.006), ("attitude", r"attitude angle, ([\d.]+) degrees", 0.6)):
-            self.assertAlmostEqual(found[key], self.told(pattern), delta=unit, msg=key)
+            self.assertAlmostEqual(found[key], self.number_after(pattern), delta=unit, msg=key)
 
     def test_the_changed_report_shows_the_changed_numbers(self):
         first, second = (figures(os.path.join(self.folder, "build/tutorial", name)) for name in ("bearing.html", "wider.html"))
-        self.assertAlmostEqual(second["h_min"], self.told(r"smallest film is ([\d.]+) um now"), delta=0.06)  # three digits
+        self.assertAlmostEqual(second["h_min"], self.number_after(r"smallest film is ([\d.]+) um now"), delta=0.06)  # three digits
         self.assertIn("twice as much oil flows through", self.page)
         self.assertAlmostEqual(second["side_flow"] / first["side_flow"], 2, delta=0.3)  # "twice", in words
         solution = report(os.path.join(self.folder, "build/tutorial/wider.html"))["bearing"]["solutions"][0]

@@ -208,7 +208,7 @@ class Cases:
         with open(cls.model, "w", encoding="utf-8") as file:
             file.write(RIG)
         cls.path = os.path.join(cls.folder, "rig.fmu")
-        cls.told = run("export", cls.model, "--fmu", cls.path, "--fmi", cls.version)
+        cls.printed = run("export", cls.model, "--fmu", cls.path, "--fmi", cls.version)
         cls.fmu = Fmu(cls.path, os.path.join(cls.folder, "unpacked"))
 
     @classmethod
@@ -245,8 +245,8 @@ class Cases:
                 status, values = one.access("Get", outputs, [0] * len(outputs))
                 self.assertEqual(status, OK, one.log)
                 # As precise as the file has them: fields in single precision.
-                told = {name: columns[name].dtype.type(value) for name, value in zip(outputs, values)}
-                apart = {name: (value, columns[name][row]) for name, value in told.items()
+                expected = {name: columns[name].dtype.type(value) for name, value in zip(outputs, values)}
+                apart = {name: (value, columns[name][row]) for name, value in expected.items()
                          if not np.array_equal(value, columns[name][row], equal_nan=True)}
                 self.assertEqual(apart, {}, f"FMU, results file at row {row} by {steps}")
             one.free()
@@ -338,7 +338,7 @@ class Cases:
         self.assertEqual(one.march(5), self.by_run()[1:6])
         one.free()
 
-    def test_failing_step_is_told_with_its_reason(self):
+    def test_failing_step_is_reported_with_its_reason(self):
         one = Instance(self.fmu).initialise()
         one.march(2)
         one.set(LOAD_Y, -1e12)
@@ -372,7 +372,7 @@ class Cases:
         nowhere = Instance(self.fmu, resources="/nowhere")
         self.assertIsNone(nowhere.handle)
 
-    def test_bad_parameter_is_told(self):
+    def test_bad_parameter_is_reported(self):
         one = Instance(self.fmu)
         self.assertEqual(one.set(CLEARANCE, -1e-6), OK)
         with self.assertRaisesRegex(AssertionError, "radial_clearance"):
@@ -406,7 +406,7 @@ class Cases:
 
     def test_importer_takes_its_folder_away_between_simulations(self):
         """As FMPy's simulate_fmu(path) does: each time unpacked anew, and here gone before the initialisation even."""
-        told = self.in_a_process("""
+        printed = self.in_a_process("""
             rows = []
             for parameters in ({}, {}, {CLEARANCE: 40e-6}):
                 folder = tempfile.mkdtemp(dir=work)
@@ -422,17 +422,17 @@ class Cases:
             environment.restype = c.c_char_p
             print("variable:", environment(b"UDUNITS2_XML_PATH"))
         """)
-        self.assertEqual(told, "variable: None\n")  # as it was: nothing is left in the environment
+        self.assertEqual(printed, "variable: None\n")  # as it was: nothing is left in the environment
 
     def test_environment_that_points_nowhere_does_no_harm(self):
-        told = self.in_a_process("""
+        printed = self.in_a_process("""
             print(len(Instance(Fmu(path, tempfile.mkdtemp(dir=work))).initialise().march(2)))
         """, UDUNITS2_XML_PATH="/nowhere/udunits2.xml")
-        self.assertEqual(told, "2\n")
+        self.assertEqual(printed, "2\n")
 
     def test_two_copies_of_the_library_are_initialised_by_two_threads(self):
         """Two FMUs share udunits2, which is not made for threads: reading a model parses units without end."""
-        told = self.in_a_process("""
+        printed = self.in_a_process("""
             import threading
             instances = [Instance(Fmu(path, tempfile.mkdtemp(dir=work)), logger=False) for _ in range(2)]
             found = [[], []]
@@ -446,7 +446,7 @@ class Cases:
             assert len(found[0]) == len(found[1]) == 12
             print(len(set(found[0] + found[1])))
         """)
-        self.assertEqual(told, "1\n")
+        self.assertEqual(printed, "1\n")
 
     def test_numbers_that_are_none_are_the_importers_fault(self):
         one = Instance(self.fmu)
@@ -495,7 +495,7 @@ class Cases:
         experiment = root.find("DefaultExperiment")
         self.assertEqual(float(experiment.get("stopTime")), 4e-3)
         self.assertEqual(float(experiment.get("stepSize")), STEP)
-        self.assertIn("inputs", self.told)
+        self.assertIn("inputs", self.printed)
 
     def test_description_keeps_to_the_standards_schema(self):
         """Elements in their order, attributes that there are, and the lists that a checker compares."""
@@ -551,7 +551,7 @@ class Cases:
     def test_importer_without_a_logger_is_served(self):
         one = Instance(self.fmu, logger=False).initialise()
         one.march(1)
-        self.assertEqual(one.step(0, STEP), ERROR)  # nobody is told why
+        self.assertEqual(one.step(0, STEP), ERROR)  # nobody learns why
         one.free()
 
     def test_existing_file_is_kept(self):
@@ -561,8 +561,8 @@ class Cases:
             file.write(RIG.replace("34 um", "34 kg"))
         self.assertIn("radial_clearance", run("export", broken, "--fmu", self.path + "2", expect=2))
         self.assertFalse(os.path.exists(self.path + "2"))
-        told = run("export", self.model, "--fmu", self.model, "--force", expect=2)
-        self.assertIn("which the model reads", told)
+        printed = run("export", self.model, "--fmu", self.model, "--force", expect=2)
+        self.assertIn("which the model reads", printed)
         with open(self.model, encoding="utf-8") as file:
             self.assertEqual(file.read(), RIG)
 

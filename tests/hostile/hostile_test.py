@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Files that would take all memory, all time or other people's files: each is told within two seconds of CPU, or is
+"""Files that would take all memory, all time or other people's files: each is reported within two seconds of CPU, or is
 harmless. Seconds of CPU, not of the clock: tests run beside each other. Signals are obeyed within two of the clock, of
 which the tests allow for a busy machine."""
 
@@ -52,7 +52,7 @@ class Hostile(unittest.TestCase):
         self.assertLess(seconds, PATIENCE, (arguments, done.stderr[:500]))
         return done
 
-    def told(self, words, *arguments, code=WRONG_INPUT, **options):
+    def refuses(self, words, *arguments, code=WRONG_INPUT, **options):
         done = self.hersey(*arguments, **options)
         self.assertEqual(done.returncode, code, (arguments, done.stdout[:500], done.stderr[:500]))
         for word in (words,) if isinstance(words, str) else words:
@@ -76,33 +76,33 @@ class Hostile(unittest.TestCase):
 
     # -- model files
 
-    def test_aliases_that_multiply_are_told_at_their_line(self):
+    def test_aliases_that_multiply_are_reported_at_their_line(self):
         lines = ["hersey: 1", "a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
         lines += [f"a{i}: &a{i} [{', '.join(10 * [f'*a{i - 1}'])}]" for i in range(1, 40)]
-        self.told((":6:", "aliases that repeat more than 100000 values", "at most"), "check",
+        self.refuses((":6:", "aliases that repeat more than 100000 values", "at most"), "check",
                   self.write("wide.yaml", "\n".join(lines)))
         lines = ["hersey: 1", "title: &t " + 1000000 * "x", f"b: [{', '.join(1000 * ['*t'])}]"]
-        self.told((":3:", "more than 16 MB"), "check", self.write("long.yaml", "\n".join(lines)))
+        self.refuses((":3:", "more than 16 MB"), "check", self.write("long.yaml", "\n".join(lines)))
         lines = ["hersey: 1", "a0: &a0 x"] + [f"a{i}: &a{i} [*a{i - 1}]" for i in range(1, 400)]
-        self.told(("64 deep",), "check", self.write("deep.yaml", "\n".join(lines)))
-        self.told("64 deep", "check", self.write("brackets.yaml", "a: " + 300 * "[" + 300 * "]"))
-        self.told("", "check", self.write("anchors.yaml", "a: " + "".join(f"[&a{i} " for i in range(300)) + 300 * "]"))
+        self.refuses(("64 deep",), "check", self.write("deep.yaml", "\n".join(lines)))
+        self.refuses("64 deep", "check", self.write("brackets.yaml", "a: " + 300 * "[" + 300 * "]"))
+        self.refuses("", "check", self.write("anchors.yaml", "a: " + "".join(f"[&a{i} " for i in range(300)) + 300 * "]"))
 
     def test_many_keys_are_read_once_each(self):
         keys = "".join(f"k{i}: 1\n" for i in range(40000))
-        self.told("more faults", "check", self.write("keys.yaml", "hersey: 1\n" + keys))
+        self.refuses("more faults", "check", self.write("keys.yaml", "hersey: 1\n" + keys))
         keys = "".join(f"k{i}: 1\n" for i in range(110000))
-        self.told("more than 100000 keys", "check", self.write("more.yaml", "hersey: 1\n" + keys))
+        self.refuses("more than 100000 keys", "check", self.write("more.yaml", "hersey: 1\n" + keys))
 
-    def test_parameters_that_multiply_are_told(self):
+    def test_parameters_that_multiply_are_reported(self):
         parameters = "".join(f'  p{i}: "{5 * (f"${{p{i - 1}}}")}"\n' for i in range(1, 30))
         path = self.write("model.yaml", "hersey: 1\nparameters:\n  p0: abcdefgh\n" + parameters)
-        self.told("longer than 65536 characters", "check", path)
+        self.refuses("longer than 65536 characters", "check", path)
         lists = ", ".join(2000 * ['"${p}"'])
         path = self.write("model.yaml", f"hersey: 1\nparameters:\n  p: {60000 * 'x'}\ntitle: [{lists}]\n")
-        self.told("longer than 16 MB in all", "check", path)
+        self.refuses("longer than 16 MB in all", "check", path)
 
-    def test_tables_of_tiny_periods_are_told_at_their_line(self):
+    def test_tables_of_tiny_periods_are_reported_at_their_line(self):
         table = "{table: {points: [[0, 1], [0.5, 2], [1, 1]], x_unit: ps, y_unit: N}, period: 1 ps}"
         changes = [('"-${load}"', table), ("step: 0.1 ms", "step: {tolerance: 1e-4}")]
         path = self.model(*changes)
@@ -110,7 +110,7 @@ class Hostile(unittest.TestCase):
             line = 1 + [table in text for text in file].index(True)
         words = (f"model.yaml:{line}:", "a table that bends 4e+09 times", "at most a million", "interpolation: smooth")
         for command in (["check"], ["run", "--output", self.path("out")]):
-            self.told(words, command[0], path, *command[1:])
+            self.refuses(words, command[0], path, *command[1:])
         # Cheap where nothing has to be hit.
         self.hersey("check", self.model(*changes[:1]))
         self.assertEqual(self.hersey("check", self.model(*changes, ("1 ps}", "1 ps, interpolation: smooth}"))).returncode,
@@ -119,22 +119,22 @@ class Hostile(unittest.TestCase):
         table = "{table: {points: [[0, 1], [0.5, 2], [1, 1]], x_unit: urad, y_unit: N}, over: guide.rotation, period: 1 urad}"
         path = self.model(('"-${load}"', table.replace("urad", "nrad")), changes[1])
         for command in (["check"], ["run", "--output", self.path("out")]):
-            self.told(("a table", "repeats 6.28e+08 times"), command[0], path, *command[1:])
+            self.refuses(("a table", "repeats 6.28e+08 times"), command[0], path, *command[1:])
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_rows_without_end_are_told_at_their_line(self):
+    def test_rows_without_end_are_reported_at_their_line(self):
         for key in ("interval", "fields_every"):
             path = self.model(("step: 0.1 ms", f"step: {{tolerance: 1e-4}}\noutput: {{{key}: 1e-14 s}}"))
-            self.told((f"output.{key}: 2e+11 instants", "at most a million"), "run", path, "--output", self.path("out"))
+            self.refuses((f"output.{key}: 2e+11 instants", "at most a million"), "run", path, "--output", self.path("out"))
 
-    def test_grids_beyond_memory_are_told_with_what_they_need(self):
+    def test_grids_beyond_memory_are_reported_with_what_they_need(self):
         grid = "bearings.main.grid={circumferential: 100000, axial: 100000}"
         words = ("1e+10 nodes", "2e+04 GB", "GB of this machine")
-        self.told(words, "check", MODEL, "--set", grid)
-        self.told(words, "run", MODEL, "--set", grid, "--output", self.path("out"))
-        self.told(words, "bearing", MODEL, "--set", grid)
+        self.refuses(words, "check", MODEL, "--set", grid)
+        self.refuses(words, "run", MODEL, "--set", grid, "--output", self.path("out"))
+        self.refuses(words, "bearing", MODEL, "--set", grid)
 
-    def test_numbers_beyond_any_machine_are_told_with_their_key(self):
+    def test_numbers_beyond_any_machine_are_reported_with_their_key(self):
         alone = os.path.join(HERE, "../../examples/bearing_alone/model.yaml")
         thermal = ("bearings.main.thermal={model: film, supply_temperature: 50 degC, shell: {wall: ring, "
                    "outer_diameter: 1e308 mm, heat_transfer: 60 W/m^2/K, ambient: 30 degC}}")
@@ -148,31 +148,31 @@ class Hostile(unittest.TestCase):
                               ("load", ["bearings.main.operating_point.load=1e12 N"])):
             with self.subTest(settings=settings):
                 arguments = [word for setting in settings for word in ("--set", setting)]
-                self.told([key], "bearing", alone, *arguments)
+                self.refuses([key], "bearing", alone, *arguments)
         # A run over angles of a crank that all but rests would have no end.
         crank = os.path.join(HERE, "../../examples/slider_crank/model.yaml")
-        self.told(["at least 1e-100 rad/s"], "run", crank, "--set", "speed=1e-308 rpm", "--output", self.path("out"))
+        self.refuses(["at least 1e-100 rad/s"], "run", crank, "--set", "speed=1e-308 rpm", "--output", self.path("out"))
 
-    def test_inputs_that_are_no_files_are_told(self):
+    def test_inputs_that_are_no_files_are_reported(self):
         pipe = self.path("pipe.yaml")
         os.mkfifo(pipe)
         for command in (["check"], ["run"], ["bearing"]):
-            self.told("a pipe", *command, pipe)
+            self.refuses("a pipe", *command, pipe)
         for name, command in (("p.msh", ["mesh"]), ("p.inp", ["mesh"]), ("p.bdf", ["modes"]), ("p.h5", ["report"])):
             os.mkfifo(self.path(name))
-            self.told("a pipe", *command, self.path(name))
+            self.refuses("a pipe", *command, self.path(name))
         for key, value, name in (("mesh", "{mesh: p.msh, length_unit: 1 mm}", "p.msh"),
                                  ("reduced", "{reduced: p.h5}", "p.h5")):
             path = self.model(("    mass: 1 kg\n    inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}",
                                f"    flexible: {value}"))
-            self.told(("a pipe", name), "check", path)
+            self.refuses(("a pipe", name), "check", path)
         table = '{table: {file: p.csv, x: t, y: f}}'
         os.mkfifo(self.path("p.csv"))
-        self.told(("a pipe", "p.csv"), "check", self.model(('"-${load}"', table)))
-        self.told("a device", "check", "/dev/zero")
+        self.refuses(("a pipe", "p.csv"), "check", self.model(('"-${load}"', table)))
+        self.refuses("a device", "check", "/dev/zero")
         with open(self.path("holes.yaml"), "wb") as file:
             file.truncate(1 << 40)
-        self.told(("a file of", "of at most"), "check", self.path("holes.yaml"))
+        self.refuses(("a file of", "of at most"), "check", self.path("holes.yaml"))
 
     # -- meshes
 
@@ -183,28 +183,28 @@ class Hostile(unittest.TestCase):
             self.write("meshes/body.inp", f"*INCLUDE, INPUT={name}\n")
             if name == "link.txt":
                 os.symlink(secret, self.path("meshes", name))
-            done = self.told((f"*INCLUDE of '{name}': not in the mesh's folder", "HERSEY_INCLUDE_ANYWHERE=1"), "mesh",
+            done = self.refuses((f"*INCLUDE of '{name}': not in the mesh's folder", "HERSEY_INCLUDE_ANYWHERE=1"), "mesh",
                              self.path("meshes/body.inp"))
             self.assertNotIn("secret words", done.stderr)
         self.write("meshes/body.bdf", "BEGIN BULK\nINCLUDE '../secret.txt'\nENDDATA\n")
-        self.told("not in the mesh's folder", "mesh", self.path("meshes/body.bdf"))
-        self.told("secret words", "mesh", self.path("meshes/body.inp"),
+        self.refuses("not in the mesh's folder", "mesh", self.path("meshes/body.bdf"))
+        self.refuses("secret words", "mesh", self.path("meshes/body.inp"),
                   env={**os.environ, "HERSEY_INCLUDE_ANYWHERE": "1"})
 
-    def test_meshes_that_include_themselves_are_told(self):
+    def test_meshes_that_include_themselves_are_reported(self):
         self.write("body.inp", 100 * "*INCLUDE, INPUT=body.inp\n")
-        self.told("included too deep", "mesh", self.path("body.inp"))
+        self.refuses("included too deep", "mesh", self.path("body.inp"))
         for i in range(7):
             self.write(f"a{i}.inp", 100 * f"*INCLUDE, INPUT=a{i + 1}.inp\n")
         self.write("a7.inp", "** nothing\n")
-        self.told("more than 1000 files", "mesh", self.path("a0.inp"))
+        self.refuses("more than 1000 files", "mesh", self.path("a0.inp"))
 
-    def test_more_modes_than_a_body_is_good_for_are_told(self):
-        self.told(("--modes: 100000 modes", "at most 1000", "nodal"), "reduce", ROD, *MATERIAL, "--frame", "big_end",
+    def test_more_modes_than_a_body_is_good_for_are_reported(self):
+        self.refuses(("--modes: 100000 modes", "at most 1000", "nodal"), "reduce", ROD, *MATERIAL, "--frame", "big_end",
                   "--modes", "100000", "--output", self.path("rod.h5"))
         path = self.model(("    mass: 1 kg\n    inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}",
                            f"    flexible: {{mesh: {ROD}, length_unit: 1 mm, modes: 100000}}"))
-        self.told(("flexible.modes: '100000'", "1000"), "check", path)
+        self.refuses(("flexible.modes: '100000'", "1000"), "check", path)
 
     # -- HDF5 files from elsewhere
 
@@ -256,11 +256,11 @@ class Hostile(unittest.TestCase):
         self.assertEqual(done.returncode, OK, done.stderr)
         return self.path("good", "results.h5")
 
-    def test_hostile_results_are_told(self):
+    def test_hostile_results_are_reported(self):
         good = self.results()
         for words, path in self.hostile_files(good):
-            self.told(words, "report", path, "--output", self.path("page.html"))
-            self.told(words, "report", good, path, "--output", self.path("page.html"))
+            self.refuses(words, "report", path, "--output", self.path("page.html"))
+            self.refuses(words, "report", good, path, "--output", self.path("page.html"))
             self.assertFalse(os.path.exists(self.path("page.html")))
 
     def reduced(self):
@@ -273,9 +273,9 @@ class Hostile(unittest.TestCase):
         return self.model(("    mass: 1 kg\n    inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}",
                            f"    flexible: {{reduced: {os.path.basename(body)}}}"))
 
-    def test_hostile_reduced_bodies_are_told(self):
+    def test_hostile_reduced_bodies_are_reported(self):
         for words, path in self.hostile_files(self.reduced()):
-            self.told(words, "check", self.model_of(path))
+            self.refuses(words, "check", self.model_of(path))
 
     def test_reduced_bodies_are_finite_and_definite(self):
         good = self.reduced()
@@ -299,7 +299,7 @@ class Hostile(unittest.TestCase):
                 file.truncate(file.read().rindex(b"\nhersey seal"))
             with h5py.File(path, "a") as file:
                 spoil(file)
-            self.told(words, "check", self.model_of(path))
+            self.refuses(words, "check", self.model_of(path))
 
     # -- one bit
 
@@ -319,10 +319,10 @@ class Hostile(unittest.TestCase):
             yield place, path
             content[place] ^= 1 << bit
 
-    def test_a_bit_of_results_is_told(self):
+    def test_a_bit_of_results_is_reported(self):
         for place, path in self.flipped(self.results(), SEALED, 1):
             with self.subTest(byte=place):
-                self.told("flipped.h5", "report", path, "--output", self.path("page.html"))
+                self.refuses("flipped.h5", "report", path, "--output", self.path("page.html"))
 
     def test_a_bit_of_unfinished_results_ends_no_report_in_a_crash(self):
         path = self.results()
@@ -335,14 +335,14 @@ class Hostile(unittest.TestCase):
                 if done.returncode != OK:
                     self.assertIn("hersey: ", done.stderr)
 
-    def test_a_bit_of_a_reduced_body_is_told(self):
+    def test_a_bit_of_a_reduced_body_is_reported(self):
         good = self.reduced()
         model = self.model_of("flipped.h5")
         for place, _ in self.flipped(good, SEALED, 3):
             with self.subTest(byte=place):
-                self.told("flipped.h5", "check", model)
+                self.refuses("flipped.h5", "check", model)
 
-    def test_a_bit_of_a_checkpoint_is_told(self):
+    def test_a_bit_of_a_checkpoint_is_reported(self):
         out = self.path("out")
         with subprocess.Popen([HERSEY, "run", MODEL, "--output", out, "--set", "duration=1000 s"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
@@ -354,7 +354,7 @@ class Hostile(unittest.TestCase):
         for place, path in self.flipped(good, SEALED, 4):
             shutil.copy(path, os.path.join(out, "results.checkpoint"))
             with self.subTest(byte=place):
-                self.told("results.checkpoint", "run", MODEL, "--output", out, "--set", "duration=1000 s", "--resume")
+                self.refuses("results.checkpoint", "run", MODEL, "--output", out, "--set", "duration=1000 s", "--resume")
 
     # -- signals
 

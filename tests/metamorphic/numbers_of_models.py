@@ -51,10 +51,10 @@ def bad_endings(program, tree, folder, values=ABSURD, paths=None, cpu_limit=10):
         for value in values:
             text = value + unit
             ending, _ = trees.bearing(program, trees.changed(tree, path, text), folder, cpu_limit=cpu_limit)
-            told = ending.text.splitlines()[0] if ending.text else ""
+            reported = ending.text.splitlines()[0] if ending.text else ""
             if ending.kind in ("hangs", "crash", "assertion") or (ending.kind != "answer" and "internal error" in ending.text):
-                found.append((trees.named(path), text, ending.kind, told))
+                found.append((trees.named(path), text, ending.kind, reported))
             elif ending.kind == "answer" and any(f["value"] is not None and not isinstance(f["value"], str) and f["value"] != f["value"]
                                                  for s in ending.document.get("solutions", []) for f in s["figures"].values()):
-                found.append((trees.named(path), text, "NaN", told))
+                found.append((trees.named(path), text, "NaN", reported))
     return found

@@ -25,7 +25,7 @@ class Order(unittest.TestCase):
             with self.subTest(name, cavitation=cavitation), tempfile.TemporaryDirectory(prefix="hersey-order-") as folder:
                 self.assertEqual(list(order.lower(HERSEY, models, name, cavitation, folder)), [])
 
-    def test_an_error_that_does_not_fall_is_told(self):
+    def test_an_error_that_does_not_fall_is_reported(self):
         found = order.Order({"load": 100.0, "h_min": 1.0}, [{"load": 101.0, "h_min": 1.4}], [{"load": 99.0, "h_min": 1.1}])
         self.assertEqual({key: round(rate, 6) for key, _, _, rate in found.rows()}, {"load": 0.0, "h_min": 2.0})
 

@@ -109,16 +109,16 @@ class Outputs(unittest.TestCase):
             printed = subprocess.run(words, capture_output=True, text=True, check=True).stdout
             document = json.loads(subprocess.run([*words, "--json"], capture_output=True, text=True, check=True).stdout)
             figures = [f for f in document["solutions"][0]["figures"].values() if isinstance(f["value"], float)]
-            told = [(match[1], in_si(match[2], match[3])) for match in map(FIGURE.match, printed.splitlines()) if match]
-            self.assertGreater(len(told), 30)
+            reported = [(match[1], in_si(match[2], match[3])) for match in map(FIGURE.match, printed.splitlines()) if match]
+            self.assertGreater(len(reported), 30)
 
             def is_same(figure, line):
                 return figure.get("label", figure["name"]).strip() == line[0] and abs(line[1] - figure["value"]) <= OF_TABLE * abs(figure["value"])
 
             for figure in figures:
                 with self.subTest(f"{name} {figure['name']}"):
-                    self.assertTrue(any(is_same(figure, line) for line in told), f"{figure['value']} {figure['unit']}")
-            for line in told:
+                    self.assertTrue(any(is_same(figure, line) for line in reported), f"{figure['value']} {figure['unit']}")
+            for line in reported:
                 with self.subTest(f"{name} printed {line[0]}"):
                     self.assertTrue(any(is_same(figure, line) for figure in figures), line[1])
 
@@ -129,9 +129,9 @@ class Outputs(unittest.TestCase):
             printed = self.printed(os.path.join(self.folder, name, "results.h5"))
             for figure in summary:
                 with self.subTest(f"{name} {figure['name']}"):
-                    told = printed.get(figure["name"], [])
-                    self.assertTrue(any(abs(value - figure["value"]) <= OF_TABLE * abs(figure["value"]) for value in told),
-                                    f"{figure['value']} {figure['unit']}, printed {told}")
+                    reported = printed.get(figure["name"], [])
+                    self.assertTrue(any(abs(value - figure["value"]) <= OF_TABLE * abs(figure["value"]) for value in reported),
+                                    f"{figure['value']} {figure['unit']}, printed {reported}")
 
     def test_a_report_has_the_numbers_of_its_results(self):
         for name in ("CRANK", "ROTOR", "WORKSHOP", "WHIP"):
@@ -142,8 +142,8 @@ class Outputs(unittest.TestCase):
                 for path, dataset in run["datasets"].items():
                     with self.subTest(f"{name} {path}"):
                         self.assertEqual(differing(file[path][...], dataset), "")
-                told = {place_of(file[path]) for path in run["datasets"]}
-                self.assertEqual([path for path in numbers_in(file) if place_of(file[path]) not in told], [])
+                reported = {place_of(file[path]) for path in run["datasets"]}
+                self.assertEqual([path for path in numbers_in(file) if place_of(file[path]) not in reported], [])
             for figure, shown in zip(ending.document["summary"], run["summary"]):
                 if figure["group"] != "computing" and isinstance(figure["value"], float):
                     with self.subTest(f"{name} {figure['name']}"):

@@ -459,7 +459,7 @@ def share_one_pressure(b):
 
 
 def reservoirs_touch(b):
-    """Whether places held at different pressures meet, where the flow from one to the other has no limit on finer grids."""
+    """Whether places prescribed at different pressures meet, where the flow from one to the other has no limit on finer grids."""
     # Land of less than half a cell is none to the grid: the program warns of it.
     least = b.L / (b.n_z - 1)
     for edge, side in [(p, side) for p, side, wall in zip(b.p_edge, (-1, 1), b.walls) if not wall]:
@@ -482,7 +482,7 @@ def land_power(b, mu, land_gap, phi, z, turn=0.0):
     """What the oil of fed grooves dissipates on land narrower than a cell before an edge, beside what the nodes' cell of it shows [W].
 
     Over the land flows h^3 dp/(12 mu l) per length, h the gap of the land alone: most of an edge node's cell may be groove, and
-    counts with its depth in the thickness told there. Between the nodes of a cell dz the sum over cells sees l = dz.
+    counts with its depth in the thickness reported there. Between the nodes of a cell dz the sum over cells sees l = dz.
     """
     extra, dphi = 0.0, 2 * PI / len(phi)
     for f in b.features:

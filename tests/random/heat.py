@@ -169,7 +169,7 @@ def check_steady(case, a, found):
     if not moves(case) and not case.radial_velocity:
         off = made - a["heat_to_oil"] - a["heat_to_shell"] - a["heat_to_journal"]
         found.bound("heat: made = carried away", abs(off), BALANCED * scale, f"W of {made:.6g}")
-    found.bound("heat: told error of the balance", abs(a["heat_balance_error"]), BALANCED, "")
+    found.bound("heat: reported error of the balance", abs(a["heat_balance_error"]), BALANCED, "")
     film = a["power_film"] + a["power_asperity"]
     found.bound("heat: made = film's power", abs(made - film), 1e-6 * max(film, 1e-12), f"W: made {made:.8g}, power {film:.8g}")
     check_temperatures(heat, a, found)
@@ -224,7 +224,7 @@ def check_oil(case, a, scale, found):
     side = a["side_flow"]
     oil = 850 * 2000 * (side * a["T_side"] - a["flow_supply"] * (a["T_node_sump"] if "sump" in heat.paths else heat.T))
     found.bound("heat: oil by its flows", abs(oil - a["heat_to_oil"]), 1e-5 * scale + 850 * 2000 * 1e-6 * abs(side) * abs(heat.T),
-                f"W: flows {oil:.6g}, told {a['heat_to_oil']:.6g}")
+                f"W: flows {oil:.6g}, reported {a['heat_to_oil']:.6g}")
 
 
 def scales(heat, a):
@@ -244,8 +244,8 @@ def stored_noise(b, rows, dt):
     Where a run ends in steps of nanoseconds, this is what their balances have left. An oil has some 2 MJ/(m^3 K), a sum over nodes
     some times the round-off of one.
     """
-    held = 2e6 * 2 * math.pi * b.R * b.L * b.c * (273.15 + rows["T_max"])
-    return 20 * np.finfo(float).eps * held / np.where(dt > 0, dt, np.inf)
+    stored = 2e6 * 2 * math.pi * b.R * b.L * b.c * (273.15 + rows["T_max"])
+    return 20 * np.finfo(float).eps * stored / np.where(dt > 0, dt, np.inf)
 
 
 def check_run(b, rows, dt, name, found):
@@ -257,10 +257,10 @@ def check_run(b, rows, dt, name, found):
     scale = np.maximum(np.abs(np.array([made, *terms])).max(0), 1e-12)
     off = np.abs(made - sum(terms)) / scale
     allowed = 1e-5 + stored_noise(b, rows, dt) / scale
-    told = np.abs(rows["heat_balance_error"])
-    k, m = int(np.argmax(off / allowed)), int(np.argmax(told / allowed))
+    reported = np.abs(rows["heat_balance_error"])
+    k, m = int(np.argmax(off / allowed)), int(np.argmax(reported / allowed))
     found.bound("heat: made = carried away + stored", float(off[k]), float(allowed[k]), f" of {scale[k]:.4g} W in row {k} of {name}")
-    found.bound("heat: told error of the balance", float(told[m]), float(allowed[m]), f": {name}")
+    found.bound("heat: reported error of the balance", float(reported[m]), float(allowed[m]), f": {name}")
     film = rows["power_film"] + rows["power_asperity"]
     off = np.abs(made - film) / np.maximum(film, 1e-12)
     k = int(np.argmax(off))

@@ -263,7 +263,7 @@ def check_oil(b, results, f, motion, name, found):
 
 
 def check_volume(b, results, f, motion, name, found):
-    """The oil told against an integral of the fields, where they differ most."""
+    """The oil reported against an integral of the fields, where they differ most."""
     worst = (0.0, 0.0, "")
     for k, row in rows_of_fields(results, f):
         gap = b.oil_gap(f.h[k], land_of(b, f, k, row, motion), f.phi[:, None], f.z[None, :], motion.turn[row])
@@ -271,7 +271,7 @@ def check_volume(b, results, f, motion, name, found):
         step = sum(feature.depth * border_area(feature, b, f) for feature in b.features)
         off, allowed = abs(own.value - f.rows["oil_volume"][row]), own.error + step + 1e-6 * own.value
         if off - allowed > worst[0] - worst[1]:
-            worst = (off, allowed, f"m^3: {name}, t = {f.time[k]:.6g} s: own integral {own.value:.6g}, told {f.rows['oil_volume'][row]:.6g}")
+            worst = (off, allowed, f"m^3: {name}, t = {f.time[k]:.6g} s: own integral {own.value:.6g}, reported {f.rows['oil_volume'][row]:.6g}")
     found.bound("oil volume", *worst)
 
 
@@ -306,7 +306,7 @@ class Powers:
             self.error += film.couette_power((filled,) * 2, mu, h, slip, *at).value
         highest = float((mu / np.maximum(h, 1e-9)).mean()) * slip**2
         self.error += sum(highest * border_area(g, b, f) for g in b.features if g.depth > 0)
-        self.told, self.asperity = r["power_film"][row], r["power_asperity"][row]
+        self.reported, self.asperity = r["power_film"][row], r["power_asperity"][row]
         # The wrench on the shell times the journal's velocity against it, both at the bearing's origin, is what the bodies put in.
         force, moment, e = r["force"][row], r["moment"][row], motion.e[row]
         velocity = motion.e_rate[row] + motion.speed[row] * np.array([e[1], -e[0]])
@@ -353,19 +353,19 @@ def check_power(b, results, f, motion, name, found):
             continue
         w = Powers(b, results, f, k, row, motion)
         thins = b.heat is not None and b.heat.model == "film"  # where, only the program knows
-        off = 0.0 if thins else abs(w.own - w.told)
+        off = 0.0 if thins else abs(w.own - w.reported)
         if off > w.error and (worst is None or off / w.error > worst[0]):
             worst = (off / w.error, "power: film by own integral", off, w.error,
-                     f"W: {name}, t = {f.time[k]:.6g} s: own {w.own:.6g}, told {w.told:.6g}")
+                     f"W: {name}, t = {f.time[k]:.6g} s: own {w.own:.6g}, reported {w.reported:.6g}")
         if b.column or b.asperities or moving_depth(b):
             continue  # elastic energy goes in and out, walls of a travelling pocket work
-        lost = abs(w.mechanical + w.pumped - w.told - w.asperity - w.stored)
-        allowed = w.error + w.stored_error + 2 * b.c / b.R * (abs(w.mechanical) + abs(w.pumped)) + 0.01 * abs(w.told)
+        lost = abs(w.mechanical + w.pumped - w.reported - w.asperity - w.stored)
+        allowed = w.error + w.stored_error + 2 * b.c / b.R * (abs(w.mechanical) + abs(w.pumped)) + 0.01 * abs(w.reported)
         if film_laws.compressibility(b):
-            allowed += film_laws.compressibility(b) * f.p[k].max() * (abs(w.told) + abs(w.pumped) + abs(w.mechanical))
+            allowed += film_laws.compressibility(b) * f.p[k].max() * (abs(w.reported) + abs(w.pumped) + abs(w.mechanical))
         if lost > allowed and (worst is None or lost / allowed > worst[0]):
             worst = (lost / allowed, "power: bodies + pump = dissipated + stored", lost, allowed,
-                     f"W: {name}, t = {f.time[k]:.6g} s: bodies {w.mechanical:.6g}, pump {w.pumped:.6g}, film {w.told:.6g}, "
+                     f"W: {name}, t = {f.time[k]:.6g} s: bodies {w.mechanical:.6g}, pump {w.pumped:.6g}, film {w.reported:.6g}, "
                      f"asperities {w.asperity:.6g}, filling {w.stored:.6g}")
     if worst:
         found.bound(*worst[1:])
@@ -379,7 +379,7 @@ def moving_depth(b):
 
 
 def check_momentum(machine, results, found):
-    """Newton's law for the rotor, with loads by formula and the films' forces as told; the drive's torque is the friction's."""
+    """Newton's law for the rotor, with loads by formula and the films' forces as reported; the drive's torque is the friction's."""
     if not isinstance(machine, Rotor):
         return
     body = results.bodies["rotor"]
@@ -416,7 +416,7 @@ def check_momentum(machine, results, found):
 
 
 def left_by_exchange(machine, name, results):
-    """By how much, row by row, the wrench that bodies have been given may differ from that of the film, told in the results [N].
+    """By how much, row by row, the wrench that bodies have been given may differ from that of the film, reported in the results [N].
 
     A partitioned exchange ends where the difference of both, moments over the radius, is below a tolerance of the wrench's own length
     (bearing.16): that of films, which in steps chosen by their error is a tenth of that error, at most 1e-6 (integrator.19).

@@ -73,7 +73,7 @@ def save(program, seed, result, output, is_small):
 
 
 def names(steady, machines):
-    """Cases in turn, so that a run cut short has seen both kinds."""
+    """Cases in turn, so that a run cut short has tried both kinds."""
     cases = itertools.zip_longest((f"steady-{k}" for k in range(steady)), (f"machine-{k}" for k in range(machines)))
     return (name for pair in cases for name in pair if name)
 

@@ -25,9 +25,9 @@ class RandomModels(unittest.TestCase):
                    for k in range(first, first + count)]
         for result in results:
             with self.subTest(result.name):
-                told = [f"{result.ending}: {result.text}"] if result.ending != "answer" else []
-                told += [f"{invariant}: {text}" for invariant, text in result.findings]
-                self.assertFalse(result.fails(), "\n".join(told))
+                reported = [f"{result.ending}: {result.text}"] if result.ending != "answer" else []
+                reported += [f"{invariant}: {text}" for invariant, text in result.findings]
+                self.assertFalse(result.fails(), "\n".join(reported))
         # Messages are honest, but where nothing is answered nothing is tested.
         answered = sum(result.ending == "answer" for result in results)
         self.assertGreaterEqual(answered, count // 2, f"{count - answered} of {count} models have no answer")

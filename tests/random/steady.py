@@ -276,8 +276,8 @@ def check_fill(b, a, found):
     found.bound("p_max", max(-bound, 0.0 if is_line else bound - 2 * film.dip(a.p)), DIGITS * scale,
                 f"Pa: p_max {a['p_max']:.6g}, largest of a node {a.p.max():.6g}")
     # nothing is above the pressure of a line or feature that holds the largest one
-    held = [f.pressure for f in b.features if f.pressure is not None] + ([b.supply[1]] if b.supply else [])
-    if any(abs(a.p.max() - p) < 10 * DIGITS * scale for p in held):
+    prescribed = [f.pressure for f in b.features if f.pressure is not None] + ([b.supply[1]] if b.supply else [])
+    if any(abs(a.p.max() - p) < 10 * DIGITS * scale for p in prescribed):
         found.bound("p_max", bound, 100 * DIGITS * scale,
                     f"Pa: p_max {a['p_max']:.6g} beside a feature that has {a.p.max():.6g}")
 
@@ -288,7 +288,7 @@ def check_cavity(case, a, found):
     broken = a.theta[:, middle] < 1 - 1e-8 if b.cavitation == "mass_conserving" else a.p[:, middle] <= b.p_cav
     has_ends = "rupture_angle" in a.values
     if b.cavitation == "mass_conserving" and not broken.all():
-        found.require("cavity", has_ends == bool(broken.any()), f"cavity at mid-width {broken.any()}, its ends told {has_ends}")
+        found.require("cavity", has_ends == bool(broken.any()), f"cavity at mid-width {broken.any()}, its ends reported {has_ends}")
     if has_ends:
         low, high = a["rupture_angle"], a["reformation_angle"]
         if case.journal_speed + case.shell_speed < 0:
@@ -327,21 +327,21 @@ def check_oil(case, a, found):
         # a step in depth lies somewhere in a cell
         step = sum(f.depth * border_area(f, b, a) for f in b.features)
         found.bound("oil volume", abs(own.value - a["oil_volume"]), own.error + step + 1e-4 * own.value,  # means of control volumes there
-                    f"m^3: own integral {own.value:.6g}, told {a['oil_volume']:.6g}")
+                    f"m^3: own integral {own.value:.6g}, reported {a['oil_volume']:.6g}")
 
 
 def check_load(case, a, found):
     b = case.bearing
     own = film.force(a.p + a.p_asperity, b.R, a.phi, a.z)
     size = math.hypot(own[0].value, own[1].value)
-    told = a["load"] * np.array([math.cos(a["load_angle"]), math.sin(a["load_angle"])])
-    off = math.hypot(own[0].value - told[0], own[1].value - told[1])
+    reported = a["load"] * np.array([math.cos(a["load_angle"]), math.sin(a["load_angle"])])
+    off = math.hypot(own[0].value - reported[0], own[1].value - reported[1])
     # Shear adds c/R of the load and the friction force; where guembel cuts the pressure off, half a cell of it is not here.
     shear = (abs(a["torque_shell"]) + abs(a["torque_journal"])) / b.R + 2 * b.c / b.R * size
     parts = float(np.abs(a.p + a.p_asperity - b.p_cav).sum()) * b.R * 2 * PI / len(a.phi) * b.L / len(a.z)
     error = math.hypot(own[0].error, own[1].error)
     found.bound("load", off, 1.5 * error + shear + 1e-3 * parts,
-                f"N: own integral ({own[0].value:.6g}, {own[1].value:.6g}), told ({told[0]:.6g}, {told[1]:.6g})")
+                f"N: own integral ({own[0].value:.6g}, {own[1].value:.6g}), reported ({reported[0]:.6g}, {reported[1]:.6g})")
     if case.load:
         found.bound("given load", abs(a["load"] - case.load[0]), 1e-5 * case.load[0], "N")
         found.bound("given load", abs(math.remainder(a["load_angle"] - case.load[1], 2 * PI)), 1e-5, "rad")
@@ -350,7 +350,7 @@ def check_load(case, a, found):
 
 
 def check_asperities(case, a, found):
-    """Contact pressure of the fitted law from the gap told, to the digits printed of both; land beside a pocket touches on its own."""
+    """Contact pressure of the fitted law from the gap reported, to the digits printed of both; land beside a pocket touches on its own."""
     b = case.bearing
     if not b.asperities or b.asperities["model"] != "greenwood_tripp_fit":
         return
@@ -373,12 +373,12 @@ def check_power(case, a, found):
     couette = film.couette_power(film_laws.shear_shares(b, a.p, a.theta, fed), mu, a.h, slip, b.R, a.phi, a.z)
     poiseuille = film.poiseuille_power(a.p, mu, a.h, b.R, a.phi, a.z)
     over_land = bearings.land_power(b, mu, land_gap(case, a), a.phi, a.z, case.journal_angle)
-    own, told = couette.value + poiseuille.value + over_land, a["power_film"]
+    own, reported = couette.value + poiseuille.value + over_land, a["power_film"]
     # The edge of a cavitated region is resolved to a cell: the estimate sees that. A step of depth lies somewhere in a cell.
     pumped = pumping(b, a)
     error = 1.5 * (couette.error + poiseuille.error) + 1e-3 * own + border_power(b, a, mu, slip) + bearings.corner_power(b, pumped)
     error += 0.3 * over_land  # ends between nodes around
-    found.bound("power: film by own integral", 0.0 if thins else abs(own - told), error, f"W: own {own:.6g}, told {told:.6g}")
+    found.bound("power: film by own integral", 0.0 if thins else abs(own - reported), error, f"W: own {own:.6g}, reported {reported:.6g}")
     turned = -(case.journal_speed * a["torque_journal"] + case.shell_speed * a["torque_shell"])
     # the film pushes the shell away from the journal, and this back
     turned += case.radial_velocity * a["load"] * math.cos(a["load_angle"] - a["eccentricity_angle"])
@@ -387,11 +387,11 @@ def check_power(case, a, found):
     asperity = a["power_asperity"]
     found.require("power: asperities", asperity >= 0, f"boundary friction of {asperity:.6g} W")
     # c/R: the film's curvature; the rise of density does work of its own
-    grid = error + 2 * b.c / b.R * (abs(turned) + abs(pumped)) + 0.01 * abs(told)
+    grid = error + 2 * b.c / b.R * (abs(turned) + abs(pumped)) + 0.01 * abs(reported)
     if film_laws.compressibility(b):
-        grid += film_laws.compressibility(b) * a["p_max"] * (abs(told) + abs(pumped))
-    found.bound("power: turned + pumped = dissipated", abs(turned + pumped - told - asperity), grid,
-                f"W: turned {turned:.6g}, pumped {pumped:.6g}, film {told:.6g}, asperities {asperity:.6g}")
+        grid += film_laws.compressibility(b) * a["p_max"] * (abs(reported) + abs(pumped))
+    found.bound("power: turned + pumped = dissipated", abs(turned + pumped - reported - asperity), grid,
+                f"W: turned {turned:.6g}, pumped {pumped:.6g}, film {reported:.6g}, asperities {asperity:.6g}")
 
 
 def border_area(f, b, a):

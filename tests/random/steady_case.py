@@ -163,7 +163,7 @@ def compare_on_nodes(case, runs, found):
             found.append(("same with places on nodes", f"{label}: no answer: {ending.text}"))
         else:
             off = steady.differences(snapped, one, other, tolerance(snapped, one), **options)
-            # How far a parabola may reach for a peak beside a feature is told by the nodes that lie in it.
+            # How far a parabola may reach for a peak beside a feature is limited by the nodes that lie in it.
             off = [text for text in off if not (b.features and text.startswith("p_max "))]
             if off and snapped.load and one["eccentricity_ratio"] < 1:
                 off = differences_there(snapped, one, variant, runs, label, options)

@@ -193,9 +193,9 @@ export const everyReport = {
     await page.locator(".play").click();
     await page.waitForFunction(() => Number(document.querySelector(".timeline-slider").value) >= 2, null, { timeout: 5000 });
     await page.locator(".play").click();
-    const held = await page.locator(".timeline-slider").inputValue();
+    const stopped = await page.locator(".timeline-slider").inputValue();
     await page.waitForTimeout(300);
-    assert.equal(await page.locator(".timeline-slider").inputValue(), held, "the pause button does not stop the film");
+    assert.equal(await page.locator(".timeline-slider").inputValue(), stopped, "the pause button does not stop the film");
   },
 
   "the map shows every stored field": async (page) => {
@@ -298,18 +298,18 @@ export const everyReport = {
     const plot = page.locator('[data-figure="peak-pressure"] .u-over');
     await plot.scrollIntoViewIfNeeded();
     await frame(page);
-    const [before, told] = [await look(), await page.locator(".timeline-text").innerText()];
+    const [before, reported] = [await look(), await page.locator(".timeline-text").innerText()];
     await plot.hover();
     await frame(page);
     const during = await look();
     for (const kind of Object.keys(before)) if (before[kind]) assert.notEqual(during[kind], before[kind], `figure ${kind} does not follow`);
-    assert.notEqual(await page.locator(".timeline-text").innerText(), told, "the instant of the cursor is not told");
+    assert.notEqual(await page.locator(".timeline-text").innerText(), reported, "the instant of the cursor is not shown");
     assert.equal(await page.locator(".timeline-slider").inputValue(), "0", "the slider has moved without being touched");
     await page.mouse.move(0, 0);
     await frame(page);
     const after = await look();
     for (const kind of Object.keys(before)) assert.equal(after[kind], before[kind], `figure ${kind} does not go back`);
-    assert.equal(await page.locator(".timeline-text").innerText(), told, "the instant shown is not told again");
+    assert.equal(await page.locator(".timeline-text").innerText(), reported, "the instant shown is not reported again");
   },
 
   "keys move a figure's cursor, and the others with it": async (page) => {
@@ -600,7 +600,7 @@ export const comparisonReport = {
     const row = page.locator('.changes tr[data-quantity="minimum film thickness at the end"]');
     const [before, after, change] = (await row.locator("td").allInnerTexts()).map((text) => parseFloat(text.replace("−", "-")));
     // Each is printed with four digits.
-    assert.ok(Math.abs(after - before - change) <= 2e-3 * Math.abs(after), `${after} less ${before} is told as ${change}`);
+    assert.ok(Math.abs(after - before - change) <= 2e-3 * Math.abs(after), `${after} less ${before} is reported as ${change}`);
     assert.match(await row.innerText(), /\([+−][\d.]+ %\)/, "the change has no share");
     const picker = page.getByLabel("Further quantity laid over each other");
     assert.ok((await picker.locator("option").count()) > 10, "the film's further quantities cannot be chosen");
@@ -733,7 +733,7 @@ export const sweepReport = {
     }
     // In every plain bearing one of the cross stiffnesses is negative at some speed.
     const legend = await page.locator('.study [data-figure="stiffness"] .legend').first().innerText();
-    assert.match(legend, /−K(xy|yx)/, `no negative stiffness is told as such: ${legend}`);
+    assert.match(legend, /−K(xy|yx)/, `no negative stiffness is reported as such: ${legend}`);
     assert.match(legend, /(^|\n)Kxx/, `no positive stiffness: ${legend}`);
   },
 

@@ -16,7 +16,7 @@ async function table(page, kind) {
 const readable = (page) => page.evaluate(() => [...document.querySelector("#page").children].filter((e) => !e.matches(".licences")).map((e) => e.innerText).join("\n"));
 
 const everyPad = {
-  "no number is missing, and nothing is told of a journal": async (page) => {
+  "no number is missing, and nothing is said of a journal": async (page) => {
     const text = await readable(page);
     for (const word of ["NaN", "undefined", "null", "Infinity", "journal", "eccentricity", "attitude", "shell", "unwrapped", "φ"])
       assert.doesNotMatch(text, new RegExp(`(?<!\\p{L})${word}(?!\\p{L})`, "iu"), `the page of a pad says ${word}`);

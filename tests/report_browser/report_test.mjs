@@ -36,7 +36,7 @@ function axe() {
 
 const axeSource = axe();
 
-/** What became of one report's checks, told as a whole, since another report is tried at the same time. */
+/** What became of one report's checks, reported as a whole, since another report is tried at the same time. */
 class Findings {
   passed = 0;
   failed = 0;

@@ -74,25 +74,25 @@ class Coverage(unittest.TestCase):
         self.assertFalse(coverage.is_of_compiling("n > 0", "if (n > 0)"))
 
     def test_a_branch_without_a_reason_fails(self):
-        status, told = self.report(self.counts(99, 1))
+        status, reported = self.report(self.counts(99, 1))
         self.assertEqual(status, 1)
-        self.assertIn("film: 99 of 100 branches taken, 99.0 %; 1 of the others without a reason", told)
-        self.assertIn("libs/film/src/a.cpp:0 | b0 | false", told)
+        self.assertIn("film: 99 of 100 branches taken, 99.0 %; 1 of the others without a reason", reported)
+        self.assertIn("libs/film/src/a.cpp:0 | b0 | false", reported)
         self.write("tests/coverage/reasons.txt", "# why\nlibs/film/src/a.cpp | b0 | false | round-off only\n")
         self.assertEqual(self.report(self.counts(99, 1))[0], 0)
 
     def test_less_than_the_bar_fails_with_every_reason(self):
         self.write("tests/coverage/reasons.txt", "".join(f"libs/film/src/a.cpp | b{k} | false | so\n" for k in range(6)))
-        status, told = self.report(self.counts(94, 6))
+        status, reported = self.report(self.counts(94, 6))
         self.assertEqual(status, 1)
-        self.assertIn("at least 95 % are asked for", told)
+        self.assertIn("at least 95 % are asked for", reported)
         self.assertEqual(self.report(self.counts(95, 5))[0], 1)  # the sixth reason has nothing to say
 
     def test_a_reason_for_what_is_taken_fails(self):
         self.write("tests/coverage/reasons.txt", "libs/film/src/a.cpp | a > 5 | true | never\n")
-        status, told = self.report(self.counts(99))
+        status, reported = self.report(self.counts(99))
         self.assertEqual(status, 1)
-        self.assertIn("is taken or is no longer there", told)
+        self.assertIn("is taken or is no longer there", reported)
 
 
 if __name__ == "__main__":

@@ -73,18 +73,18 @@ class KeyFigures(unittest.TestCase):
 
     def test_a_new_example_and_one_that_is_gone_are_named(self):
         names = key_figures.examples()
-        told = rules.complaints([*names[1:], "thrust_pad/model"])
-        self.assertEqual(len(told), 2)
-        self.assertIn("thrust_pad/model: an example without key figures", told[0])
-        self.assertIn(f"{names[0]}: no such example", told[1])
+        reported = rules.complaints([*names[1:], "thrust_pad/model"])
+        self.assertEqual(len(reported), 2)
+        self.assertIn("thrust_pad/model: an example without key figures", reported[0])
+        self.assertIn(f"{names[0]}: no such example", reported[1])
 
     def test_the_committed_table_has_figures_of_every_command(self):
         table = key_figures.Table.read(key_figures.TABLE)
         self.assertEqual(table.columns[:4], key_figures.KEYS)
         self.assertEqual(table.columns[-1], key_figures.WHY)
-        held = {key[:2] for key, row in table.rows.items() if row[table.last]}
+        listed = {key[:2] for key, row in table.rows.items() if row[table.last]}
         run = {(name, key_figures.text_of_command(command)) for name in key_figures.examples() for command in rules.commands(name)}
-        self.assertEqual(held, run)
+        self.assertEqual(listed, run)
 
     def test_an_unchanged_program_differs_nowhere(self):
         self.assertEqual(self.run_with(bearing(), "--update")[0], 0)
@@ -108,12 +108,12 @@ class KeyFigures(unittest.TestCase):
 
     def test_a_figure_that_vanishes_appears_or_answers_otherwise_is_found(self):
         self.run_with(bearing(), "--update")
-        for answer, told in ((bearing(load=0.0), "load: unreleased 1300, now - (gone)"),
+        for answer, reported in ((bearing(load=0.0), "load: unreleased 1300, now - (gone)"),
                              (bearing(moment_x={"value": 2.0, "unit": "N.m", "name": "moment"}), "moment_x: unreleased -, now 2 (new)"),
                              (bearing(whirl_ratio={"value": 0.5, "unit": "", "name": "whirl"}), "now 0.5 (another answer)")):
             status, text = self.run_with(answer)
             self.assertEqual(status, 1, text)
-            self.assertIn(told, text)
+            self.assertIn(reported, text)
 
     def test_round_off_where_symmetry_makes_zero_is_no_figure(self):
         self.run_with(bearing(), "--update")

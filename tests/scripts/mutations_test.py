@@ -32,7 +32,7 @@ class Mutations(unittest.TestCase):
         self.assertEqual(self.changed("ok = a && b;"), ["ok = a || b;"])
 
     def test_text_comments_and_checks_are_left_alone(self):
-        for line in ('told = "a + b";', "// x = a + b;", "std::vector<int> n;", "const auto& x = a;", "x = a;  // 2 + 2"):
+        for line in ('text = "a + b";', "// x = a + b;", "std::vector<int> n;", "const auto& x = a;", "x = a;  // 2 + 2"):
             self.assertEqual(self.changed(line), [], line)
         lines = ["  HERSEY_REQUIRE(a > 0, 1);\n", "#if A > 2\n", '  throw InputError("a" + 1);\n', "  x = a + b;\n"]
         self.assertEqual({new for *_, new in operators.of_file("film/src/x.cpp", lines)}, {"  x = a - b;\n", "  x = a;\n"})

@@ -141,8 +141,8 @@ class Agreement(unittest.TestCase):
             one = in_time.by_hersey(HERSEY, orbit, folder, in_time.STEPS_SMALL)
         self.assertEqual(in_time.compare(orbit, one, other)[0], [])
         for key in ("force_x", "force_y", "torque_journal", "power_film", "fill_volume"):
-            told = [a | {key: (1.1 * a[key][0], a[key][1])} for a in other]
-            self.assertIn(key, [figure for figure, _ in in_time.compare(orbit, one, told)[0]])
+            reported = [a | {key: (1.1 * a[key][0], a[key][1])} for a in other]
+            self.assertIn(key, [figure for figure, _ in in_time.compare(orbit, one, reported)[0]])
 
     def test_figures_three_percent_off_are_found(self):
         b = comparison.bearings.Bearing(0.025, 0.02, 40e-6, 0.015, 60, 13, supply=("widest_gap", 0.0))
@@ -151,8 +151,8 @@ class Agreement(unittest.TestCase):
             one, other = comparison.both(HERSEY, case, folder, comparison.ROWS)
         self.assertEqual(comparison.compare(case, one, other)[0], [])
         for key in ("load", "torque_journal", "torque_shell", "power_film", "flow_left", "p_max"):
-            told = other | {key: (1.03 * other[key][0], other[key][1])}
-            self.assertIn(key, [figure for figure, _ in comparison.compare(case, one, told)[0]])
+            reported = other | {key: (1.03 * other[key][0], other[key][1])}
+            self.assertIn(key, [figure for figure, _ in comparison.compare(case, one, reported)[0]])
 
 
 if __name__ == "__main__":

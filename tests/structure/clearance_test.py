@@ -30,7 +30,7 @@ class Clearance(unittest.TestCase):
         self.assertGreater(len(files), 100)
         self.assertEqual(readers(files), [], "use bearing::clearance()")
 
-    def test_readers_are_seen(self):
+    def test_readers_are_found(self):
         for line in ("h > film.c;", "e / model_.c", "1e6 * model().c;", "bearing.film.c - 1"):
             self.assertNotEqual(readers({"x.cpp": line}), [], line)
         for line in ("film.compliance", "clearance(model)", "// film.c"):

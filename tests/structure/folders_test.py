@@ -49,7 +49,7 @@ def below(folder, parent):
 
 def circles(files, module):
     """Lines that tell each set of neighbouring folders that use each other, and by which files."""
-    lies_in, told = folder_of(files), []
+    lies_in, faults = folder_of(files), []
     arrows = uses(files, module)
     parents = {""}
     for folder in set(lies_in.values()):
@@ -65,10 +65,10 @@ def circles(files, module):
             graph.setdefault(there, set())
             by.setdefault((here, there), []).append(" > ".join((name, *way, used)))
         for knot in knots(graph):
-            told.append(f"{module}/src/{parent}: {' '.join(knot)}")
-            told += [f"    {here} -> {there}: {', '.join(names[:3])}{', ...' if len(names) > 3 else ''}"
+            faults.append(f"{module}/src/{parent}: {' '.join(knot)}")
+            faults += [f"    {here} -> {there}: {', '.join(names[:3])}{', ...' if len(names) > 3 else ''}"
                      for (here, there), names in sorted(by.items()) if here in knot and there in knot]
-    return told
+    return faults
 
 
 def files_of(module):
@@ -84,13 +84,13 @@ def files_of(module):
 
 class Folders(unittest.TestCase):
     def test_folders_of_a_module_do_not_use_each_other(self):
-        told = []
+        faults = []
         for folder in sorted(glob.glob(os.path.join(SOURCE, "libs/*"))):
             files = files_of(os.path.basename(folder))
             self.assertGreater(len(files), 1, folder)
-            told += circles(files, os.path.basename(folder))
-        if told:
-            self.fail("folders that use each other:\n" + "\n".join(told))
+            faults += circles(files, os.path.basename(folder))
+        if faults:
+            self.fail("folders that use each other:\n" + "\n".join(faults))
 
     def test_a_circle_of_folders_is_found(self):
         files = {"src/a/x.h": "", "src/a/x.cpp": '#include "b/y.h"\n', "src/b/y.h": "", "src/b/z.cpp": ""}

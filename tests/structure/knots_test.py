@@ -69,7 +69,7 @@ def read_all(*patterns):
 
 
 class Knots(unittest.TestCase):
-    def told(self, place, files, pattern):
+    def faults_of(self, place, files, pattern):
         self.assertGreater(len(files), 1, f"there are files in {place}")
         graph = uses(files, pattern)
         return [f"{place}: {' '.join(knot)}\n" + "\n".join(f"    {name} -> {' '.join(sorted(graph[name] & set(knot)))}"
@@ -82,15 +82,15 @@ class Knots(unittest.TestCase):
             # What another module's header of the same name is, is no business of this one.
             own = {path: re.sub(rf'#include "hersey/(?!{module}/)[^"]*"', "", text) for path, text in
                    read_all(f"libs/{module}/include/**/*.h", f"libs/{module}/src/**/*.h", f"libs/{module}/src/**/*.cpp").items()}
-            faults += self.told(f"libs/{module}", own, INCLUDE)
+            faults += self.faults_of(f"libs/{module}", own, INCLUDE)
         program = {path: re.sub(r'#include "hersey/[^"]*"', "", text)
                    for path, text in read_all("apps/cli/*.h", "apps/cli/*.cpp").items()}
-        faults += self.told("apps/cli", program, INCLUDE)
+        faults += self.faults_of("apps/cli", program, INCLUDE)
         if faults:
             self.fail("files that include each other:\n" + "\n".join(faults))
 
     def test_files_of_the_web_page_do_not_import_each_other(self):
-        faults = self.told("web/src", read_all("web/src/*.ts"), IMPORT)
+        faults = self.faults_of("web/src", read_all("web/src/*.ts"), IMPORT)
         if faults:
             self.fail("files that import each other:\n" + "\n".join(faults))
 
@@ -98,7 +98,7 @@ class Knots(unittest.TestCase):
         faults = []
         for package in ("python/hersey", "python/hersey_study"):
             files = {path: one_by_one(text) for path, text in read_all(f"{package}/*.py").items()}
-            faults += self.told(package, files, FROM)
+            faults += self.faults_of(package, files, FROM)
         if faults:
             self.fail("files that import each other:\n" + "\n".join(faults))
 

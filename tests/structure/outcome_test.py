@@ -37,7 +37,7 @@ def faults(path, text):
 
 
 def without_nodiscard(text):
-    """Types derived from an outcome that may be thrown away unseen."""
+    """Types derived from an outcome that may be thrown away unnoticed."""
     return [name for is_kept, name in DERIVED.findall(text) if not is_kept]
 
 
@@ -51,24 +51,24 @@ def sources():
 
 class OneOutcome(unittest.TestCase):
     def test_all_that_may_end_without_an_answer_is_asked_by_solved(self):
-        told, derived = [], 0
+        found, derived = [], 0
         for path in sources():
             with open(os.path.join(SOURCE, path), encoding="utf-8") as file:
                 text = file.read()
-            told += [f"{path}: {each}" for each in faults(path, text)]
+            found += [f"{path}: {each}" for each in faults(path, text)]
             derived += len(DERIVED.findall(text))
-        self.assertEqual(told, [])
+        self.assertEqual(found, [])
         self.assertGreater(derived, 20)  # the pattern finds them at all
 
-    def test_types_of_outcomes_cannot_be_dropped_unseen(self):
-        told = []
+    def test_types_of_outcomes_cannot_be_dropped_unnoticed(self):
+        found = []
         for path in sources():
             if path.endswith(".h"):
                 with open(os.path.join(SOURCE, path), encoding="utf-8") as file:
-                    told += [f"{path}: {name}" for name in without_nodiscard(file.read())]
-        self.assertEqual(told, [])
+                    found += [f"{path}: {name}" for name in without_nodiscard(file.read())]
+        self.assertEqual(found, [])
 
-    def test_old_spellings_are_seen(self):
+    def test_old_spellings_are_found(self):
         for line in ("if (summary.converged) return;", "if (!step.converged()) return;", "REQUIRE(start.consistent());",
                      "if (!modes.ok) return;", "if (solver_->factorise().ok()) return;", "if (trouble.empty()) return;",
                      "if (!solution.error.empty()) return;", "if (advance.has_failed()) return;",

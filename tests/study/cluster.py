@@ -103,7 +103,7 @@ class Cluster:
         self.controller.wait()
 
     def _of_tasks(self):
-        """Process ids of what the node does: its steps and their programs, told by the environment they were given."""
+        """Process ids of what the node does: its steps and their programs, known by the environment they were given."""
         mine = f"SLURM_CONF={self.conf}".encode()
         pids = []
         for pid in filter(str.isdigit, os.listdir("/proc")):

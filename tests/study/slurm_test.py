@@ -182,7 +182,7 @@ class Slurm(unittest.TestCase):
         self.assertEqual(self.completed(), 20)
         self.assertEqual(len(self.done()), 21)
 
-    def test_tasks_that_nobody_starts_are_told_with_the_reason(self):
+    def test_tasks_that_nobody_starts_are_reported_with_the_reason(self):
         self.cluster.call("scontrol", "update", f"nodename={self.cluster.host}", "state=drain", "reason=swept")
         process = self.start(4, environment=dict(self.cluster.environment, HERSEY_STUDY_PATIENCE="2"))
         time.sleep(8)
@@ -191,12 +191,12 @@ class Slurm(unittest.TestCase):
         self.assertIn("no task is at work", err)
         self.assertIn("DRAINED", err)
 
-    def test_a_partition_that_does_not_exist_is_told_with_those_that_do(self):
+    def test_a_partition_that_does_not_exist_is_reported_with_those_that_do(self):
         _, err = self.end(self.start(4, "--partition", "nigth"), WRONG_INPUT)
         self.assertIn("--partition", err)
         self.assertIn("expected one of: main", err)
 
-    def test_a_cluster_out_of_reach_is_told(self):
+    def test_a_cluster_out_of_reach_is_reported(self):
         conf = os.path.join(self.root, "slurm.conf")
         with open(self.cluster.conf, encoding="utf-8") as file:
             text = file.read().replace("16817", "16999")

@@ -166,7 +166,7 @@ class Studies(unittest.TestCase):
         # In flight: what a process has been given.
         self.assertLessEqual(len(self.done()), samples + kills * jobs * AHEAD)
 
-    def test_failed_runs_are_told_with_reasons_and_stop_nothing(self):
+    def test_failed_runs_are_reported_with_reasons_and_stop_nothing(self):
         run = self.study(self.model(LIST % "1, 2, 150, 3, 160, 4"), *self.stand_in())
         self.assertEqual(run.returncode, FAILED)
         self.assertIn("failed, 2 runs: x1 is too large", run.stderr)
@@ -417,7 +417,7 @@ class Studies(unittest.TestCase):
         self.assertFalse(os.path.exists(self.out))
         return run.stderr
 
-    def test_wrong_studies_are_told_before_anything_runs(self):
+    def test_wrong_studies_are_reported_before_anything_runs(self):
         one = "{distribution: normal, mean: 34 um, standard_deviation: 10 um}"
         text = self.refusal(f"  plan: sobol\n  parameters: {{clearance: {one}}}\n")
         self.assertIn("-16 um", text)
@@ -432,7 +432,7 @@ class Studies(unittest.TestCase):
         text = self.refusal("  parameters: {clearance: [34 um]}\n  subject_to: [bearings.main.h_min is large]\n")
         self.assertIn("bearings.main.h_min > 1.5 um", text)
 
-    def test_things_that_the_model_has_not_are_told_before_anything_runs(self):
+    def test_things_that_the_model_has_not_are_reported_before_anything_runs(self):
         for study, hint in (
                 ("  outputs: [joints.giude.coordinates.max]\n", "did you mean 'guide'?"),
                 ("  outputs: [bodies.masss.position.x.max]\n", "did you mean 'mass'?"),
@@ -459,7 +459,7 @@ class Studies(unittest.TestCase):
         self.assertEqual(run.returncode, WRONG_INPUT, run.stderr)
         self.assertIn("every parameter fixed by --set", run.stderr)
 
-    def test_bound_in_another_dimension_is_told(self):
+    def test_bound_in_another_dimension_is_reported(self):
         run = self.study(self.model("  parameters: {clearance: [34 um]}\n  subject_to: [bearings.main.h_min > 1 N]\n"))
         self.assertEqual(run.returncode, WRONG_INPUT)
         self.assertIn("expected a bound in m", run.stderr)

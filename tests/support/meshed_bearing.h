@@ -20,9 +20,9 @@ struct MeshedBearing {
   MeshedBody ring = {};     ///< rigid: ground is the shell
   MeshedBody shaft = {};
   std::string rigid_shaft = "{mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}";
-  std::string held = "ring.hub", shell = "ring.hub", journal = "shaft";  ///< frames
-  std::string guided_on = "ground";                                      ///< frame in whose plane the shaft moves
-  std::string initial = "";                                              ///< its coordinates at the start
+  std::string foundation = "ring.hub", shell = "ring.hub", journal = "shaft";  ///< frames
+  std::string guided_on = "ground";                                            ///< frame in whose plane the shaft moves
+  std::string initial = "";                                                    ///< its coordinates at the start
   std::string load = "2 kN";  ///< towards -y, on a shaft that turns at 3000 rpm; empty: neither drive nor load
   std::string oil = "{viscosity: 15 mPa.s}";
   std::string diameter = "45 mm", width = "15.6 mm", clearance = "34 um", edge_pressure = "1 bar";
@@ -58,7 +58,7 @@ struct MeshedBearing {
   }
 
   [[nodiscard]] std::string joints() const {
-    return "joints:\n" + (ring.mesh.empty() ? "" : "  clamp: {type: fixed, between: [ground, " + held + "]}\n") +
+    return "joints:\n" + (ring.mesh.empty() ? "" : "  clamp: {type: fixed, between: [ground, " + foundation + "]}\n") +
            "  slide: {type: planar, between: [" + guided_on + ", " + journal + "]" +
            (initial.empty() ? "" : ", initial: " + initial) + "}\n";
   }
@@ -78,7 +78,7 @@ struct MeshedBearing {
   }
 };
 
-/// Frames of a ring held at its outside, and of a hollow shaft guided by its bore.
+/// Frames of a ring fixed at its outside, and of a hollow shaft guided by its bore.
 inline constexpr const char* kHub = "hub: {nodes: outside, connection: average, origin: 0 0 0 mm}";
 inline constexpr const char* kPin = "pin: {nodes: bore, connection: average, origin: 0 0 0 mm}";
 

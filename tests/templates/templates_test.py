@@ -1,4 +1,4 @@
-"""Models with templates: short ones that equal their long form to the last bit, and what is told of wrong ones."""
+"""Models with templates: short ones that equal their long form to the last bit, and what is said of wrong ones."""
 
 import os
 import pathlib

@@ -141,7 +141,7 @@ class Bearing:
             phi, z, width, length = P[k], Z[k], width * 4 / count, length / 10
         return float(h.min())
 
-    # -- what is held at a pressure
+    # -- what has a prescribed pressure
 
     def line_angle(self, motion):
         """Of the supply line; None where there is none."""
@@ -164,7 +164,7 @@ class Bearing:
             along += [f.z - 0.5 * f.length, f.z + 0.5 * f.length]
         return around, along, [(f.phi, f.z, 0.5 * f.arc, 0.5 * f.length) for f in self.features if f.is_round]
 
-    def held_places(self, mesh, line):
+    def prescribed_places(self, mesh, line):
         """(nodes, pressure) of the line and of each feature that is fed; later ones hold where both are."""
         z = np.broadcast_to(mesh.z, mesh.phi.shape)
         if line is None:

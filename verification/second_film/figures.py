@@ -80,7 +80,7 @@ def _leaving(film, end):
     beside = film.p.reshape(out.shape)[:, 1 if end == 0 else -2]
     own = film.owner.reshape(out.shape)[:, end] == (-2 if end == 0 else -3)
     if film.bearing.cavitation != "mass_conserving":
-        own = own & ((beside > 0) | (film.held.reshape(out.shape)[:, end] > 0))
+        own = own & ((beside > 0) | (film.prescribed.reshape(out.shape)[:, end] > 0))
     return float(out[own, end].sum())
 
 

@@ -17,7 +17,7 @@ from scipy.sparse.linalg import splu
 
 from mesh import TURN, Mesh, Quadrature
 
-FREE, HELD, AIR = 0, 1, 2  # kinds of nodes: of the film; held full at a pressure; on an edge in air of some oil
+FREE, PRESCRIBED, AIR = 0, 1, 2  # kinds of nodes: of the film; full, of prescribed pressure; on an edge in air of some oil
 
 
 class NoAnswer(Exception):
@@ -59,24 +59,24 @@ class Film:
         return np.bincount(self.nodes.ravel(), of_elements.ravel(), minlength=self.mesh.nx * self.mesh.nz)
 
     def _hold(self):
-        """Kinds of all nodes, pressures of those held, and who holds them."""
+        """Kinds of all nodes, pressures of those prescribed, and what prescribes them."""
         m, b = self.mesh, self.bearing
-        kind, held = np.full((m.nx, m.nz), FREE), np.zeros((m.nx, m.nz))
+        kind, prescribed = np.full((m.nx, m.nz), FREE), np.zeros((m.nx, m.nz))
         owner = np.full((m.nx, m.nz), -1)
         fill = np.zeros((m.nx, m.nz))
-        for k, (mask, pressure) in enumerate(b.held_places(m, self.line)):
-            kind[mask], held[mask], owner[mask] = HELD, pressure, k
+        for k, (mask, pressure) in enumerate(b.prescribed_places(m, self.line)):
+            kind[mask], prescribed[mask], owner[mask] = PRESCRIBED, pressure, k
         for j, edge in ((0, b.edges[0]), (-1, b.edges[1])):
             if edge is None:
                 continue
             pressure, share = edge
             in_air = b.cavitation == "mass_conserving" and pressure <= 0
-            fed = in_air & (kind[:, j] == HELD)  # a line or groove that ends on an edge in air keeps it full
-            kind[:, j] = np.where(fed, HELD, AIR if in_air else HELD)
-            held[:, j] = 0.0 if in_air else max(pressure, 0.0) if b.cavitation != "guembel" else pressure
+            fed = in_air & (kind[:, j] == PRESCRIBED)  # a line or groove that ends on an edge in air keeps it full
+            kind[:, j] = np.where(fed, PRESCRIBED, AIR if in_air else PRESCRIBED)
+            prescribed[:, j] = 0.0 if in_air else max(pressure, 0.0) if b.cavitation != "guembel" else pressure
             owner[:, j] = np.where(fed & (owner[:, j] >= 0), owner[:, j], -2 if j == 0 else -3)
             fill[:, j] = share
-        self.kind, self.held, self.owner, self.most_void = kind.ravel(), held.ravel(), owner.ravel(), 1 - fill.ravel()
+        self.kind, self.prescribed, self.owner, self.most_void = kind.ravel(), prescribed.ravel(), owner.ravel(), 1 - fill.ravel()
 
     # -- equations
 
@@ -141,11 +141,11 @@ class Film:
     def solve(self, start=None):
         """Pressures and voids of all nodes."""
         n = len(self.kind)
-        p, void = np.where(self.kind == HELD, self.held, 0.0), np.zeros(n)
+        p, void = np.where(self.kind == PRESCRIBED, self.prescribed, 0.0), np.zeros(n)
         # state: 0 full (pressure unknown), 1 void unknown, 2 as void as its surroundings (inflow unknown)
         state = np.zeros(n, int)
         if start is not None and len(start[0]) == n:
-            p, void, state = np.where(self.kind == HELD, self.held, start[0]), start[1].copy(), start[2].copy()
+            p, void, state = np.where(self.kind == PRESCRIBED, self.prescribed, start[0]), start[1].copy(), start[2].copy()
         slack = np.zeros(n)
         for count in range(200):
             change = self._step(p, void, slack, state)
@@ -171,12 +171,12 @@ class Film:
         conserves = self.bearing.cavitation == "mass_conserving"
         cavitated = (state > 0) & (self.kind == FREE)
         p[cavitated] = 0
-        void[(state == 0) | (self.kind == HELD)] = 0
+        void[(state == 0) | (self.kind == PRESCRIBED)] = 0
         void[state == 2] = self.most_void[state == 2]
         slack[state == 0] = 0
         r, (pi, pj, pv), (si, sj, sv) = self.residual(p, void)
         unknown_p = (self.kind == FREE) & (state == 0)
-        unknown_s = (self.kind != HELD) & (state == 1) if conserves else np.zeros(n, bool)
+        unknown_s = (self.kind != PRESCRIBED) & (state == 1) if conserves else np.zeros(n, bool)
         own = ~unknown_p & ~unknown_s  # the flow to or from a reservoir, or the oil that Reynolds' condition lacks
         keep_p, keep_s = unknown_p[pj], unknown_s[sj]
         diagonal = np.flatnonzero(own)

@@ -1,4 +1,4 @@
-"""A mesh of quadrilaterals over the unwrapped bearing, with lines along everything that is held at a pressure or has a depth.
+"""A mesh of quadrilaterals over the unwrapped bearing, with lines along everything that has a prescribed pressure or has a depth.
 
 Nodes (i, j) lie at angles phi[i, j], around the bearing and periodic, and at z[j] along it. Rows run straight around, so that
 a surface carries oil along them. Borders of rectangles are lines of the mesh; of ellipses, nodes are moved onto them along their row.

@@ -154,8 +154,8 @@ def _feature(b, keys, p_cav, turn):
     else:
         arc, length = keys.number("arc", 2 * math.pi), keys.number("length", b.L)
     keys.end()
-    held = None if pressure is None else max(quantity(pressure) - p_cav, 0.0)
-    return Feature("hole" in kind, phi + turn * on_journal, z, arc, length, held, depth, on_journal)
+    prescribed = None if pressure is None else max(quantity(pressure) - p_cav, 0.0)
+    return Feature("hole" in kind, phi + turn * on_journal, z, arc, length, prescribed, depth, on_journal)
 
 
 def _profile(keys, turn):

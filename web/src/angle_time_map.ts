@@ -6,7 +6,7 @@ import { line, paintColourBar, verticalText, type Box } from "./colour_bar";
 import type { Numbers, Run } from "./data";
 import { extent, type FieldKind } from "./film_fields";
 import type { Axis } from "./series";
-import { FilmAxis, surfaceOf, told } from "./surface";
+import { FilmAxis, surfaceOf, textOf } from "./surface";
 import { palette } from "./theme";
 import { axisLabel, format, megapascal, micrometre, withUnit } from "./units";
 
@@ -41,7 +41,7 @@ export class AngleTimeMap extends Drawing {
     });
   }
 
-  /** The maps of one bearing, or null where the file has none or but one instant; `pick` is told a row of the maps. */
+  /** The maps of one bearing, or null where the file has none or but one instant; `pick` is given a row of the maps. */
   static of(run: Run, bearing: string, axis: Axis, pick: (rowOfSeries: number) => void): AngleTimeMap | null {
     const { along } = surfaceOf(run, bearing);
     const nodes = run.dataset(`/bearings/${bearing}/fields/${along.key}`)?.values;
@@ -103,7 +103,7 @@ export class AngleTimeMap extends Drawing {
     const value = this.sample(this.rowAt(this.valueAt(u)), this.along.index(v));
     return [
       Number.isNaN(value) ? "between arcs" : `${label} ${withUnit(value * display.factor, display.unit)}`,
-      `${told(this.along.coordinate, this.along.valueAt(v))}, ${this.axis.label} ${withUnit(this.valueAt(u), this.axis.unit, 5)}`,
+      `${textOf(this.along.coordinate, this.along.valueAt(v))}, ${this.axis.label} ${withUnit(this.valueAt(u), this.axis.unit, 5)}`,
     ];
   }
 

@@ -51,7 +51,7 @@ function caption(whole: string, isCycle: boolean, count: number, begin: number, 
   return `${capital(whole)} over ${over}. Cross: peak pressure; ring: smallest film thickness.${wear}`;
 }
 
-/** How instants within the cycle are told: by the crank's angle where there is one, else by the time since its beginning. */
+/** How instants within the cycle are shown: by the crank's angle where there is one, else by the time since its beginning. */
 function clockOf(run: Run, begin: number): { label: string; begin: number; display: Display } {
   const time = run.column("/time");
   const angle = run.column("/crank_angle");

@@ -6,7 +6,7 @@ import { line, paintColourBar, verticalText, type Box } from "./colour_bar";
 import type { FeatureText } from "./data";
 import type { FieldKind, FilmFields } from "./film_fields";
 import { extent } from "./film_fields";
-import { told } from "./surface";
+import { textOf } from "./surface";
 import { palette } from "./theme";
 import { axisLabel, withUnit } from "./units";
 
@@ -89,7 +89,7 @@ export class FieldMap extends Drawing {
     const value = this.sample(field, along.index(u), across.index(v)) * display.factor;
     return [
       Number.isNaN(value) ? "between arcs" : `${label} ${withUnit(value, display.unit)}`,
-      `${told(along.coordinate, along.valueAt(u))}, ${told(across.coordinate, across.valueAt(v))}`,
+      `${textOf(along.coordinate, along.valueAt(u))}, ${textOf(across.coordinate, across.valueAt(v))}`,
     ];
   }
 

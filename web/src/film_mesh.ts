@@ -5,7 +5,7 @@ import { colour } from "./colormap";
 import { nearest, type FilmFields } from "./film_fields";
 import type { Size, Surface } from "./surface";
 
-/** The frame that places of a film are told in, in the axes of the body that has it. */
+/** The frame that places of a film are given in, in the axes of the body that has it. */
 export interface Frame {
   centre: Vector3;
   axis: Vector3;

@@ -1,5 +1,5 @@
 // Curves of whatever the results file holds of a thing and no figure of its own shows: a quantity that the program
-// learns to write down is seen in the report without a line of it being changed.
+// learns to write down appears in the report without a line of it being changed.
 
 import type { Run, SeriesText } from "./data";
 import type { Curve, LineFigure } from "./line_plot";

@@ -152,7 +152,7 @@ export class RunView {
   }
 
   private headline(): HTMLElement | null {
-    // The verdict has told those of an only bearing.
+    // The verdict has shown those of an only bearing.
     if (this.run.children("/bearings").length < 2) return null;
     const tiles = keyFigures.flatMap(([name, label]) => {
       const row = keyRow(this.run, this.bearing, name);

@@ -59,7 +59,7 @@ function judged(study: StudyView): Judgement[] {
     }
   const most = 4;
   const all = [...remarks.values()];
-  const told: Judgement[] = all.slice(0, most).map(({ judgement, runs }) => ({ level: judgement.level, text: `${runs.length > 3 ? `${runs.length} runs` : runs.join("; ")}: ${judgement.text}` }));
-  if (all.length > most) told.push({ level: worstLevel(all.slice(most).map(({ judgement }) => judgement)), text: `${all.length - most} more remarks on single runs` });
-  return told.length > 0 ? told : [{ level: "good", text: "Every run completed, without contact, with its balances closed" }];
+  const shown: Judgement[] = all.slice(0, most).map(({ judgement, runs }) => ({ level: judgement.level, text: `${runs.length > 3 ? `${runs.length} runs` : runs.join("; ")}: ${judgement.text}` }));
+  if (all.length > most) shown.push({ level: worstLevel(all.slice(most).map(({ judgement }) => judgement)), text: `${all.length - most} more remarks on single runs` });
+  return shown.length > 0 ? shown : [{ level: "good", text: "Every run completed, without contact, with its balances closed" }];
 }

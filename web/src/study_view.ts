@@ -157,9 +157,9 @@ export class StudyView {
         left: { label: this.basis === "cycle" ? end.ofCycle : end.label, unit: end.display.unit, fromZero: end.fromZero },
         curves,
       });
-      const told = this.basis === "cycle" ? `${capital(end.ofCycle)} ${this.hasCycles() ? "of the last cycle" : "of the whole run"}` : `${capital(end.label)} at the end of the run`;
+      const title = this.basis === "cycle" ? `${capital(end.ofCycle)} ${this.hasCycles() ? "of the last cycle" : "of the whole run"}` : `${capital(end.label)} at the end of the run`;
       const over = numbers ? ` over ${study.abscissa.replaceAll("_", " ")}` : "";
-      return [figure(`study-${end.name}`, `${told}${over}.`, plot.tools, plot.element)];
+      return [figure(`study-${end.name}`, `${title}${over}.`, plot.tools, plot.element)];
     });
   }
 
@@ -195,9 +195,9 @@ export class StudyView {
     ];
     if (study.runs.some((run) => run.attribute("/", "status") !== "completed"))
       columns.push(["status", "how the run ended", statusName]);
-    const told = [...study.parameters, ...study.differing];
+    const varied = [...study.parameters, ...study.differing];
     const head = [
-      ...told.map((p) => h("th", { scope: "col" }, p.replaceAll("_", " "))),
+      ...varied.map((p) => h("th", { scope: "col" }, p.replaceAll("_", " "))),
       ...columns.map(([short, long]) => h("th", { scope: "col", class: "number", title: long }, short)),
       h("th", { scope: "col" }, h("span", { class: "visually-hidden" }, "Detail")),
     ];
@@ -205,7 +205,7 @@ export class StudyView {
       h(
         "tr",
         { "data-run": run.name },
-        ...told.map((p) => h("td", {}, study.value(run, p))),
+        ...varied.map((p) => h("td", {}, study.value(run, p))),
         ...columns.map(([, , value]) => h("td", { class: "number" }, value(run))),
         h("td", {}, h("button", { type: "button", class: "quiet", "aria-label": `Show ${study.label(run)} in detail`, click: () => this.select(run) }, "Show")),
       ),

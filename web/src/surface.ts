@@ -35,7 +35,7 @@ export interface Surface {
   across: Coordinate;
   /** A place of the film in the bearing's frame, x, y, z, a little off the surface where bodies would hide it. */
   point: (along: number, across: number, size: Size) => [number, number, number];
-  /** The part that the film's force is told of, and the one that moves against it. */
+  /** The part that the film's force is reported on, and the one that moves against it. */
   held: string;
   moving: string;
   /** The thing as a whole, and its map. */
@@ -87,7 +87,7 @@ function first(test: (surface: Surface) => boolean): Surface {
   return Object.values(surfaces).find(test) ?? bore;
 }
 
-/** By the coordinate that its places are told in. */
+/** By the coordinate that its places are given in. */
 export function surfaceOf(run: Run, bearing: string): Surface {
   const names = new Set(run.namesAfter(`/bearings/${bearing}/`));
   return first(({ along }) => names.has(`fields/${along.key}`) || names.has(`h_min_${along.key}`));
@@ -105,7 +105,7 @@ export function axisName({ name, symbol }: Coordinate): string {
 }
 
 /** "φ 194.2°". */
-export function told({ symbol, display, digits }: Coordinate, value: number): string {
+export function textOf({ symbol, display, digits }: Coordinate, value: number): string {
   return `${symbol} ${withUnit(value * display.factor, display.unit, digits)}`;
 }
 

@@ -27,7 +27,7 @@ const orders = [0.5, 1, 2, 3];
 export function waterfall(ridges: Ridge[], { x: xLabel, y: yLabel, unit, amplitude, turns }: WaterfallAxes): SVGElement {
   const rows = [...ridges].sort((a, b) => b.at - a.at);
   const top = peak(rows);
-  const plot = canvasOf(frame, `Waterfall of spectra: ${rows.length} spectra, ${yLabel} from ${format(rows[rows.length - 1]!.at)} to ${format(rows[0]!.at)}; ${told(top, unit, amplitude)}`);
+  const plot = canvasOf(frame, `Waterfall of spectra: ${rows.length} spectra, ${yLabel} from ${format(rows[rows.length - 1]!.at)} to ${format(rows[0]!.at)}; ${textOf(top, unit, amplitude)}`);
   const x = scaleOf([0, Math.max(...rows.map((row) => row.frequency[row.frequency.length - 1] ?? 0))], frame.left, frame.width - frame.right, 0);
   const places = rows.map((row) => row.at);
   const y = scaleOf([Math.min(...places), Math.max(...places)], frame.height - frame.bottom, frame.top + tallest, 0.02);
@@ -38,7 +38,7 @@ export function waterfall(ridges: Ridge[], { x: xLabel, y: yLabel, unit, amplitu
     plot.append(withTitle(svg("path", { d: path(points), class: "ridge" }), withUnit(row.at, unit)));
   }
   if (turns) for (const order of orders) orderLine(plot, order, order * turns, places, x, y);
-  plot.append(svg("text", { x: frame.width - frame.right, y: frame.top + 8, "text-anchor": "end" }, told(top, unit, amplitude)));
+  plot.append(svg("text", { x: frame.width - frame.right, y: frame.top + 8, "text-anchor": "end" }, textOf(top, unit, amplitude)));
   return plot;
 }
 
@@ -55,7 +55,7 @@ function peak(rows: Ridge[]): Peak {
   return best;
 }
 
-function told({ amplitude, frequency, at }: Peak, unit: string, ofAmplitude: string): string {
+function textOf({ amplitude, frequency, at }: Peak, unit: string, ofAmplitude: string): string {
   return `largest amplitude ${withUnit(amplitude, ofAmplitude)} at ${format(frequency)} Hz, ${withUnit(at, unit)}`;
 }
 

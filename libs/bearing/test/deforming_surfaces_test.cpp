@@ -138,7 +138,7 @@ TEST_CASE("ShellThatWidensEverywhere_IsAWiderBearing") {
   film::FilmModel narrow = rough_film(), wide = rough_film();
   const double widening = 3e-6;
   wide.c += widening;
-  // The clearance also scales how strongly a supply line is held.
+  // The clearance also scales how strongly the pressure of a supply line is prescribed.
   for (film::FilmModel* model : {&narrow, &wide}) {
     model->supply.kind = film::SupplyKind::none;
     model->edge_left.pressure = model->edge_right.pressure = 2e5;
@@ -179,7 +179,7 @@ std::shared_ptr<const ElasticSurface> big_end_bore(double width) {
   return std::make_shared<ElasticSurface>(surface);
 }
 
-/// The film's answer to `motion`, held for a step.
+/// The film's answer to `motion`, kept for a step.
 BearingObservation observation_of(JournalBearing& bearing, mbd::RelativeMotion motion) {
   mbd::ForceResponse response;
   const double dt = std::exchange(motion.dt, 0.0);

@@ -110,7 +110,7 @@ TEST_CASE("OneEffectiveTemperature_IsThatOfAnOilThatThinsByShear") {
 
 // A load that the film carries with cold oil and not with the oil it warms, and a film whose heat leaves it only
 // with oil of impossible temperature are reported as such, with the position where layers are solved.
-TEST_CASE("ThermalRunaway_IsToldAsSuch") {
+TEST_CASE("ThermalRunaway_IsReportedAsSuch") {
   const film::Lubricant oil = vg46(323.15);
   const film::ThermalModel thermal{.layers = 3, .T_supply = 323.15, .T_edges = 323.15};
   struct Trial {
@@ -162,7 +162,7 @@ TEST_CASE("BoreThatHeatWidens_IsOneOfLargerClearance") {
   CHECK(summary.heat_iterations <= 25);
   REQUIRE(grown.thermal_shape.size() == model.grid.size());
   const double growth = grown.thermal_shape[0];
-  CHECK(growth > 3e-6);  // a share of the clearance of 50 um that matters
+  CHECK(growth > 3e-6);  // a fraction of the clearance of 50 um that matters
   CHECK(growth == relative(5e-8 * grown.heat->observed.balance.to_shell).epsilon(1e-7));  // 1e-8 of temperatures
   CHECK(grown.heat->observed.T_body_max - grown.heat->T_body[0] == 0);
   CHECK(grown.heat->T_body[0] == relative(313.15 + 0.1 * grown.heat->observed.balance.to_shell).epsilon(1e-12));  // eps
@@ -215,7 +215,7 @@ TEST_CASE("JournalThatHeatGrows_IsOneInASmallerClearance") {
   const film::HeatObservables& observed = grown.heat->observed;
   CHECK(observed.balance.error() < 1e-8);  // what the last change of temperature leaves
   const double growth = grown.journal_shape[0];
-  CHECK(growth > 3e-6);  // a share of the clearance of 50 um that matters
+  CHECK(growth > 3e-6);  // a fraction of the clearance of 50 um that matters
   CHECK(growth == relative(2e-8 * observed.balance.to_journal).epsilon(1e-7));  // 1e-8 of temperatures
   CHECK(grown.heat->T_journal_body[0] == relative(313.15 + 0.1 * observed.balance.to_journal).epsilon(1e-12));  // eps
   CHECK(observed.T_journal_body_max == grown.heat->T_journal_body[0]);
@@ -257,7 +257,7 @@ TEST_CASE("BoreAndJournalThatGrowAlike_KeepTheirClearance") {
   CHECK(both.film.p_max == relative(rigid.film.p_max).epsilon(1e-3));  // likewise
 }
 
-TEST_CASE("JournalThatFillsItsBore_IsTold") {
+TEST_CASE("JournalThatFillsItsBore_IsReported") {
   film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
   auto journal = std::make_shared<film::JournalConduction>(*even_journal(model.grid, 0.1, 5e-8).conduction);
   journal->shape0 = Eigen::VectorXd::LinSpaced(model.grid.n_z, 0, 51e-6);  // at one end of the bearing
@@ -491,7 +491,7 @@ TEST_CASE("OneEffectiveTemperature_MovesTheClearance") {
   CHECK(state.point.growth == relative(-0.05 * 12e-6 * 50).epsilon(1e-12));  // round-off
 }
 
-TEST_CASE("ClearanceThatCloses_IsToldAsASeizure") {
+TEST_CASE("ClearanceThatCloses_IsReportedAsASeizure") {
   film::FilmModel model = scaled_for(model_of(vg46(323.15), 48, 9), point());
   SteadyOptions options{.thermal = ring_at_50()};
   options.thermal->expansion = film::ThermalExpansion{.shell = 0, .journal = 60e-6, .T_reference = 293.15};

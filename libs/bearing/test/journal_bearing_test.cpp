@@ -111,7 +111,7 @@ TEST_CASE("RejectedStep_LeavesTheFilmAsItWas") {
 
 // Beside the centre a step holds its supply line where it was; the widest gap of its end may be half a turn away. What
 // bodies put into the film that is shown is what this film takes.
-TEST_CASE("LineHeldOverAStep_IsShownWhereItWasHeld") {
+TEST_CASE("LineFixedOverAStep_IsShownWhereItWasFixed") {
   film::FilmModel model;
   model.c = 34e-6;
   model.grid = {.n_phi = 48, .n_z = 9};

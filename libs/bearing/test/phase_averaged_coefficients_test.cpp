@@ -52,11 +52,11 @@ Spread spread_on(int n_phi) {
     };
     widen(low, high, one), widen(low_mean, high_mean, mean);
   }
-  const auto share = [](const Coefficients& lowest, const Coefficients& highest) {
+  const auto fraction = [](const Coefficients& lowest, const Coefficients& highest) {
     return std::max((highest.K - lowest.K).maxCoeff() / highest.K.cwiseAbs().maxCoeff(),
                     (highest.C - lowest.C).maxCoeff() / highest.C.cwiseAbs().maxCoeff());
   };
-  return {share(low, high), share(low_mean, high_mean)};
+  return {fraction(low, high), fraction(low_mean, high_mean)};
 }
 
 TEST_CASE("CoefficientsOfACavitatedFilm_HardlySeeWhereTheLinesLie") {

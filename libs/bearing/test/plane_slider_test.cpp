@@ -97,19 +97,19 @@ TEST_CASE("TaperOnAFineGrid_MeetsTheClosedForm") {
 }
 
 // Rayleigh's step (slider.10): of second order where its border lies on a line, as the load is a sum over nodes of a
-// pressure with a kink; between lines to a small share of a cell.
+// pressure with a kink; between lines to a small fraction of a cell.
 TEST_CASE("Step_MeetsTheClosedForm") {
   const double depth = 0.866 * h2, h1 = h2 + depth;
-  for (const double share : {0.72, 0.7183}) {
+  for (const double fraction : {0.72, 0.7183}) {
     for (const int cells : {50, 200}) {
-      CAPTURE(share);
+      CAPTURE(fraction);
       CAPTURE(cells);
-      const double B1 = share * B, B2 = B - B1;
+      const double B1 = fraction * B, B2 = B - B1;
       Slider s = long_slider({}, cells + 1);
       s.model.features = {
           {.name = "step", .phi = 0.5 * (B1 - B), .arc = B1, .length = L, .is_fed = false, .depth = depth}};
       const double exact = 3 * mu * U * L * (h1 - h2) * B * B1 * B2 / (B1 * h2 * h2 * h2 + B2 * h1 * h1 * h1);
-      const bool is_on_line = std::abs(share * cells - std::round(share * cells)) < 1e-9;  // round-off
+      const bool is_on_line = std::abs(fraction * cells - std::round(fraction * cells)) < 1e-9;  // round-off
       CHECK(load(s.solve()) == relative(exact).epsilon(is_on_line ? 1.0 / (cells * cells) : 0.05 / cells));  // as above
     }
   }

@@ -358,7 +358,7 @@ TEST_CASE("PositionOfALoad_CarriesThatLoad") {
   CHECK(bearing_numbers(model, state).attitude > 0.3);  // in the sense of rotation, which is backwards here
 }
 
-TEST_CASE("FilmWithoutOil_IsToldSo") {
+TEST_CASE("FilmWithoutOil_IsReported") {
   film::FilmModel model = flooded_film(30, 7);
   model.supply.kind = film::SupplyKind::none;
   SteadyState state;
@@ -400,7 +400,7 @@ TEST_CASE("LoadBeyondTheForceOfASupply_IsFoundFurtherOut") {
 }
 
 // Weibull: Barus' oil between rigid surfaces has no film where alpha times the isoviscous pressure reaches 1.
-TEST_CASE("LoadBeyondWeibullsLimit_IsToldWithWhatTheFilmBears") {
+TEST_CASE("LoadBeyondWeibullsLimit_IsReportedWithWhatTheFilmBears") {
   film::FilmModel model = flooded_film(24, 7);
   model.lubricant.viscosity_law = film::Barus{1e-7};
   SteadyState state;

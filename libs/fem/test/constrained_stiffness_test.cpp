@@ -8,7 +8,7 @@
 #include "small_bodies.h"
 
 namespace hersey::fem {
-namespace held_stiffness_test {
+namespace constrained_stiffness_test {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -78,5 +78,5 @@ TEST_CASE("FixedEverywhere_NothingMoves") {
   CHECK(-solution.reaction.sum() == doctest::Approx(-7850));
 }
 
-}  // namespace held_stiffness_test
+}  // namespace constrained_stiffness_test
 }  // namespace hersey::fem

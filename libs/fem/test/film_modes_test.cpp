@@ -30,7 +30,7 @@ FilmSurface must_make(const Mesh& mesh, const FilmCylinder& cylinder, const Surf
 }
 
 /// A body fixed by frames.
-ConstrainedStiffness held_by(const ElasticBody& body, const std::vector<InterfaceFrame>& frames) {
+ConstrainedStiffness fixed_at(const ElasticBody& body, const std::vector<InterfaceFrame>& frames) {
   const FrameSupports supports = frame_supports(body.mesh, frames);
   ConstrainedStiffness stiffness(body.K, body.m, supports.fixed_dofs, supports.C);
   REQUIRE(stiffness.factorise().solved());
@@ -50,7 +50,7 @@ TEST_CASE("RingUnderFilmPressure_WidensAsLameSays") {
     CAPTURE(name_of(type));
     const ElasticBody body = assemble(ring_mesh(type, ring), {steel});
     // The mean of the outside is fixed: a pressure all around needs no force for that.
-    const ConstrainedStiffness stiffness = held_by(body, {average_on(body.mesh, "outside")});
+    const ConstrainedStiffness stiffness = fixed_at(body, {average_on(body.mesh, "outside")});
     const FilmSurface surface = must_make(body.mesh, film_of(ring), {16, 4, ring.width});
     const VectorXd f = surface.T * VectorXd::Ones(surface.functions.count());
     const VectorXd d = surface.coefficients(stiffness.solve(f));
@@ -84,7 +84,7 @@ TEST_CASE("ThinLiner_GivesWayAsColumnsDo") {
 TEST_CASE("FilmModes_MissNoMoreThanTheySay_AndLessTheMoreThereAre") {
   const Mesh mesh = read_mesh(std::filesystem::path(hersey::source_dir()) / "examples/meshes/conrod.msh", 1e-3);
   const ElasticBody body = assemble(mesh, {steel});
-  const ConstrainedStiffness stiffness = held_by(body, {average_on(mesh, "small_end"), average_on(mesh, "big_end")});
+  const ConstrainedStiffness stiffness = fixed_at(body, {average_on(mesh, "small_end"), average_on(mesh, "big_end")});
   const FilmCylinder film{.X = {}, .R = 0.0225, .L = 0.0156, .is_bore = true};
   const std::vector<ElementFace> faces = faces_called(mesh, "big_end");
   const FilmSurface surface = must_make(mesh, film, functions_for(mesh, faces, film), 2e-4);
@@ -119,7 +119,7 @@ TEST_CASE("FilmModes_OfAMeshTooCoarseForItsFunctions_AreFewer") {
   // 48 x 7 functions on 12 linear elements around and 2 along: 36 radial displacements.
   const Ring ring{.cells = {1, 12, 2}};
   const ElasticBody body = assemble(ring_mesh(ElementType::hex8, ring), {steel});
-  const ConstrainedStiffness stiffness = held_by(body, {average_on(body.mesh, "outside")});
+  const ConstrainedStiffness stiffness = fixed_at(body, {average_on(body.mesh, "outside")});
   const FilmSurface surface = must_make(body.mesh, film_of(ring), {48, 7, ring.width});
   const FilmModes modes = film_modes(stiffness, surface, 1000, 1e-9);
   CHECK(modes.compliance.size() <= 36 * 3);

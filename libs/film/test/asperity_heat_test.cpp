@@ -12,7 +12,7 @@ namespace asperity_heat_test {
 const SurfaceMaterial steel{}, lining{.conductivity = 150, .heat_capacity = 2.4e6};
 
 /// Flux into the first of two half-spaces, cut into layers of `dx`, over that made between them, after `steps` of dt.
-double share_of_first(const SurfaceMaterial& first, const SurfaceMaterial& second, double dx, double dt, int steps) {
+double fraction_of_first(const SurfaceMaterial& first, const SurfaceMaterial& second, double dx, double dt, int steps) {
   constexpr int n = 300;
   Eigen::VectorXd T = Eigen::VectorXd::Zero(2 * n);  // of the first from within to its surface, then of the second
   double into_first = 0;
@@ -36,14 +36,14 @@ double share_of_first(const SurfaceMaterial& first, const SurfaceMaterial& secon
 }
 
 TEST_CASE("HeatOfFriction_IsSharedAsBetweenHalfSpaces") {
-  const double share = friction_share(lining, steel);
-  CHECK(share ==
+  const double fraction = heat_partition(lining, steel);
+  CHECK(fraction ==
         relative(std::sqrt(150 * 2.4) / (std::sqrt(150 * 2.4) + std::sqrt(50 * 3.6))).epsilon(1e-14));  // round-off
-  CHECK(friction_share(steel, steel) == 0.5);
-  CHECK(friction_share(steel, lining) == relative(1 - share).epsilon(1e-14));  // likewise
-  // Depths of heat of 26 and 49 layers after 400 steps: their second differences err by less than a share of 1e-3.
+  CHECK(heat_partition(steel, steel) == 0.5);
+  CHECK(heat_partition(steel, lining) == relative(1 - fraction).epsilon(1e-14));  // likewise
+  // Depths of heat of 26 and 49 layers after 400 steps: their second differences err by less than a fraction of 1e-3.
   const double dx = 0.1e-6, dt = 0.4 * dx * dx * lining.heat_capacity / lining.conductivity;
-  CHECK(share_of_first(lining, steel, dx, dt, 400) == relative(share).epsilon(2e-3));
+  CHECK(fraction_of_first(lining, steel, dx, dt, 400) == relative(fraction).epsilon(2e-3));
 }
 
 FilmModel rubbing() {
@@ -59,8 +59,8 @@ FilmModel rubbing() {
   return model;
 }
 
-// Walls whose temperatures are given and a viscosity that none changes: films that differ in nothing but the share, so
-// that what is moved from wall to wall is the asperities' heat.
+// Walls whose temperatures are given and a viscosity that none changes: films that differ in nothing but the fraction,
+// so that what is moved from wall to wall is the asperities' heat.
 TEST_CASE("AsperitiesHeatWallsByTheirEffusivities") {
   const FilmModel model = rubbing();
   const Journal journal{.e = {-27e-6, 0}, .omega_journal = 120};
@@ -72,13 +72,13 @@ TEST_CASE("AsperitiesHeatWallsByTheirEffusivities") {
     return solve_hot(model, thermal, motion, journal.e);
   };
   const HotFilm even = solved(steel, steel), lined = solved(lining, steel);
-  const double friction = even.film.power_asperity, moved = (friction_share(lining, steel) - 0.5) * friction;
+  const double friction = even.film.power_asperity, moved = (heat_partition(lining, steel) - 0.5) * friction;
   REQUIRE(friction > 0.05 * even.heat.balance.power);
   // The residual that GMRES leaves of a steady film's equations, 1e-4, is the same in both.
   CHECK(lined.heat.balance.to_shell - even.heat.balance.to_shell == relative(moved).epsilon(1e-8));
   CHECK(lined.heat.balance.to_journal - even.heat.balance.to_journal == relative(-moved).epsilon(1e-8));  // likewise
   CHECK(lined.heat.balance.power == even.heat.balance.power);
-  // A wall without heat leaves its share to the oil.
+  // A wall without heat leaves its part to the oil.
   thermal.shell = InsulatedWall{};
   const HotFilm insulated = solved(lining, steel);
   CHECK(insulated.heat.balance.to_shell == 0);
@@ -86,8 +86,8 @@ TEST_CASE("AsperitiesHeatWallsByTheirEffusivities") {
     CHECK(hot->heat.balance.error() < 1e-8);  // the film's residual
 }
 
-// In a ring and a free journal the balance closes with all shares.
-TEST_CASE("BalanceOfHeat_ClosesWithAnyShares") {
+// In a ring and a free journal the balance closes with all fractions.
+TEST_CASE("BalanceOfHeat_ClosesWithAnyFractions") {
   FilmModel model = rubbing();
   model.features.push_back({.name = "hole", .phi = 1, .z = 2e-3, .arc = 0.5, .length = 8e-3, .pressure = 3e5});
   const Journal journal{.e = {-27e-6, 0}, .omega_journal = 120};

@@ -69,7 +69,7 @@ class Machine {
       if (history_.dt > 0) history_.theta = film_fields(reynolds_.model(), motion_, u_).theta;
     }
   }
-  double settle() { return heat.settle_walls(heat.mean_exchange().T).largest; }
+  double settle() { return heat.settle_walls(heat.mean_heat_flow().T).largest; }
 
   FilmHeat heat;
 
@@ -95,11 +95,11 @@ TEST_CASE("JournalInABody_IsALumpedBodyOfItsConductance") {
     for (int k = 0; k < iterations; ++k) {
       lumped.run(1);
       const FilmTerminals at = terminals_of(by_node);
-      network.advance(0, {{at, lumped.heat.exchange()}});
-      lumped.heat.move_walls(network.walls(at, lumped.heat.exchange().T));
+      network.advance(0, {{at, lumped.heat.heat_flow()}});
+      lumped.heat.move_walls(network.walls(at, lumped.heat.heat_flow().T));
     }
     const HeatState &one = body.heat.state(), &other = lumped.heat.state();
-    constexpr double solved = 1e-5;  // K: of some 30 K, the share to which the equations of heat are solved
+    constexpr double solved = 1e-5;  // K: of some 30 K, the fraction to which the equations of heat are solved
     CHECK(std::abs(one.journal - other.journal) < solved);
     CHECK((one.film - other.film).cwiseAbs().maxCoeff() < solved);
     CHECK(one.journal_heat == relative(body.heat.observables().balance.to_journal).epsilon(1e-12));  // round-off
@@ -180,7 +180,7 @@ TEST_CASE("JournalOverCycles_ResumesToTheSameNumbers") {
   resumed.persist(archive);
   CHECK(archive.unread().empty());
   CHECK(resumed.journal_growth_in_time() == machine.heat.journal_growth_in_time());
-  const WallExchange observed = resumed.mean_exchange();
+  const WallHeatFlow observed = resumed.mean_heat_flow();
   CHECK(machine.settle() == resumed.settle_walls(observed.T).largest);
   CHECK(machine.heat.state().journal == resumed.state().journal);
   CHECK(machine.heat.state().journal_heat == resumed.state().journal_heat);

@@ -116,7 +116,7 @@ TEST_CASE("BodyOverCycles_ResumesToTheSameNumbers") {
   resumed.persist(archive);
   CHECK(archive.unread().empty());
   CHECK(resumed.shell_opening_in_time() == machine.heat.shell_opening_in_time());
-  const WallExchange observed = resumed.mean_exchange();
+  const WallHeatFlow observed = resumed.mean_heat_flow();
   CHECK(machine.settle().largest == resumed.settle_walls(observed.T).largest);
   CHECK(machine.heat.state().shell == resumed.state().shell);
   CHECK(machine.heat.state().wall_heat == resumed.state().wall_heat);

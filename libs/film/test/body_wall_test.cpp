@@ -90,7 +90,8 @@ TEST_CASE("HeatIntoABody_IsThatOfTheBalance_AndItsTemperaturesFollow") {
     const HeatState& state = heat.state();
     CHECK(state.wall_heat.sum() == relative(heat.observables().balance.to_shell).epsilon(1e-12));  // round-off
     const Eigen::VectorXd T = body.conduction->temperatures(state.wall_heat);
-    CHECK((state.shell - T).cwiseAbs().maxCoeff() < 1e-3);  // share of the start that the solver leaves: 1e-5 of 100 K
+    CHECK((state.shell - T).cwiseAbs().maxCoeff() <
+          1e-3);  // fraction of the start that the solver leaves: 1e-5 of 100 K
   }
 }
 

@@ -106,9 +106,10 @@ TEST_CASE("OilAtATemperature_HasTheViscosityAndDensityOfItsLaws") {
 }
 
 TEST_CASE("CavitatedShear_IsReportedWithTheChoiceMade") {
-  const std::string full = choice_in_words(CavitatedShear::full), share = choice_in_words(CavitatedShear::film_share);
+  const std::string full = choice_in_words(CavitatedShear::full),
+                    fraction = choice_in_words(CavitatedShear::film_share);
   CHECK(full.find("over the whole gap (`cavitated_shear: full`)") < full.find("`film_share`"));
-  CHECK(share.find("the oil's share of the gap (`cavitated_shear: film_share`)") < share.find("(`full`)"));
+  CHECK(fraction.find("the oil's share of the gap (`cavitated_shear: film_share`)") < fraction.find("(`full`)"));
 }
 
 TEST_CASE("JournalThatKeepsItsShape_HasNoneOnAnyGrid") {

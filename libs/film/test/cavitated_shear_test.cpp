@@ -31,7 +31,7 @@ TEST_CASE("OtherShear_IsThatOfTheSameFilmWithTheOtherChoice") {
       const FilmObservables o = observe_film(m, surfaces(m, journal), {}, journal.e, film.u, journal.tilt);
       CHECK(film.observed.power_film_other_shear == relative(o.power_film).epsilon(round_off));
       CHECK(film.observed.torque_journal_other_shear == relative(o.torque_journal).epsilon(round_off));
-      // The whole gap is sheared more than the oil's share of it, and the two figures differ.
+      // The whole gap is sheared more than the oil's part of it, and the two figures differ.
       const double more = o.power_film / film.observed.power_film - 1;
       CHECK((shear == CavitatedShear::full ? -more : more) > 0.02);
     }
@@ -60,7 +60,7 @@ TEST_CASE("BordersOfCavities_LieBetweenNodes") {
   }
 }
 
-// A node beside a supply line is one as any other where the line lies on the next node: torque and cavitated share
+// A node beside a supply line is one as any other where the line lies on the next node: torque and cavitated fraction
 // jumped there by up to 1e-3 and 1 %, towards one side only, so that machine and mirror image differed.
 TEST_CASE("BordersOfCavitiesBesideALine_DoNotDependOnTheNodeItLiesOn") {
   FilmModel m{.R = 0.02, .L = 0.02, .c = 2e-5, .grid = {60, 9}, .cavitation = Cavitation::reynolds};
@@ -111,7 +111,7 @@ TEST_CASE("LeastTensionAndLeastLack_ScaleWithTheSpeedOfTheFilm") {
   }
 }
 
-TEST_CASE("SharesNearTheCentre_FollowTheSpeed") {
+TEST_CASE("FractionsNearTheCentre_FollowTheSpeed") {
   for (const Cavitation cavitation : {Cavitation::guembel, Cavitation::reynolds}) {
     FilmModel m{.R = 0.02, .L = 0.02, .c = 2e-5, .grid = {36, 7}, .cavitation = cavitation};
     const Journal journal = turning(m, 0.002, 10);
@@ -130,14 +130,14 @@ TEST_CASE("SharesNearTheCentre_FollowTheSpeed") {
     REQUIRE(at.size() == after.size());
     double largest = 0;
     for (std::size_t k = 0; k < at.size(); ++k) {
-      CHECK(std::abs(at[k].by_rate - (after[k].share - before[k].share) / (2 * step)) < step);
+      CHECK(std::abs(at[k].by_rate - (after[k].fraction - before[k].fraction) / (2 * step)) < step);
       largest = std::max(largest, std::abs(at[k].by_rate));
     }
     CHECK(largest > 0.05);
   }
 }
 
-TEST_CASE("SharesBesideALine_HaveTheirDerivatives") {
+TEST_CASE("FractionsBesideALine_HaveTheirDerivatives") {
   FilmModel m{.R = 0.02, .L = 0.02, .c = 2e-5, .grid = {60, 9}, .cavitation = Cavitation::reynolds};
   m.lubricant.mu0 = 0.01;
   m.supply = {.kind = SupplyKind::fixed_angle, .pressure = 2e4};
@@ -147,7 +147,7 @@ TEST_CASE("SharesBesideALine_HaveTheirDerivatives") {
   const Eigen::VectorXd u = solve_cold(m, motion, journal.e).u;
   FlowBalance balance(m);
   constexpr double step = 1e-6;  // of each scale: what it leaves, and round-off over it, is some 1e-9
-  // Shares of the nodes beside the line in the middle row, with u scaled, with the gap, with the line's position.
+  // Fractions of the nodes beside the line in the middle row, with u scaled, with the gap, with the line's position.
   const auto borders = [&](double by_u, double by_gap, double by_line) {
     SurfaceMotion moved = motion;
     moved.g.array() += by_gap * m.c;
@@ -160,7 +160,7 @@ TEST_CASE("SharesBesideALine_HaveTheirDerivatives") {
     return found;
   };
   const auto difference = [&](std::size_t k, double by_u, double by_gap, double by_line) {
-    return (borders(by_u, by_gap, by_line)[k].share - borders(-by_u, -by_gap, -by_line)[k].share) / (2 * step);
+    return (borders(by_u, by_gap, by_line)[k].fraction - borders(-by_u, -by_gap, -by_line)[k].fraction) / (2 * step);
   };
   const std::vector<CavityBorder> at = borders(0, 0, 0);
   REQUIRE(!at.empty());

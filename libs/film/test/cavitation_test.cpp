@@ -176,8 +176,8 @@ Squeeze squeeze(int n, double dt, const SqueezeFront& exact) {
     double width = 0.5;
     if (full < n / 2) {
       if (s.start == 0) s.start = t;
-      const double next = theta(full + 1), share = std::max(0.0, (theta(full) - next) / (1 - next));
-      width = (full - 0.5 + share) / n;
+      const double next = theta(full + 1), fraction = std::max(0.0, (theta(full) - next) / (1 - next));
+      width = (full - 0.5 + fraction) / n;
     }
     s.narrowest = std::min(s.narrowest, width);
     const double error = std::abs(width - exact.at(t));

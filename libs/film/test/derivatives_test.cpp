@@ -272,7 +272,7 @@ constexpr double tolerance = 1e3 * d * d + 10 * std::numeric_limits<double>::eps
 SurfaceMotion moved(const SurfaceMotion& motion, const MotionDirection& direction, double step) {
   SurfaceMotion m = motion;
   if (direction.g.size()) m.g += step * direction.g;
-  if (direction.shell_share != 0) m.shell_opening += step * direction.shell_share * direction.g;
+  if (direction.shell_fraction != 0) m.shell_opening += step * direction.shell_fraction * direction.g;
   if (direction.g_rate.size()) m.g_rate += step * direction.g_rate;
   m.u_shell += step * direction.u_shell;
   m.u_journal += step * direction.u_journal;
@@ -296,7 +296,7 @@ std::vector<std::pair<std::string, MotionDirection>> directions(const State& s) 
       {"w_journal", {.g = {}, .g_rate = {}, .w_journal = speed}},
       {"phi_journal", {.g = {}, .g_rate = {}, .phi_journal = 0.1}}};
   if (s.motion.shell_opening.size() != 0)
-    all.push_back({"gap by the shell's surface", {.g = 1e-6 * random, .g_rate = {}, .shell_share = 1}});
+    all.push_back({"gap by the shell's surface", {.g = 1e-6 * random, .g_rate = {}, .shell_fraction = 1}});
   if (s.model.supply.kind != SupplyKind::none)
     all.push_back({"phi_supply", {.g = {}, .g_rate = {}, .phi_supply = 0.1}});
   return all;
@@ -455,11 +455,11 @@ TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
           1e-8 * film.wrench.norm());
     for (Eigen::Index k = 0; k < answers.cols(); ++k) {
       const Vector6 total = partial.col(k) + reynolds.wrench_gradient(answers.col(k));
-      CHECK((film.wrench_ds.col(k) - total).norm() <= kLinear * total.norm());
+      CHECK((film.wrench_by_s.col(k) - total).norm() <= kLinear * total.norm());
       Eigen::VectorXd force = normal.by_u.cwiseProduct(answers.col(k));
       const MotionDirection& direction = all[static_cast<std::size_t>(k)];
       if (direction.g.size() > 0) force += normal.by_g.cwiseProduct(direction.g);
-      CHECK((film.Q_ds.col(k) - pushed(force)).norm() <= kLinear * pushed(force).norm());
+      CHECK((film.Q_by_s.col(k) - pushed(force)).norm() <= kLinear * pushed(force).norm());
     }
     reynolds.follow(ds, du);
     CHECK((du - du0 - answers * ds).norm() < kLinear * du.norm());

@@ -151,7 +151,7 @@ TEST_CASE("FilmWithoutPrescribedPressure_HasAnIncrement") {
       const double before = reynolds.residual().norm();
       reynolds.newton_increment(du);
       REQUIRE(du.allFinite());
-      // The equations are linear: what is left is the shift's share, below a tenth of any entry.
+      // The equations are linear: what is left is the shift's part, below a tenth of any entry.
       REQUIRE(reynolds.linearise(motion, {}, u + du).is_inside());
       CHECK(reynolds.residual().norm() < before);
     }
@@ -461,7 +461,7 @@ TEST_CASE("CavityThatEndsAtAPeak_EndsInTheCellBeforeIt") {
   CHECK(observed.reformation_angle <= grid.phi(30) + 1e-12);  // likewise
 }
 
-// A groove across the line prescribes its nodes, and the line has no share in their rows.
+// A groove across the line prescribes its nodes, and the line has no part in their rows.
 TEST_CASE("SweepsOverALineAcrossAGroove_AgreeWithNewton") {
   FilmModel m = big_end();
   m.supply = {SupplyKind::fixed_angle, 0.26, 1e5};

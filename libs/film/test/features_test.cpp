@@ -149,7 +149,7 @@ TEST_CASE("FedGroove_KeepsItsPressureAtAnyCavitationPressure") {
   }
 }
 
-TEST_CASE("RowShares_HaveTheirDerivative") {
+TEST_CASE("RowWeights_HaveTheirDerivative") {
   FilmModel m{.R = 0.03, .L = 0.02, .c = 30e-6};
   m.grid = graded_grid(40, 9, {{.position = 0.2, .reach = 0.5, .factor = 3}},
                        {{.position = 0.1, .reach = 0.2, .factor = 2}});
@@ -168,10 +168,10 @@ TEST_CASE("RowShares_HaveTheirDerivative") {
     double largest = 0, largest_drawn = 0;
     for (std::size_t k = 0; k < here.size(); ++k) {
       // Differences of step 1e-7: round-off over it.
-      CHECK(std::abs(here[k].share_phi - (after[k].share - before[k].share) / (2 * d)) < 1e-6);
-      CHECK(std::abs(here[k].draws_phi - (after[k].draws - before[k].draws) / (2 * d)) < 1e-6);  // likewise
-      largest = std::max(largest, std::abs(here[k].share_phi));
-      largest_drawn = std::max(largest_drawn, std::abs(here[k].draws_phi));
+      CHECK(std::abs(here[k].fraction_journal - (after[k].fraction - before[k].fraction) / (2 * d)) < 1e-6);
+      CHECK(std::abs(here[k].draws_journal - (after[k].draws - before[k].draws) / (2 * d)) < 1e-6);  // likewise
+      largest = std::max(largest, std::abs(here[k].fraction_journal));
+      largest_drawn = std::max(largest_drawn, std::abs(here[k].draws_journal));
     }
     CHECK(largest > 0.5);
     CHECK(largest_drawn > 0.5);

@@ -46,21 +46,21 @@ class FilmOverTime {
     advance(dt);
   }
 
-  [[nodiscard]] FilmAtNodes at_nodes() const { return {terminals_of(heat.thermal()), heat.exchange()}; }
+  [[nodiscard]] FilmAtNodes at_nodes() const { return {terminals_of(heat.thermal()), heat.heat_flow()}; }
   /// Nodes take the temperatures they have in `network`.
   void follow(const ThermalNetwork& network) {
-    heat.move_walls(network.walls(terminals_of(heat.thermal()), heat.exchange().T));
+    heat.move_walls(network.walls(terminals_of(heat.thermal()), heat.heat_flow().T));
   }
   /// Settles a network without capacities: nodes take the temperatures that follow from the mean heat since the last
   /// call, and fixed walls take theirs.
   void settle(ThermalNetwork& network) {
     const FilmTerminals at = terminals_of(heat.thermal());
-    const WallExchange observed = heat.mean_exchange();
+    const WallHeatFlow observed = heat.mean_heat_flow();
     network.advance(0, {{at, observed}});
     (void)heat.settle_walls(network.walls(at, observed.T));
   }
   /// Settles the walls with nodes at their present temperatures.
-  WallCorrection settle() { return heat.settle_walls(heat.mean_exchange().T); }
+  WallCorrection settle() { return heat.settle_walls(heat.mean_heat_flow().T); }
 
   FilmHeat heat;
 

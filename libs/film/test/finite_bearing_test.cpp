@@ -36,8 +36,8 @@ TEST_CASE("FiniteBearing_MatchesTheTable") {
     const double friction = -film.observed.torque_journal / (m.R * load) * m.R / m.c;
     CHECK(friction == doctest::Approx(number(row, "friction_variable")).epsilon(accuracy));
 
-    // The table's flows: what passes the section at the widest gap into the film, and the share that leaves sideways.
-    // The supply line feeds what left, so its flow over that at the widest gap is the side-flow ratio.
+    // The table's flows: what passes the section at the widest gap into the film, and the fraction that leaves
+    // sideways. The supply line feeds what left, so its flow over that at the widest gap is the side-flow ratio.
     const double side = film.observed.flow_left + film.observed.flow_right;
     const double flow_unit = m.R * m.c * N * m.L;
     const double side_table = number(row, "flow_variable") * number(row, "side_flow_ratio");

@@ -65,7 +65,7 @@ TEST_CASE("FixedWalls_SettleAtThoseOfTheSteadyFilm") {
     CHECK(machine.worst_balance < 1e-8);  // the film's residual
     corrections.push_back(machine.film.settle().largest);
   }
-  // 20 K in all, of which the film's own transient leaves a share of a tenth or less after each cycle.
+  // 20 K in all, of which the film's own transient leaves a fraction of a tenth or less after each cycle.
   CHECK(corrections[0] > 15);
   CHECK(corrections[3] < 0.05);
   const Journal journal = turning(model, 0.5, 300);
@@ -161,7 +161,7 @@ TEST_CASE("FixedWalls_ResumeToTheSameNumbers") {
   Archive archive(saved.content());
   resumed.persist(archive);
   CHECK(archive.unread().empty());
-  const WallExchange observed = resumed.mean_exchange();
+  const WallHeatFlow observed = resumed.mean_heat_flow();
   CHECK(machine.film.settle().largest == resumed.settle_walls(observed.T).largest);
   CHECK(machine.film.heat.state().shell == resumed.state().shell);
   CHECK(machine.film.heat.state().journal == resumed.state().journal);
@@ -268,13 +268,13 @@ TEST_CASE("FixedWallsBesideNodesThatStay_SettleAsAtTheirTemperatures") {
 // A steady film does not depend on the motion of walls over time.
 TEST_CASE("SteadyFilmWithFixedNodes_IsTheSteadyFilm") {
   const FilmModel model = bearing();
-  std::array<WallExchange, 2> observed;
+  std::array<WallHeatFlow, 2> observed;
   for (const bool fixed : {false, true}) {
     ThermalModel thermal = walls(fixed ? WallMotion::fixed : WallMotion::by_their_heat);
     thermal.journal = NodeWall{.T = 40 + zero_celsius, .node = 0, .name = "journal"};
     FilmOverTime film(model, thermal, turning(model, 0.5, 300));
     film.advance(0);
-    observed[fixed ? 1 : 0] = film.heat.exchange();
+    observed[fixed ? 1 : 0] = film.heat.heat_flow();
   }
   CHECK(observed[1].heat == observed[0].heat);
   CHECK(observed[1].by_T == observed[0].by_T);
@@ -283,14 +283,14 @@ TEST_CASE("SteadyFilmWithFixedNodes_IsTheSteadyFilm") {
 // A change in another direction than predicted leaves the relaxation at one.
 TEST_CASE("WallRelaxation_FollowsChangesInThePredictedDirection") {
   const Eigen::Vector2d ones(1, 1), predicted(10, 0);
-  for (const auto& [then, share] : std::vector<std::pair<Eigen::Vector2d, double>>{
+  for (const auto& [then, factor] : std::vector<std::pair<Eigen::Vector2d, double>>{
            {{0, 0}, 1.0}, {{2.5, 0}, 0.75}, {{9, 0}, 0.5}, {{0, 10}, 1.0}, {{12, 0}, 1.0}}) {
     WallRelaxation relaxation;
     relaxation.learn(Eigen::Vector2d(10, 0), ones);
-    CHECK(relaxation.share() == 1);
+    CHECK(relaxation.factor() == 1);
     relaxation.predict(predicted);
     relaxation.learn(then, ones);
-    CHECK(relaxation.share() == relative(share).epsilon(1e-15));  // eps
+    CHECK(relaxation.factor() == relative(factor).epsilon(1e-15));  // eps
   }
 }
 

@@ -154,7 +154,7 @@ TEST_CASE("PressureFactors_LieBetweenRidgesAcrossAndAlong") {
 
 // Patir and Cheng fitted the pressure's part in the shear stress, phi_fp = 1 - D exp(-s H), by itself. Reciprocity of
 // viscous flow ties it to the shear flow: on the smooth one of two surfaces phi_fp h = h_T - sigma Phi_s (film.46).
-TEST_CASE("ShearFlow_IsReciprocalToThePressuresShare") {
+TEST_CASE("ShearFlow_IsReciprocalToThePressuresFraction") {
   const std::array<std::array<double, 2>, 7> fits{
       {{1.51, 0.52}, {1.51, 0.54}, {1.47, 0.58}, {1.40, 0.66}, {0.98, 0.79}, {0.97, 0.91}, {0.73, 0.91}}};
   for (std::size_t row = 0; row < fits.size(); ++row) {

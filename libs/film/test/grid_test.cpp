@@ -63,9 +63,9 @@ TEST_CASE("AnAngle_LiesBetweenItsNodes") {
   for (const double angle : {0.0, 0.01, 3.0, 6.28, -0.01, 7.0, graded.phi(17), graded.phi(17) - 1e-14}) {
     const GridGeometry::Location position = g.locate(angle);
     CAPTURE(angle);
-    CHECK(position.share >= 0);
-    CHECK(position.share < 1);
-    const double found = g.phi[position.node] + position.share * g.dx[position.node] / 0.025;
+    CHECK(position.fraction >= 0);
+    CHECK(position.fraction < 1);
+    const double found = g.phi[position.node] + position.fraction * g.dx[position.node] / 0.025;
     // Just below a node counts as on it, within 1e-9 of a cell.
     CHECK(std::abs(std::remainder(found - angle, 2 * pi)) < 1e-8);
   }

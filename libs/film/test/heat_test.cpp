@@ -184,7 +184,7 @@ TEST_CASE("ConcentricFilm_IsGuessedExactly") {
     const HeatState guess = first_guess(model, thermal, T_oil, heat.state());
     const int at = model.grid.index(45, 2);  // 270 deg
     const double rise = hot.temperatures.middle[at] - thermal.T_supply;
-    CHECK(guess.film[at] - thermal.T_supply == relative(rise).epsilon(0.02));  // a share of a cell on 60 nodes
+    CHECK(guess.film[at] - thermal.T_supply == relative(rise).epsilon(0.02));  // a fraction of a cell on 60 nodes
   }
 }
 
@@ -313,7 +313,7 @@ TEST_CASE("SuppliesOfOwnTemperature_KeepIt_AndTheJournalsRotateWithIt") {
         return hot.temperatures.middle[model.grid.index(i, 5)];
       };
       REQUIRE(hot.heat.T_supplies.size() == 3);
-      constexpr double solved = 1e-8;  // share of a kelvin that the iterations of film and heat leave, over 300 K
+      constexpr double solved = 1e-8;  // fraction of a kelvin that the iterations of film and heat leave, over 300 K
       CHECK(in_the_middle_at(1) == relative(hot.heat.T_supplies[1]).epsilon(solved));
       CHECK(in_the_middle_at(turned) == relative(hot.heat.T_supplies[2]).epsilon(solved));
       CHECK(hot.heat.T_supplies[2] > hot.heat.T_supplies[1]);
@@ -453,7 +453,7 @@ TEST_CASE("RingWithoutHeatLoss_AbsorbsNothing") {
     thermal.shell = RingWall{.outer_radius = 0.05, .transfer = 0, .T_ambient = 20 + zero_celsius};
     const Journal journal = turning(model, 0.6, 300);
     const HotFilm hot = solve_hot(model, thermal, surfaces(model, journal), journal.e);
-    constexpr double solved = 1e-5;  // share to which the equations of heat are solved
+    constexpr double solved = 1e-5;  // fraction to which the equations of heat are solved
     CHECK(std::abs(hot.heat.balance.to_shell) < solved * hot.heat.balance.power);
     CHECK(hot.heat.balance.to_oil == relative(hot.heat.balance.power).epsilon(solved));
     CHECK(hot.heat.T_shell_max > hot.heat.T_shell_mean + 1);  // it passes heat around all the same

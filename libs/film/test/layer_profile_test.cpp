@@ -52,16 +52,16 @@ TEST_CASE("OneViscosity_IsThatOfTheParabola") {
   CHECK(profile.fluidity * 0.02 == doctest::Approx(1).epsilon(round_off));
   CHECK(profile.shear_fluidity * 0.02 == doctest::Approx(1).epsilon(round_off));
   CHECK(std::abs(profile.skew) < round_off);
-  LayerShares shares;
-  find_shares(mu, WithinLayers::linear, shares);
+  LayerFractions fractions;
+  find_fractions(mu, WithinLayers::linear, fractions);
   double a = 0;
   for (std::size_t l = 0; l < 4; ++l) {
     const double width = layering_of(4).width(l), b = a + width;
     // Integrals of 6 eta (1 - eta) and of eta over the layer.
-    CHECK(shares.pressure_flow[l] ==
+    CHECK(fractions.pressure_flow[l] ==
           doctest::Approx(3 * (b * b - a * a) - 2 * (b * b * b - a * a * a)).epsilon(round_off));
-    CHECK(shares.sliding_flow[l] == doctest::Approx((b * b - a * a) / 2).epsilon(round_off));
-    CHECK(shares.sliding_heat[l] == doctest::Approx(width).epsilon(round_off));
+    CHECK(fractions.sliding_flow[l] == doctest::Approx((b * b - a * a) / 2).epsilon(round_off));
+    CHECK(fractions.sliding_heat[l] == doctest::Approx(width).epsilon(round_off));
     a = b;
   }
 }
@@ -80,7 +80,7 @@ TEST_CASE("FluidityThatIsALine_IsIntegratedExactly") {
 }
 
 // The velocity by itself: tau = tau_0 + p' y, du/dy = tau/mu, summed in fine strips (midpoints of second order).
-TEST_CASE("SharesOfLayers_AreIntegralsOfTheVelocity") {
+TEST_CASE("FractionsOfLayers_AreIntegralsOfTheVelocity") {
   constexpr std::size_t n = 5, strips = 4000;
   const Layering& layers = layering_of(n);
   const std::array<double, n> jagged{0.03, 0.008, 0.02, 0.011, 0.005};
@@ -94,13 +94,13 @@ TEST_CASE("SharesOfLayers_AreIntegralsOfTheVelocity") {
   for (const auto& [within, mu, slope_within] :
        {Case{WithinLayers::constant, jagged, 0}, Case{WithinLayers::linear, line, 170}}) {
     const LayerProfile profile = profile_of(mu, within);
-    LayerShares shares;
-    find_shares(mu, within, shares);
-    CHECK(sum(shares.pressure_flow) == doctest::Approx(1).epsilon(round_off));
-    CHECK(sum(shares.sliding_flow) == doctest::Approx((1 - profile.skew) / 2).epsilon(round_off));
-    CHECK(sum(shares.sliding_heat) == doctest::Approx(1).epsilon(round_off));
-    CHECK(sum(shares.pressure_heat) == doctest::Approx(1).epsilon(round_off));
-    CHECK(std::abs(sum(shares.mixed_heat)) < round_off);
+    LayerFractions fractions;
+    find_fractions(mu, within, fractions);
+    CHECK(sum(fractions.pressure_flow) == doctest::Approx(1).epsilon(round_off));
+    CHECK(sum(fractions.sliding_flow) == doctest::Approx((1 - profile.skew) / 2).epsilon(round_off));
+    CHECK(sum(fractions.sliding_heat) == doctest::Approx(1).epsilon(round_off));
+    CHECK(sum(fractions.pressure_heat) == doctest::Approx(1).epsilon(round_off));
+    CHECK(std::abs(sum(fractions.mixed_heat)) < round_off);
 
     struct Strip {
       std::size_t layer;
@@ -135,16 +135,16 @@ TEST_CASE("SharesOfLayers_AreIntegralsOfTheVelocity") {
     constexpr double strip = 1e-7;  // second order in 1/strips
     for (std::size_t l = 0; l < n; ++l) {
       CHECK(by_pressure[l] ==
-            doctest::Approx(-shares.pressure_flow[l] * profile.fluidity / 12).epsilon(strip).scale(1));
-      CHECK(by_sliding[l] == doctest::Approx(shares.sliding_flow[l]).epsilon(strip));
+            doctest::Approx(-fractions.pressure_flow[l] * profile.fluidity / 12).epsilon(strip).scale(1));
+      CHECK(by_sliding[l] == doctest::Approx(fractions.sliding_flow[l]).epsilon(strip));
       CHECK(lead_by_pressure[l] ==
-            doctest::Approx(-shares.pressure_lead[l] * profile.fluidity / 12).epsilon(strip).scale(1));
-      CHECK(lead_by_sliding[l] == doctest::Approx(shares.sliding_lead[l]).epsilon(strip).scale(1));
+            doctest::Approx(-fractions.pressure_lead[l] * profile.fluidity / 12).epsilon(strip).scale(1));
+      CHECK(lead_by_sliding[l] == doctest::Approx(fractions.sliding_lead[l]).epsilon(strip).scale(1));
       CHECK(heat_by_pressure[l] ==
-            doctest::Approx(shares.pressure_heat[l] * profile.fluidity / 12).epsilon(strip).scale(1));
-      CHECK(heat_by_sliding[l] == doctest::Approx(shares.sliding_heat[l] / profile.shear_fluidity).epsilon(strip));
+            doctest::Approx(fractions.pressure_heat[l] * profile.fluidity / 12).epsilon(strip).scale(1));
+      CHECK(heat_by_sliding[l] == doctest::Approx(fractions.sliding_heat[l] / profile.shear_fluidity).epsilon(strip));
       const double mixed = heat_by_both[l] - heat_by_pressure[l] - heat_by_sliding[l];
-      CHECK(mixed == doctest::Approx(shares.mixed_heat[l]).epsilon(strip).scale(1));
+      CHECK(mixed == doctest::Approx(fractions.mixed_heat[l]).epsilon(strip).scale(1));
     }
   }
 }

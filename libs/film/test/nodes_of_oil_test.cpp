@@ -57,7 +57,7 @@ TEST_CASE("AnswerToNodes_IsThatOfFiniteDifferences") {
       REQUIRE(at.outside() == 3);  // block, drain, oil
       FilmOverTime film(model, thermal, loaded);
       film.advance(dt);
-      const WallExchange observed = film.heat.exchange();
+      const WallHeatFlow observed = film.heat.heat_flow();
       REQUIRE(observed.T.size() == 5);
       for (const int terminal : {2, 3, 4}) {
         CAPTURE(terminal);
@@ -71,11 +71,11 @@ TEST_CASE("AnswerToNodes_IsThatOfFiniteDifferences") {
         const Eigen::VectorXd expected = observed.heat + observed.by_T * (T - observed.T);
         const double scale = observed.heat.cwiseAbs().maxCoeff() + (expected - observed.heat).cwiseAbs().maxCoeff();
         // A steady film's linear systems are solved to 1e-4 of what is missing, a step's to 1e-7 of an answer.
-        CHECK((other.heat.exchange().heat - expected).norm() < (dt > 0 ? 1e-6 : 1e-3) * scale);
+        CHECK((other.heat.heat_flow().heat - expected).norm() < (dt > 0 ? 1e-6 : 1e-3) * scale);
         FilmOverTime same(model, thermal, loaded);
         same.advance(dt);
         same.heat.move_walls(T);
-        CHECK((same.heat.exchange().heat - expected).norm() < 1e-12 * scale);  // round-off
+        CHECK((same.heat.heat_flow().heat - expected).norm() < 1e-12 * scale);  // round-off
         // The film's residual over a short step, and what is left of a steady film's equations.
         CHECK(same.heat.observables().balance.error() < (dt > 0 ? 1e-5 : 1e-4));
         CHECK(same.heat.state().outside[terminal - 2] == T[terminal]);
@@ -147,9 +147,9 @@ TEST_CASE("MeanAnswerToNodes_IsThatOfTheirHeat") {
       begin.outside[drain - 2] += rise;
       film.heat.set_state(begin);
       for (int k = 0; k < 5; ++k) film.advance(0.1);
-      return film.heat.mean_exchange();
+      return film.heat.mean_heat_flow();
     };
-    const WallExchange observed = mean_over_a_cycle(0), other = mean_over_a_cycle(10);
+    const WallHeatFlow observed = mean_over_a_cycle(0), other = mean_over_a_cycle(10);
     const double scale = observed.by_T.cwiseAbs().maxCoeff();
     CHECK(scale > 1);  // W/K, of a flow of some grams per second
     CHECK((other.heat - observed.heat - 10 * observed.by_T.col(drain)).norm() <
@@ -187,7 +187,7 @@ TEST_CASE("NodesOfOil_SettleOverCycles") {
       FilmHeat same(model, thermal);
       Archive again(saved.content());
       same.persist(again);
-      const WallExchange observed = resumed.mean_exchange(), other = same.mean_exchange();
+      const WallHeatFlow observed = resumed.mean_heat_flow(), other = same.mean_heat_flow();
       CHECK(observed.heat == other.heat);
       CHECK(observed.by_T == other.by_T);
     }
@@ -209,8 +209,8 @@ TEST_CASE("Drain_ReceivesTheHeatThatHolesRemove") {
   for (int k = 0; k < 100; ++k) film.advance(0);
   const FilmTerminals at = terminals_of(thermal);
   const HeatBalance balance = film.heat.observables().balance;
-  CHECK(film.heat.exchange().heat[2 + at.index_of_drain()] == relative(balance.to_oil).epsilon(1e-5));  // as solved
-  CHECK(balance.to_oil == relative(balance.power).epsilon(1e-5));                                       // likewise
+  CHECK(film.heat.heat_flow().heat[2 + at.index_of_drain()] == relative(balance.to_oil).epsilon(1e-5));  // as solved
+  CHECK(balance.to_oil == relative(balance.power).epsilon(1e-5));                                        // likewise
 }
 
 }  // namespace nodes_of_oil_test

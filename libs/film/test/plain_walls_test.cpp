@@ -103,7 +103,7 @@ TEST_CASE("NodeBesideAShellWithoutHeat_SetsTheFilmsTemperature") {
   thermal.journal = NodeWall{.T = 320, .node = 0, .name = "shaft"};
   FilmOverTime film(model, thermal, loaded), other(model, thermal, loaded);
   film.advance(1e-3);
-  const WallExchange observed = film.heat.exchange();
+  const WallHeatFlow observed = film.heat.heat_flow();
   Eigen::VectorXd T = observed.T;
   T[1] += 10;
   film.heat.move_walls(T);
@@ -221,8 +221,8 @@ TEST_CASE("FilmWithoutShapes_IsCondensedToTheSameWrench") {
     reynolds.condense(directions, Eigen::MatrixXd(m.grid.size(), 0), plain);
     reynolds.condense(directions, Eigen::MatrixXd::Ones(m.grid.size(), 1), shaped);
     CHECK(plain.Q.size() == 0);
-    CHECK((plain.wrench - shaped.wrench).norm() < 1e-9 * shaped.wrench.norm());           // the solver leaves 1e-10
-    CHECK((plain.wrench_ds - shaped.wrench_ds).norm() < 1e-9 * shaped.wrench_ds.norm());  // likewise
+    CHECK((plain.wrench - shaped.wrench).norm() < 1e-9 * shaped.wrench.norm());  // the solver leaves 1e-10
+    CHECK((plain.wrench_by_s - shaped.wrench_by_s).norm() < 1e-9 * shaped.wrench_by_s.norm());  // likewise
   }
 }
 

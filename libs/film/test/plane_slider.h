@@ -82,9 +82,9 @@ inline SolvedSlider solve(const Slider& slider, int n) {
     const int x = k <= n + 2 ? k : k == all - 1 ? -1 : n + 3;
     const double g = x <= n + 2 ? slider.gap(x * s.dx) : between;
     motion.g.segment(m.grid.index(k, 0), 3).setConstant(g);
-    const double rate = slider.U / g, share = k == 0 || k == n ? 0.5 : k > n ? 1 : 0;
+    const double rate = slider.U / g, fraction = k == 0 || k == n ? 0.5 : k > n ? 1 : 0;
     const double left = slider.thinning.is_newtonian() ? 1 : slider.thinning.ratio(rate, slider.mu).value;
-    beside += share * s.dx * slider.mu * left * rate;
+    beside += fraction * s.dx * slider.mu * left * rate;
   }
   s.film = slider.layers == 1 ? solve_cold(m, motion, {0, 0}) : solve_in_layers(m, motion, slider.layers);
   REQUIRE(s.film.summary.solved());

@@ -44,13 +44,13 @@ TEST_CASE("RotatingPocket_KeepsItsVolume") {
   const GridGeometry geometry(m);
   for (const FeatureShape& shape : shapes) {
     m.features = {pocket(shape, Surface::journal)};
-    const double share = std::holds_alternative<Ellipse>(shape) ? pi / 4 : 1;
+    const double fraction = std::holds_alternative<Ellipse>(shape) ? pi / 4 : 1;
     for (const double turned : {0.0, 0.013, 1.0, 2.5, 5.0, -3.0}) {
       const Eigen::VectorXd depth = mean_depth(m, turned);
       double volume = 0;
       for (int k = 0; k < depth.size(); ++k) volume += depth[k] * geometry.area(k / 9, k % 9);
       // Gauss' rule across the ellipse's ends leaves some thousandths.
-      CHECK(volume == relative(share * 0.7 * m.R * 6e-3 * 50e-6).epsilon(share == 1 ? 1e-12 : 1e-2));
+      CHECK(volume == relative(fraction * 0.7 * m.R * 6e-3 * 50e-6).epsilon(fraction == 1 ? 1e-12 : 1e-2));
       CHECK(depth.maxCoeff() == relative(50e-6));
     }
   }
@@ -287,9 +287,9 @@ TEST_CASE("SupplyLineBetweenNodes_IsOfSecondOrder") {
   };
   for (const double pressure : {0.0, 3e5}) {
     CAPTURE(pressure);
-    for (const double share : {0.25, 0.5, 0.75}) {
-      CAPTURE(share);
-      const double line = 2 * pi / 120 * (3 + share);
+    for (const double fraction : {0.25, 0.5, 0.75}) {
+      CAPTURE(fraction);
+      const double line = 2 * pi / 120 * (3 + fraction);
       const FilmObservables between = solve(120, line, pressure), on_node = solve(480, line, pressure);
       CHECK(between.wrench_on_shell.segment<2>(3).norm() ==
             doctest::Approx(on_node.wrench_on_shell.segment<2>(3).norm()).epsilon(0.003));
@@ -316,9 +316,9 @@ TEST_CASE("SupplyLineOverAGroove_FillsItsDepth") {
     return film.observed.wrench_on_shell.segment<2>(3).norm();
   };
   for (const Surface surface : {Surface::shell, Surface::journal}) {
-    for (const double share : {0.25, 0.5, 0.75}) {
-      CAPTURE(share);
-      const double line = 2 * pi / 120 * (3 + share);
+    for (const double fraction : {0.25, 0.5, 0.75}) {
+      CAPTURE(fraction);
+      const double line = 2 * pi / 120 * (3 + fraction);
       CHECK(load(120, line, surface) == doctest::Approx(load(480, line, surface)).epsilon(0.003));
     }
   }

@@ -77,8 +77,8 @@ PocketErrors pocket(int n) {
   CHECK(std::abs(first * s.dx - 2e-3) <= s.dx);
   // The front's own node is partly full: its fill fraction in excess of the one before gives the position of the front
   // in the cell.
-  const double before = s.theta[last - 1], share = (s.theta[last] - before) / (1 - before);
-  return {s.flow / 5.229635e-7 - 1, ((last + 1 - share) * s.dx - 3.611263e-3) / s.dx,
+  const double before = s.theta[last - 1], fraction = (s.theta[last] - before) / (1 - before);
+  return {s.flow / 5.229635e-7 - 1, ((last + 1 - fraction) * s.dx - 3.611263e-3) / s.dx,
           (s.film.fields.p.maxCoeff()) / 9.808819e6 - 1};
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("AnswerToWalls_IsThatOfFiniteDifferences") {
         const Journal journal{.e = {12e-6, 8e-6}, .omega_journal = omega};
         FilmOverTime film(model, thermal, journal);
         film.advance(dt);
-        const WallExchange at = film.heat.exchange();
+        const WallHeatFlow at = film.heat.heat_flow();
         CHECK(at.T == Eigen::Vector2d(320, 310));
         // The same step is solved with the other walls from the start, and compared with the one that is moved there at
         // its end.
@@ -91,17 +91,17 @@ TEST_CASE("AnswerToWalls_IsThatOfFiniteDifferences") {
           const Eigen::Vector2d expected = at.heat + at.by_T * (T - at.T);
           const double scale = at.heat.cwiseAbs().maxCoeff() + (at.by_T * (T - at.T)).cwiseAbs().maxCoeff();
           constexpr double solved = 1e-6;  // linear systems to 1e-7 of an answer
-          CHECK((other.heat.exchange().heat - expected).norm() < solved * scale);
+          CHECK((other.heat.heat_flow().heat - expected).norm() < solved * scale);
           ThermalModel again = between_nodes(0, 1);
           again.carry_over = thermal.carry_over;
           FilmOverTime same(model, again, journal);
           same.advance(dt);
           same.heat.move_walls(T);
           CHECK((same.heat.state().film - other.heat.state().film).cwiseAbs().maxCoeff() <
-                1e-4);                                                           // both to 1e-6 of 20 K
-          CHECK(same.heat.state().journal == relative(T[1]).epsilon(1e-14));     // round-off
-          CHECK(same.heat.state().shell[3] == relative(T[0]).epsilon(1e-14));    // round-off
-          CHECK((same.heat.exchange().heat - expected).norm() < 1e-12 * scale);  // round-off
+                1e-4);                                                            // both to 1e-6 of 20 K
+          CHECK(same.heat.state().journal == relative(T[1]).epsilon(1e-14));      // round-off
+          CHECK(same.heat.state().shell[3] == relative(T[0]).epsilon(1e-14));     // round-off
+          CHECK((same.heat.heat_flow().heat - expected).norm() < 1e-12 * scale);  // round-off
           CHECK(same.heat.observables().balance.to_shell == relative(expected[0]).epsilon(1e-9));  // round-off of sums
           CHECK(same.heat.observables().balance.error() < 1e-6);  // the film's residual over a short step
         }

@@ -24,7 +24,7 @@ struct Reference {
   double T_groove = 0, T_side = 0, power = 0, side_flow = 0;
 };
 
-/// Allowed differences of both: shares, K and degrees.
+/// Allowed differences of both: fractions, K and degrees.
 struct Bars {
   double load = 0.01, attitude = 0.3, p_max = 0.01, T = 0.3, T_groove = 0.3, power = 0.007, side_flow = 0.02;
 };
@@ -75,8 +75,8 @@ inline std::vector<CsvRow> table(const std::string& name) {
 inline double at_mid_width(const Grid& grid, const Eigen::VectorXd& field, double phi) {
   const double position = grid.n_phi * (phi / (2 * pi) - std::floor(phi / (2 * pi)));
   const int i = static_cast<int>(position) % grid.n_phi, j = grid.n_z / 2;
-  const double share = position - std::floor(position);
-  return (1 - share) * field[grid.index(i, j)] + share * field[grid.index((i + 1) % grid.n_phi, j)];
+  const double fraction = position - std::floor(position);
+  return (1 - fraction) * field[grid.index(i, j)] + fraction * field[grid.index((i + 1) % grid.n_phi, j)];
 }
 
 /// One temperature per node between walls without heat, oil supplied in the widest gap.

@@ -131,7 +131,7 @@ TEST_CASE("MassBalance_IsRecordedOfFilmsThatConserveOil") {
 }
 
 // A spatial crank with steps so long that the velocities of its closed loop leave every motion it has.
-TEST_CASE("StepsTooLongForTheMotion_AreReportedSo") {
+TEST_CASE("StepsTooLongForTheMotion_AreReported") {
   const TemporaryDirectory scratch;
   const std::string text = R"(hersey: 1
 gravity: 0 0 -9.81 m/s^2

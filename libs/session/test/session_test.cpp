@@ -136,7 +136,7 @@ TEST_CASE("FaultOfOneRunOfAStudy_IsFoundByCheck") {
   CHECK(Session(kRig, "rig.yaml", {}).check().runs == 1);
 }
 
-TEST_CASE("WarningsOfAllRuns_AreToldOnce") {
+TEST_CASE("WarningsOfAllRuns_AreReportedOnce") {
   CHECK(Session(kRig, "rig.yaml", {}).check().warnings.empty());
   // The second clearance is far from what is usual, with either load.
   const std::string key = "bearings.big_end.radial_clearance";

@@ -19,13 +19,13 @@ using Index = Equations::Index;
 
 constexpr double kLargestMove = 0.2;  // rad, or sizes of the system
 constexpr double kRoundOff = 1e-13;
-constexpr double kSolved = 1e-10;        // rad, or sizes of the system: increments that are negligible
-constexpr int kLongestPath = 20;         // in steps of Newton's method, times those allowed to a search
-constexpr double kSmallestShare = 1e-5;  // of the load that one step of following it may add
-constexpr double kShortest = 1e-2;       // of a step of Newton's method towards a steady motion
-constexpr double kContraction = 0.5;     // of the increments of Newton's method, for a step that one of them solves
-constexpr double kNeutral = 1e-12;       // of the terms whose sum is a stiffness
-constexpr double kSteady = 1e-8;         // rad, or sizes of the system: ten times what Newton's tolerance leaves
+constexpr double kSolved = 1e-10;               // rad, or sizes of the system: increments that are negligible
+constexpr int kLongestPath = 20;                // in steps of Newton's method, times those allowed to a search
+constexpr double kSmallestLoadFraction = 1e-5;  // of the load that one step of following it may add
+constexpr double kShortest = 1e-2;              // of a step of Newton's method towards a steady motion
+constexpr double kContraction = 0.5;  // of the increments of Newton's method, for a step that one of them solves
+constexpr double kNeutral = 1e-12;    // of the terms whose sum is a stiffness
+constexpr double kSteady = 1e-8;      // rad, or sizes of the system: ten times what Newton's tolerance leaves
 constexpr double kFixedShare = 1e-2;  // largest share of the deformation that may be fixed in space in a steady motion
 
 class EquilibriumSearch {
@@ -125,7 +125,7 @@ class EquilibriumSearch {
       }
       here_ = from;
       step /= 2;
-      if (step < kSmallestShare || summary_.iterations > kLongestPath * options_.max_iterations) break;
+      if (step < kSmallestLoadFraction || summary_.iterations > kLongestPath * options_.max_iterations) break;
     }
     withheld_load_.resize(0);
     (void)assemble(here_);

@@ -88,8 +88,8 @@ Eigen::VectorXd FixedPointIteration::quasi_newton(const Eigen::VectorXd& image, 
   }
   const Eigen::VectorXd known = Q.leftCols(count).transpose() * residual;
   const Eigen::VectorXd next = image - C.leftCols(count) * known;
-  if (share_of_unknown_ == 1) return next;
-  return next - (1 - share_of_unknown_) * (residual - Q.leftCols(count) * known);
+  if (relaxation_of_unknown_ == 1) return next;
+  return next - (1 - relaxation_of_unknown_) * (residual - Q.leftCols(count) * known);
 }
 
 void FixedPointIteration::learn_from(const FixedPointIteration& other,

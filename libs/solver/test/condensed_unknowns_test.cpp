@@ -30,7 +30,7 @@ void step(SecondOrderHistory& history, double t_end, double dt, bool fresh) {
 TEST_CASE("CondensedUnknowns_MoveAsThoseOfTheSystem") {
   test::OneCoordinate system;
   system.force = [](double q, double, double t) { return omega2 * q - std::sin(t); };
-  system.force_dq = [](double, double, double) { return omega2; };
+  system.force_by_q = [](double, double, double) { return omega2; };
   for (const bool others_have_moved : {false, true}) {
     CAPTURE(others_have_moved);
     State s = system.at(0, 0);

@@ -30,7 +30,7 @@ test::SeveralCoordinates pendulum() {
   e.phi = [](const VectorXd& q, double) { return one(0.5 * (q.squaredNorm() - 1)); };
   e.G = [](const VectorXd& q, double) { return MatrixXd(q.transpose()); };
   e.bias = [](const VectorXd&, const VectorXd& v, double) { return one(v.squaredNorm()); };
-  e.constraint_force_dq = [](const VectorXd&, const VectorXd& lambda) {
+  e.constraint_force_by_q = [](const VectorXd&, const VectorXd& lambda) {
     return MatrixXd(lambda[0] * Matrix2d::Identity());
   };
   return e;
@@ -186,7 +186,7 @@ TEST_CASE("StepsThatLeadNowhere_EndWithTheirReason") {
   int looks = 0;
   test::SeveralCoordinates fickle(MatrixXd::Identity(1, 1));
   fickle.force = [](const VectorXd& q, const VectorXd&, double) { return one(100 * std::pow(q[0], 3) - 50); };
-  fickle.force_dq = [](const VectorXd& q, const VectorXd&, double) { return MatrixXd(one(300 * q[0] * q[0])); };
+  fickle.force_by_q = [](const VectorXd& q, const VectorXd&, double) { return MatrixXd(one(300 * q[0] * q[0])); };
   double last = 1e300;
   fickle.outside = [&](const State& s) {
     looks = s.q[0] == last ? looks + 1 : 0;
@@ -204,7 +204,7 @@ TEST_CASE("StepsThatLeadNowhere_EndWithTheirReason") {
 TEST_CASE("LastIteration_IsMeasuredByTheToleranceItself") {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return 10 * std::sin(q); };
-  e.force_dq = [](double q, double, double) { return 10 * std::cos(q); };
+  e.force_by_q = [](double q, double, double) { return 10 * std::cos(q); };
   int with_one_less = 0;
   for (double rtol = 1e-4; rtol > 1e-12; rtol /= 3) {
     const auto step = [&](int most) {
@@ -280,7 +280,7 @@ TEST_CASE("RestartThatIsNotDetermined_LeavesTheStateAlone") {
 TEST_CASE("Accelerations_LeaveMasslessMotionsInTheirBalance") {
   test::SeveralCoordinates e(Vector2d(0, 2).asDiagonal());
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd(Vector2d(4 * v[0] - 2, -6)); };
-  e.force_dv = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector2d(4, 0).asDiagonal()); };
+  e.force_by_v = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector2d(4, 0).asDiagonal()); };
   State state = e.at(Vector2d(0, 0), Vector2d(0.5, 0));
   REQUIRE(solve_accelerations(e, state, 1e-3));
   CHECK(state.vdot[0] == 0);

@@ -22,14 +22,14 @@ constexpr double solved = 1e-9;  // Newton's method continues until it changes n
 test::OneCoordinate pendulum() {
   test::OneCoordinate p;
   p.force = [](double q, double, double) { return 9.81 * std::sin(q); };
-  p.force_dq = [](double q, double, double) { return 9.81 * std::cos(q); };
+  p.force_by_q = [](double q, double, double) { return 9.81 * std::cos(q); };
   return p;
 }
 
 test::OneCoordinate with_force(double constant, double stiffness, double cubic = 0) {
   test::OneCoordinate p;
   p.force = [=](double q, double, double) { return constant + stiffness * q + cubic * q * q * q; };
-  p.force_dq = [=](double q, double, double) { return stiffness + 3 * cubic * q * q; };
+  p.force_by_q = [=](double q, double, double) { return stiffness + 3 * cubic * q * q; };
   return p;
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("Equilibrium_OfSpringsThatHardenAndSoften") {
   CHECK(std::abs(state.q[0] - (0.2 - 2e-4 / 120)) < solved);
   test::OneCoordinate soft;
   soft.force = [](double q, double, double) { return std::atan(5 * (q - 1)); };
-  soft.force_dq = [](double q, double, double) { return 5 / (1 + 25 * (q - 1) * (q - 1)); };
+  soft.force_by_q = [](double q, double, double) { return 5 / (1 + 25 * (q - 1) * (q - 1)); };
   State far = soft.at(-6, 0);  // Newton's method alone would run away from here
   const EquilibriumSummary found = find_equilibrium(soft, far);
   REQUIRE(found.solved());
@@ -96,7 +96,7 @@ TEST_CASE("Equilibrium_OfForcesBelowTheToleranceOfTheirRow_IsSolvedAsWell") {
   constexpr double small = 2e-9;
   test::OneCoordinate soft;
   soft.force = [](double q, double, double) { return small * (std::pow(q, 9) - 1); };
-  soft.force_dq = [](double q, double, double) { return 9 * small * std::pow(q, 8); };
+  soft.force_by_q = [](double q, double, double) { return 9 * small * std::pow(q, 8); };
   for (const double start : {1.003, 1.005, 1.05, 1.1, 1.2, 1.3, 1.5, 2.0}) {
     CAPTURE(start);
     State state = soft.at(start, 0);
@@ -127,7 +127,7 @@ TEST_CASE("Equilibrium_NearTheEndOfTheDomain_IsFoundFromInside") {
   test::OneCoordinate p;  // a gap: the force grows without bound as q falls to 0
   p.lowest = 0;
   p.force = [](double q, double, double) { return 50 - 0.5 / (q * q); };
-  p.force_dq = [](double q, double, double) { return 1 / (q * q * q); };
+  p.force_by_q = [](double q, double, double) { return 1 / (q * q * q); };
   State state = p.at(1, 0);
   REQUIRE(find_equilibrium(p, state).solved());
   CHECK(std::abs(state.q[0] - 0.1) < solved);
@@ -173,14 +173,14 @@ TEST_CASE("StepsThatAreTooLong_AreRejected") {
   CHECK(std::abs(over.q[0] - (0.1 - 1e-4 / 30)) < 1e-8);  // but for the square of the linear spring's part
   test::OneCoordinate soft;                               // and here at as large a force the other way
   soft.force = [](double q, double, double) { return std::atan(100 * (q - 0.09)); };
-  soft.force_dq = [](double q, double, double) { return 100 / (1 + 1e4 * (q - 0.09) * (q - 0.09)); };
+  soft.force_by_q = [](double q, double, double) { return 100 / (1 + 1e4 * (q - 0.09) * (q - 0.09)); };
   State beyond = without_pull(soft, 0);
   REQUIRE(find_equilibrium(soft, beyond).solved());
   CHECK(std::abs(beyond.q[0] - 0.09) < solved);
   test::OneCoordinate wall;
   wall.lowest = 0.09;
   wall.force = [](double q, double, double) { return 50 - 0.5 / (q * q); };
-  wall.force_dq = [](double q, double, double) { return 1 / (q * q * q); };
+  wall.force_by_q = [](double q, double, double) { return 1 / (q * q * q); };
   State near = without_pull(wall, 0.2);  // and here outside of the domain
   REQUIRE(find_equilibrium(wall, near).solved());
   CHECK(std::abs(near.q[0] - 0.1) < solved);
@@ -208,13 +208,13 @@ TEST_CASE("LoadThatIsFollowed_LeadsToTheSameRest") {
   CHECK(start.q[0] == 0);
   test::OneCoordinate limited;
   limited.force = [](double q, double, double) { return std::sin(q) - 1.5; };
-  limited.force_dq = [](double q, double, double) { return std::cos(q); };
+  limited.force_by_q = [](double q, double, double) { return std::cos(q); };
   start = limited.at(0, 0);
   CHECK(!find_equilibrium(limited, start, {.max_iterations = 20}).solved());
   // A ninth of what is left at a time is too slow for Newton's method at any share.
   test::OneCoordinate flat;
   flat.force = [](double q, double, double) { return std::pow(q, 9); };
-  flat.force_dq = [](double q, double, double) { return 9 * std::pow(q, 8); };
+  flat.force_by_q = [](double q, double, double) { return 9 * std::pow(q, 8); };
   start = flat.at(1.5, 0);
   CHECK(!find_equilibrium(flat, start, {.rtol = 1e-14, .max_iterations = 3}).solved());
 }
@@ -234,7 +234,7 @@ TEST_CASE("Rest_IsSolvedBeyondTheTolerance") {
   CHECK(there.q[0] == 0);
   test::OneCoordinate kink;
   kink.force = [](double q, double, double) { return std::atan(1e4 * q); };
-  kink.force_dq = [](double q, double, double) { return 1e4 / (1 + 1e8 * q * q); };
+  kink.force_by_q = [](double q, double, double) { return 1e4 / (1 + 1e8 * q * q); };
   State beside = kink.at(5e-4, 0);
   REQUIRE(find_equilibrium(kink, beside, {.rtol = 0.9}).solved());
   CHECK(beside.q[0] == 5e-4);
@@ -268,7 +268,7 @@ test::SeveralCoordinates weight_on_a_circle() {
   e.force = [](const VectorXd&, const VectorXd&, double) { return VectorXd(Vector2d(0, 9.81)); };
   e.phi = [](const VectorXd& q, double) { return VectorXd(VectorXd::Constant(1, 0.5 * (q.squaredNorm() - 1))); };
   e.G = [](const VectorXd& q, double) { return MatrixXd(q.transpose()); };
-  e.constraint_force_dq = [](const VectorXd&, const VectorXd& lambda) {
+  e.constraint_force_by_q = [](const VectorXd&, const VectorXd& lambda) {
     return MatrixXd(lambda[0] * MatrixXd::Identity(2, 2));
   };
   return e;
@@ -297,14 +297,14 @@ constexpr double kept = 1e-8;  // a steady motion is solved to its rows alone, t
 TEST_CASE("SteadyMotion_IsFoundByShorterStepsWhereWholeOnesMiss") {
   test::OneCoordinate soft;  // far from its balance Newton's increments run away
   soft.force = [](double q, double, double) { return std::atan(50 * (q - 1)); };
-  soft.force_dq = [](double q, double, double) { return 50 / (1 + 2500 * (q - 1) * (q - 1)); };
+  soft.force_by_q = [](double q, double, double) { return 50 / (1 + 2500 * (q - 1) * (q - 1)); };
   State state = soft.at(1.06, 0);
   REQUIRE(find_equilibrium(soft, state, {.steady_motion = true}).solved());
   CHECK(std::abs(state.q[0] - 1) < kept);
   test::OneCoordinate wall;
   wall.lowest = 0.09;
   wall.force = [](double q, double, double) { return 50 - 0.5 / (q * q); };
-  wall.force_dq = [](double q, double, double) { return 1 / (q * q * q); };
+  wall.force_by_q = [](double q, double, double) { return 1 / (q * q * q); };
   state = wall.at(0.2, 0);
   REQUIRE(find_equilibrium(wall, state, {.steady_motion = true}).solved());
   CHECK(std::abs(state.q[0] - 0.1) < kept);
@@ -313,7 +313,7 @@ TEST_CASE("SteadyMotion_IsFoundByShorterStepsWhereWholeOnesMiss") {
 TEST_CASE("SteadyMotionThatIsNotReached_IsReported") {
   test::OneCoordinate pushed;
   pushed.force = [](double q, double, double) { return 1 + q * q; };
-  pushed.force_dq = [](double q, double, double) { return 2 * q; };
+  pushed.force_by_q = [](double q, double, double) { return 2 * q; };
   State state = pushed.at(0.9, 3);
   const EquilibriumSummary none = find_equilibrium(pushed, state, {.steady_motion = true});
   CHECK(!none.solved());
@@ -321,7 +321,7 @@ TEST_CASE("SteadyMotionThatIsNotReached_IsReported") {
   CHECK(state.q[0] == 0.9);
   test::OneCoordinate flat;
   flat.force = [](double q, double, double) { return std::pow(q, 9); };
-  flat.force_dq = [](double q, double, double) { return 9 * std::pow(q, 8); };
+  flat.force_by_q = [](double q, double, double) { return 9 * std::pow(q, 8); };
   state = flat.at(1, 3);
   const EquilibriumSummary slow = find_equilibrium(flat, state, {.max_iterations = 3, .steady_motion = true});
   CHECK(!slow.solved());
@@ -343,7 +343,7 @@ TEST_CASE("SteadyMotion_IsCheckedAShortTimeLater") {
     passing.force = [=](double q, double, double t) {
       return t == 0 ? q : std::pow(q - 2, power) + (power == 2 ? 1 : 0);
     };
-    passing.force_dq = [=](double q, double, double t) { return t == 0 ? 1 : power * std::pow(q - 2, power - 1); };
+    passing.force_by_q = [=](double q, double, double t) { return t == 0 ? 1 : power * std::pow(q - 2, power - 1); };
     State state = passing.at(0, 3);
     const EquilibriumSummary summary = find_equilibrium(passing, state, {.steady_motion = true});
     CHECK(!summary.solved());

@@ -19,7 +19,7 @@ test::OneCoordinate dragged(double mass, double damping) {
   test::OneCoordinate e;
   e.mass = mass;
   e.force = [=](double, double v, double t) { return damping * (v - std::cos(t)); };
-  e.force_dv = [=](double, double, double) { return damping; };
+  e.force_by_v = [=](double, double, double) { return damping; };
   return e;
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("FastMotion_SettlesWhereForcesBalance") {
   test::OneCoordinate e;
   e.mass = 1e-9;
   e.force = [](double, double v, double) { return v + v * v * v - 2; };
-  e.force_dv = [](double, double v, double) { return 1 + 3 * v * v; };
+  e.force_by_v = [](double, double v, double) { return 1 + 3 * v * v; };
   const double dt = 1e-4;
   State s = e.at(0, -0.5);
   e.begin_step(s, dt);
@@ -103,7 +103,7 @@ TEST_CASE("FastMotionThatCannotBeSettled_IsUnchanged") {
     e.force = [](const Eigen::VectorXd&, const Eigen::VectorXd& v, double) {
       return Eigen::VectorXd(v - Eigen::VectorXd::Ones(1));
     };
-    e.force_dv = [](const Eigen::VectorXd&, const Eigen::VectorXd&, double) { return Eigen::MatrixXd::Ones(1, 1); };
+    e.force_by_v = [](const Eigen::VectorXd&, const Eigen::VectorXd&, double) { return Eigen::MatrixXd::Ones(1, 1); };
     return e;
   };
   test::SeveralCoordinates plain = light(), in_part = light(), at_once = light(), later = light();
@@ -129,7 +129,7 @@ TEST_CASE("MotionWithoutMass_HasTheRateOfItsDamping") {
   test::OneCoordinate e;
   e.mass = 0;
   e.force = [](double, double v, double) { return 4 * v + v * v * v - 5; };
-  e.force_dv = [](double, double v, double) { return 4 + 3 * v * v; };
+  e.force_by_v = [](double, double v, double) { return 4 + 3 * v * v; };
   State s = e.at(0.3, 0);
   s.vdot.setZero();
   REQUIRE(initialise(e, s).solved());

@@ -103,12 +103,12 @@ TEST_CASE("OldChanges_AreReplacedByNewOnes") {
 }
 
 // Along known directions the image is taken to its fixed point; the given share of the rest is taken.
-TEST_CASE("ShareOfTheUnknown_AppliesToUnknownDirectionsOnly") {
+TEST_CASE("RelaxationOfTheUnknown_AppliesToUnknownDirectionsOnly") {
   const Eigen::Vector3d b(1, 2, 3), slope(0.5, 0, 0);
   const auto image = [&](const Eigen::VectorXd& x) { return Eigen::VectorXd(slope.cwiseProduct(x) + b); };
   for (const double share : {1.0, 0.25}) {
     FixedPointIteration iteration(Acceleration::quasi_newton, 1);
-    iteration.set_share_of_unknown(share);
+    iteration.set_relaxation_of_unknown(share);
     iteration.begin_step();
     Eigen::VectorXd x = Eigen::Vector3d::Zero();
     (void)iteration.next(x, image(x));

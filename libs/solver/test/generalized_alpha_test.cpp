@@ -13,7 +13,7 @@ namespace generalized_alpha_test {
 test::OneCoordinate oscillator(double omega) {
   test::OneCoordinate e;
   e.force = [omega](double q, double, double) { return omega * omega * q; };
-  e.force_dq = [omega](double, double, double) { return omega * omega; };
+  e.force_by_q = [omega](double, double, double) { return omega * omega; };
   return e;
 }
 
@@ -22,7 +22,7 @@ test::OneCoordinate cushion() {
   test::OneCoordinate e;
   e.lowest = 0;
   e.force = [](double q, double, double) { return 1 - 1e-6 / (q * q * q); };
-  e.force_dq = [](double q, double, double) { return 3e-6 / (q * q * q * q); };
+  e.force_by_q = [](double q, double, double) { return 3e-6 / (q * q * q * q); };
   return e;
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("FactorsThatServe_AreKept") {
   const auto pendulum = [] {
     test::OneCoordinate e;
     e.force = [](double q, double, double) { return 10 * std::sin(q); };
-    e.force_dq = [](double q, double, double) { return 10 * std::cos(q); };
+    e.force_by_q = [](double q, double, double) { return 10 * std::cos(q); };
     return e;
   };
   test::OneCoordinate plain = pendulum(), condensing = pendulum();
@@ -111,7 +111,7 @@ TEST_CASE("FactorsThatServe_AreKept") {
 TEST_CASE("FactorsThatDoNotServe_AreReplaced") {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return q < 0 ? 1e13 * q * q * q : 0.0; };
-  e.force_dq = [](double q, double, double) { return q < 0 ? 3e13 * q * q : 0.0; };
+  e.force_by_q = [](double q, double, double) { return q < 0 ? 3e13 * q * q : 0.0; };
   State s = e.at(0.001, -1);
   GeneralizedAlpha integrator({.spectral_radius = 0.8, .max_iterations = 20});
   REQUIRE(integrator.step(e, s, 0.0005).solved());

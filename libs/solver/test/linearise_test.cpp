@@ -34,8 +34,8 @@ TEST_CASE("Linearisation_OfOneCoordinateIsItsMassDampingAndStiffness") {
   test::OneCoordinate spring;
   spring.mass = 3;
   spring.force = [](double q, double v, double) { return 5 * q * q + 2 * v; };
-  spring.force_dq = [](double q, double, double) { return 10 * q; };
-  spring.force_dv = [](double, double, double) { return 2.0; };
+  spring.force_by_q = [](double q, double, double) { return 10 * q; };
+  spring.force_by_v = [](double, double, double) { return 2.0; };
   const Linearisation linear = linearise(spring, spring.at(0.7, 0), 1e-3);
   REQUIRE(linear.solved());
   REQUIRE(linear.Z.cols() == 1);

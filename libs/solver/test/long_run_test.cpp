@@ -17,7 +17,7 @@ struct EnergyErrors {
 EnergyErrors energy_errors(double rho, int periods, int steps_per_period) {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return std::sin(q); };
-  e.force_dq = [](double q, double, double) { return std::cos(q); };
+  e.force_by_q = [](double q, double, double) { return std::cos(q); };
   State s = e.at(2, 0);
   GeneralizedAlpha integrator({.spectral_radius = rho, .rtol = 1e-12});
   const double period = 8.3499;  // 4 K(sin 1), 4 decimals: only counts periods

@@ -27,7 +27,7 @@ test::OneCoordinate damper(double (*force)(double), double (*slope)(double)) {
   test::OneCoordinate e;
   e.mass = 0;
   e.force = [=](double, double v, double) { return force(v); };
-  e.force_dv = [=](double, double v, double) { return slope(v); };
+  e.force_by_v = [=](double, double v, double) { return slope(v); };
   return e;
 }
 
@@ -46,13 +46,15 @@ TEST_CASE("MasslessMotion_IsBalancedWhereNewtonsMethodRunsAway") {
 TEST_CASE("MasslessMotion_IsBalancedInsideTheDomain") {
   test::SeveralCoordinates e(MatrixXd::Zero(1, 1));  // rates at and below zero are outside
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd::Constant(1, 50 - 0.5 / (v[0] * v[0])); };
-  e.force_dv = [](const VectorXd&, const VectorXd& v, double) { return MatrixXd::Constant(1, 1, std::pow(v[0], -3)); };
+  e.force_by_v = [](const VectorXd&, const VectorXd& v, double) {
+    return MatrixXd::Constant(1, 1, std::pow(v[0], -3));
+  };
   e.outside = [](const State& s) { return std::string(s.v[0] <= 0 ? "backwards" : ""); };
   State state = e.at(VectorXd::Zero(1), VectorXd::Ones(1));
   REQUIRE(balance(e, state).solved());
   CHECK(std::abs(state.v[0] - 0.1) < solved);
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd::Constant(1, 50 + v[0]); };
-  e.force_dv = [](const VectorXd&, const VectorXd&, double) { return MatrixXd::Ones(1, 1); };
+  e.force_by_v = [](const VectorXd&, const VectorXd&, double) { return MatrixXd::Ones(1, 1); };
   state.v[0] = 1e-3;  // no increment is short enough
   const MasslessSummary summary = balance(e, state);
   CHECK(!summary.solved());
@@ -90,7 +92,7 @@ TEST_CASE("CondensedUnknowns_AreSolvedBeforeForcesAreBalanced") {
   CHECK(summary.message == "film of the fake is not solved");
   test::SeveralCoordinates slow(MatrixXd::Zero(1, 1));
   slow.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd(4 * v - VectorXd::Constant(1, 5)); };
-  slow.force_dv = [](const VectorXd&, const VectorXd&, double) { return MatrixXd::Constant(1, 1, 4); };
+  slow.force_by_v = [](const VectorXd&, const VectorXd&, double) { return MatrixXd::Constant(1, 1, 4); };
   slow.unsolved = 20;
   State other = slow.at(VectorXd::Zero(1));
   REQUIRE(balance(slow, other).solved());
@@ -102,7 +104,7 @@ TEST_CASE("UnconstrainedMotions_AreNamedAlone") {
   // Only the second of three motions is damped; the third is loaded, the first is not.
   test::SeveralCoordinates e(MatrixXd::Zero(3, 3));
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd(Vector3d(0, 2 * v[1] - 1, 0)); };
-  e.force_dv = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector3d(0, 2, 0).asDiagonal()); };
+  e.force_by_v = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector3d(0, 2, 0).asDiagonal()); };
   State state = e.at(Vector3d(0, 0, 0));
   const MasslessSummary loose = balance(e, state);
   CHECK(!loose.solved());
@@ -116,7 +118,7 @@ TEST_CASE("UnconstrainedMotions_AreNamedAlone") {
 TEST_CASE("StartWhoseBalanceIsOutsideOfTheDomain_IsADomainError") {
   test::SeveralCoordinates e(Vector2d(0, 1).asDiagonal());
   e.force = [](const VectorXd&, const VectorXd& v, double) { return VectorXd(Vector2d(v[0] - 2, 0)); };
-  e.force_dv = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector2d(1, 0).asDiagonal()); };
+  e.force_by_v = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector2d(1, 0).asDiagonal()); };
   int evaluations = 0;
   e.outside = [&](const State& s) { return std::string(s.v[0] > 1 && ++evaluations > 1 ? "gap closed" : ""); };
   State state = e.at(Vector2d(0, 0));

@@ -13,8 +13,8 @@ class OneCoordinate final : public Equations {
  public:
   double mass = 1;
   std::function<double(double q, double v, double t)> force = [](double, double, double) { return 0.0; };
-  std::function<double(double q, double v, double t)> force_dq = [](double, double, double) { return 0.0; };
-  std::function<double(double q, double v, double t)> force_dv = [](double, double, double) { return 0.0; };
+  std::function<double(double q, double v, double t)> force_by_q = [](double, double, double) { return 0.0; };
+  std::function<double(double q, double v, double t)> force_by_v = [](double, double, double) { return 0.0; };
   int copies_of_constraint = 0;  ///< rows q = 0
   double lowest = -1e300;        ///< q at and below this is outside the domain
   double internal = 0;           ///< internal residual reported
@@ -41,7 +41,7 @@ class OneCoordinate final : public Equations {
     ++tangents;
     tangent->resize(n, n);
     tangent->insert(0, 0) =
-        stage.m * mass + stage.c * force_dv(s.q[0], s.v[0], s.t) + stage.k * force_dq(s.q[0], s.v[0], s.t);
+        stage.m * mass + stage.c * force_by_v(s.q[0], s.v[0], s.t) + stage.k * force_by_q(s.q[0], s.v[0], s.t);
     for (Index i = 1; i < n; ++i) {
       tangent->insert(0, i) = 1;
       tangent->insert(i, 0) = stage.k;

@@ -55,7 +55,7 @@ struct Condensed {
 TEST_CASE("CondensedUnknown_MovesLikeACoordinateOfTheSystem") {
   test::OneCoordinate e;
   e.force = [](double q, double, double t) { return force(q, t); };
-  e.force_dq = [](double, double, double) { return omega * omega; };
+  e.force_by_q = [](double, double, double) { return omega * omega; };
   State state = e.at(0, 0);
   GeneralizedAlpha integrator({.spectral_radius = 0.8, .rtol = 1e-13});
   Condensed condensed;

@@ -23,12 +23,12 @@ class SeveralCoordinates final : public Equations {
   Matrix mass;
   Index rows;  ///< of constraints
   std::function<Vector(const Vector& q, const Vector& v, double t)> force;
-  std::function<Matrix(const Vector&q, const Vector&v, double t)> force_dq, force_dv;
+  std::function<Matrix(const Vector&q, const Vector&v, double t)> force_by_q, force_by_v;
   std::function<Vector(const Vector& q, double t)> phi;
   std::function<Matrix(const Vector& q, double t)> G;
   std::function<Vector(const Vector& q, double t)> phi_t;
   std::function<Vector(const Vector& q, const Vector& v, double t)> bias;
-  std::function<Matrix(const Vector& q, const Vector& lambda)> constraint_force_dq;  ///< d(G^T lambda)/dq
+  std::function<Matrix(const Vector& q, const Vector& lambda)> constraint_force_by_q;  ///< d(G^T lambda)/dq
   std::function<std::string(const State& state)> outside;  ///< why the state is outside of the domain, or nothing
   Vector scales;
   std::vector<std::string> names;  ///< of rows; empty: by their numbers
@@ -59,9 +59,9 @@ class SeveralCoordinates final : public Equations {
         mass.cwiseAbs() * s.vdot.cwiseAbs() + f.cwiseAbs() + jacobian.cwiseAbs().transpose() * s.lambda.cwiseAbs();
     if (!tangent) return;
     Matrix J = stage.m * mass;
-    if (force_dv) J += stage.c * force_dv(s.q, s.v, s.t);
-    if (force_dq) J += stage.k * force_dq(s.q, s.v, s.t);
-    if (constraint_force_dq) J += stage.k * constraint_force_dq(s.q, s.lambda);
+    if (force_by_v) J += stage.c * force_by_v(s.q, s.v, s.t);
+    if (force_by_q) J += stage.k * force_by_q(s.q, s.v, s.t);
+    if (constraint_force_by_q) J += stage.k * constraint_force_by_q(s.q, s.lambda);
     fill(J, jacobian, stage.k, *tangent);
   }
 

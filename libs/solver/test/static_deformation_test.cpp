@@ -33,7 +33,7 @@ test::SeveralCoordinates bar(double pull) {
   e.force = [=](const VectorXd& q, const VectorXd&, double) {
     return VectorXd(Vector2d(mass * gravity - pull, moment * gravity - pull + stiffness * q[1]));
   };
-  e.force_dq = [](const VectorXd&, const VectorXd&, double) {
+  e.force_by_q = [](const VectorXd&, const VectorXd&, double) {
     return MatrixXd((Matrix2d() << 0, 0, 0, stiffness).finished());
   };
   return e;
@@ -100,7 +100,7 @@ TEST_CASE("HungBar_IsLengthenedByItsWeight") {
 test::SeveralCoordinates whirled_mass() {
   test::SeveralCoordinates e(Vector3d(mass, mass, 0.1).asDiagonal(), 1);
   e.force = [](const VectorXd& q, const VectorXd&, double) { return VectorXd(Vector3d(0, 0, stiffness * q[2])); };
-  e.force_dq = [](const VectorXd&, const VectorXd&, double) {
+  e.force_by_q = [](const VectorXd&, const VectorXd&, double) {
     return MatrixXd(Vector3d(0, 0, stiffness).asDiagonal());
   };
   e.phi = [](const VectorXd& q, double) {
@@ -112,7 +112,7 @@ test::SeveralCoordinates whirled_mass() {
   e.bias = [](const VectorXd&, const VectorXd& v, double) {
     return VectorXd(VectorXd::Constant(1, 2 * (v.head(2).squaredNorm() - v[2] * v[2])));
   };
-  e.constraint_force_dq = [](const VectorXd&, const VectorXd& lambda) {
+  e.constraint_force_by_q = [](const VectorXd&, const VectorXd& lambda) {
     return MatrixXd(Vector3d(2, 2, -2).asDiagonal() * lambda[0]);
   };
   return e;
@@ -139,7 +139,7 @@ TEST_CASE("WhirledRod_IsStretchedByItsCentripetalForce") {
 test::OneCoordinate supported_by(double (*force)(double), double (*slope)(double)) {
   test::OneCoordinate e;
   e.force = [=](double q, double, double) { return force(q); };
-  e.force_dq = [=](double q, double, double) { return slope(q); };
+  e.force_by_q = [=](double q, double, double) { return slope(q); };
   return e;
 }
 
@@ -215,7 +215,7 @@ TEST_CASE("ConfigurationWhereConstraintsDetermineNoRates_IsReported") {
   test::SeveralCoordinates e(Vector2d(1, 1).asDiagonal(), 1);
   const auto slope = [](double q) { return q < 0.5 ? 1.0 : 0.0; };
   e.force = [](const VectorXd& q, const VectorXd&, double) { return VectorXd(Vector2d(0, q[1] - 10000)); };
-  e.force_dq = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector2d(0, 1).asDiagonal()); };
+  e.force_by_q = [](const VectorXd&, const VectorXd&, double) { return MatrixXd(Vector2d(0, 1).asDiagonal()); };
   e.phi = [=](const VectorXd& q, double) { return VectorXd(VectorXd::Constant(1, slope(q[1]) * q[0])); };
   e.G = [=](const VectorXd& q, double) { return MatrixXd((MatrixXd(1, 2) << slope(q[1]), 0).finished()); };
   e.phi_t = [](const VectorXd&, double) { return VectorXd(VectorXd::Ones(1)); };

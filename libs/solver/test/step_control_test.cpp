@@ -117,7 +117,7 @@ TEST_CASE("StepControl_DoesNotGrowRightAfterARejection") {
 double estimate_over_truth(double rho, double dt, double& smallest) {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return 9 * q; };
-  e.force_dq = [](double, double, double) { return 9.0; };
+  e.force_by_q = [](double, double, double) { return 9.0; };
   State s = e.at(0, 3);
   GeneralizedAlpha integrator({.spectral_radius = rho, .rtol = 1e-12});
   double largest = 0;
@@ -156,7 +156,7 @@ TEST_CASE("ErrorEstimate_TendsToTheLocalError") {
 TEST_CASE("InaccurateStep_LeavesEverythingAsItWas") {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return 9 * q; };
-  e.force_dq = [](double, double, double) { return 9.0; };
+  e.force_by_q = [](double, double, double) { return 9.0; };
   test::OneCoordinate fresh = e;
   GeneralizedAlpha integrator({.spectral_radius = 0.7}), other({.spectral_radius = 0.7});
   State s = e.at(1, 0), alone = s;
@@ -180,7 +180,7 @@ struct Swing {
 Swing swing(bool chosen, double dt) {
   test::OneCoordinate e;
   e.force = [](double q, double, double) { return 9 * std::sin(q); };
-  e.force_dq = [](double q, double, double) { return 9 * std::cos(q); };
+  e.force_by_q = [](double q, double, double) { return 9 * std::cos(q); };
   GeneralizedAlpha integrator({.spectral_radius = 0.9, .chosen_by_error = chosen});
   State s = e.at(2.5, 0);
   Swing result;

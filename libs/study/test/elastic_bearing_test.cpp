@@ -34,7 +34,7 @@ const std::string machine =
                  "foot: {nodes: foot, origin: 0 0 0 mm}\n"
                  "bore: {nodes: bore, connection: average, origin: 0 0 0 mm}"},
         .rigid_shaft = "{mass: 0.1 kg, inertia: {xx: 1e-4 kg.m^2, yy: 1e-4 kg.m^2, zz: 1e-4 kg.m^2}}",
-        .held = "ring.foot",
+        .foundation = "ring.foot",
         .shell = "ring.bore",
         .initial = "{x: 6 um, y: -24 um, rotation_rate: 3000 rpm}",
         .load = "1.5 kN",

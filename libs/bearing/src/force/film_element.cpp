@@ -10,7 +10,7 @@
 namespace hersey::bearing {
 namespace {
 
-// Share of a control volume that may be left to the next one at the end of a step.
+// Fraction of a control volume that may be left to the next one at the end of a step.
 constexpr double kLargestRedistributedOverfill = 0.02;
 
 // Films at the start of a run whose layers thin by their shear, and the change of viscosity with which they end.
@@ -77,7 +77,7 @@ void FilmElement::begin_step(double dt) {
   iterations_ = 0;
 }
 
-// u += du0 + U (s - s_last): the film's share of the Newton increment the bodies have just taken.
+// u += du0 + U (s - s_last): the film's part of the Newton increment the bodies have just taken.
 void FilmElement::follow(const Eigen::VectorXd& parameters) {
   if (!is_linearised_) return;
   parameter_change_ = parameters - parameters_linearised_;

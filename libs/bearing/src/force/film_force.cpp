@@ -173,18 +173,18 @@ void FilmForce::condense_film(mbd::ForceResponse& response) {
   deforming_->add_turning(gap_->turning(), directions_);
   film::CondensedFilm& film = film_->condense(directions_, deforming_->openings());
   response.W_B_A = -film.wrench;
-  const auto by_journal = film.wrench_ds.leftCols(gap_parameter_count_);
+  const auto by_journal = film.wrench_by_s.leftCols(gap_parameter_count_);
   response.dW_dX.noalias() = -by_journal * gap_->d_dX();
   response.dW_dV.noalias() = -by_journal * gap_->d_dV();
   if (m == 0) return;
-  deforming_->add_turning_forces(gap_->turning(), film_->reynolds().normal_forces().value, film.Q_ds);
+  deforming_->add_turning_forces(gap_->turning(), film_->reynolds().normal_forces().value, film.Q_by_s);
   response.Q = film.Q;
-  response.dW_ds = -film.wrench_ds.middleCols(gap_parameter_count_, m);
-  response.dW_dr = -film.wrench_ds.rightCols(m);
-  response.dQ_dX.noalias() = film.Q_ds.leftCols(gap_parameter_count_) * gap_->d_dX();
-  response.dQ_dV.noalias() = film.Q_ds.leftCols(gap_parameter_count_) * gap_->d_dV();
-  response.dQ_ds = film.Q_ds.middleCols(gap_parameter_count_, m);
-  response.dQ_dr = film.Q_ds.rightCols(m);
+  response.dW_ds = -film.wrench_by_s.middleCols(gap_parameter_count_, m);
+  response.dW_dr = -film.wrench_by_s.rightCols(m);
+  response.dQ_dX.noalias() = film.Q_by_s.leftCols(gap_parameter_count_) * gap_->d_dX();
+  response.dQ_dV.noalias() = film.Q_by_s.leftCols(gap_parameter_count_) * gap_->d_dV();
+  response.dQ_ds = film.Q_by_s.middleCols(gap_parameter_count_, m);
+  response.dQ_dr = film.Q_by_s.rightCols(m);
 }
 
 // Wrench and forces on shapes after the film's own increment (bearing.10), without derivatives.
@@ -234,9 +234,9 @@ void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   exchange_->accept_step();
 }
 
-const film::WallExchange& FilmForce::mean_exchange() {
+const film::WallHeatFlow& FilmForce::mean_heat_flow() {
   HERSEY_REQUIRE(film_->heat() != nullptr, "a film with temperatures");
-  return film_->heat()->mean_exchange();
+  return film_->heat()->mean_heat_flow();
 }
 
 void FilmForce::settle_walls(const Eigen::VectorXd& T_nodes) {

@@ -25,7 +25,7 @@ class ClearanceGrowth {
   }
   /// The same step's temperatures were others. @param target  that they call for [m]
   void change_target(double target) { target_ = target; }
-  /// Temperatures that are held for cycles have been corrected at the end of one, by no motion of walls: the clearance
+  /// Temperatures that are kept for cycles have been corrected at the end of one, by no motion of walls: the clearance
   /// follows in about a quarter of the next.
   void settle(double target) {
     least_over_ = 0.25 * since_settled_;

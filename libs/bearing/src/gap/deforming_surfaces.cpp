@@ -24,7 +24,7 @@ DeformingSurfaces::DeformingSurfaces(const film::FilmModel& model, std::shared_p
   if (journal_) turn_journal(0);
   for (Index a = 0; a < count; ++a) {
     directions_[static_cast<std::size_t>(a)].g = openings_.col(a);
-    directions_[static_cast<std::size_t>(a)].shell_share = a < shell_count() ? 1 : 0;
+    directions_[static_cast<std::size_t>(a)].shell_fraction = a < shell_count() ? 1 : 0;
     directions_[static_cast<std::size_t>(count + a)].g_rate = openings_.col(a);
   }
 }
@@ -100,10 +100,10 @@ void DeformingSurfaces::add_turning(const GapKinematics::Turning& turning,
 }
 
 void DeformingSurfaces::add_turning_forces(const GapKinematics::Turning& turning, const VectorXd& normal_forces,
-                                           MatrixXd& Q_ds) const {
+                                           MatrixXd& Q_by_s) const {
   if (!journal_) return;
-  const Index first = Q_ds.rows() - slopes_.cols();
-  for (Index k = 0; k < slopes_.cols(); ++k) Q_ds(first + k, turning.of_angle) += slopes_.col(k).dot(normal_forces);
+  const Index first = Q_by_s.rows() - slopes_.cols();
+  for (Index k = 0; k < slopes_.cols(); ++k) Q_by_s(first + k, turning.of_angle) += slopes_.col(k).dot(normal_forces);
 }
 
 VectorXd DeformingSurfaces::shell_displacement(const VectorXd& s) const {

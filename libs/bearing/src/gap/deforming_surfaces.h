@@ -39,9 +39,9 @@ class DeformingSurfaces {
 
   /// Adds to the directions of the gap's parameters that the journal's deformation rotates with the journal.
   void add_turning(const GapKinematics::Turning& turning, std::vector<film::MotionDirection>& of_parameters) const;
-  /// Adds the same to the derivative of forces on amplitudes with the journal's angle, a column of `Q_ds`.
+  /// Adds the same to the derivative of forces on amplitudes with the journal's angle, a column of `Q_by_s`.
   void add_turning_forces(const GapKinematics::Turning& turning, const Eigen::VectorXd& normal_forces,
-                          Eigen::MatrixXd& Q_ds) const;
+                          Eigen::MatrixXd& Q_by_s) const;
 
   /// Radial displacement of each surface at the nodes, away from the axis [m]; zero where it is rigid.
   [[nodiscard]] Eigen::VectorXd shell_displacement(const Eigen::VectorXd& s) const;
@@ -49,7 +49,7 @@ class DeformingSurfaces {
 
  private:
   using Functions = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< (nodes, functions)
-  /// Values at the nodes and first and second derivatives with phi of a surface's functions rotated by `phi`.
+  /// Values at the nodes and first and second derivatives by phi of a surface's functions rotated by `phi`.
   [[nodiscard]] std::array<Functions, 3> at_nodes(const SurfaceFunctions& functions, double phi) const;
   void turn_journal(double phi);
   [[nodiscard]] Eigen::Index shell_count() const { return shell_ ? shell_->D.cols() : 0; }

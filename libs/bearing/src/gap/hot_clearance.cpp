@@ -10,15 +10,15 @@
 namespace hersey::bearing {
 namespace {
 
-/// Of the angles of a grid, their share of a turn.
-Eigen::VectorXd shares(const film::Grid& grid) {
-  Eigen::VectorXd share(grid.n_phi);
+/// Of the angles of a grid, their fraction of a turn.
+Eigen::VectorXd fractions(const film::Grid& grid) {
+  Eigen::VectorXd fraction(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
     const double before = i > 0 ? grid.phi(i - 1) : grid.phi(grid.n_phi - 1) - two_pi;
     const double after = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + two_pi;
-    share[i] = (after - before) / (2 * two_pi);
+    fraction[i] = (after - before) / (2 * two_pi);
   }
-  return share;
+  return fraction;
 }
 
 }  // namespace
@@ -28,13 +28,13 @@ HotClearance hot_clearance(const film::FilmModel& model, double growth, const Ei
   const double even = clearance(model, growth);
   if (shell.size() == 0 && journal.size() == 0) return {even, 0, false};
   const film::Grid& grid = model.grid;
-  const Eigen::VectorXd share = shares(grid);
+  const Eigen::VectorXd fraction = fractions(grid);
   HotClearance hot{std::numeric_limits<double>::infinity(), 0, true};
   for (int j = 0; j < grid.n_z; ++j) {
     double at = even;
     for (int i = 0; i < grid.n_phi; ++i) {
-      if (shell.size() > 0) at += share[i] * shell[grid.index(i, j)];
-      if (journal.size() > 0) at -= share[i] * journal[grid.index(i, j)];
+      if (shell.size() > 0) at += fraction[i] * shell[grid.index(i, j)];
+      if (journal.size() > 0) at -= fraction[i] * journal[grid.index(i, j)];
     }
     if (at < hot.smallest) hot.smallest = at, hot.z = model.L * grid.z_over_L(j);
   }

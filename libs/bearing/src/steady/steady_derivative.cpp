@@ -14,8 +14,8 @@ namespace {
 // The positions and rates that coefficients of displacement belong to.
 constexpr std::array<int, 4> kDirections{kEx, kEy, kExRate, kEyRate};
 
-// A tangent leaves the square of a small step of the residual that it takes away; more than this share of it, and the
-// film has no answer to the parameter that is its own, as one without supply, whose fill level is open.
+// A tangent leaves the square of a small step of the residual that it takes away; more than this fraction of it, and
+// the film has no answer to the parameter that is its own, as one without supply, whose fill level is open.
 constexpr double kLeft = 0.05;
 
 // Condition of a film whose level is fixed by nothing, from a diagonal shifted by 1e-9 of a conductance (Reynolds::
@@ -60,7 +60,7 @@ SteadyDerivative::SteadyDerivative(const film::FilmModel& model, const SteadySta
 }
 
 // The condition number of the film's equations, from below: a vector whose entries have nothing to do with each other
-// has a share in every direction, that of the smallest singular value among them.
+// has a part in every direction, that of the smallest singular value among them.
 double SteadyDerivative::amplification() {
   Eigen::MatrixXd x(film_.size(), 1);
   std::uint32_t state = 1;

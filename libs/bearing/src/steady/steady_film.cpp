@@ -17,11 +17,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// One Newton step may thin the film at a node to this share of itself, an elastic one may thicken it by this factor.
+// One Newton step may thin the film at a node to this fraction of itself, an elastic one may thicken it by this factor.
 constexpr double kThinnest = 0.3, kThickest = 5;
 
-// Shares of a step below this are none.
-constexpr double kSmallestShare = 1e-6;
+// Step lengths below this count as none.
+constexpr double kSmallestStepLength = 1e-6;
 
 // Iterations on film and deformation together without getting nearer by half, after which they are solved alternately,
 // and iterations of either at most.
@@ -34,7 +34,7 @@ std::shared_ptr<const ElasticSurface> surface_of(const std::shared_ptr<const Sur
   return flexibility ? flexibility->surface : nullptr;
 }
 
-/// A wrench seen in axes from which its own stand turned by `angle` about z.
+/// A wrench expressed in axes from which its own are turned by `angle` about z.
 Matrix6 about_z(double angle) {
   Matrix6 R = Matrix6::Zero();
   R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
@@ -102,7 +102,7 @@ void SteadyFilm::gather_flexibility(const SteadyElasticity& elasticity) {
     const SurfaceFlexibility& journal = *elasticity.journal;
     const Index count = journal.by_forces.rows();
     C_.bottomRightCorner(count, count) = journal.by_forces;
-    // The journal takes the opposite wrench, seen in its axes, which stand turned.
+    // The journal takes the opposite wrench, expressed in its own axes, which are turned.
     const Matrix6 to_journal = about_z(-point_.journal_angle);
     C_W_.bottomRows(count) = -journal.by_wrench * to_journal;
     tilt_by_s_.rightCols(count) = slopes(to_journal.topLeftCorner<3, 3>().transpose() * journal.turn);
@@ -244,8 +244,8 @@ film::FilmSolveSummary SteadyFilm::solve_nested(const Coordinates& e, VectorXd& 
     const VectorXd from = x, dx = limit_step(e, x, dx_);
     const double missing = r_s_.norm();
     bool nearer = false;
-    for (double share = 1; !nearer && share > 1e-3; share /= 2) {
-      x = from + share * dx;
+    for (double step_length = 1; !nearer && step_length > 1e-3; step_length /= 2) {
+      x = from + step_length * dx;
       nearer = film_at(x) && (r_s_.norm() < missing || relative_residual() <= film_options_.rtol);
     }
     if (!nearer) break;
@@ -255,9 +255,9 @@ film::FilmSolveSummary SteadyFilm::solve_nested(const Coordinates& e, VectorXd& 
 }
 
 VectorXd SteadyFilm::limit_step(const Coordinates& e, const VectorXd& x, const VectorXd& dx) {
-  double share = 1;
-  while (share > kSmallestShare && !reuses_film(e, x, e, x + share * dx)) share *= 0.7;
-  return share * dx;
+  double step_length = 1;
+  while (step_length > kSmallestStepLength && !reuses_film(e, x, e, x + step_length * dx)) step_length *= 0.7;
+  return step_length * dx;
 }
 
 bool SteadyFilm::reuses_film(const Coordinates& e, const VectorXd& x, const Coordinates& e_next,

@@ -25,7 +25,7 @@ namespace {
 constexpr int kMostHeatIterations = 300;
 constexpr double kHeatTolerance = 1e-8;
 
-// Temperatures that still change by more than this share of their rise after so many iterations, and have at each of
+// Temperatures that still change by more than this fraction of their rise after so many iterations, and have at each of
 // them, go round for ever: where oil stands in a cell, its heat, and with that its viscosity, may be anything.
 constexpr int kTurnsToComeNear = 80;
 constexpr double kFarApart = 0.5;
@@ -42,10 +42,10 @@ constexpr double kLastTolerance = 1e-6;
 // On half the grid they come as near as its films are to those on the whole one.
 constexpr double kHalfGridTolerance = 0.1;
 
-// The film is solved to this share of how far its temperatures still move.
-constexpr double kShareOfDistance = 0.1;
+// The film is solved to this fraction of how far its temperatures still move.
+constexpr double kFractionOfDistance = 0.1;
 
-// An iteration leaves at least this share of the clearance between bodies: films that close too far on the way make
+// An iteration leaves at least this fraction of the clearance between bodies: films that close too far on the way make
 // heat that no answer has.
 constexpr double kLeastLeft = 0.4;
 
@@ -55,8 +55,8 @@ constexpr double kCoarsest = 1e-3;
 // Bodies of a network in balance with the film's heat, and the film with their temperatures (thermal.48).
 void balance(film::ThermalNetwork& network, film::FilmHeat& heat) {
   const film::FilmTerminals at = film::terminals_of(heat.thermal());
-  network.advance(0, {{at, heat.exchange()}});
-  heat.move_walls(network.walls(at, heat.exchange().T));
+  network.advance(0, {{at, heat.heat_flow()}});
+  heat.move_walls(network.walls(at, heat.heat_flow().T));
 }
 
 double celsius(double T) { return T - film::zero_celsius; }
@@ -83,7 +83,7 @@ void tell_runaway(const film::HeatObservables& observed, bool has_lost_film, Ste
 // Of the film in the next iteration: all that was asked for where that may be the last, as an iteration brings
 // temperatures nearer by a factor of ten or so.
 double film_tolerance(const SteadyOptions& options, double relative_distance) {
-  const double near = kShareOfDistance * relative_distance;
+  const double near = kFractionOfDistance * relative_distance;
   return near <= 10 * kHeatTolerance ? options.rtol : std::max(options.rtol, std::min(kCoarsest, near));
 }
 

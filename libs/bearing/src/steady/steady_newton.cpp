@@ -17,7 +17,7 @@ constexpr double kLargestAttitudeChange = 0.3;
 // Iterations on film and position together without getting nearer by half, after which they are solved alternately.
 constexpr int kPatience = 6;
 
-// Share of the load below which a force has no size to compare with.
+// Fraction of the load below which a force has no size to compare with.
 constexpr double kForceFloor = 1e-6;
 
 // Newton's method leaves of a small residual this many times its square.
@@ -27,7 +27,7 @@ constexpr double kCurvature = 3;
 constexpr int kMostOnChord = 3;
 constexpr double kFarOnChord = 0.01;
 
-// Error allowed after chord steps as a share of the tolerance. They end just below their bound, steps of Newton's
+// Error allowed after chord steps as a fraction of the tolerance. They end just below their bound, steps of Newton's
 // method far below the tolerance: so the bound is stricter.
 constexpr double kChordTolerance = 0.1;
 
@@ -58,10 +58,11 @@ SteadySearch::Step SteadySearch::newton_step(const Coordinates& target) {
   step.de *= std::min(1.0, 0.5 * coordinates_of().scale(point_, e_) / std::max(step.de.norm(), 1e-300));
   if (!film_.may_overlap()) step.de *= log_gap_step_factor(step.de);
   step.dx += dx_de_ * step.de;
-  double share = 1;
-  while (share > 1e-6 && !film_.reuses_film(e_, x_, e_ + share * step.de, x_ + share * step.dx)) share *= 0.7;
-  step.de *= share;
-  step.dx *= share;
+  double step_length = 1;
+  while (step_length > 1e-6 && !film_.reuses_film(e_, x_, e_ + step_length * step.de, x_ + step_length * step.dx))
+    step_length *= 0.7;
+  step.de *= step_length;
+  step.dx *= step_length;
   return step;
 }
 
@@ -155,10 +156,10 @@ bool SteadySearch::solve_nested(const Coordinates& target) {
     const double distance = log_force_error(target);
     const Step step = newton_step(target);
     bool nearer = false;
-    for (double share = 1; !nearer && share > 1e-4 && !is_over_budget(); share /= 2) {
-      x_ = x + share * step.dx;
+    for (double step_length = 1; !nearer && step_length > 1e-4 && !is_over_budget(); step_length /= 2) {
+      x_ = x + step_length * step.dx;
       if (!film::check_unknowns(model_, film_.film_of(x_)).is_inside()) x_ = x;
-      nearer = film_at(e + share * step.de) && log_force_error(target) < distance;
+      nearer = film_at(e + step_length * step.de) && log_force_error(target) < distance;
     }
     if (!nearer) return false;
   }

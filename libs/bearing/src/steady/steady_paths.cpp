@@ -8,14 +8,14 @@
 #include "steady/steady_search.h"
 
 // Ways to the load where Newton's method does not arrive from the start (bearing.19, bearing.20), and what they have
-// seen.
+// found.
 namespace hersey::bearing {
 namespace {
 
 // Fractions of the way to the load below which raising it is given up.
 constexpr double kSmallestLoadStep = 1e-3;
 
-// A gap of this share of the clearance is none.
+// A gap of this fraction of the clearance is none.
 constexpr double kTouching = 3e-3;
 
 // The search from the inside out: turns until the force points along the load, the angle at which it does [rad], and
@@ -75,19 +75,19 @@ bool SteadySearch::continue_nested() {
   return solve_nested(*point_.load);
 }
 
-Coordinates SteadySearch::between(const Coordinates& from, double share) const {
+Coordinates SteadySearch::between(const Coordinates& from, double fraction) const {
   const Coordinates& W = *point_.load;
   const double turn = angle_between(from, W);
-  const double size = std::exp(share * std::log(W.norm() / from.norm()));
+  const double size = std::exp(fraction * std::log(W.norm() / from.norm()));
   if (from.size() != 2) return size * from;
-  return size * (Eigen::Rotation2Dd(share * turn) * Eigen::Vector2d(from));
+  return size * (Eigen::Rotation2Dd(fraction * turn) * Eigen::Vector2d(from));
 }
 
 bool SteadySearch::raise_from_light_load() {
-  for (const double share : {1.0 / 16, 1.0 / 128}) {
+  for (const double fraction : {1.0 / 16, 1.0 / 128}) {
     if (!film_.deforms() || is_over_budget()) return false;
     OperatingPoint light = point_;
-    light.load = share * *point_.load;
+    light.load = fraction * *point_.load;
     x_ = film_.start();
     if (film_at(coordinates_of().start(light)) && track(*light.load) && change_load()) return true;
   }

@@ -18,7 +18,7 @@ constexpr double kLogViscosityOfSolid = 12;
 // Positions tried on the way from the start to the bearing's centre, where the film at the start cannot be found.
 constexpr int kMostStarts = 5;
 
-// Linearisations allowed to search_outwards() in addition to those of the paths from the start, as a share of these.
+// Linearisations allowed to search_outwards() in addition to those of the paths from the start, as a fraction of these.
 constexpr double kOutwardSearchBudget = 0.6;
 
 }  // namespace

@@ -132,12 +132,13 @@ class SteadySearch {
   /// Near the solution, takes one Newton step from the present linearisation; its remainder is known to be small.
   [[nodiscard]] bool take_one_step(const Coordinates& target);
   /// Near the solution, takes steps of the chord method with the factor of the last such step. Each reduces the error
-  /// to a share that is proportional to change_since_factor_. Gives up if a node changes between full film and
+  /// to a fraction that is proportional to change_since_factor_. Gives up if a node changes between full film and
   /// cavitation.
   [[nodiscard]] bool take_chord_steps(const Coordinates& target);
   /// Newton's method on film and position at once, one linearisation per iteration.
   [[nodiscard]] bool solve_jointly(const Coordinates& target);
-  /// Newton's method on the position with the film solved at each; a step that does not reduce the distance is halved.
+  /// Newton's method on the position with the film solved at each; a step that does not reduce log_force_error() is
+  /// halved.
   [[nodiscard]] bool solve_nested(const Coordinates& target);
 
   // Paths to the load
@@ -146,8 +147,8 @@ class SteadySearch {
   /// Continues with solve_nested() from the present position, or from the start if that is nearer to the load.
   [[nodiscard]] bool continue_nested();
   /// Returns a force between `from` and the load: rotated at an even rate and grown by an even factor.
-  [[nodiscard]] Coordinates between(const Coordinates& from, double share) const;
-  /// Between surfaces that deform, starts from a share of the load at which they hardly do.
+  [[nodiscard]] Coordinates between(const Coordinates& from, double fraction) const;
+  /// Between surfaces that deform, starts from a fraction of the load at which they hardly do.
   [[nodiscard]] bool raise_from_light_load();
   [[nodiscard]] bool raise_load() { return film_at_start() && change_load(); }
   /// Changes the force from the present one to the load, each equilibrium the start of the next (bearing.19).

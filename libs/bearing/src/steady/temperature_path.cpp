@@ -16,17 +16,17 @@ namespace {
 // have to come.
 constexpr solver::ChangesKept kTurnsKept{.most = 60, .noise = 1e-11};
 
-// After so many iterations what none of them resembles goes this share of its way only.
+// After so many iterations what none of them resembles goes this fraction of its way only.
 struct Caution {
   int iteration;
-  double share;
+  double relaxation;
 };
 constexpr std::array kCaution{Caution{15, 0.3}, Caution{30, 0.1}, Caution{60, 0.03}};
 
-// Where the answer has a kink, what iterations on either side of it have shown leads astray: after so many this share
-// of all of the way, from the nearest that was found.
+// Where the answer has a kink, what iterations on either side of it have shown leads astray: after so many this
+// fraction of all of the way, from the nearest that was found.
 constexpr int kAcceleratedIterations = 120;
-constexpr double kSlowShare = 0.3;
+constexpr double kSlowRelaxation = 0.3;
 
 // These lead away where they end so many times further from what they make.
 constexpr double kAway = 10;
@@ -136,13 +136,13 @@ void TemperaturePath::take() {
 
 void TemperaturePath::step_on(int iteration) {
   for (const Caution& caution : kCaution) {
-    if (iteration == caution.iteration) mixing_.set_share_of_unknown(caution.share);
+    if (iteration == caution.iteration) mixing_.set_relaxation_of_unknown(caution.relaxation);
   }
   if (T_oil_) {
     try_next(film::first_guess(model_, thermal_, *T_oil_, heat_.state()), called_for());
     nearest_ = {};
   } else if (iteration == kAcceleratedIterations) {
-    mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowShare);
+    mixing_ = solver::FixedPointIteration(solver::Acceleration::constant, kSlowRelaxation);
     is_accelerated_ = false;
     try_next(mixing_.next(nearest_.x, nearest_.image));
   } else {

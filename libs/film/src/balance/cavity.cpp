@@ -28,10 +28,10 @@ class MiddleRow {
   [[nodiscard]] double angle(int i) const { return at_.phi[wrapped(i)]; }
 
   /// Distance from the last node i of the film to its end, which lies before the next node in the direction of `sense`
-  /// or in its volume [rad]. Where a film without tension ruptures or loses oil, a share of the next volume is full
+  /// or in its volume [rad]. Where a film without tension ruptures or loses oil, a fraction of the next volume is full
   /// (film.61, film.62); elsewhere the pressure falls linearly. A node of prescribed pressure is the film's end itself.
   [[nodiscard]] double reach(int i, int sense, bool is_rupture) const {
-    if (balance_.balance_share(node(i)) < 1 || ends(sense > 0 ? i - 1 : i)) return 0;
+    if (balance_.balance_weight(node(i)) < 1 || ends(sense > 0 ? i - 1 : i)) return 0;
     const int cavitated = i + sense;
     const double gap = step(sense > 0 ? i : i - 1), back = step(sense > 0 ? i - 1 : i);
     const double last = std::max(value(i), 0.0), before = std::max(value(i - sense), 0.0);
@@ -39,7 +39,7 @@ class MiddleRow {
     if (law.has_tension()) return gap * last / (last - value(cavitated));
     if (is_rupture || law.loses_oil()) {
       const double volume = 0.5 * (step(cavitated - 1) + step(cavitated));
-      return 0.5 * gap + (1 - balance_.cavitated_share(node(cavitated))) * volume;
+      return 0.5 * gap + (1 - balance_.cavitated_fraction(node(cavitated))) * volume;
     }
     const double rise = before / std::max(last, 1e-300) - 1;
     return rise > 0 ? std::min(back / rise, gap) : gap;

@@ -8,7 +8,7 @@
 namespace hersey::film {
 namespace {
 
-// Tension and missing oil below these shares of what sliding at the film's speed causes do not cavitate a film: a
+// Tension and missing oil below these fractions of what sliding at the film's speed causes do not cavitate a film: a
 // journal at the centre has no cavity, and the torque of one near the centre does not jump.
 constexpr double kLeastTension = 5e-4, kLeastSlack = 1e-3;
 
@@ -47,7 +47,7 @@ struct PressedIn {
 }  // namespace
 
 // P0 (film.6) is scaled by fill_speed, which may differ from the film's speed.
-double FlowBalance::sliding_share(int j) const {
+double FlowBalance::sliding_fraction(int j) const {
   return sliding_[static_cast<std::size_t>(j)].speed / (model_.R * model_.fill_speed);
 }
 
@@ -57,7 +57,7 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   const int k = grid.index(i, j);
   CavityBorder border{.node = k, .of = k};
   border.beside = nodes_beside(grid, i, j);
-  const double least = kLeastTension * sliding_share(j) * fill_scale(model_);
+  const double least = kLeastTension * sliding_fraction(j) * fill_scale(model_);
   double range = 2 * least, range_own = 0, middle = u_[k] + least, middle_own = 1;
   std::array<double, 4> range_by{}, middle_by{};
   for (const std::size_t pair : {0U, 2U}) {
@@ -75,9 +75,9 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
     range += std::abs(over), range_own += sign * fall.own;
     for (const std::size_t side : {0U, 1U}) range_by[pair + side] += sign * fall.weight[side];
   }
-  const double share = 0.5 + middle / range;
-  border.share = std::clamp(share, 0.0, 1.0);
-  if (share <= 0 || share >= 1) return border;
+  const double fraction = 0.5 + middle / range;
+  border.fraction = std::clamp(fraction, 0.0, 1.0);
+  if (fraction <= 0 || fraction >= 1) return border;
   const auto slope = [&](double of_middle, double of_range) { return (of_middle - middle / range * of_range) / range; };
   border.by_u = slope(middle_own, range_own);
   border.by_rate = least * slope(1, 2);
@@ -85,15 +85,15 @@ CavityBorder FlowBalance::cut_by_tension(int i, int j) const {
   return border;
 }
 
-// Oil is missing in a cavitated volume. The flow that pressure drives in fills the share that it has in the sum of
+// Oil is missing in a cavitated volume. The flow that pressure drives in fills the fraction that it has in the sum of
 // itself and the missing oil (film.61). Beside a supply line the node's row includes both, and the line drives in what
 // a node at its position would.
 CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const int k = model_.grid.index(i, j);
   const bool is_full = u_[k] >= -round_off_of_u();
   const PrescribedNode* prescribed = prescribed_at(k);
-  CavityBorder border{.node = k, .of = k, .share = is_full ? 1.0 : 0.0};
-  if (is_full || is_given(k) || (prescribed != nullptr && prescribed->other < 0)) return border;
+  CavityBorder border{.node = k, .of = k, .fraction = is_full ? 1.0 : 0.0};
+  if (is_full || is_on_prescribed_edge(k) || (prescribed != nullptr && prescribed->other < 0)) return border;
   const PrescribedNode line = prescribed == nullptr ? PrescribedNode{.draws = 0, .distance = 1} : *prescribed;
   border.beside = nodes_beside(model_.grid, i, j);
   const std::array<int, 4> faces = faces_around(k);
@@ -112,10 +112,10 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
   const double lack = -u_[k], of_line = std::max(line.u, 0.0), drawn = line.draws * lack;
   double in = line.distance * by_nodes.value + of_line * per_pressure.value;
   const double missing = line.distance * D0_ * lack + drawn * per_pressure.value,
-               least = kLeastSlack * sliding_share(j) * D0_ * scales_.slack;
+               least = kLeastSlack * sliding_fraction(j) * D0_ * scales_.slack;
   const bool is_little = missing < least;
   if (is_little) in += least - missing;
-  border.share = in / (in + missing);
+  border.fraction = in / (in + missing);
   if (in == 0) return border;
   const double whole = in + missing, by_in = missing / (whole * whole),
                by_missing = -in / (whole * whole) - (is_little ? by_in : 0);
@@ -134,8 +134,9 @@ CavityBorder FlowBalance::filled_by_pressure(int i, int j) const {
 
 void FlowBalance::apply_border(const CavityBorder& border) {
   Node& node = nodes_[border.node];
-  (model_.cavitated_shear == CavitatedShear::full ? node.other_share : node.share) = border.share;
-  if (border.share > 0 && border.share < 1) borders_.push_back(border);
+  (model_.cavitated_shear == CavitatedShear::full ? node.other_sheared_fraction : node.sheared_fraction) =
+      border.fraction;
+  if (border.fraction > 0 && border.fraction < 1) borders_.push_back(border);
 }
 
 // An edge at p_cav has u = 0 whether the film beside it is full or cavitated: it takes the state of the next node.
@@ -144,7 +145,8 @@ void FlowBalance::extend_borders_to_edges() {
   for (const int edge : prescribed_edge_nodes_) {
     const int next = phase_node(edge);
     if (next == edge) continue;
-    nodes_[edge].share = nodes_[next].share, nodes_[edge].other_share = nodes_[next].other_share;
+    nodes_[edge].sheared_fraction = nodes_[next].sheared_fraction,
+    nodes_[edge].other_sheared_fraction = nodes_[next].other_sheared_fraction;
     const auto end = borders_.begin() + static_cast<std::ptrdiff_t>(count);
     const auto found = std::lower_bound(borders_.begin(), end, next,
                                         [](const CavityBorder& border, int node) { return border.node < node; });
@@ -155,11 +157,12 @@ void FlowBalance::extend_borders_to_edges() {
   }
 }
 
-// Where oil is conserved, the flow that pressure drives in fills the share that it has in the sum of itself and the
+// Where oil is conserved, the flow that pressure drives in fills the fraction that it has in the sum of itself and the
 // missing oil.
-double FlowBalance::cavitated_share(int node) const {
+double FlowBalance::cavitated_fraction(int node) const {
   const Node& at = nodes_[node];
-  if (!cavitation_.has_fill()) return 1 - (model_.cavitated_shear == CavitatedShear::full ? at.other_share : at.share);
+  if (!cavitation_.has_fill())
+    return 1 - (model_.cavitated_shear == CavitatedShear::full ? at.other_sheared_fraction : at.sheared_fraction);
   if (u_[node] >= -round_off_of_u() || is_flooded(node)) return 0;
   double in = 0, carried = 0;  // by pressure; out of a full gap by the surfaces
   for (const int f : faces_around(node)) {

@@ -7,8 +7,8 @@
 namespace hersey::film {
 namespace {
 
-// Smallest share of the gap at its nodes that interpolation leaves to a face, as for the control volumes.
-constexpr double least_face_share = 0.25;
+// Smallest fraction of the gap at its nodes that interpolation leaves to a face, as for the control volumes.
+constexpr double least_face_fraction = 0.25;
 
 // Largest ratio of the gap half a cell on to that at the node in the law of little oil: larger ratios are not resolved
 // by the grid, and the law would be too steep for Newton's method.
@@ -36,14 +36,14 @@ EntrainedFlow FaceFlow::carried(double theta) const {
 bool FlowBalance::is_limited(std::size_t f) const {
   if (axial(f)) return false;
   const Face& face = faces_[f];
-  return bends_[static_cast<Eigen::Index>(f)] < (least_face_share - 1) * 0.5 * (nodes_[face.a].h + nodes_[face.b].h);
+  return bends_[static_cast<Eigen::Index>(f)] < (least_face_fraction - 1) * 0.5 * (nodes_[face.a].h + nodes_[face.b].h);
 }
 
 double FlowBalance::thickness_on(std::size_t f) const {
   const Face& face = faces_[f];
   const double mean = 0.5 * (nodes_[face.a].h + nodes_[face.b].h);
   if (axial(f)) return mean;
-  return is_limited(f) ? least_face_share * mean : mean + bends_[static_cast<Eigen::Index>(f)];
+  return is_limited(f) ? least_face_fraction * mean : mean + bends_[static_cast<Eigen::Index>(f)];
 }
 
 FlowBalance::FaceGap FlowBalance::smooth_gap(std::size_t f, double h) const {
@@ -145,8 +145,8 @@ void FlowBalance::add_starved_limit(std::size_t f, FaceGap& gap) const {
   }
 }
 
-std::array<double, 2> FlowBalance::thickness_shares(std::size_t f) const {
-  if (is_limited(f)) return {0.5 * least_face_share, 0};
+std::array<double, 2> FlowBalance::thickness_weights(std::size_t f) const {
+  if (is_limited(f)) return {0.5 * least_face_fraction, 0};
   return {0.5, axial(f) ? 0.0 : 1.0};
 }
 
@@ -154,22 +154,22 @@ double FlowBalance::pocket_edge_speed(std::size_t f, const PocketFlowTube& flow_
   return axial(f) ? 0 : edge_speed_of(flow_tube, entrainment(f), faces_[f].stretch * speeds_.u_journal);
 }
 
-// The line's rows count this share of the flow half-way to it.
-void FlowBalance::find_carried_share(std::size_t f, const FaceGap& gap, const EntrainedFlow& carried) {
+// The line's rows count this fraction of the flow half-way to it.
+void FlowBalance::find_carried_fraction(std::size_t f, const FaceGap& gap, const EntrainedFlow& carried) {
   const FaceFlow& flow = flows_[f];
-  CutFaceFraction& share = line_shares_[f % static_cast<std::size_t>(model_.grid.n_z)];
-  share = {};
+  CutFaceFraction& fraction = line_fractions_[f % static_cast<std::size_t>(model_.grid.n_z)];
+  fraction = {};
   if (flow.couette == 0) return;
-  share.value = carried.value / flow.couette, share.theta = carried.theta / flow.couette;
-  const double by_full = (carried.full + gap.little_over_full * carried.little - share.value) / gap.full;
+  fraction.value = carried.value / flow.couette, fraction.theta = carried.theta / flow.couette;
+  const double by_full = (carried.full + gap.little_over_full * carried.little - fraction.value) / gap.full;
   const double by_little = carried.little / gap.full;
-  const auto [half, by_bend] = thickness_shares(f);
-  share.h_a = by_full * (half * gap.full_h + gap.full_at[0]);
-  share.h_b = by_full * (half * gap.full_h + gap.full_at[1]);
-  (gap.from == faces_[f].a ? share.h_a : share.h_b) += by_little * gap.little_h;
-  share.bend = by_full * by_bend * gap.full_h;
-  share.excess = by_little * gap.little_excess;
-  share.journal = by_full * gap.full_journal + by_little * gap.little_journal;
+  const auto [half, by_bend] = thickness_weights(f);
+  fraction.h_a = by_full * (half * gap.full_h + gap.full_at[0]);
+  fraction.h_b = by_full * (half * gap.full_h + gap.full_at[1]);
+  (gap.from == faces_[f].a ? fraction.h_a : fraction.h_b) += by_little * gap.little_h;
+  fraction.bend = by_full * by_bend * gap.full_h;
+  fraction.excess = by_little * gap.little_excess;
+  fraction.journal = by_full * gap.full_journal + by_little * gap.little_journal;
 }
 
 void FlowBalance::add_face(std::size_t f) {
@@ -202,14 +202,14 @@ void FlowBalance::add_face(std::size_t f) {
   const double by_full = flow.density * face.width * (carried.full + gap.little_over_full * carried.little),
                by_little = flow.density * face.width * carried.little;
   const double by_h = by_cube * gap.cube_h + by_full * gap.full_h;
-  const auto [share, by_bend] = thickness_shares(f);
-  flow.q_h_a = share * by_h + by_cube * gap.cube_at[0] + by_full * gap.full_at[0] + 0.5 * flow.q_fluidity * at_a.h;
-  flow.q_h_b = share * by_h + by_cube * gap.cube_at[1] + by_full * gap.full_at[1] + 0.5 * flow.q_fluidity * at_b.h;
+  const auto [weight, by_bend] = thickness_weights(f);
+  flow.q_h_a = weight * by_h + by_cube * gap.cube_at[0] + by_full * gap.full_at[0] + 0.5 * flow.q_fluidity * at_a.h;
+  flow.q_h_b = weight * by_h + by_cube * gap.cube_at[1] + by_full * gap.full_at[1] + 0.5 * flow.q_fluidity * at_b.h;
   (gap.from == face.a ? flow.q_h_a : flow.q_h_b) += by_little * gap.little_h;
   flow.q_excess = by_little * gap.little_excess;
   flow.q_bend = by_bend * by_h;
   flow.q_journal = by_cube * gap.cube_journal + by_full * gap.full_journal + by_little * gap.little_journal;
-  if (is_cut(f)) find_carried_share(f, gap, carried);
+  if (is_cut(f)) find_carried_fraction(f, gap, carried);
   const double poiseuille = flow.K * (a.p - b.p), entrained = carried.value;
   balance_[face.a] += poiseuille + entrained;
   balance_[face.b] -= poiseuille + entrained;

@@ -6,11 +6,11 @@
 namespace hersey::film {
 namespace {
 
-// Smallest share of a node's gap that interpolation leaves to its control volume: surfaces that bend from node to node
-// do not cross between them.
-constexpr double least_share = 0.25;
+// Smallest fraction of a node's gap that interpolation leaves to its control volume: surfaces that bend from node to
+// node do not cross between them.
+constexpr double least_fraction = 0.25;
 
-// Smallest share of the initial gap from which a step starts whose gap opens faster than its rate.
+// Smallest fraction of the initial gap from which a step starts whose gap opens faster than its rate.
 constexpr double least_start = 0.5;
 
 }  // namespace
@@ -19,9 +19,9 @@ void FlowBalance::evaluate_cell(int i, const SurfaceMotion& motion) {
   Cell& cell = cells_[i];
   cell = {};
   const double mean = rough_[i].mean, mean_h = rough_[i].mean_h;
-  const bool limited = excesses_[i] < (least_share - 1) * mean;
-  cell.gap = limited ? least_share * mean : mean + excesses_[i];
-  cell.gap_h = limited ? least_share * mean_h : mean_h;
+  const bool limited = excesses_[i] < (least_fraction - 1) * mean;
+  cell.gap = limited ? least_fraction * mean : mean + excesses_[i];
+  cell.gap_h = limited ? least_fraction * mean_h : mean_h;
   cell.gap_excess = limited ? 0 : 1;
   if (relief_.has_pockets()) {
     cell.depth = relief_.depth()[i];

@@ -52,7 +52,7 @@ FlowBalance::FlowBalance(const FilmModel& model)
   content_start_.setOnes(n);
   cells_.resize(static_cast<std::size_t>(n));
   flow_tube_of_.assign(faces_.size(), -1);
-  line_shares_.resize(static_cast<std::size_t>(grid.n_z));
+  line_fractions_.resize(static_cast<std::size_t>(grid.n_z));
   prescribed_index_.assign(n, -1);
   edge_index_.assign(n, -1);
   land_index_.assign(n, -1);
@@ -75,13 +75,13 @@ void FlowBalance::lay_edges() {
     at.ambient = fill > 0 ? (fill - 1) * fill_scale(model_) : -std::numeric_limits<double>::infinity();
     at.kind = EdgeNode::Kind::wall;
     if (edge->kind == EdgeKind::closed) continue;
-    at.kind = open_edge(model_, node) ? EdgeNode::Kind::open : EdgeNode::Kind::given;
+    at.kind = open_edge(model_, node) ? EdgeNode::Kind::open : EdgeNode::Kind::prescribed;
     at.u = edge->pressure - model_.p_cav;
     if (!grid.closes() && !at.of_patch && grid.is_end(i)) {
       const PatchEnds& ends = model_.ends[static_cast<std::size_t>(grid.patch_of(i))];
       at.is_corner = (grid.begins_patch(i) ? ends.first : ends.last).kind == EdgeKind::pressure;
     }
-    if (at.kind == EdgeNode::Kind::given) prescribed_edge_nodes_.push_back(node);
+    if (at.kind == EdgeNode::Kind::prescribed) prescribed_edge_nodes_.push_back(node);
   }
 }
 
@@ -122,7 +122,7 @@ std::array<int, 4> FlowBalance::faces_around(int node) const {
 void FlowBalance::lay_pattern() {
   const Grid& grid = model_.grid;
   const int n = size(), n_z = grid.n_z;
-  const auto balanced = [&](int node) { return !is_given(node); };
+  const auto balanced = [&](int node) { return !is_on_prescribed_edge(node); };
   const auto around = [&](int line, int j, int none) { return line < 0 ? none : grid.index(line, j); };
   column_start_.reserve(static_cast<std::size_t>(n) + 1);
   row_index_.reserve(5 * static_cast<std::size_t>(n));
@@ -276,18 +276,18 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
 }
 
 int FlowBalance::phase_node(int node) const {
-  while (is_given(node) && edge_unknown(node) == 0) node = edges_[node].inside;
+  while (is_on_prescribed_edge(node) && edge_unknown(node) == 0) node = edges_[node].inside;
   return node;
 }
 
 // A row has a term beside its balance: the slack of p >= p_cav, or on an open edge the outflow or inflow.
 double FlowBalance::slack(int node) const {
-  if (!is_open(node)) return D0_ * cavitation_.slack(u_[node]).value;
+  if (!is_on_open_edge(node)) return D0_ * cavitation_.slack(u_[node]).value;
   return D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(node), 0.0));
 }
 
 double FlowBalance::slack_u(int node) const {
-  if (!is_open(node)) return D0_ * cavitation_.slack(u_[node]).slope;
+  if (!is_on_open_edge(node)) return D0_ * cavitation_.slack(u_[node]).slope;
   return u_[node] >= 0 || u_[node] < ambient_unknown(node) ? D0_ : 0;
 }
 
@@ -298,15 +298,15 @@ bool FlowBalance::blocks_inflow(int node) const {
 
 // On an edge in air the oil that a supply beside it would take back leaves, too.
 double FlowBalance::outflow_of_row(int node) const {
-  if (is_open(node)) return is_prescribed(node) ? std::max(slack(node), -balance_[node]) : slack(node);
-  if (!is_given(node)) return 0;
+  if (is_on_open_edge(node)) return is_on_supply(node) ? std::max(slack(node), -balance_[node]) : slack(node);
+  if (!is_on_prescribed_edge(node)) return 0;
   return blocks_inflow(node) ? 0 : -balance_[node];
 }
 
 double FlowBalance::outflow(int node) const { return outflow_of_row(node) + over_land(node); }
 
 double FlowBalance::acting_outflow(int node) const {
-  if (!cavitation_.has_tension() || !is_given(node)) return outflow(node);
+  if (!cavitation_.has_tension() || !is_on_prescribed_edge(node)) return outflow(node);
   const int inside = edges_[node].inside;
   if (nodes_[inside].p >= -round_off_of_u()) return outflow(node);
   return over_land(node) - flows_[face_at_edge(node)].K * edge_unknown(node);
@@ -327,11 +327,11 @@ std::size_t FlowBalance::face_at_edge(int node) const {
   return edges_[node].of_patch ? face_after(i, j) : face_above(i, j);
 }
 
-// Oil that is lost where the film is cavitated has no source, except for the share that the supply provides.
+// Oil that is lost where the film is cavitated has no source, except for the fraction that the supply provides.
 double FlowBalance::supply_of_row(int node) const {
   const double land = over_land(node);
-  if (!is_prescribed(node)) return land;
-  const double lost = is_open(node) ? 0 : (1 - draws(node)) * slack(node);
+  if (!is_on_supply(node)) return land;
+  const double lost = is_on_open_edge(node) ? 0 : (1 - draws(node)) * slack(node);
   return balance_[node] + lost + outflow_of_row(node) + land;
 }
 

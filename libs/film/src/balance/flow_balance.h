@@ -11,8 +11,8 @@
 #include "gap/pocket_relief.h"
 #include "gap/rough_gap.h"
 #include "hersey/film/film_domain.h"
-#include "hersey/film/film_exchange.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_response.h"
 
 namespace hersey::film {
 
@@ -70,7 +70,7 @@ struct PocketFlow {
 struct CavityBorder {
   int node = 0;
   int of = 0;  ///< node whose unknowns determine the border; differs from `node` only on an edge at p_cav
-  double share = 0;
+  double fraction = 0;
   double by_u = 0, by_h = 0;            ///< by u and film thickness at `of`
   double by_rate = 0, by_rotation = 0;  ///< by the two members of SlidingChange
   double by_line = 0;                   ///< by phi_supply [1/rad]
@@ -113,8 +113,8 @@ class FlowBalance {
   void initialise_oil_balance(StepOilBalance& oil) const;
 
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
-  /// Share of a control volume in which the film is cavitated (film.62) [-].
-  [[nodiscard]] double cavitated_share(int node) const;
+  /// Fraction of a control volume in which the film is cavitated (film.62) [-].
+  [[nodiscard]] double cavitated_fraction(int node) const;
   /// Borders of cavities in a film without a fill fraction.
   [[nodiscard]] const std::vector<CavityBorder>& borders() const { return borders_; }
   [[nodiscard]] const std::vector<RoughGap>& rough_gaps() const { return rough_; }
@@ -141,7 +141,7 @@ class FlowBalance {
   /// Gap that contains the oil of a control volume, mean depth of pockets included [m].
   [[nodiscard]] double oil_gap(int node) const { return cells_[node].gap + cells_[node].depth; }
   /// Derivatives of the thickness on face f by that at each of its nodes, and by its bend [-].
-  [[nodiscard]] std::array<double, 2> thickness_shares(std::size_t f) const;
+  [[nodiscard]] std::array<double, 2> thickness_weights(std::size_t f) const;
   [[nodiscard]] const PocketRelief& relief() const { return relief_; }
   [[nodiscard]] const SurfaceMotion& speeds() const { return speeds_; }  ///< without fields
   /// Velocity of the journal's surface relative to the shell's in a row of the grid [m/s].
@@ -153,14 +153,14 @@ class FlowBalance {
   [[nodiscard]] const GridGeometry& geometry() const { return geometry_; }
   [[nodiscard]] double speed_phi() const { return speed_phi_; }
   /// True if a node lies on an edge of prescribed pressure, where its row prescribes u in place of a balance.
-  [[nodiscard]] bool is_given(int node) const { return edges_[node].kind == EdgeNode::Kind::given; }
+  [[nodiscard]] bool is_on_prescribed_edge(int node) const { return edges_[node].kind == EdgeNode::Kind::prescribed; }
   /// True if a node lies on an edge at p_cav of a film with a fill fraction: oil leaves freely, and its row is a
   /// balance.
-  [[nodiscard]] bool is_open(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
+  [[nodiscard]] bool is_on_open_edge(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
   /// u at which an edge at p_cav is as full as its surroundings; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
   /// True on an edge at p_cav with oil outside: oil that comes in there fills the gap, whatever u is.
-  [[nodiscard]] bool is_flooded(int node) const { return is_open(node) && edges_[node].ambient == 0; }
+  [[nodiscard]] bool is_flooded(int node) const { return is_on_open_edge(node) && edges_[node].ambient == 0; }
   /// Returns the flow over the edge on which a node lies, of all flows over edges.
   template <class Flows>
   [[nodiscard]] double& flow_over_edge(Flows& flows, int node) const {
@@ -187,10 +187,11 @@ class FlowBalance {
   /// film at its own position (film.21) [m^3/s].
   [[nodiscard]] double line_flow_through_face(std::size_t f) const;
   [[nodiscard]] double supply_dissipation(int node) const;  ///< power dissipated between the node and its supply [W]
-  /// Share of supply_dissipation() that is dissipated in the control volume `other` on the other side of the line [-].
+  /// Fraction of supply_dissipation() that is dissipated in the control volume `other` on the other side of the line
+  /// [-].
   struct DissipationSplit {
     int other = 0;
-    double share = 0;
+    double fraction = 0;
   };
   [[nodiscard]] DissipationSplit split_of_dissipation(int node) const;
   [[nodiscard]] int feature_at(int node) const;  ///< the feature that feeds this node; -1 for none
@@ -200,19 +201,19 @@ class FlowBalance {
   [[nodiscard]] double drop_over_land(int node) const;   ///< pressure drop over the land [Pa]
   [[nodiscard]] double power_over_land(int node) const;  ///< [W]
   /// True if the supply line or a feature contributes to a node's row.
-  [[nodiscard]] bool is_prescribed(int node) const { return prescribed_index_[node] >= 0; }
-  /// Share of a node's oil that a supply has mixed [-]: 1 on line and features, and on edges that they reach, although
-  /// the edge has a pressure of its own there.
-  [[nodiscard]] double supplied_share(int node) const;
+  [[nodiscard]] bool is_on_supply(int node) const { return prescribed_index_[node] >= 0; }
+  /// Fraction of a node's oil that a supply has mixed [-]: 1 on line and features, and on edges that they reach,
+  /// although the edge has a pressure of its own there.
+  [[nodiscard]] double supplied_fraction(int node) const;
   [[nodiscard]] bool is_supplied(int node) const { return supplied_at(node) != nullptr; }
   /// Feature that has mixed it; -1: the line, or none.
   [[nodiscard]] int supplied_by(int node) const;
-  /// Share of a node's own balance in its row: 1 away from line and features, 0 on them.
-  [[nodiscard]] double balance_share(int node) const;
+  /// Weight of a node's own balance in its row: 1 away from line and features, 0 on them.
+  [[nodiscard]] double balance_weight(int node) const;
   [[nodiscard]] double supply_conductance(
       int node) const;  ///< conductance between u and the supply in that row [m^3/(Pa s)]
   [[nodiscard]] double supply_unknown(int node) const;  ///< u of the supply [Pa]
-  /// Share of missing oil, u < 0, that the supply provides [-]: 1 on line and features, 0 at the next node.
+  /// Fraction of missing oil, u < 0, that the supply provides [-]: 1 on line and features, 0 at the next node.
   [[nodiscard]] double draws(int node) const;
   /// True if the supply only provides what a node lacks and takes nothing from it.
   [[nodiscard]] bool only_fills(int node) const;
@@ -242,17 +243,17 @@ class FlowBalance {
   /// (balance + slack) + tie (u - u_given). Beside the line the balance ends in the middle of the way to the line.
   struct PrescribedNode {
     int node = 0;
-    double chi = 0;            ///< share of the supply in the row [-]
-    double chi_line = 0;       ///< d/d phi_supply [1/rad]
-    double chi_journal = 0;    ///< d/d phi_journal [1/rad]
-    double mixed_share = 0;    ///< share of the node's oil that the supply has mixed [-]
-    double draws = 1;          ///< share of missing oil that the supply provides [-]
-    double draws_line = 0;     ///< d/d phi_supply [1/rad]
-    double draws_journal = 0;  ///< d/d phi_journal [1/rad]
-    int feature = -1;          ///< index of the feature; -1: the line
-    double u = 0;              ///< u of the supply [Pa]
-    double centrality = 0;     ///< feature: 1 - distance from its centre over half its size (CoveredNode) [-]
-    int other = -1;            ///< line: the node on its other side
+    double chi = 0;             ///< weight of the supply in the row [-]
+    double chi_line = 0;        ///< d/d phi_supply [1/rad]
+    double chi_journal = 0;     ///< d/d phi_journal [1/rad]
+    double mixed_fraction = 0;  ///< fraction of the node's oil that the supply has mixed [-]
+    double draws = 1;           ///< fraction of missing oil that the supply provides [-]
+    double draws_line = 0;      ///< d/d phi_supply [1/rad]
+    double draws_journal = 0;   ///< d/d phi_journal [1/rad]
+    int feature = -1;           ///< index of the feature; -1: the line
+    double u = 0;               ///< u of the supply [Pa]
+    double centrality = 0;      ///< feature: 1 - distance from its centre over half its size (CoveredNode) [-]
+    int other = -1;             ///< line: the node on its other side
     /// Line: weights of h at this node, of h at `other` and of the bend of the gap in the thickness between node and
     /// line.
     double near = 1, far = 0, bend = 0;
@@ -284,9 +285,9 @@ class FlowBalance {
   /// Position of a supply line that cuts the flow tubes between two columns of nodes.
   struct Line {
     bool cuts = false;
-    int column = 0;     ///< column of nodes before it
-    double share = 0;   ///< share of the distance to the next column [-]
-    double by_phi = 0;  ///< d/d phi_supply [1/rad]
+    int column = 0;       ///< column of nodes before it
+    double fraction = 0;  ///< fraction of the distance to the next column [-]
+    double by_phi = 0;    ///< d/d phi_supply [1/rad]
   };
   /// Gap that contains the oil of a control volume, with derivatives (film.14).
   struct Cell {
@@ -317,7 +318,7 @@ class FlowBalance {
 
   /// Properties of a node that its edge determines.
   struct EdgeNode {
-    enum class Kind { none, wall, given, open };
+    enum class Kind { none, wall, prescribed, open };
     Kind kind = Kind::none;
     bool of_patch = false;   ///< the edge is the end of a patch
     bool is_corner = false;  ///< a row's edge meets an open end of a patch
@@ -356,9 +357,10 @@ class FlowBalance {
   [[nodiscard]] bool has_line_row(int node) const;
   [[nodiscard]] bool is_beside_line(int node) const;  ///< the line's other side has such a row, too
   [[nodiscard]] double line_balance(int node) const;
-  void find_carried_share(std::size_t f, const FaceGap& gap, const EntrainedFlow& carried);
-  [[nodiscard]] CutFaceFraction share_towards_line(int node, const TowardsLine& t) const;
-  [[nodiscard]] double share_along(std::size_t f, const CutFaceFraction& share, const MotionDirection& direction) const;
+  void find_carried_fraction(std::size_t f, const FaceGap& gap, const EntrainedFlow& carried);
+  [[nodiscard]] CutFaceFraction fraction_towards_line(int node, const TowardsLine& t) const;
+  [[nodiscard]] double line_fraction_along(std::size_t f, const CutFaceFraction& fraction,
+                                           const MotionDirection& direction) const;
   [[nodiscard]] double thickness_towards_line(const PrescribedNode& prescribed) const;
   [[nodiscard]] FlowTubeGap gap_towards_line(const PrescribedNode& prescribed, double h) const;
   [[nodiscard]] ByGap carried_in_pockets(const PrescribedNode& prescribed) const;
@@ -401,7 +403,7 @@ class FlowBalance {
   /// Round-off of u on a line or groove at p_cav, where u = 0 [Pa].
   [[nodiscard]] double round_off_of_u() const { return 1e-9 * fill_scale(model_); }
   /// Speed at which the surfaces slide in a row of the grid, over that in P0 [-].
-  [[nodiscard]] double sliding_share(int j) const;
+  [[nodiscard]] double sliding_fraction(int j) const;
   void find_borders();
   [[nodiscard]] CavityBorder cut_by_tension(int i, int j) const;
   [[nodiscard]] CavityBorder filled_by_pressure(int i, int j) const;
@@ -481,7 +483,7 @@ class FlowBalance {
   std::vector<int> flow_tube_of_;         ///< pocket flow tube of every face; -1: none
   std::vector<PocketFlow> pocket_flows_;  ///< of the flow tubes
   Line line_;
-  std::vector<CutFaceFraction> line_shares_;  ///< of the faces that the line cuts, by their axial row
+  std::vector<CutFaceFraction> line_fractions_;  ///< of the faces that the line cuts, by their axial row
   SurfaceMotion speeds_;
   std::vector<Sliding> sliding_;  ///< of the rows
   std::vector<PrescribedNode> prescribed_;

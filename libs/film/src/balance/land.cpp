@@ -76,7 +76,7 @@ const FlowBalance::Land* FlowBalance::land_at(int node) const {
 
 double FlowBalance::drop_over_land(int node) const {
   const Land* land = land_at(node);
-  return land == nullptr ? 0 : land->u - (is_open(node) ? 0 : edge_unknown(node));
+  return land == nullptr ? 0 : land->u - (is_on_open_edge(node) ? 0 : edge_unknown(node));
 }
 
 double FlowBalance::over_land(int node) const {

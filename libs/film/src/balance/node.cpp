@@ -77,11 +77,11 @@ void NodeLaw::pressure_and_fill(double u, int at, Node& node) const {
   }
   node.p = phase.p.value, node.p_u = phase.p.slope;
   node.theta = phase.theta.value, node.theta_u = phase.theta.slope;
-  const ValueAndSlope share = cavitation_.has_fill() || u >= 0 ? phase.theta : ValueAndSlope{0};
+  const ValueAndSlope fraction = cavitation_.has_fill() || u >= 0 ? phase.theta : ValueAndSlope{0};
   if (model_.cavitated_shear == CavitatedShear::full)
-    node.other_share = share.value;
+    node.other_sheared_fraction = fraction.value;
   else
-    node.share = share.value, node.share_u = share.slope;
+    node.sheared_fraction = fraction.value, node.sheared_fraction_u = fraction.slope;
 }
 
 void NodeLaw::rheology(const NodeViscosity& viscosity, const Sliding& sliding, Node& node) const {
@@ -115,12 +115,13 @@ void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
   };
   const Fluidity along = thinned(R.tangent()), across = thinned({R.value, R.slope});
   for (const int axis : {0, 1}) {
-    const double share = axis == 0 ? sliding.share_phi : 1 - sliding.share_phi, rest = 1 - share;
+    const double fraction = axis == 0 ? sliding.fraction_along_phi : 1 - sliding.fraction_along_phi,
+                 rest = 1 - fraction;
     const double rotation = along.value - across.value;
-    node.flow[axis] = {.value = share * along.value + rest * across.value,
-                       .u = share * along.u + rest * across.u,
-                       .h = share * along.h + rest * across.h,
-                       .rate = share * along.rate + rest * across.rate,
+    node.flow[axis] = {.value = fraction * along.value + rest * across.value,
+                       .u = fraction * along.u + rest * across.u,
+                       .h = fraction * along.h + rest * across.h,
+                       .rate = fraction * along.rate + rest * across.rate,
                        .rotation = axis == 0 ? rotation : -rotation};
   }
   node.mu = mu_n * R.value;

@@ -9,8 +9,8 @@ namespace hersey::film {
 
 /// Sliding of a film's surfaces against each other, by which alone an oil in one layer thins (thermal.24).
 struct Sliding {
-  double speed = 0;      ///< [m/s]
-  double share_phi = 1;  ///< share of the motion along phi in its square [-]
+  double speed = 0;               ///< [m/s]
+  double fraction_along_phi = 1;  ///< fraction of the motion along phi in its square [-]
 };
 
 /// Returns the sliding of surfaces with these relative speeds. At a tenth of a millimetre per second the direction is
@@ -28,7 +28,7 @@ struct SlidingChange {
 /// A fluidity 1/mu [1/(Pa s)] with its derivatives.
 struct Fluidity {
   double value = 0;
-  double u = 0;                   ///< with u, at a fixed film thickness
+  double u = 0;                   ///< by u, at a fixed film thickness
   double h = 0;                   ///< with the film thickness
   double rate = 0, rotation = 0;  ///< with the two members of SlidingChange
 
@@ -39,19 +39,19 @@ struct Fluidity {
 
 /// State of the film at one node, with derivatives: x_u = dx/du, x_g = dx/dg (theory manual, film.3 to film.10).
 struct Node {
-  double p = 0, p_u = 0;                ///< pressure above p_cav in the balance of flows [Pa]
-  double wall = 0, wall_u = 0;          ///< pressure on the walls, p_cav + max(u, 0) [Pa]
-  double theta = 1, theta_u = 0;        ///< fill fraction [-]
-  double share = 1, share_u = 0;        ///< share of the gap that carries Couette shear [-]
-  double other_share = 1;               ///< `share` with the other CavitatedShear [-]
-  std::array<Fluidity, 2> flow{};       ///< 1/mu of flow along pressure, around and along the axis
-  double mu = 0, mu_u = 0, mu_h = 0;    ///< viscosity of sliding [Pa s], at fixed h and at fixed u
-  double mu_rate = 0;                   ///< with the logarithm of the sliding speed [Pa s]
-  double density = 1, density_u = 0;    ///< rho/rho0 [-]
-  double content = 1, content_u = 0;    ///< oil in the gap, density theta [-]
-  double h = 0, h_u = 0, h_g = 1;       ///< film thickness [m]
-  double w = 0;                         ///< column deformation [m]
-  double asperity = 0, asperity_h = 0;  ///< contact pressure [Pa] and its slope in h
+  double p = 0, p_u = 0;                                ///< pressure above p_cav in the balance of flows [Pa]
+  double wall = 0, wall_u = 0;                          ///< pressure on the walls, p_cav + max(u, 0) [Pa]
+  double theta = 1, theta_u = 0;                        ///< fill fraction [-]
+  double sheared_fraction = 1, sheared_fraction_u = 0;  ///< fraction of the gap that carries Couette shear [-]
+  double other_sheared_fraction = 1;                    ///< `sheared_fraction` with the other CavitatedShear [-]
+  std::array<Fluidity, 2> flow{};                       ///< 1/mu of flow along pressure, around and along the axis
+  double mu = 0, mu_u = 0, mu_h = 0;                    ///< viscosity of sliding [Pa s], at fixed h and at fixed u
+  double mu_rate = 0;                                   ///< with the logarithm of the sliding speed [Pa s]
+  double density = 1, density_u = 0;                    ///< rho/rho0 [-]
+  double content = 1, content_u = 0;                    ///< oil in the gap, density theta [-]
+  double h = 0, h_u = 0, h_g = 1;                       ///< film thickness [m]
+  double w = 0;                                         ///< column deformation [m]
+  double asperity = 0, asperity_h = 0;                  ///< contact pressure [Pa] and its slope in h
 };
 
 /// Returns the scales of u < 0 in this film.

@@ -7,7 +7,7 @@
 namespace hersey::film {
 namespace {
 
-// Share of a control volume that may be left at the end of a row in which nothing can take it.
+// Fraction of a control volume that may be left at the end of a row in which nothing can take it.
 constexpr double round_off = 1e-9;
 
 }  // namespace
@@ -16,8 +16,8 @@ double FlowBalance::start_of(int i) const { return !has_start_gap_ ? cells_[i].s
 
 void FlowBalance::subtract_squeeze_defect(Eigen::VectorXd& rhs) const {
   for (int i = 0; i < size(); ++i) {
-    if (is_given(i)) continue;
-    rhs[i] -= balance_share(i) * area_[i] * content_start_[i] * (cells_[i].start - start_of(i)) / dt_;
+    if (is_on_prescribed_edge(i)) continue;
+    rhs[i] -= balance_weight(i) * area_[i] * content_start_[i] * (cells_[i].start - start_of(i)) / dt_;
   }
 }
 
@@ -38,14 +38,14 @@ void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {
   for (int i = 0; i < size(); ++i) {
     const double start = area_[i] * content_start_[i] * (start_of(i) + cells_[i].depth_start);
     const double whole = area_[i] * oil_gap(i);
-    double out = is_open(i) ? slack(i) + slack_u(i) * du[i] : 0;
+    double out = is_on_open_edge(i) ? slack(i) + slack_u(i) * du[i] : 0;
     // A prescribed row takes the oil that its state needs; the others keep what their flows leave.
-    const bool given = is_prescribed(i) || is_given(i) || !conserves;
-    accepts_surplus[static_cast<std::size_t>(i)] = given ? 1 : 0;
-    const double end = given ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
+    const bool prescribed = is_on_supply(i) || is_on_prescribed_edge(i) || !conserves;
+    accepts_surplus[static_cast<std::size_t>(i)] = prescribed ? 1 : 0;
+    const double end = prescribed ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
     const double coming = (end - start) / dt_ + leaving[i];
-    if (is_given(i)) out = blocks_inflow(i) ? 0 : -coming;
-    const double land = over_land(i), fed = (is_prescribed(i) ? coming + out : 0) + land;
+    if (is_on_prescribed_edge(i)) out = blocks_inflow(i) ? 0 : -coming;
+    const double land = over_land(i), fed = (is_on_supply(i) ? coming + out : 0) + land;
     add_flow_over_edge(oil, i, out + land);
     oil.flow_supply += fed;
     if (const int feature = feature_at(i); feature >= 0) oil.flow_features[feature] += fed;
@@ -91,9 +91,9 @@ double FlowBalance::sweep_surplus(int j, double carry, const std::vector<char>& 
     }
     if (accepts_surplus[static_cast<std::size_t>(i)] != 0) {
       const double flow = is_final_sweep ? carry / dt_ : 0;
-      if (!is_prescribed(i)) flow_over_edge(oil, i) += flow;
-      if (is_prescribed(i)) oil.flow_supply -= flow;
-      if (const int feature = feature_at(i); is_prescribed(i) && feature >= 0) oil.flow_features[feature] -= flow;
+      if (!is_on_supply(i)) flow_over_edge(oil, i) += flow;
+      if (is_on_supply(i)) oil.flow_supply -= flow;
+      if (const int feature = feature_at(i); is_on_supply(i) && feature >= 0) oil.flow_features[feature] -= flow;
       carry = 0;
       continue;
     }

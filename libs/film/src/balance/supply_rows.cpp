@@ -4,11 +4,11 @@
 #include "balance/flow_balance.h"
 #include "hersey/core/two_pi.h"
 
-// Rows of the residual in which supply line and features have a share (film.21, film.22).
+// Rows of the residual in which supply line and features have a part (film.21, film.22).
 namespace hersey::film {
 namespace {
 
-// A node whose own balance has a smaller share than this in its row lies on line or feature.
+// A node whose own balance has a smaller weight than this in its row lies on line or feature.
 constexpr double kNoWay = 1e-6;
 
 }  // namespace
@@ -24,9 +24,9 @@ const FlowBalance::PrescribedNode* FlowBalance::supplied_at(int node) const {
   return index < 0 ? nullptr : &supplied_edge_nodes_[index];
 }
 
-double FlowBalance::supplied_share(int node) const {
+double FlowBalance::supplied_fraction(int node) const {
   const PrescribedNode* supplied = supplied_at(node);
-  return supplied == nullptr ? 0 : supplied->mixed_share;
+  return supplied == nullptr ? 0 : supplied->mixed_fraction;
 }
 
 int FlowBalance::supplied_by(int node) const {
@@ -34,7 +34,7 @@ int FlowBalance::supplied_by(int node) const {
   return supplied == nullptr ? -1 : supplied->feature;
 }
 
-double FlowBalance::balance_share(int node) const {
+double FlowBalance::balance_weight(int node) const {
   const PrescribedNode* prescribed = prescribed_at(node);
   return prescribed == nullptr ? 1 : 1 - prescribed->chi;
 }
@@ -56,15 +56,15 @@ double FlowBalance::draws(int node) const {
 
 // Between the supply and the next node only pressure drives oil. On the supply itself the gap is full in any case.
 ValueAndSlope FlowBalance::excess(const PrescribedNode& prescribed) const {
-  const double u = u_[prescribed.node], share = u < 0 ? draws(prescribed.node) : 1;
+  const double u = u_[prescribed.node], fraction = u < 0 ? draws(prescribed.node) : 1;
   if (u > 0 && only_fills(prescribed.node)) return {0, 0};
-  return {share * u - prescribed.u, share};
+  return {fraction * u - prescribed.u, fraction};
 }
 
 // On an edge in air u > 0 is an outflow; a feature beside the edge does not take it.
 bool FlowBalance::only_fills(int node) const {
   const PrescribedNode* prescribed = prescribed_at(node);
-  return prescribed != nullptr && prescribed->feature >= 0 && prescribed->chi < 1 && is_open(node);
+  return prescribed != nullptr && prescribed->feature >= 0 && prescribed->chi < 1 && is_on_open_edge(node);
 }
 
 double FlowBalance::supply_dissipation(int node) const {
@@ -124,11 +124,11 @@ FlowBalance::Tie FlowBalance::tie_to_line(const PrescribedNode& prescribed) cons
                density = between(node.density, other.density),
                factor = between(rough.pressure[0], rough_other.pressure[0]);
   const double k = prescribed.conductance * cube.value * fluidity * density * factor, by_gap = k * cube.h / cube.value;
-  const auto by_h = [&](double share, const Node& at, const RoughGap& gap) {
-    return share * (by_gap + k * at.flow[0].h / fluidity + k * gap.pressure_h[0] / factor);
+  const auto by_h = [&](double weight, const Node& at, const RoughGap& gap) {
+    return weight * (by_gap + k * at.flow[0].h / fluidity + k * gap.pressure_h[0] / factor);
   };
-  const auto by_laws = [&](double share, const Node& at) {
-    return share * k * (at.flow[0].u / fluidity + at.density_u / density);
+  const auto by_laws = [&](double weight, const Node& at) {
+    return weight * k * (at.flow[0].u / fluidity + at.density_u / density);
   };
   const double near = by_h(prescribed.near, node, rough), far = by_h(prescribed.far, other, rough_other);
   const double by_near = by_gap * (node.h - other.h) + k * (node.flow[0].value - other.flow[0].value) / fluidity +
@@ -159,7 +159,7 @@ bool FlowBalance::yields_to(const PrescribedNode& prescribed, const PrescribedNo
 // Edges have precedence over a line or a feature, except for the oil, which is the supply's. An edge in air is filled
 // there, but its pressure cannot rise.
 void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
-  only_oil = only_oil || is_given(prescribed.node);
+  only_oil = only_oil || is_on_prescribed_edge(prescribed.node);
   std::vector<PrescribedNode>& nodes = only_oil ? supplied_edge_nodes_ : prescribed_;
   int& index = (only_oil ? edge_index_ : prescribed_index_)[prescribed.node];
   if (index >= 0 && !yields_to(nodes[index], prescribed)) return;
@@ -168,17 +168,17 @@ void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
     nodes.emplace_back();
   }
   nodes[index] = prescribed;
-  if (is_open(prescribed.node)) nodes[index].u = 0;
+  if (is_on_open_edge(prescribed.node)) nodes[index].u = 0;
 }
 
 // The line cuts the flow tubes between two columns of nodes. Each side is connected to it by the part of the flow tube
-// on its side, K/t at a share t of the distance. The row is multiplied by t, so that a line on a node prescribes the
+// on its side, K/t at a fraction t of the distance. The row is multiplied by t, so that a line on a node prescribes the
 // pressure there.
 void FlowBalance::prescribe_line(double phi) {
   const Grid& grid = model_.grid;
   const auto line = geometry_.locate(phi);
   const int i = line.node;
-  const double t = line.share;
+  const double t = line.fraction;
   const int next = grid.next(i);
   line_ = {true, i, t, model_.R / geometry_.dx[i]};
   const double u = model_.supply.pressure - model_.p_cav;
@@ -186,7 +186,7 @@ void FlowBalance::prescribe_line(double phi) {
     prescribe({.node = grid.index(here, j),
                .chi = 1 - distance,
                .chi_line = -by_phi,
-               .mixed_share = 1 - distance,
+               .mixed_fraction = 1 - distance,
                .draws = (1 - distance) * (1 - distance),
                .draws_line = -2 * (1 - distance) * by_phi,
                .u = u,
@@ -222,15 +222,15 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
     cover(model_, geometry_, feature, motion.phi_journal, covered_);
     for (const CoveredNode& node : covered_) {
       const int j = node.node % model_.grid.n_z;
-      if (is_given(node.node) && !edges_[node.node].of_patch &&
+      if (is_on_prescribed_edge(node.node) && !edges_[node.node].of_patch &&
           std::abs(geometry_.z[j] - feature.z) > (0.5 + as_written) * feature.length)
         continue;
       prescribe({.node = node.node,
-                 .chi = node.share,
-                 .chi_journal = node.share_phi,
-                 .mixed_share = node.mixed_share,
+                 .chi = node.fraction,
+                 .chi_journal = node.fraction_journal,
+                 .mixed_fraction = node.mixed_fraction,
                  .draws = node.draws,
-                 .draws_journal = node.draws_phi,
+                 .draws_journal = node.draws_journal,
                  .feature = static_cast<int>(f),
                  .u = u,
                  .centrality = node.centrality});
@@ -323,15 +323,15 @@ double FlowBalance::line_balance(int node) const {
   const std::size_t f = line_face(*prescribed_at(node));
   const double carried = flows_[f].carried(upstream(f).theta).value;
   const double conserved = node == faces_[f].a ? carried : -carried;
-  return balance_[node] - conserved + t.full * share_towards_line(node, t).value - t.strip;
+  return balance_[node] - conserved + t.full * fraction_towards_line(node, t).value - t.strip;
 }
 
-/// Returns the share of a full gap's entrained flow from a node to the line; 1 where the flow comes from the line.
-FlowBalance::CutFaceFraction FlowBalance::share_towards_line(int node, const TowardsLine& t) const {
+/// Returns the fraction of a full gap's entrained flow from a node to the line; 1 where the flow comes from the line.
+FlowBalance::CutFaceFraction FlowBalance::fraction_towards_line(int node, const TowardsLine& t) const {
   if (!t.from_node) return {};
   const std::size_t f = line_face(*prescribed_at(node));
   if (node == (flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b))
-    return line_shares_[f % static_cast<std::size_t>(model_.grid.n_z)];
+    return line_fractions_[f % static_cast<std::size_t>(model_.grid.n_z)];
   return {.value = nodes_[node].theta, .theta = 1};
 }
 
@@ -341,39 +341,40 @@ void FlowBalance::add_line_by_u(const PrescribedNode& prescribed) {
   const TowardsLine t = towards_line(prescribed.node);
   const Node &node = nodes_[prescribed.node], &other = nodes_[prescribed.other];
   const double sign = prescribed.node == face.a ? 1 : -1, density = flows_[f].density;
-  const CutFaceFraction share = share_towards_line(prescribed.node, t);
+  const CutFaceFraction fraction = fraction_towards_line(prescribed.node, t);
   const bool is_a = prescribed.node == face.a;
-  const double scale = sign * share.value * density * face.width;
+  const double scale = sign * fraction.value * density * face.width;
   const double deeper = carried_in_pockets(prescribed).h;
   const auto by_h = [&](int k) {
     return entrainment(f) * rough_[k].mean_h + half_slip(f) * rough_[k].drag_h[0] + deeper;
   };
-  const double by_density = 0.5 * (share.value * t.full - t.strip) / density;
+  const double by_density = 0.5 * (fraction.value * t.full - t.strip) / density;
   values_[diagonal_slot_[prescribed.node]] +=
       scale * prescribed.near * by_h(prescribed.node) * node.h_u + by_density * node.density_u +
-      t.full * (share.theta * node.theta_u + (is_a ? share.h_a : share.h_b) * node.h_u);
+      t.full * (fraction.theta * node.theta_u + (is_a ? fraction.h_a : fraction.h_b) * node.h_u);
   values_[slot_to_other(prescribed)] += scale * prescribed.far * by_h(prescribed.other) * other.h_u +
                                         by_density * other.density_u +
-                                        t.full * (is_a ? share.h_b : share.h_a) * other.h_u;
+                                        t.full * (is_a ? fraction.h_b : fraction.h_a) * other.h_u;
 }
 
-/// Returns the change of share_towards_line() with the surfaces.
-double FlowBalance::share_along(std::size_t f, const CutFaceFraction& share, const MotionDirection& direction) const {
-  if (share.theta == 0) return 0;
+/// Returns the change of fraction_towards_line() with the surfaces.
+double FlowBalance::line_fraction_along(std::size_t f, const CutFaceFraction& fraction,
+                                        const MotionDirection& direction) const {
+  if (fraction.theta == 0) return 0;
   const Face& face = faces_[f];
   const FaceFlow& flow = flows_[f];
   const Speeds speeds = speeds_along(f, direction);
-  double change = share.journal * direction.phi_journal;
+  double change = fraction.journal * direction.phi_journal;
   if (speeds.mean != 0 || speeds.half_slip != 0) {
     const auto [full, little] = carried_at(f, speeds);
     const EntrainedFlow carried = flow.carried(upstream(f).theta);
-    change += flow.density * ((carried.full - share.value) * full + carried.little * little) / flow.couette;
+    change += flow.density * ((carried.full - fraction.value) * full + carried.little * little) / flow.couette;
   }
   if (direction.g.size() == 0) return change;
-  return change + share.h_a * nodes_[face.a].h_g * direction.g[face.a] +
-         share.h_b * nodes_[face.b].h_g * direction.g[face.b] +
-         share.bend * direction_bends_[static_cast<Eigen::Index>(f)] +
-         share.excess * direction_excesses_[flow.couette >= 0 ? face.a : face.b];
+  return change + fraction.h_a * nodes_[face.a].h_g * direction.g[face.a] +
+         fraction.h_b * nodes_[face.b].h_g * direction.g[face.b] +
+         fraction.bend * direction_bends_[static_cast<Eigen::Index>(f)] +
+         fraction.excess * direction_excesses_[flow.couette >= 0 ? face.a : face.b];
 }
 
 /// Returns the change of the terms of towards_line() with the surfaces.
@@ -383,8 +384,8 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
   const auto bend = static_cast<Eigen::Index>(f);
   const TowardsLine t = towards_line(prescribed.node);
   const double sign = prescribed.node == face.a ? 1 : -1, density = flows_[f].density;
-  const CutFaceFraction share = share_towards_line(prescribed.node, t);
-  const double scale = sign * density * face.width * share.value;
+  const CutFaceFraction fraction = fraction_towards_line(prescribed.node, t);
+  const double scale = sign * density * face.width * fraction.value;
   const auto [speed, half_slip_change, journal] = speeds_along(f, direction);
   const auto carried = [&](int k, double mean, double half) {
     return mean * rough_[k].mean + half * rough_[k].drag[0];
@@ -412,7 +413,7 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
     const double h = thickness_towards_line(prescribed), step = edge_speed_of(flow_tube, speed, journal);
     q += (speed - step) * (gap_towards_line(prescribed, h).carry.value - h) + deeper.journal * direction.phi_journal;
   }
-  double row = scale * q + t.full * share_along(f, share, direction);
+  double row = scale * q + t.full * line_fraction_along(f, fraction, direction);
   if (direction.g_rate.size() != 0) row -= density * strip_area(prescribed) * direction.g_rate[prescribed.node];
   return row +
          0.5 * prescribed.distance_line * rotation * density * face.length * face.width * g_rate_[prescribed.node];

@@ -9,8 +9,8 @@
 namespace hersey::film {
 namespace {
 
-/// A share of a cell and its derivative with the feature's angle.
-struct Share {
+/// A fraction of a cell and its derivative by the feature's angle.
+struct Fraction {
   double value = 0;
   double phi = 0;
 };
@@ -54,16 +54,16 @@ Surroundings within_film(Surroundings s, const Grid& grid, int i, int j) {
 
 /// Returns a ramp from 1 inside an interval of half-width `half` to 0 one `step` beyond it; d is the distance from its
 /// middle.
-Share ramp(double d, double half, double step) {
+Fraction ramp(double d, double half, double step) {
   const double outside = (std::abs(d) - half) / step;
   if (outside <= 0) return {1, 0};
   return {std::max(1 - outside, 0.0), (d > 0 ? 1 : -1) / step};
 }
 
-/// Row shares (film.22) follow from the conductance between a node and the feature's edge, which is a share of one cell
-/// away.
-Share row_share(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double unit) {
-  const Share around = ramp(s.d, 0.5 * feature.arc, s.to_phi / s.R);
+/// Row weights (film.22) follow from the conductance between a node and the feature's edge, which is a fraction of one
+/// cell away.
+Fraction row_weight(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double unit) {
+  const Fraction around = ramp(s.d, 0.5 * feature.arc, s.to_phi / s.R);
   const double along = ramp(s.z, 0.5 * feature.length, s.to_z).value;
   const double covered = around.value * along;
   const double by_phi = unit * s.to_phi / s.width_z, by_z = unit * s.to_z / s.width_phi;
@@ -72,9 +72,9 @@ Share row_share(const Rectangle& /*shape*/, const SurfaceFeature& feature, const
   return {covered / sum, (covered_phi * gap - covered * gap_phi) / (sum * sum)};
 }
 
-/// Returns the share of a node's cell that an ellipse with the given half-axes covers, by Gauss' rule along z and exact
-/// around.
-Share ellipse_share(const Surroundings& s, double half_arc, double half_length) {
+/// Returns the fraction of a node's cell that an ellipse with the given half-axes covers, by Gauss' rule along z and
+/// exact around.
+Fraction ellipse_fraction(const Surroundings& s, double half_arc, double half_length) {
   // Gauss' rule has four points on each half of the cell: Abramowitz and Stegun (1964), table 25.4.
   static constexpr std::array<double, 4> point{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
                                                0.861136311594052575};
@@ -82,7 +82,7 @@ Share ellipse_share(const Surroundings& s, double half_arc, double half_length) 
                                                 0.347854845137453857};
   const double cell = s.back + s.ahead, height = s.below + s.above;
   const double first = s.d - s.back, last = s.d + s.ahead;
-  Share share;
+  Fraction fraction;
   for (const double half : {0.25, 0.75}) {
     for (std::size_t k = 0; k < point.size(); ++k) {
       const double y = (s.z - s.below + height * (half + 0.25 * point[k])) / half_length;
@@ -92,18 +92,18 @@ Share ellipse_share(const Surroundings& s, double half_arc, double half_length) 
       if (right <= left) continue;
       // In the frame of the feature the cell moves backwards as the feature rotates forwards.
       const double moving = (first > -reach ? 1.0 : 0.0) - (last < reach ? 1.0 : 0.0);
-      share.value += 0.25 * weight[k] * (right - left) / cell;
-      share.phi += 0.25 * weight[k] * moving / cell;
+      fraction.value += 0.25 * weight[k] * (right - left) / cell;
+      fraction.phi += 0.25 * weight[k] * moving / cell;
     }
   }
-  return share;
+  return fraction;
 }
 
-Share row_share(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double /*unit*/) {
+Fraction row_weight(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, double /*unit*/) {
   // The ellipse is grown by half a cell all around, as the ramps of a rectangle are: its edge then lies where the
   // ellipse's does.
-  const Share covered =
-      ellipse_share(s, 0.5 * (feature.arc + s.back + s.ahead), 0.5 * (feature.length + s.below + s.above));
+  const Fraction covered =
+      ellipse_fraction(s, 0.5 * (feature.arc + s.back + s.ahead), 0.5 * (feature.length + s.below + s.above));
   const double unit = 4;  // conductance of all four faces over that of one, equal in both directions
   const double open = 1 - covered.value, sum = covered.value + unit * open;
   if (covered.value == 0) return {};
@@ -112,8 +112,8 @@ Share row_share(const Ellipse& /*shape*/, const SurfaceFeature& feature, const S
 
 /// Returns the length of [first, last] that lies within +-half, or within +-half a revolution away, and its derivative
 /// as the interval's borders move backwards.
-Share overlap(double first, double last, double half) {
-  Share sum;
+Fraction overlap(double first, double last, double half) {
+  Fraction sum;
   for (const double image : {-two_pi, 0.0, two_pi}) {
     const double left = std::max(first, image - half), right = std::min(last, image + half);
     if (right <= left) continue;
@@ -123,59 +123,60 @@ Share overlap(double first, double last, double half) {
   return sum;
 }
 
-/// Returns the share of the cell's height that a rectangle covers.
+/// Returns the fraction of the cell's height that a rectangle covers.
 double overlap_along(const SurfaceFeature& feature, const Surroundings& s) {
   const double half = 0.5 * feature.length;
   return std::max(0.0, std::min(s.z + s.above, half) - std::max(s.z - s.below, -half)) / (s.below + s.above);
 }
 
-/// Returns the share of a control volume that a feature covers.
-Share covered(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s) {
+/// Returns the fraction of a control volume that a feature covers.
+Fraction covered(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s) {
   if (feature.arc >= two_pi) return {overlap_along(feature, s), 0};
-  const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
+  const Fraction around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
   const double along = overlap_along(feature, s) / (s.back + s.ahead);
   return {around.value * along, around.phi * along};
 }
 
-Share covered(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s) {
-  return ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length);
+Fraction covered(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s) {
+  return ellipse_fraction(s, 0.5 * feature.arc, 0.5 * feature.length);
 }
 
-/// Returns the share of the circumferential flow through a control volume that passes the feature. A feature narrower
-/// than the control volume is passed by all of the flow when it lies inside wholly.
-Share mixed_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
+/// Returns the fraction of the circumferential flow through a control volume that passes the feature. A feature
+/// narrower than the control volume is passed by all of the flow when it lies inside wholly.
+Fraction mixed_rectangle(const SurfaceFeature& feature, const Surroundings& s) {
   if (feature.arc >= two_pi) return {1, 0};
   const double smaller = std::min(s.back + s.ahead, feature.arc);
-  const Share around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
+  const Fraction around = overlap(s.d - s.back, s.d + s.ahead, 0.5 * feature.arc);
   return {around.value / smaller, around.phi / smaller};
 }
 
-/// Returns the share of missing oil that a feature supplies where it has mixed the given share of the oil that passes.
-Share drawn(double share, double share_phi) {
-  const double half = std::min(2 * share, 1.0);
-  return {half * half, share < 0.5 ? 4 * half * share_phi : 0};
+/// Returns the fraction of missing oil that a feature supplies where it has mixed the given fraction of the oil that
+/// passes.
+Fraction drawn(double fraction, double fraction_journal) {
+  const double half = std::min(2 * fraction, 1.0);
+  return {half * half, fraction < 0.5 ? 4 * half * fraction_journal : 0};
 }
 
-// mix() sets the feature's shares of the oil that passes a node's control volume and of the oil that it lacks (film.22,
-// thermal.14).
+// mix() sets the feature's fractions of the oil that passes a node's control volume and of the oil that it lacks
+// (film.22, thermal.14).
 
 void mix(const Rectangle& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
-  const Share around = mixed_rectangle(feature, s);
+  const Fraction around = mixed_rectangle(feature, s);
   const double along = overlap_along(feature, s), higher = std::max(1.0, (s.below + s.above) / feature.length);
-  const Share draws = drawn(around.value, around.phi);
+  const Fraction draws = drawn(around.value, around.phi);
   const double draws_along = s.is_on_edge() ? 1 : drawn(higher * along, 0).value;
-  node.mixed_share = around.value * along;
-  node.draws = draws.value * draws_along, node.draws_phi = draws.phi * draws_along;
+  node.mixed_fraction = around.value * along;
+  node.draws = draws.value * draws_along, node.draws_journal = draws.phi * draws_along;
 }
 
 void mix(const Ellipse& /*shape*/, const SurfaceFeature& feature, const Surroundings& s, CoveredNode& node) {
   const double wider = std::max(1.0, (s.back + s.ahead) / feature.arc);
-  const Share covered = ellipse_share(s, 0.5 * feature.arc, 0.5 * feature.length);
+  const Fraction covered = ellipse_fraction(s, 0.5 * feature.arc, 0.5 * feature.length);
   const double higher = std::max(1.0, (s.below + s.above) / feature.length);
-  const Share draws =
-      s.is_on_edge() ? Share{1, 0} : drawn(wider * higher * covered.value, wider * higher * covered.phi);
-  node.mixed_share = std::min(1.0, wider * covered.value);
-  node.draws = draws.value, node.draws_phi = draws.phi;
+  const Fraction draws =
+      s.is_on_edge() ? Fraction{1, 0} : drawn(wider * higher * covered.value, wider * higher * covered.phi);
+  node.mixed_fraction = std::min(1.0, wider * covered.value);
+  node.draws = draws.value, node.draws_journal = draws.phi;
 }
 
 }  // namespace
@@ -203,16 +204,19 @@ void cover(const FilmModel& model, const GridGeometry& geometry, const SurfaceFe
       const Surroundings s = surroundings(grid, geometry, i, j, d, geometry.z[j] - feature.z);
       if (std::abs(d) >= 0.5 * feature.arc + s.to_phi / s.R) break;
       if (std::abs(s.z) >= 0.5 * feature.length + s.to_z) continue;
-      const Share share =
-          std::visit([&](const auto& shape) { return row_share(shape, feature, s, unit); }, feature.shape);
+      const Fraction fraction =
+          std::visit([&](const auto& shape) { return row_weight(shape, feature, s, unit); }, feature.shape);
       const double centrality =
           1 - 2 * std::max(std::abs(d) / feature.arc, std::abs(geometry.z[j] - feature.z) / feature.length);
-      if (share.value == 0) continue;
+      if (fraction.value == 0) continue;
       CoveredNode& node = nodes.emplace_back();
-      node = {.node = grid.index(i, j), .share = share.value, .share_phi = share.phi, .centrality = centrality};
+      node = {.node = grid.index(i, j),
+              .fraction = fraction.value,
+              .fraction_journal = fraction.phi,
+              .centrality = centrality};
       const Surroundings inside = within_film(s, grid, i, j);
       std::visit([&](const auto& shape) { mix(shape, feature, inside, node); }, feature.shape);
-      if (!travels) node.share_phi = node.draws_phi = 0;
+      if (!travels) node.fraction_journal = node.draws_journal = 0;
     }
   }
 }
@@ -226,9 +230,11 @@ void cover_cells(const FilmModel& model, const GridGeometry& geometry, const Sur
     const double d = geometry.from_to(middle, geometry.phi[i]);
     for (int j = 0; j < grid.n_z; ++j) {
       const Surroundings s = within_film(surroundings(grid, geometry, i, j, d, geometry.z[j] - feature.z), grid, i, j);
-      const Share share = std::visit([&](const auto& shape) { return covered(shape, feature, s); }, feature.shape);
-      if (share.value > 0)
-        nodes.push_back({.node = grid.index(i, j), .share = share.value, .share_phi = travels ? share.phi : 0});
+      const Fraction fraction =
+          std::visit([&](const auto& shape) { return covered(shape, feature, s); }, feature.shape);
+      if (fraction.value > 0)
+        nodes.push_back(
+            {.node = grid.index(i, j), .fraction = fraction.value, .fraction_journal = travels ? fraction.phi : 0});
     }
   }
 }

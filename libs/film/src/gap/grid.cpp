@@ -13,10 +13,10 @@ namespace {
 // cell.
 constexpr int points_per_node = 32;
 
-/// Returns the positions of `count` nodes between `first` and `last`, between which equal shares of the integral of
+/// Returns the positions of `count` nodes between `first` and `last`, between which equal parts of the integral of
 /// `density` lie; the last node lies on `last`.
 template <class Density>
-std::vector<double> equal_shares(int count, double first, double last, Density&& density) {
+std::vector<double> equal_parts(int count, double first, double last, Density&& density) {
   const int points = points_per_node * count;
   const double step = (last - first) / points;
   std::vector<double> integral(points + 1, 0.0);
@@ -24,9 +24,9 @@ std::vector<double> equal_shares(int count, double first, double last, Density&&
   std::vector<double> nodes(count);
   int k = 0;
   for (int i = 0; i < count; ++i) {
-    const double share = integral.back() * i / (count - 1);
-    while (k + 1 < points && integral[k + 1] < share) ++k;
-    nodes[i] = first + step * (k + (share - integral[k]) / (integral[k + 1] - integral[k]));
+    const double fraction = integral.back() * i / (count - 1);
+    while (k + 1 < points && integral[k + 1] < fraction) ++k;
+    nodes[i] = first + step * (k + (fraction - integral[k]) / (integral[k + 1] - integral[k]));
   }
   nodes.front() = first, nodes.back() = last;
   return nodes;
@@ -72,7 +72,7 @@ double density_around(double phi, const std::vector<Refinement>& around) {
 
 std::vector<double> graded_heights(int n_z, const std::vector<Refinement>& along) {
   if (along.empty()) return {};
-  return equal_shares(n_z, -0.5, 0.5, [&](double z) {
+  return equal_parts(n_z, -0.5, 0.5, [&](double z) {
     double sum = 1;
     for (const Refinement& r : along) sum += density_at(z - r.position, r);
     return sum;
@@ -85,7 +85,7 @@ Grid graded_grid(int n_phi, int n_z, const std::vector<Refinement>& around, cons
   check(around), check(along);
   Grid grid{.n_phi = n_phi, .n_z = n_z, .heights = graded_heights(n_z, along)};
   if (around.empty()) return grid;
-  grid.angles = equal_shares(n_phi + 1, 0, two_pi, [&](double phi) { return density_around(phi, around); });
+  grid.angles = equal_parts(n_phi + 1, 0, two_pi, [&](double phi) { return density_around(phi, around); });
   grid.angles.pop_back();
   return grid;
 }
@@ -98,7 +98,7 @@ Grid graded_grid(const std::vector<Patch>& patches, int n_z, const std::vector<R
   for (std::size_t p = 0; p < patches.size() && !around.empty(); ++p) {
     const Patch& patch = patches[p];
     const std::vector<double> lines =
-        equal_shares(patch.lines, patch.from, patch.to, [&](double phi) { return density_around(phi, around); });
+        equal_parts(patch.lines, patch.from, patch.to, [&](double phi) { return density_around(phi, around); });
     std::copy(lines.begin(), lines.end(), grid.angles.begin() + grid.patches[p]);
   }
   return grid;
@@ -164,14 +164,14 @@ Grid resampled(const Grid& grid, int n_phi, int n_z) {
 
 namespace {
 
-Grid moved_within_patches(const Grid& grid, double share) {
+Grid moved_within_patches(const Grid& grid, double fraction) {
   Grid other{.n_phi = 0, .n_z = grid.n_z, .heights = grid.heights};
   for (int i = 0; i < grid.n_phi; ++i) {
     if (grid.begins_patch(i)) {
       other.patches.push_back(static_cast<int>(other.angles.size()));
       other.angles.push_back(grid.phi(i));
     }
-    other.angles.push_back(grid.next(i) < 0 ? grid.phi(i) : grid.phi(i) + share * (grid.phi(i + 1) - grid.phi(i)));
+    other.angles.push_back(grid.next(i) < 0 ? grid.phi(i) : grid.phi(i) + fraction * (grid.phi(i + 1) - grid.phi(i)));
   }
   other.n_phi = static_cast<int>(other.angles.size());
   return other;
@@ -179,14 +179,14 @@ Grid moved_within_patches(const Grid& grid, double share) {
 
 }  // namespace
 
-Grid turned(const Grid& grid, double share) {
-  HERSEY_REQUIRE(share >= 0 && share < 1, "a share of the cells");
-  if (!grid.closes()) return share > 0 ? moved_within_patches(grid, share) : grid;
+Grid turned(const Grid& grid, double fraction) {
+  HERSEY_REQUIRE(fraction >= 0 && fraction < 1, "a fraction of the cells");
+  if (!grid.closes()) return fraction > 0 ? moved_within_patches(grid, fraction) : grid;
   Grid other = grid;
   other.angles.resize(grid.n_phi);
   for (int i = 0; i < grid.n_phi; ++i) {
     const double next = i + 1 < grid.n_phi ? grid.phi(i + 1) : grid.phi(0) + two_pi;
-    other.angles[i] = grid.phi(i) + share * (next - grid.phi(i));
+    other.angles[i] = grid.phi(i) + fraction * (next - grid.phi(i));
   }
   return other;
 }

@@ -44,11 +44,11 @@ struct GridGeometry {
   /// Returns an angle as results show it: on a surface that closes from 0 to 2 pi [rad].
   [[nodiscard]] double reported_angle(double phi) const;
 
-  /// Node before `angle` in the direction of growing phi, and the share of the distance to the next, in [0, 1). Outside
-  /// of patches it is the nearest line.
+  /// Node before `angle` in the direction of growing phi, and the fraction of the distance to the next, in [0, 1).
+  /// Outside of patches it is the nearest line.
   struct Location {
     int node = 0;
-    double share = 0;
+    double fraction = 0;
   };
   [[nodiscard]] Location locate(double angle) const;
 };

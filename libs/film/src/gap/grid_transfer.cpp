@@ -79,8 +79,10 @@ Eigen::VectorXd GridTransfer::operator()(const Eigen::VectorXd& field, int per_n
     for (const Between& j : along_) {
       for (int k = 0; k < per_node; ++k) {
         const auto at = [&](int line, int row) { return field[(line * n_z_ + row) * per_node + k]; };
-        const auto on_line = [&](int line) { return (1 - j.share) * at(line, j.first) + j.share * at(line, j.second); };
-        result[index++] = (1 - i.share) * on_line(i.first) + i.share * on_line(i.second);
+        const auto on_line = [&](int line) {
+          return (1 - j.weight) * at(line, j.first) + j.weight * at(line, j.second);
+        };
+        result[index++] = (1 - i.weight) * on_line(i.first) + i.weight * on_line(i.second);
       }
     }
   }
@@ -91,7 +93,7 @@ Eigen::MatrixXd GridTransfer::between(const std::vector<Between>& positions, con
   Eigen::MatrixXd result(static_cast<Eigen::Index>(positions.size()), values.cols());
   Eigen::Index row = 0;
   for (const Between& at : positions)
-    result.row(row++) = (1 - at.share) * values.row(at.first) + at.share * values.row(at.second);
+    result.row(row++) = (1 - at.weight) * values.row(at.first) + at.weight * values.row(at.second);
   return result;
 }
 

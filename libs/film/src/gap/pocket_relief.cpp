@@ -12,13 +12,13 @@ namespace hersey::film {
 namespace {
 
 // Gauss' rule with four points on [-1, 1]: Abramowitz and Stegun (1964), table 25.4. It is applied to both halves of a
-// width, as for the shares of control volumes (feature_cover.cpp), so that a rotating pocket keeps its volume.
+// width, as for the fractions of control volumes (feature_cover.cpp), so that a rotating pocket keeps its volume.
 constexpr std::array<double, 4> gauss_point{-0.861136311594052575, -0.339981043584856265, 0.339981043584856265,
                                             0.861136311594052575};
 constexpr std::array<double, 4> gauss_weight{0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
                                              0.347854845137453857};
 
-/// Calls visit(share of the width, position within it from 0 to 1).
+/// Calls visit(fraction of the width, position within it from 0 to 1).
 template <class Visit>
 void over_gauss_points(Visit&& visit) {
   for (const double half : {0.25, 0.75}) {
@@ -26,9 +26,9 @@ void over_gauss_points(Visit&& visit) {
   }
 }
 
-/// A position with its rate of rotation.
+/// A position and its derivative by phi_journal.
 struct Border {
-  double at = 0, rate = 0;
+  double at = 0, journal = 0;
   bool operator<(const Border& other) const { return at < other.at; }
 };
 
@@ -47,7 +47,7 @@ double length_within(double first, double last, double half) {
 struct PocketRelief::Extent {
   double across = 0, along = 0;  ///< middle
   double half_across = 0, half_along = 0;
-  double across_rate = 0, along_rate = 0;  ///< by which the middle moves with phi_journal
+  double across_journal = 0, along_journal = 0;  ///< of the middle by phi_journal
   FeatureShape shape;
   bool in_journal = false;
   double depth = 0;
@@ -64,11 +64,11 @@ double swept_area(const SurfaceFeature& pocket, double R, double phi, double low
     return sign * R * height * length_within(first, last, half);
   }
   double sum = 0;
-  over_gauss_points([&](double share, double position) {
+  over_gauss_points([&](double fraction, double position) {
     const double y = (low + position * (high - low) - pocket.z) / half_length;
     if (std::abs(y) >= 1) return;
     const double reach = std::visit([y](const auto& shape) { return shape.reach(y); }, pocket.shape);
-    sum += share * length_within(first, last, half * reach);
+    sum += fraction * length_within(first, last, half * reach);
   });
   return sign * R * (high - low) * sum;
 }
@@ -86,8 +86,8 @@ void PocketRelief::add_cells(const SurfaceFeature& feature, double phi_journal, 
   cells_.clear();
   cover_cells(model_, geometry_, feature, phi_journal, cells_);
   for (const CoveredNode& cell : cells_) {
-    depth[cell.node] += feature.depth * cell.share;
-    if (slope != nullptr) (*slope)[cell.node] += feature.depth * cell.share_phi;
+    depth[cell.node] += feature.depth * cell.fraction;
+    if (slope != nullptr) (*slope)[cell.node] += feature.depth * cell.fraction_journal;
   }
 }
 
@@ -100,7 +100,8 @@ void PocketRelief::set_rotation(double phi_journal, double phi_start, double dt,
     for (const SurfaceFeature& feature : *features) {
       cells_.clear();
       cover_cells(model_, geometry_, feature, phi_journal, cells_);
-      for (const CoveredNode& cell : cells_) covered_.push_back({cell.node, cell.share, cell.share_phi, feature.depth});
+      for (const CoveredNode& cell : cells_)
+        covered_.push_back({cell.node, cell.fraction, cell.fraction_journal, feature.depth});
     }
   }
   evaluated_ = asked;
@@ -128,15 +129,15 @@ void PocketRelief::locate_flow_tubes(double phi_journal) {
     around.clear(), along.clear();
     for (const SurfaceFeature& pocket : pockets_) {
       const bool rotates = pocket.surface == Surface::journal, all_around = pocket.arc >= two_pi;
-      const double rate = rotates && !all_around ? 1 : 0;
+      const double journal = rotates && !all_around ? 1 : 0;
       const double middle = image_nearest_to(phi + ahead, pocket.phi + (rotates ? phi_journal : 0.0));
       const double half_arc = all_around ? two_pi : 0.5 * pocket.arc, half_length = 0.5 * pocket.length;
       for (const double image : {-two_pi, 0.0, two_pi}) {
         if (all_around && image != 0) continue;
         const double at = middle + image;
         if (at + half_arc <= phi - back || at - half_arc >= phi + step) continue;
-        around.push_back({pocket.z, at, half_length, half_arc, 0, rate, pocket.shape, rotates, pocket.depth});
-        along.push_back({at, pocket.z, half_arc, half_length, rate, 0, pocket.shape, rotates, pocket.depth});
+        around.push_back({pocket.z, at, half_length, half_arc, 0, journal, pocket.shape, rotates, pocket.depth});
+        along.push_back({at, pocket.z, half_arc, half_length, journal, 0, pocket.shape, rotates, pocket.depth});
       }
     }
     if (around.empty()) continue;
@@ -169,16 +170,16 @@ void PocketRelief::add_flow_tube(std::size_t face, const std::vector<Extent>& ex
     all_straight = all_straight && is_straight;
     if (!is_straight) continue;
     for (const double at : {e.across - e.half_across, e.across + e.half_across}) {
-      if (at > across && at < across + width) borders.push_back({at, e.across_rate});
+      if (at > across && at < across + width) borders.push_back({at, e.across_journal});
     }
   }
   std::sort(borders.begin(), borders.end());
   for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
     const Border &low = borders[k], &high = borders[k + 1];
-    const double share = (high.at - low.at) / width, share_rate = (high.rate - low.rate) / width;
+    const double fraction = (high.at - low.at) / width, fraction_journal = (high.journal - low.journal) / width;
     const auto strip = [&](double part, double position) {
-      add_strip(near, low.at + position * (high.at - low.at), low.rate + position * (high.rate - low.rate),
-                part * share, part * share_rate, along, length);
+      add_strip(near, low.at + position * (high.at - low.at), low.journal + position * (high.journal - low.journal),
+                part * fraction, part * fraction_journal, along, length);
     };
     if (all_straight) {
       strip(1, 0.5);
@@ -190,8 +191,8 @@ void PocketRelief::add_flow_tube(std::size_t face, const std::vector<Extent>& ex
   flow_tubes_.push_back(flow_tube);
 }
 
-void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, double y_rate, double share,
-                             double share_rate, double along, double length) {
+void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, double y_journal, double fraction,
+                             double fraction_journal, double along, double length) {
   struct Covered {
     Border from, to;
     double depth;
@@ -201,26 +202,26 @@ void PocketRelief::add_strip(const std::vector<Extent>& extents, double y, doubl
   for (const Extent& e : extents) {
     const double off = (y - e.across) / e.half_across;
     if (std::abs(off) >= 1) continue;
-    const auto [share_of, slope] =
+    const auto [chord, slope] =
         std::visit([off](const auto& shape) { return std::pair(shape.reach(off), shape.reach_slope(off)); }, e.shape);
-    const double reach = e.half_along * share_of;
-    const double reach_rate = e.half_along * slope * (y_rate - e.across_rate) / e.half_across;
-    const auto clipped = [&](double at, double rate) {
+    const double reach = e.half_along * chord;
+    const double reach_journal = e.half_along * slope * (y_journal - e.across_journal) / e.half_across;
+    const auto clipped = [&](double at, double journal) {
       if (at <= along) return Border{along, 0};
       if (at >= along + length) return Border{along + length, 0};
-      borders.push_back({at, rate});
-      return Border{at, rate};
+      borders.push_back({at, journal});
+      return Border{at, journal};
     };
-    intervals.push_back({clipped(e.along - reach, e.along_rate - reach_rate),
-                         clipped(e.along + reach, e.along_rate + reach_rate), e.depth});
+    intervals.push_back({clipped(e.along - reach, e.along_journal - reach_journal),
+                         clipped(e.along + reach, e.along_journal + reach_journal), e.depth});
   }
   std::sort(borders.begin(), borders.end());
-  Strip strip{share, share_rate, static_cast<int>(segments_.size()), 0};
+  Strip strip{fraction, fraction_journal, static_cast<int>(segments_.size()), 0};
   for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
     const Border &from = borders[k], &to = borders[k + 1];
     if (to.at <= from.at) continue;
     const double middle = 0.5 * (from.at + to.at);
-    Segment segment{(to.at - from.at) / length, (to.rate - from.rate) / length, 0};
+    Segment segment{(to.at - from.at) / length, (to.journal - from.journal) / length, 0};
     for (const Covered& c : intervals) {
       if (c.from.at < middle && middle < c.to.at) segment.depth += c.depth;
     }
@@ -234,29 +235,29 @@ FlowTubeGap PocketRelief::gap(const PocketFlowTube& flow_tube, double h) const {
   FlowTubeGap sum;
   for (int s = flow_tube.first_strip; s < flow_tube.first_strip + flow_tube.strips; ++s) {
     const Strip& strip = strips_[s];
-    // Integrals I_1 to I_4, and the derivatives of I_2 and I_3 with phi_journal.
+    // Integrals I_1 to I_4, and the derivatives of I_2 and I_3 by phi_journal.
     std::array<double, 5> I{};
     double I1_journal = 0, I2_journal = 0, I3_journal = 0;
     for (int k = strip.first_segment; k < strip.first_segment + strip.segments; ++k) {
       const Segment& segment = segments_[k];
       const double x = 1 / (h + segment.depth), x2 = x * x;
-      I[1] += segment.share * x, I[2] += segment.share * x2, I[3] += segment.share * x2 * x;
-      I[4] += segment.share * x2 * x2;
-      I1_journal += segment.share_journal * x;
-      I2_journal += segment.share_journal * x2, I3_journal += segment.share_journal * x2 * x;
+      I[1] += segment.fraction * x, I[2] += segment.fraction * x2, I[3] += segment.fraction * x2 * x;
+      I[4] += segment.fraction * x2 * x2;
+      I1_journal += segment.fraction_journal * x;
+      I2_journal += segment.fraction_journal * x2, I3_journal += segment.fraction_journal * x2 * x;
     }
     const double cube = 1 / I[3], cube_h = 3 * I[4] * cube * cube, cube_journal = -I3_journal * cube * cube;
     const double carry = I[2] * cube, carry_h = -2 * I[3] * cube + I[2] * cube_h;
     const double carry_journal = I2_journal * cube + I[2] * cube_journal;
-    sum.cube.value += strip.share * cube, sum.cube.h += strip.share * cube_h;
-    sum.cube.journal += strip.share_journal * cube + strip.share * cube_journal;
-    sum.carry.value += strip.share * carry, sum.carry.h += strip.share * carry_h;
-    sum.carry.journal += strip.share_journal * carry + strip.share * carry_journal;
+    sum.cube.value += strip.fraction * cube, sum.cube.h += strip.fraction * cube_h;
+    sum.cube.journal += strip.fraction_journal * cube + strip.fraction * cube_journal;
+    sum.carry.value += strip.fraction * carry, sum.carry.h += strip.fraction * carry_h;
+    sum.carry.journal += strip.fraction_journal * carry + strip.fraction * carry_journal;
     if (strip.segments == 1) continue;
     const double excess = I[1] - I[2] * carry;
-    sum.excess.value += strip.share * excess, sum.excess.h += 3 * strip.share * (I[2] - carry * carry * I[4]);
-    sum.excess.journal +=
-        strip.share_journal * excess + strip.share * (I1_journal - 2 * carry * I2_journal + carry * carry * I3_journal);
+    sum.excess.value += strip.fraction * excess, sum.excess.h += 3 * strip.fraction * (I[2] - carry * carry * I[4]);
+    sum.excess.journal += strip.fraction_journal * excess +
+                          strip.fraction * (I1_journal - 2 * carry * I2_journal + carry * carry * I3_journal);
   }
   return sum;
 }

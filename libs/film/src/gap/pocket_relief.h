@@ -30,16 +30,16 @@ struct PocketFlowTube {
   int first_strip = 0, strips = 0;
   bool in_shell = false, in_journal = false;  ///< surfaces that have the pockets
   double swept = 0;          ///< volume of the journal's pockets that passes the face by rotation [m^3/s]
-  double swept_journal = 0;  ///< with phi_journal [m^3/(s rad)]
-  double swept_speed = 0;    ///< with the journal's speed [m^2]
+  double swept_journal = 0;  ///< by phi_journal [m^3/(s rad)]
+  double swept_speed = 0;    ///< by the journal's speed [m^2]
 };
 
-/// A feature's share of a node's control volume, with its depth.
+/// A feature's part of a node's control volume, with its depth.
 struct CoveredDepth {
   int node = 0;
-  double share = 0;          ///< of the volume [-]
-  double share_journal = 0;  ///< with phi_journal [1/rad]
-  double depth = 0;          ///< [m]
+  double fraction = 0;          ///< of the volume [-]
+  double fraction_journal = 0;  ///< by phi_journal [1/rad]
+  double depth = 0;             ///< [m]
 };
 
 /// Depth of a film's features over its grid. It is no part of the gap between the surfaces, because it has steps and
@@ -59,21 +59,21 @@ class PocketRelief {
   [[nodiscard]] FlowTubeGap gap(const PocketFlowTube& flow_tube, double h) const;
 
   // Mean depth of pockets over each control volume (film.27) at present and at the start of the step [m], and its
-  // derivative with phi_journal [m/rad]; empty where there are no pockets.
+  // derivative by phi_journal [m/rad]; empty where there are no pockets.
   [[nodiscard]] const Eigen::VectorXd& depth() const { return depth_; }
   [[nodiscard]] const Eigen::VectorXd& depth_start() const { return depth_start_; }
   [[nodiscard]] const Eigen::VectorXd& depth_by_journal() const { return depth_journal_; }
   /// Present mean depth of the journal's pockets alone [m].
   [[nodiscard]] const Eigen::VectorXd& turning_depth() const { return rotating_depth_; }
-  /// Covered shares of all pockets and fed features.
+  /// Covered fractions of all pockets and fed features.
   [[nodiscard]] const std::vector<CoveredDepth>& covered() const { return covered_; }
 
  private:
   struct Segment {
-    double share = 0, share_journal = 0, depth = 0;
+    double fraction = 0, fraction_journal = 0, depth = 0;
   };
   struct Strip {
-    double share = 0, share_journal = 0;
+    double fraction = 0, fraction_journal = 0;
     int first_segment = 0, segments = 0;
   };
   /// Extent of a feature relative to a flow tube: across and along the flow, with the rate at which it rotates.
@@ -87,8 +87,8 @@ class PocketRelief {
   void locate_flow_tubes(double phi_journal);
   void add_flow_tube(std::size_t face, const std::vector<Extent>& extents, double across, double width, double along,
                      double length);
-  void add_strip(const std::vector<Extent>& extents, double y, double y_rate, double share, double share_rate,
-                 double along, double length);
+  void add_strip(const std::vector<Extent>& extents, double y, double y_journal, double fraction,
+                 double fraction_journal, double along, double length);
   void sweep(double phi_journal, double phi_start, double dt, double speed);
   void add_cells(const SurfaceFeature& feature, double phi_journal, Eigen::VectorXd& depth, Eigen::VectorXd* slope);
 

@@ -20,8 +20,8 @@ RoughGapLaw::Direction RoughGapLaw::direction(const Roughness& roughness, bool a
 
 RoughGapLaw::RoughGapLaw(const Roughness& roughness)
     : sigma_(roughness.counts() ? roughness.composite_sigma() : 0),
-      shell_share_(sigma_ > 0 ? std::pow(roughness.shell.sigma / sigma_, 2) : 0),
-      journal_share_(sigma_ > 0 ? std::pow(roughness.journal.sigma / sigma_, 2) : 0),
+      shell_fraction_(sigma_ > 0 ? std::pow(roughness.shell.sigma / sigma_, 2) : 0),
+      journal_fraction_(sigma_ > 0 ? std::pow(roughness.journal.sigma / sigma_, 2) : 0),
       directions_{direction(roughness, false), direction(roughness, true)} {}
 
 ValueAndSlope RoughGapLaw::mean(double h) const {
@@ -46,14 +46,14 @@ RoughGap RoughGapLaw::state(double h) const {
     r.pressure[k] = pressure.value, r.pressure_h[k] = pressure.slope / sigma_;
     r.couette[k] = smooth.value, r.couette_h[k] = smooth.slope / sigma_;
     // Each rough surface drags oil with it and adds to the shear (film.43, film.46).
-    const auto add = [&](const PatirCheng& surface, double share, double sign) {
-      if (share == 0) return;
+    const auto add = [&](const PatirCheng& surface, double fraction, double sign) {
+      if (fraction == 0) return;
       const ValueAndSlope shear = surface.shear(H), stress = surface.stress(H);
-      r.drag[k] += sign * share * sigma_ * shear.value, r.drag_h[k] += sign * share * shear.slope;
-      r.couette[k] += share * stress.value, r.couette_h[k] += share * stress.slope / sigma_;
+      r.drag[k] += sign * fraction * sigma_ * shear.value, r.drag_h[k] += sign * fraction * shear.slope;
+      r.couette[k] += fraction * stress.value, r.couette_h[k] += fraction * stress.slope / sigma_;
     };
-    add(d.shell, shell_share_, 1);
-    add(d.journal, journal_share_, -1);
+    add(d.shell, shell_fraction_, 1);
+    add(d.journal, journal_fraction_, -1);
   }
   return r;
 }

@@ -36,7 +36,7 @@ class RoughGapLaw {
   static Direction direction(const Roughness& roughness, bool axial);
 
   double sigma_;
-  double shell_share_, journal_share_;  ///< of the variance
+  double shell_fraction_, journal_fraction_;  ///< of the variance
   std::array<Direction, 2> directions_;
 };
 

@@ -109,7 +109,7 @@ struct FilmHeat::Impl {
   void average(const CarryingFilm& film);
   void average_walls();
   [[nodiscard]] CarryingFilm carrying() const { return {flow, wrench, flows, dt}; }
-  void find_exchange();
+  void find_heat_flow();
 
   ThermalModel thermal;
   FlowBalance flow;
@@ -123,7 +123,7 @@ struct FilmHeat::Impl {
   double dt = 0;                   // of the last step [s]
   HeatState by_shell, by_journal;  // changes of the state with temperatures of nodes, per kelvin
   std::vector<HeatState> by_outside;
-  WallExchange exchange;
+  WallHeatFlow heat_flow;
   HeatObservables observed;
   TemperatureFields shown;
   Eigen::VectorXd mu_at_rest, T_of_mu;  ///< viscosities_at_rest() and the temperatures that have them
@@ -318,16 +318,16 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   if (m.shears_layers()) m.thin();
   m.end_of_step = m.state;
   m.is_observed = false;
-  if (terminals_of(m.thermal).has_any() && !(m.has_fixed_walls() && m.dt > 0)) m.find_exchange();
+  if (terminals_of(m.thermal).has_any() && !(m.has_fixed_walls() && m.dt > 0)) m.find_heat_flow();
 }
 
-// Computes the heat into walls that are nodes, and its derivatives with a film that follows them (thermal.46).
-void FilmHeat::Impl::find_exchange() {
+// Computes the heat into walls that are nodes, and its derivatives for a film that follows them (thermal.46).
+void FilmHeat::Impl::find_heat_flow() {
   const CarryingFilm film = carrying();
   const Eigen::Index outside = state.outside.size(), n = 2 + outside;
-  exchange.T = at_terminals(state);
-  exchange.heat.setZero(n), exchange.by_T.setZero(n, n);
-  exchange.heat.tail(outside) = equations.into_outside(film, state);
+  heat_flow.T = at_terminals(state);
+  heat_flow.heat.setZero(n), heat_flow.by_T.setZero(n, n);
+  heat_flow.heat.tail(outside) = equations.into_outside(film, state);
   const auto into_walls = [&](const HeatState& change) {
     Eigen::Vector2d walls = Eigen::Vector2d::Zero();
     for (int node = 0; node < flow.size(); ++node)
@@ -339,29 +339,29 @@ void FilmHeat::Impl::find_exchange() {
   by_outside.clear();
   for (Eigen::Index terminal = 0; terminal < outside; ++terminal) {
     by_outside.push_back(equations.response_to_outside(terminal));
-    exchange.by_T.col(2 + terminal) = into_walls(by_outside.back());
+    heat_flow.by_T.col(2 + terminal) = into_walls(by_outside.back());
   }
   const bool is_shell = std::holds_alternative<NodeWall>(thermal.shell);
   const bool is_journal = std::holds_alternative<NodeWall>(thermal.journal);
   if (is_shell) {
     by_shell = equations.response_to_shell();
-    exchange.by_T.col(0) = into_walls(by_shell);
-    exchange.heat[0] = look().balance.to_shell;
+    heat_flow.by_T.col(0) = into_walls(by_shell);
+    heat_flow.heat[0] = look().balance.to_shell;
   }
   if (is_journal) {
     by_journal = equations.response_to_journal();
-    exchange.by_T.col(1) = into_walls(by_journal);
-    exchange.heat[1] = look().balance.to_journal;
+    heat_flow.by_T.col(1) = into_walls(by_journal);
+    heat_flow.heat[1] = look().balance.to_journal;
   }
-  if (!is_shell) exchange.by_T.row(0).setZero();
-  if (!is_journal) exchange.by_T.row(1).setZero();
+  if (!is_shell) heat_flow.by_T.row(0).setZero();
+  if (!is_journal) heat_flow.by_T.row(1).setZero();
 }
 
-const WallExchange& FilmHeat::exchange() const { return impl_->exchange; }
+const WallHeatFlow& FilmHeat::heat_flow() const { return impl_->heat_flow; }
 
 void FilmHeat::move_walls(const Eigen::VectorXd& T) {
   Impl& m = *impl_;
-  const Eigen::VectorXd by = T - m.exchange.T;
+  const Eigen::VectorXd by = T - m.heat_flow.T;
   const auto move = [&m](const HeatState& change, double dT) {
     m.state.film += dT * change.film;
     if (change.shell.size() > 0) m.state.shell += dT * change.shell;
@@ -373,8 +373,8 @@ void FilmHeat::move_walls(const Eigen::VectorXd& T) {
     move(m.by_outside[terminal], by[2 + static_cast<Eigen::Index>(terminal)]);
   if (std::holds_alternative<NodeWall>(m.thermal.shell)) move(m.by_shell, by[0]);
   if (std::holds_alternative<NodeWall>(m.thermal.journal)) move(m.by_journal, by[1]);
-  m.exchange.heat += m.exchange.by_T * by;
-  m.exchange.T = T;
+  m.heat_flow.heat += m.heat_flow.by_T * by;
+  m.heat_flow.T = T;
   m.end_of_step = m.state;
   m.is_observed = false;
 }
@@ -390,7 +390,7 @@ double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, c
   return (m.state.thinning.array() / before.array()).log().abs().maxCoeff();
 }
 
-const WallExchange& FilmHeat::mean_exchange() {
+const WallHeatFlow& FilmHeat::mean_heat_flow() {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.has_fixed_walls() && m.equations.mean().has_steps(), "a mean over steps with fixed walls");
   return m.fixed_walls.end_cycle(m.equations.mean(), m.state);
@@ -474,7 +474,7 @@ void FilmHeat::Impl::average(const CarryingFilm& film) {
     const double leaves = std::max(flow.outflow(node), 0.0);
     out += leaves;
     for (int l = 0; l < thermal.layers; ++l)
-      observed.T_side += leaves * film.flows.leaving_share(node, l) * end_of_step.film[node * thermal.layers + l];
+      observed.T_side += leaves * film.flows.leaving_fraction(node, l) * end_of_step.film[node * thermal.layers + l];
   }
   observed.T_shell_mean /= area, observed.T_journal /= area;
   observed.T_film_mean = oil > 0 ? observed.T_film_mean / oil : std::numeric_limits<double>::quiet_NaN();

@@ -8,7 +8,7 @@
 namespace hersey::film {
 namespace {
 
-// Share of their storage that rows without any flow keep in the mean of a cycle.
+// Fraction of their storage that rows without any flow keep in the mean of a cycle.
 constexpr double least_storage = 1e-6;
 
 }  // namespace
@@ -27,9 +27,9 @@ void HeatEquations::fix_walls(const HeatState& start) {
   fix_journal(start.journal);
 }
 
-// Shares of fresh oil in the oil that each supply feeds, line first, then features; the rest is oil that the supply has
-// taken from the film.
-std::vector<double> HeatEquations::fresh_shares(const CarryingFilm& film) const {
+// Fractions of fresh oil in the oil that each supply feeds, line first, then features; the rest is oil that the supply
+// has taken from the film.
+std::vector<double> HeatEquations::fresh_fractions(const CarryingFilm& film) const {
   std::vector<double> given(static_cast<std::size_t>(supplies()), 0.0), net = given;
   for (int node = 0; node < model_.grid.size(); ++node) {
     if (!film.balance.is_supplied(node)) continue;
@@ -57,16 +57,16 @@ OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std
     const double out = film.balance.outflow(node), given = film.balance.supply(node);
     const bool is_supplied = film.balance.is_supplied(node);
     const int supply = is_supplied ? film.balance.supplied_by(node) + (has_line() ? 1 : 0) : -1;
-    const double share = is_supplied ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
-    const double replaced = is_supplied ? (1 - thermal_.carry_over) * film.balance.supplied_share(node) : 0;
+    const double fraction = is_supplied ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
+    const double replaced = is_supplied ? (1 - thermal_.carry_over) * film.balance.supplied_fraction(node) : 0;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       if (edges >= 0 && out < 0) mean.by(row, edges) -= rc_ * out * width(l);
       if (const Eigen::Index oil = is_supplied ? oil_of(supply) : -1; oil >= 0)
-        mean.by(row, oil) += rc_ * (share * width(l) + replaced * inflow_[row]);
+        mean.by(row, oil) += rc_ * (fraction * width(l) + replaced * inflow_[row]);
       if (drain < 0) continue;
-      if (out > 0) take(drain, row, rc_ * out * film.flows.leaving_share(node, l));
-      if (is_supplied && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_share(node, l));
+      if (out > 0) take(drain, row, rc_ * out * film.flows.leaving_fraction(node, l));
+      if (is_supplied && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_fraction(node, l));
       if (is_supplied) take(drain, row, rc_ * replaced * inflow_[row]);
     }
   }
@@ -77,7 +77,7 @@ OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std
 // meaning. Storage is left out, fresh oil comes at its temperature, and where oil is warmer less heat is generated: at
 // a given speed in proportion to its viscosity.
 void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatState& start) {
-  const std::vector<double> fresh = fresh_shares(film);
+  const std::vector<double> fresh = fresh_fractions(film);
   Eigen::VectorXd added = -(1 - least_storage) * storage_;
   std::vector<WallFlux> into_shell(static_cast<std::size_t>(model_.grid.size())), into_journal = into_shell;
   for (int node = 0; node < model_.grid.size(); ++node) {
@@ -87,7 +87,7 @@ void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatSt
     if (film.balance.is_supplied(node)) {
       const auto supply = static_cast<std::size_t>(film.balance.supplied_by(node) + (has_line() ? 1 : 0));
       fresh_oil = fresh[supply] * std::max(film.balance.supply(node), 0.0);
-      replaced = (1 - thermal_.carry_over) * film.balance.supplied_share(node);
+      replaced = (1 - thermal_.carry_over) * film.balance.supplied_fraction(node);
     }
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);

@@ -123,19 +123,19 @@ HeatEquations::Upstream HeatEquations::upstream(const CarryingFilm& film, std::s
   }
   const FlowBalance& b = film.balance;
   if (b.nodes()[behind].content < 1e-3) return way;
-  // The extrapolation counts by the share of oil at both nodes that a line does not mix, so that nothing jumps as the
-  // line passes over a node. Beside a feature it does not count at all.
+  // The extrapolation counts by the fraction of oil at both nodes that a line does not mix, so that nothing jumps as
+  // the line passes over a node. Beside a feature it does not count at all.
   const auto own = [&b](int node) {
-    const double mixed_share = b.supplied_share(node);
-    return mixed_share > 0 && b.supplied_by(node) >= 0 ? 0.0 : 1 - mixed_share;
+    const double mixed_fraction = b.supplied_fraction(node);
+    return mixed_fraction > 0 && b.supplied_by(node) >= 0 ? 0.0 : 1 - mixed_fraction;
   };
-  way.slope_share = own(from) * own(behind) * 0.5 * face.length / length;
+  way.slope_fraction = own(from) * own(behind) * 0.5 * face.length / length;
   return way;
 }
 
 // Oil has the temperature of the node upstream (thermal.10) plus its rise from there to the face.
 void HeatEquations::add_flow(const Upstream& way, int layer, double q) {
-  const double heat = rc_ * q, extrapolated = heat * way.slope_share;
+  const double heat = rc_ * q, extrapolated = heat * way.slope_fraction;
   system_.diagonal(system_.row(way.to, layer)) += heat;
   system_.beside(way.to, layer, way.side) -= heat + extrapolated;
   inflow_[system_.row(way.to, layer)] += q;
@@ -188,7 +188,7 @@ void HeatEquations::add_conduction(const CarryingFilm& film) {
   }
 }
 
-// A wall without heat leaves its share of the asperities' dissipation to the oil (thermal.54).
+// A wall without heat leaves its part of the asperities' dissipation to the oil (thermal.54).
 void HeatEquations::add_shell(const CarryingFilm& film, const HeatState& start) {
   const bool is_insulated = !conducts(thermal_.shell);
   const bool has_rows = has_own_temperatures(thermal_.shell);
@@ -271,7 +271,7 @@ void HeatEquations::add_journal(const CarryingFilm& film) {
   }
 }
 
-// The film's heat into its walls is already that of the node's share of the area and must not be scaled again.
+// The film's heat into its walls is already that of the node's fraction of the area and must not be scaled again.
 void HeatEquations::add_walls_of_film(const CarryingFilm& film, const HeatState& start, int node, double chi) {
   if (conducts(thermal_.shell)) {
     const WallFlux flux = to_shell(film, node);
@@ -303,7 +303,7 @@ void HeatEquations::add_film_on_line(const CarryingFilm& film, const SuppliedNod
   for (int l = 0; l < layers() && all > 0; ++l) known_[system_.row(supplied.node, l)] += heat * taken_on[l] / all;
 }
 
-// Oil leaves a supply at its temperature. Of the oil that passes a node, the supply's share takes that temperature
+// Oil leaves a supply at its temperature. Of the oil that passes a node, the supply's part takes that temperature
 // (thermal.14).
 void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& start) {
   supplied_nodes_.clear();
@@ -312,18 +312,18 @@ void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& star
     if (!film.balance.is_supplied(node)) continue;
     SuppliedNode supplied{.node = node,
                           .supply = film.balance.supplied_by(node) + (has_line() ? 1 : 0),
-                          .chi = film.balance.supplied_share(node),
+                          .chi = film.balance.supplied_fraction(node),
                           .flow = film.balance.supply(node)};
     supply_of_[node] = supplied.supply;
     const double thread = least_fill_ * throughput(film);
     Eigen::VectorXd taken_on(layers());
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
-      const double share = supplied.flow > 0 ? width(l) : film.flows.leaving_share(node, l);
-      const double in = rc_ * std::max(supplied.flow, 0.0) * share, passing = rc_ * inflow_[row];
+      const double fraction = supplied.flow > 0 ? width(l) : film.flows.leaving_fraction(node, l);
+      const double in = rc_ * std::max(supplied.flow, 0.0) * fraction, passing = rc_ * inflow_[row];
       supplied.rows.push_back(
           {system_.entries(node, l), known_[row], by_shell_[row], by_journal_[row], by_outside_.row(row)});
-      supplied.rows.back().entries.front().second += rc_ * supplied.flow * share;
+      supplied.rows.back().entries.front().second += rc_ * supplied.flow * fraction;
       taken_on[l] = supplied.chi * std::max(passing + in, rc_ * thread * width(l));
       system_.diagonal(row) += in;
       system_.scale(row, 1 - supplied.chi);
@@ -338,11 +338,11 @@ void HeatEquations::add_supplies(const CarryingFilm& film, const HeatState& star
   }
 }
 
-// The supply has mixed its own inflow into a node, its share of the oil that passes, and oil that it had mixed before.
-// Beside nodes wholly in the supply two passes find all of it.
-void HeatEquations::find_mixed_shares(const CarryingFilm& film) {
+// The supply has mixed its own inflow into a node, its fraction of the oil that passes, and oil that it had mixed
+// before. Beside nodes wholly in the supply two passes find all of it.
+void HeatEquations::find_mixed_fractions(const CarryingFilm& film) {
   const auto& faces = film.balance.faces();
-  mixed_share_.setZero(system_.size());
+  mixed_fraction_.setZero(system_.size());
   Eigen::VectorXd came(system_.size());
   for (int pass = 0; pass < 2; ++pass) {
     came.setZero();
@@ -351,7 +351,7 @@ void HeatEquations::find_mixed_shares(const CarryingFilm& film) {
         const double q = film.flows.over_face(f, l);
         const int from = q > 0 ? faces[f].a : faces[f].b, to = q > 0 ? faces[f].b : faces[f].a;
         if (supply_of_[to] == supply_of_[from])
-          came[system_.row(to, l)] += std::abs(q) * mixed_share_[system_.row(from, l)];
+          came[system_.row(to, l)] += std::abs(q) * mixed_fraction_[system_.row(from, l)];
       }
     }
     for (const SuppliedNode& supplied : supplied_nodes_) {
@@ -359,19 +359,19 @@ void HeatEquations::find_mixed_shares(const CarryingFilm& film) {
         const int row = system_.row(supplied.node, l);
         const double given = std::max(supplied.flow, 0.0) * width(l), passing = inflow_[row];
         const double own = given + supplied.chi * passing + (1 - supplied.chi) * came[row];
-        mixed_share_[row] = passing + given > 0 ? std::min(1.0, own / (passing + given)) : 1;
+        mixed_fraction_[row] = passing + given > 0 ? std::min(1.0, own / (passing + given)) : 1;
       }
     }
   }
 }
 
-// A share of the film's oil that reaches a supply is not carried over but replaced: of the oil that reaches a node, the
-// part that the supply mixes there and takes away. A part of a node's oil may already be the supply's own; the film's
-// heat is counted above it.
+// A fraction of the film's oil that reaches a supply is not carried over but replaced: of the oil that reaches a node,
+// the part that the supply mixes there and takes away. A part of a node's oil may already be the supply's own; the
+// film's heat is counted above it.
 void HeatEquations::renew(const CarryingFilm& film) {
   renewals_.clear();
   if (thermal_.carry_over == 1) return;
-  find_mixed_shares(film);
+  find_mixed_fractions(film);
   std::vector<const SuppliedNode*> supplied_at(static_cast<std::size_t>(model_.grid.size()), nullptr);
   for (const SuppliedNode& supplied : supplied_nodes_) supplied_at[static_cast<std::size_t>(supplied.node)] = &supplied;
   const double replaced = (1 - thermal_.carry_over) * rc_;
@@ -384,13 +384,13 @@ void HeatEquations::renew(const CarryingFilm& film) {
       if (supplied == nullptr || q == 0) continue;
       const int to = system_.row(supplied->node, l);
       const double taken =
-          std::min(1.0, std::max(-supplied->flow, 0.0) * film.flows.leaving_share(supplied->node, l) / inflow_[to]);
+          std::min(1.0, std::max(-supplied->flow, 0.0) * film.flows.leaving_fraction(supplied->node, l) / inflow_[to]);
       const double heat = replaced * (supplied->chi + (1 - supplied->chi) * taken) * std::abs(q);
-      const double mixed_share = mixed_share_[system_.row(from, l)];
+      const double mixed_fraction = mixed_fraction_[system_.row(from, l)];
       // oil that another supply has mixed is part of that supply's balance
       const bool is_same = supply_of_[from] == supplied->supply;
-      renewals_.push_back({supplied->supply, system_.row(from, l), is_same ? heat : (1 - mixed_share) * heat,
-                           is_same ? mixed_share : 0});
+      renewals_.push_back({supplied->supply, system_.row(from, l), is_same ? heat : (1 - mixed_fraction) * heat,
+                           is_same ? mixed_fraction : 0});
     }
   }
 }
@@ -441,7 +441,7 @@ void HeatEquations::add_remainder(const CarryingFilm& film, const HeatState& sta
     if (const Eigen::Index terminal = oil_of(supply); terminal >= 0)
       by_outside_(journal + 1 + supply, terminal) += heat;
   };
-  for (const Renewal& renewal : renewals_) give(renewal.supply, renewal.heat * (1 - renewal.mixed_share));
+  for (const Renewal& renewal : renewals_) give(renewal.supply, renewal.heat * (1 - renewal.mixed_fraction));
   supply_self_.assign(flow.size(), 0.0);
   for (int s = 0; s < supplies(); ++s) {
     supply_self_[s] = rc_ * std::max(-flow[s], 0.0) + thread;

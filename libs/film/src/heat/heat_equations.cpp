@@ -8,7 +8,7 @@
 // and solved in heat_solution.cpp.
 namespace hersey::film {
 
-double HeatEquations::oil_share(const Node& node) { return std::clamp(node.theta, least_fill_, 1.0); }
+double HeatEquations::oil_fraction(const Node& node) { return std::clamp(node.theta, least_fill_, 1.0); }
 
 HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal)
     : model_(model),
@@ -16,7 +16,7 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
       at_(terminals_of(thermal)),
       across_(layering_of(static_cast<std::size_t>(thermal.layers))),
       rc_(model.lubricant.density * model.lubricant.specific_heat),
-      shell_share_(friction_share(thermal.shell_surface, thermal.journal_surface)),
+      heat_partition_(heat_partition(thermal.shell_surface, thermal.journal_surface)),
       system_(model.grid, thermal.layers, has_own_temperatures(thermal.shell)),
       mean_(model.grid, thermal.layers,
             {.ring = has_own_temperatures(thermal.shell),
@@ -64,27 +64,27 @@ double HeatEquations::asperity_power(const CarryingFilm& film, int node) const {
 
 // The surfaces share it by their effusivities (thermal.54).
 double HeatEquations::shell_friction(const CarryingFilm& film, int node) const {
-  return shell_share_ * asperity_power(film, node);
+  return heat_partition_ * asperity_power(film, node);
 }
 
 double HeatEquations::journal_friction(const CarryingFilm& film, int node) const {
-  return (1 - shell_share_) * asperity_power(film, node);
+  return (1 - heat_partition_) * asperity_power(film, node);
 }
 
 // The flux follows from the slope of the temperature at the wall, behind which the wall may have a resistance of its
 // own. Oil in a supply is no film and heats no wall.
 WallFlux HeatEquations::to_wall(const CarryingFilm& film, int node, int layer, double resistance) const {
   const Node& at = film.balance.nodes()[node];
-  const double k = model_.lubricant.conductivity * oil_share(at) / at.h;
+  const double k = model_.lubricant.conductivity * oil_fraction(at) / at.h;
   const auto [beside, next] = across_.slope_at_wall(static_cast<std::size_t>(layer));
-  const double area = (1 - film.balance.supplied_share(node)) * film.balance.area(node);
-  const double share = area / (1 + resistance * k * (beside - next));
-  return {share * k * beside, share * k * next};
+  const double area = (1 - film.balance.supplied_fraction(node)) * film.balance.area(node);
+  const double fraction = area / (1 + resistance * k * (beside - next));
+  return {fraction * k * beside, fraction * k * next};
 }
 
 double HeatEquations::between(const CarryingFilm& film, int node, int layer) const {
   const Node& at = film.balance.nodes()[node];
-  const double k = model_.lubricant.conductivity * oil_share(at);
+  const double k = model_.lubricant.conductivity * oil_fraction(at);
   return k * film.balance.area(node) / (at.h * across_.to_next(static_cast<std::size_t>(layer)));
 }
 
@@ -143,7 +143,7 @@ double HeatEquations::renewed(const HeatState& state, int supply) const {
   for (const Renewal& renewal : renewals_) {
     if (renewal.supply != supply) continue;
     const double T = fresh(supply, state.outside), above = state.film[renewal.row] - T;
-    heat += renewal.heat * (above - renewal.mixed_share * (state.supplies[supply] - T));
+    heat += renewal.heat * (above - renewal.mixed_fraction * (state.supplies[supply] - T));
   }
   return heat;
 }
@@ -164,8 +164,8 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
       const double T = end.film[row] - T0;
       sum.power += film.flows.dissipation(node, l);
       sum.source += made(film, node, l);
-      sum.to_oil +=
-          rc_ * (out > 0 ? out * film.flows.leaving_share(node, l) * T : out * width(l) * (at_edges(end.outside) - T0));
+      sum.to_oil += rc_ * (out > 0 ? out * film.flows.leaving_fraction(node, l) * T
+                                   : out * width(l) * (at_edges(end.outside) - T0));
       sum.to_oil += rc_ * film.flows.lost(node) * width(l) * T;
       if (film.dt == 0) {
         sum.stored += rc_ * film.balance.storage(node) * width(l) * T;

@@ -66,10 +66,10 @@ class HeatEquations {
   [[nodiscard]] int supplies() const { return static_cast<int>(model_.features.size()) + (has_line() ? 1 : 0); }
 
  private:
-  /// A node in whose rows a supply has a share, and those rows without it.
+  /// A node in whose rows a supply has a part, and those rows without it.
   struct SuppliedNode {
     int node = 0, supply = 0;
-    double chi = 0;   ///< share of the supply [-]
+    double chi = 0;   ///< weight of the supply [-]
     double flow = 0;  ///< flow of oil out of the supply [m^3/s]
     struct Row {
       HeatSystem::Row entries;  ///< entries, its own first; the oil from the supply is included
@@ -78,10 +78,10 @@ class HeatEquations {
     };
     std::vector<Row> rows;
   };
-  /// Nodes without oil have the heat capacity of so small a share of the oil in the clearance.
+  /// Nodes without oil have the heat capacity of so small a fraction of the oil in the clearance.
   static constexpr double least_fill_ = 1e-6;
-  /// Share of a node's width that carries and conducts heat.
-  [[nodiscard]] static double oil_share(const Node& node);
+  /// Fraction of a node's width that carries and conducts heat.
+  [[nodiscard]] static double oil_fraction(const Node& node);
   [[nodiscard]] bool has_line() const { return model_.supply.kind != SupplyKind::none; }
   [[nodiscard]] bool is_line(int supply) const { return has_line() && supply == 0; }
   [[nodiscard]] double throughput(const CarryingFilm& film) const;  ///< largest of a control volume [m^3/s], > 0
@@ -121,7 +121,7 @@ class HeatEquations {
   struct Upstream {
     int from = 0, to = 0;
     HeatSystem::Side side = HeatSystem::before;  ///< side of `to` on which `from` lies
-    double slope_share =
+    double slope_fraction =
         0;  ///< by which the face is warmer than `from`, of what that is warmer than the node behind it
   };
   [[nodiscard]] Upstream upstream(const CarryingFilm& film, std::size_t f, bool is_forwards) const;
@@ -139,7 +139,7 @@ class HeatEquations {
   void add_walls_of_film(const CarryingFilm& film, const HeatState& start, int node, double chi);
   void add_film_on_line(const CarryingFilm& film, const SuppliedNode& supplied, const Eigen::VectorXd& taken_on);
   void add_supplies(const CarryingFilm& film, const HeatState& start);
-  void find_mixed_shares(const CarryingFilm& film);
+  void find_mixed_fractions(const CarryingFilm& film);
   void renew(const CarryingFilm& film);
   [[nodiscard]] double renewed(const HeatState& state, int supply) const;
   void add_journal_row(const CarryingFilm& film, const HeatState& start);
@@ -147,7 +147,7 @@ class HeatEquations {
   [[nodiscard]] bool has_fixed_walls(const CarryingFilm& film) const;
   void fix_walls(const HeatState& start);
   void fix_journal(double T);
-  [[nodiscard]] std::vector<double> fresh_shares(const CarryingFilm& film) const;
+  [[nodiscard]] std::vector<double> fresh_fractions(const CarryingFilm& film) const;
   void add_equations_to_mean(const CarryingFilm& film, const HeatState& start);
   [[nodiscard]] OutsideOfMean outside_of_mean(const CarryingFilm& film, const std::vector<double>& fresh) const;
   void add_heat_to_mean(const CarryingFilm& film, const HeatState& start, const HeatState& end);
@@ -159,8 +159,8 @@ class HeatEquations {
   /// Computes x close to A^-1 b: layers and ring by sweeps, journal and supplies eliminated.
   void precondition(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
   void prepare_sweeps(const CarryingFilm& film);
-  /// Solves A x = known to a `share` of the size of known.
-  void solve_for(const Eigen::VectorXd& known, double share, Eigen::VectorXd& x);
+  /// Solves A x = known to `rtol` times the size of known.
+  void solve_for(const Eigen::VectorXd& known, double fraction, Eigen::VectorXd& x);
   /// Solves A x = known by factorising A.
   void factorise_for(const Eigen::VectorXd& known, Eigen::VectorXd& x) const;
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
@@ -170,8 +170,8 @@ class HeatEquations {
   const ThermalModel thermal_;
   const FilmTerminals at_;
   const Layering& across_;
-  double rc_ = 0;             ///< heat capacity of the oil per volume [J/(m^3 K)]
-  double shell_share_ = 0.5;  ///< shell's share of the heat that asperities generate [-]
+  double rc_ = 0;                ///< heat capacity of the oil per volume [J/(m^3 K)]
+  double heat_partition_ = 0.5;  ///< shell's fraction of the heat that asperities generate [-]
   RingConductances ring_;
   HeatSystem system_;
   Eigen::VectorXd known_;       ///< right-hand sides of all rows [W]
@@ -188,11 +188,11 @@ class HeatEquations {
   std::vector<double> supply_self_;  ///< of the supplies' rows
   Eigen::MatrixXd by_remainder_;  ///< what a sweep makes of layers and ring by journal and supplies, column by column
   Eigen::PartialPivLU<Eigen::MatrixXd> remainder_;  ///< journal and supplies, layers and ring following them
-  /// Oil of a layer that a supply replaces by its own. In a node with a share of the supply only the rest counts.
+  /// Oil of a layer that a supply replaces by its own. In a node with a part of the supply only the rest counts.
   struct Renewal {
     int supply = 0, row = 0;
-    double heat = 0;         ///< by its temperature [W/K]
-    double mixed_share = 0;  ///< share that is the supply's own oil already [-]
+    double heat = 0;            ///< by its temperature [W/K]
+    double mixed_fraction = 0;  ///< fraction that is the supply's own oil already [-]
   };
   std::vector<Renewal> renewals_;
   MeanHeat mean_;
@@ -200,8 +200,8 @@ class HeatEquations {
   solver::Gmres gmres_;
   int most_iterations_ = 120;
   std::vector<SuppliedNode> supplied_nodes_;
-  Eigen::VectorXd inflow_;       ///< of each layer over its faces and edges [m^3/s]
-  Eigen::VectorXd mixed_share_;  ///< share of each layer's oil that the supply of its node has mixed [-]
+  Eigen::VectorXd inflow_;          ///< of each layer over its faces and edges [m^3/s]
+  Eigen::VectorXd mixed_fraction_;  ///< fraction of each layer's oil that the supply of its node has mixed [-]
 };
 
 }  // namespace hersey::film

@@ -12,11 +12,11 @@ namespace {
 // Tolerances of the equations over the initial residual: of a steady film, which is iterated with its temperature, and
 // of a step. With 1e-4 up to twice as many iterations are needed: their acceleration takes the remaining residual for a
 // response of the film.
-constexpr double steady_share = 1e-5, step_share = 1e-9;
+constexpr double steady_rtol = 1e-5, step_rtol = 1e-9;
 // The rows of a body that responds to heat as a whole are small, and so are their residuals.
-constexpr double body_share = 1e-7;
+constexpr double body_rtol = 1e-7;
 // Tolerance of the responses to temperatures of walls, which are multiplied by the change of these in a step.
-constexpr double response_share = 1e-7;
+constexpr double response_rtol = 1e-7;
 
 }  // namespace
 
@@ -32,10 +32,9 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   x.tail(supplies()) = start.supplies;
   multiply(x, missing);
   missing = known_ - missing;
-  const double steady = conduction_of(thermal_.shell) != nullptr || conduction_of(thermal_.journal) != nullptr
-                            ? body_share
-                            : steady_share;
-  solve_for(missing, film.dt == 0 ? steady : step_share, change);
+  const double steady =
+      conduction_of(thermal_.shell) != nullptr || conduction_of(thermal_.journal) != nullptr ? body_rtol : steady_rtol;
+  solve_for(missing, film.dt == 0 ? steady : step_rtol, change);
   x += change;
 
   HeatState end = start;
@@ -50,11 +49,11 @@ HeatState HeatEquations::solve(const CarryingFilm& film, const HeatState& start)
   return end;
 }
 
-void HeatEquations::solve_for(const Eigen::VectorXd& known, double share, Eigen::VectorXd& x) {
+void HeatEquations::solve_for(const Eigen::VectorXd& known, double rtol, Eigen::VectorXd& x) {
   const auto A = [this](const Eigen::VectorXd& v, Eigen::VectorXd& y) { multiply(v, y); };
   const auto M = [this](const Eigen::VectorXd& b, Eigen::VectorXd& v) { precondition(b, v); };
   const solver::GmresOptions wanted{
-      .rtol = share, .max_iterations = most_iterations_, .restart = (most_iterations_ + 1) / 2};
+      .rtol = rtol, .max_iterations = most_iterations_, .restart = (most_iterations_ + 1) / 2};
   if (!gmres_.solve(A, M, known, wanted, x).solved()) factorise_for(known, x);
 }
 
@@ -98,7 +97,7 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
   for (const Renewal& renewal : renewals_) {
     const int row = rows + 1 + renewal.supply;
     entries.emplace_back(row, renewal.row, renewal.heat);
-    entries.emplace_back(row, row, -renewal.heat * renewal.mixed_share);
+    entries.emplace_back(row, row, -renewal.heat * renewal.mixed_fraction);
   }
   Eigen::SparseMatrix<double> A(known_.size(), known_.size());
   A.setFromTriplets(entries.begin(), entries.end());
@@ -109,7 +108,7 @@ Eigen::SparseMatrix<double> HeatEquations::matrix() const {
 HeatState HeatEquations::response(const Eigen::VectorXd& known) {
   const int rows = system_.size(), film = model_.grid.size() * layers();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(known.size());
-  if (!known.isZero(0)) solve_for(known, response_share, x);
+  if (!known.isZero(0)) solve_for(known, response_rtol, x);
   HeatState change;
   change.film = x.head(film);
   if (conducts(thermal_.shell)) change.shell.setZero(model_.grid.n_phi);
@@ -132,7 +131,7 @@ std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& f
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double out = film.balance.outflow(node);
     for (int l = 0; l < layers() && out > 0; ++l)
-      oil.emplace_back(system_.row(node, l), rc_ * out * film.flows.leaving_share(node, l));
+      oil.emplace_back(system_.row(node, l), rc_ * out * film.flows.leaving_fraction(node, l));
   }
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
   for (const SuppliedNode& supplied : supplied_nodes_) flow[supplied.supply] += supplied.flow;
@@ -140,7 +139,7 @@ std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& f
     if (flow[s] < 0) oil.emplace_back(system_.size() + 1 + s, -rc_ * flow[s]);
   for (const Renewal& renewal : renewals_) {
     oil.emplace_back(renewal.row, renewal.heat);
-    oil.emplace_back(system_.size() + 1 + renewal.supply, -renewal.heat * renewal.mixed_share);
+    oil.emplace_back(system_.size() + 1 + renewal.supply, -renewal.heat * renewal.mixed_fraction);
   }
   return oil;
 }
@@ -205,7 +204,7 @@ void HeatEquations::multiply_remainder(const Eigen::VectorXd& x, Eigen::VectorXd
   }
   for (const Renewal& renewal : renewals_) {
     const int row = rows + 1 + renewal.supply;
-    y[row] += renewal.heat * (x[renewal.row] - renewal.mixed_share * x[row]);
+    y[row] += renewal.heat * (x[renewal.row] - renewal.mixed_fraction * x[row]);
   }
 }
 

@@ -277,11 +277,11 @@ void HeatSystem::prepare_ring() {
   }
   closing_.setZero(size());
   closing_[ring_row(0)] = corner, closing_[ring_row(n - 1)] = ring_[n - 1].after;
-  closing_share_ = 0;
+  closing_fraction_ = 0;
   Eigen::VectorXd answer = closing_;
   solve_ring(answer);
   closing_ = answer;
-  closing_share_ = 1;
+  closing_fraction_ = 1;
 }
 
 void HeatSystem::solve_ring(Eigen::VectorXd& x) const {
@@ -291,10 +291,10 @@ void HeatSystem::solve_ring(Eigen::VectorXd& x) const {
     x[ring_row(i)] = (x[ring_row(i)] - carried) * ring_pivots_[i].first;
   }
   for (int i = n - 2; i >= 0; --i) x[ring_row(i)] -= ring_pivots_[i].second * x[ring_row(i + 1)];
-  if (closing_share_ == 0) return;
-  const double share = ring_[0].before / -ring_[0].self;
-  const double moved = x[ring_row(0)] + share * x[ring_row(n - 1)];
-  const double by_closing = 1 + closing_[ring_row(0)] + share * closing_[ring_row(n - 1)];
+  if (closing_fraction_ == 0) return;
+  const double fraction = ring_[0].before / -ring_[0].self;
+  const double moved = x[ring_row(0)] + fraction * x[ring_row(n - 1)];
+  const double by_closing = 1 + closing_[ring_row(0)] + fraction * closing_[ring_row(n - 1)];
   x.segment(film_rows(), n) -= moved / by_closing * closing_.tail(n);
 }
 

@@ -131,7 +131,7 @@ class HeatSystem {
   std::vector<std::pair<int, int>> linked_;     ///< slot of each coupling, and the first row of the other column
   std::vector<std::pair<double, double>> ring_pivots_;
   Eigen::VectorXd closing_;  ///< solution of the open ring for the entries that close it
-  double closing_share_ = 0;
+  double closing_fraction_ = 0;
   WallAnswer answer_;
 };
 

@@ -10,7 +10,7 @@ namespace hersey::film {
 
 namespace {
 
-// Largest share by which the heat of half volumes along the edges is corrected.
+// Largest fraction by which the heat of half volumes along the edges is corrected.
 constexpr double kMostCompleted = 0.5;
 
 }  // namespace
@@ -30,9 +30,9 @@ Eigen::Vector2d pressure_gradient(const FlowBalance& balance, int node) {
 }
 
 Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
-  const double supply_share = 1 - balance.balance_share(node);
+  const double supply_fraction = 1 - balance.balance_weight(node);
   const Eigen::Vector2d smooth = pressure_gradient(balance, node);
-  if (supply_share == 0) return smooth;
+  if (supply_fraction == 0) return smooth;
   const Grid& grid = balance.model().grid;
   const GridGeometry& geometry = balance.geometry();
   const int i = node / grid.n_z, j = node % grid.n_z, last = grid.before(i), next = grid.next(i);
@@ -47,7 +47,8 @@ Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node) {
                after = next < 0 ? 0 : slope(node, grid.index(next, j), geometry.step(i, j));
   const double below = j > 0 ? slope(node - 1, node, geometry.dz[j - 1]) : 0,
                above = j + 1 < grid.n_z ? slope(node, node + 1, geometry.dz[j]) : 0;
-  return (1 - supply_share) * smooth + supply_share * Eigen::Vector2d(weighted(before, after), weighted(below, above));
+  return (1 - supply_fraction) * smooth +
+         supply_fraction * Eigen::Vector2d(weighted(before, after), weighted(below, above));
 }
 
 WithinLayers within_layers(const Lubricant& oil) {
@@ -59,15 +60,16 @@ LayerFlows::LayerFlows(const FilmModel& model, int layers)
       layers_(static_cast<std::size_t>(layers)),
       across_(layering_of(layers_)),
       within_(within_layers(model.lubricant)),
-      shares_(static_cast<std::size_t>(model.grid.size())) {
-  upwards_.resize(shares_.size() * layers_);
-  heat_.resize(shares_.size() * layers_);
-  lost_.resize(shares_.size());
+      fractions_(static_cast<std::size_t>(model.grid.size())) {
+  upwards_.resize(fractions_.size() * layers_);
+  heat_.resize(fractions_.size() * layers_);
+  lost_.resize(fractions_.size());
 }
 
 void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
                           const Eigen::VectorXd& mu) {
-  for (std::size_t k = 0; k < shares_.size(); ++k) find_shares({mu.data() + k * layers_, layers_}, within_, shares_[k]);
+  for (std::size_t k = 0; k < fractions_.size(); ++k)
+    find_fractions({mu.data() + k * layers_, layers_}, within_, fractions_[k]);
   flow_over_faces(balance, motion);
   flow_upwards(balance);
   dissipate(balance, wrench, motion);
@@ -83,14 +85,14 @@ void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion
     const Face& face = balance.faces()[f];
     const FaceFlow& flow = balance.flows()[f];
     const Node &a = balance.nodes()[face.a], &b = balance.nodes()[face.b];
-    const LayerShares &at_a = shares_[face.a], &at_b = shares_[face.b];
+    const LayerFractions &at_a = fractions_[face.a], &at_b = fractions_[face.b];
     const double along_pressure = flow.K * (a.p - b.p) + balance.line_flow_through_face(f);
     const double carried = flow.carried((flow.couette >= 0 ? a : b).theta).value;
     const double stretch = f < first_axial ? balance.geometry().stretch[face.a % model_.grid.n_z] : 1;
     const double u_shell = stretch * (f < first_axial ? motion.u_shell : motion.w_shell);
     const double slip = stretch * (f < first_axial ? motion.u_journal : motion.w_journal) - u_shell;
-    const double share = flow.couette != 0 ? carried / flow.couette : 0;
-    const double full = share * flow.density * face.width * 0.5 * (a.h + b.h);
+    const double fraction = flow.couette != 0 ? carried / flow.couette : 0;
+    const double full = fraction * flow.density * face.width * 0.5 * (a.h + b.h);
     double rest = carried;
     for (std::size_t l = 0; l < layers_; ++l) {
       const double own =
@@ -104,17 +106,17 @@ void LayerFlows::flow_over_faces(const FlowBalance& balance, const SurfaceMotion
   }
 }
 
-// Each layer keeps its share of the node's oil; the rest of its inflow leaves it upwards. Where a cavitation model
+// Each layer keeps its fraction of the node's oil; the rest of its inflow leaves it upwards. Where a cavitation model
 // loses oil, all layers do.
 void LayerFlows::flow_upwards(const FlowBalance& balance) {
-  std::vector<double> out(shares_.size() * layers_);
-  for (std::size_t k = 0; k < shares_.size(); ++k) {
+  std::vector<double> out(fractions_.size() * layers_);
+  for (std::size_t k = 0; k < fractions_.size(); ++k) {
     const auto node = static_cast<int>(k);
     const double leaving = std::max(balance.outflow(node), 0.0) + std::max(-balance.supply(node), 0.0);
     const double coming = std::max(-balance.outflow(node), 0.0) + std::max(balance.supply(node), 0.0);
     for (std::size_t l = 0; l < layers_; ++l)
       out[k * layers_ + l] =
-          (balance.storage(node) - coming) * across_.width(l) + leaving * shares_[k].pressure_flow[l];
+          (balance.storage(node) - coming) * across_.width(l) + leaving * fractions_[k].pressure_flow[l];
   }
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
     const auto a = static_cast<std::size_t>(balance.faces()[f].a), b = static_cast<std::size_t>(balance.faces()[f].b);
@@ -123,7 +125,7 @@ void LayerFlows::flow_upwards(const FlowBalance& balance) {
       out[b * layers_ + l] -= faces_[f * layers_ + l];
     }
   }
-  for (std::size_t k = 0; k < shares_.size(); ++k) {
+  for (std::size_t k = 0; k < fractions_.size(); ++k) {
     double sum = 0, up = 0;
     for (std::size_t l = 0; l < layers_; ++l) sum += out[k * layers_ + l];
     lost_[k] = -sum;
@@ -137,8 +139,8 @@ void LayerFlows::flow_upwards(const FlowBalance& balance) {
 // Heat by flow along pressure, and by sliding.
 void LayerFlows::dissipate_in_volumes(const FlowBalance& balance, const FilmWrench& wrench,
                                       const SurfaceMotion& motion) {
-  along_pressure_.assign(shares_.size(), 0.0);
-  by_sliding_.resize(shares_.size());
+  along_pressure_.assign(fractions_.size(), 0.0);
+  by_sliding_.resize(fractions_.size());
   for (std::size_t f = 0; f < balance.faces().size(); ++f) {
     const double half = 0.5 * pressure_power(balance, f);
     along_pressure_[static_cast<std::size_t>(balance.faces()[f].a)] += half;
@@ -163,8 +165,8 @@ void LayerFlows::complete_at_edges(const FlowBalance& balance, const FilmWrench&
                last = static_cast<std::size_t>(model_.grid.index(i, model_.grid.n_z - 1));
     const double there = along_pressure_[first] + by_sliding_[first] + along_pressure_[last] + by_sliding_[last];
     if (there <= 0) continue;
-    const double share = 1 + std::clamp(beyond[i] / there, -kMostCompleted, kMostCompleted);
-    for (const std::size_t edge : {first, last}) along_pressure_[edge] *= share, by_sliding_[edge] *= share;
+    const double fraction = 1 + std::clamp(beyond[i] / there, -kMostCompleted, kMostCompleted);
+    for (const std::size_t edge : {first, last}) along_pressure_[edge] *= fraction, by_sliding_[edge] *= fraction;
   }
 }
 
@@ -180,10 +182,10 @@ void LayerFlows::dissipate(const FlowBalance& balance, const FilmWrench& wrench,
   const double scale = sum > 0 ? whole.power_film / sum : 1;
   for (int k = 0; k < model_.grid.size(); ++k) {
     const Node& node = balance.nodes()[k];
-    const double mixed =
-        node.share * balance.area(k) * node.h * balance.slip(k % model_.grid.n_z).dot(pressure_gradient(balance, k));
+    const double mixed = node.sheared_fraction * balance.area(k) * node.h *
+                         balance.slip(k % model_.grid.n_z).dot(pressure_gradient(balance, k));
     const auto at_node = static_cast<std::size_t>(k);
-    const LayerShares& of = shares_[at_node];
+    const LayerFractions& of = fractions_[at_node];
     for (std::size_t l = 0; l < layers_; ++l) {
       heat_[at(at_node, static_cast<int>(l))] =
           scale * (by_sliding_[at_node] * of.sliding_heat[l] + along_pressure_[at_node] * of.pressure_heat[l] +

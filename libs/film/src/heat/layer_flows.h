@@ -15,7 +15,7 @@ namespace hersey::film {
 
 /// Returns the same gradient. On supply line and features the pressure has a kink and the slopes of both sides count,
 /// each weighted by its own size: the result is that of the film beside a groove, and zero on a peak. Beside line and
-/// features both gradients count by the supply's share in the row.
+/// features both gradients count by the supply's part in the row.
 [[nodiscard]] Eigen::Vector2d one_sided_gradient(const FlowBalance& balance, int node);
 
 /// Returns the variation of fluidity within layers: that of oils that thin by shear follows from the layers' own shear.
@@ -40,9 +40,9 @@ class LayerFlows {
   [[nodiscard]] double upwards(int node, int layer) const {
     return upwards_[at(static_cast<std::size_t>(node), layer)];
   }
-  /// Share of a layer in the flow that leaves a node along its pressure [-].
-  [[nodiscard]] double leaving_share(int node, int layer) const {
-    return shares_[static_cast<std::size_t>(node)].pressure_flow[layer];
+  /// Fraction of a layer in the flow that leaves a node along its pressure [-].
+  [[nodiscard]] double leaving_fraction(int node, int layer) const {
+    return fractions_[static_cast<std::size_t>(node)].pressure_flow[layer];
   }
   /// Oil lost at a node in a cavitation model that does not conserve it [m^3/s].
   [[nodiscard]] double lost(int node) const { return lost_[static_cast<std::size_t>(node)]; }
@@ -63,7 +63,7 @@ class LayerFlows {
   std::size_t layers_;
   const Layering& across_;
   WithinLayers within_;
-  std::vector<LayerShares> shares_;  ///< of each node
+  std::vector<LayerFractions> fractions_;  ///< of each node
   std::vector<double> faces_, leads_, upwards_, heat_, lost_;
   std::vector<double> along_pressure_, by_sliding_;  ///< heat of each node by pressure flow and by sliding [W]
 };

@@ -9,7 +9,7 @@
 namespace hersey::film {
 namespace {
 
-// Largest share of a layer's fluidity that its slope removes at one end.
+// Largest fraction of a layer's fluidity that its slope removes at one end.
 constexpr double steepest = 0.9;
 
 /// Fluidities 1/mu across the film, in each layer f + s (eta - middle).
@@ -63,11 +63,12 @@ LayerProfile profile_of(std::span<const double> mu, WithinLayers within) {
 
 // With eta = y/h, G0 and G1 the integrals of 1/mu and eta/mu from the shell up to eta, the velocity is
 // u_shell + U G0/I0 + h^2 p' (G1 - (I1/I0) G0). In a layer 1/mu is linear, G0 a parabola and G1 a cubic.
-void find_shares(std::span<const double> mu, WithinLayers within, LayerShares& shares) {
+void find_fractions(std::span<const double> mu, WithinLayers within, LayerFractions& fractions) {
   const std::size_t n = mu.size();
-  for (auto* share : {&shares.pressure_flow, &shares.sliding_flow, &shares.pressure_lead, &shares.sliding_lead,
-                      &shares.sliding_heat, &shares.pressure_heat, &shares.mixed_heat})
-    share->resize(n);
+  for (auto* fraction :
+       {&fractions.pressure_flow, &fractions.sliding_flow, &fractions.pressure_lead, &fractions.sliding_lead,
+        &fractions.sliding_heat, &fractions.pressure_heat, &fractions.mixed_heat})
+    fraction->resize(n);
   const Layering& layers = layering_of(n);
   const Fluidities fluidity(mu, within);
   const auto [I0, I1, I2] = moments_of(n, fluidity);
@@ -79,13 +80,13 @@ void find_shares(std::span<const double> mu, WithinLayers within, LayerShares& s
     const double int_G0 = width * (G0 + 0.5 * width * f) - bent * s;
     const double int_G1 = width * (G1 + 0.5 * width * middle * f) - bent * (f + middle * s) + 0.5 * width * bent * s;
     const double off = middle - centre;
-    shares.sliding_flow[l] = int_G0 / I0;
-    shares.pressure_flow[l] = (centre * int_G0 - int_G1) / F2;
-    shares.sliding_lead[l] = bent * f / I0;
-    shares.pressure_lead[l] = -(bent * off * f + width * width * bent * s / 20) / F2;
-    shares.sliding_heat[l] = width * f / I0;
-    shares.pressure_heat[l] = (f * (width * off * off + bent) + 2 * bent * s * off) / F2;
-    shares.mixed_heat[l] = 2 * (width * f * off + bent * s) / I0;
+    fractions.sliding_flow[l] = int_G0 / I0;
+    fractions.pressure_flow[l] = (centre * int_G0 - int_G1) / F2;
+    fractions.sliding_lead[l] = bent * f / I0;
+    fractions.pressure_lead[l] = -(bent * off * f + width * width * bent * s / 20) / F2;
+    fractions.sliding_heat[l] = width * f / I0;
+    fractions.pressure_heat[l] = (f * (width * off * off + bent) + 2 * bent * s * off) / F2;
+    fractions.mixed_heat[l] = 2 * (width * f * off + bent * s) / I0;
     G0 += width * f;
     G1 += width * f * middle + bent * s;
   }

@@ -20,8 +20,8 @@ struct LayerProfile {
 /// Integrates the layers' viscosities [Pa s].
 [[nodiscard]] LayerProfile profile_of(std::span<const double> mu, WithinLayers within = WithinLayers::linear);
 
-/// Shares of each layer in flow and heat, all without dimension but `mixed`.
-struct LayerShares {
+/// Fractions of each layer in flow and heat, all without dimension but `mixed`.
+struct LayerFractions {
   std::vector<double> pressure_flow;  ///< of the flow along pressure; sum 1
   std::vector<double>
       sliding_flow;  ///< of U h, which the journal's speed U relative to the shell carries; sum (1 - skew)/2
@@ -32,7 +32,7 @@ struct LayerShares {
   std::vector<double> mixed_heat;     ///< by both at once, over h U dp/dx; sum 0
 };
 
-/// Computes the shares of the layers; the vectors get the size of `mu`.
-void find_shares(std::span<const double> mu, WithinLayers within, LayerShares& shares);
+/// Computes the fractions of the layers; the vectors get the size of `mu`.
+void find_fractions(std::span<const double> mu, WithinLayers within, LayerFractions& fractions);
 
 }  // namespace hersey::film

@@ -12,17 +12,17 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-// Newton's method converges quadratically: after a change of this share of the largest rate its square is left. Steps
-// that are shortened are checked by the ratio R of each layer.
+// Newton's method converges quadratically: after a change of this fraction of the largest rate its square is left.
+// Steps that are shortened are checked by the ratio R of each layer.
 constexpr double newton_change = 1e-4, shortened_change = 1e-6;
 // Oils whose stress hardly rises take some 80 of the shortened steps.
 constexpr int most_newton = 12, most_shortened = 1000;
 
-// Largest share of the potential's initial slope that is left at the end of a step.
+// Largest fraction of the potential's initial slope that is left at the end of a step.
 constexpr double flat = 0.3;
 
-// A rate that changes by less than this share of itself determines its viscosity to first order. A rate close to zero,
-// where the stress changes its sign, does not.
+// A rate that changes by less than this fraction of itself determines its viscosity to first order. A rate close to
+// zero, where the stress changes its sign, does not.
 constexpr double first_order = 1e-3;
 
 }  // namespace
@@ -112,12 +112,12 @@ bool LayerShear::is_near() const {
   return true;
 }
 
-/// Returns the slope of the potential (thermal.67) along the steps, at a share of them. The mean of the steps is zero,
-/// so that a stress common to all layers does not count.
-double LayerShear::slope_at(double share) const {
+/// Returns the slope of the potential (thermal.67) along the steps, at a fraction of them. The mean of the steps is
+/// zero, so that a stress common to all layers does not count.
+double LayerShear::slope_at(double step_length) const {
   double slope = 0;
   for (std::size_t l = 0; l < rates_.size(); ++l) {
-    const Vector2d rate = rates_[l] + share * steps_[l];
+    const Vector2d rate = rates_[l] + step_length * steps_[l];
     const double mu = mu_n_[l] * thinning_.ratio(rate.norm(), mu_n_[l]).value;
     slope += across_.width(l) * (mu * rate - beyond_mean(l) - mean_).dot(steps_[l]);
   }
@@ -125,17 +125,17 @@ double LayerShear::slope_at(double share) const {
 }
 
 /// The potential is convex: its slope rises along the steps, and the minimum is bracketed where they are too long.
-double LayerShear::share_of_steps() const {
+double LayerShear::find_step_length() const {
   const double enough = flat * std::abs(slope_at(0));
-  double low = 0, high = 1, share = 1, slope = slope_at(1);
-  if (slope <= enough) return share;
-  constexpr double narrow = 1e-3;  // of the share
+  double low = 0, high = 1, step_length = 1, slope = slope_at(1);
+  if (slope <= enough) return step_length;
+  constexpr double narrow = 1e-3;  // of the fraction
   while (std::abs(slope) > enough && high - low > narrow * high) {
-    (slope > 0 ? high : low) = share;
-    share = 0.5 * (low + high);
-    slope = slope_at(share);
+    (slope > 0 ? high : low) = step_length;
+    step_length = 0.5 * (low + high);
+    slope = slope_at(step_length);
   }
-  return share;
+  return step_length;
 }
 
 bool LayerShear::by_descent(std::span<double> left) {
@@ -144,8 +144,8 @@ bool LayerShear::by_descent(std::span<double> left) {
   for (int k = 0; k < most_shortened; ++k) {
     find_steps();
     const bool are_last = is_near();
-    const double share = are_last ? 1 : share_of_steps();
-    for (std::size_t l = 0; l < rates_.size(); ++l) rates_[l] += share * steps_[l];
+    const double step_length = are_last ? 1 : find_step_length();
+    for (std::size_t l = 0; l < rates_.size(); ++l) rates_[l] += step_length * steps_[l];
     if (!are_last) continue;
     look();
     std::copy(left_.begin(), left_.end(), left.begin());

@@ -37,8 +37,8 @@ class LayerShear {
   void find_steps();
   [[nodiscard]] double take_steps();
   [[nodiscard]] bool is_near() const;
-  [[nodiscard]] double slope_at(double share) const;
-  [[nodiscard]] double share_of_steps() const;
+  [[nodiscard]] double slope_at(double step_length) const;
+  [[nodiscard]] double find_step_length() const;
   [[nodiscard]] bool by_newton(std::span<double> left);
   [[nodiscard]] bool by_descent(std::span<double> left);
   [[nodiscard]] Eigen::Vector2d beyond_mean(std::size_t l) const;

@@ -6,8 +6,8 @@
 
 namespace hersey::film {
 
-/// Positions of a film's layers across its thickness, as shares of it from the shell (0) to the journal (1): layers are
-/// thinner beside the walls, where temperatures change fastest (theory manual, thermal.50).
+/// Positions of a film's layers across its thickness, as fractions of it from the shell (0) to the journal (1): layers
+/// are thinner beside the walls, where temperatures change fastest (theory manual, thermal.50).
 class Layering {
  public:
   explicit Layering(std::size_t layers);

@@ -138,8 +138,8 @@ MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell, double journal) 
   if (walls_.body != nullptr) answer.heat = into_.segment(capacity_.size(), grid_.n_phi) / time_;
   if (walls_.journal_body != nullptr) answer.journal_heat = into_[system_.size()] / time_;
   answer.without = change_of(x);
-  answer.exchange.heat = (into_nodes_ + heat_of(x)) / time_;
-  answer.exchange.by_T.setZero(into_nodes_.size(), into_nodes_.size());
+  answer.heat_flow.heat = (into_nodes_ + heat_of(x)) / time_;
+  answer.heat_flow.by_T.setZero(into_nodes_.size(), into_nodes_.size());
   const auto column = [this](const Eigen::VectorXd& by, Eigen::Index node, double self) -> Eigen::VectorXd {
     return (heat_of(by) + self * Eigen::VectorXd::Unit(into_nodes_.size(), node)) / time_;
   };
@@ -148,19 +148,19 @@ MeanHeat::Answer MeanHeat::answer(const Eigen::VectorXd& shell, double journal) 
     by << outside_.by.col(terminal), 0;
     by = solve(by);
     answer.by_outside.push_back(change_of(by));
-    answer.exchange.by_T.col(2 + terminal) = column(by, 2 + terminal, outside_.self[terminal]);
+    answer.heat_flow.by_T.col(2 + terminal) = column(by, 2 + terminal, outside_.self[terminal]);
   }
   if (walls_.shell_node) {
     Eigen::VectorXd by_shell(system_.size() + 1);
     by_shell << by_shell_, 0;
     by_shell = solve(by_shell);
     answer.by_shell = change_of(by_shell);
-    answer.exchange.by_T.col(0) = column(by_shell, 0, -to_shell_.sum());
+    answer.heat_flow.by_T.col(0) = column(by_shell, 0, -to_shell_.sum());
   }
   if (walls_.journal_node) {
     const Eigen::VectorXd by_journal = solve(Eigen::VectorXd::Unit(A.rows(), system_.size()));
     answer.by_journal = change_of(by_journal);
-    answer.exchange.by_T.col(1) = column(by_journal, 1, -to_journal_.sum());
+    answer.heat_flow.by_T.col(1) = column(by_journal, 1, -to_journal_.sum());
   }
   clear();
   return answer;

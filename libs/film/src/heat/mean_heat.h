@@ -64,7 +64,7 @@ class MeanHeat {
     std::vector<Change> by_outside;
     Eigen::VectorXd heat = {};  ///< into each angle of a shell in a body, before any change [W]; else empty
     double journal_heat = 0;    ///< into a journal in a body, before any change [W]; else 0
-    WallExchange exchange;      ///< without temperatures
+    WallHeatFlow heat_flow;     ///< without temperatures
   };
 
   MeanHeat(const Grid& grid, int layers, const Walls& walls);
@@ -72,7 +72,7 @@ class MeanHeat {
   /// Adds the equations of a step of length dt.
   void add_equations(double dt, const Equations& equations);
   /// Adds the heat that walls absorbed in the step at fixed temperatures, of system and journal [W]; the heat into
-  /// nodes, in the order of WallExchange [W]; and the film's temperatures [K].
+  /// nodes, in the order of WallHeatFlow [W]; and the film's temperatures [K].
   void add_heat(double dt, const Eigen::VectorXd& into, const Eigen::VectorXd& into_nodes, const Eigen::VectorXd& start,
                 const Eigen::VectorXd& end);
   /// True if steps were added since the last call of answer().

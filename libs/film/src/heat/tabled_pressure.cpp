@@ -23,8 +23,8 @@ ValueAndSlope TabledPressure::log_ratio(double at, double mu0) const {
   std::size_t below = 1;
   while (below + 1 < rows && log_mu[below * columns] > wanted) ++below;
   const std::size_t above = below - 1, end = end_of_interval(p, at);
-  const double first = log_mu[above * columns], share = (wanted - first) / (log_mu[below * columns] - first);
-  const double colder = 1 - std::clamp(share, 0.0, 1.0), width = p[end] - p[end - 1];
+  const double first = log_mu[above * columns], fraction = (wanted - first) / (log_mu[below * columns] - first);
+  const double colder = 1 - std::clamp(fraction, 0.0, 1.0), width = p[end] - p[end - 1];
   const auto of_row = [&](std::size_t row) {
     const double* mu = &log_mu[row * columns];
     const double slope = (mu[end] - mu[end - 1]) / width;

@@ -68,7 +68,7 @@ void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {
     A(i, j) -= path.conductance, A(j, i) -= path.conductance;
   }
   for (const FilmAtNodes& film : films) {
-    const WallExchange& observed = film.exchange;
+    const WallHeatFlow& observed = film.heat_flow;
     const Eigen::VectorXd heat = observed.heat + observed.by_T * (walls(film.at, observed.T) - observed.T);
     for (const auto& [row, i] : film.at.nodes()) {
       b[i] += heat[row];
@@ -97,7 +97,7 @@ void ThermalNetwork::observe(double dt, const Eigen::VectorXd& change, const std
   observables_.heat.setZero();
   observables_.to_fixed = observables_.stored = 0;
   for (const FilmAtNodes& film : films) {
-    const WallExchange& observed = film.exchange;
+    const WallHeatFlow& observed = film.heat_flow;
     const Eigen::VectorXd heat = observed.heat + observed.by_T * (walls(film.at, observed.T) - observed.T);
     for (const auto& [row, i] : film.at.nodes()) observables_.heat[i] += heat[row];
   }

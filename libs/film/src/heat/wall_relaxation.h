@@ -15,14 +15,14 @@ class WallRelaxation {
   /// each with temperature, > 0, shape (n)
   void learn(const Eigen::VectorXd& missing, const Eigen::VectorXd& per_kelvin);
   /// Relaxation between 1/2 and 1; 1 until two corrections are known.
-  [[nodiscard]] double share() const { return share_; }
-  /// Sets the predicted fall of `missing` until the next learn(), at a share of one, shape (n).
+  [[nodiscard]] double factor() const { return factor_; }
+  /// Sets the predicted fall of `missing` until the next learn(), at a factor of one, shape (n).
   void predict(const Eigen::VectorXd& fall) { predicted_ = fall; }
   /// Saves or restores the relaxation.
   void persist(Archive& archive);
 
  private:
-  double share_ = 1;
+  double factor_ = 1;
   Eigen::VectorXd missing_, predicted_;
 };
 

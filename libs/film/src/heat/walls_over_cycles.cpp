@@ -28,12 +28,12 @@ Eigen::VectorXd at_terminals(const HeatState& state) {
   return T;
 }
 
-const WallExchange& WallsOverCycles::end_cycle(MeanHeat& mean, const HeatState& state) {
+const WallHeatFlow& WallsOverCycles::end_cycle(MeanHeat& mean, const HeatState& state) {
   mean_ = mean.answer(state.shell, state.journal);
-  mean_.exchange.T = at_terminals(state);
+  mean_.heat_flow.T = at_terminals(state);
   relaxation_.learn(missing(), per_kelvin());
-  mean_.exchange.by_T.topLeftCorner<2, 2>() *= relaxation_.share();
-  return mean_.exchange;
+  mean_.heat_flow.by_T.topLeftCorner<2, 2>() *= relaxation_.factor();
+  return mean_.heat_flow;
 }
 
 // Temperatures of ring [K] and journal [K], and for walls that are nodes the heat that they absorb [W] (thermal.65).
@@ -41,7 +41,7 @@ Eigen::VectorXd WallsOverCycles::missing() const {
   Eigen::VectorXd missing(mean_.without.ring.size() + 3);
   missing << mean_.without.ring, mean_.without.journal, 0, 0;
   for (Eigen::Index wall = 0; wall < 2; ++wall)
-    if (mean_.exchange.by_T(wall, wall) < 0) missing.tail<2>()[wall] = mean_.exchange.heat[wall];
+    if (mean_.heat_flow.by_T(wall, wall) < 0) missing.tail<2>()[wall] = mean_.heat_flow.heat[wall];
   return missing;
 }
 
@@ -51,27 +51,27 @@ Eigen::VectorXd WallsOverCycles::per_kelvin() const {
   Eigen::VectorXd per_kelvin = Eigen::VectorXd::Ones(n + 3);
   per_kelvin.head(n).setConstant(std::sqrt(static_cast<double>(n)));
   for (Eigen::Index wall = 0; wall < 2; ++wall)
-    if (const double by_itself = -mean_.exchange.by_T(wall, wall); by_itself > 0) per_kelvin[n + 1 + wall] = by_itself;
+    if (const double by_itself = -mean_.heat_flow.by_T(wall, wall); by_itself > 0) per_kelvin[n + 1 + wall] = by_itself;
   return per_kelvin;
 }
 
 void WallsOverCycles::predict(const Eigen::VectorXd& by_nodes) {
-  Eigen::VectorXd fall = missing() / relaxation_.share();
-  fall.tail<2>() = -mean_.exchange.by_T.topLeftCorner<2, 2>() * by_nodes.head<2>() / relaxation_.share();
+  Eigen::VectorXd fall = missing() / relaxation_.factor();
+  fall.tail<2>() = -mean_.heat_flow.by_T.topLeftCorner<2, 2>() * by_nodes.head<2>() / relaxation_.factor();
   relaxation_.predict(fall);
 }
 
 // Bodies change by their relaxation from their present temperatures towards those that would settle them; the effects
 // of the nodes are added.
 void WallsOverCycles::move_own_walls(const Eigen::VectorXd& by_nodes, HeatState& state) const {
-  const double factor = 1 / relaxation_.share();
+  const double factor = 1 / relaxation_.factor();
   if (mean_.heat.size() > 0) state.wall_heat += factor * (mean_.heat - state.wall_heat);
   state.journal_heat += factor * (mean_.journal_heat - state.journal_heat);
-  const auto follow = [&](const MeanHeat::Change& change, double share) {
-    if (has_own_temperatures(thermal_->shell)) state.shell += share * change.ring;
-    if (change.heat.size() > 0) state.wall_heat += share * change.heat;
-    if (has_own_temperature(thermal_->journal)) state.journal += share * change.journal;
-    state.journal_heat += share * change.journal_heat;
+  const auto follow = [&](const MeanHeat::Change& change, double factor) {
+    if (has_own_temperatures(thermal_->shell)) state.shell += factor * change.ring;
+    if (change.heat.size() > 0) state.wall_heat += factor * change.heat;
+    if (has_own_temperature(thermal_->journal)) state.journal += factor * change.journal;
+    state.journal_heat += factor * change.journal_heat;
   };
   follow(mean_.without, factor);
   if (std::holds_alternative<NodeWall>(thermal_->shell)) follow(mean_.by_shell, by_nodes[0]);
@@ -81,7 +81,7 @@ void WallsOverCycles::move_own_walls(const Eigen::VectorXd& by_nodes, HeatState&
 }
 
 WallCorrection WallsOverCycles::settle(const Eigen::VectorXd& T_nodes, HeatState& state) {
-  const Eigen::VectorXd by_nodes = T_nodes - mean_.exchange.T;
+  const Eigen::VectorXd by_nodes = T_nodes - mean_.heat_flow.T;
   WallCorrection correction{.rise = -std::numeric_limits<double>::infinity()};
   const auto note = [&](double change, double T) {
     correction.largest = std::max(correction.largest, std::abs(change));

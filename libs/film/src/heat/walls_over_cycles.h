@@ -10,7 +10,7 @@
 
 namespace hersey::film {
 
-/// Returns the temperatures of a film's terminals, in the order of WallExchange [K].
+/// Returns the temperatures of a film's terminals, in the order of WallHeatFlow [K].
 [[nodiscard]] Eigen::VectorXd at_terminals(const HeatState& state);
 
 /// Walls that keep their temperatures over a cycle, and their new temperatures at its end (theory manual, thermal.18,
@@ -21,8 +21,8 @@ class WallsOverCycles {
   explicit WallsOverCycles(const ThermalModel& thermal) : thermal_(&thermal) {}
 
   /// Ends a cycle by its means: returns the heat that walls that are nodes absorb, and its derivatives.
-  const WallExchange& end_cycle(MeanHeat& mean, const HeatState& state);
-  /// Sets, after end_cycle(), the nodes' temperatures, in the order of WallExchange [K], and gives the other walls
+  const WallHeatFlow& end_cycle(MeanHeat& mean, const HeatState& state);
+  /// Sets, after end_cycle(), the nodes' temperatures, in the order of WallHeatFlow [K], and gives the other walls
   /// those at which they would absorb no heat. Returns the size of the correction.
   WallCorrection settle(const Eigen::VectorXd& T_nodes, HeatState& state);
   /// True if settle() has been called.

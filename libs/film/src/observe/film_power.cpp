@@ -8,19 +8,19 @@ namespace {
 
 /// Returns the weights of values in the middles of intervals in an integral over all of them, over the intervals'
 /// lengths: each interval has the parabola through its own value and those of its neighbours.
-Eigen::VectorXd parabolic_shares(const Eigen::VectorXd& length) {
+Eigen::VectorXd parabolic_weights(const Eigen::VectorXd& length) {
   const auto n = static_cast<int>(length.size());
-  Eigen::VectorXd shares = Eigen::VectorXd::Ones(n);
-  if (n < 3) return shares;
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
+  if (n < 3) return weights;
   const auto distance = [&](int j) { return 0.5 * (length[j] + length[j + 1]); };
   for (int j = 0; j < n; ++j) {
     const int middle = std::clamp(j, 1, n - 2);
     const double a = distance(middle - 1), b = distance(middle), bend = length[j] * length[j] * length[j] / 12;
-    shares[middle - 1] += bend / (a * (a + b)) / length[middle - 1];
-    shares[middle] -= bend / (a * b) / length[middle];
-    shares[middle + 1] += bend / (b * (a + b)) / length[middle + 1];
+    weights[middle - 1] += bend / (a * (a + b)) / length[middle - 1];
+    weights[middle] -= bend / (a * b) / length[middle];
+    weights[middle + 1] += bend / (b * (a + b)) / length[middle + 1];
   }
-  return shares;
+  return weights;
 }
 
 /// Factors that turn sums over volumes, which the balance of oil implies, into integrals by the weights of the wrench,
@@ -31,15 +31,15 @@ struct Across {
 };
 
 Across across(const GridGeometry& geometry) {
-  return {parabolic_shares(geometry.dz), geometry.weight_z.cwiseQuotient(geometry.width_z)};
+  return {parabolic_weights(geometry.dz), geometry.weight_z.cwiseQuotient(geometry.width_z)};
 }
 
 /// Work of the oil that a feature feeds over the land before an edge, beyond the part counted at a prescribed node.
 double oil_over_land(const FlowBalance& balance, int node) {
   if (balance.over_land(node) == 0) return 0;
-  const double edge = balance.is_open(node) ? 0 : balance.edge_unknown(node);
+  const double edge = balance.is_on_open_edge(node) ? 0 : balance.edge_unknown(node);
   const double counted =
-      balance.is_prescribed(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
+      balance.is_on_supply(node) ? oil_work(balance.model().lubricant, balance.supply_unknown(node)) : 0;
   return (oil_work(balance.model().lubricant, edge + balance.drop_over_land(node)) - counted) * balance.over_land(node);
 }
 
@@ -57,7 +57,7 @@ double full_sliding_power(const FlowBalance& balance, const FilmWrench& wrench, 
 }  // namespace
 
 double sliding_power(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion, int node) {
-  return balance.nodes()[node].share * full_sliding_power(balance, wrench, motion, node);
+  return balance.nodes()[node].sheared_fraction * full_sliding_power(balance, wrench, motion, node);
 }
 
 // Pressure drives oil through the gap: the power over a face is volume flow times drop. In guembel a face on which the
@@ -80,12 +80,12 @@ Eigen::VectorXd power_beyond_volumes(const FlowBalance& balance, const SurfaceMo
     for (int j = 0; j < grid.n_z; ++j) {
       const int k = grid.index(i, j);
       const double to_next = 0.5 * around[j] * pressure_power(balance, balance.face_after(i, j));
-      const auto [other, share] = balance.split_of_dissipation(k);
+      const auto [other, fraction] = balance.split_of_dissipation(k);
       const double by_tie = around[j] * balance.supply_dissipation(k);
       beyond[i] += around[j] * balance.area(k) * sliding_power(balance, wrench, motion, k) + to_next;
       beyond[next] += to_next;
-      beyond[i] += (1 - share) * by_tie;
-      beyond[other / grid.n_z] += share * by_tie;
+      beyond[i] += (1 - fraction) * by_tie;
+      beyond[other / grid.n_z] += fraction * by_tie;
       if (j + 1 < grid.n_z) beyond[i] += axial[j] * pressure_power(balance, balance.face_above(i, j));
     }
   }
@@ -104,14 +104,15 @@ void add_powers(const FlowBalance& balance, const SurfaceMotion& motion, const F
       const double area = geometry.weight(i, j);
       const double work = oil_work(model.lubricant, node.wall - model.p_cav);
       const double sliding = area * full_sliding_power(balance, wrench, motion, k);
-      o.power_film_other_shear += (node.other_share - node.share) * sliding;  // the terms below do not depend on it
-      o.power_film += node.share * sliding +
+      o.power_film_other_shear +=
+          (node.other_sheared_fraction - node.sheared_fraction) * sliding;  // the terms below do not depend on it
+      o.power_film += node.sheared_fraction * sliding +
                       around[j] * (pressure_power(balance, balance.face_after(i, j)) + balance.supply_dissipation(k));
       if (j + 1 < grid.n_z) o.power_film += axial[j] * pressure_power(balance, balance.face_above(i, j));
       o.power_film += balance.power_over_land(k);
       o.power_asperity += area * node.asperity * wrench.friction_power_per_contact(j);
       // The supply feeds oil at its own pressure: the way to the node dissipates (FlowBalance::supply_dissipation).
-      if (balance.is_prescribed(k))
+      if (balance.is_on_supply(k))
         o.power_oil -= oil_work(model.lubricant, balance.supply_unknown(k)) * balance.supply(k);
       o.power_oil += work * balance.outflow(k) - oil_over_land(balance, k);
       o.power_stored +=

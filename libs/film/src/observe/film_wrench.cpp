@@ -109,7 +109,7 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
   total_ = pressure_ + shear_ + asperity_;
 }
 
-// Over a share of a control volume the gap is deeper: mu v/h counts there with the depth (film.29).
+// Over a fraction of a control volume the gap is deeper: mu v/h counts there with the depth (film.29).
 void FilmWrench::take_relief(const FlowBalance& balance) {
   relief_.clear(), relief_journal_.clear();
   if (balance.relief().is_empty()) return;
@@ -117,9 +117,9 @@ void FilmWrench::take_relief(const FlowBalance& balance) {
   relief_journal_.assign(balance.nodes().size(), 0);
   for (const CoveredDepth& covered : balance.relief().covered()) {
     const double h = balance.nodes()[covered.node].h, whole = h + covered.depth;
-    relief_[covered.node].value -= covered.share * covered.depth / whole;
-    relief_[covered.node].slope += covered.share * covered.depth / (whole * whole);
-    relief_journal_[covered.node] -= covered.share_journal * covered.depth / whole;
+    relief_[covered.node].value -= covered.fraction * covered.depth / whole;
+    relief_[covered.node].slope += covered.fraction * covered.depth / (whole * whole);
+    relief_journal_[covered.node] -= covered.fraction_journal * covered.depth / whole;
   }
   for (std::size_t k = 0; k < relief_.size(); ++k) {
     if (relief_[k].value < 0) relief_[k] = {0, 0}, relief_journal_[k] = 0;  // two overlapping features
@@ -145,7 +145,7 @@ void FilmWrench::push_on_pocket_walls(const FlowBalance& balance, bool want_grad
         (axial ? Vector6(at_a.shear_across + at_b.shear_across) : Vector6(at_a.shear_along + at_b.shear_along));
     shear_ += moment.value * direction;
     if (!want_gradient) continue;
-    const auto [by_node, by_bend] = balance.thickness_shares(flow_tube.face);
+    const auto [by_node, by_bend] = balance.thickness_weights(flow_tube.face);
     WallPush push{.face = flow_tube.face,
                   .row = face.a % grid.n_z,
                   .direction = direction,
@@ -193,16 +193,17 @@ Vector6 FilmWrench::pushes_along(const MotionDirection& direction) const {
 
 FilmWrench::Shear FilmWrench::shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief) {
   Shear s;
-  const double couette = node.share * node.mu / node.h;
-  const double by_share = node.share_u * node.mu / node.h, by_mu = node.share * node.mu_u / node.h;
-  const double couette_u = by_mu + by_share;
+  const double couette = node.sheared_fraction * node.mu / node.h;
+  const double by_fraction = node.sheared_fraction_u * node.mu / node.h,
+               by_mu = node.sheared_fraction * node.mu_u / node.h;
+  const double couette_u = by_mu + by_fraction;
   for (int k = 0; k < 2; ++k) {
     const double factor = rough.couette[k] * relief.value;
     const double factor_h = rough.couette_h[k] * relief.value + rough.couette[k] * relief.slope;
     s.couette[k] = couette * factor;
     s.couette_u[k] = couette_u * factor;
-    s.couette_h[k] = couette * (factor_h - factor / node.h) + node.share * node.mu_h / node.h * factor;
-    s.couette_rate[k] = node.share * node.mu_rate / node.h * factor;
+    s.couette_h[k] = couette * (factor_h - factor / node.h) + node.sheared_fraction * node.mu_h / node.h * factor;
+    s.couette_rate[k] = node.sheared_fraction * node.mu_rate / node.h * factor;
     s.half_gap[k] = 0.5 * (rough.mean + rough.drag[k]);
     s.half_gap_h[k] = 0.5 * (rough.mean_h + rough.drag_h[k]);
   }
@@ -233,13 +234,13 @@ void FilmWrench::cut_off(const std::vector<Node>& nodes, bool want_gradient) {
   }
 }
 
-// The sheared share of volumes that the border of a cavity cuts follows the nodes around (film.60, film.61).
+// The sheared fraction of volumes that the border of a cavity cuts follows the nodes around (film.60, film.61).
 void FilmWrench::add_borders(const FlowBalance& balance) {
   for (const CavityBorder& border : balance.borders()) {
     const int i = border.node / model_.grid.n_z, j = border.node % model_.grid.n_z;
     const Row& row = rows_[static_cast<std::size_t>(j)];
     Node full = balance.nodes()[border.node];
-    full.share = 1;
+    full.sheared_fraction = 1;
     const Shear s =
         shear_of(full, balance.rough_gaps()[border.node], relief_.empty() ? ValueAndSlope{1, 0} : relief_[border.node]);
     const Basis b = basis(i, j);
@@ -355,8 +356,8 @@ Vector6 FilmWrench::more_of_other_shear(const FlowBalance& balance) const {
     for (int j = 0; j < grid.n_z; ++j) {
       const int k = grid.index(i, j);
       Node node = balance.nodes()[k];
-      if (node.other_share == node.share) continue;
-      node.share = node.other_share - node.share;
+      if (node.other_sheared_fraction == node.sheared_fraction) continue;
+      node.sheared_fraction = node.other_sheared_fraction - node.sheared_fraction;
       const Shear s = shear_of(node, balance.rough_gaps()[k], relief_.empty() ? ValueAndSlope{1, 0} : relief_[k]);
       const Eigen::Vector2d traction =
           geometry_.weight(i, j) * s.couette.cwiseProduct(rows_[static_cast<std::size_t>(j)].slip);
@@ -372,9 +373,9 @@ Vector6 FilmWrench::along(const MotionDirection& direction) const {
   Vector6 d = by_slip_ * slip + direction.phi_journal * by_journal_ + direction.phi_supply * by_supply_ +
               pushes_along(direction);
   if (direction.g.size() != 0) d += by_g_ * direction.g;
-  if (direction.shell_share == 0) return d;
+  if (direction.shell_fraction == 0) return d;
   HERSEY_REQUIRE(opening_.size() != 0, "what the shell's surface opens the gap by comes with the motion");
-  d += direction.shell_share * (by_opening_ * direction.g);
+  d += direction.shell_fraction * (by_opening_ * direction.g);
   return d;
 }
 

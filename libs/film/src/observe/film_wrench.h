@@ -8,8 +8,8 @@
 #include "gap/grid_geometry.h"
 #include "gap/rough_gap.h"
 #include "hersey/core/spatial.h"
-#include "hersey/film/film_exchange.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_response.h"
 
 namespace hersey::film {
 
@@ -38,7 +38,7 @@ class FilmWrench {
   [[nodiscard]] double relief_factor(int node) const { return relief_.empty() ? 1 : relief_[node].value; }
 
   /// d total / du at fixed surfaces, times du.
-  [[nodiscard]] Vector6 along_u(const Eigen::Ref<const Eigen::VectorXd>& du) const { return by_u_ * du; }
+  [[nodiscard]] Vector6 change_by_u(const Eigen::Ref<const Eigen::VectorXd>& du) const { return by_u_ * du; }
   /// d total / d(direction) at fixed u.
   [[nodiscard]] Vector6 along(const MotionDirection& direction) const;
   [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& gradient_u() const { return by_u_; }
@@ -86,20 +86,20 @@ class FilmWrench {
     bool in_journal = false;
   };
   std::vector<WallPush> pushes_;
-  Vector6 by_journal_;                  ///< with phi_journal, of rotating pockets
-  Vector6 by_supply_;                   ///< with phi_supply, of borders of cavities beside the line
+  Vector6 by_journal_;                  ///< by phi_journal, of rotating pockets
+  Vector6 by_supply_;                   ///< by phi_supply, of borders of cavities beside the line
   std::vector<double> relief_journal_;  ///< of the factor below [1/rad]
   std::vector<ValueAndSlope> relief_;   ///< factor of Couette shear where features have depth [-, 1/m]; empty: 1
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_u_, by_g_, by_opening_;
   Eigen::VectorXd opening_;              ///< displacement of the shell outwards from its cylinder [m]; empty: none
-  Eigen::Matrix<double, 6, 2> by_slip_;  ///< with the journal's speed relative to the shell, along phi at R and along z
+  Eigen::Matrix<double, 6, 2> by_slip_;  ///< by the journal's speed relative to the shell, along phi at R and along z
   /// Quantities of a row of the grid, on which the surfaces have one speed.
   struct Row {
     double stretch = 1;             ///< of that speed along phi [-]
     Eigen::Vector2d slip;           ///< that speed [m/s]
     Eigen::Vector2d rate_slip;      ///< derivative of its logarithm [s/m]
     Eigen::Vector2d friction;       ///< boundary friction per contact pressure on the shell [-]
-    Eigen::Matrix2d friction_slip;  ///< its derivative with slip [s/m]
+    Eigen::Matrix2d friction_slip;  ///< its derivative by slip [s/m]
   };
   std::vector<Row> rows_;
 };

@@ -81,8 +81,8 @@ class PeakFinder {
 /// True if the pressure has no kink between a node and another: neither an edge nor a supply line or feature prescribes
 /// the pressure of one of them, and no border of a pocket lies between.
 bool is_smooth(const FlowBalance& balance, int a, int b) {
-  if (balance.is_given(a)) return false;
-  if (balance.balance_share(a) < 1 || balance.balance_share(b) < 1) return false;
+  if (balance.is_on_prescribed_edge(a)) return false;
+  if (balance.balance_weight(a) < 1 || balance.balance_weight(b) < 1) return false;
   const Eigen::VectorXd& depth = balance.relief().depth();
   return depth.size() == 0 || std::abs(depth[a] - depth[b]) <= 1e-9 * balance.model().c;
 }
@@ -109,7 +109,7 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
       o.storage_rate += balance.storage(k);
       o.oil_volume += area * node.content * balance.oil_gap(k);
       total += area;
-      cavitated += area * balance.cavitated_share(k);
+      cavitated += area * balance.cavitated_fraction(k);
       balance.add_flow_over_edge(o, k, balance.acting_outflow(k));
       outflow += balance.outflow(k);
       gross += std::abs(balance.outflow(k)) + std::abs(balance.storage(k));
@@ -188,7 +188,7 @@ Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal) {
   PocketRelief relief(model, geometry);
   relief.set_rotation(phi_journal, phi_journal, 0, 0);
   Eigen::VectorXd depth = Eigen::VectorXd::Zero(model.grid.size());
-  for (const CoveredDepth& covered : relief.covered()) depth[covered.node] += covered.share * covered.depth;
+  for (const CoveredDepth& covered : relief.covered()) depth[covered.node] += covered.fraction * covered.depth;
   return depth;
 }
 

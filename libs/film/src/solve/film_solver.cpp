@@ -36,7 +36,7 @@ namespace {
 // thickness of a compliant surface, relative to itself.
 constexpr double largest_change = 1.0;
 
-// One step may thin the film of a compliant surface to this share of itself.
+// One step may thin the film of a compliant surface to this fraction of itself.
 constexpr double thinnest = 0.3;
 
 // 2^-10 of a step that closes the film is none.
@@ -55,25 +55,25 @@ constexpr double coarse_rtol = 1e-4;
 // Coarser grids with fewer nodes are factorised.
 constexpr int largest_direct = 4000;
 
-/// The share of the step du that keeps viscosity and film thickness within `largest_change` at every node, and the film
-/// open. Only pressures count: switching a node between full and cavitated bends no law and is never held back.
-double step_share(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u,
-                  const Eigen::VectorXd& du) {
+/// The length of the step du that keeps viscosity and film thickness within `largest_change` at every node, and the
+/// film open. Only pressures count: switching a node between full and cavitated bends no law and is never limited.
+double step_length(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u,
+                   const Eigen::VectorXd& du) {
   const double C = model.compliance;
   const Lubricant& oil = model.lubricant;
   if (C == 0 && std::holds_alternative<ConstantViscosity>(oil.viscosity_law)) return 1;
   const NodeLaw law(model);
-  double share = 1;
+  double step_length = 1;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     const int node = static_cast<int>(i);
     const Node before = law.state(motion.g[i], u[i], node), after = law.state(motion.g[i], u[i] + du[i], node);
     const double exponent = log_viscosity_ratio(oil, after.p).value - log_viscosity_ratio(oil, before.p).value;
     const double relative = std::max(std::abs(exponent), C * std::abs(after.p - before.p) / before.h);
-    if (relative > largest_change) share = std::min(share, largest_change / relative);
+    if (relative > largest_change) step_length = std::min(step_length, largest_change / relative);
     const double thinning = 1 - after.h / before.h;
-    if (thinning > 1 - thinnest) share = std::min(share, (1 - thinnest) / thinning);
+    if (thinning > 1 - thinnest) step_length = std::min(step_length, (1 - thinnest) / thinning);
   }
-  return share;
+  return step_length;
 }
 
 std::string where(const Grid& grid, int node) {
@@ -146,7 +146,7 @@ FilmDomain enter_domain(Reynolds& reynolds, const SurfaceMotion& motion, const F
   Eigen::VectorXd du;
   (void)reynolds.linearise(motion, history, before);
   reynolds.regularised_increment(du);
-  u = before + step_share(reynolds.model(), motion, before, du) * du;
+  u = before + step_length(reynolds.model(), motion, before, du) * du;
   return reynolds.linearise(motion, history, u);
 }
 
@@ -172,7 +172,7 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
     last = summary.relative_residual;
     before = u;
     reynolds.press_filled_nodes(u, du);
-    u += step_share(reynolds.model(), motion, u, du) * du;
+    u += step_length(reynolds.model(), motion, u, du) * du;
     reynolds.advance_rupture_front(u);
     u = u.cwiseMax(least);
   }
@@ -216,8 +216,8 @@ FilmSolveSummary sweep_on(Reynolds& reynolds, const SurfaceMotion& motion, const
 }
 
 // Where steps of Newton's method cycle (a viscosity that rises by decades under a gap that jumps), sweeps with
-// viscosity and thickness held back do not: they lead near the answer, Newton the rest of the way. Where it cycles
-// around the answer itself, sweeps go there, too.
+// relaxed viscosity and thickness do not: they lead near the answer, Newton the rest of the way. Where it
+// cycles around the answer itself, sweeps go there, too.
 FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                                const FilmSolveOptions& options, const Eigen::VectorXd& start, Eigen::VectorXd& u) {
   FilmSolveOptions sweeps = options;

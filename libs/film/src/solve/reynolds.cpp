@@ -36,7 +36,7 @@ struct Reynolds::Impl {
   void factorise();
   [[nodiscard]] bool is_finite() const;
   void find_row_sizes();
-  [[nodiscard]] bool factorise_shifted(double share);
+  [[nodiscard]] bool factorise_shifted(double shift);
   [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
@@ -54,9 +54,9 @@ struct Reynolds::Impl {
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
   Eigen::VectorXd rhs, answer, row_size, rest, correction;
-  // Of the last condensation, n rows each: residual's derivative with the directions; then either the answer of each
+  // Of the last condensation, n rows each: residual's derivative along the directions; then either the answer of each
   // force (six of the wrench, then on shapes) to the residual, or the increment and the answers to the directions.
-  Eigen::MatrixXd residual_ds, adjoint, answers;
+  Eigen::MatrixXd residual_by_s, adjoint, answers;
   Eigen::VectorXd condensed_residual, increment;
   SurfaceMotion speeds;  // without gap and rate
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
@@ -77,9 +77,9 @@ void Reynolds::Impl::find_row_sizes() {
   }
 }
 
-bool Reynolds::Impl::factorise_shifted(double share) {
+bool Reynolds::Impl::factorise_shifted(double shift) {
   shifted.assign(balance.values().begin(), balance.values().end());
-  for (int i = 0; i < balance.size(); ++i) shifted[balance.diagonal_slot(i)] += share * row_size[i];
+  for (int i = 0; i < balance.size(); ++i) shifted[balance.diagonal_slot(i)] += shift * row_size[i];
   ++counts.factorisations;
   return lu.factorise(shifted);
 }
@@ -96,9 +96,9 @@ void Reynolds::Impl::factorise() {
   factorised = lu.factorise(balance.values());
   if (factorised) return;
   row_size.setConstant(balance.size(), balance.conductance_scale());
-  for (double share = 1e-9; !factorised && share < 1; share *= 100) factorised = factorise_shifted(share);
+  for (double shift = 1e-9; !factorised && shift < 1; shift *= 100) factorised = factorise_shifted(shift);
   if (!factorised) find_row_sizes();
-  for (double share = 1e-9; !factorised && share < 1e4; share *= 100) factorised = factorise_shifted(share);
+  for (double shift = 1e-9; !factorised && shift < 1e4; shift *= 100) factorised = factorise_shifted(shift);
   HERSEY_REQUIRE(factorised, "a matrix of finite numbers with a heavy diagonal has a factor");
 }
 
@@ -146,26 +146,26 @@ void Reynolds::Impl::condense_by_adjoint(const Eigen::MatrixXd& openings, Conden
   adjoint.rightCols(openings.cols()) = wrench.normal().by_u.asDiagonal() * openings;
   lu.solve_transposed({adjoint.data(), static_cast<std::size_t>(adjoint.size())}, static_cast<int>(adjoint.cols()));
   for (Eigen::Index i = 0; i < 6; ++i) film.wrench[i] -= adjoint.col(i).dot(balance.residual());
-  film.wrench_ds.noalias() -= adjoint.leftCols<6>().transpose() * residual_ds;
+  film.wrench_by_s.noalias() -= adjoint.leftCols<6>().transpose() * residual_by_s;
   if (openings.cols() == 0) return;
   film.Q.noalias() -= adjoint.rightCols(openings.cols()).transpose() * balance.residual();
-  film.Q_ds.noalias() -= adjoint.rightCols(openings.cols()).transpose() * residual_ds;
+  film.Q_by_s.noalias() -= adjoint.rightCols(openings.cols()).transpose() * residual_by_s;
 }
 
 void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film) {
   rhs = -balance.residual();
   solve(rhs, tight, increment);
-  film.wrench += wrench.along_u(increment);
+  film.wrench += wrench.change_by_u(increment);
   rhs = wrench.normal().by_u.cwiseProduct(increment);
   film.Q.noalias() += openings.transpose() * rhs;
-  answers.resize(residual_ds.rows(), residual_ds.cols());
+  answers.resize(residual_by_s.rows(), residual_by_s.cols());
   for (Eigen::Index k = 0; k < answers.cols(); ++k) {
-    rhs = -residual_ds.col(k);
+    rhs = -residual_by_s.col(k);
     solve(rhs, tight, answer);
     answers.col(k) = answer;
-    film.wrench_ds.col(k) += wrench.along_u(answer);
+    film.wrench_by_s.col(k) += wrench.change_by_u(answer);
     rhs = wrench.normal().by_u.cwiseProduct(answer);
-    film.Q_ds.col(k).noalias() += openings.transpose() * rhs;
+    film.Q_by_s.col(k).noalias() += openings.transpose() * rhs;
   }
 }
 
@@ -277,18 +277,18 @@ void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen
   const FilmWrench& now = m.summed_wrench();
   m.condensed_residual = m.balance.residual();
   m.condensed = true;
-  m.residual_ds.resize(size(), static_cast<Eigen::Index>(directions.size()));
-  film.wrench_ds.resize(6, m.residual_ds.cols());
-  film.Q_ds.setZero(openings.cols(), m.residual_ds.cols());
+  m.residual_by_s.resize(size(), static_cast<Eigen::Index>(directions.size()));
+  film.wrench_by_s.resize(6, m.residual_by_s.cols());
+  film.Q_by_s.setZero(openings.cols(), m.residual_by_s.cols());
   const bool contact_pushes = openings.cols() > 0 && !now.normal().by_g.isZero(0);
-  for (Eigen::Index k = 0; k < m.residual_ds.cols(); ++k) {
+  for (Eigen::Index k = 0; k < m.residual_by_s.cols(); ++k) {
     const MotionDirection& direction = directions[static_cast<std::size_t>(k)];
     m.balance.derivative(direction, m.rhs);
-    m.residual_ds.col(k) = m.rhs;
-    film.wrench_ds.col(k) = now.along(direction);
+    m.residual_by_s.col(k) = m.rhs;
+    film.wrench_by_s.col(k) = now.along(direction);
     if (!contact_pushes || direction.g.size() == 0) continue;
     m.rhs = now.normal().by_g.cwiseProduct(direction.g);
-    film.Q_ds.col(k).noalias() = openings.transpose() * m.rhs;
+    film.Q_by_s.col(k).noalias() = openings.transpose() * m.rhs;
   }
   film.wrench = now.total();
   film.Q.noalias() = openings.transpose() * now.normal().value;
@@ -303,10 +303,10 @@ const NormalForces& Reynolds::normal_forces() const { return impl_->summed_wrenc
 
 void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du) {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(m.condensed && ds.size() == m.residual_ds.cols(), "condense() comes first");
+  HERSEY_REQUIRE(m.condensed && ds.size() == m.residual_by_s.cols(), "condense() comes first");
   if (m.linear == LinearSolver::direct) {
     du = -m.condensed_residual;
-    du.noalias() -= m.residual_ds * ds;
+    du.noalias() -= m.residual_by_s * ds;
     m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
   } else {
     du = m.increment;
@@ -315,7 +315,7 @@ void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::Vector
 }
 
 Vector6 Reynolds::wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) const {
-  return impl_->summed_wrench().along_u(du);
+  return impl_->summed_wrench().change_by_u(du);
 }
 
 const Eigen::Matrix<double, 6, Eigen::Dynamic>& Reynolds::wrench_by_u() const {

@@ -36,7 +36,7 @@ class NodeRow {
   double known = 0;  ///< [m^3/s]
 
   explicit NodeRow(double storage) : storage_(storage) {}
-  /// Outflow over a face: `of_full` times the share of its flow at a fill fraction.
+  /// Outflow over a face: `of_full` times the fraction of its flow at a fill fraction.
   void add_leaving(double of_full, const FaceFlow& flow) {
     leaving_[static_cast<std::size_t>(count_++)] = {of_full, &flow};
   }
@@ -126,7 +126,8 @@ double Sor::over_relaxation() const {
   return 2 / (1 + std::sqrt(1 - rho * rho));
 }
 
-// Share of a change of pressure that thickness and viscosity follow at once: the gain of that loop at a node is 3 dh/h
+// Fraction of a change of pressure that thickness and viscosity follow at once: the gain of that loop at a node is 3
+// dh/h
 // + alpha dp, and changes of neighbours double it.
 double Sor::following() const {
   const FilmModel& model = balance_.model();
@@ -146,7 +147,7 @@ void Sor::start(const Eigen::VectorXd& u) {
 
 void Sor::set_unknown(int node, double u) {
   u_[node] = u;
-  const bool open = balance_.is_open(node);
+  const bool open = balance_.is_on_open_edge(node);
   const FilmPhase phase = cavitation_.phase(open ? std::max(u, balance_.ambient_unknown(node)) : u, scales_);
   p_[node] = open ? 0 : phase.p.value;
   theta_[node] = phase.theta.value;
@@ -209,12 +210,12 @@ NodeRow Sor::row(int node) const {
 
 void Sor::relax(int i, int j) {
   const int node = balance_.model().grid.index(i, j);
-  if (balance_.is_given(node)) return set_unknown(node, balance_.edge_unknown(node));
+  if (balance_.is_on_prescribed_edge(node)) return set_unknown(node, balance_.edge_unknown(node));
 
   // Beside line and features the row is a blend with u = u_supply; full, u >= 0, it reads  conductance u + full = 0.
   const NodeRow r = row(node);
-  const bool open = balance_.is_open(node);
-  const double own = balance_.balance_share(node), tie = balance_.supply_conductance(node);
+  const bool open = balance_.is_on_open_edge(node);
+  const double own = balance_.balance_weight(node), tie = balance_.supply_conductance(node);
   const double supplied = tie * balance_.supply_unknown(node);
   const double full = own * (r.known + r.full()) - supplied;
   const double conductance = own * (open ? balance_.conductance_scale() : r.K) + (balance_.only_fills(node) ? 0 : tie);

@@ -170,7 +170,7 @@ ModeRecord::ModeRecord(const model::Model& model, const Machine& machine, result
 void ModeRecord::append(const solver::State& state, const solver::Modes& found) {
   constexpr double step = 1e-6;  // amplitudes are smooth, and of a mode linear: their difference loses six digits
   mbd::Mechanism& mechanism = *machine_.mechanism;
-  const auto seen_after = [&](const Eigen::VectorXd& increment) {
+  const auto observed_after = [&](const Eigen::VectorXd& increment) {
     solver::State moved = state;
     mechanism.retract(state.q, increment, moved.q);
     return mechanism.observe(moved);
@@ -179,8 +179,8 @@ void ModeRecord::append(const solver::State& state, const solver::Modes& found) 
     const Eigen::VectorXd re = mode.shape.real(), im = mode.shape.imag();
     ModeRow row{mode, complex_of(body_increments(machine_, state, re), body_increments(machine_, state, im)), {}, {}};
     if (!machine_.flexibles.empty() || !machine_.beams.empty()) {
-      const mbd::Observation here = seen_after(Eigen::VectorXd::Zero(mode.shape.size())), real = seen_after(step * re),
-                             imaginary = seen_after(step * im);
+      const mbd::Observation here = observed_after(Eigen::VectorXd::Zero(mode.shape.size())),
+                             real = observed_after(step * re), imaginary = observed_after(step * im);
       for (const model::BuiltFlexible& body : machine_.flexibles) {
         const auto amplitudes = [&](const mbd::Observation& observation) -> Eigen::VectorXd {
           return body.body->amplitudes(observation.elastics[static_cast<std::size_t>(body.elastic.index)].motion);

@@ -190,7 +190,7 @@ std::string nodes_of_oil(const film::FilmModel& film, const film::ThermalModel& 
 /// Distribution of the heat of asperity friction.
 std::string rubbing(const film::FilmModel& film, const film::ThermalModel& heat) {
   if (film.asperities.model == film::AsperityModel::none) return {};
-  const double shell = 100 * film::friction_share(heat.shell_surface, heat.journal_surface);
+  const double shell = 100 * film::heat_partition(heat.shell_surface, heat.journal_surface);
   return fmt::format("; of the asperities' heat {:.3g} % into the shell, {:.3g} % into the journal, by effusivities",
                      shell, 100 - shell);
 }

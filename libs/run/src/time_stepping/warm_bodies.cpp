@@ -13,12 +13,12 @@ void warm_bodies(model::Machine& machine, double dt) {
   for (const model::BuiltBearing& built : machine.bearings) {
     const film::FilmHeat* heat = built.bearing->heat();
     if (heat == nullptr || !film::terminals_of(heat->thermal()).has_any()) continue;
-    films.push_back({film::terminals_of(heat->thermal()), heat->exchange()});
+    films.push_back({film::terminals_of(heat->thermal()), heat->heat_flow()});
     warmed.push_back(built.bearing.get());
   }
   machine.network->advance(dt, films);
   for (std::size_t i = 0; i < films.size(); ++i)
-    warmed[i]->move_walls(machine.network->walls(films[i].at, films[i].exchange.T));
+    warmed[i]->move_walls(machine.network->walls(films[i].at, films[i].heat_flow.T));
 }
 
 void settle_walls(model::Machine& machine) {
@@ -27,12 +27,12 @@ void settle_walls(model::Machine& machine) {
   for (const model::BuiltBearing& built : machine.bearings) {
     const film::FilmHeat* heat = built.bearing->heat();
     if (heat == nullptr) continue;
-    films.push_back({film::terminals_of(heat->thermal()), built.bearing->mean_exchange()});
+    films.push_back({film::terminals_of(heat->thermal()), built.bearing->mean_heat_flow()});
     warm.push_back(built.bearing.get());
   }
   if (machine.network) machine.network->advance(0, films);
   for (std::size_t i = 0; i < films.size(); ++i) {
-    const Eigen::VectorXd& T = films[i].exchange.T;
+    const Eigen::VectorXd& T = films[i].heat_flow.T;
     warm[i]->settle_walls(machine.network ? machine.network->walls(films[i].at, T) : T);
   }
 }

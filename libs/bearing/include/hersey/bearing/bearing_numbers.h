@@ -20,7 +20,7 @@ struct BearingNumbers {
   double hersey = 0;              ///< mu0 N L D/W
   double friction_journal = 0;    ///< |torque on the journal|/(R W)
   double friction_shell = 0;      ///< |torque on the shell|/(R W)
-  double asperity_share = 0;      ///< share of the load borne by asperities
+  double asperity_share = 0;      ///< fraction of the load borne by asperities
   double film_ratio = 0;          ///< h_min/sigma; 0 for smooth surfaces
 };
 

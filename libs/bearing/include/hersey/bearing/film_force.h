@@ -98,8 +98,8 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }
   void persist(Archive& archive) override;
 
-  /// Returns film::FilmHeat::mean_exchange() of the cycle of the machine that ended with the step last accepted.
-  const film::WallExchange& mean_exchange();
+  /// Returns film::FilmHeat::mean_heat_flow() of the cycle of the machine that ended with the step last accepted.
+  const film::WallHeatFlow& mean_heat_flow();
   /// Calls film::FilmHeat::settle_walls() at the end of a cycle.
   void settle_walls(const Eigen::VectorXd& T_nodes);
   /// Temperatures of the film; null: the film is isothermal.
@@ -108,7 +108,7 @@ class FilmForce : public mbd::TwoBodyForce {
   void move_walls(const Eigen::VectorXd& T);
   /// Describes, at the state last accepted, a clearance that temperatures close, or oil that warms without bound, and
   /// where; empty if neither is the case.
-  /// @param closed  share of the clearance as given below which it counts as closed [-]
+  /// @param closed  fraction of the clearance as given below which it counts as closed [-]
   [[nodiscard]] std::string thermal_failure(double closed) const;
 
   /// Returns all figures of the state last accepted (or initialised).

@@ -14,7 +14,7 @@ struct CumulativeOilBalance {
   double volume = 0;        ///< in the film [m^3]
   double through_flow = 0;  ///< volume that has passed: the larger of what came in and what left, step by step [m^3]
   double unexplained = 0;   ///< change of the volume since the start less what came in [m^3]
-  double step_error = 0;    ///< the last step's share of that [m^3]
+  double step_error = 0;    ///< the last step's part of that [m^3]
 };
 
 /// Observation of one bearing at an accepted state.

@@ -24,7 +24,7 @@ struct GapPosition {
 };
 
 /// Kinematics of the gap of one kind of bearing: the parameters through which two rigid surfaces, of frames A and B,
-/// act on the gap, their derivatives with the relative motion, and the surfaces at these parameters. A film between
+/// act on the gap, their derivatives by the relative motion, and the surfaces at these parameters. A film between
 /// them is a FilmForce. One object per bearing and thread; no allocation after the first call.
 class GapKinematics {
  public:

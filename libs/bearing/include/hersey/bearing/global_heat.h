@@ -6,7 +6,7 @@
 
 namespace hersey::bearing {
 
-/// Below this share of the clearance as given one at temperature is closed.
+/// Below this fraction of the clearance as given one at temperature is closed.
 inline constexpr double seized = 0.01;
 
 /// Thermal expansion of walls around a film of one temperature.

@@ -7,8 +7,8 @@
 #include "hersey/bearing/rigid_surfaces.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/core/spatial.h"
-#include "hersey/film/film_exchange.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_response.h"
 #include "hersey/film/reynolds.h"
 
 namespace hersey::bearing {

@@ -20,7 +20,7 @@ constexpr double kNearCentre = 1e-6;
 // A journal that no arc stops moves by so many clearances at most.
 constexpr double kMostRoom = 4;
 
-// A gap of this share of the clearance counts as none.
+// A gap of this fraction of the clearance counts as none.
 constexpr double kLeastGap = 3e-3;
 
 class JournalKind final : public BearingKind {
@@ -128,7 +128,7 @@ std::vector<double> JournalCoordinates::distances(const OperatingPoint& point, d
   std::vector<double> result;
   for (double gap = 0.5; gap > (is_smooth ? 1 : 0.1) * kLeastGap; gap /= 2) result.push_back((1 - gap) * room);
   depth += model_.compliance * point.load->norm() / (model_.R * model_.L);
-  for (double share = 0.25; depth > 0 && share <= 8; share *= 2) result.push_back(room + share * depth);
+  for (double fraction = 0.25; depth > 0 && fraction <= 8; fraction *= 2) result.push_back(room + fraction * depth);
   return result;
 }
 

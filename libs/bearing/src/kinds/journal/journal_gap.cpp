@@ -14,7 +14,8 @@
 namespace hersey::bearing {
 namespace {
 
-// Below this share of the clearance the direction of the eccentricity, hence of the widest gap, is not differentiated.
+// Below this fraction of the clearance the direction of the eccentricity, hence of the widest gap, is not
+// differentiated.
 constexpr double direction_floor = 1e-6;
 
 // Eccentricity over the clearance from which a step can follow the widest gap: nearer to the centre it goes round by

@@ -31,7 +31,7 @@ Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoi
     const double x = (low + high) / 2, y = 1 - x * x;
     (y * y / (pi * x * std::sqrt(pi * pi * y + 16 * x * x)) > wanted ? low : high) = x;
   }
-  // A bearing of finite width stands nearer to its centre or, with contact, is held off the wall: keep away from both.
+  // A bearing of finite width stands nearer to its centre or, with contact, is kept off the wall: keep away from both.
   const film::Asperities& rough = model.asperities;
   const double reach = rough.model == film::AsperityModel::none ? 0 : rough.mean_summit_height + 3 * rough.sigma;
   const double contact = reach / c;

@@ -12,13 +12,13 @@ namespace {
 // Load of a long plane slider near its best inclination over 6 mu U L (B/h)^2 (slider.7).
 constexpr double kLongSlider = 0.0267;
 
-// The search for a load goes from this many times the estimated gap down to its share below.
+// The search for a load goes from this many times the estimated gap down to its fraction below.
 constexpr double kWidest = 64, kNarrowest = 1.0 / 256;
 
 // Distance from which on it measures the overlap of surfaces that yield, over what the mean pressure deforms them.
 const double kOverlapping = std::log(2 * kWidest / kNarrowest);
 
-// Steps are measured in no less than this share of the film's scale: of a gap that is closed, as asperities allow.
+// Steps are measured in no less than this fraction of the film's scale: of a gap that is closed, as asperities allow.
 constexpr double kLeastScale = 1e-3;
 
 SliderParameters parameters_of(const OperatingPoint& point, const Coordinates& e) {
@@ -87,7 +87,8 @@ Coordinates SliderCoordinates::opened(const OperatingPoint& point, const Coordin
 std::vector<double> SliderCoordinates::distances(const OperatingPoint& /*point*/, double /*depth*/) {
   std::vector<double> result;
   for (double gap = kWidest; gap > kNarrowest; gap /= 2) result.push_back(std::log(2 * kWidest / gap));
-  for (double share = 0.25; model_.compliance > 0 && share <= 8; share *= 2) result.push_back(kOverlapping + share);
+  for (double fraction = 0.25; model_.compliance > 0 && fraction <= 8; fraction *= 2)
+    result.push_back(kOverlapping + fraction);
   return result;
 }
 

@@ -28,7 +28,7 @@ struct FilmPhase {
 /// Terms of a row of the balance at u <= 0 with all unknowns but its own known; they add up to 0.
 struct CavitatedRow {
   double full = 0;       ///< flow out of a full gap at p_cav [m^3/s]
-  double transport = 0;  ///< its share in proportion to the fill fraction [m^3/s]
+  double transport = 0;  ///< its part in proportion to the fill fraction [m^3/s]
   double slack = 0;      ///< coefficient of the slack [m^3/(Pa s)]
   double drawn = 0;      ///< coefficient of u: flow drawn from a supply at the node [m^3/(Pa s)]
 };

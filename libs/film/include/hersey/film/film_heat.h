@@ -52,10 +52,10 @@ class FilmHeat {
 
   /// Returns the heat that fixed walls (WallMotion::fixed) take up if they are nodes, as means over all steps since the
   /// last call; rings and journals of their own temperature follow. @throws ContractError without a step since then
-  const WallExchange& mean_exchange();
-  /// Sets, after mean_exchange(), the nodes' temperatures in the order of exchange().T [K]. Rings and journals of their
-  /// own temperature take that at which they would take up no heat, to better approximation with each call (theory
-  /// manual, thermal.19). Returns how far off they were.
+  const WallHeatFlow& mean_heat_flow();
+  /// Sets, after mean_heat_flow(), the nodes' temperatures in the order of heat_flow().T [K]. Rings and journals of
+  /// their own temperature take that at which they would take up no heat, to better approximation with each call
+  /// (theory manual, thermal.19). Returns how far off they were.
   WallCorrection settle_walls(const Eigen::VectorXd& T_nodes);
 
   /// Displacement of the shell of a body outwards from its cylinder by temperature [m], shape (grid.size())
@@ -74,9 +74,9 @@ class FilmHeat {
   [[nodiscard]] Eigen::VectorXd journal_body_temperatures() const;
 
   /// Heat into the nodes of a network after advance(), which kept their temperatures.
-  [[nodiscard]] const WallExchange& exchange() const;
-  /// Corrects, after advance(), the nodes' temperatures at the end of the step, in the order of exchange().T [K]. The
-  /// film follows, and the nodes take up exchange().heat + exchange().by_T (T - exchange().T).
+  [[nodiscard]] const WallHeatFlow& heat_flow() const;
+  /// Corrects, after advance(), the nodes' temperatures at the end of the step, in the order of heat_flow().T [K]. The
+  /// film follows, and the nodes take up heat_flow().heat + heat_flow().by_T (T - heat_flow().T).
   void move_walls(const Eigen::VectorXd& T);
 
   /// Fields of the film last advanced, or before advance() of one at the temperatures of its supply and walls.

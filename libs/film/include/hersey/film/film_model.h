@@ -140,7 +140,7 @@ struct FilmModel {
   return j == model.grid.n_z - 1 ? &model.edge_right : nullptr;
 }
 
-/// Share of oil in what a film draws in over an edge: 1 above the cavitation pressure, none through a wall [-].
+/// Fraction of oil in what a film draws in over an edge: 1 above the cavitation pressure, none through a wall [-].
 [[nodiscard]] inline double fill_outside(const FilmModel& model, const Edge& edge) {
   if (edge.kind == EdgeKind::closed) return -1;
   return edge.pressure > model.p_cav ? 1 : edge.ambient_fill;
@@ -188,7 +188,7 @@ struct SurfaceMotion {
   Eigen::VectorXd g;       ///< gap of the undeformed surfaces at the nodes [m], shape (grid.size())
   Eigen::VectorXd g_rate;  ///< d g/dt at fixed grid points [m/s], same shape
   /// Displacement of the shell's surface outwards from its cylinder [m], same shape; empty: none. It is the shell's
-  /// share of the difference of g from the gap of two cylinders; pressure on its slopes acts on the shell (film.52).
+  /// fraction of the difference of g from the gap of two cylinders; pressure on its slopes acts on the shell (film.52).
   Eigen::VectorXd shell_opening = {};
   double u_shell = 0;                     ///< speed of the shell surface (y = 0) along phi at R [m/s]
   double u_journal = 0;                   ///< speed of the journal surface (y = h) along phi at R [m/s]

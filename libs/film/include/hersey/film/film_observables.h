@@ -72,7 +72,7 @@ struct FilmObservables {
   /// Angles at which the widest cavity at mid-width begins and ends along the flow [rad]; NaN without a cavity.
   double rupture_angle = 0, reformation_angle = 0;
   double cavitated_share =
-      0;  ///< share of the area with theta < 1 or (other models) p <= p_cav without film action [-]
+      0;  ///< fraction of the area with theta < 1 or (other models) p <= p_cav without film action [-]
 };
 
 }  // namespace hersey::film

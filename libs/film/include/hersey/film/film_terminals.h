@@ -10,7 +10,7 @@
 
 namespace hersey::film {
 
-/// Nodes of a thermal network that a film's heat depends on; unset: none. Their order is that of WallExchange: shell
+/// Nodes of a thermal network that a film's heat depends on; unset: none. Their order is that of WallHeatFlow: shell
 /// and journal, which always have an index, then those of the others that exist.
 struct FilmTerminals {
   std::optional<std::size_t> shell, journal;  ///< walls
@@ -30,7 +30,7 @@ struct FilmTerminals {
   [[nodiscard]] Eigen::Index index_of_drain() const { return drain ? (ambient ? 1 : 0) : -1; }
   /// Index of a node that oil comes from among the nodes that are no walls; -1: not among them.
   [[nodiscard]] Eigen::Index index_of_oil(const std::optional<NetworkNode>& from) const;
-  /// Returns each index in WallExchange with its node.
+  /// Returns each index in WallHeatFlow with its node.
   [[nodiscard]] std::vector<std::pair<Eigen::Index, Eigen::Index>> nodes() const;
 };
 

@@ -22,7 +22,7 @@ class GapShape {
 
   /// Opening that does not change as the journal rotates [m], shape (grid.size()).
   [[nodiscard]] const Eigen::VectorXd& still() const { return still_; }
-  /// Its share in the shell [m], same shape.
+  /// Its part in the shell [m], same shape.
   [[nodiscard]] const Eigen::VectorXd& of_shell() const { return of_shell_; }
 
   /// Derivative of of_shell() around the bearing [m/rad]: a shell that rotates moves it past a fixed point.
@@ -34,7 +34,7 @@ class GapShape {
   [[nodiscard]] bool is_round() const { return !profiles_rotate() && still_.isZero(0); }
 
   /// Evaluates the journal's profiles with the journal rotated by `phi_journal` [rad]: opening [m] and its first and
-  /// second derivative with that angle, shape (grid.size()) each. The first times the journal's angular speed is the
+  /// second derivative by that angle, shape (grid.size()) each. The first times the journal's angular speed is the
   /// rate of the gap (film.25).
   void rotate_profiles(double phi_journal, Eigen::VectorXd& opening, Eigen::VectorXd& first,
                        Eigen::VectorXd& second) const;

@@ -96,10 +96,10 @@ struct Patch {
 /// grid are nodes of the finer one.
 [[nodiscard]] Grid resampled(const Grid& grid, int n_phi, int n_z);
 
-/// Returns the same grid with its lines further on by `share` of the cell before the next one; patches keep their ends
-/// and, for a share above 0, get one line more. The mean over several shares has a higher order in figures that depend
+/// Returns the same grid with its lines further on by `fraction` of the cell before the next one; patches keep their ends
+/// and, for a fraction above 0, get one line more. The mean over several fractions has a higher order in figures that depend
 /// on the position of fronts between lines.
-/// @param share  0 to below 1.
-[[nodiscard]] Grid turned(const Grid& grid, double share);
+/// @param fraction  0 to below 1.
+[[nodiscard]] Grid turned(const Grid& grid, double fraction);
 
 }  // namespace hersey::film

@@ -16,7 +16,7 @@ namespace hersey::film {
 /// Interpolates fields of one grid on another, linearly between the nodes.
 class GridTransfer {
  public:
-  /// Interpolates between grids of one pattern of spacing: fields are functions of the share of the way around the
+  /// Interpolates between grids of one pattern of spacing: fields are functions of the fraction of the way around the
   /// bearing and across it, counted in nodes, as for resampled().
   GridTransfer(const Grid& from, const Grid& to);
   /// Interpolates between any two rings or grids of the same patches: fields are functions of phi and z.
@@ -32,7 +32,7 @@ class GridTransfer {
  private:
   struct Between {
     int first = 0, second = 0;
-    double share = 0;  ///< of the second
+    double weight = 0;  ///< of the second
   };
   void lay_around_ring(const Grid& from, const Grid& to);
   void lay_around_patches(const Grid& from, const Grid& to);

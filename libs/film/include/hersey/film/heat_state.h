@@ -70,7 +70,7 @@ struct HeatObservables {
 
 /// Heat that nodes of a network have absorbed, and its derivatives by their temperatures (theory manual, thermal.46):
 /// shell, journal, zero for a wall that is no node, and the others in the order of FilmTerminals.
-struct WallExchange {
+struct WallHeatFlow {
   Eigen::VectorXd T = Eigen::Vector2d::Zero();     ///< of these [K]
   Eigen::VectorXd heat = Eigen::Vector2d::Zero();  ///< into them at these temperatures [W]
   Eigen::MatrixXd by_T = Eigen::Matrix2d::Zero();  ///< its change with them, the film following [W/K]

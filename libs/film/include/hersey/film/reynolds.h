@@ -8,9 +8,9 @@
 #include "hersey/core/archive.h"
 #include "hersey/core/spatial.h"
 #include "hersey/film/film_domain.h"
-#include "hersey/film/film_exchange.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/film_observables.h"
+#include "hersey/film/film_response.h"
 
 namespace hersey::film {
 
@@ -105,7 +105,7 @@ class Reynolds {
                  Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial);
 
   /// Static condensation of the film: the wrench after its Newton increment at fixed surfaces, and the wrench's total
-  /// derivative with each direction (theory manual, bearing.10). `direct` solves the transposed system, once per entry
+  /// derivative along each direction (theory manual, bearing.10). `direct` solves the transposed system, once per entry
   /// of the wrench (bearing.11); `multigrid` once per direction.
   ///
   /// Surfaces that deform bring the shapes by which they open the gap, `openings` (n, shapes) for unit amplitudes: the
@@ -116,7 +116,7 @@ class Reynolds {
   /// At the state last linearised.
   [[nodiscard]] const NormalForces& normal_forces() const;
 
-  /// The film's share `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
+  /// The film's part `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
   /// (theory manual, bearing.9). Comes after `condense` and before the next `linearise` inside the domain: a trial
   /// outside leaves what it takes.
   void follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du);
@@ -126,7 +126,7 @@ class Reynolds {
   /// d wrench_on_shell / du, shape (6, n).
   [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_by_u() const;
 
-  /// The residual's derivative with a change of the surfaces at fixed u [m^3/s], shape (n), and the wrench's.
+  /// The residual's derivative along a change of the surfaces at fixed u [m^3/s], shape (n), and the wrench's.
   void partial(const MotionDirection& direction, Eigen::VectorXd& residual, Vector6& wrench);
   /// J v at the state last linearised, shape (n).
   [[nodiscard]] Eigen::VectorXd jacobian_product(const Eigen::Ref<const Eigen::VectorXd>& v) const;

@@ -10,7 +10,7 @@ namespace hersey::film {
 enum class Surface { shell, journal };
 
 // Outlines of features in phi x z. Positions x, y are relative: 0 in the middle, 1 at the end of half the extent. A new
-// outline is a struct like these and an alternative of FeatureShape; shares of control volumes that it covers
+// outline is a struct like these and an alternative of FeatureShape; fractions of control volumes that it covers
 // (feature_cover.cpp) and words for it (assumptions.cpp) do not compile without it.
 
 struct Rectangle {

@@ -77,7 +77,7 @@ struct ThermalExpansion {
   }
 };
 
-/// Material of a wall's surface; it decides about the share of the asperities' heat that the wall absorbs.
+/// Material of a wall's surface; it decides about the fraction of the asperities' heat that the wall absorbs.
 struct SurfaceMaterial {
   double conductivity = 50;      ///< k [W/(m K)], > 0
   double heat_capacity = 3.6e6;  ///< per volume, rho c [J/(m^3 K)], > 0
@@ -86,8 +86,9 @@ struct SurfaceMaterial {
   [[nodiscard]] double effusivity() const { return std::sqrt(conductivity * heat_capacity); }
 };
 
-/// Returns the share of the friction's heat that the first of two rubbing surfaces absorbs (theory manual, thermal.54).
-[[nodiscard]] inline double friction_share(const SurfaceMaterial& first, const SurfaceMaterial& second) {
+/// Returns the fraction of the friction's heat that the first of two rubbing surfaces absorbs (theory manual,
+/// thermal.54).
+[[nodiscard]] inline double heat_partition(const SurfaceMaterial& first, const SurfaceMaterial& second) {
   return first.effusivity() / (first.effusivity() + second.effusivity());
 }
 
@@ -108,7 +109,7 @@ struct ThermalModel {
   ShellWall shell = InsulatedWall{};
   JournalWall journal = FreeJournal{};
   WallMotion walls = WallMotion::by_their_heat;  ///< of no account to a steady film
-  double carry_over = 1;  ///< share of the film's oil that passes a groove with it [-], 0 (all is renewed) to 1
+  double carry_over = 1;  ///< fraction of the film's oil that passes a groove with it [-], 0 (all is renewed) to 1
   std::optional<ThermalExpansion> expansion = {};            ///< of the walls; unset: they keep their size
   SurfaceMaterial shell_surface = {}, journal_surface = {};  ///< share the asperities' heat; steel
   /// Heat sources in the oil beside friction, in its layers node by node [W/m^3], shape (grid.size() layers); empty:

@@ -34,7 +34,7 @@ struct ThermalNetworkModel {
 /// A film's heat at its terminals.
 struct FilmAtNodes {
   FilmTerminals at;
-  WallExchange exchange;
+  WallHeatFlow heat_flow;
 };
 
 /// Observation of a network over a step; powers in W.
@@ -68,7 +68,7 @@ class ThermalNetwork {
   /// their temperatures.
   void advance(double dt, const std::vector<FilmAtNodes>& films);
 
-  /// Returns the present temperatures at a film's terminals, in the order of WallExchange [K]; those of `otherwise`
+  /// Returns the present temperatures at a film's terminals, in the order of WallHeatFlow [K]; those of `otherwise`
   /// where a wall is no node.
   [[nodiscard]] Eigen::VectorXd walls(const FilmTerminals& at, const Eigen::VectorXd& otherwise) const;
 

@@ -59,8 +59,8 @@ inline constexpr double largest_log_viscosity = 20;
   constexpr double room = 0.5 * largest_log_viscosity;
   const double beyond = std::abs(log_ratio.value) - largest_log_viscosity;
   if (!(beyond > 0)) return log_ratio;
-  const double share = std::tanh(beyond / room);
-  return {std::copysign(largest_log_viscosity + room * share, log_ratio.value), (1 - share * share) * log_ratio.slope};
+  const double part = std::tanh(beyond / room);
+  return {std::copysign(largest_log_viscosity + room * part, log_ratio.value), (1 - part * part) * log_ratio.slope};
 }
 
 using ViscosityLaw = std::variant<ConstantViscosity, Barus, Roelands, TabledPressure>;

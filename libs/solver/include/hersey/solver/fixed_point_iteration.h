@@ -34,7 +34,7 @@ class FixedPointIteration {
   /// Sets the relaxation of the part of the residual that lies outside the span of the known changes, for
   /// `quasi_newton`; initially 1. If F amplifies this part strongly, a small value keeps it small until its change is
   /// known.
-  void set_share_of_unknown(double share) { share_of_unknown_ = share; }
+  void set_relaxation_of_unknown(double relaxation) { relaxation_of_unknown_ = relaxation; }
 
   /// Returns the next x; `image` is F(x). All entries should be of comparable magnitude.
   [[nodiscard]] Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& image);
@@ -55,7 +55,7 @@ class FixedPointIteration {
   double relaxation_;
   ChangesKept kept_;
   double omega_;
-  double share_of_unknown_ = 1;
+  double relaxation_of_unknown_ = 1;
   bool has_last_ = false;
   Eigen::VectorXd last_residual_, last_image_;
   std::vector<Eigen::VectorXd> residual_changes_, image_changes_;  // newest first

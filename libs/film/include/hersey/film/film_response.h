@@ -4,7 +4,7 @@
 
 #include "hersey/core/spatial.h"
 
-/// Exchange between a film and its surfaces: directions in which the surfaces move, forces, oil.
+/// What a film answers to its surfaces: directions in which these move, forces, oil.
 namespace hersey::film {
 
 /// A one-parameter change of the surfaces; the film's derivative along it is a column.
@@ -12,14 +12,14 @@ struct MotionDirection {
   Eigen::VectorXd g;       ///< d gap / d parameter at the nodes; empty means zero
   Eigen::VectorXd g_rate;  ///< d gap rate / d parameter; empty means zero
   double u_shell = 0, u_journal = 0, w_shell = 0, w_journal = 0, phi_supply = 0, phi_journal = 0;
-  double shell_share = 0;  ///< of `g`, which opens the gap by the shell's surface; the rest by the journal's [-]
+  double shell_fraction = 0;  ///< of `g`, which opens the gap by the shell's surface; the rest by the journal's [-]
 };
 
 /// Forces that push the surfaces apart at the nodes, film and asperities together: pressure times the node's area,
 /// shape (n) each.
 struct NormalForces {
   Eigen::VectorXd value;       ///< [N]
-  Eigen::VectorXd by_u, by_g;  ///< derivatives with the node's unknown [m^2] and gap [N/m]
+  Eigen::VectorXd by_u, by_g;  ///< derivatives by the node's unknown [m^2] and gap [N/m]
 };
 
 /// The oil of one step: flows as means over it, with which what is in the film at its end is what was there at its
@@ -39,12 +39,12 @@ struct StepOilBalance {
   double redistributed_overfill = 0;
 };
 
-/// Forces of a film whose unknowns are eliminated, and their derivatives with directions in which the surfaces move.
+/// Forces of a film whose unknowns are eliminated, and their derivatives along directions in which the surfaces move.
 struct CondensedFilm {
-  Vector6 wrench = Vector6::Zero();                    ///< on the shell
-  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds;  ///< a column per direction
-  Eigen::VectorXd Q;                                   ///< forces on shapes
-  Eigen::MatrixXd Q_ds;                                ///< (shapes, directions)
+  Vector6 wrench = Vector6::Zero();                      ///< on the shell
+  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_by_s;  ///< a column per direction
+  Eigen::VectorXd Q;                                     ///< forces on shapes
+  Eigen::MatrixXd Q_by_s;                                ///< (shapes, directions)
 };
 
 }  // namespace hersey::film
