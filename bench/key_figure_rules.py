@@ -39,6 +39,8 @@ COMMANDS = {
     "hot_pedestal/model": [("bearing",), ("run",)],
     "hot_pedestal/with_shaft": [("bearing",), ("run",)],
     "lemon_bore/model": [("bearing",)],
+    "lobed_bores/model": [("bearing",)],
+    "lobed_bores/partial_arc": [("bearing",)],
     "oil_whirl/flexible": [("run", "simulation.duration=20ms")],
     "oil_whirl/model": [("run", "simulation.duration=0.1s")],
     "oil_whirl/steady": [("run", "speed=9000rpm")],

@@ -19,6 +19,7 @@ import { megapascal, micrometre, shownUnit, typeset } from "./units";
 const groups: [string, string][] = [
   ["operating point", "Operating point"],
   ["film", "Film"],
+  ["arcs", "Arcs"],
   ["deformation", "Deformation"],
   ["friction", "Friction"],
   ["oil", "Oil"],

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "balance/cavity.h"
 #include "balance/flow_balance.h"
@@ -128,14 +129,22 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
+/// Between nodes as h_min and p_max of the whole film are.
 void observe_patches(const FlowBalance& balance, const FilmFields& fields, FilmObservables& o) {
   const Grid& grid = balance.model().grid;
+  const PeakFinder peaks(balance.model(), balance.geometry());
+  Eigen::VectorXd within;
   o.patches.resize(grid.patches.size());
   for (std::size_t p = 0; p < grid.patches.size(); ++p) {
     const int first = grid.index(grid.patches[p], 0), end = grid.index(end_of_patch(grid, p), 0);
     PatchObservables& patch = o.patches[p];
-    patch.h_min = fields.h.segment(first, end - first).minCoeff();
-    patch.p_max = fields.p.segment(first, end - first).maxCoeff();
+    const auto largest = [&](const Eigen::VectorXd& field) {
+      within.setConstant(field.size(), -std::numeric_limits<double>::infinity());
+      within.segment(first, end - first) = field.segment(first, end - first);
+      return peaks.largest(within, [&](int a, int b) { return is_smooth(balance, a, b); }).value;
+    };
+    patch.h_min = -largest(-fields.h);
+    patch.p_max = largest(fields.p);
     for (int k = first; k < end; ++k) balance.add_flow_over_edge(patch, k, balance.acting_outflow(k));
   }
 }

@@ -74,7 +74,7 @@ class ArcReader {
     }
     const double clearance = assembled_clearance(value, film_.c);
     for (int k = 0; k < count; ++k)
-      add(value, fmt::format("arc_{}", k + 1), number_of(value, "angle") + two_pi * k / count, arc, film_.c, clearance);
+      add(value, fmt::format("{}", k + 1), number_of(value, "angle") + two_pi * k / count, arc, film_.c, clearance);
   }
 
   void read_arc(const Value& value, const std::string& name) {
