@@ -74,8 +74,7 @@ double SteadyDerivative::amplification() {
 }
 
 bool SteadyDerivative::is_of_film_alone(const SteadyState& state) {
-  return state.kind->has_axis() && !state.heat && !state.effective && state.s.size() == 0 &&
-         state.thermal_shape.size() == 0 && state.journal_shape.size() == 0;
+  return state.kind->has_axis() && !state.heat && !state.effective && state.s.size() == 0 && state.shapes.empty();
 }
 
 std::vector<film::MotionDirection> SteadyDerivative::directions(const RigidSurfaces& surfaces,

@@ -126,14 +126,12 @@ void SteadyFilm::lay_openings() {
 
 film::SurfaceMotion SteadyFilm::rigid_surfaces(const OperatingPoint& point, const Coordinates& e) const {
   film::SurfaceMotion motion = coordinates_->surfaces(point, e);
-  add_to_shell(thermal_shape_, motion);
-  add_to_journal(journal_shape_, motion);
+  shapes_.add_to(motion);
   return motion;
 }
 
 double SteadyFilm::undeformed_gap(const Coordinates& e) const {
-  const bool has_shape = thermal_shape_.size() > 0 || journal_shape_.size() > 0;
-  return has_shape ? rigid_surfaces(point_, e).g.minCoeff() : coordinates_->smallest_gap(point_, e);
+  return shapes_.empty() ? coordinates_->smallest_gap(point_, e) : rigid_surfaces(point_, e).g.minCoeff();
 }
 
 film::SurfaceMotion SteadyFilm::surfaces(const Coordinates& e, const VectorXd& x) {

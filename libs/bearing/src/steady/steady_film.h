@@ -8,6 +8,7 @@
 
 #include "gap/deforming_surfaces.h"
 #include "hersey/bearing/operating_point.h"
+#include "hersey/bearing/shapes_at_rest.h"
 #include "hersey/bearing/steady_coordinates.h"
 #include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_solver.h"
@@ -40,19 +41,16 @@ class SteadyFilm {
 
   /// Sets the viscosities by the oil's temperatures.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
-  /// Sets how far shell and journal lie outside their cylinders at the nodes by temperature [m] (thermal.36,
-  /// thermal.61); empty: nowhere.
-  void set_thermal_shapes(Eigen::VectorXd shell, Eigen::VectorXd journal) {
-    thermal_shape_ = std::move(shell), journal_shape_ = std::move(journal);
-  }
-  [[nodiscard]] const Eigen::VectorXd& thermal_shape() const { return thermal_shape_; }
-  [[nodiscard]] const Eigen::VectorXd& journal_shape() const { return journal_shape_; }
+  /// Sets the shapes of both surfaces at rest, elastic deformation apart.
+  void set_shapes(ShapesAtRest shapes) { shapes_ = std::move(shapes); }
+  /// As set.
+  [[nodiscard]] const ShapesAtRest& shapes() const { return shapes_; }
   /// Sets the tolerance on the film's relative residual, instead of SteadyOptions::rtol.
   void set_tolerance(double rtol) { film_options_.rtol = rtol; }
   /// History of a steady film, with its viscosities.
   [[nodiscard]] const film::FilmHistory& history() const { return history_; }
 
-  /// Smallest gap of the surfaces with the journal at `e` before anything but temperature deforms them [m].
+  /// Smallest gap of the surfaces with the journal at `e` before the film deforms them [m].
   [[nodiscard]] double undeformed_gap(const Coordinates& e) const;
 
   /// Returns unknowns without a film, the bodies deformed by their spin alone.
@@ -134,7 +132,7 @@ class SteadyFilm {
   DeformingSurfaces deforming_;
   film::Reynolds reynolds_;
   film::FilmHistory history_;  // dt = 0: a steady film
-  Eigen::VectorXd thermal_shape_, journal_shape_;
+  ShapesAtRest shapes_;
   Eigen::MatrixXd C_, C_W_;                         // of both bodies, shell first; C_W for the wrench on the shell
   Eigen::VectorXd s_0_;                             // what the spin of the bodies does
   Eigen::MatrixXd offset_by_s_, by_offset_moment_;  // of the shell's body, SurfaceFlexibility
