@@ -358,14 +358,14 @@ TEST_CASE("WrenchDerivatives_MatchFiniteDifference") {
     Reynolds reynolds(s.model);
     const auto wrench = [&](const SurfaceMotion& motion, const Eigen::VectorXd& u) {
       reynolds.linearise(motion, s.history, u);
-      return reynolds.wrench_on_shell();
+      return reynolds.forces().wrench_on_shell;
     };
     const Eigen::VectorXd du = 1e-2 * s.u.cwiseAbs().cwiseProduct(seeded_random(s.u.size(), 1, 5).col(0));
     const Vector6 by_u = (wrench(s.motion, s.u + d * du) - wrench(s.motion, s.u - d * du)) / (2 * d);
     // Moments and forces are compared as forces, with the bearing's radius as arm.
     const Vector6 unit = (Vector6() << 1 / s.model.R, 1 / s.model.R, 1 / s.model.R, 1, 1, 1).finished();
     const double scale = unit.cwiseProduct(wrench(s.motion, s.u)).norm();
-    CHECK(unit.cwiseProduct(reynolds.wrench_gradient(du) - by_u).norm() < 10 * tolerance * scale);
+    CHECK(unit.cwiseProduct(reynolds.forces().wrench_by_u * du - by_u).norm() < 10 * tolerance * scale);
     for (const auto& [name, direction] : directions(s)) {
       const std::string what = name;  // clang 14 captures no structured binding
       CAPTURE(what);
@@ -374,7 +374,7 @@ TEST_CASE("WrenchDerivatives_MatchFiniteDifference") {
       wrench(s.motion, s.u);
       Eigen::VectorXd answer;
       Vector6 partial;
-      reynolds.response(direction, answer, partial);
+      respond(reynolds, direction, answer, partial);
       CHECK(unit.cwiseProduct(partial - difference).norm() < 10 * tolerance * scale);
     }
   }
@@ -397,17 +397,17 @@ TEST_CASE("ResponseOfASolvedFilm_MatchesFiniteDifference") {
       Eigen::VectorXd du;
       Vector6 partial;
       reynolds.linearise(s.motion, s.history, s.u);
-      reynolds.response(direction, du, partial);
-      const Vector6 total = partial + reynolds.wrench_gradient(du);
+      respond(reynolds, direction, du, partial);
+      const Vector6 total = partial + reynolds.forces().wrench_by_u * du;
       // Smaller steps than above: the set of cavitated nodes must not change between both sides.
       constexpr double step = 1e-6;
       Eigen::VectorXd before = s.u, after = s.u;
       REQUIRE(solve_film(reynolds, moved(s.motion, direction, step), s.history, options, after).solved());
-      const Vector6 wrench_after = reynolds.wrench_on_shell();
+      const Vector6 wrench_after = reynolds.forces().wrench_on_shell;
       REQUIRE(solve_film(reynolds, moved(s.motion, direction, -step), s.history, options, before).solved());
-      const Vector6 difference = (wrench_after - reynolds.wrench_on_shell()) / (2 * step);
+      const Vector6 difference = (wrench_after - reynolds.forces().wrench_on_shell) / (2 * step);
       // Round-off of the solves, amplified by 1/step, against the wrench itself.
-      CHECK((total - difference).norm() < 1e-6 * reynolds.wrench_on_shell().norm());
+      CHECK((total - difference).norm() < 1e-6 * reynolds.forces().wrench_on_shell.norm());
       CHECK((du - (after - before) / (2 * step)).norm() < 1e-6 * s.u.norm());
     }
   }
@@ -421,11 +421,11 @@ TEST_CASE("ResponsesTogether_AreTheResponsesOneByOne") {
   reynolds.linearise(s.motion, s.history, s.u);
   Eigen::MatrixXd du;
   Eigen::Matrix<double, 6, Eigen::Dynamic> partial;
-  reynolds.responses(all, du, partial);
+  respond(reynolds, all, du, partial);
   for (std::size_t k = 0; k < all.size(); ++k) {
     Eigen::VectorXd one;
     Vector6 one_partial;
-    reynolds.response(all[k], one, one_partial);
+    respond(reynolds, all[k], one, one_partial);
     CHECK((du.col(k) - one).norm() <= 1e-12 * one.norm());  // same elimination, other order of summation
     CHECK((partial.col(k) - one_partial).norm() == 0);
   }
@@ -446,15 +446,15 @@ TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
     Reynolds reynolds(s.model, linear);
     reynolds.linearise(s.motion, s.history, s.u);
     reynolds.newton_increment(du0);
-    reynolds.responses(all, answers, partial);
+    respond(reynolds, all, answers, partial);
     reynolds.condense(all, openings, film);
-    const NormalForces normal = reynolds.normal_forces();
+    const NormalForces normal = reynolds.forces().normal;
     const auto pushed = [&](const Eigen::VectorXd& force) -> Eigen::VectorXd { return openings.transpose() * force; };
     CHECK((film.Q - pushed(normal.value + normal.by_u.cwiseProduct(du0))).norm() < kLinear * film.Q.norm());
-    CHECK((film.wrench - reynolds.wrench_on_shell() - reynolds.wrench_gradient(du0)).norm() <
+    CHECK((film.wrench - reynolds.forces().wrench_on_shell - reynolds.forces().wrench_by_u * du0).norm() <
           1e-8 * film.wrench.norm());
     for (Eigen::Index k = 0; k < answers.cols(); ++k) {
-      const Vector6 total = partial.col(k) + reynolds.wrench_gradient(answers.col(k));
+      const Vector6 total = partial.col(k) + reynolds.forces().wrench_by_u * answers.col(k);
       CHECK((film.wrench_ds.col(k) - total).norm() <= kLinear * total.norm());
       Eigen::VectorXd force = normal.by_u.cwiseProduct(answers.col(k));
       const MotionDirection& direction = all[static_cast<std::size_t>(k)];

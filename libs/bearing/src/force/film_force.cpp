@@ -159,7 +159,7 @@ double FilmForce::summed_forces() const {
   const film::FilmModel& film = model();
   const double slope = film.R / clearance(film), area = 2 * std::numbers::pi * film.R * film.L;
   const double sliding = std::abs(surfaces_.u_shell + surfaces_.u_journal) / film.R;
-  return film_->reynolds().normal_forces().value.lpNorm<1>() + 6 * film.lubricant.mu0 * sliding * slope * slope * area;
+  return film_->reynolds().forces().normal.value.lpNorm<1>() + 6 * film.lubricant.mu0 * sliding * slope * slope * area;
 }
 
 // The film's rows of (bearing.8): with them condensed the bodies' Newton iteration is that of both together
@@ -167,7 +167,7 @@ double FilmForce::summed_forces() const {
 void FilmForce::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
   if (const film::FilmDomain domain = film_->linearise(surfaces_, parameters_); !domain.is_inside())
     return report(domain);
-  internal_residual_ = film_->reynolds().relative_residual();
+  internal_residual_ = film_->reynolds().residual().relative;
   if (want_tangent)
     condense_film(response);
   else
@@ -187,7 +187,7 @@ void FilmForce::condense_film(mbd::ForceResponse& response) {
   response.dW_dX.noalias() = -by_journal * gap_->d_dX();
   response.dW_dV.noalias() = -by_journal * gap_->d_dV();
   if (m == 0) return;
-  deforming_->add_turning_forces(gap_->turning(), film_->reynolds().normal_forces().value, film.Q_ds);
+  deforming_->add_turning_forces(gap_->turning(), film_->reynolds().forces().normal.value, film.Q_ds);
   response.Q = film.Q;
   response.dW_ds = -film.wrench_ds.middleCols(gap_parameter_count_, m);
   response.dW_dr = -film.wrench_ds.rightCols(m);
@@ -275,7 +275,7 @@ std::string FilmForce::thermal_failure(double closed) const {
 
 std::string FilmForce::name_of_internal_residual() const {
   if (!is_monolithic_step_) return "wrench exchanged between film and bodies";
-  const int node = film_->reynolds().worst_node(), n_z = model().grid.n_z;
+  const int node = film_->reynolds().residual().worst_node, n_z = model().grid.n_z;
   return fmt::format("film node ({}, {})", node / n_z, node % n_z);
 }
 

@@ -32,8 +32,8 @@ class SteadyFilm {
   /// True if the undeformed surfaces may overlap, since pressure parts them.
   [[nodiscard]] bool may_overlap() const { return deforms() || model_.compliance > 0; }
   [[nodiscard]] Eigen::Index amplitudes() const { return deforming_.amplitudes(); }
-  [[nodiscard]] Eigen::Index size() const { return reynolds_.size() + amplitudes(); }
-  [[nodiscard]] auto film_of(const Eigen::VectorXd& x) const { return x.head(reynolds_.size()); }
+  [[nodiscard]] Eigen::Index size() const { return model_.grid.size() + amplitudes(); }
+  [[nodiscard]] auto film_of(const Eigen::VectorXd& x) const { return x.head(model_.grid.size()); }
   [[nodiscard]] auto amplitudes_of(const Eigen::VectorXd& x) const { return x.tail(amplitudes()); }
 
   /// Returns the surfaces with the moving one at `e`, deformed by the amplitudes in x.
@@ -67,10 +67,10 @@ class SteadyFilm {
   /// Advances the rupture front all the way after a Newton step from the last linearisation; between surfaces that do
   /// not deform.
   void advance_rupture_front(Eigen::VectorXd& x) const {
-    if (!deforms()) reynolds_.advance_rupture_front(x);
+    if (!deforms()) reynolds_.active_set().advance_rupture_front(x);
   }
   /// True if the last linearisation has a factor for chord_about().
-  [[nodiscard]] bool has_factor() const { return !deforms() && reynolds_.has_factor(); }
+  [[nodiscard]] bool has_factor() const { return !deforms() && reynolds_.linear_solver().has_factor; }
   /// Residual, increment and force at a state nearby, with the derivatives of the last linearisation. @pre has_factor()
   [[nodiscard]] film::FilmDomain chord_about(const Coordinates& e, const Eigen::VectorXd& x);
   /// Residual of the film, or of the deformation as the largest error of the gap over the clearance if that is larger.

@@ -22,6 +22,22 @@ struct NormalForces {
   Eigen::VectorXd by_u, by_g;  ///< derivatives with the node's unknown [m^2] and gap [N/m]
 };
 
+/// How far a film is from balance at the state last evaluated.
+struct FilmResidual {
+  const Eigen::VectorXd& value;  ///< [m^3/s], shape (n)
+  double relative;               ///< max |value| / largest throughput of a control volume
+  int worst_node;                ///< where |value| is largest
+};
+
+/// Forces of a film at the state last evaluated, and their derivatives at the state last linearised.
+struct FilmForces {
+  /// Of pressure, shear and asperities, at the grid frame's origin; on the journal acts its negative at the same point:
+  /// action equals reaction, moment included.
+  const Vector6& wrench_on_shell;
+  const Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_by_u;  ///< its derivative with u at fixed surfaces
+  const NormalForces& normal;
+};
+
 /// The oil of one step: flows as means over it, with which what is in the film at its end is what was there at its
 /// start and what has come in since, to round-off (theory manual, film.15). Volumes are masses over rho0.
 struct StepOilBalance {
