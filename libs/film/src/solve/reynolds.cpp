@@ -40,6 +40,7 @@ struct Reynolds::Impl {
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
+  void find_port_flows(std::span<const MotionDirection> directions, PortFlows flows, CondensedFilm& film);
   void set_up_multigrid();
   void solve_for_settling();
   void subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const;
@@ -53,8 +54,9 @@ struct Reynolds::Impl {
   std::vector<double> shifted;
   Eigen::VectorXd rhs, answer, row_size, rest, correction;
   // Of the last condensation, n rows each: residual's derivative with the directions; then either the answer of each
-  // force (six of the wrench, then on shapes) to the residual, or the increment and the answers to the directions.
-  Eigen::MatrixXd residual_ds, adjoint, answers;
+  // output (six of the wrench, forces on shapes, flows of ports) to the residual, or the increment and the answers to
+  // the directions.
+  Eigen::MatrixXd residual_ds, adjoint, answers, port_flow_by_u;
   Eigen::VectorXd condensed_residual, increment;
   SurfaceMotion speeds;  // without gap and rate
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
@@ -148,24 +150,31 @@ void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorX
   lu.solve({x.data(), static_cast<std::size_t>(x.size())});
 }
 
-// With J^T Lambda = F_u^T for forces F:  F_u du0 = -Lambda^T r  and  F_u U = -Lambda^T r_s.
+// With J^T Lambda = F_u^T for forces and flows F:  F_u du0 = -Lambda^T r  and  F_u U = -Lambda^T r_s.
 void Reynolds::Impl::condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film) {
   factorise();
-  adjoint.resize(wrench.gradient_u().cols(), 6 + openings.cols());
+  const Eigen::Index shapes = openings.cols(), ports = film.port_flow.size();
+  adjoint.resize(wrench.gradient_u().cols(), 6 + shapes + ports);
   adjoint.leftCols<6>() = wrench.gradient_u().transpose();
-  adjoint.rightCols(openings.cols()) = wrench.normal().by_u.asDiagonal() * openings;
+  adjoint.middleCols(6, shapes) = wrench.normal().by_u.asDiagonal() * openings;
+  adjoint.rightCols(ports) = port_flow_by_u;
   lu.solve_transposed({adjoint.data(), static_cast<std::size_t>(adjoint.size())}, static_cast<int>(adjoint.cols()));
   for (Eigen::Index i = 0; i < 6; ++i) film.wrench[i] -= adjoint.col(i).dot(balance.residual());
   film.wrench_ds.noalias() -= adjoint.leftCols<6>().transpose() * residual_ds;
-  if (openings.cols() == 0) return;
-  film.Q.noalias() -= adjoint.rightCols(openings.cols()).transpose() * balance.residual();
-  film.Q_ds.noalias() -= adjoint.rightCols(openings.cols()).transpose() * residual_ds;
+  if (shapes > 0) {
+    film.Q.noalias() -= adjoint.middleCols(6, shapes).transpose() * balance.residual();
+    film.Q_ds.noalias() -= adjoint.middleCols(6, shapes).transpose() * residual_ds;
+  }
+  if (ports == 0) return;
+  film.port_flow.noalias() -= adjoint.rightCols(ports).transpose() * balance.residual();
+  film.port_flow_ds.noalias() -= adjoint.rightCols(ports).transpose() * residual_ds;
 }
 
 void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film) {
   rhs = -balance.residual();
   solve(rhs, tight, increment);
   film.wrench += wrench.along_u(increment);
+  film.port_flow.noalias() += port_flow_by_u.transpose() * increment;
   rhs = wrench.normal().by_u.cwiseProduct(increment);
   film.Q.noalias() += openings.transpose() * rhs;
   answers.resize(residual_ds.rows(), residual_ds.cols());
@@ -174,8 +183,27 @@ void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, Conden
     solve(rhs, tight, answer);
     answers.col(k) = answer;
     film.wrench_ds.col(k) += wrench.along_u(answer);
+    film.port_flow_ds.col(k).noalias() += port_flow_by_u.transpose() * answer;
     rhs = wrench.normal().by_u.cwiseProduct(answer);
     film.Q_ds.col(k).noalias() += openings.transpose() * rhs;
+  }
+}
+
+// Flows through the ports at fixed u, or none.
+void Reynolds::Impl::find_port_flows(std::span<const MotionDirection> directions, PortFlows flows,
+                                     CondensedFilm& film) {
+  if (flows == PortFlows::left_out) {
+    port_flow_by_u.resize(balance.size(), 0);
+    film.port_flow.resize(0);
+    film.port_flow_ds.resize(0, residual_ds.cols());
+    return;
+  }
+  balance.find_port_flows(film.port_flow);
+  balance.find_port_flows_by_u(port_flow_by_u);
+  film.port_flow_ds.resize(film.port_flow.size(), residual_ds.cols());
+  for (Eigen::Index k = 0; k < residual_ds.cols(); ++k) {
+    balance.find_port_flows_along(directions[static_cast<std::size_t>(k)], rhs);
+    film.port_flow_ds.col(k) = rhs;
   }
 }
 
@@ -247,7 +275,7 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
 ActiveSet Reynolds::active_set() const { return ActiveSet(impl_->balance); }
 
 void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings,
-                        CondensedFilm& film) {
+                        CondensedFilm& film, PortFlows flows) {
   Impl& m = *impl_;
   HERSEY_REQUIRE(openings.rows() == m.balance.size(), "openings of shape (grid.size(), shapes)");
   const FilmWrench& now = m.summed_wrench();
@@ -268,6 +296,7 @@ void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen
   }
   film.wrench = now.total();
   film.Q.noalias() = openings.transpose() * now.normal().value;
+  m.find_port_flows(directions, flows, film);
   if (m.state.kind == LinearSolver::direct) {
     m.condense_by_adjoint(openings, film);
   } else {

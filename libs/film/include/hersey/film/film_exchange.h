@@ -7,12 +7,14 @@
 /// Exchange between a film and its surfaces: directions in which the surfaces move, forces, oil.
 namespace hersey::film {
 
-/// A one-parameter change of the surfaces; the film's derivative along it is a column.
+/// A one-parameter change of the surfaces or of the pressures at the film's ports, the features that feed it; the
+/// film's derivative along it is a column.
 struct MotionDirection {
   Eigen::VectorXd g;       ///< d gap / d parameter at the nodes; empty means zero
   Eigen::VectorXd g_rate;  ///< d gap rate / d parameter; empty means zero
   double u_shell = 0, u_journal = 0, w_shell = 0, w_journal = 0, phi_supply = 0, phi_journal = 0;
   double shell_share = 0;  ///< of `g`, which opens the gap by the shell's surface; the rest by the journal's [-]
+  Eigen::VectorXd port_pressure = {};  ///< d SurfaceMotion::feature_pressure / d parameter; empty means zero
 };
 
 /// Forces that push the surfaces apart at the nodes, film and asperities together: pressure times the node's area,
@@ -61,6 +63,8 @@ struct CondensedFilm {
   Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_ds;  ///< a column per direction
   Eigen::VectorXd Q;                                   ///< forces on shapes
   Eigen::MatrixXd Q_ds;                                ///< (shapes, directions)
+  Eigen::VectorXd port_flow;     ///< in through each feature, a port of the film [m^3/s]; empty unless asked for
+  Eigen::MatrixXd port_flow_ds;  ///< (features, directions)
 };
 
 }  // namespace hersey::film

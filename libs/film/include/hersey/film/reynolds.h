@@ -40,6 +40,9 @@ struct IncrementOptions {
   bool is_regularised = false;
 };
 
+/// Whether a condensation includes the flows through the film's ports, for a right-hand side more per feature.
+enum class PortFlows { left_out, included };
+
 /// Reynolds' equation on the grid with its derivatives (theory manual, chapter film): residual and Jacobian at a state,
 /// the film's wrench and the answer of both to any change of the surfaces.
 ///
@@ -102,7 +105,12 @@ class Reynolds {
   /// Surfaces that deform bring the shapes by which they open the gap, `openings` (n, shapes) for unit amplitudes: the
   /// film puts the force Q = openings^T forces().normal on them (theory manual, bearing.14 and bearing.15). (n, 0): no
   /// shapes.
-  void condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, CondensedFilm& film);
+  ///
+  /// The pressures of its ports are directions as well (MotionDirection::port_pressure), and the flows through them
+  /// outputs: with these a circuit of oil is solved together with the film. Flows are those at the end of a step, from
+  /// which those of settle(), means over it, differ by what the gap's exact rate leaves.
+  void condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, CondensedFilm& film,
+                PortFlows flows = PortFlows::left_out);
 
   /// The film's share `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
   /// (theory manual, bearing.9). Comes after `condense` and before the next `linearise` inside the domain: a trial
