@@ -52,7 +52,7 @@ double shortest(int runs, Work&& work) {
 
 struct TimedFilm {
   FilmSolveSummary summary;
-  LinearSolverCounts counts;
+  LinearSolverState counts;
   double seconds = 0;
   Eigen::VectorXd u;
   Vector6 wrench = Vector6::Zero();
@@ -65,8 +65,8 @@ inline TimedFilm timed_film(const BenchBearing& b, const FilmSolveOptions& optio
     Reynolds reynolds(b.model, linear_solver_of(options.solver));
     timed.u.setZero(b.model.grid.size());
     timed.summary = solve_film(reynolds, b.motion, {}, options, timed.u);
-    timed.wrench = reynolds.wrench_on_shell();
-    timed.counts = reynolds.counts();
+    timed.wrench = reynolds.forces().wrench_on_shell;
+    timed.counts = reynolds.linear_solver();
   });
   return timed;
 }

@@ -56,11 +56,11 @@ void print_coefficients(const Grid& grid) {
     Eigen::VectorXd u = Eigen::VectorXd::Zero(grid.size());
     FilmSolveSummary summary;
     const double film = shortest(1, [&] { summary = solve_film(reynolds, b.motion, {}, {.solver = solver}, u); });
-    const LinearSolverCounts before = reynolds.counts();
+    const LinearSolverState before = reynolds.linear_solver();
     Eigen::MatrixXd answers;
     Eigen::Matrix<double, 6, Eigen::Dynamic> partial;
-    const double coefficients = shortest(1, [&] { reynolds.responses(eight, answers, partial); });
-    const LinearSolverCounts after = reynolds.counts();
+    const double coefficients = shortest(1, [&] { respond(reynolds, eight, answers, partial); });
+    const LinearSolverState after = reynolds.linear_solver();
     fmt::print("{:>11} {:>10} | {:9.4f} {:5} | {:9.4f} {:6.2f} {:15} {:7} {:6}\n",
                fmt::format("{} x {}", grid.n_phi, grid.n_z), solver == FilmSolver::newton ? "newton" : "multigrid",
                film, summary.iterations, coefficients, coefficients / film,

@@ -160,8 +160,8 @@ TEST_CASE("BoreThatHeatWidens_IsOneOfLargerClearance") {
   const SteadySummary summary = solve_steady(model, point(), options, grown);
   REQUIRE(summary.solved());
   CHECK(summary.heat_iterations <= 25);
-  REQUIRE(grown.thermal_shape.size() == model.grid.size());
-  const double growth = grown.thermal_shape[0];
+  REQUIRE(grown.shapes.thermal_shell.size() == model.grid.size());
+  const double growth = grown.shapes.thermal_shell[0];
   CHECK(growth > 3e-6);  // a fraction of the clearance of 50 um that matters
   CHECK(growth == relative(5e-8 * grown.heat->observed.balance.to_shell).epsilon(1e-7));  // 1e-8 of temperatures
   CHECK(grown.heat->observed.T_body_max - grown.heat->T_body[0] == 0);
@@ -210,11 +210,11 @@ TEST_CASE("JournalThatHeatGrows_IsOneInASmallerClearance") {
   CAPTURE(summary.message);
   REQUIRE(summary.solved());
   CHECK(summary.heat_iterations <= 25);
-  REQUIRE(grown.journal_shape.size() == model.grid.size());
-  CHECK(grown.thermal_shape.size() == 0);
+  REQUIRE(grown.shapes.thermal_journal.size() == model.grid.size());
+  CHECK(grown.shapes.thermal_shell.size() == 0);
   const film::HeatObservables& observed = grown.heat->observed;
   CHECK(observed.balance.error() < 1e-8);  // what the last change of temperature leaves
-  const double growth = grown.journal_shape[0];
+  const double growth = grown.shapes.thermal_journal[0];
   CHECK(growth > 3e-6);  // a fraction of the clearance of 50 um that matters
   CHECK(growth == relative(2e-8 * observed.balance.to_journal).epsilon(1e-7));  // 1e-8 of temperatures
   CHECK(grown.heat->T_journal_body[0] == relative(313.15 + 0.1 * observed.balance.to_journal).epsilon(1e-12));  // eps
@@ -222,7 +222,7 @@ TEST_CASE("JournalThatHeatGrows_IsOneInASmallerClearance") {
   CHECK(steady_fields(model, grown).h.minCoeff() == relative(grown.film.h_min).epsilon(1e-2));  // nodes, and between
   model.c -= growth;
   REQUIRE(solve_steady(model, point(), options_with(even_journal(model.grid, 0.1, 0)), small).solved());
-  CHECK(small.journal_shape.size() == 0);
+  CHECK(small.shapes.thermal_journal.size() == 0);
   CHECK((grown.e - small.e).norm() < 1e-6 * model.c);                   // 1e-8 of temperatures, by the position's slope
   CHECK(grown.film.p_max == relative(small.film.p_max).epsilon(1e-5));  // as well
   CHECK(observed.T_max == relative(small.heat->observed.T_max).epsilon(1e-7));  // as well
@@ -252,9 +252,9 @@ TEST_CASE("BoreAndJournalThatGrowAlike_KeepTheirClearance") {
   options.thermal->shell = film::BodyWall{.conduction = shell};
   options.thermal->journal = film::BodyJournal{.conduction = journal};
   REQUIRE(solve_steady(model, point(), options, both).solved());
-  CHECK(both.journal_shape[3] == relative(8e-6).epsilon(1e-3));        // and a picometre per watt
-  CHECK((both.e - rigid.e).norm() < 1e-4 * model.c);                   // picometres per watt of a clearance of 50 um
-  CHECK(both.film.p_max == relative(rigid.film.p_max).epsilon(1e-3));  // likewise
+  CHECK(both.shapes.thermal_journal[3] == relative(8e-6).epsilon(1e-3));  // and a picometre per watt
+  CHECK((both.e - rigid.e).norm() < 1e-4 * model.c);                      // picometres per watt of a clearance of 50 um
+  CHECK(both.film.p_max == relative(rigid.film.p_max).epsilon(1e-3));     // likewise
 }
 
 TEST_CASE("JournalThatFillsItsBore_IsReported") {

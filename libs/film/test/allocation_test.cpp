@@ -74,10 +74,10 @@ TEST_CASE("WarmLinearisation_DoesNotAllocate") {
     const auto iterate = [&] {
       reynolds.linearise(step.motion, step.history, step.u);
       reynolds.newton_increment(du);
-      reynolds.responses(directions, answers, wrench);
+      respond(reynolds, directions, answers, wrench);
       reynolds.condense(directions, openings, condensed);
       reynolds.follow(still, du);
-      sum = reynolds.wrench_on_shell() + reynolds.wrench_gradient(du);
+      sum = reynolds.forces().wrench_on_shell + reynolds.forces().wrench_by_u * du;
     };
     step.motion.phi_journal = 0;
     iterate();

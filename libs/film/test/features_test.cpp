@@ -195,7 +195,7 @@ Sweep sweep(FeatureShape shape, double pressure, double omega) {
     motion.phi_journal = 2 * 2 * pi / 60 * step / 500;
     REQUIRE(solve_film(reynolds, motion, {}, {}, u).solved());
     const Eigen::Rotation2Dd back(-motion.phi_journal);  // in the frame of the hole the force hardly changes
-    force.emplace_back(back * reynolds.wrench_on_shell().segment<2>(3));
+    force.emplace_back(back * reynolds.forces().wrench_on_shell.segment<2>(3));
   }
   Sweep s;
   for (std::size_t k = 0; k < force.size(); ++k) {

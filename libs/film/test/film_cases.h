@@ -68,7 +68,7 @@ inline SolvedFilm solve_cold(const FilmModel& model, const SurfaceMotion& motion
   SolvedFilm film;
   film.u = Eigen::VectorXd::Zero(model.grid.size());
   film.summary = solve_film(reynolds, motion, {}, options, film.u);
-  film.wrench = reynolds.wrench_on_shell();
+  film.wrench = reynolds.forces().wrench_on_shell;
   film.fields = film_fields(model, motion, film.u);
   film.observed = observe_film(model, motion, {}, e, film.u, tilt);
   return film;
@@ -76,6 +76,16 @@ inline SolvedFilm solve_cold(const FilmModel& model, const SurfaceMotion& motion
 
 inline SolvedFilm solve_cold(const FilmModel& model, const Journal& journal, const FilmSolveOptions& options = {}) {
   return solve_cold(model, surfaces(model, journal), journal.e, options, journal.tilt);
+}
+
+/// Calls respond() for one change of the surfaces.
+inline void respond(Reynolds& reynolds, const MotionDirection& direction, Eigen::VectorXd& du,
+                    Vector6& wrench_partial) {
+  Eigen::MatrixXd column;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> partial;
+  respond(reynolds, {&direction, 1}, column, partial);
+  du = column;
+  wrench_partial = partial;
 }
 
 /// A table with one header line; lines starting with # are comments. Cells are text.

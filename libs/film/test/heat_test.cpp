@@ -101,7 +101,7 @@ TEST_CASE("SkewedViscosity_KeepsDerivatives") {
   Reynolds reynolds(model);
   const auto wrench_at = [&](const SurfaceMotion& at) {
     REQUIRE(reynolds.linearise(at, history, u).is_inside());
-    return std::pair<Eigen::VectorXd, Vector6>(reynolds.residual(), reynolds.wrench_on_shell());
+    return std::pair<Eigen::VectorXd, Vector6>(reynolds.residual().value, reynolds.forces().wrench_on_shell);
   };
   // Along a change of the gap, at fixed unknowns: du = -J^-1 dr, so that r' = -J du.
   MotionDirection direction;
@@ -116,14 +116,14 @@ TEST_CASE("SkewedViscosity_KeepsDerivatives") {
   (void)wrench_at(motion);
   Eigen::VectorXd du;
   Vector6 dW;
-  reynolds.response(direction, du, dW);
+  respond(reynolds, direction, du, dW);
   const Vector6 difference = (W_ahead - W_behind) / (2 * step);
   CHECK((dW - difference).norm() < 1e-6 * difference.norm());  // round-off of 1e-16 h/step
   // The Newton increment after the change takes the residual away: r(g + s d) + J s du is of second order.
   SurfaceMotion moved = motion;
   const double small = 1e-9;
   moved.g += small * direction.g;
-  const Eigen::VectorXd r0 = reynolds.residual();
+  const Eigen::VectorXd r0 = reynolds.residual().value;
   const Eigen::VectorXd u0 = u;
   u = u0 + small * du;
   const Eigen::VectorXd r1 = wrench_at(moved).first;

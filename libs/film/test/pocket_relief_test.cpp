@@ -344,8 +344,8 @@ TEST_CASE("WhirlRatio_DoesNotDependOnTheGrid") {
         field[n] = k % 2 == 0 ? -std::cos(grid.phi(n / grid.n_z)) : -std::sin(grid.phi(n / grid.n_z));
       (k < 2 ? direction.g : direction.g_rate) = field;
       Vector6 partial;
-      reynolds.response(direction, du, partial);
-      const Vector6 total = partial + reynolds.wrench_gradient(du);
+      respond(reynolds, direction, du, partial);
+      const Vector6 total = partial + reynolds.forces().wrench_by_u * du;
       (k < 2 ? K : C).col(k % 2) = total.segment<2>(3);
     }
     const double k = (K(0, 0) * C(1, 1) + K(1, 1) * C(0, 0) - K(0, 1) * C(1, 0) - K(1, 0) * C(0, 1)) / C.trace();
@@ -393,7 +393,7 @@ TEST_CASE("Oil_IsConservedAtAnyStep") {
       const SurfaceMotion motion = at(step * dt);
       REQUIRE(solve_film(reynolds, motion, history, {}, u).solved());
       if (step == 0) {
-        reynolds.initialise_oil_balance(motion, history, u, oil);
+        oil = oil_at_start(m, motion, history, u);
       } else {
         reynolds.settle(motion, history, u, oil);
         if (oil.redistributed_overfill > 0.02) {

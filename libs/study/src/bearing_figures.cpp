@@ -158,22 +158,22 @@ std::vector<std::string> supply_names(const Solution& s) {
 
 bool is_in_body(const Solution& s) { return s.state.heat && s.state.heat->T_body.size() > 0; }
 
-bool has_thermal_shape(const Solution& s) { return s.state.thermal_shape.size() > 0; }
+bool has_thermal_shape(const Solution& s) { return s.state.shapes.thermal_shell.size() > 0; }
 
 /// Radial growth of the shell's surface by temperature: its mean over the nodes, and the largest deviation from it.
-double growth(const Solution& s) { return s.state.thermal_shape.mean(); }
+double growth(const Solution& s) { return s.state.shapes.thermal_shell.mean(); }
 
-double distortion(const Solution& s) { return (s.state.thermal_shape.array() - growth(s)).abs().maxCoeff(); }
+double distortion(const Solution& s) { return (s.state.shapes.thermal_shell.array() - growth(s)).abs().maxCoeff(); }
 
 /// True if the journal's wall is a body.
 bool journal_is_in_body(const Solution& s) { return s.state.heat && s.state.heat->T_journal_body.size() > 0; }
 
-bool has_journal_shape(const Solution& s) { return s.state.journal_shape.size() > 0; }
+bool has_journal_shape(const Solution& s) { return s.state.shapes.thermal_journal.size() > 0; }
 
-double journal_growth(const Solution& s) { return s.state.journal_shape.mean(); }
+double journal_growth(const Solution& s) { return s.state.shapes.thermal_journal.mean(); }
 
 double journal_distortion(const Solution& s) {
-  return (s.state.journal_shape.array() - journal_growth(s)).abs().maxCoeff();
+  return (s.state.shapes.thermal_journal.array() - journal_growth(s)).abs().maxCoeff();
 }
 
 /// With both (thermal.64), the mean along.

@@ -132,7 +132,7 @@ TEST_CASE("ShellThatHeatAndPressureDeform_CarriesItsLoad") {
                                        "bearings.main.operating_point={journal_speed: 2000 rpm, load: 5 kN}"},
                                       true);
   CHECK(both.grid_error.known);
-  CHECK(both.state.d_shell.size() == both.state.thermal_shape.size());
+  CHECK(both.state.d_shell.size() == both.state.shapes.thermal_shell.size());
   CHECK(figure(both, "load") == doctest::Approx(5000).epsilon(1e-9));  // Newton's tolerance, 1e-10
   CHECK(both.summary.heat_iterations <= 30);
   const film::FilmFields fields = bearing::steady_fields(both.model, both.state);

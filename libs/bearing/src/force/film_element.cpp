@@ -110,9 +110,9 @@ film::CondensedFilm& FilmElement::condense(const std::vector<film::MotionDirecti
 
 FilmElement::Forces FilmElement::increment(const Eigen::MatrixXd& openings) {
   reynolds_.newton_increment(du_);
-  const film::NormalForces& normal = reynolds_.normal_forces();
+  const film::NormalForces& normal = reynolds_.forces().normal;
   is_linearised_ = false;
-  return {.wrench_on_shell = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du_),
+  return {.wrench_on_shell = reynolds_.forces().wrench_on_shell + reynolds_.forces().wrench_by_u * du_,
           .Q = openings.transpose() * (normal.value + normal.by_u.cwiseProduct(du_))};
 }
 
@@ -155,7 +155,7 @@ void FilmElement::accept_step(const film::SurfaceMotion& surfaces) {
   if (is_step) {
     if (!has_step_oil_) compute_oil_balance(surfaces);
   } else {
-    oil_.initialise(reynolds_, surfaces, history_, u_);
+    oil_.initialise(model(), surfaces, history_, u_);
     has_started_ = true;
   }
   if (heat_) {

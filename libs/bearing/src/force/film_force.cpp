@@ -27,6 +27,14 @@ std::vector<Eigen::Index> angles_of(const GapKinematics& gap) {
   return angles;
 }
 
+// Adds a shape to a film's list. @returns the shape
+template <class Shape>
+Shape* add_shape(std::unique_ptr<Shape> shape, std::vector<std::unique_ptr<SurfaceShape>>& shapes) {
+  Shape* const added = shape.get();
+  shapes.push_back(std::move(shape));
+  return added;
+}
+
 }  // namespace
 
 FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique_ptr<GapKinematics> gap,
@@ -34,12 +42,13 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
     : name_(std::move(name)),
       options_(options),
       gap_(std::move(gap)),
-      deforming_(std::make_unique<DeformingSurfaces>(model, options.shell_surface, options.journal_surface)),
       film_(std::make_unique<FilmElement>(model, FilmElement::Options{.solve = options.film,
                                                                       .initial_dt = options.initial_dt,
                                                                       .thermal = options.thermal,
                                                                       .angles = angles_of(*gap_)})),
-      thermal_(std::make_unique<ThermalSurfaces>(film_->model(), film_->heat(), options.growth)),
+      thermal_(add_shape(std::make_unique<ThermalSurfaces>(film_->model(), film_->heat(), options.growth), shapes_)),
+      deforming_(add_shape(std::make_unique<DeformingSurfaces>(model, options.shell_surface, options.journal_surface),
+                           shapes_)),
       exchange_(std::make_unique<WrenchExchange>(options.acceleration, options.relaxation, deforming_->amplitudes(),
                                                  model.R)),
       gap_parameter_count_(gap_->parameters().size()),
@@ -61,8 +70,8 @@ void FilmForce::evaluate_surfaces(const mbd::RelativeMotion& motion) {
   parameters_.head(gap_parameter_count_) = gap_->parameters();
   parameters_.segment(gap_parameter_count_, motion.s.size()) = motion.s;
   parameters_.tail(motion.s.size()) = motion.s_rate;
-  thermal_->add_to(surfaces_);
-  deforming_->add_displacements(motion.s, motion.s_rate, gap_->turning(), surfaces_);
+  const GapKinematics::Turning turning = gap_->turning();
+  for (const auto& shape : shapes_) shape->add_to(motion, turning, surfaces_);
   set_supply_pressures(motion.t);
   // A liner may be pushed beyond its undeformed surface; surfaces without one may not meet.
   const double gap = smallest_gap();
@@ -79,7 +88,8 @@ void FilmForce::set_supply_pressures(double t) {
 
 // Smallest gap between the surfaces as their bodies deform, without the liner.
 double FilmForce::smallest_gap() const {
-  return deforming_->deform() || thermal_->have_shape() ? surfaces_.g.minCoeff() : gap_->smallest_gap();
+  const auto changes_gap = [](const auto& shape) { return shape->changes_gap(); };
+  return std::ranges::any_of(shapes_, changes_gap) ? surfaces_.g.minCoeff() : gap_->smallest_gap();
 }
 
 void FilmForce::report_contact() {
@@ -116,7 +126,7 @@ void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {
   gap_->begin_step(start);
   exchange_->begin_step();
   is_monolithic_step_ = options_.coupling == Coupling::monolithic || exchange_->is_suspended();
-  thermal_->begin_step(dt);
+  for (const auto& shape : shapes_) shape->begin_step(dt);
   film_->begin_step(dt);
 }
 
@@ -149,7 +159,7 @@ double FilmForce::summed_forces() const {
   const film::FilmModel& film = model();
   const double slope = film.R / clearance(film), area = 2 * std::numbers::pi * film.R * film.L;
   const double sliding = std::abs(surfaces_.u_shell + surfaces_.u_journal) / film.R;
-  return film_->reynolds().normal_forces().value.lpNorm<1>() + 6 * film.lubricant.mu0 * sliding * slope * slope * area;
+  return film_->reynolds().forces().normal.value.lpNorm<1>() + 6 * film.lubricant.mu0 * sliding * slope * slope * area;
 }
 
 // The film's rows of (bearing.8): with them condensed the bodies' Newton iteration is that of both together
@@ -157,7 +167,7 @@ double FilmForce::summed_forces() const {
 void FilmForce::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
   if (const film::FilmDomain domain = film_->linearise(surfaces_, parameters_); !domain.is_inside())
     return report(domain);
-  internal_residual_ = film_->reynolds().relative_residual();
+  internal_residual_ = film_->reynolds().residual().relative;
   if (want_tangent)
     condense_film(response);
   else
@@ -177,7 +187,7 @@ void FilmForce::condense_film(mbd::ForceResponse& response) {
   response.dW_dX.noalias() = -by_journal * gap_->d_dX();
   response.dW_dV.noalias() = -by_journal * gap_->d_dV();
   if (m == 0) return;
-  deforming_->add_turning_forces(gap_->turning(), film_->reynolds().normal_forces().value, film.Q_by_s);
+  deforming_->add_turning_forces(gap_->turning(), film_->reynolds().forces().normal.value, film.Q_by_s);
   response.Q = film.Q;
   response.dW_ds = -film.wrench_by_s.middleCols(gap_parameter_count_, m);
   response.dW_dr = -film.wrench_by_s.rightCols(m);
@@ -230,7 +240,7 @@ void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   accepted_exchanges_ = exchange_->exchanges();
   if (is_step) gap_->end_step(end);
   film_->accept_step(surfaces_);
-  thermal_->accept_step(film_->dt());
+  for (const auto& shape : shapes_) shape->accept_step(film_->dt());
   exchange_->accept_step();
 }
 
@@ -265,7 +275,7 @@ std::string FilmForce::thermal_failure(double closed) const {
 
 std::string FilmForce::name_of_internal_residual() const {
   if (!is_monolithic_step_) return "wrench exchanged between film and bodies";
-  const int node = film_->reynolds().worst_node(), n_z = model().grid.n_z;
+  const int node = film_->reynolds().residual().worst_node, n_z = model().grid.n_z;
   return fmt::format("film node ({}, {})", node / n_z, node % n_z);
 }
 
@@ -279,7 +289,7 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   shown.power_into_bodies = -shown.wrench_on_shell.dot(motion.V_AB_A);
   if (deforming_->deform())
     shown.power_into_bodies += (deforming_->openings().transpose() * shown.film.normal_forces).dot(motion.s_rate);
-  shown.power_of_growth = thermal_->power(shown.film.normal_forces);
+  for (const auto& shape : shapes_) shown.power_of_growth += shape->power(shown.film.normal_forces);
   shown.power_into_bodies += shown.power_of_growth;
   shown.clearance = clearance(model(), thermal_->growth());
   if (thermal_->shell().size() > 0) shown.bore_growth = thermal_->shell().mean();
@@ -311,8 +321,8 @@ void FilmForce::persist(Archive& archive) {
   if (heat() != nullptr) {
     const Archive::Group group(archive, "walls");
     archive.io("correction", walls_.largest), archive.io("rise", walls_.rise);
-    thermal_->persist(archive);
   }
+  for (const auto& shape : shapes_) shape->persist(archive);
   exchange_->persist(archive);
   const Archive::Group group(archive, "film");
   film_->persist_reynolds(archive);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hersey/film/observables.h"
+
 namespace hersey::bearing {
 
-void OilBalance::initialise(film::Reynolds& reynolds, const film::SurfaceMotion& motion,
+void OilBalance::initialise(const film::FilmModel& model, const film::SurfaceMotion& motion,
                             const film::FilmHistory& history, const Eigen::VectorXd& u) {
-  reynolds.initialise_oil_balance(motion, history, u, step_);
+  step_ = film::oil_at_start(model, motion, history, u);
   run_ = {};
   run_.volume = step_.volume;
 }

@@ -14,7 +14,7 @@ namespace hersey::bearing {
 class OilBalance {
  public:
   /// Initial oil content of the film at `u`; flows are undefined.
-  void initialise(film::Reynolds& reynolds, const film::SurfaceMotion& motion, const film::FilmHistory& history,
+  void initialise(const film::FilmModel& model, const film::SurfaceMotion& motion, const film::FilmHistory& history,
                   const Eigen::VectorXd& u);
   /// Flows of the step that ends at `u`, as means over it. Uses up the linearisation of `reynolds`.
   void close_step(film::Reynolds& reynolds, const film::SurfaceMotion& motion, const film::FilmHistory& history,

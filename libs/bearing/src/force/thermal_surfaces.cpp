@@ -1,6 +1,6 @@
 #include "force/thermal_surfaces.h"
 
-#include "hersey/bearing/operating_point.h"
+#include "hersey/bearing/shapes_at_rest.h"
 #include "hersey/film/body_journal.h"
 
 namespace hersey::bearing {
@@ -53,7 +53,8 @@ void ThermalSurfaces::settle() {
   journal_.settle(journal_target());
 }
 
-void ThermalSurfaces::add_to(film::SurfaceMotion& surfaces) const {
+void ThermalSurfaces::add_to(const mbd::RelativeMotion& /*motion*/, const GapKinematics::Turning& /*turning*/,
+                             film::SurfaceMotion& surfaces) {
   add_to_shell(shell_.now(), surfaces);
   if (shell_.moves()) surfaces.g_rate += shell_.rate();
   add_to_journal(journal_.now(), surfaces);
@@ -69,6 +70,8 @@ double ThermalSurfaces::power(const VectorXd& normal_forces) const {
 }
 
 void ThermalSurfaces::persist(Archive& archive) {
+  if (heat_ == nullptr) return;
+  const Archive::Group group(archive, "thermal");
   growth_.persist(archive);
   shell_.persist(archive);
   const Archive::Group journal(archive, "journal");

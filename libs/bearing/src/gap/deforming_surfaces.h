@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "gap/surface_shape.h"
 #include "hersey/bearing/elastic_surface.h"
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/film/film_model.h"
@@ -16,7 +17,7 @@ namespace hersey::bearing {
 /// Change of the gap by surfaces that deform: the shell's displacement away from the axis opens it, the journal's
 /// closes it (theory manual, bearing.12 to bearing.14). The film's grid is fixed to the shell; the journal's
 /// deformation rotates over it with the journal.
-class DeformingSurfaces {
+class DeformingSurfaces : public SurfaceShape {
  public:
   /// A null surface is rigid.
   DeformingSurfaces(const film::FilmModel& model, std::shared_ptr<const ElasticSurface> shell,
@@ -31,6 +32,14 @@ class DeformingSurfaces {
   /// Adds the displacements by the amplitudes `s` to gap and rate in `motion`.
   void add_displacements(const Eigen::VectorXd& s, const Eigen::VectorXd& s_rate, const GapKinematics::Turning& turning,
                          film::SurfaceMotion& motion);
+
+  /// Adds the displacements by the amplitudes of `motion`, shell's first.
+  void add_to(const mbd::RelativeMotion& motion, const GapKinematics::Turning& turning,
+              film::SurfaceMotion& surfaces) override {
+    add_displacements(motion.s, motion.s_rate, turning, surfaces);
+  }
+  /// True if a surface deforms.
+  [[nodiscard]] bool changes_gap() const override { return deform(); }
 
   /// Gap opened by unit amplitudes at the journal's last angle, shape (nodes, amplitudes).
   [[nodiscard]] const Eigen::MatrixXd& openings() const { return openings_; }

@@ -15,15 +15,4 @@ OperatingPoint with_growth(OperatingPoint point, const film::FilmModel& model, d
   return point;
 }
 
-void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion) {
-  if (shape.size() == 0) return;
-  motion.g += shape;
-  if (motion.shell_opening.size() == 0) motion.shell_opening.setZero(shape.size());
-  motion.shell_opening += shape;
-}
-
-void add_to_journal(const Eigen::VectorXd& shape, film::SurfaceMotion& motion) {
-  if (shape.size() > 0) motion.g -= shape;
-}
-
 }  // namespace hersey::bearing

@@ -35,7 +35,7 @@ std::vector<TurnedFilm> turned_films(const film::FilmModel& model, const SteadyS
     const film::GridTransfer transfer = film::GridTransfer::by_position(model.grid, film.model.grid);
     SteadySearch search(film.model, fixed, options);
     search.set_viscosity(taken_over(transfer, state.viscosity));
-    search.set_thermal_shapes(taken_over(transfer, state.thermal_shape), taken_over(transfer, state.journal_shape));
+    search.set_shapes(state.shapes.changed_by(transfer));
     search.begin_at(state.e, transfer(state.u), state.s);
     if (!search.at_given_position().solved()) continue;
     film.state = search.state();

@@ -33,8 +33,7 @@ film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& 
   OperatingPoint loaded = state.point;
   loaded.tilt = state.tilt;
   film::SurfaceMotion motion = state.kind->steady_coordinates(model)->surfaces(loaded, state.e);
-  add_to_shell(state.thermal_shape, motion);
-  add_to_journal(state.journal_shape, motion);
+  state.shapes.add_to(motion);
   if (state.d_shell.size() > 0) motion.g += state.d_shell;
   if (state.d_journal.size() > 0) motion.g -= state.d_journal;
   film::FilmFields fields = film::film_fields(model, motion, state.u);

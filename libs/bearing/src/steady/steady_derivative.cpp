@@ -39,30 +39,22 @@ SteadyDerivative::SteadyDerivative(const film::FilmModel& model, const SteadySta
   const film::FilmDomain domain =
       film_.linearise(steady_surfaces(surfaces_, model_, state_.point, state_.e), film::FilmHistory{}, state_.u);
   HERSEY_REQUIRE(domain.is_inside(), "a state that has been solved for");
-  answers_.resize(film_.size(), kDirections.size());
-  Eigen::Matrix<double, 6, kDirections.size()> wrench;
-  const std::vector<film::MotionDirection> wanted = directions(surfaces_, model_, state_.e);
-  for (std::size_t k = 0; k < kDirections.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    Eigen::VectorXd residual;
-    Vector6 partial;
-    film_.partial(wanted[k], residual, partial);
-    answers_.col(column) = -residual;
-    wrench.col(column) = partial;
-  }
-  residual_by_e_ = -answers_.leftCols<2>();
+  Eigen::Matrix<double, 6, Eigen::Dynamic> wrench;
+  film_.partials(directions(surfaces_, model_, state_.e), answers_, wrench);
+  residual_by_e_ = answers_.leftCols<2>();
+  answers_ = -answers_;
   film_.solve(answers_);
-  adjoints_ = -force_of(film_.wrench_by_u()).transpose();
-  film_.solve_transposed(adjoints_);
-  force_ = force_of(film_.wrench_on_shell());
-  force_by_e_ = force_of(wrench + film_.wrench_by_u() * answers_).leftCols<2>();
+  adjoints_ = -force_of(film_.forces().wrench_by_u).transpose();
+  film_.solve(adjoints_, film::SystemMatrix::transposed);
+  force_ = force_of(film_.forces().wrench_on_shell);
+  force_by_e_ = force_of(wrench + film_.forces().wrench_by_u * answers_).leftCols<2>();
   is_determined_ = amplification() < kDetermined;
 }
 
 // The condition number of the film's equations, from below: a vector whose entries have nothing to do with each other
 // has a part in every direction, that of the smallest singular value among them.
 double SteadyDerivative::amplification() {
-  Eigen::MatrixXd x(film_.size(), 1);
+  Eigen::MatrixXd x(model_.grid.size(), 1);
   std::uint32_t state = 1;
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
     state = 1664525U * state + 1013904223U;
@@ -74,8 +66,7 @@ double SteadyDerivative::amplification() {
 }
 
 bool SteadyDerivative::is_of_film_alone(const SteadyState& state) {
-  return state.kind->has_axis() && !state.heat && !state.effective && state.s.size() == 0 &&
-         state.thermal_shape.size() == 0 && state.journal_shape.size() == 0;
+  return state.kind->has_axis() && !state.heat && !state.effective && state.s.size() == 0 && state.shapes.empty();
 }
 
 std::vector<film::MotionDirection> SteadyDerivative::directions(const RigidSurfaces& surfaces,
@@ -97,14 +88,14 @@ std::optional<SteadyDerivative::Change> SteadyDerivative::change(const BearingBe
                                                                  film::Reynolds& film) {
   const film::SurfaceMotion motion = steady_surfaces(surfaces, side.model, side.point, state_.e);
   if (!film.linearise(motion, film::FilmHistory{}, state_.u).is_inside()) return std::nullopt;
-  Eigen::MatrixXd answer = film_.residual() - film.residual();
+  Eigen::MatrixXd answer = film_.residual().value - film.residual().value;
   Change change{side.point.e - state_.point.e, {}, answer};
   film_.solve(answer);
   change.u = answer;
   if (state_.point.load) {
     const Eigen::Vector2d load = *side.point.load - *state_.point.load,
-                          force = force_of(film.wrench_on_shell()) - force_ +
-                                  force_of(film_.wrench_gradient(answer.col(0)));
+                          force = force_of(film.forces().wrench_on_shell) - force_ +
+                                  force_of(Vector6(film_.forces().wrench_by_u * answer.col(0)));
     change.e = force_by_e_.fullPivLu().solve(load - force);
   }
   change.u += answers_.leftCols<2>() * change.e;
@@ -115,16 +106,14 @@ std::optional<SteadyDerivative::Change> SteadyDerivative::change(const BearingBe
 // (bearing.37), whose change with film and adjoints vanishes: both stay as they are.
 void SteadyDerivative::coefficients(const RigidSurfaces& surfaces, film::Reynolds& film, const Eigen::Vector2d& e,
                                     DynamicCoefficients& result) const {
-  const std::vector<film::MotionDirection> wanted = directions(surfaces, film.model(), e);
-  const auto by_u = force_of(film.wrench_by_u());
-  for (std::size_t k = 0; k < kDirections.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    Eigen::VectorXd residual;
-    Vector6 partial;
-    film.partial(wanted[k], residual, partial);
-    residual += film.jacobian_product(answers_.col(column));
-    (k < 2 ? result.stiffness : result.damping).col(column % 2).head<2>() =
-        force_of(partial) + by_u * answers_.col(column) + adjoints_.transpose() * residual;
+  Eigen::MatrixXd residual;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> partial;
+  film.partials(directions(surfaces, film.model(), e), residual, partial);
+  const auto by_u = force_of(film.forces().wrench_by_u);
+  for (Eigen::Index k = 0; k < residual.cols(); ++k) {
+    residual.col(k) += film.jacobian_product(answers_.col(k));
+    (k < 2 ? result.stiffness : result.damping).col(k % 2).head<2>() =
+        force_of(partial.col(k)) + by_u * answers_.col(k) + adjoints_.transpose() * residual.col(k);
   }
 }
 
@@ -149,7 +138,7 @@ std::optional<SteadyState> SteadyDerivative::beside(const BearingBeside& side) {
   state.u += moved->u;
   const film::SurfaceMotion motion = steady_surfaces(surfaces, side.model, side.point, state.e);
   if (!film.linearise(motion, film::FilmHistory{}, state.u).is_inside()) return std::nullopt;
-  if ((film.residual() - film_.residual()).norm() > kLeft * moved->residual.norm()) return std::nullopt;
+  if ((film.residual().value - film_.residual().value).norm() > kLeft * moved->residual.norm()) return std::nullopt;
   state.film = film.observe(motion, state.e, state.u, state.tilt);
   state.load = state.film.wrench_on_shell.segment<2>(3);
   coefficients(surfaces, film, state.e, state.coefficients);

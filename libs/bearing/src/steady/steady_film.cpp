@@ -126,14 +126,12 @@ void SteadyFilm::lay_openings() {
 
 film::SurfaceMotion SteadyFilm::rigid_surfaces(const OperatingPoint& point, const Coordinates& e) const {
   film::SurfaceMotion motion = coordinates_->surfaces(point, e);
-  add_to_shell(thermal_shape_, motion);
-  add_to_journal(journal_shape_, motion);
+  shapes_.add_to(motion);
   return motion;
 }
 
 double SteadyFilm::undeformed_gap(const Coordinates& e) const {
-  const bool has_shape = thermal_shape_.size() > 0 || journal_shape_.size() > 0;
-  return has_shape ? rigid_surfaces(point_, e).g.minCoeff() : coordinates_->smallest_gap(point_, e);
+  return shapes_.empty() ? coordinates_->smallest_gap(point_, e) : rigid_surfaces(point_, e).g.minCoeff();
 }
 
 film::SurfaceMotion SteadyFilm::surfaces(const Coordinates& e, const VectorXd& x) {
@@ -180,7 +178,7 @@ film::FilmSolveSummary SteadyFilm::solve(const Coordinates& e, VectorXd& x) {
   if (!deforms()) return solve_film(surfaces(e, x), x);
   film::FilmSolveSummary solved;
   const VectorXd start = x;
-  if (!x.head(reynolds_.size()).isZero(0)) solved = solve_jointly(e, x);
+  if (!x.head(model_.grid.size()).isZero(0)) solved = solve_jointly(e, x);
   if (!solved.solved()) {
     const int before = solved.iterations;
     x = start;
@@ -275,7 +273,7 @@ film::FilmDomain SteadyFilm::linearise(const Coordinates& e, const VectorXd& x) 
   if (!domain.is_inside()) return domain;
   VectorXd du;
   reynolds_.newton_increment(du);
-  wrench_ = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(du);
+  wrench_ = reynolds_.forces().wrench_on_shell + reynolds_.forces().wrench_by_u * du;
   dx_ = du;
   force_ = force_of(wrench_);
   if (!deforms()) return domain;
@@ -284,10 +282,10 @@ film::FilmDomain SteadyFilm::linearise(const Coordinates& e, const VectorXd& x) 
   C_W_now_ = C_W_;
   C_W_now_.rightCols<3>() += by_offset_moment_ * skew(offset_by_s_ * amplitudes_of(x));
   eliminate_deformation();
-  const film::NormalForces& normal = reynolds_.normal_forces();
+  const film::NormalForces& normal = reynolds_.forces().normal;
   const MatrixXd& B = deforming_.openings();
   const VectorXd s = amplitudes_of(x);
-  r_s_ = s_0_ + answer(B.transpose() * normal.value, reynolds_.wrench_on_shell()) - s;
+  r_s_ = s_0_ + answer(B.transpose() * normal.value, reynolds_.forces().wrench_on_shell) - s;
   const VectorXd Q = B.transpose() * (normal.value + normal.by_u.cwiseProduct(du));
   const VectorXd ds = condensed_.solve(s_0_ + answer(Q, wrench_) - s);
   dx_.resize(size());
@@ -301,7 +299,7 @@ film::FilmDomain SteadyFilm::linearise(const Coordinates& e, const VectorXd& x) 
 film::FilmDomain SteadyFilm::chord_about(const Coordinates& e, const VectorXd& x) {
   const film::FilmDomain domain = reynolds_.chord_increment(surfaces(e, x), history_, x, dx_);
   if (!domain.is_inside()) return domain;
-  wrench_ = reynolds_.wrench_on_shell() + reynolds_.wrench_gradient(dx_);
+  wrench_ = reynolds_.forces().wrench_on_shell + reynolds_.forces().wrench_by_u * dx_;
   force_ = force_of(wrench_);
   return domain;
 }
@@ -328,14 +326,14 @@ MatrixXd SteadyFilm::change_of_force(const MatrixXd& dx, const Columns& dW) cons
 
 /// Changes of the forces on shapes with changes of the film's unknowns and of the gap, column by column.
 MatrixXd SteadyFilm::forces_on_shapes(const MatrixXd& du, const MatrixXd& g) const {
-  const film::NormalForces& normal = reynolds_.normal_forces();
+  const film::NormalForces& normal = reynolds_.forces().normal;
   return deforming_.openings().transpose() * (normal.by_u.asDiagonal() * du + normal.by_g.asDiagonal() * g);
 }
 
 /// The film's answers to the amplitudes, and the factor of 1 - C P_s, the matrix of (bearing.27).
 void SteadyFilm::eliminate_deformation() {
-  reynolds_.responses(positions_, u_by_s_, W_by_s_);
-  for (Index a = 0; a < u_by_s_.cols(); ++a) W_by_s_.col(a) += reynolds_.wrench_gradient(u_by_s_.col(a));
+  film::respond(reynolds_, positions_, u_by_s_, W_by_s_);
+  W_by_s_ += reynolds_.forces().wrench_by_u * u_by_s_;
   // The tilt follows the amplitudes.
   u_by_s_ = (u_by_s_.leftCols(amplitudes()) + u_by_s_.rightCols<2>() * tilt_by_s_).eval();
   W_by_s_ = (W_by_s_.leftCols(amplitudes()) + W_by_s_.rightCols<2>() * tilt_by_s_).eval();
@@ -350,7 +348,7 @@ void SteadyFilm::eliminate_deformation() {
 
 int SteadyFilm::linearise_near(const Coordinates& e, VectorXd& x) {
   if (!linearise(e, x).is_inside()) return 0;
-  if (!deforms() || reynolds_.relative_residual() < kFarFilm) return 1;
+  if (!deforms() || reynolds_.residual().relative < kFarFilm) return 1;
   VectorXd u = film_of(x);
   const film::FilmSolveSummary solved = solve_film(surfaces(e, x), u);
   if (solved.solved()) x.head(u.size()) = u;
@@ -358,15 +356,15 @@ int SteadyFilm::linearise_near(const Coordinates& e, VectorXd& x) {
 }
 
 double SteadyFilm::relative_residual() const {
-  if (!deforms()) return reynolds_.relative_residual();
+  if (!deforms()) return reynolds_.residual().relative;
   const double off = (all_openings_ * r_s_).cwiseAbs().maxCoeff() / clearance(model_);
-  return std::max(reynolds_.relative_residual(), off);
+  return std::max(reynolds_.residual().relative, off);
 }
 
 void SteadyFilm::respond(std::span<const film::MotionDirection> directions, MatrixXd& dx, Columns& dW) {
   MatrixXd du;
-  reynolds_.responses(directions, du, dW);
-  for (Index k = 0; k < du.cols(); ++k) dW.col(k) += reynolds_.wrench_gradient(du.col(k));
+  film::respond(reynolds_, directions, du, dW);
+  dW += reynolds_.forces().wrench_by_u * du;
   if (!deforms()) {
     dx = std::move(du);
     return;
@@ -386,7 +384,7 @@ double SteadyFilm::depth(const Coordinates& load) {
   if (!deforms()) return 0;
   // Under a pressure that falls from the load's side around the bearing like a cosine and bears the load.
   const Eigen::Vector2d along = axis_offset(load).normalized();
-  VectorXd forces = VectorXd::Zero(reynolds_.size());
+  VectorXd forces = VectorXd::Zero(model_.grid.size());
   double borne = 0;
   for (int k = 0; k < forces.size(); ++k) {
     const double phi = model_.grid.phi(k / model_.grid.n_z);

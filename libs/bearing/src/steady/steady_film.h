@@ -8,6 +8,7 @@
 
 #include "gap/deforming_surfaces.h"
 #include "hersey/bearing/operating_point.h"
+#include "hersey/bearing/shapes_at_rest.h"
 #include "hersey/bearing/steady_coordinates.h"
 #include "hersey/bearing/surface_flexibility.h"
 #include "hersey/film/film_solver.h"
@@ -31,8 +32,8 @@ class SteadyFilm {
   /// True if the undeformed surfaces may overlap, since pressure parts them.
   [[nodiscard]] bool may_overlap() const { return deforms() || model_.compliance > 0; }
   [[nodiscard]] Eigen::Index amplitudes() const { return deforming_.amplitudes(); }
-  [[nodiscard]] Eigen::Index size() const { return reynolds_.size() + amplitudes(); }
-  [[nodiscard]] auto film_of(const Eigen::VectorXd& x) const { return x.head(reynolds_.size()); }
+  [[nodiscard]] Eigen::Index size() const { return model_.grid.size() + amplitudes(); }
+  [[nodiscard]] auto film_of(const Eigen::VectorXd& x) const { return x.head(model_.grid.size()); }
   [[nodiscard]] auto amplitudes_of(const Eigen::VectorXd& x) const { return x.tail(amplitudes()); }
 
   /// Returns the surfaces with the moving one at `e`, deformed by the amplitudes in x.
@@ -40,19 +41,16 @@ class SteadyFilm {
 
   /// Sets the viscosities by the oil's temperatures.
   void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
-  /// Sets how far shell and journal lie outside their cylinders at the nodes by temperature [m] (thermal.36,
-  /// thermal.61); empty: nowhere.
-  void set_thermal_shapes(Eigen::VectorXd shell, Eigen::VectorXd journal) {
-    thermal_shape_ = std::move(shell), journal_shape_ = std::move(journal);
-  }
-  [[nodiscard]] const Eigen::VectorXd& thermal_shape() const { return thermal_shape_; }
-  [[nodiscard]] const Eigen::VectorXd& journal_shape() const { return journal_shape_; }
+  /// Sets the shapes of both surfaces at rest, elastic deformation apart.
+  void set_shapes(ShapesAtRest shapes) { shapes_ = std::move(shapes); }
+  /// As set.
+  [[nodiscard]] const ShapesAtRest& shapes() const { return shapes_; }
   /// Sets the tolerance on the film's relative residual, instead of SteadyOptions::rtol.
   void set_tolerance(double rtol) { film_options_.rtol = rtol; }
   /// History of a steady film, with its viscosities.
   [[nodiscard]] const film::FilmHistory& history() const { return history_; }
 
-  /// Smallest gap of the surfaces with the journal at `e` before anything but temperature deforms them [m].
+  /// Smallest gap of the surfaces with the journal at `e` before the film deforms them [m].
   [[nodiscard]] double undeformed_gap(const Coordinates& e) const;
 
   /// Returns unknowns without a film, the bodies deformed by their spin alone.
@@ -69,10 +67,10 @@ class SteadyFilm {
   /// Advances the rupture front all the way after a Newton step from the last linearisation; between surfaces that do
   /// not deform.
   void advance_rupture_front(Eigen::VectorXd& x) const {
-    if (!deforms()) reynolds_.advance_rupture_front(x);
+    if (!deforms()) reynolds_.active_set().advance_rupture_front(x);
   }
   /// True if the last linearisation has a factor for chord_about().
-  [[nodiscard]] bool has_factor() const { return !deforms() && reynolds_.has_factor(); }
+  [[nodiscard]] bool has_factor() const { return !deforms() && reynolds_.linear_solver().has_factor; }
   /// Residual, increment and force at a state nearby, with the derivatives of the last linearisation. @pre has_factor()
   [[nodiscard]] film::FilmDomain chord_about(const Coordinates& e, const Eigen::VectorXd& x);
   /// Residual of the film, or of the deformation as the largest error of the gap over the clearance if that is larger.
@@ -134,7 +132,7 @@ class SteadyFilm {
   DeformingSurfaces deforming_;
   film::Reynolds reynolds_;
   film::FilmHistory history_;  // dt = 0: a steady film
-  Eigen::VectorXd thermal_shape_, journal_shape_;
+  ShapesAtRest shapes_;
   Eigen::MatrixXd C_, C_W_;                         // of both bodies, shell first; C_W for the wrench on the shell
   Eigen::VectorXd s_0_;                             // what the spin of the bodies does
   Eigen::MatrixXd offset_by_s_, by_offset_moment_;  // of the shell's body, SurfaceFlexibility

@@ -98,9 +98,8 @@ SteadySummary iterate_film_and_heat(const film::FilmModel& model, const SteadyOp
   int turns_near = 0;
   bool is_last = false;
   for (int k = 0; k < kMostHeatIterations && (k < kTurnsToComeNear || path.nearest() <= kFarApart); ++k) {
-    Eigen::VectorXd shell = path.heat().shell_opening();
-    Eigen::VectorXd journal = film::around(model.grid, path.heat().journal_growth());
-    const HotClearance hot = hot_clearance(model, path.growth(), shell, journal);
+    ShapesAtRest shapes{path.heat().shell_opening(), film::around(model.grid, path.heat().journal_growth())};
+    const HotClearance hot = hot_clearance(model, path.growth(), shapes.thermal_shell, shapes.thermal_journal);
     const bool is_open = hot.smallest > seized * clearance(model);
     if (is_open && hot.has_shape && hot.smallest < kLeastLeft * clearance_before && path.step_back()) continue;
     summary.set_solved(false);
@@ -108,7 +107,7 @@ SteadySummary iterate_film_and_heat(const film::FilmModel& model, const SteadyOp
       search.set_growth(path.growth());
       search.set_tolerance(film_tolerance(options, path.relative_distance()));
       search.set_viscosity(path.heat().viscosity());
-      search.set_thermal_shapes(std::move(shell), std::move(journal));
+      search.set_shapes(std::move(shapes));
       summary = search.has_film() ? search.retry() : search.solve();
     }
     summary.heat_iterations = k + 1;

@@ -154,8 +154,7 @@ SteadyState SteadySearch::state() {
   state.turn = film_.turn(x_);
   state.d_shell = film_.shell_displacement(x_);
   state.d_journal = film_.journal_displacement(x_);
-  state.thermal_shape = film_.thermal_shape();
-  state.journal_shape = film_.journal_shape();
+  state.shapes = film_.shapes();
   state.film =
       film::observe_film(model_, film_.surfaces(e_, x_), film_.history(), axis_offset(e_), state.u, state.tilt);
   state.kind = options_.kind ? options_.kind : journal_kind();

@@ -37,9 +37,7 @@ class SteadySearch {
   [[nodiscard]] bool accept_if_converged();
 
   void set_viscosity(film::LayeredViscosity viscosity) { film_.set_viscosity(std::move(viscosity)); }
-  void set_thermal_shapes(Eigen::VectorXd shell, Eigen::VectorXd journal) {
-    film_.set_thermal_shapes(std::move(shell), std::move(journal));
-  }
+  void set_shapes(ShapesAtRest shapes) { film_.set_shapes(std::move(shapes)); }
   /// Sets the growth of the clearance; the journal keeps its eccentricity ratio.
   void set_growth(double growth);
   /// Sets the tolerance, coarser on the way to a balance of film and temperature.

@@ -1,9 +1,11 @@
-#include "balance/active_set_changes.h"
-
+#include "balance/flow_balance.h"
 #include "hersey/core/contract.h"
+#include "hersey/film/active_set.h"
 
 namespace hersey::film {
-void press_filled_nodes(const FlowBalance& balance, const Eigen::VectorXd& u, Eigen::VectorXd& du) {
+
+void ActiveSet::press_filled_nodes(const Eigen::VectorXd& u, Eigen::VectorXd& du) const {
+  const FlowBalance& balance = *balance_;
   HERSEY_REQUIRE(u.size() == du.size(), "a state of a film and a step from it");
   if (!cavitation_law(balance.model()).loses_oil()) return;
   for (int node = 0; node < balance.size(); ++node) {

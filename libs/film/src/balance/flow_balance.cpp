@@ -296,9 +296,13 @@ bool FlowBalance::blocks_inflow(int node) const {
   return cavitation_.loses_oil() && edge_unknown(node) == 0 && u_[edges_[node].inside] < round_off_of_u();
 }
 
+bool FlowBalance::returns_to_edge(int node) const {
+  return is_on_supply(node) && is_on_open_edge(node) && -balance_[node] > slack(node);
+}
+
 // On an edge in air the oil that a supply beside it would take back leaves, too.
 double FlowBalance::outflow_of_row(int node) const {
-  if (is_on_open_edge(node)) return is_on_supply(node) ? std::max(slack(node), -balance_[node]) : slack(node);
+  if (is_on_open_edge(node)) return returns_to_edge(node) ? -balance_[node] : slack(node);
   if (!is_on_prescribed_edge(node)) return 0;
   return blocks_inflow(node) ? 0 : -balance_[node];
 }
@@ -393,7 +397,7 @@ void FlowBalance::assemble_jacobian() {
   for (const int node : prescribed_edge_nodes_) values_[diagonal_slot_[node]] = D0_;
 }
 
-void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
+void FlowBalance::balance_along(const MotionDirection& direction, Eigen::VectorXd& dr) const {
   const int n = size();
   const bool gap = direction.g.size() != 0, rate = direction.g_rate.size() != 0;
   HERSEY_REQUIRE(!gap || direction.g.size() == n, "direction of shape (grid.size()) or empty");
@@ -415,25 +419,29 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   direction_sliding_.assign(static_cast<std::size_t>(model_.grid.n_z), {});
   for (int j = 0; speeds && j < model_.grid.n_z; ++j)
     direction_sliding_[static_cast<std::size_t>(j)] = change_of_sliding(direction, j);
-  const auto sliding_at = [this](int node) -> const SlidingChange& {
-    return direction_sliding_[static_cast<std::size_t>(node % model_.grid.n_z)];
-  };
   for (std::size_t f = 0; (gap || speeds || rotates) && f < faces_.size(); ++f) {
     double q = flow_along(f, direction);
     if (speeds) {
-      const auto along = [&](int node) { return flow_of(node, f).along(sliding_at(node)); };
+      const auto along = [&](int node) { return flow_of(node, f).along(sliding_along(node)); };
       q += 0.5 * flows_[f].q_fluidity * (along(faces_[f].a) + along(faces_[f].b));
     }
     const bool cut = is_cut(f);
     if (!cut || !has_line_row(faces_[f].a)) dr[faces_[f].a] += q;
     if (!cut || !has_line_row(faces_[f].b)) dr[faces_[f].b] -= q;
   }
+}
+
+void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
+  HERSEY_REQUIRE(direction.port_pressure.size() == 0 || direction.port_pressure.size() == port_count(),
+                 "a change of pressure for each feature or none");
+  balance_along(direction, dr);
+  const bool gap = direction.g.size() != 0;
   for (const PrescribedNode& prescribed : prescribed_) {
     const int i = prescribed.node;
     const Tie t = tie(prescribed);
     const auto [above, slope] = excess(prescribed);
     if (prescribed.other >= 0) dr[i] += line_row_along(prescribed, direction);
-    const SlidingChange& sliding = sliding_at(i);
+    const SlidingChange& sliding = sliding_along(i);
     const double chi = prescribed.chi_line * direction.phi_supply + prescribed.chi_journal * direction.phi_journal;
     dr[i] = (1 - prescribed.chi) * dr[i] - chi * (line_balance(i) + slack(i));
     double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal + t.k_rate * sliding.rate +
@@ -444,7 +452,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
         k += t.k_g_other * direction.g[prescribed.other] + t.k_bend * direction_bends_[line_face(prescribed)];
     }
     dr[i] += k * above;
-    dr[i] += t.k * draws_along(prescribed, direction);
+    dr[i] += t.k * (draws_along(prescribed, direction) - port_along(prescribed.feature, prescribed.u, direction));
   }
   for (const int node : prescribed_edge_nodes_) dr[node] = 0;
 }

@@ -102,7 +102,15 @@ class FlowBalance {
   /// Computes the Jacobian's values at the state of the last evaluate(), in the order of the pattern.
   void assemble_jacobian();
 
+  /// Derivative of the residual along a direction, at fixed u.
   void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
+
+  /// Oil entering through each feature (film.22): as supply() and over_land(), summed [m^3/s], shape (features).
+  void find_port_flows(Eigen::VectorXd& flow) const;
+  /// Their derivatives by u, shape (n, features).
+  void find_port_flows_by_u(Eigen::MatrixXd& by_u) const;
+  /// Their derivatives along a direction, at fixed u, shape (features).
+  void find_port_flows_along(const MotionDirection& direction, Eigen::VectorXd& change) const;
 
   /// Subtracts from a right-hand side the defect of the squeeze term over a time step: the control volume's area times
   /// the difference between the gap's rate at the end of the step and its mean rate over the step (film.15).
@@ -267,13 +275,15 @@ class FlowBalance {
   struct Land {
     int node = 0, inside = 0, feature = 0;
     double conductance = 0;  ///< of the land, in addition to that of the flow tube, per h^3/(12 mu) [-]
+    double by_journal = 0;   ///< its derivative with phi_journal [1/rad]
     double u = 0;            ///< of the feature [Pa]
   };
   /// Interval around the node, measured from it, over which a feature's end faces it [m].
   struct LandInterval {
     int node = 0, inside = 0, feature = 0;
     double from = 0, to = 0;
-    double gain = 0;  ///< 1/land - 1/flow tube [1/m]
+    double from_journal = 0, to_journal = 0;  ///< derivatives with phi_journal [m/rad]
+    double gain = 0;                          ///< 1/land - 1/flow tube [1/m]
     double u = 0;
   };
   /// Conductance between a prescribed node and its supply [m^3/(Pa s)], with derivatives.
@@ -351,6 +361,15 @@ class FlowBalance {
   void merge_land_intervals();
   void clear_lands();
   [[nodiscard]] const Land* land_at(int node) const;
+  /// Conductance of the land at a node [m^3/(Pa s)] with its derivatives by phi_journal, and by u, gap and the two
+  /// members of SlidingChange on the edge (0) and at the next node from it (1).
+  struct LandTie {
+    double k = 0, k_journal = 0;
+    std::array<double, 2> k_u{}, k_g{}, k_rate{}, k_rotation{};
+  };
+  [[nodiscard]] LandTie tie_over_land(const Land& land) const;
+  /// Outflow on an open edge that takes what the row of a supply beside it gives back, in place of slack().
+  [[nodiscard]] bool returns_to_edge(int node) const;
   [[nodiscard]] static bool yields_to(const PrescribedNode& prescribed, const PrescribedNode& to);
   void prescribe(const PrescribedNode& prescribed, bool only_oil = false);
   [[nodiscard]] std::size_t line_face(const PrescribedNode& prescribed) const;
@@ -371,6 +390,15 @@ class FlowBalance {
   /// u - u_given [Pa] as it counts in the row, and its slope.
   [[nodiscard]] ValueAndSlope excess(const PrescribedNode& prescribed) const;
   [[nodiscard]] double draws_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
+  /// Features of the model, each of which is a port; through one that is not fed flows nothing.
+  [[nodiscard]] Eigen::Index port_count() const { return static_cast<Eigen::Index>(model_.features.size()); }
+  /// Change of the u of a supply with the pressure of its port.
+  [[nodiscard]] double port_along(int feature, double u, const MotionDirection& direction) const;
+  /// Change of the balances of all nodes with the surfaces, flows towards a supply line apart.
+  void balance_along(const MotionDirection& direction, Eigen::VectorXd& db) const;
+  [[nodiscard]] const SlidingChange& sliding_along(int node) const {
+    return direction_sliding_[static_cast<std::size_t>(node % model_.grid.n_z)];
+  }
   [[nodiscard]] int slot_to_other(const PrescribedNode& prescribed) const;
   void add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const;
   [[nodiscard]] double pocket_edge_speed(std::size_t f,
@@ -478,6 +506,7 @@ class FlowBalance {
   PocketRelief relief_;
   Eigen::VectorXd bends_, excesses_, rate_excesses_;  ///< bends of the gap, excesses of the gap and of its rate
   mutable Eigen::VectorXd direction_bends_, direction_excesses_, direction_rate_excesses_;
+  mutable Eigen::VectorXd direction_balance_;
   mutable std::vector<SlidingChange> direction_sliding_;  ///< of the rows
   std::vector<Cell> cells_;
   std::vector<int> flow_tube_of_;         ///< pocket flow tube of every face; -1: none

@@ -1,6 +1,7 @@
 // Flow from a feature over the land to an edge within the same cell (film.22).
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "balance/flow_balance.h"
@@ -26,12 +27,21 @@ void FlowBalance::find_strips(int f, double phi, double u) {
       const int node = grid.index(i, j), before = grid.before(i);
       if (edges_[node].kind == EdgeNode::Kind::wall || edges_[node].of_patch) continue;
       const double back = before < 0 ? 0 : 0.5 * geometry_.step(before, j), ahead = 0.5 * geometry_.step(i, j);
+      const double turns = feature.surface == Surface::journal ? R : 0;
       const double middle = R * geometry_.from_to(geometry_.phi[i], phi), reach = 0.5 * R * feature.arc;
       bool touches = false;
       for (const double image : {-two_pi * R, 0.0, two_pi * R}) {
         const double from = std::max(-back, middle + image - reach), to = std::min(ahead, middle + image + reach);
         if (from >= to) continue;
-        strips_.push_back({node, grid.index(i, next), f, from, to, 1 / land - 1 / flow_tube, u});
+        strips_.push_back({.node = node,
+                           .inside = grid.index(i, next),
+                           .feature = f,
+                           .from = from,
+                           .to = to,
+                           .from_journal = from > -back ? turns : 0,
+                           .to_journal = to < ahead ? turns : 0,
+                           .gain = 1 / land - 1 / flow_tube,
+                           .u = u});
         touches = true;
       }
       if (touches) prescribe({.node = node, .feature = f, .u = u, .centrality = -land / half}, true);
@@ -42,24 +52,28 @@ void FlowBalance::find_strips(int f, double phi, double u) {
 // Where features overlap the oil takes the shortest land; their order has no effect.
 void FlowBalance::merge_land_intervals() {
   std::stable_sort(strips_.begin(), strips_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
-  std::vector<double> borders;
+  std::vector<std::pair<double, double>> borders;  // positions with their derivatives
   for (auto first = strips_.begin(); first != strips_.end();) {
     const auto last = std::find_if(first, strips_.end(), [&](const LandInterval& s) { return s.node != first->node; });
     const auto flow = [](const LandInterval& s) { return (s.to - s.from) * s.gain; };
     const auto main = std::max_element(first, last, [&](const auto& a, const auto& b) { return flow(a) < flow(b); });
     borders.clear();
-    for (auto strip = first; strip != last; ++strip) borders.insert(borders.end(), {strip->from, strip->to});
+    for (auto strip = first; strip != last; ++strip)
+      borders.insert(borders.end(), {{strip->from, strip->from_journal}, {strip->to, strip->to_journal}});
     std::sort(borders.begin(), borders.end());
-    double conductance = 0;
+    double conductance = 0, by_journal = 0;
     for (std::size_t k = 1; k < borders.size(); ++k) {
-      const double middle = 0.5 * (borders[k - 1] + borders[k]);
+      const auto [from, from_journal] = borders[k - 1];
+      const auto [to, to_journal] = borders[k];
+      const double middle = 0.5 * (from + to);
       double gain = 0;
       for (auto strip = first; strip != last; ++strip)
         if (strip->u == main->u && strip->from < middle && middle < strip->to) gain = std::max(gain, strip->gain);
-      conductance += gain * (borders[k] - borders[k - 1]);
+      conductance += gain * (to - from);
+      by_journal += gain * (to_journal - from_journal);
     }
     land_index_[main->node] = static_cast<int>(lands_.size());
-    lands_.push_back({main->node, main->inside, main->feature, conductance, main->u});
+    lands_.push_back({main->node, main->inside, main->feature, conductance, by_journal, main->u});
     first = last;
   }
 }
@@ -82,12 +96,30 @@ double FlowBalance::drop_over_land(int node) const {
 double FlowBalance::over_land(int node) const {
   const Land* land = land_at(node);
   if (land == nullptr) return 0;
-  const Node &edge = nodes_[node], &inside = nodes_[land->inside];
-  const auto mean = [&](double a, double b) { return 0.5 * (a + b); };
-  const double h = mean(edge.h, inside.h), fluidity = mean(edge.flow[1].value, inside.flow[1].value);
-  const double rough = mean(rough_[node].pressure[1], rough_[land->inside].pressure[1]);
-  const double k = land->conductance / 12 * h * h * h * fluidity * rough * mean(edge.density, inside.density);
-  return k * drop_over_land(node);
+  return tie_over_land(*land).k * drop_over_land(node);
+}
+
+// Oil, roughness and gap are the means of both nodes.
+FlowBalance::LandTie FlowBalance::tie_over_land(const Land& land) const {
+  const std::array<int, 2> at{land.node, land.inside};
+  const auto mean = [&](const auto& of) { return 0.5 * (of(at[0]) + of(at[1])); };
+  const double h = mean([&](int k) { return nodes_[k].h; });
+  const double fluidity = mean([&](int k) { return nodes_[k].flow[1].value; });
+  const double rough = mean([&](int k) { return rough_[k].pressure[1]; });
+  const double density = mean([&](int k) { return nodes_[k].density; });
+  const double per_conductance = h * h * h * fluidity * rough * density / 12;
+  LandTie tie{.k = land.conductance * per_conductance, .k_journal = land.by_journal * per_conductance};
+  for (const std::size_t side : {0U, 1U}) {
+    const Node& node = nodes_[at[side]];
+    const Fluidity& flow = node.flow[1];
+    const double half = 0.5 * tie.k;
+    const double by_h = half * (3 / h + flow.h / fluidity + rough_[at[side]].pressure_h[1] / rough);
+    tie.k_u[side] = by_h * node.h_u + half * (flow.u / fluidity + node.density_u / density);
+    tie.k_g[side] = by_h * node.h_g;
+    tie.k_rate[side] = half * flow.rate / fluidity;
+    tie.k_rotation[side] = half * flow.rotation / fluidity;
+  }
+  return tie;
 }
 
 double FlowBalance::power_over_land(int node) const {

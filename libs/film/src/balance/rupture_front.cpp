@@ -1,7 +1,8 @@
-#include "balance/rupture_front.h"
-
 #include <algorithm>
 #include <vector>
+
+#include "balance/flow_balance.h"
+#include "hersey/film/active_set.h"
 
 namespace hersey::film {
 namespace {
@@ -71,7 +72,8 @@ class Fronts {
 
 }  // namespace
 
-void advance_rupture_front(const FlowBalance& balance, Eigen::VectorXd& u) {
+void ActiveSet::advance_rupture_front(Eigen::VectorXd& u) const {
+  const FlowBalance& balance = *balance_;
   if (cavitation_law(balance.model()).has_fill()) Fronts(balance, u).sweep();
 }
 

@@ -426,6 +426,11 @@ double FlowBalance::draws_along(const PrescribedNode& prescribed, const MotionDi
   return (prescribed.draws_line * direction.phi_supply + prescribed.draws_journal * direction.phi_journal) * u;
 }
 
+// At p_cav a supply gives nothing more, however low its pressure is; on an edge in air its pressure cannot rise.
+double FlowBalance::port_along(int feature, double u, const MotionDirection& direction) const {
+  return feature < 0 || direction.port_pressure.size() == 0 || u <= 0 ? 0 : direction.port_pressure[feature];
+}
+
 int FlowBalance::slot_to_other(const PrescribedNode& prescribed) const {
   const Face& face = faces_[line_face(prescribed)];
   return prescribed.node == face.a ? face.slots[1] : face.slots[2];

@@ -236,4 +236,14 @@ FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& 
   return o;
 }
 
+StepOilBalance oil_at_start(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
+                            const Eigen::VectorXd& u) {
+  FlowBalance balance(model);
+  const FilmDomain domain = balance.evaluate(motion, history, u);
+  HERSEY_REQUIRE(domain.is_inside(), text(model, domain));
+  StepOilBalance oil;
+  balance.initialise_oil_balance(oil);
+  return oil;
+}
+
 }  // namespace hersey::film

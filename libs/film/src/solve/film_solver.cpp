@@ -145,7 +145,7 @@ FilmDomain enter_domain(Reynolds& reynolds, const SurfaceMotion& motion, const F
   if (domain.violation != FilmDomain::Violation::pressure) return domain;
   Eigen::VectorXd du;
   (void)reynolds.linearise(motion, history, before);
-  reynolds.regularised_increment(du);
+  reynolds.newton_increment(du, {.is_regularised = true});
   u = before + step_length(reynolds.model(), motion, before, du) * du;
   return reynolds.linearise(motion, history, u);
 }
@@ -164,16 +164,17 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
       u = start;
       return summary;
     }
-    summary.relative_residual = reynolds.relative_residual();
-    summary.worst_node = reynolds.worst_node();
+    const FilmResidual residual = reynolds.residual();
+    summary.relative_residual = residual.relative;
+    summary.worst_node = residual.worst_node;
     summary.set_solved(summary.relative_residual <= options.rtol);
     if (summary.solved() || summary.iterations == options.max_iterations) return summary;
-    reynolds.newton_increment(du, linear_tolerance(options.rtol, summary.relative_residual, last));
+    reynolds.newton_increment(du, {.rtol = linear_tolerance(options.rtol, summary.relative_residual, last)});
     last = summary.relative_residual;
     before = u;
-    reynolds.press_filled_nodes(u, du);
+    reynolds.active_set().press_filled_nodes(u, du);
     u += step_length(reynolds.model(), motion, u, du) * du;
-    reynolds.advance_rupture_front(u);
+    reynolds.active_set().advance_rupture_front(u);
     u = u.cwiseMax(least);
   }
 }
@@ -192,8 +193,8 @@ bool start_on_coarser_grid(const Reynolds& reynolds, const SurfaceMotion& motion
   const FilmModel& model = reynolds.model();
   if (!can_be_coarsened(model.grid)) return false;
   CoarseFilm coarse = coarsened(model, motion, history, u);
-  Reynolds coarse_reynolds(coarse.model,
-                           coarse.model.grid.size() < largest_direct ? LinearSolver::direct : reynolds.linear_solver());
+  Reynolds coarse_reynolds(
+      coarse.model, coarse.model.grid.size() < largest_direct ? LinearSolver::direct : reynolds.linear_solver().kind);
   FilmSolveOptions roughly = options;
   roughly.rtol = std::max(options.rtol, coarse_rtol);
   start_on_coarser_grid(coarse_reynolds, coarse.motion, coarse.history, roughly, iterations, coarse.u);

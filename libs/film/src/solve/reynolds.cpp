@@ -6,9 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "balance/active_set_changes.h"
 #include "balance/flow_balance.h"
-#include "balance/rupture_front.h"
 #include "hersey/core/contract.h"
 #include "hersey/solver/sparse_lu.h"
 #include "observe/film_wrench.h"
@@ -31,16 +29,18 @@ constexpr int most_iterations = 80;
 }  // namespace
 
 struct Reynolds::Impl {
-  Impl(const FilmModel& model, LinearSolver chosen) : balance(model), wrench(model), linear(chosen) {}
+  Impl(const FilmModel& model, LinearSolver chosen) : balance(model), wrench(model) { state.kind = chosen; }
 
   void factorise();
   [[nodiscard]] bool is_finite() const;
   void find_row_sizes();
   [[nodiscard]] bool factorise_shifted(double shift);
+  [[nodiscard]] bool solve_regularised(Eigen::VectorXd& du);
   [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
+  void find_port_flows(std::span<const MotionDirection> directions, PortFlows flows, CondensedFilm& film);
   void set_up_multigrid();
   void solve_for_settling();
   void subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const;
@@ -48,15 +48,15 @@ struct Reynolds::Impl {
 
   FlowBalance balance;
   FilmWrench wrench;
-  LinearSolver linear;
-  LinearSolverCounts counts;
+  LinearSolverState state;  // but for has_factor
   solver::SparseLu lu;
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
   Eigen::VectorXd rhs, answer, row_size, rest, correction;
-  // Of the last condensation, n rows each: residual's derivative along the directions; then either the answer of each
-  // force (six of the wrench, then on shapes) to the residual, or the increment and the answers to the directions.
-  Eigen::MatrixXd residual_by_s, adjoint, answers;
+  // Of the last condensation, n rows each: residual's derivative by the directions; then either the answer of each
+  // output (six of the wrench, forces on shapes, flows of ports) to the residual, or the increment and the answers to
+  // the directions.
+  Eigen::MatrixXd residual_by_s, adjoint, answers, port_flow_by_u;
   Eigen::VectorXd condensed_residual, increment;
   SurfaceMotion speeds;  // without gap and rate
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
@@ -80,7 +80,7 @@ void Reynolds::Impl::find_row_sizes() {
 bool Reynolds::Impl::factorise_shifted(double shift) {
   shifted.assign(balance.values().begin(), balance.values().end());
   for (int i = 0; i < balance.size(); ++i) shifted[balance.diagonal_slot(i)] += shift * row_size[i];
-  ++counts.factorisations;
+  ++state.factorisations;
   return lu.factorise(shifted);
 }
 
@@ -92,7 +92,7 @@ void Reynolds::Impl::factorise() {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
   if (factorised) return;
   if (lu.size() == 0) lu.analyse(balance.size(), balance.column_start(), balance.row_index());
-  ++counts.factorisations;
+  ++state.factorisations;
   factorised = lu.factorise(balance.values());
   if (factorised) return;
   row_size.setConstant(balance.size(), balance.conductance_scale());
@@ -102,12 +102,24 @@ void Reynolds::Impl::factorise() {
   HERSEY_REQUIRE(factorised, "a matrix of finite numbers with a heavy diagonal has a factor");
 }
 
+// @returns whether the matrix had a factor
+bool Reynolds::Impl::solve_regularised(Eigen::VectorXd& du) {
+  HERSEY_REQUIRE(linearised, "linearise() comes first");
+  if (lu.size() == 0) lu.analyse(balance.size(), balance.column_start(), balance.row_index());
+  find_row_sizes();
+  factorised = false;  // as far as the Jacobian itself is asked for
+  if (!factorise_shifted(1e-3)) return false;
+  du = -balance.residual();
+  lu.solve({du.data(), static_cast<std::size_t>(du.size())});
+  return true;
+}
+
 void Reynolds::Impl::set_up_multigrid() {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
   if (set_up) return;
   const Grid& grid = balance.model().grid;
   if (!multigrid) multigrid.emplace(grid.n_phi, grid.n_z, balance.column_start(), balance.row_index());
-  ++counts.setups;
+  ++state.setups;
   multigrid_is_sound = multigrid->setup(balance.values(), balance.speed_phi() >= 0);
   set_up = true;
 }
@@ -124,38 +136,45 @@ bool Reynolds::Impl::solve_by_multigrid(const Eigen::VectorXd& b, double rtol, E
   set_up_multigrid();
   if (!multigrid_is_sound) return false;
   const solver::GmresSummary summary = multigrid->solve(b, {.rtol = rtol, .max_iterations = most_iterations}, x);
-  counts.iterations += summary.iterations;
+  state.iterations += summary.iterations;
   return summary.solved();
 }
 
 void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
-  if (linear == LinearSolver::multigrid) {
+  if (state.kind == LinearSolver::multigrid) {
     if (solve_by_multigrid(b, rtol, x)) return;
-    ++counts.fallback_solves;
+    ++state.fallback_solves;
   }
   factorise();
   x = b;
   lu.solve({x.data(), static_cast<std::size_t>(x.size())});
 }
 
-// With J^T Lambda = F_u^T for forces F:  F_u du0 = -Lambda^T r  and  F_u U = -Lambda^T r_s.
+// With J^T Lambda = F_u^T for forces and flows F:  F_u du0 = -Lambda^T r  and  F_u U = -Lambda^T r_s.
 void Reynolds::Impl::condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film) {
   factorise();
-  adjoint.resize(wrench.gradient_u().cols(), 6 + openings.cols());
+  const Eigen::Index shapes = openings.cols(), ports = film.port_flow.size();
+  adjoint.resize(wrench.gradient_u().cols(), 6 + shapes + ports);
   adjoint.leftCols<6>() = wrench.gradient_u().transpose();
-  adjoint.rightCols(openings.cols()) = wrench.normal().by_u.asDiagonal() * openings;
+  adjoint.middleCols(6, shapes) = wrench.normal().by_u.asDiagonal() * openings;
+  adjoint.rightCols(ports) = port_flow_by_u;
   lu.solve_transposed({adjoint.data(), static_cast<std::size_t>(adjoint.size())}, static_cast<int>(adjoint.cols()));
   for (Eigen::Index i = 0; i < 6; ++i) film.wrench[i] -= adjoint.col(i).dot(balance.residual());
   film.wrench_by_s.noalias() -= adjoint.leftCols<6>().transpose() * residual_by_s;
-  if (openings.cols() == 0) return;
-  film.Q.noalias() -= adjoint.rightCols(openings.cols()).transpose() * balance.residual();
-  film.Q_by_s.noalias() -= adjoint.rightCols(openings.cols()).transpose() * residual_by_s;
+  if (shapes > 0) {
+    film.Q.noalias() -= adjoint.middleCols(6, shapes).transpose() * balance.residual();
+    film.Q_by_s.noalias() -= adjoint.middleCols(6, shapes).transpose() * residual_by_s;
+  }
+  if (ports == 0) return;
+  film.port_flow.noalias() -= adjoint.rightCols(ports).transpose() * balance.residual();
+  film.port_flow_by_s.noalias() -= adjoint.rightCols(ports).transpose() * residual_by_s;
 }
 
 void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film) {
   rhs = -balance.residual();
   solve(rhs, tight, increment);
   film.wrench += wrench.change_by_u(increment);
+  film.port_flow.noalias() += port_flow_by_u.transpose() * increment;
   rhs = wrench.normal().by_u.cwiseProduct(increment);
   film.Q.noalias() += openings.transpose() * rhs;
   answers.resize(residual_by_s.rows(), residual_by_s.cols());
@@ -164,8 +183,27 @@ void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, Conden
     solve(rhs, tight, answer);
     answers.col(k) = answer;
     film.wrench_by_s.col(k) += wrench.change_by_u(answer);
+    film.port_flow_by_s.col(k).noalias() += port_flow_by_u.transpose() * answer;
     rhs = wrench.normal().by_u.cwiseProduct(answer);
     film.Q_by_s.col(k).noalias() += openings.transpose() * rhs;
+  }
+}
+
+// Flows through the ports at fixed u, or none.
+void Reynolds::Impl::find_port_flows(std::span<const MotionDirection> directions, PortFlows flows,
+                                     CondensedFilm& film) {
+  if (flows == PortFlows::left_out) {
+    port_flow_by_u.resize(balance.size(), 0);
+    film.port_flow.resize(0);
+    film.port_flow_by_s.resize(0, residual_by_s.cols());
+    return;
+  }
+  balance.find_port_flows(film.port_flow);
+  balance.find_port_flows_by_u(port_flow_by_u);
+  film.port_flow_by_s.resize(film.port_flow.size(), residual_by_s.cols());
+  for (Eigen::Index k = 0; k < residual_by_s.cols(); ++k) {
+    balance.find_port_flows_along(directions[static_cast<std::size_t>(k)], rhs);
+    film.port_flow_by_s.col(k) = rhs;
   }
 }
 
@@ -175,9 +213,12 @@ Reynolds::Reynolds(Reynolds&&) noexcept = default;
 Reynolds& Reynolds::operator=(Reynolds&&) noexcept = default;
 
 const FilmModel& Reynolds::model() const { return impl_->balance.model(); }
-int Reynolds::size() const { return impl_->balance.size(); }
-LinearSolver Reynolds::linear_solver() const { return impl_->linear; }
-const LinearSolverCounts& Reynolds::counts() const { return impl_->counts; }
+
+LinearSolverState Reynolds::linear_solver() const {
+  LinearSolverState state = impl_->state;
+  state.has_factor = impl_->linearised && impl_->factorised;
+  return state;
+}
 
 FilmDomain Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
   impl_->linearised = impl_->summed = false;
@@ -193,38 +234,32 @@ FilmDomain Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& h
   return {};
 }
 
-const Eigen::VectorXd& Reynolds::residual() const { return impl_->balance.residual(); }
-double Reynolds::relative_residual() const { return impl_->balance.relative_residual(); }
-int Reynolds::worst_node() const { return impl_->balance.worst_node(); }
-const Vector6& Reynolds::wrench_on_shell() const { return impl_->summed_wrench().total(); }
+FilmResidual Reynolds::residual() const {
+  const FlowBalance& balance = impl_->balance;
+  return {balance.residual(), balance.relative_residual(), balance.worst_node()};
+}
+
+FilmForces Reynolds::forces() const {
+  const FilmWrench& wrench = impl_->summed_wrench();
+  return {wrench.total(), wrench.gradient_u(), wrench.normal()};
+}
 
 FilmObservables Reynolds::observe(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
                                   const Eigen::Vector2d& tilt) const {
   return observe_evaluated(impl_->balance, impl_->summed_wrench(), motion, e, u, tilt);
 }
 
-void Reynolds::newton_increment(Eigen::VectorXd& du, double rtol) {
-  impl_->rhs = -impl_->balance.residual();
-  impl_->solve(impl_->rhs, rtol, du);
-}
-
-void Reynolds::regularised_increment(Eigen::VectorXd& du) {
+void Reynolds::newton_increment(Eigen::VectorXd& du, const IncrementOptions& options) {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(m.linearised, "linearise() comes first");
-  if (m.lu.size() == 0) m.lu.analyse(m.balance.size(), m.balance.column_start(), m.balance.row_index());
-  m.find_row_sizes();
-  m.factorised = false;  // as far as the Jacobian itself is asked for
-  if (!m.factorise_shifted(1e-3)) return newton_increment(du);
-  du = -m.balance.residual();
-  m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
+  if (options.is_regularised && m.solve_regularised(du)) return;
+  m.rhs = -m.balance.residual();
+  m.solve(m.rhs, options.rtol, du);
 }
-
-bool Reynolds::has_factor() const { return impl_->linearised && impl_->factorised; }
 
 FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
                                      Eigen::VectorXd& du) {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(has_factor(), "a linearisation with a factor");
+  HERSEY_REQUIRE(m.linearised && m.factorised, "a linearisation with a factor");
   (void)m.summed_wrench();
   const FilmDomain domain = m.balance.evaluate(motion, history, u);
   if (!domain.is_inside()) {
@@ -237,47 +272,16 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
   return {};
 }
 
-void Reynolds::advance_rupture_front(Eigen::VectorXd& u) const { film::advance_rupture_front(impl_->balance, u); }
-
-void Reynolds::press_filled_nodes(const Eigen::VectorXd& u, Eigen::VectorXd& du) const {
-  film::press_filled_nodes(impl_->balance, u, du);
-}
-
-void Reynolds::response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial) {
-  impl_->balance.derivative(direction, impl_->rhs);
-  impl_->rhs = -impl_->rhs;
-  impl_->solve(impl_->rhs, tight, du);
-  wrench_partial = impl_->summed_wrench().along(direction);
-}
-
-void Reynolds::responses(std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
-                         Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial) {
-  const auto columns = static_cast<Eigen::Index>(directions.size());
-  du.resize(size(), columns);
-  wrench_partial.resize(6, columns);
-  Eigen::VectorXd &rhs = impl_->rhs, &answer = impl_->answer;
-  for (Eigen::Index k = 0; k < columns; ++k) {
-    impl_->balance.derivative(directions[k], rhs);
-    du.col(k) = -rhs;
-    wrench_partial.col(k) = impl_->summed_wrench().along(directions[k]);
-    if (impl_->linear == LinearSolver::direct) continue;
-    rhs = du.col(k);
-    impl_->solve(rhs, tight, answer);
-    du.col(k) = answer;
-  }
-  if (impl_->linear == LinearSolver::multigrid) return;
-  impl_->factorise();
-  impl_->lu.solve({du.data(), static_cast<std::size_t>(du.size())}, static_cast<int>(columns));
-}
+ActiveSet Reynolds::active_set() const { return ActiveSet(impl_->balance); }
 
 void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings,
-                        CondensedFilm& film) {
+                        CondensedFilm& film, PortFlows flows) {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(openings.rows() == size(), "openings of shape (grid.size(), shapes)");
+  HERSEY_REQUIRE(openings.rows() == m.balance.size(), "openings of shape (grid.size(), shapes)");
   const FilmWrench& now = m.summed_wrench();
   m.condensed_residual = m.balance.residual();
   m.condensed = true;
-  m.residual_by_s.resize(size(), static_cast<Eigen::Index>(directions.size()));
+  m.residual_by_s.resize(m.balance.size(), static_cast<Eigen::Index>(directions.size()));
   film.wrench_by_s.resize(6, m.residual_by_s.cols());
   film.Q_by_s.setZero(openings.cols(), m.residual_by_s.cols());
   const bool contact_pushes = openings.cols() > 0 && !now.normal().by_g.isZero(0);
@@ -292,19 +296,18 @@ void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen
   }
   film.wrench = now.total();
   film.Q.noalias() = openings.transpose() * now.normal().value;
-  if (m.linear == LinearSolver::direct) {
+  m.find_port_flows(directions, flows, film);
+  if (m.state.kind == LinearSolver::direct) {
     m.condense_by_adjoint(openings, film);
   } else {
     m.condense_by_columns(openings, film);
   }
 }
 
-const NormalForces& Reynolds::normal_forces() const { return impl_->summed_wrench().normal(); }
-
 void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du) {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.condensed && ds.size() == m.residual_by_s.cols(), "condense() comes first");
-  if (m.linear == LinearSolver::direct) {
+  if (m.state.kind == LinearSolver::direct) {
     du = -m.condensed_residual;
     du.noalias() -= m.residual_by_s * ds;
     m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
@@ -314,52 +317,52 @@ void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::Vector
   }
 }
 
-Vector6 Reynolds::wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) const {
-  return impl_->summed_wrench().change_by_u(du);
-}
-
-const Eigen::Matrix<double, 6, Eigen::Dynamic>& Reynolds::wrench_by_u() const {
-  return impl_->summed_wrench().gradient_u();
-}
-
-void Reynolds::partial(const MotionDirection& direction, Eigen::VectorXd& residual, Vector6& wrench) {
-  HERSEY_REQUIRE(impl_->linearised, "linearise() comes first");
-  impl_->balance.derivative(direction, residual);
-  wrench = impl_->summed_wrench().along(direction);
+void Reynolds::partials(std::span<const MotionDirection> directions, Eigen::MatrixXd& residual,
+                        Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench) {
+  const FilmWrench& now = impl_->summed_wrench();
+  Eigen::VectorXd& column = impl_->rhs;
+  residual.resize(impl_->balance.size(), static_cast<Eigen::Index>(directions.size()));
+  wrench.resize(6, residual.cols());
+  for (Eigen::Index k = 0; k < residual.cols(); ++k) {
+    const MotionDirection& direction = directions[static_cast<std::size_t>(k)];
+    impl_->balance.derivative(direction, column);
+    residual.col(k) = column;
+    wrench.col(k) = now.along(direction);
+  }
 }
 
 Eigen::VectorXd Reynolds::jacobian_product(const Eigen::Ref<const Eigen::VectorXd>& v) const {
-  HERSEY_REQUIRE(impl_->linearised && v.size() == size(), "linearise() comes first; shape (n)");
-  Eigen::VectorXd product = Eigen::VectorXd::Zero(size());
+  HERSEY_REQUIRE(impl_->linearised && v.size() == impl_->balance.size(), "linearise() comes first; shape (n)");
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(v.size());
   impl_->subtract_product(v, product);
   return -product;
 }
 
-void Reynolds::solve(Eigen::MatrixXd& columns) {
-  HERSEY_REQUIRE(impl_->linear == LinearSolver::direct && columns.rows() == size(), "a direct solver; shape (n, any)");
-  impl_->factorise();
-  impl_->lu.solve({columns.data(), static_cast<std::size_t>(columns.size())}, static_cast<int>(columns.cols()));
-}
-
-void Reynolds::solve_transposed(Eigen::MatrixXd& columns) {
-  HERSEY_REQUIRE(impl_->linear == LinearSolver::direct && columns.rows() == size(), "a direct solver; shape (n, any)");
-  impl_->factorise();
-  impl_->lu.solve_transposed({columns.data(), static_cast<std::size_t>(columns.size())},
-                             static_cast<int>(columns.cols()));
+void Reynolds::solve(Eigen::MatrixXd& columns, SystemMatrix matrix) {
+  Impl& m = *impl_;
+  HERSEY_REQUIRE(columns.rows() == m.balance.size(), "shape (n, any)");
+  const bool is_transposed = matrix == SystemMatrix::transposed;
+  if (m.state.kind == LinearSolver::multigrid) {
+    HERSEY_REQUIRE(!is_transposed, "a direct solver for the transposed system");
+    for (auto column : columns.colwise()) {
+      m.rhs = column;
+      m.solve(m.rhs, tight, m.answer);
+      column = m.answer;
+    }
+    return;
+  }
+  m.factorise();
+  const std::span<double> values(columns.data(), static_cast<std::size_t>(columns.size()));
+  const auto count = static_cast<int>(columns.cols());
+  if (is_transposed)
+    m.lu.solve_transposed(values, count);
+  else
+    m.lu.solve(values, count);
 }
 
 void Reynolds::persist(Archive& archive) {
   impl_->lu.persist(archive);
   if (archive.restores()) impl_->linearised = impl_->factorised = impl_->set_up = impl_->condensed = false;
-}
-
-void Reynolds::initialise_oil_balance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
-                                      StepOilBalance& oil) {
-  Impl& m = *impl_;
-  const FilmDomain domain = m.balance.evaluate(motion, history, u);
-  HERSEY_REQUIRE(domain.is_inside(), text(m.balance.model(), domain));
-  m.balance.initialise_oil_balance(oil);
-  m.linearised = m.summed = m.factorised = m.set_up = false;
 }
 
 // The factor of the last linearisation leads the defect nearly where it belongs, refinement the rest of the way.
@@ -401,6 +404,13 @@ void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, c
   m.solve_for_settling();
   m.balance.settle(m.answer, oil);
   m.linearised = m.summed = m.factorised = m.set_up = false;
+}
+
+void respond(Reynolds& film, std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
+             Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial) {
+  film.partials(directions, du, wrench_partial);
+  du = -du;
+  film.solve(du);
 }
 
 }  // namespace hersey::film

@@ -50,6 +50,7 @@ struct BearingOptions {
 
 class DeformingSurfaces;
 class FilmElement;
+class SurfaceShape;
 class ThermalSurfaces;
 class WrenchExchange;
 
@@ -133,9 +134,10 @@ class FilmForce : public mbd::TwoBodyForce {
   std::string name_;
   BearingOptions options_;
   std::unique_ptr<GapKinematics> gap_;
-  std::unique_ptr<DeformingSurfaces> deforming_;
   std::unique_ptr<FilmElement> film_;
-  std::unique_ptr<ThermalSurfaces> thermal_;
+  std::vector<std::unique_ptr<SurfaceShape>> shapes_;  // all that moves the surfaces beyond `gap_`
+  ThermalSurfaces* thermal_;                           // of `shapes_`, as what follows
+  DeformingSurfaces* deforming_;
   std::unique_ptr<WrenchExchange> exchange_;
   bool is_monolithic_step_ = true;
 

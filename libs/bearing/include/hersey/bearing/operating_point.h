@@ -69,9 +69,4 @@ struct SteadyOptions {
 /// slowest speeds (film.6).
 [[nodiscard]] film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point);
 
-/// Moves the shell outwards at the nodes by `shape` [m]; an empty one changes nothing.
-void add_to_shell(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
-/// Moves the journal outwards in the same way.
-void add_to_journal(const Eigen::VectorXd& shape, film::SurfaceMotion& motion);
-
 }  // namespace hersey::bearing

@@ -4,6 +4,7 @@
 
 #include "hersey/bearing/global_heat.h"
 #include "hersey/bearing/operating_point.h"
+#include "hersey/bearing/shapes_at_rest.h"
 #include "hersey/core/outcome.h"
 #include "hersey/film/film_heat.h"
 #include "hersey/film/film_model.h"
@@ -53,11 +54,7 @@ struct SteadyState {
   Eigen::VectorXd u;  ///< the film's unknowns
   Eigen::VectorXd s;  ///< amplitudes of the shapes of both surfaces' bodies, shell first; empty: both rigid
   Eigen::VectorXd d_shell, d_journal;  ///< radial displacement at the nodes, away from the axis [m]; empty where rigid
-  /// Displacement of the shell's surface by the thermal expansion of its body, at the nodes, away from the axis [m];
-  /// empty: none.
-  Eigen::VectorXd thermal_shape;
-  /// The same of the journal's surface, averaged around (thermal.61) [m].
-  Eigen::VectorXd journal_shape;
+  ShapesAtRest shapes;                 ///< of both surfaces beside that deformation, at the nodes
   film::FilmObservables film;
   film::LayeredViscosity viscosity;               ///< at the film's temperatures; empty: the model's everywhere
   DynamicCoefficients coefficients;               ///< at fixed temperatures and viscosities

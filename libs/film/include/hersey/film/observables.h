@@ -4,6 +4,7 @@
 
 #include "hersey/film/film_model.h"
 #include "hersey/film/film_observables.h"
+#include "hersey/film/film_response.h"
 
 namespace hersey::film {
 
@@ -20,5 +21,9 @@ namespace hersey::film {
                                            const FilmHistory& history, const Eigen::Vector2d& e,
                                            const Eigen::VectorXd& u,
                                            const Eigen::Vector2d& tilt = Eigen::Vector2d::Zero());
+
+/// Returns the oil of a film at `u` with which a run starts: no step has led there, so that flows are undefined.
+[[nodiscard]] StepOilBalance oil_at_start(const FilmModel& model, const SurfaceMotion& motion,
+                                          const FilmHistory& history, const Eigen::VectorXd& u);
 
 }  // namespace hersey::film

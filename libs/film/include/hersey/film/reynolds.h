@@ -7,6 +7,7 @@
 
 #include "hersey/core/archive.h"
 #include "hersey/core/spatial.h"
+#include "hersey/film/active_set.h"
 #include "hersey/film/film_domain.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/film_observables.h"
@@ -18,13 +19,29 @@ namespace hersey::film {
 /// with the number of nodes only. Where the latter does not arrive, the former takes over.
 enum class LinearSolver { direct, multigrid };
 
-/// What the linear solver has done since a film was made.
-struct LinearSolverCounts {
-  int factorisations = 0;   ///< of the Jacobian
-  int setups = 0;           ///< of multigrid
-  int iterations = 0;       ///< of GMRES, over all right-hand sides
-  int fallback_solves = 0;  ///< right-hand sides that multigrid left to the direct solver
+/// The linear solver of a film, and what it has done since the film was made.
+struct LinearSolverState {
+  LinearSolver kind = LinearSolver::direct;  ///< as asked for
+  bool has_factor = false;                   ///< of the Jacobian last linearised
+  int factorisations = 0;                    ///< of the Jacobian
+  int setups = 0;                            ///< of multigrid
+  int iterations = 0;                        ///< of GMRES, over all right-hand sides
+  int fallback_solves = 0;                   ///< right-hand sides that multigrid left to the direct solver
 };
+
+/// Of which matrix a system is: the film's Jacobian J, or its transposed.
+enum class SystemMatrix { jacobian, transposed };
+
+/// How Newton's increment of a film is found.
+struct IncrementOptions {
+  double rtol = 1e-10;  ///< what `multigrid` leaves of the residual
+  /// A thousandth of each row's largest entry is added to the Jacobian's diagonal: a bounded step where the Jacobian is
+  /// all but singular and its own increment runs away. Always by factorisation.
+  bool is_regularised = false;
+};
+
+/// Whether a condensation includes the flows through the film's ports, for a right-hand side more per feature.
+enum class PortFlows { left_out, included };
 
 /// Reynolds' equation on the grid with its derivatives (theory manual, chapter film): residual and Jacobian at a state,
 /// the film's wrench and the answer of both to any change of the surfaces.
@@ -45,103 +62,74 @@ class Reynolds {
   Reynolds(Reynolds&&) noexcept;
   Reynolds& operator=(Reynolds&&) noexcept;
 
-  /// As given.
+  /// The film's constant data, as given.
   [[nodiscard]] const FilmModel& model() const;
-  /// Nodes, n.
-  [[nodiscard]] int size() const;
-  /// As asked for.
-  [[nodiscard]] LinearSolver linear_solver() const;
-  /// Of all solutions so far.
-  [[nodiscard]] const LinearSolverCounts& counts() const;
+  /// Which linear solver this film has, whether it has a factor for chord_increment(), and what it has done so far.
+  [[nodiscard]] LinearSolverState linear_solver() const;
 
-  /// Linearises about `u`. After it the members below refer to this state; the first of them that needs the factorised
-  /// Jacobian factorises it. Where the Jacobian is singular (nothing fixes the fill level) a shift far below its
-  /// entries picks an answer near `u`. Says where `u` and the surfaces lie outside the domain, and is then without a
-  /// linearisation.
+  /// Linearises about `u`: every iteration begins with it. After it the members below refer to this state; the first of
+  /// them that needs the factorised Jacobian factorises it. Where the Jacobian is singular (nothing fixes the fill
+  /// level) a shift far below its entries picks an answer near `u`. Says where `u` and the surfaces lie outside the
+  /// domain, and is then without a linearisation.
   /// @throws ContractError on a wrong shape.
   FilmDomain linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
-  [[nodiscard]] const Eigen::VectorXd& residual() const;  ///< [m^3/s], shape (n)
-  [[nodiscard]] double relative_residual() const;         ///< max |residual| / largest throughput of a control volume
-  [[nodiscard]] int worst_node() const;
+  /// How far the state is from a film, node by node and as one number: what Newton's method ends by.
+  [[nodiscard]] FilmResidual residual() const;
+  /// Wrench and normal forces of the film with their derivatives by u. After changes of u and of the surfaces for which
+  /// respond() has the answers, the wrench changes by wrench_by_u * du and the partial derivative.
+  [[nodiscard]] FilmForces forces() const;
 
-  /// Wrench of the film (pressure, shear, asperities) on the shell at the grid frame's origin; on the journal acts its
-  /// negative at the same point: action equals reaction, moment included.
-  [[nodiscard]] const Vector6& wrench_on_shell() const;
-
-  /// observe_film() of the state last linearised, nothing evaluated again: `motion` and `u` are those of linearise().
+  /// observe_film() of the state last linearised, for the cost of sums alone, since nothing is evaluated again:
+  /// `motion` and `u` are those of linearise().
   [[nodiscard]] FilmObservables observe(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
                                         const Eigen::Vector2d& tilt) const;
 
-  /// du = -J^{-1} residual, the Newton increment of the film at fixed surfaces. `multigrid` leaves `rtol` of the
-  /// residual.
-  void newton_increment(Eigen::VectorXd& du, double rtol = 1e-10);
+  /// du = -J^{-1} residual, the Newton increment of the film at fixed surfaces: to solve a film by itself. Where the
+  /// surfaces move with bodies, condense() and follow() take their place.
+  void newton_increment(Eigen::VectorXd& du, const IncrementOptions& options = {});
 
-  /// Likewise with a thousandth of each row's largest entry added to the Jacobian's diagonal: a bounded step where the
-  /// Jacobian is all but singular and its own increment runs away.
-  void regularised_increment(Eigen::VectorXd& du);
-
-  /// A step of the chord method: du = -J^{-1} residual(u) with the factor that the last linearisation has. Residual and
-  /// wrench are then those at `u`, all derivatives still those of that linearisation. Says where `u` lies outside the
-  /// domain, and is then without a linearisation. @pre has_factor()
+  /// A step of the chord method: du = -J^{-1} residual(u) with the factor that the last linearisation has. It saves the
+  /// factorisation where little has changed since. Residual and wrench are then those at `u`, all derivatives still
+  /// those of that linearisation. Says where `u` lies outside the
+  /// domain, and is then without a linearisation. @pre linear_solver().has_factor
   FilmDomain chord_increment(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
                              Eigen::VectorXd& du);
-  /// Whether the last linearisation has been factorised.
-  [[nodiscard]] bool has_factor() const;
+  /// What a Newton step from the last linearisation needs where it fills or empties nodes. Valid until the next one.
+  [[nodiscard]] ActiveSet active_set() const;
 
-  /// Empties the nodes downstream of those that the step to `u` from the last linearisation has emptied, as far as they
-  /// live on their oil: fronts then follow in one iteration instead of one per node.
-  void advance_rupture_front(Eigen::VectorXd& u) const;
-  /// Of nodes that a Newton step `du` from the last linearisation fills, steps to a pressure in place of what is too
-  /// much of the oil that was missing (film.31).
-  void press_filled_nodes(const Eigen::VectorXd& u, Eigen::VectorXd& du) const;
-
-  /// Answer to a change of the surfaces (film.39): `du` = -J^{-1} dr/d(parameter), and the wrench's *partial*
-  /// derivative at fixed u. The total derivative is  partial + wrench_gradient(du).
-  void response(const MotionDirection& direction, Eigen::VectorXd& du, Vector6& wrench_partial);
-
-  /// Likewise for several changes at once, a column each: one solve with many right-hand sides.
-  void responses(std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
-                 Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial);
-
-  /// Static condensation of the film: the wrench after its Newton increment at fixed surfaces, and the wrench's total
-  /// derivative along each direction (theory manual, bearing.10). `direct` solves the transposed system, once per entry
-  /// of the wrench (bearing.11); `multigrid` once per direction.
+  /// Static condensation of the film, where bodies move its surfaces: the wrench after its Newton increment at fixed
+  /// surfaces, and the wrench's total derivative by each direction (theory manual, bearing.10). `direct` solves the
+  /// transposed system, once per entry of the wrench (bearing.11); `multigrid` once per direction.
   ///
   /// Surfaces that deform bring the shapes by which they open the gap, `openings` (n, shapes) for unit amplitudes: the
-  /// film puts the force Q = openings^T normal_forces() on them (theory manual, bearing.14 and bearing.15). (n, 0): no
+  /// film puts the force Q = openings^T forces().normal on them (theory manual, bearing.14 and bearing.15). (n, 0): no
   /// shapes.
-  void condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, CondensedFilm& film);
-
-  /// At the state last linearised.
-  [[nodiscard]] const NormalForces& normal_forces() const;
+  ///
+  /// The pressures of its ports are directions as well (MotionDirection::port_pressure), and the flows through them
+  /// outputs: with these a circuit of oil is solved together with the film. Flows are those at the end of a step, from
+  /// which those of settle(), means over it, differ by what the gap's exact rate leaves.
+  void condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, CondensedFilm& film,
+                PortFlows flows = PortFlows::left_out);
 
   /// The film's part `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
   /// (theory manual, bearing.9). Comes after `condense` and before the next `linearise` inside the domain: a trial
   /// outside leaves what it takes.
   void follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du);
 
-  /// (d wrench_on_shell / du) du.
-  [[nodiscard]] Vector6 wrench_gradient(const Eigen::Ref<const Eigen::VectorXd>& du) const;
-  /// d wrench_on_shell / du, shape (6, n).
-  [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_by_u() const;
-
-  /// The residual's derivative along a change of the surfaces at fixed u [m^3/s], shape (n), and the wrench's.
-  void partial(const MotionDirection& direction, Eigen::VectorXd& residual, Vector6& wrench);
-  /// J v at the state last linearised, shape (n).
+  /// Derivatives by each change of the surfaces at fixed u, a column each: of the residual [m^3/s], shape (n,
+  /// directions), and of the wrench. What respond() needs; by themselves for adjoints.
+  void partials(std::span<const MotionDirection> directions, Eigen::MatrixXd& residual,
+                Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench);
+  /// J v at the state last linearised, shape (n): what a change of u does to the residual.
   [[nodiscard]] Eigen::VectorXd jacobian_product(const Eigen::Ref<const Eigen::VectorXd>& v) const;
-  /// J^{-1} of each column, in its place. `direct` only.
-  void solve(Eigen::MatrixXd& columns);
-  /// J^{-T} of each column, in its place. `direct` only.
-  void solve_transposed(Eigen::MatrixXd& columns);
-
-  /// The oil of a film at `u` with which a run starts: no step has led there; flows are undefined.
-  void initialise_oil_balance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
-                              StepOilBalance& oil);
+  /// Replaces each column by the solution of J x = column: the film's answer to a change of its residual that no motion
+  /// of the surfaces makes; or of J^T x = column, the adjoint of a force, by `direct` only.
+  void solve(Eigen::MatrixXd& columns, SystemMatrix matrix = SystemMatrix::jacobian);
 
   /// Closes a step of history.dt > 0 that has ended at `u`: forces belong to its end, where the gap opens at its exact
   /// rate; flows are to bring what the gap has gained over the whole step. Their difference is led through the film
-  /// along the last linearisation. linearise() comes next.
+  /// along the last linearisation. linearise() comes next. A run begins with oil_at_start() instead.
   void settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, StepOilBalance& oil);
 
   /// The pivot order in use; linearise() comes next.
@@ -151,5 +139,12 @@ class Reynolds {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Answers of the film last linearised to changes of the surfaces (film.39), a column each: `du` = -J^{-1}
+/// dr/d(parameter), and the wrench's *partial* derivative at fixed u. The total derivative is
+/// wrench_partial + forces().wrench_by_u * du. For coefficients and searches, which need the film's own change; where
+/// only forces are needed, condense() has them for less.
+void respond(Reynolds& film, std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
+             Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial);
 
 }  // namespace hersey::film
