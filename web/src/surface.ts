@@ -111,7 +111,7 @@ export function textOf({ symbol, display, digits }: Coordinate, value: number): 
 
 /** The nodes of a film along one of its coordinates; they ascend, and may be graded. Between the arcs of a bore there is no film. */
 export class FilmAxis {
-  /** What a map shows: a whole turn, of arcs from the first on, or from the first node to the last. */
+  /** What a map shows: a whole turn, of arcs from the first on or them alone, or from the first node to the last. */
   readonly low: number;
   readonly high: number;
   /** Between neighbours; as many as nodes where the film closes. */
@@ -126,7 +126,9 @@ export class FilmAxis {
     const { period } = coordinate;
     const last = nodes.length - 1;
     this.low = period === undefined || arcs ? nodes[0]! : 0;
-    this.high = period === undefined ? nodes[last]! : this.low + period;
+    // Arcs that leave more than half of the turn free are shown alone.
+    const isShort = arcs && period !== undefined && nodes[last]! - nodes[0]! < period / 2;
+    this.high = period === undefined || isShort ? nodes[last]! : this.low + period;
     this.cells = period === undefined ? last : nodes.length;
   }
 
@@ -152,8 +154,9 @@ export class FilmAxis {
 
   /** A value as a share of what is shown. */
   share(value: number): number {
-    const share = (value - this.low) / (this.high - this.low || 1);
-    return this.coordinate.period === undefined ? share : share - Math.floor(share);
+    const { period } = this.coordinate;
+    const within = period === undefined ? value : value - period * Math.floor((value - this.low) / period);
+    return (within - this.low) / (this.high - this.low || 1);
   }
 
   /** The places where a value is seen: on a film that closes a turn to the left and right, too, for what crosses the seam. */
@@ -210,7 +213,9 @@ export class FilmAxis {
   ticks(length: number, most: number): { share: number; text: string }[] {
     const { display, step } = this.coordinate;
     const [low, high] = [this.low * display.factor, this.high * display.factor];
-    const width = step?.(length);
+    // Steps of the angle suit a whole turn.
+    const isWhole = this.high - this.low > 0.99 * (this.coordinate.period ?? Infinity);
+    const width = isWhole ? step?.(length) : undefined;
     const first = width === undefined ? low : width * Math.ceil(low / width - 1e-6);
     const values = width === undefined ? ticks(low, high, most) : Array.from({ length: Math.floor((high - first) / width + 1.000001) }, (_, i) => first + i * width);
     return values.map((value) => ({ share: (value - low) / (high - low || 1), text: format(value, 3) }));

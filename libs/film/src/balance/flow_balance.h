@@ -275,14 +275,14 @@ class FlowBalance {
   struct Land {
     int node = 0, inside = 0, feature = 0;
     double conductance = 0;  ///< of the land, in addition to that of the flow tube, per h^3/(12 mu) [-]
-    double by_journal = 0;   ///< its derivative with phi_journal [1/rad]
+    double by_journal = 0;   ///< its derivative by phi_journal [1/rad]
     double u = 0;            ///< of the feature [Pa]
   };
   /// Interval around the node, measured from it, over which a feature's end faces it [m].
   struct LandInterval {
     int node = 0, inside = 0, feature = 0;
     double from = 0, to = 0;
-    double from_journal = 0, to_journal = 0;  ///< derivatives with phi_journal [m/rad]
+    double from_journal = 0, to_journal = 0;  ///< derivatives by phi_journal [m/rad]
     double gain = 0;                          ///< 1/land - 1/flow tube [1/m]
     double u = 0;
   };

@@ -53,7 +53,7 @@ struct Reynolds::Impl {
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
   Eigen::VectorXd rhs, answer, row_size, rest, correction;
-  // Of the last condensation, n rows each: residual's derivative by the directions; then either the answer of each
+  // Of the last condensation, n rows each: residual's derivative along the directions; then either the answer of each
   // output (six of the wrench, forces on shapes, flows of ports) to the residual, or the increment and the answers to
   // the directions.
   Eigen::MatrixXd residual_by_s, adjoint, answers, port_flow_by_u;

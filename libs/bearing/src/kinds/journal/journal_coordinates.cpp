@@ -37,7 +37,7 @@ class JournalKind final : public BearingKind {
     if (bore == nullptr) return rows;
     constexpr double kDegrees = 180 / std::numbers::pi;
     for (const film::Arc& arc : bore->arcs) {
-      const double c_b = model.c + arc.extra_clearance, c_p = c_b + arc.offset;
+      const double c_b = clearance(model) + arc.extra_clearance, c_p = c_b + arc.offset;
       rows.emplace_back(
           "arc " + arc.name,
           fmt::format("from {:.5g} to {:.5g} deg, clearance {:.4g} um where it is nearest, at {:.5g} deg, "

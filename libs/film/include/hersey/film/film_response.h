@@ -36,7 +36,7 @@ struct FilmForces {
   /// Of pressure, shear and asperities, at the grid frame's origin; on the journal acts its negative at the same point:
   /// action equals reaction, moment included.
   const Vector6& wrench_on_shell;
-  const Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_by_u;  ///< its derivative with u at fixed surfaces
+  const Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_by_u;  ///< its derivative by u at fixed surfaces
   const NormalForces& normal;
 };
 

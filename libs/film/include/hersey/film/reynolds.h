@@ -99,7 +99,7 @@ class Reynolds {
   [[nodiscard]] ActiveSet active_set() const;
 
   /// Static condensation of the film, where bodies move its surfaces: the wrench after its Newton increment at fixed
-  /// surfaces, and the wrench's total derivative by each direction (theory manual, bearing.10). `direct` solves the
+  /// surfaces, and the wrench's total derivative along each direction (theory manual, bearing.10). `direct` solves the
   /// transposed system, once per entry of the wrench (bearing.11); `multigrid` once per direction.
   ///
   /// Surfaces that deform bring the shapes by which they open the gap, `openings` (n, shapes) for unit amplitudes: the
@@ -117,7 +117,7 @@ class Reynolds {
   /// outside leaves what it takes.
   void follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du);
 
-  /// Derivatives by each change of the surfaces at fixed u, a column each: of the residual [m^3/s], shape (n,
+  /// Derivatives along each change of the surfaces at fixed u, a column each: of the residual [m^3/s], shape (n,
   /// directions), and of the wrench. What respond() needs; by themselves for adjoints.
   void partials(std::span<const MotionDirection> directions, Eigen::MatrixXd& residual,
                 Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench);
