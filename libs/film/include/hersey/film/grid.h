@@ -96,9 +96,9 @@ struct Patch {
 /// grid are nodes of the finer one.
 [[nodiscard]] Grid resampled(const Grid& grid, int n_phi, int n_z);
 
-/// Returns the same grid with its lines further on by `fraction` of the cell before the next one; patches keep their ends
-/// and, for a fraction above 0, get one line more. The mean over several fractions has a higher order in figures that depend
-/// on the position of fronts between lines.
+/// Returns the same grid with its lines further on by `fraction` of the cell before the next one; patches keep their
+/// ends and, for a fraction above 0, get one line more. The mean over several fractions has a higher order in figures
+/// that depend on the position of fronts between lines.
 /// @param fraction  0 to below 1.
 [[nodiscard]] Grid turned(const Grid& grid, double fraction);
 
