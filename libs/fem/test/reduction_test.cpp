@@ -111,6 +111,20 @@ TEST_CASE("ReducedFreeBody_WithAllModes_IsTheMesh") {
   CHECK(omega[5] < 1e-3 * omega[6]);  // rigid motions: round-off of K over M, whose square root it is
 }
 
+TEST_CASE("ModesOfOneFrequency_AreKeptTogether") {
+  const ElasticBody square = assemble(box_mesh(ElementType::hex20, {1, 0.1, 0.1}, {6, 1, 1}), {steel});
+  const auto ends = [&] {
+    return std::vector{frame_on(square.mesh, "x0", Connection::rigid), frame_on(square.mesh, "x1", Connection::rigid)};
+  }();
+  // Bars of square section bend both ways alike.
+  for (const auto& [modes, kept] : {std::pair{1, 2}, {2, 2}, {3, 4}, {4, 4}}) {
+    CAPTURE(modes);
+    const ReducedBody reduced = must_reduce(square, ends, {.modes = modes});
+    REQUIRE(reduced.internal_omega.size() == kept);
+    CHECK(reduced.internal_omega[kept - 1] == doctest::Approx(reduced.internal_omega[kept - 2]).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("WrenchOnAFrame_MovesTheReducedBodyAsTheMesh") {
   const ElasticBody body = bar();
   const ReducedBody reduced =

@@ -83,6 +83,28 @@ FrameSupports frame_supports(const Mesh& mesh, const std::vector<InterfaceFrame>
   return {std::move(interface.fixed_dofs), interface.C};
 }
 
+namespace {
+
+// Frequencies this near to each other belong to one: their modes are mixed by round-off, not by the body.
+constexpr double same_frequency = 1e-6;
+
+/// The modes with all frames at rest. Where the last one wanted is one of several with the same frequency, all of these
+/// are kept: which of their mixtures an iteration finds first is chance, and so would be the reduced body.
+Vibration fixed_interface_modes(const ElasticBody& body, const Interface& interface, const ReductionOptions& options) {
+  for (int wanted = options.modes + 1;; ++wanted) {
+    Vibration found =
+        natural_modes(body, interface.fixed_dofs, {.count = wanted, .highest = options.highest}, interface.C);
+    const Eigen::Index count = found.omega.size();
+    if (!found.solved() || count < wanted) return found;
+    if (found.omega[count - 1] - found.omega[count - 2] < same_frequency * found.omega[count - 1]) continue;
+    found.omega.conservativeResize(count - 1);
+    found.shapes.conservativeResize(Eigen::NoChange, count - 1);
+    return found;
+  }
+}
+
+}  // namespace
+
 Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& frames, const ReductionOptions& options) {
   HERSEY_REQUIRE(options.loads.size() == 0 || options.loads.rows() == body.size(), "one force per degree of freedom");
   if (frames.empty()) return no_answer<Reduction>("a reduced body needs a frame that something attaches to");
@@ -98,9 +120,7 @@ Reduction reduce(const ElasticBody& body, const std::vector<InterfaceFrame>& fra
   modes.set_solved(true);
   modes.omega.resize(0);
   modes.shapes.resize(body.size(), 0);
-  if (options.modes > 0 && stiffness.freedom() > 0)
-    modes =
-        natural_modes(body, interface.fixed_dofs, {.count = options.modes, .highest = options.highest}, interface.C);
+  if (options.modes > 0 && stiffness.freedom() > 0) modes = fixed_interface_modes(body, interface, options);
   if (!modes.solved()) return no_answer<Reduction>(modes.message);
   const MatrixXd exact = options.loads.size() ? stiffness.solve(options.loads) : MatrixXd(body.size(), 0);
   const StaticShapes of_surfaces = static_shapes(stiffness, modes, options);

@@ -87,7 +87,9 @@ TypePtr flexible_format() {
           defaulted("form", choice(form_words), "modal", "What deforms."),
           defaulted("strain", choice(strain_words), "small", "How displacements strain the body."),
           defaulted("modes", integer(10, {.low = 0, .high = 1000}), "10",
-                    "How many vibrations with all frames fixed, those of lowest frequency, add to the static shapes."),
+                    "How many vibrations with all frames fixed, those of lowest frequency, add to the static shapes; "
+                    "and those that "
+                    "share the last one's frequency."),
           optional("highest_frequency", quantity("Hz", "5 kHz", Range::positive()),
                    "Vibrations above this frequency are left out.", "no limit"),
           optional("load_surfaces", list("surfaces or sets of nodes", text("a surface or a set of nodes", "big_end")),

@@ -10,7 +10,7 @@
 namespace hersey::fem {
 
 struct ReductionOptions {
-  int modes = 20;                                            ///< largest number of fixed-interface modes
+  int modes = 20;  ///< number of fixed-interface modes, and those with the last one's frequency
   double highest = std::numeric_limits<double>::infinity();  ///< highest angular frequency of these modes [rad/s]
   /// Nodal forces (3 n, loads) whose static displacement the reduced body represents exactly: each adds one mode.
   Eigen::MatrixXd loads;
