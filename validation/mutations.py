@@ -97,7 +97,7 @@ FAULTS = [
     Fault("film: faces between radii have the width at one of them", "film/src/gap/grid_geometry.cpp",
           "stretch_between[j] = stretch_at(z[j] + above);", "stretch_between[j] = stretch_at(z[j]);"),
     Fault("film: a pad's last edge is its first", "film/include/hersey/film/film_model.h",
-          "return grid.begins_patch(line) ? &ends.first : &ends.last;", "return &ends.first;"),
+          "const Edge& of_line = grid.begins_patch(line) ? ends.first : ends.last;", "const Edge& of_line = ends.first;"),
     # -- bearing
     Fault("bearing: sign of the shear by pressure", "film/src/observe/film_wrench.cpp",
           "area * sheared(s.couette[0] * slip[0] - s.half_gap[0] * p_phi,",

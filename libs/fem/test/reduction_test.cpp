@@ -117,9 +117,10 @@ TEST_CASE("ModesOfOneFrequency_AreKeptTogether") {
     return std::vector{frame_on(square.mesh, "x0", Connection::rigid), frame_on(square.mesh, "x1", Connection::rigid)};
   }();
   // Bars of square section bend both ways alike.
-  for (const auto& [modes, kept] : {std::pair{1, 2}, {2, 2}, {3, 4}, {4, 4}}) {
+  for (const int modes : {1, 2, 3, 4}) {
     CAPTURE(modes);
-    const ReducedBody reduced = must_reduce(square, ends, {.modes = modes});
+    const int kept = modes < 3 ? 2 : 4;
+    const ReducedBody reduced = must_reduce(square, ends, {.modes = modes}).body;
     REQUIRE(reduced.internal_omega.size() == kept);
     CHECK(reduced.internal_omega[kept - 1] == doctest::Approx(reduced.internal_omega[kept - 2]).epsilon(1e-6));
   }

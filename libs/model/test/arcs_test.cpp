@@ -85,6 +85,17 @@ TEST_CASE("ArcsOneByOne_HaveClearancesAndEndsOfTheirOwn") {
   CHECK(film.ends[1].last.ambient_fill == 1);
 }
 
+TEST_CASE("GrooveOpenToAnEdgeOfAnotherPressure_IsWarnedOf") {
+  const auto warnings = [](const std::string& bore) {
+    return read_text(with_bore("ambient_fill: 1\n    bore: {type: three_lobe, preload: 0.5" + bore + "}"), "m.yaml")
+        .warnings;
+  };
+  CHECK(warnings("").empty());
+  const std::vector<Fault> found = warnings(", edge_pressure: 2 bar");
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].found == "a groove at 2 bar that is open to an edge of another pressure");
+}
+
 TEST_CASE("BoresThatCannotBe_AreReported") {
   check_fault("arcs: {a: {middle: 0 deg, arc: 100 deg}, b: {middle: 90 deg, arc: 100 deg}}",
               "bearings.b.arcs.a: arc 'a' (-50 to 50 deg) overlaps 'b' (40 to 140 deg)");

@@ -190,6 +190,28 @@ bool lies_within(const film::SurfaceFeature& feature, const film::Grid& grid) {
   return false;
 }
 
+/// Where a groove and the side of the bearing meet at different pressures, the flow past the corner has no limit as the
+/// grid is refined.
+void warn_of_corners(Context& context, const Value& value, const film::FilmModel& film) {
+  const auto is_step = [](const film::Edge& end, const film::Edge& side) {
+    return end.kind == film::EdgeKind::pressure && side.kind == film::EdgeKind::pressure &&
+           end.pressure != side.pressure;
+  };
+  for (const film::PatchEnds& ends : film.ends) {
+    for (const film::Edge& end : {ends.first, ends.last}) {
+      if (!is_step(end, film.edge_left) && !is_step(end, film.edge_right)) continue;
+      const Value& at = *value.find(value.find("arcs") != nullptr ? "arcs" : "bore");
+      context.model.warnings.push_back(
+          {at.key_position, at.path,
+           fmt::format("a groove at {:.4g} bar that is open to an edge of another pressure", 1e-5 * end.pressure),
+           "the pressure of the edges in the grooves; or a whole bore whose grooves end before the edges: an "
+           "`axial_groove` of `features`",
+           "the flow past the corner, and its power, depend on the grid and grow as that is refined"});
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 void read_arcs(Context& context, const Value& value, Bearing& bearing, FilmReader& reader) {
@@ -205,6 +227,7 @@ void check_with_arcs(Context& context, const Value& value, const Bearing& bearin
   if (film.pressures == film::PressureScale::absolute)
     context.fault(*value.find("pressures"), "absolute pressures, which would count the atmosphere below an arc as load",
                   "gauge, with `cavitation: {pressure: -1.01325 bar}` for a vacuum");
+  warn_of_corners(context, value, film);
   const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
   if (heat != nullptr &&
       (std::holds_alternative<film::RingWall>(heat->shell) || std::holds_alternative<film::BodyWall>(heat->shell)))
