@@ -150,7 +150,8 @@ TEST_CASE("CoefficientsFromAFrame_SeeDeformationAlone") {
                                               {"bore", {0, 0, 1e-3}, nodes, Connection::rigid, {}}};
   const Reduction reduction = reduce(body, frames, {.modes = 3});
   REQUIRE(reduction.solved());
-  const MatrixXd U = reduction.body.Phi.rightCols(9);  // of frame 1, and vibrations
+  const MatrixXd U =
+      reduction.body.Phi.rightCols(6 + reduction.body.internal_omega.size());  // of frame 1, and vibrations
   const FilmSurface surface = must_make(body.mesh, film_of(ring), {16, 4, ring.width});
   CHECK(surface.coefficients(U).leftCols(6).colwise().norm().maxCoeff() > 1);
   // Round-off, of unit motions.
