@@ -72,9 +72,9 @@ class ArcReader {
                      fmt::format("less than {:.4g} deg", 360.0 / count));
       return;
     }
-    const double clearance = assembled_clearance(value, film_.c);
+    const double c_p = machined_clearance(value, film_.c);
     for (int k = 0; k < count; ++k)
-      add(value, fmt::format("{}", k + 1), number_of(value, "angle") + two_pi * k / count, arc, film_.c, clearance);
+      add(value, fmt::format("{}", k + 1), number_of(value, "angle") + two_pi * k / count, arc, film_.c, c_p);
   }
 
   void read_arc(const Value& value, const std::string& name) {
@@ -85,12 +85,12 @@ class ArcReader {
                             "preload = 1 - radial_clearance/machined_clearance");
       return;
     }
-    const double c_p = machined != nullptr ? number_of(value, "machined_clearance") : assembled_clearance(value, c_b);
+    const double c_p = machined != nullptr ? number_of(value, "machined_clearance") : machined_clearance(value, c_b);
     add(value, name, number_of(value, "middle"), number_of(value, "arc"), c_b, c_p);
   }
 
   /// The arc's own clearance c_p by its preload.
-  double assembled_clearance(const Value& value, double c_b) {
+  double machined_clearance(const Value& value, double c_b) {
     const Value* preload = value.find("preload");
     if (preload == nullptr || preload->broken) return c_b;
     if (preload->number < 1) return c_b / (1 - preload->number);
