@@ -140,7 +140,8 @@ struct FilmModel {
   return j == model.grid.n_z - 1 ? &model.edge_right : nullptr;
 }
 
-/// Fraction of oil in what a film draws in over an edge: 1 above the cavitation pressure, none through a wall [-].
+/// Fraction of oil in what a film draws in over an edge: 1 above the cavitation pressure; a wall counts less than air
+/// [-].
 [[nodiscard]] inline double fill_outside(const FilmModel& model, const Edge& edge) {
   if (edge.kind == EdgeKind::closed) return -1;
   return edge.pressure > model.p_cav ? 1 : edge.ambient_fill;

@@ -45,8 +45,7 @@ class JournalFilmReader {
     check_with_arcs(context_, value_, bearing_);
     if (context_.has_fault_in(value_.path)) return;
     require_a_pressure();
-    if (!film::is_closed(film_) && !has_open_ends()) reader_.warn_of_starvation({film_.edge_left, film_.edge_right});
-    if (has_open_ends()) reader_.warn_of_starvation(edges());
+    if (!film::is_closed(film_) || has_open_ends()) reader_.warn_of_starvation(edges());
   }
 
  private:

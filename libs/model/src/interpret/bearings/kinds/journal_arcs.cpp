@@ -180,14 +180,11 @@ class ArcReader {
 };
 
 /// True if a feature lies within one of the arcs.
-bool lies_within(const film::SurfaceFeature& feature, const film::Grid& grid) {
-  for (std::size_t p = 0; p < grid.patches.size(); ++p) {
-    const double from = grid.phi(grid.patches[p]);
-    const double to = grid.phi((p + 1 < grid.patches.size() ? grid.patches[p + 1] : grid.n_phi) - 1);
-    const double from_middle = std::abs(std::remainder(feature.phi - 0.5 * (from + to), two_pi));
-    if (from_middle + 0.5 * feature.arc <= 0.5 * (to - from) + same_angle) return true;
-  }
-  return false;
+bool lies_within(const film::SurfaceFeature& feature, const film::Arcs& bore) {
+  return std::any_of(bore.arcs.begin(), bore.arcs.end(), [&feature](const film::Arc& arc) {
+    const double from_middle = std::abs(std::remainder(feature.phi - 0.5 * (arc.from + arc.to), two_pi));
+    return from_middle + 0.5 * feature.arc <= 0.5 * (arc.to - arc.from) + same_angle;
+  });
 }
 
 /// Where a groove and the side of the bearing meet at different pressures, the flow past the corner has no limit as the
@@ -240,7 +237,7 @@ void check_with_arcs(Context& context, const Value& value, const Bearing& bearin
     const auto found = std::find_if(film.features.begin(), film.features.end(),
                                     [&, &wanted = name](const auto& f) { return f.name == wanted; });
     if (found == film.features.end() || context.has_fault_in(feature.path)) continue;
-    if (found->surface == film::Surface::journal || !lies_within(*found, film.grid))
+    if (found->surface == film::Surface::journal || !lies_within(*found, *film::arcs_of(film)))
       context.fault_at_key(feature,
                            found->surface == film::Surface::journal ? "a feature of a journal in a bore of arcs"
                                                                     : "it does not lie within one arc",
