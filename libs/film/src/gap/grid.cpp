@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap/grid_geometry.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/two_pi.h"
 
@@ -111,7 +110,7 @@ Grid halved(const Grid& grid) {
   Grid half = resampled(grid, grid.n_phi, n_z);
   half.angles.clear(), half.patches.clear();
   for (std::size_t p = 0; p < grid.patches.size(); ++p) {
-    const int first = grid.patches[p], end = end_of_patch(grid, p);
+    const int first = grid.patches[p], end = p + 1 < grid.patches.size() ? grid.patches[p + 1] : grid.n_phi;
     const std::vector<double> lines(grid.angles.begin() + first, grid.angles.begin() + end);
     const int count = std::max(4, (end - first + 1) / 2);
     half.patches.push_back(static_cast<int>(half.angles.size()));
