@@ -20,8 +20,7 @@ using study::BearingSolution;
 
 void add_fields(const BearingSolution& solution, PageSolution& page) {
   const film::FilmModel& model = solution.model;
-  const bearing::SteadyState& state = solution.state;
-  const film::FilmFields fields = bearing::steady_fields(model, state);
+  const film::FilmFields fields = study::fields_of(solution);
   page.phi.resize(model.grid.n_phi);
   page.z.resize(model.grid.n_z);
   page.is_plane = !film::is_round(model.surface);

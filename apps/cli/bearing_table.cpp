@@ -219,8 +219,7 @@ std::string bearing_csv(const std::vector<BearingSolution>& solutions) {
 
 std::string bearing_fields_csv(const BearingSolution& solution) {
   const film::FilmModel& model = solution.model;
-  const bearing::SteadyState& state = solution.state;
-  const film::FilmFields fields = bearing::steady_fields(model, state);
+  const film::FilmFields fields = study::fields_of(solution);
   std::vector<const run::FilmField*> shown;
   std::vector<Eigen::VectorXd> columns;
   const bool is_round = film::is_round(model.surface);
@@ -321,7 +320,7 @@ nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<s
     if (f.grid_error >= 0) entry["grid_error"] = f.si * f.grid_error;
     if (!f.words.empty()) entry["value"] = nullptr, entry["words"] = f.words;
   }
-  const auto rows = [](const bearing::DynamicCoefficients::Matrix& M) {
+  const auto rows = [](const auto& M) {
     nlohmann::json list = nlohmann::json::array();
     for (Eigen::Index i = 0; i < M.rows(); ++i) {
       const Eigen::VectorXd row = M.row(i);
@@ -335,6 +334,14 @@ nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<s
   }
   document["stiffness_with_tilt"] = rows(solution.state.coefficients.stiffness);
   document["damping_with_tilt"] = rows(solution.state.coefficients.damping);
+  if (solution.pads) {
+    const study::PadBearingSolution& pads = *solution.pads;
+    document["pads"] = {{"coordinates", pads.coordinates},
+                        {"whirl_ratio", pads.whirl_ratio},
+                        {"stiffness", rows(pads.stiffness)},
+                        {"damping", rows(pads.damping)},
+                        {"mass", rows(pads.mass)}};
+  }
   for (const study::Sensitivity& sensitivity : sensitivities)
     document["sensitivities"].push_back(sensitivity_json(solution, sensitivity));
   return document;

@@ -97,7 +97,7 @@ py::array_t<double> on_grid(const film::FilmModel& model, const Eigen::VectorXd&
 // {name: (unit, text, values over both dimensions)}
 py::dict fields_of(const BearingSolution& solution) {
   py::dict fields;
-  const film::FilmFields found = bearing::steady_fields(solution.model, solution.state);
+  const film::FilmFields found = study::fields_of(solution);
   for (const run::FilmField& field : run::film_fields())
     if (const Eigen::VectorXd values = field.values(found); values.size() > 0)
       fields[py::str(field.name)] = py::make_tuple(field.unit, field.text, on_grid(solution.model, values));
@@ -121,8 +121,6 @@ py::list dimensions_of(const BearingSolution& solution) {
   return dimensions;
 }
 
-std::string kind_of(const BearingSolution& solution) { return solution.state.kind ? solution.state.kind->name() : ""; }
-
 bool has_axis(const BearingSolution& solution) { return !solution.state.kind || solution.state.kind->has_axis(); }
 
 }  // namespace
@@ -135,7 +133,7 @@ void bind_bearing(py::module_& core) {
       .def_property_readonly("warnings", [](const BearingSolution& s) { return s.warnings; })
       .def_property_readonly("linearisations", [](const BearingSolution& s) { return s.summary.iterations; })
       .def_property_readonly("wall_time", [](const BearingSolution& s) { return s.wall_time; })
-      .def_property_readonly("kind", &kind_of)
+      .def_property_readonly("kind", &study::kind_of)
       .def_property_readonly("has_axis", &has_axis)
       .def_property_readonly("position", [](const BearingSolution& s) { return s.state.e; })
       .def_property_readonly("load", [](const BearingSolution& s) { return s.state.load; })

@@ -44,9 +44,14 @@ Mode mode_of(const std::complex<double>& s, const Eigen::VectorXcd& y, const Mat
 
 }  // namespace
 
-Linearisation linearise(Equations& equations, const State& state, double dt) {
+Linearisation linearise(Equations& equations, const State& state, double dt,
+                        const std::vector<Equations::Index>& released) {
   Linearisation linear;
-  linear.Z = free_directions(equations, state);
+  const MatrixXd free = free_directions(equations, state);
+  const auto more = static_cast<Index>(released.size());
+  linear.Z.setZero(free.rows(), free.cols() + more);
+  linear.Z.leftCols(free.cols()) = free;
+  for (Index k = 0; k < more; ++k) linear.Z(released[static_cast<std::size_t>(k)], free.cols() + k) = 1;
   const MatrixXd& Z = linear.Z;
   const auto block = [&](double k, double c, double m) {
     return MatrixXd(Z.transpose() * tangent_block(equations, state, {.dt = dt, .k = k, .c = c, .m = m, .dq = {}}) * Z);

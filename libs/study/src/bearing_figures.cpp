@@ -346,16 +346,44 @@ const std::vector<Group>& journal_table() {
   return groups;
 }
 
+/// Figures of each pad of a bearing of tilting pads.
+Group pad_figures() {
+  const auto names = [](const Solution& s) {
+    std::vector<std::string> numbers;
+    for (const PadState& pad : s.pads->pads) numbers.push_back(pad.name);
+    return numbers;
+  };
+  const auto of_pad = [](double PadState::*member) {
+    return [member](const Solution& s, std::size_t k) { return s.pads->pads[k].*member; };
+  };
+  return {"pads",
+          {{"pad_load_<name>",
+            kNewton,
+            [](const Solution& s, std::size_t k) { return s.pads->pads[k].force.norm(); },
+            {.each = names}},
+           {"pad_tilt_<name>", kMicroradian, of_pad(&PadState::tilt), {.each = names}},
+           {"pad_pivot_travel_<name>", kMicrometre, of_pad(&PadState::pivot_travel), {.each = names}},
+           {"pad_h_pivot_<name>", kMicrometre, of_pad(&PadState::h_pivot), {.each = names}},
+           {"pads_whirl_ratio", kNone, [](const Solution& s) { return s.pads->whirl_ratio; }}}};
+}
+
+const std::vector<Group>& tilting_pad_table() {
+  static const std::vector<Group> groups{operating_point(), film_figures(), arc_figures(), pad_figures(),
+                                         dimensionless(),   friction(),     oil(),         dynamics()};
+  return groups;
+}
+
 /// Tables by the name of the kind. A new kind is a line here, and a file with its table beside this one.
 const std::vector<std::pair<std::string, std::vector<Group>>>& tables() {
-  static const std::vector<std::pair<std::string, std::vector<Group>>> all{{"journal", journal_table()},
-                                                                           {"plane_slider", plane_slider_figures()}};
+  static const std::vector<std::pair<std::string, std::vector<Group>>> all{
+      {"journal", journal_table()}, {"plane_slider", plane_slider_figures()}, {"tilting_pad", tilting_pad_table()}};
   return all;
 }
 
 const std::vector<Group>& table_of(const BearingSolution& solution) {
-  const auto found = std::find_if(tables().begin(), tables().end(),
-                                  [&](const auto& entry) { return entry.first == solution.state.kind->name(); });
+  const std::string kind = kind_of(solution);
+  const auto found =
+      std::find_if(tables().begin(), tables().end(), [&](const auto& entry) { return entry.first == kind; });
   HERSEY_REQUIRE(found != tables().end(), "every kind of bearing has a table of figures");
   return found->second;
 }
@@ -368,6 +396,11 @@ std::string filled_in(std::string_view pattern, const std::string& name) {
 }
 
 }  // namespace
+
+std::string kind_of(const BearingSolution& solution) {
+  if (solution.pads) return "tilting_pad";
+  return solution.state.kind ? solution.state.kind->name() : "";
+}
 
 std::vector<std::string> figure_keys(const std::string& kind) {
   std::vector<std::string> keys;

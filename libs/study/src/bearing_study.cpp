@@ -29,6 +29,7 @@
 #include "hersey/model/read.h"
 #include "hersey/model/steady_elasticity.h"
 #include "hersey/model/wall_conduction.h"
+#include "pad_bearing.h"
 
 namespace hersey::study {
 
@@ -167,6 +168,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   const auto began = std::chrono::steady_clock::now();
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
+  for (const model::Composite& composite : model.composites)
+    if (&composite.bearing == &bearing) return solve_pads(composite, solution);
   solution.expands = bearing.expansion.has_value();
   solution.model = bearing::scaled_for(bearing.film, point);
   solution.elasticity = bodies.elasticity(model, bearing);
@@ -312,18 +315,35 @@ void follow_neighbours(const ModelReader& read, const BearingStudyOptions& optio
 }  // namespace
 
 const model::Bearing& bearing_called(const model::Model& model, const std::string& name) {
+  std::vector<const model::Bearing*> whole;  // films of a composite are called by their own names only
+  for (const model::Composite& composite : model.composites) whole.push_back(&composite.bearing);
+  const auto is_part = [&](const model::Bearing& bearing) {
+    return std::any_of(model.composites.begin(), model.composites.end(), [&](const model::Composite& composite) {
+      return std::find(composite.pads.begin(), composite.pads.end(), bearing.name) != composite.pads.end();
+    });
+  };
   std::vector<std::string> names;
-  for (const model::Bearing& bearing : model.bearings) names.push_back(bearing.name);
-  const auto found = std::find(names.begin(), names.end(), name);
+  for (const model::Bearing& bearing : model.bearings) {
+    if (bearing.name == name) return bearing;
+    if (!is_part(bearing)) whole.push_back(&bearing);
+  }
+  for (const model::Bearing* bearing : whole) {
+    if (bearing->name == name) return *bearing;
+    names.push_back(bearing->name);
+  }
   if (names.empty()) throw InputError(Fault{{model.file, 0, 0}, "", "no bearing", "a model with a bearing", ""});
   if (name.empty() && names.size() > 1) {
     throw InputError(Fault{{model.file, 0, 0}, "bearings", "several bearings", "--bearing " + one_of(names), ""});
   }
-  if (!name.empty() && found == names.end()) {
+  if (!name.empty()) {
     throw InputError(
         Fault{{"--bearing", 0, 0}, "", "unknown bearing '" + name + "'", one_of(names), did_you_mean(name, names)});
   }
-  return name.empty() ? model.bearings.front() : model.bearings[static_cast<std::size_t>(found - names.begin())];
+  return *whole.front();
+}
+
+film::FilmFields fields_of(const BearingSolution& solution) {
+  return solution.pads ? solution.pads->fields : bearing::steady_fields(solution.model, solution.state);
 }
 
 namespace {
@@ -532,6 +552,9 @@ std::vector<std::pair<std::string, BearingSolution>> RunSolver::solve(const mode
   if (wanted.empty())
     for (const model::Bearing& bearing : model.bearings)
       if (bearing.operating_point) wanted.push_back(bearing.name);
+  if (bearings.empty())
+    for (const model::Composite& composite : model.composites)
+      if (composite.bearing.operating_point) wanted.push_back(composite.bearing.name);
   if (wanted.empty()) (void)operating_point_of(bearing_called(model, ""));
   std::vector<std::pair<std::string, BearingSolution>> solutions;
   for (const std::string& name : wanted) {

@@ -29,7 +29,7 @@ inline constexpr Unit kKilogram{"kg", "kg", 1}, kStiffness{"N/m", "N/m", 1}, kDa
 inline constexpr Unit kDegree{"deg", "rad", std::numbers::pi / 180}, kRpm{"rpm", "rad/s", std::numbers::pi / 30};
 inline constexpr Unit kMillimetrePerSecond{"mm/s", "m/s", 1e-3};
 inline constexpr Unit kMicrometre{"um", "m", 1e-6}, kMillimetre{"mm", "m", 1e-3}, kMegapascal{"MPa", "Pa", 1e6};
-inline constexpr Unit kMicrometrePerMetre{"um/m", "1", 1e-6};
+inline constexpr Unit kMicrometrePerMetre{"um/m", "1", 1e-6}, kMicroradian{"urad", "rad", 1e-6};
 inline constexpr Unit kCelsius{"degC", "degC", 1};
 inline constexpr Unit kFlow{"mm^3/s", "m^3/s", 1e-9}, kVolume{"mm^3", "m^3", 1e-9};
 

@@ -35,5 +35,9 @@ struct BearingKindFormat {
 // Keys of the kinds, one file each in schema/kinds.
 [[nodiscard]] std::vector<Key> journal_keys();
 [[nodiscard]] std::vector<Key> plane_slider_keys();
+[[nodiscard]] std::vector<Key> tilting_pad_keys();
+
+/// True for a key of a bearing of tilting pads that belongs to the film of each pad.
+[[nodiscard]] bool is_key_of_each_pad(const std::string& key);
 
 }  // namespace hersey::model

@@ -155,6 +155,7 @@ const std::vector<BearingKindFormat>& bearing_kind_formats() {
        "a rectangular pad on a plane runner that slides below it",
        {.fixed = "pad", .of_fixed = "The pad.", .moving = "runner", .of_moving = "The runner."},
        plane_slider_keys()},
+      {"tilting_pad", "Tilting-pad bearing", "a journal on pads that tilt on pivots", {}, tilting_pad_keys()},
   };
   return kinds;
 }

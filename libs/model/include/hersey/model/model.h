@@ -267,6 +267,19 @@ struct Bearing {
   SourcePosition position;
 };
 
+struct Model;
+
+/// A bearing of several films and bodies. In a machine its parts are bodies, joints, forces and bearings of the model
+/// like any others; by itself it is a model of its own.
+struct Composite {
+  Bearing bearing;                     ///< name, size, oil and operating point; its film is that of its first pad
+  std::string kind;                    ///< "tilting_pad"
+  std::vector<std::string> pads;       ///< names of the bearings that are its films
+  std::vector<double> pivot_angles;    ///< of each pad, from the shell's x-axis towards y [rad]
+  double whirl_ratio = 1;              ///< frequency over the journal's at which its pads follow [-]
+  std::shared_ptr<const Model> alone;  ///< by itself at its operating point; never null
+};
+
 /// The joint whose driven rotation is the machine's crank angle.
 struct Crank {
   std::string joint;
@@ -384,6 +397,7 @@ struct Model {
   std::vector<Lubricant> lubricants;
   Thermal thermal;
   std::vector<Bearing> bearings;
+  std::vector<Composite> composites;  ///< whose films are among the bearings if they are in the machine
   ThermalWalls thermal_walls = ThermalWalls::transient;
   Simulation simulation;
   Output output;

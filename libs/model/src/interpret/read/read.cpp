@@ -72,8 +72,36 @@ CompleteTree complete_tree(Node& root, const std::vector<Override>& overrides, s
   templates.expand(root);  // of what overrides use
   std::erase_if(root.entries, [](const Entry& entry) { return entry.key == "templates"; });
   substitute_parameters(root, substitution, parameters);
-  return {templates.unused(), templates.uses()};
+  Composites composites = expand_composites(root, faults);
+  return {templates.unused(), templates.uses(), std::move(composites)};
 }
+
+namespace {
+
+/// Bearings of several films as one bearing each, with the model of it by itself.
+void interpret_composites(Context& context, const Composites& composites) {
+  context.model.positions.insert(composites.positions.begin(), composites.positions.end());
+  for (const CompositeParts& parts : composites.parts) {
+    const std::size_t faults_before = context.faults.size();
+    auto alone = std::make_shared<Model>(read_tree(parts.alone, context.model.file, {}, context.faults));
+    if (context.faults.size() > faults_before || alone->bearings.empty()) continue;
+    if (!parts.is_in_machine)
+      context.model.warnings.insert(context.model.warnings.end(), alone->warnings.begin(), alone->warnings.end());
+    Composite composite{.bearing = alone->bearings.front(),
+                        .kind = "tilting_pad",
+                        .pads = parts.pads,
+                        .pivot_angles = parts.pivot_angles,
+                        .whirl_ratio = parts.whirl_ratio,
+                        .alone = {}};
+    composite.bearing.name = parts.name;
+    composite.bearing.position = parts.position;
+    if (parts.point) composite.bearing.operating_point = *parts.point;
+    composite.alone = std::move(alone);
+    context.model.composites.push_back(std::move(composite));
+  }
+}
+
+}  // namespace
 
 Model read_tree(Node root, const std::string& file, const std::vector<Override>& overrides,
                 std::vector<Fault>& faults) {
@@ -109,6 +137,9 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_study(context);
   check_table_ranges(context);
   check_size(context);
+  interpret_composites(context, complete.composites);
+  name_composites(complete.composites.parts, faults);
+  name_composites(complete.composites.parts, model.warnings);
   name_template_uses(complete.uses, faults);
   return model;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hersey/model/model.h"
+#include "interpret/composites/composites.h"
 #include "interpret/read/templates.h"
 #include "tree/overrides.h"
 
@@ -16,9 +17,11 @@ namespace hersey::model {
 struct CompleteTree {
   std::vector<Fault> warnings;  ///< templates that nothing uses
   std::vector<TemplateUse> uses;
+  Composites composites;  ///< spelt out in the tree
 };
 
-/// Puts overrides, templates and parameters into the tree, which then holds nothing but values.
+/// Puts overrides, templates and parameters into the tree, which then holds nothing but values, and spells out
+/// composites.
 [[nodiscard]] CompleteTree complete_tree(Node& root, const std::vector<Override>& overrides,
                                          std::vector<Fault>& faults);
 

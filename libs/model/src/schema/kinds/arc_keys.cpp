@@ -7,24 +7,6 @@
 namespace hersey::model {
 namespace {
 
-/// Keys of what lies outside the ends of an arc: in the grooves before and after it.
-std::vector<Key> end_keys() {
-  const TypePtr edge = edge_format();
-  const TypePtr fill = number("0.5", {.low = 0, .high = 1});
-  const auto both = [](const char* title, const char* what, const TypePtr& type) {
-    return any_of(title, {type, object(what, {required("leading", type, "At the end with the smaller angle."),
-                                              required("trailing", type, "At the end with the larger angle.")})});
-  };
-  return {
-      defaulted("edge_pressure",
-                both("a pressure such as 2 bar, `closed`, or {leading, trailing}", "the two ends of an arc", edge),
-                "0 Pa", "Pressure in the grooves at both ends, or walls there."),
-      optional("ambient_fill", both("a number from 0 to 1, or {leading, trailing}", "two fill fractions", fill),
-               "Share of oil in a groove at the cavitation pressure, from which the film draws: 1 flooded, 0 air.",
-               "1"),
-  };
-}
-
 std::vector<Key> with(std::vector<Key> keys, const std::vector<Key>& more) {
   keys.insert(keys.end(), more.begin(), more.end());
   return keys;
@@ -49,6 +31,23 @@ constexpr const char* offset_text =
 
 }  // namespace
 
+std::vector<Key> arc_end_keys() {
+  const TypePtr edge = edge_format();
+  const TypePtr fill = number("0.5", {.low = 0, .high = 1});
+  const auto both = [](const char* title, const char* what, const TypePtr& type) {
+    return any_of(title, {type, object(what, {required("leading", type, "At the end with the smaller angle."),
+                                              required("trailing", type, "At the end with the larger angle.")})});
+  };
+  return {
+      defaulted("edge_pressure",
+                both("a pressure such as 2 bar, `closed`, or {leading, trailing}", "the two ends of an arc", edge),
+                "0 Pa", "Pressure in the grooves at both ends, or walls there."),
+      optional("ambient_fill", both("a number from 0 to 1, or {leading, trailing}", "two fill fractions", fill),
+               "Share of oil in a groove at the cavitation pressure, from which the film draws: 1 flooded, 0 air.",
+               "1"),
+  };
+}
+
 TypePtr arcs_format() {
   const TypePtr angle = quantity("rad", "-90 deg"), clearance = quantity("m", "60 um", Range::positive());
   return named(
@@ -61,7 +60,7 @@ TypePtr arcs_format() {
                          "Radius of its own circle minus radius of the journal, c_p, instead of a preload."),
                 defaulted("offset", offset_type(), "0.5", offset_text),
                 optional("radial_clearance", clearance, "Its clearance c_b where it is least.", "that of the bearing")},
-               end_keys())));
+               arc_end_keys())));
 }
 
 TypePtr bore_format() {
@@ -74,7 +73,7 @@ TypePtr bore_format() {
                     "Angle of each of the axial grooves between the arcs."),
           defaulted("angle", angle, "-90 deg", "Middle of the first arc, from the shell's x-axis towards y."),
       },
-      end_keys());
+      arc_end_keys());
   return variant("a bore of equal arcs with axial grooves between them", "type", common,
                  {
                      {"elliptical", "two arcs: a lemon bore", {offset}},

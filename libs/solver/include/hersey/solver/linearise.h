@@ -24,7 +24,9 @@ struct [[nodiscard]] Linearisation : Outcome {
 /// @param dt  length of the step within which condensed unknowns respond [s]; > 0 keeps those of the last step, 0
 /// solves them instantaneously. Exact about rest and about motions in which the free directions are constant in the
 /// coordinates, such as a rotor driven about its axis, but not about a configuration that a loop passes through.
-[[nodiscard]] Linearisation linearise(Equations& equations, const State& state, double dt);
+/// @param released  velocity components that drives prescribe and that are linearised as if they were free
+[[nodiscard]] Linearisation linearise(Equations& equations, const State& state, double dt,
+                                      const std::vector<Equations::Index>& released = {});
 
 /// Natural mode y = shape exp(s t).
 struct Mode {

@@ -16,6 +16,27 @@ namespace hersey::study {
 /// Treatment of temperatures while a bearing's journal moves about its position: frozen, or following the motion.
 enum class ThermalCoefficients { frozen, total };
 
+/// One pad of a solved bearing of tilting pads.
+struct PadState {
+  std::string name;         ///< its number, "1"
+  double pivot_angle = 0;   ///< of its pivot, from the shell's x-axis towards y [rad]
+  double tilt = 0;          ///< about the axis along the bearing, in the sense from x to y [rad]
+  double pivot_travel = 0;  ///< of its pivot along the radius, outwards; 0 of a rigid one [m]
+  double h_pivot = 0;       ///< film thickness at the pivot, at mid-width [m]
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< of the film on it, bearing axes [N]
+};
+
+/// What a bearing of tilting pads has beside its film.
+struct PadBearingSolution {
+  std::vector<PadState> pads;  ///< in the order of the film's arcs
+  film::FilmFields fields;     ///< of all pads, on the grid of the solution's model
+  double whirl_ratio = 1;      ///< frequency over the journal's at which the pads follow in the coefficients
+  /// Full coefficients, with the freedoms of the pads: names of the velocity components of the bearing by itself and
+  /// the matrices over them; drives and joints allow no motion where rows and columns are zero.
+  std::vector<std::string> coordinates;
+  Eigen::MatrixXd stiffness, damping, mass;
+};
+
 /// Solution of a single bearing at one operating point, with its derived results. Unsolved, all but `run` is empty.
 struct [[nodiscard]] BearingSolution : Outcome {
   model::StudyRun run;
@@ -34,6 +55,8 @@ struct [[nodiscard]] BearingSolution : Outcome {
   bearing::WhirlStability whirl;
   ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;  ///< those of `state`
   bearing::GridError grid_error;
+  std::shared_ptr<const PadBearingSolution>
+      pads;                           ///< of a bearing of tilting pads, which are its film's arcs; else null
   std::vector<std::string> warnings;  ///< states in which the film exceeds the range for which its oil is known
   double wall_time = 0;               ///< grid error included [s]
   bool from_neighbour = false;        ///< found from a neighbour's solution after a cold start had failed
@@ -53,9 +76,13 @@ struct BearingStudyOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// The bearing of `model` called `name`, or its only one.
+/// The bearing of `model` called `name`, or its only one. A bearing of several films is called by its own name, and so
+/// are its films.
 /// @throws InputError for a name that is not there or ambiguous.
 [[nodiscard]] const model::Bearing& bearing_called(const model::Model& model, const std::string& name);
+
+/// Fields of the film of a solution, at the nodes of the grid of its model.
+[[nodiscard]] film::FilmFields fields_of(const BearingSolution& solution);
 
 /// @throws InputError if the bearing has none.
 [[nodiscard]] bearing::OperatingPoint operating_point_of(const model::Bearing& bearing);
@@ -132,6 +159,9 @@ struct BearingFigure {
   std::string words;       ///< said in place of a value that is no number, "stable at every mass"; else empty
   std::string group;       ///< "film": figures of one kind stand together
 };
+
+/// Kind of the bearing of a solution, as in the model file; empty where it is not solved.
+[[nodiscard]] std::string kind_of(const BearingSolution& solution);
 
 /// Every figure of a solution, always the same ones in the same order.
 [[nodiscard]] std::vector<BearingFigure> figures_of(const BearingSolution& solution);

@@ -1,0 +1,287 @@
+#include "interpret/composites/tilting_pads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "check/members.h"
+#include "hersey/core/contract.h"
+#include "hersey/core/two_pi.h"
+#include "schema/bearing_keys.h"
+
+// A bearing of tilting pads: pads are bodies with a film on one arc, their pivots joints of a carrier.
+namespace hersey::model {
+namespace {
+
+/// Mass, centre and moments of inertia of a pad, a sector of a ring [SI].
+struct PadInertia {
+  double mass = 0;
+  double centre = 0;      ///< distance of its centre of mass from the bearing's axis, towards its middle
+  double radial = 0;      ///< moments of inertia about its centre: about the line from the axis to its middle,
+  double tangential = 0;  ///< at right angles to that and to the axis,
+  double axial = 0;       ///< and along the axis
+};
+
+/// Sector between the radii r and r + t, of the angle `arc` and the width L.
+PadInertia sector_of_ring(double r, double t, double arc, double width, double density) {
+  const double outer = r + t, half = arc / 2;
+  const double area = half * (outer * outer - r * r), fourth = (std::pow(outer, 4) - std::pow(r, 4)) / 4;
+  PadInertia pad;
+  pad.mass = density * width * area;
+  pad.centre = 2.0 / 3 * std::sin(half) * (std::pow(outer, 3) - std::pow(r, 3)) / area;
+  // Second moments of area about the axis of the bearing: across and along the line to the middle.
+  const double across = fourth * (half - std::sin(arc) / 2), along = fourth * (half + std::sin(arc) / 2);
+  const double thin = pad.mass * width * width / 12, mass_per_area = density * width;
+  pad.radial = mass_per_area * across + thin;
+  pad.tangential = mass_per_area * along - pad.mass * pad.centre * pad.centre + thin;
+  pad.axial = mass_per_area * (across + along) - pad.mass * pad.centre * pad.centre;
+  return pad;
+}
+
+double plane_strain(const Value& material) {
+  const double nu = number_of(material, "poisson_ratio");
+  return (1 - nu * nu) / number_of(material, "youngs_modulus");
+}
+
+class TiltingPads {
+ public:
+  TiltingPads(const Node& node, const Value& value, std::string shell, std::string journal, CompositeParts& parts,
+              std::vector<Fault>& faults)
+      : node_(node),
+        value_(value),
+        pads_(*value.find("pads")),
+        pivot_(*value.find("pivot")),
+        shell_(std::move(shell)),
+        journal_(std::move(journal)),
+        parts_(parts),
+        faults_(faults) {}
+
+  std::optional<Node> expand() {
+    const std::size_t faults_before = faults_.size();
+    R_ = number_of(value_, "diameter") / 2;
+    arc_ = number_of(pads_, "arc");
+    offset_ = number_of(pads_, "offset");
+    thickness_ = pads_.find("thickness") != nullptr ? number_of(pads_, "thickness") : 0.4 * R_;
+    find_pivots();
+    read_preload();
+    check_pads();
+    check_pivot();
+    find_inertia();
+    if (faults_.size() > faults_before) return std::nullopt;
+    for (std::size_t k = 0; k < parts_.pivot_angles.size(); ++k) add_pad(k);
+    Node tree = written_tree();
+    add_film_keys(tree);
+    return tree;
+  }
+
+ private:
+  void fault(const Value& at, std::string found, std::string expected, std::string suggestion = {}) {
+    faults_.push_back({at.position, at.path, std::move(found), std::move(expected), std::move(suggestion)});
+  }
+
+  [[nodiscard]] bool yields() const { return pivot_.text != "rigid"; }
+  [[nodiscard]] std::string pad_name(std::size_t k) const { return fmt::format("{}_pad_{}", parts_.name, k + 1); }
+
+  /// Tilt with which a pad begins [rad]: its film narrows along the sliding direction by half the clearance towards the
+  /// farther end. Flat pads may have no film to begin with.
+  [[nodiscard]] double opening() const {
+    const double farther = std::max(offset_, 1 - offset_) * arc_;
+    return parts_.sense * 0.5 * clearance() / ((R_ + thickness_) * std::sin(std::min(farther, 0.25 * two_pi)));
+  }
+
+  [[nodiscard]] double clearance() const {
+    return value_.find("diametral_clearance") != nullptr ? number_of(value_, "diametral_clearance") / 2
+                                                         : number_of(value_, "radial_clearance");
+  }
+
+  void find_pivots() {
+    const int count = integer_of(pads_, "count");
+    if (const Value* given = pads_.find("pivot_angles"); given != nullptr) {
+      for (const Member& angle : given->members) parts_.pivot_angles.push_back(angle.value.number);
+      if (static_cast<int>(parts_.pivot_angles.size()) != count)
+        fault(*given, fmt::format("{} angles of {} pads", parts_.pivot_angles.size(), count), "one for each pad");
+      return;
+    }
+    const double pitch = two_pi / count, first = pads_.find("load")->text == "on_pad" ? 0 : -0.5 * pitch;
+    for (int k = 0; k < count; ++k) parts_.pivot_angles.push_back(number_of(pads_, "load_angle") + first + pitch * k);
+  }
+
+  void read_preload() {
+    const Value *machined = pads_.find("machined_clearance"), *preload = pads_.find("preload");
+    parts_.preload = machined != nullptr  ? 1 - clearance() / machined->number
+                     : preload != nullptr ? preload->number
+                                          : 0;
+    if (machined != nullptr && preload != nullptr)
+      fault(*machined, "both 'machined_clearance' and 'preload'", "one of them");
+    if (parts_.preload >= 1) fault(*preload, "a preload of 1 or more", "less than 1, such as 0.5");
+  }
+
+  void check_pads() {
+    std::vector<double> sorted = parts_.pivot_angles;
+    for (double& angle : sorted) angle = std::remainder(angle, two_pi);
+    std::sort(sorted.begin(), sorted.end());
+    const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+      const bool is_last = k + 1 == sorted.size();
+      const double next = is_last ? sorted.front() + two_pi : sorted[k + 1];
+      constexpr double least = 1e-6;  // rad, of a groove between two pads
+      if (next - sorted[k] >= arc_ + least) continue;
+      fault(*pads_.find("arc"),
+            fmt::format("pads of {:.5g} deg that overlap: pivots at {:.5g} and {:.5g} deg", degrees(arc_),
+                        degrees(sorted[k]), degrees(next)),
+            fmt::format("less than {:.5g} deg", degrees(next - sorted[k])));
+      return;
+    }
+  }
+
+  void check_pivot() {
+    for (const char* outer : {"socket_radius", "cylinder_radius"}) {
+      const bool is_ours = (pivot_.text == "ball_in_socket" && std::string(outer) == "socket_radius") ||
+                           (pivot_.text == "sphere_in_cylinder" && std::string(outer) == "cylinder_radius");
+      if (!is_ours || number_of(pivot_, outer) > number_of(pivot_, "ball_radius")) continue;
+      fault(*pivot_.find(outer), fmt::format("{:.6g} mm, not larger than the ball", 1e3 * number_of(pivot_, outer)),
+            fmt::format("more than ball_radius, {:.6g} mm", 1e3 * number_of(pivot_, "ball_radius")));
+    }
+  }
+
+  void add_pad(std::size_t k) {
+    const std::string pad = pad_name(k);
+    parts_.pads.push_back(pad);
+    const double angle = parts_.pivot_angles[k], c = std::cos(angle), s = std::sin(angle), r = R_ + thickness_;
+    const std::string pivot = fmt::format("[{} m, {} m, 0 m]", r * c, r * s);
+    carrier_frames_ += fmt::format("      pivot_{}: {{origin: {}}}\n", k + 1, pivot);
+    add_body(pad, pivot, angle + (0.5 - offset_) * arc_);
+    std::string inboard = fmt::format("{}_carrier.pivot_{}", parts_.name, k + 1);
+    if (yields()) inboard = add_seat(k, inboard, c, s);
+    const bool pitches = pivot_.find("pitch")->text == "yes";
+    const std::string start = pitches ? fmt::format("orientation: [0 rad, 0 rad, {} rad]", opening())
+                                      : fmt::format("rotation: {} rad", opening());
+    joints_ += fmt::format("  {0}_pivot: {{type: {1}, between: [{2}, {0}.pivot], initial: {{{3}}}}}\n", pad,
+                           pitches ? "spherical" : "revolute", inboard, start);
+    if (const double torque = number_of(pivot_, "friction_torque"); torque > 0) {
+      constexpr double creep = 1e-3;  // rad/s, below which friction rises with the speed
+      forces_ += fmt::format(
+          "  {0}_friction: {{type: joint_friction, joint: {0}_pivot, coulomb: {1} N.m, "
+          "transition_speed: {2} rad/s}}\n",
+          pad, torque, creep);
+    }
+    const std::string preload = fmt::format("preload: {}", parts_.preload);
+    bearings_ += fmt::format("  {0}:\n    shell: {0}.face\n    journal: {1}\n", pad, journal_);
+    bearings_ += fmt::format("    arcs: {{pad: {{middle: {} rad, arc: {} rad, {}, offset: {}}}}}\n",
+                             angle + (0.5 - offset_) * arc_, arc_, preload, offset_);
+  }
+
+  void find_inertia() {
+    inertia_ = sector_of_ring(R_, thickness_, arc_, number_of(value_, "width"), number_of(pads_, "density"));
+    if (const Value* mass = pads_.find("mass"); mass != nullptr) {
+      const double ratio = inertia_.mass > 0 ? mass->number / inertia_.mass : 0;
+      for (double* moment : {&inertia_.radial, &inertia_.tangential, &inertia_.axial}) *moment *= ratio;
+      inertia_.mass = mass->number;
+    }
+    const Value* about_pivot = pads_.find("inertia");
+    if (about_pivot == nullptr) return;
+    const double r = R_ + thickness_, centre = inertia_.centre;
+    const double lever_square = r * r + centre * centre - 2 * r * centre * std::cos((0.5 - offset_) * arc_);
+    inertia_.axial = about_pivot->number - inertia_.mass * lever_square;
+    if (inertia_.axial < 0) {
+      fault(*about_pivot,
+            fmt::format("{:.4g} kg.m^2, less than the pad's mass has by its distance from the pivot",
+                        about_pivot->number),
+            fmt::format("at least {:.4g} kg.m^2", inertia_.mass * lever_square));
+    }
+    // No moment exceeds the sum of the other two.
+    for (double* moment : {&inertia_.radial, &inertia_.tangential}) *moment = std::max(*moment, 0.5 * inertia_.axial);
+  }
+
+  void add_body(const std::string& pad, const std::string& pivot, double middle) {
+    const double c = std::cos(middle), s = std::sin(middle);
+    const double xx = inertia_.radial * c * c + inertia_.tangential * s * s,
+                 yy = inertia_.radial * s * s + inertia_.tangential * c * c,
+                 xy = (inertia_.radial - inertia_.tangential) * s * c;
+    bodies_ += fmt::format(
+        "  {}:\n    mass: {} kg\n    centre_of_mass: [{} m, {} m, 0 m]\n"
+        "    inertia: {{xx: {} kg.m^2, yy: {} kg.m^2, zz: {} kg.m^2, xy: {} kg.m^2}}\n"
+        "    frames: {{pivot: {{origin: {}}}, face: {{origin: [0 m, 0 m, 0 m]}}}}\n",
+        pad, inertia_.mass, inertia_.centre * c, inertia_.centre * s, xx, yy, inertia_.axial, xy, pivot);
+  }
+
+  /// A pivot that yields: a seat without mass that slides along the radius against a spring.
+  std::string add_seat(std::size_t k, const std::string& inboard, double c, double s) {
+    const std::string pad = pad_name(k), seat = pad + "_seat", travel = pad + "_travel";
+    bodies_ += fmt::format("  {}: {{mass: 0 kg}}\n", seat);
+    joints_ +=
+        fmt::format("  {}: {{type: prismatic, between: [{}, {}], axis: [{}, {}, 0]}}\n", travel, inboard, seat, c, s);
+    std::string law;
+    if (pivot_.text == "spring") {
+      law = fmt::format("stiffness: {} N/m", number_of(pivot_, "stiffness"));
+    } else {
+      law = fmt::format("force: {{expression: \"{}*max(stretch, 0)^1.5\", unit: N}}", hertz_constant());
+    }
+    forces_ += fmt::format("  {0}: {{type: sliding_spring, joint: {0}, damping: {1} N.s/m, {2}}}\n", travel,
+                           number_of(pivot_, "damping"), law);
+    return seat;
+  }
+
+  /// k of F = k d^1.5 between a ball and what it stands on, theory manual eq. (bearing.60). A sphere in a cylinder is
+  /// taken as a sphere in a socket of the mean curvature.
+  [[nodiscard]] double hertz_constant() const {
+    const double ball = 1 / number_of(pivot_, "ball_radius");
+    double curvature = ball;
+    if (pivot_.text == "ball_in_socket") curvature -= 1 / number_of(pivot_, "socket_radius");
+    if (pivot_.text == "sphere_in_cylinder") curvature -= 0.5 / number_of(pivot_, "cylinder_radius");
+    const double yield = plane_strain(*pivot_.find("pad_material")) + plane_strain(*pivot_.find("seat_material"));
+    return 4.0 / 3 / yield / std::sqrt(curvature);
+  }
+
+  [[nodiscard]] Node written_tree() {
+    std::string text =
+        "bodies:\n  " + parts_.name + "_carrier:\n    mass: 0 kg\n    frames:\n" + carrier_frames_ + bodies_;
+    text += fmt::format("joints:\n  {0}_carrier: {{type: fixed, between: [{1}, {0}_carrier]}}\n{2}", parts_.name,
+                        shell_, joints_);
+    if (!forces_.empty()) text += "forces:\n" + forces_;
+    text += "bearings:\n" + bearings_;
+    std::vector<Fault> faults;
+    std::optional<Node> tree = parse_yaml(text, parts_.position.file, faults);
+    HERSEY_REQUIRE(tree && faults.empty(), "the parts of a composite are a model's");
+    move_to(*tree, parts_.position);
+    return std::move(*tree);
+  }
+
+  /// What each film has of the bearing, as it stands in the file.
+  void add_film_keys(Node& tree) const {
+    const Node* pads = node_.find("pads");
+    for (Entry& film : tree.find("bearings")->entries) {
+      for (const Entry& own : node_.entries)
+        if (is_key_of_each_pad(own.key)) film.value.entries.push_back(own);
+      if (const Node* journal = node_.find("journal")) film.value.find("journal")->position = journal->position;
+      Node* arc = film.value.find("arcs")->find("pad");
+      for (const char* key : {"edge_pressure", "ambient_fill"}) {
+        const auto given = std::find_if(pads->entries.begin(), pads->entries.end(),
+                                        [&](const Entry& entry) { return entry.key == key; });
+        if (given != pads->entries.end()) arc->entries.push_back(*given);
+      }
+    }
+  }
+
+  const Node& node_;
+  const Value &value_, &pads_, &pivot_;
+  std::string shell_, journal_;
+  CompositeParts& parts_;
+  std::vector<Fault>& faults_;
+  double R_ = 0, arc_ = 0, offset_ = 0, thickness_ = 0;
+  PadInertia inertia_;
+  std::string bodies_, carrier_frames_, joints_, forces_, bearings_;
+};
+
+}  // namespace
+
+std::optional<Node> tilting_pads(const Node& node, const Value& value, const std::string& shell,
+                                 const std::string& journal, CompositeParts& parts, std::vector<Fault>& faults) {
+  return TiltingPads(node, value, shell, journal, parts, faults).expand();
+}
+
+}  // namespace hersey::model

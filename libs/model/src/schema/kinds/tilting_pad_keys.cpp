@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "schema/bearing_keys.h"
+#include "schema/film_vocabulary.h"
+
+// Keys of a bearing of tilting pads: those of its pads and pivots, and what each pad's film has in common with a
+// journal bearing.
+namespace hersey::model {
+namespace {
+
+/// Keys of a journal bearing that each pad's film takes over as they are.
+bool belongs_to_a_film(const std::string& key) {
+  return key == "lubricant" || find_key(shared_bearing_keys(), key) != nullptr || key == "diameter" || key == "width" ||
+         key == "radial_clearance" || key == "diametral_clearance" || key == "grid" || key == "edge_pressure" ||
+         key == "ambient_fill" || key == "thermal" || key == "shear_force" || key == "roughness" || key == "materials";
+}
+
+TypePtr pads_format() {
+  const TypePtr angle = quantity("rad", "-90 deg"), length = quantity("m", "20 mm", Range::positive());
+  const TypePtr moment = quantity("kg.m^2", "1e-3 kg.m^2", Range::not_negative());
+  std::vector<Key> keys{
+      required("count", integer(5, {.low = 1, .high = 24}), "Number of pads."),
+      required("arc", quantity("rad", "60 deg", Range::positive()), "Whole angle of each pad."),
+      optional("preload", number("0.5", {.low = -10, .high = 1}),
+               "1 - c_b/c_p, below 1: c_b the assembled clearance, between pivot and central journal, c_p the machined "
+               "one.",
+               "0"),
+      optional("machined_clearance", quantity("m", "150 um", Range::positive()),
+               "Radius of the pads' own circles minus radius of the journal, c_p, instead of a preload."),
+      defaulted("offset", number("0.5", {.low = 0, .high = 1, .low_open = true, .high_open = true}), "0.5",
+                "Angle from the leading end to the pivot over the whole arc: 0.5 in the middle, 0.6 for a journal that "
+                "rotates from x towards y."),
+      defaulted("load",
+                choice({{"between_pads", "`load_angle` lies between two pivots"},
+                        {"on_pad", "`load_angle` passes through a pivot"}}),
+                "between_pads", "How the pads lie to the load."),
+      defaulted("load_angle", angle, "-90 deg", "Direction that `load` means, from the shell's x-axis towards y."),
+      optional("pivot_angles", list("angles, one for each pad", angle),
+               "Where the pivots are, from the shell's x-axis towards y.", "evenly around, as `load` says"),
+      optional("thickness", length, "From a pad's face to its pivot.", "a fifth of the diameter"),
+      defaulted("density", quantity("kg/m^3", "7850 kg/m^3", Range::not_negative()), "7850 kg/m^3",
+                "Gives mass and moments of inertia of pads of that thickness; 0: pads without mass."),
+      optional("mass", quantity("kg", "0.5 kg", Range::not_negative()), "Of one pad.", "from `density`"),
+      optional("inertia", moment, "Moment of inertia of one pad about an axis along the bearing through its pivot.",
+               "from `density`"),
+  };
+  for (Key& key : arc_end_keys()) keys.push_back(std::move(key));
+  return object("the pads", std::move(keys));
+}
+
+TypePtr pivot_format() {
+  const TypePtr radius = quantity("m", "100 mm", Range::positive());
+  const TypePtr material = object(
+      "an elastic material",
+      {required("youngs_modulus", quantity("Pa", "210 GPa", Range::positive()), "Young's modulus."),
+       required("poisson_ratio", number("0.3", {.low = 0, .high = 0.5, .high_open = true}), "Poisson's ratio.")});
+  const std::vector<Key> of_contact{
+      defaulted("pad_material", material, "{youngs_modulus: 210 GPa, poisson_ratio: 0.3}", "Of the pads."),
+      defaulted("seat_material", material, "{youngs_modulus: 210 GPa, poisson_ratio: 0.3}",
+                "Of what the pads stand on."),
+  };
+  const auto with = [](std::vector<Key> keys, const std::vector<Key>& more) {
+    keys.insert(keys.end(), more.begin(), more.end());
+    return keys;
+  };
+  return variant(
+      "a pivot", "type",
+      {
+          defaulted("pitch",
+                    choice({{"no", "pads roll about lines along the bearing"},
+                            {"yes", "pads stand on points and follow a tilted journal, too"}}),
+                    "no", "Whether pads tilt along the bearing."),
+          defaulted("damping", quantity("N.s/m", "1e4 N.s/m", Range::not_negative()), "0 N.s/m",
+                    "Of a pivot that yields, along the radius."),
+          defaulted(
+              "friction_torque", quantity("N.m", "5 N.m", Range::not_negative()), "0 N.m",
+              "Of dry friction that resists rolling: coefficient times force on the pivot times radius of ball or "
+              "rocker."),
+      },
+      {
+          {"rigid", "a pivot that does not yield", {}},
+          {"spring",
+           "a pivot that yields in proportion to its force",
+           {required("stiffness", quantity("N/m", "2e8 N/m", Range::positive()), "Along the radius.")}},
+          {"ball_in_socket", "a sphere in a spherical socket, by Hertz",
+           with({required("ball_radius", radius, "Of the sphere."),
+                 required("socket_radius", radius, "Of the socket, larger than the sphere.")},
+                of_contact)},
+          {"sphere_on_plane", "a sphere on a plane, by Hertz",
+           with({required("ball_radius", radius, "Of the sphere.")}, of_contact)},
+          {"sphere_in_cylinder", "a sphere in a cylindrical bore, by Hertz",
+           with({required("ball_radius", radius, "Of the sphere."),
+                 required("cylinder_radius", radius, "Of the bore, larger than the sphere.")},
+                of_contact)},
+      });
+}
+
+TypePtr pads_point_format() {
+  const TypePtr angle = quantity("rad", "-90 deg");
+  const std::vector<Word> not_given{{"none", "not given; for `--set`"}};
+  return object(
+      "an operating point",
+      {
+          required("journal_speed", quantity("rad/s", "3000 rpm"),
+                   "Angular velocity of the journal about the bearing's z-axis."),
+          optional("load", or_word(quantity("N", "2500 N", Range::positive()), not_given),
+                   "Load on the journal: its position is sought."),
+          defaulted("load_angle", angle, "-90 deg", "Direction of the load, from x towards y."),
+          optional("eccentricity_ratio", or_word(number("0.6", Range::not_negative()), not_given),
+                   "Position of the journal over the assembled clearance, instead of a load: its load is sought."),
+          defaulted("eccentricity_angle", angle, "-90 deg", "Direction of that position, from x towards y."),
+          defaulted("whirl_ratio", number("1", Range::not_negative()), "1",
+                    "Frequency of the whirl at which the pads follow, over the journal's frequency, in stiffness and "
+                    "damping; 1: synchronous, 0: slow motions."),
+      });
+}
+
+}  // namespace
+
+std::vector<Key> tilting_pad_keys() {
+  std::vector<Key> keys;
+  for (Key& key : journal_keys()) {
+    if (key.name == "shell" || key.name == "journal" || belongs_to_a_film(key.name)) keys.push_back(std::move(key));
+  }
+  const auto at = std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.name == "grid"; });
+  keys.insert(at, {required("pads", pads_format(), "Number, size and place of the pads."),
+                   defaulted("pivot", pivot_format(), "{type: rigid}", "What the pads stand on.")});
+  keys.push_back(optional("operating_point", pads_point_format(),
+                          "Speed and load, or position, of the bearing by itself (`hersey bearing`); a simulation has "
+                          "its own.",
+                          "given on the command line"));
+  return keys;
+}
+
+bool is_key_of_each_pad(const std::string& key) { return belongs_to_a_film(key); }
+
+}  // namespace hersey::model

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "hersey/model/model.h"
+#include "hersey/study/bearing_study.h"
+
+namespace hersey::study {
+
+/// Solves a bearing of tilting pads at its operating point: journal and pads in one steady motion. The solution's film
+/// is that of all pads together, as of a bore of arcs; its coefficients are those with pads that follow at the whirl
+/// ratio of the operating point.
+/// @param solution  its `run` is set already
+void solve_pads(const model::Composite& composite, BearingSolution& solution);
+
+}  // namespace hersey::study
