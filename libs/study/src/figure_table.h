@@ -139,6 +139,8 @@ inline auto height(double film::FilmObservables::*z) {
 [[nodiscard]] Line power_not_explained(double (*put_in)(const Solution&));
 [[nodiscard]] Line flow_through_features();
 [[nodiscard]] Line mass_balance_error();
+/// Laminar, in transition or turbulent.
+[[nodiscard]] Group regime_of_flow();
 
 /// Figures of each arc of a bore that consists of arcs.
 [[nodiscard]] Group arc_figures();
