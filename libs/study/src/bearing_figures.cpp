@@ -341,8 +341,8 @@ Group stability() {
 /// The table of a journal bearing's figures, in the order in which they are reported.
 const std::vector<Group>& journal_table() {
   static const std::vector<Group> groups{
-      operating_point(), film_figures(), arc_figures(), deformation(), dimensionless(), friction(), oil(),
-      regime_of_flow(),  heat(),         dynamics(),    stability()};
+      operating_point(), film_figures(), arc_figures(), deformation(), with(dimensionless(), regime_of_flow()),
+      friction(),        oil(),          heat(),        dynamics(),    stability()};
   return groups;
 }
 

@@ -247,7 +247,7 @@ std::string shear_thinning(const model::Bearing& bearing) {
                                : "by the sliding over the film thickness, with the tangent viscosity against pressure");
 }
 
-/// Friction beyond the laminar film; the band is told in either case, since it decides about warnings.
+/// Friction of the film beyond that of a laminar one.
 std::string turbulence(const film::FilmModel& film) {
   const film::Turbulence& t = film.turbulence;
   const auto law = [&]() -> std::string {
