@@ -107,7 +107,7 @@ void NodeLaw::rheology(const NodeViscosity& viscosity, const Sliding& sliding, N
   node.content_u = node.density_u * node.theta + node.density * node.theta_u;
   node.mu_laminar = node.mu;
   node.reynolds = oil.density * node.density * sliding.speed * node.h / node.mu;
-  if (model_.turbulence.counts()) stir(sliding, slope, node);
+  if (model_.turbulence.counts()) add_turbulence(sliding, slope, node);
 }
 
 // Fluidities along and across the sliding give those along phi and along z, between which the sliding lies.
@@ -126,7 +126,7 @@ void NodeLaw::set_flow(const Sliding& sliding, const Fluidity& along, const Flui
 
 // Turbulent friction of a viscosity that grows with u by `log_slope` (turbulence.2). The logarithm of the Reynolds
 // number grows with those of film thickness and sliding speed, and with u by density and viscosity (turbulence.11).
-void NodeLaw::stir(const Sliding& sliding, double log_slope, Node& node) const {
+void NodeLaw::add_turbulence(const Sliding& sliding, double log_slope, Node& node) const {
   const TurbulentFriction friction = turbulent_friction(model_.turbulence, node.reynolds, node.h, model_.R);
   node.turbulent_fraction = friction.fraction;
   if (friction.fraction == 0) return;

@@ -103,7 +103,7 @@ class NodeLaw {
   void pressure_and_fill(double u, int at, Node& node) const;
   void rheology(const NodeViscosity& viscosity, const Sliding& sliding, Node& node) const;
   void thin(const Sliding& sliding, double log_slope, Node& node) const;
-  void stir(const Sliding& sliding, double log_slope, Node& node) const;
+  void add_turbulence(const Sliding& sliding, double log_slope, Node& node) const;
   static void set_flow(const Sliding& sliding, const Fluidity& along, const Fluidity& across, Node& node);
   void film_thickness(double g, Node& node) const;
   void contact(double h, Node& node) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "heat/layering.h"
+#include "laws/eddy_profile.h"
 
 namespace hersey::film {
 namespace {
@@ -65,7 +66,7 @@ double EddyMixing::resistance_to_wall(double width) const {
          });
 }
 
-void stir(const EddyMixing& mixing, std::span<double> mu) {
+void add_eddies(const EddyMixing& mixing, std::span<double> mu) {
   const Layering& layers = layering_of(mu.size());
   for (std::size_t l = 0; l < mu.size(); ++l) {
     const double half = 0.5 * layers.width(l), middle = layers.middle(l);

@@ -38,6 +38,6 @@ class EddyMixing {
 };
 
 /// Multiplies the viscosities of a node's layers by their factors.
-void stir(const EddyMixing& mixing, std::span<double> mu);
+void add_eddies(const EddyMixing& mixing, std::span<double> mu);
 
 }  // namespace hersey::film

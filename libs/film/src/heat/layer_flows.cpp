@@ -70,7 +70,7 @@ LayerFlows::LayerFlows(const FilmModel& model, int layers)
 
 void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
                           const Eigen::VectorXd& mu) {
-  std::vector<double> stirred(layers_);
+  std::vector<double> with_eddies(layers_);
   for (std::size_t k = 0; k < fractions_.size(); ++k) {
     const std::span<const double> own{mu.data() + k * layers_, layers_};
     const EddyMixing mixing(model_, balance.nodes()[k]);
@@ -78,9 +78,9 @@ void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, 
       find_fractions(own, within_, fractions_[k]);
       continue;
     }
-    std::copy(own.begin(), own.end(), stirred.begin());
-    stir(mixing, stirred);
-    find_fractions(stirred, WithinLayers::constant, fractions_[k]);
+    std::copy(own.begin(), own.end(), with_eddies.begin());
+    add_eddies(mixing, with_eddies);
+    find_fractions(with_eddies, WithinLayers::constant, fractions_[k]);
   }
   flow_over_faces(balance, motion);
   flow_upwards(balance);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "hersey/film/value_and_slope.h"
-
 namespace hersey::film {
 namespace {
 
@@ -76,7 +74,7 @@ class FrictionTable {
     for (int k = 0; k < knots; ++k) at_.push_back(at_reynolds(first_ + k * step_));
   }
 
-  [[nodiscard]] FrictionFactor factor(double log_reynolds, std::size_t which) const {
+  [[nodiscard]] ValueAndSlope factor(double log_reynolds, std::size_t which) const {
     const double x = std::clamp((log_reynolds - first_) / step_, 0.0, static_cast<double>(knots - 1));
     const int k = std::min(static_cast<int>(x), knots - 2);
     const ValueAndSlope &a = at_[static_cast<std::size_t>(k)].of[which],
@@ -99,10 +97,10 @@ class FrictionTable {
 
 double eddy_viscosity_ratio(double y_plus) { return kappa * (y_plus - delta * std::tanh(y_plus / delta)); }
 
-TurbulentFriction eddy_friction(double reynolds) {
+EddyFriction eddy_friction(double reynolds) {
   static const FrictionTable table;
   const double x = std::log(reynolds);
-  return {1, table.factor(x, 0), table.factor(x, 1), table.factor(x, 2)};
+  return {table.factor(x, 0), table.factor(x, 1), table.factor(x, 2)};
 }
 
 }  // namespace hersey::film

@@ -48,8 +48,11 @@ TurbulentFriction fully_turbulent(TurbulenceModel model, double reynolds) {
   switch (model) {
     case TurbulenceModel::none:
       return {};
-    case TurbulenceModel::ng_pan:
-      return eddy_friction(reynolds);
+    case TurbulenceModel::ng_pan: {
+      const EddyFriction eddies = eddy_friction(reynolds);
+      const auto factor = [](const ValueAndSlope& friction) { return FrictionFactor{friction.value, friction.slope}; };
+      return {1, factor(eddies.sliding), factor(eddies.along), factor(eddies.across)};
+    }
     case TurbulenceModel::constantinescu:  // (turbulence.7)
       return {1, power_fit(1, 0.0023, 0.855, reynolds), power_fit(12, 0.0260, 0.8265, reynolds),
               power_fit(12, 0.0198, 0.741, reynolds)};

@@ -10,7 +10,7 @@ enum class TurbulenceModel {
   hirs,            ///< bulk flow with Blasius' friction of a smooth wall
 };
 
-/// Number by which the transition of a film is judged (turbulence.1, turbulence.9).
+/// Number that decides about the transition of a film (turbulence.1, turbulence.9).
 enum class TransitionNumber {
   reynolds,  ///< Re = rho v h/mu of the sliding
   taylor,    ///< Re sqrt(h/R), of the vortices between a journal and its bore
@@ -46,10 +46,6 @@ struct TurbulentFriction {
 /// @see Ng and Pan (1965), J. Basic Eng. 87, 675-688; Constantinescu (1959), Proc. IMechE 173, 881-900; Hirs (1973), J.
 /// Lubr. Technol. 95, 137-146.
 [[nodiscard]] TurbulentFriction fully_turbulent(TurbulenceModel model, double reynolds);
-
-/// Eddy viscosity over molecular viscosity at a distance from a wall of `y_plus` = y sqrt(tau rho)/mu [-], by
-/// Reichardt's law (turbulence.3).
-[[nodiscard]] double eddy_viscosity_ratio(double y_plus);
 
 /// Number that decides about a film of this Reynolds number and thickness [m] on a surface of the radius R [m].
 [[nodiscard]] double transition_number(const Turbulence& turbulence, double reynolds, double h, double R);
