@@ -31,6 +31,9 @@ NEUTRAL = [
     ("PLAIN", "bearings.main.shell_surface", "rigid"),
     ("PLAIN", "bearings.main.journal_surface", "rigid"),
     ("PLAIN", "bearings.main.cavitated_shear", "film_share"),
+    ("PLAIN", "bearings.main.turbulence", "none"),
+    ("PLAIN", "bearings.main.turbulence", "ng_pan"),  # a film below its onset is laminar to the bit
+    ("PLAIN", "bearings.main.turbulence", {"model": "hirs", "transition": "taylor", "onset": "41.2", "full": "90", "prandtl": "1"}),
     ("PLAIN", "bearings.main.shear_force", "full"),
     ("PLAIN", "bearings.main.solver", "newton"),
     ("PLAIN", "bearings.main.coupling", {"scheme": "partitioned", "relaxation": "0.5"}),  # a bearing by itself has no bodies

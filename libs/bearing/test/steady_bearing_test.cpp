@@ -225,6 +225,42 @@ TEST_CASE("CoefficientsOfAShearThinningOil_MatchDifferencesOfTheForce") {
   }
 }
 
+// Turbulent friction depends on the gap, the speeds and, by the viscosity, on the pressure.
+TEST_CASE("TurbulentCoefficients_MatchFiniteDifferencesOfForces") {
+  film::FilmModel model = rough_elastic_film();
+  model.lubricant.mu0 = 2e-4;
+  model.asperities = {};
+  model.turbulence.model = film::TurbulenceModel::ng_pan;
+  OperatingPoint point{.journal_speed = 370, .shell_speed = -40};
+  point.e = 0.6 * model.c * Eigen::Vector2d(std::cos(-1.1), std::sin(-1.1));
+  point.tilt = {1e-4, -2e-4};
+  const SteadyState state = solved(model, point);
+  // All three regimes are there.
+  CHECK(state.film.laminar_share > 0.1);
+  CHECK(state.film.transition_share > 0.1);
+  CHECK(state.film.turbulent_share > 0.1);
+  const auto check = [&](int k, double step, auto&& move, const DynamicCoefficients::Matrix& exact) {
+    CAPTURE(k);
+    const auto at = [&](double sign) {
+      OperatingPoint moved = point;
+      move(moved) += sign * step;
+      return generalised_force(solved(model, moved));
+    };
+    const Eigen::Vector4d difference = (at(1) - at(-1)) / (2 * step);
+    CHECK((exact.col(k) - difference).norm() <= kDifferences * difference.norm());
+  };
+  const double step = 1e-6;  // of the gap, and of the speed at which it closes in a radian
+  for (int k = 0; k < 2; ++k) {
+    check(
+        k, step * model.c, [k](OperatingPoint& p) -> double& { return p.e[k]; }, state.coefficients.stiffness);
+    check(
+        k + 2, step * model.c / model.L, [k](OperatingPoint& p) -> double& { return p.tilt[k]; },
+        state.coefficients.stiffness);
+    check(
+        k, step * model.c * 370, [k](OperatingPoint& p) -> double& { return p.e_rate[k]; }, state.coefficients.damping);
+  }
+}
+
 TEST_CASE("DampingOfAFullFilm_IsSymmetricAndPositive") {
   film::FilmModel model = flooded_film(60, 13);
   model.supply.kind = film::SupplyKind::none;

@@ -18,6 +18,7 @@ struct Slider {
   double from = 0, to = 0, depth = 0;  ///< a stationary pocket of the slider [m]
   ShearThinning thinning = {};
   int layers = 1;  ///< in which it thins; 1: by the film's sliding
+  Turbulence turbulence = {};
 };
 
 struct SolvedSlider {
@@ -60,6 +61,7 @@ inline SolvedSlider solve(const Slider& slider, int n) {
   m.lubricant.mu0 = slider.mu;
   m.lubricant.temperature_law = FixedViscosity{slider.mu};
   m.lubricant.shear_thinning = slider.thinning;
+  m.turbulence = slider.turbulence;
   m.edge_left.kind = m.edge_right.kind = EdgeKind::closed;
   const double cell = 2 * pi / all, arc = groove_cells * cell, inlet = arc - 0.5 * cell;
   m.features = {{.name = "inlet", .phi = -0.5 * inlet, .arc = inlet, .length = m.L, .pressure = slider.end_pressure},

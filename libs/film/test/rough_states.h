@@ -176,6 +176,36 @@ inline std::vector<State> sheared_states() {
   return states;
 }
 
+// Films of thin oil that are laminar, in transition and turbulent side by side, with surfaces that slide slantwise.
+inline std::vector<State> turbulent_states() {
+  std::vector<State> states;
+  const auto add = [&states](State s, const Turbulence& turbulence, const char* name) {
+    s.model.lubricant.mu0 = 1e-4;
+    s.model.turbulence = turbulence;
+    s.motion.phi_supply = 1.5;
+    s.motion.w_journal = 4;
+    s.name += name;
+    states.push_back(s);
+  };
+  for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
+    add(rough_state(cavitation, true, true), {.model = TurbulenceModel::ng_pan}, ", Ng and Pan");
+    add(rough_state(cavitation, false, false), {.model = TurbulenceModel::hirs, .onset = 400, .full = 2000}, ", Hirs");
+    add(rough_state(cavitation, true, false),
+        {.model = TurbulenceModel::constantinescu, .number = TransitionNumber::taylor, .onset = 10, .full = 60},
+        ", Constantinescu by the Taylor number");
+  }
+  State s = rough_state(Cavitation::mass_conserving, true, true);
+  s.model.features = {
+      {.name = "groove", .phi = 4, .arc = 0.7, .length = 0.017, .pressure = 5e5},
+      {.name = "slot", .surface = Surface::journal, .phi = 2.9, .arc = 0.8, .length = 0.0165, .pressure = 6e5}};
+  add(s, {.model = TurbulenceModel::ng_pan}, ", turbulent over land");
+  s = rough_state(Cavitation::mass_conserving, true, true);
+  s.model.surface = Annulus{};
+  s.motion.shell_opening.resize(0);
+  add(s, {.model = TurbulenceModel::ng_pan}, ", turbulent annulus");
+  return states;
+}
+
 // Depth on both surfaces, one over the other in part.
 inline std::vector<State> states_with_pockets() {
   std::vector<State> states;
@@ -286,6 +316,7 @@ inline std::vector<State> all_states() {
   for (const State& s : states_with_pockets()) states.push_back(s);
   for (const State& s : sheared_states()) states.push_back(s);
   for (const State& s : states_with_land()) states.push_back(s);
+  for (const State& s : turbulent_states()) states.push_back(s);
   return states;
 }
 

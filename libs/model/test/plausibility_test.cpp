@@ -47,6 +47,15 @@ TEST_CASE("PeakPressure_IsComparedWithThePermissibleOne") {
   CHECK(warnings(hard, 410e6, 1e-6).ends_with("permissible_pressure, 400 MPa; lower the load or give more width\n"));
 }
 
+TEST_CASE("FilmThatIsNotLaminar_IsReportedUnlessItIsComputedAsTurbulent") {
+  const Bearing plain = bearing_with("cavitation: mass_conserving");
+  CHECK(regime_warnings(plain, 890, 1).empty());
+  REQUIRE(regime_warnings(plain, 1200, 0.75).size() == 1);
+  CHECK(regime_warnings(plain, 1200, 0.75)[0].starts_with(
+      "25 % of the film lies above a Reynolds number of 900, where films cease to be laminar (largest: 1200)"));
+  CHECK(regime_warnings(bearing_with("turbulence: ng_pan"), 1200, 0.75).empty());
+}
+
 TEST_CASE("SmallestFilm_IsComparedWithTheRoughness") {
   const Bearing plain = bearing_with("cavitation: mass_conserving");
   CHECK(warnings(plain, 1e6, 0.11e-6).empty());

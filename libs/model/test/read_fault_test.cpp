@@ -12,7 +12,7 @@ TEST_CASE("UnknownKey_NamesTheNearest") {
         "bore, arcs, shape, shell_surface, journal_surface, operating_point, shear_force, roughness, materials, "
         "lubricant, "
         "pressures, "
-        "cavitation, asperities, compliance, permissible_pressure, cavitated_shear, solver, coupling or "
+        "cavitation, asperities, compliance, permissible_pressure, cavitated_shear, turbulence, solver, coupling or "
         "kind");
 }
 

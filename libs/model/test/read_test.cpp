@@ -445,5 +445,27 @@ TEST_CASE("Solver_IsOneOfThree") {
   CHECK(solver("sor") == film::FilmSolver::sor);
 }
 
+TEST_CASE("Turbulence_HasTheBandOfItsNumber") {
+  const auto read = [](const std::string& turbulence) {
+    const Model model = read_text(
+        edited(good_model, "    lubricant: oil\n", "    lubricant: oil\n    turbulence: " + turbulence + "\n"),
+        "m.yaml");
+    return model.bearings[0].film.turbulence;
+  };
+  CHECK_FALSE(read("none").counts());
+  const film::Turbulence by_reynolds = read("ng_pan");
+  CHECK(by_reynolds.model == film::TurbulenceModel::ng_pan);
+  CHECK(by_reynolds.onset == 900);
+  CHECK(by_reynolds.full == 1600);
+  const film::Turbulence by_taylor = read("{model: hirs, transition: taylor, full: 60}");
+  CHECK(by_taylor.number == film::TransitionNumber::taylor);
+  CHECK(by_taylor.onset == 41.2);
+  CHECK(by_taylor.full == 60);
+  const film::Turbulence given = read("{model: constantinescu, onset: 500, full: 1e3, prandtl: 0.8}");
+  CHECK(given.onset == 500);
+  CHECK(given.full == 1000);
+  CHECK(given.prandtl == 0.8);
+}
+
 }  // namespace read_test
 }  // namespace hersey::model

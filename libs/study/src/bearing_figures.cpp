@@ -340,9 +340,9 @@ Group stability() {
 
 /// The table of a journal bearing's figures, in the order in which they are reported.
 const std::vector<Group>& journal_table() {
-  static const std::vector<Group> groups{operating_point(), film_figures(), arc_figures(), deformation(),
-                                         dimensionless(),   friction(),     oil(),         heat(),
-                                         dynamics(),        stability()};
+  static const std::vector<Group> groups{
+      operating_point(), film_figures(), arc_figures(), deformation(), with(dimensionless(), regime_of_flow()),
+      friction(),        oil(),          heat(),        dynamics(),    stability()};
   return groups;
 }
 

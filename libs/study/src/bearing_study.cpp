@@ -109,6 +109,8 @@ std::vector<std::string> warnings_of(const model::Bearing& bearing, const bearin
   std::vector<std::string> warnings = model::film_warnings(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
   for (std::string& warning : model::surface_warnings(bearing, state.film.p_max, state.film.h_min))
     warnings.push_back(std::move(warning));
+  for (std::string& warning : model::regime_warnings(bearing, state.film.reynolds_max, state.film.laminar_share))
+    warnings.push_back(std::move(warning));
   return warnings;
 }
 

@@ -139,6 +139,10 @@ inline auto height(double film::FilmObservables::*z) {
 [[nodiscard]] Line power_not_explained(double (*put_in)(const Solution&));
 [[nodiscard]] Line flow_through_features();
 [[nodiscard]] Line mass_balance_error();
+/// Numbers that say where the flow is laminar, in transition or turbulent.
+[[nodiscard]] std::vector<Line> regime_of_flow();
+/// The group with more lines at its end.
+[[nodiscard]] Group with(Group group, const std::vector<Line>& more);
 
 /// Figures of each arc of a bore that consists of arcs.
 [[nodiscard]] Group arc_figures();

@@ -47,6 +47,22 @@ Line flow_through_features() {
           {.each = feature_names}};
 }
 
+Group with(Group group, const std::vector<Line>& more) {
+  for (const Line& line : more) group.lines.push_back(line);
+  return group;
+}
+
+std::vector<Line> regime_of_flow() {
+  using Film = film::FilmObservables;
+  const auto is_mixed = [](const Solution& s) { return s.state.film.laminar_share < 1; };
+  const auto has_taylor = [](const Solution& s) { return std::isfinite(s.state.film.taylor_max); };
+  return {{"reynolds_max", kNone, film(&Film::reynolds_max)},
+          {"taylor_max", kNone, film(&Film::taylor_max), {.only = has_taylor}},
+          {"laminar_share", kNone, film(&Film::laminar_share)},
+          {"transition_share", kNone, film(&Film::transition_share), {.only = is_mixed}},
+          {"turbulent_share", kNone, film(&Film::turbulent_share), {.only = is_mixed}}};
+}
+
 Line mass_balance_error() {
   return {"mass_balance_error",
           kNone,

@@ -138,7 +138,8 @@ Group pad_dynamics() {
 }  // namespace
 
 std::vector<Group> plane_slider_figures() {
-  return {point_figures(), pad_film(), numbers_of_sliders(), pad_friction(), pad_oil(), pad_dynamics()};
+  return {point_figures(), pad_film(), with(numbers_of_sliders(), regime_of_flow()),
+          pad_friction(),  pad_oil(),  pad_dynamics()};
 }
 
 }  // namespace hersey::study

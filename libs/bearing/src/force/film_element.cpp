@@ -187,7 +187,7 @@ film::FilmObservables FilmElement::observe(const film::SurfaceMotion& accepted, 
 }
 
 film::FilmFields FilmElement::fields(const film::SurfaceMotion& accepted) const {
-  film::FilmFields fields = film::film_fields(model(), accepted, u_start_);
+  film::FilmFields fields = film::film_fields(model(), accepted, u_start_, history_accepted_.viscosity);
   if (film::cavitation_law(model()).has_fill() && history_start_.theta.size() == u_.size())
     fields.theta = history_start_.theta.cwiseMax(0.0).cwiseMin(1.0);
   fields.depth = film::mean_depth(model(), accepted.phi_journal);

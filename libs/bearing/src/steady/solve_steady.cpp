@@ -36,7 +36,7 @@ film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& 
   state.shapes.add_to(motion);
   if (state.d_shell.size() > 0) motion.g += state.d_shell;
   if (state.d_journal.size() > 0) motion.g -= state.d_journal;
-  film::FilmFields fields = film::film_fields(model, motion, state.u);
+  film::FilmFields fields = film::film_fields(model, motion, state.u, state.viscosity);
   fields.depth = film::mean_depth(model, motion.phi_journal);
   if (state.heat) state.heat->fields.show_in(fields);
   fields.d_shell = state.d_shell;

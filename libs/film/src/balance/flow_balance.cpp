@@ -22,6 +22,10 @@ void check(const FilmModel& m) {
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.supply.pressure >= m.p_cav, "supply lies at or above p_cav");
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.grid.closes(), "a supply line has film on both sides");
   HERSEY_REQUIRE(m.asperities.model == AsperityModel::none || m.asperities.sigma > 0, "roughness is positive");
+  const Turbulence& t = m.turbulence;
+  HERSEY_REQUIRE(!t.counts() || (0 < t.onset && t.onset < t.full && t.prandtl > 0), "a band of transition");
+  HERSEY_REQUIRE(!t.counts() || (!m.roughness.counts() && m.lubricant.shear_thinning.is_newtonian()),
+                 "turbulence of a Newtonian oil between smooth surfaces");
 }
 
 }  // namespace
@@ -215,7 +219,7 @@ Eigen::Vector2d FlowBalance::slip(int j) const {
 }
 
 SlidingChange FlowBalance::change_of_sliding(const MotionDirection& direction, int j) const {
-  if (model_.lubricant.shear_thinning.is_newtonian()) return {};
+  if (model_.lubricant.shear_thinning.is_newtonian() && !model_.turbulence.counts()) return {};
   return film::change_of_sliding(slip(j), {geometry_.stretch[j] * (direction.u_journal - direction.u_shell),
                                            direction.w_journal - direction.w_shell});
 }
@@ -248,19 +252,12 @@ void FlowBalance::skew(double skew, double h, RoughGap& gap) {
   }
 }
 
-NodeViscosity FlowBalance::viscosity_of(int node) const {
-  const double shear = 1 / viscosity_.shear_fluidity[node];
-  if (viscosity_.at_rest.size() == 0) return {1 / viscosity_.fluidity[node], shear, 1, shear};
-  return {1 / viscosity_.fluidity[node], shear, viscosity_.axial_fluidity[node] / viscosity_.fluidity[node],
-          viscosity_.at_rest[node], true};
-}
-
 FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u) {
   if (const FilmDomain domain = check_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
     const Sliding& sliding = sliding_[static_cast<std::size_t>(i % model_.grid.n_z)];
     if (is_layered())
-      law_.evaluate(motion.g[i], u[i], i, sliding, viscosity_of(i), nodes_[i]);
+      law_.evaluate(motion.g[i], u[i], i, sliding, node_viscosity(viscosity_, i), nodes_[i]);
     else
       law_.evaluate(motion.g[i], u[i], i, sliding, nodes_[i]);
     if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Violation::not_finite, i};

@@ -437,7 +437,6 @@ class FlowBalance {
   [[nodiscard]] CavityBorder filled_by_pressure(int i, int j) const;
   void apply_border(const CavityBorder& border);
   void extend_borders_to_edges();
-  [[nodiscard]] NodeViscosity viscosity_of(int node) const;
   [[nodiscard]] bool is_layered() const { return viscosity_.fluidity.size() != 0; }
   static void skew(double skew, double h, RoughGap& gap);
   void evaluate_cell(int node, const SurfaceMotion& motion);

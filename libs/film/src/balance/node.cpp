@@ -26,6 +26,13 @@ Sliding sliding_of(double slip_phi, double slip_z) {
   return {std::sqrt(square), around / square};
 }
 
+NodeViscosity node_viscosity(const LayeredViscosity& viscosity, int node) {
+  const double shear = 1 / viscosity.shear_fluidity[node];
+  if (viscosity.at_rest.size() == 0) return {1 / viscosity.fluidity[node], shear, 1, shear};
+  return {1 / viscosity.fluidity[node], shear, viscosity.axial_fluidity[node] / viscosity.fluidity[node],
+          viscosity.at_rest[node], true};
+}
+
 SlidingChange change_of_sliding(const Eigen::Vector2d& slip, const Eigen::Vector2d& change) {
   const double around = slip.x() * slip.x() + standing * standing, square = around + slip.y() * slip.y();
   const double by_log = slip.dot(change) / square;
@@ -98,6 +105,46 @@ void NodeLaw::rheology(const NodeViscosity& viscosity, const Sliding& sliding, N
   node.density_u = density.slope * node.p_u;
   node.content = node.density * node.theta;
   node.content_u = node.density_u * node.theta + node.density * node.theta_u;
+  node.mu_laminar = node.mu;
+  node.reynolds = oil.density * node.density * sliding.speed * node.h / node.mu;
+  if (model_.turbulence.counts()) add_turbulence(sliding, slope, node);
+}
+
+// Fluidities along and across the sliding give those along phi and along z, between which the sliding lies.
+void NodeLaw::set_flow(const Sliding& sliding, const Fluidity& along, const Fluidity& across, Node& node) {
+  for (const int axis : {0, 1}) {
+    const double fraction = axis == 0 ? sliding.fraction_along_phi : 1 - sliding.fraction_along_phi,
+                 rest = 1 - fraction;
+    const double rotation = along.value - across.value;
+    node.flow[axis] = {.value = fraction * along.value + rest * across.value,
+                       .u = fraction * along.u + rest * across.u,
+                       .h = fraction * along.h + rest * across.h,
+                       .rate = fraction * along.rate + rest * across.rate,
+                       .rotation = axis == 0 ? rotation : -rotation};
+  }
+}
+
+// Turbulent friction of a viscosity that grows with u by `log_slope` (turbulence.2). The logarithm of the Reynolds
+// number grows with those of film thickness and sliding speed, and with u by density and viscosity (turbulence.11).
+void NodeLaw::add_turbulence(const Sliding& sliding, double log_slope, Node& node) const {
+  const TurbulentFriction friction = turbulent_friction(model_.turbulence, node.reynolds, node.h, model_.R);
+  node.turbulent_fraction = friction.fraction;
+  if (friction.fraction == 0) return;
+  const double by_u = node.density_u / node.density - log_slope;
+  const auto slowed = [&](const FrictionFactor& factor) {
+    const double fluidity = node.flow[0].value / factor.value, by_log = -fluidity / factor.value;
+    return Fluidity{.value = fluidity,
+                    .u = -log_slope * fluidity + by_log * factor.by_reynolds * by_u,
+                    .h = by_log * (factor.by_reynolds + factor.by_thickness) / node.h,
+                    .rate = by_log * factor.by_reynolds};
+  };
+  const Fluidity along = slowed(friction.along), across = slowed(friction.across);
+  set_flow(sliding, along, across, node);
+  const FrictionFactor& factor = friction.sliding;
+  node.mu = node.mu_laminar * factor.value;
+  node.mu_u = node.mu_laminar * (log_slope * factor.value + factor.by_reynolds * by_u);
+  node.mu_rate = node.mu_laminar * factor.by_reynolds;
+  node.mu_h = node.mu_laminar * (factor.by_reynolds + factor.by_thickness) / node.h;
 }
 
 // A viscosity that grows with u by `log_slope` after shear thinning by sliding (thermal.24): more pressure drives a
@@ -113,17 +160,7 @@ void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
                     .h = -by_rate / node.h,
                     .rate = by_rate};
   };
-  const Fluidity along = thinned(R.tangent()), across = thinned({R.value, R.slope});
-  for (const int axis : {0, 1}) {
-    const double fraction = axis == 0 ? sliding.fraction_along_phi : 1 - sliding.fraction_along_phi,
-                 rest = 1 - fraction;
-    const double rotation = along.value - across.value;
-    node.flow[axis] = {.value = fraction * along.value + rest * across.value,
-                       .u = fraction * along.u + rest * across.u,
-                       .h = fraction * along.h + rest * across.h,
-                       .rate = fraction * along.rate + rest * across.rate,
-                       .rotation = axis == 0 ? rotation : -rotation};
-  }
+  set_flow(sliding, thinned(R.tangent()), thinned({R.value, R.slope}), node);
   node.mu = mu_n * R.value;
   node.mu_u = log_slope * mu_n * (R.value + k * R.slope);
   node.mu_rate = mu_n * R.slope;

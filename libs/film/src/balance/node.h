@@ -47,6 +47,9 @@ struct Node {
   std::array<Fluidity, 2> flow{};                       ///< 1/mu of flow along pressure, around and along the axis
   double mu = 0, mu_u = 0, mu_h = 0;                    ///< viscosity of sliding [Pa s], at fixed h and at fixed u
   double mu_rate = 0;                                   ///< with the logarithm of the sliding speed [Pa s]
+  double mu_laminar = 0;                                ///< the oil's own part of `mu`, without turbulence [Pa s]
+  double reynolds = 0;                                  ///< rho v h/mu_laminar of the sliding (turbulence.1) [-]
+  double turbulent_fraction = 0;                        ///< TurbulentFriction::fraction [-]
   double density = 1, density_u = 0;                    ///< rho/rho0 [-]
   double content = 1, content_u = 0;                    ///< oil in the gap, density theta [-]
   double h = 0, h_u = 0, h_g = 1;                       ///< film thickness [m]
@@ -74,6 +77,9 @@ struct NodeViscosity {
   bool is_sheared = false;     ///< true if the others include shear thinning
 };
 
+/// Returns the viscosities of one node of a film.
+[[nodiscard]] NodeViscosity node_viscosity(const LayeredViscosity& viscosity, int node);
+
 /// Laws that apply to every node of one film.
 class NodeLaw {
  public:
@@ -97,6 +103,8 @@ class NodeLaw {
   void pressure_and_fill(double u, int at, Node& node) const;
   void rheology(const NodeViscosity& viscosity, const Sliding& sliding, Node& node) const;
   void thin(const Sliding& sliding, double log_slope, Node& node) const;
+  void add_turbulence(const Sliding& sliding, double log_slope, Node& node) const;
+  static void set_flow(const Sliding& sliding, const Fluidity& along, const Fluidity& across, Node& node);
   void film_thickness(double g, Node& node) const;
   void contact(double h, Node& node) const;
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <variant>
 
+#include "heat/eddy_mixing.h"
+
 // Conductances to walls and between layers, and the balance of all terms. The rows are assembled in heat_assembly.cpp
 // and solved in heat_solution.cpp.
 namespace hersey::film {
@@ -75,8 +77,16 @@ double HeatEquations::journal_friction(const CarryingFilm& film, int node) const
 // own. Oil in a supply is no film and heats no wall.
 WallFlux HeatEquations::to_wall(const CarryingFilm& film, int node, int layer, double resistance) const {
   const Node& at = film.balance.nodes()[node];
-  const double k = model_.lubricant.conductivity * oil_fraction(at) / at.h;
-  const auto [beside, next] = across_.slope_at_wall(static_cast<std::size_t>(layer));
+  auto [beside, next] = across_.slope_at_wall(static_cast<std::size_t>(layer));
+  double k = model_.lubricant.conductivity * oil_fraction(at) / at.h;
+  if (const EddyMixing mixing(model_, at); mixing.mixes() && k > 0) {
+    // A laminar film has the slope of a parabola; where eddies carry the heat its correction of the slope over half of
+    // the layer, 2/width, fades with the resistance (turbulence.14).
+    const double turbulent = mixing.resistance_to_wall(width(layer));
+    const double laminar = 0.5 * width(layer) / mixing.conductivity(0), fading = turbulent / laminar;
+    const double half = 2 / width(layer);
+    beside = half / fading + (beside - half) * fading, next *= fading;
+  }
   const double area = (1 - film.balance.supplied_fraction(node)) * film.balance.area(node);
   const double fraction = area / (1 + resistance * k * (beside - next));
   return {fraction * k * beside, fraction * k * next};
@@ -84,8 +94,14 @@ WallFlux HeatEquations::to_wall(const CarryingFilm& film, int node, int layer, d
 
 double HeatEquations::between(const CarryingFilm& film, int node, int layer) const {
   const Node& at = film.balance.nodes()[node];
+  const double area = film.balance.area(node);
+  if (const EddyMixing mixing(model_, at); mixing.mixes()) {
+    const double from = across_.middle(static_cast<std::size_t>(layer));
+    const double to = from + across_.to_next(static_cast<std::size_t>(layer));
+    return oil_fraction(at) * area / (at.h * mixing.resistance(from, to));
+  }
   const double k = model_.lubricant.conductivity * oil_fraction(at);
-  return k * film.balance.area(node) / (at.h * across_.to_next(static_cast<std::size_t>(layer)));
+  return k * area / (at.h * across_.to_next(static_cast<std::size_t>(layer)));
 }
 
 WallFlux HeatEquations::to_shell(const CarryingFilm& film, int node) const {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
+#include "heat/eddy_mixing.h"
 #include "observe/film_power.h"
 
 namespace hersey::film {
@@ -68,8 +70,18 @@ LayerFlows::LayerFlows(const FilmModel& model, int layers)
 
 void LayerFlows::evaluate(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
                           const Eigen::VectorXd& mu) {
-  for (std::size_t k = 0; k < fractions_.size(); ++k)
-    find_fractions({mu.data() + k * layers_, layers_}, within_, fractions_[k]);
+  std::vector<double> with_eddies(layers_);
+  for (std::size_t k = 0; k < fractions_.size(); ++k) {
+    const std::span<const double> own{mu.data() + k * layers_, layers_};
+    const EddyMixing mixing(model_, balance.nodes()[k]);
+    if (!mixing.mixes()) {
+      find_fractions(own, within_, fractions_[k]);
+      continue;
+    }
+    std::copy(own.begin(), own.end(), with_eddies.begin());
+    add_eddies(mixing, with_eddies);
+    find_fractions(with_eddies, WithinLayers::constant, fractions_[k]);
+  }
   flow_over_faces(balance, motion);
   flow_upwards(balance);
   dissipate(balance, wrench, motion);

@@ -129,6 +129,28 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
+/// Regimes of the flow by the numbers at the nodes, each with the area of its control volume (turbulence.15).
+void observe_regimes(const FlowBalance& balance, FilmObservables& o) {
+  const FilmModel& model = balance.model();
+  const Turbulence& turbulence = model.turbulence;
+  Turbulence by_taylor = turbulence;
+  by_taylor.number = TransitionNumber::taylor;
+  double total = 0;
+  o.laminar_share = 0;
+  for (int k = 0; k < balance.size(); ++k) {
+    const Node& node = balance.nodes()[k];
+    const double area = balance.area(k), number = transition_number(turbulence, node.reynolds, node.h, model.R);
+    total += area;
+    (number <= turbulence.onset ? o.laminar_share
+     : number < turbulence.full ? o.transition_share
+                                : o.turbulent_share) += area;
+    o.reynolds_max = std::max(o.reynolds_max, node.reynolds);
+    o.taylor_max = std::max(o.taylor_max, transition_number(by_taylor, node.reynolds, node.h, model.R));
+  }
+  o.laminar_share /= total, o.transition_share /= total, o.turbulent_share /= total;
+  if (!std::holds_alternative<Cylinder>(model.surface)) o.taylor_max = std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Between nodes as h_min and p_max of the whole film are.
 void observe_patches(const FlowBalance& balance, const FilmFields& fields, FilmObservables& o) {
   const Grid& grid = balance.model().grid;
@@ -185,11 +207,28 @@ FilmFields fields_of(const std::vector<Node>& nodes) {
 
 }  // namespace
 
-FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u) {
+FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u,
+                       const LayeredViscosity& viscosity) {
   const NodeLaw law(model);
+  const Grid& grid = model.grid;
+  const bool is_turbulent = model.turbulence.counts();
   std::vector<Node> nodes(u.size());
-  for (Eigen::Index i = 0; i < u.size(); ++i) nodes[i] = law.state(motion.g[i], u[i], static_cast<int>(i));
-  return fields_of(nodes);
+  for (int i = 0; i < u.size(); ++i) {
+    Sliding sliding;
+    if (is_turbulent) {
+      const double along = stretch(model.surface, model.R, model.L * grid.z_over_L(i % grid.n_z));
+      sliding = sliding_of(along * (motion.u_journal - motion.u_shell), motion.w_journal - motion.w_shell);
+    }
+    if (is_turbulent && viscosity.fluidity.size() != 0)
+      law.evaluate(motion.g[i], u[i], i, sliding, node_viscosity(viscosity, i), nodes[i]);
+    else
+      law.evaluate(motion.g[i], u[i], i, sliding, nodes[i]);
+  }
+  FilmFields fields = fields_of(nodes);
+  if (!is_turbulent) return fields;
+  fields.reynolds.resize(u.size());
+  for (int i = 0; i < u.size(); ++i) fields.reynolds[i] = nodes[i].reynolds;
+  return fields;
 }
 
 Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal) {
@@ -228,6 +267,7 @@ FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& 
   observe_forces(balance, wrench, e, tilt, o);
   o.normal_forces = wrench.normal().value;
   observe_oil(balance, motion, o);
+  observe_regimes(balance, o);
   observe_patches(balance, fields, o);
   const Cavity cavity = widest_cavity(balance, u, motion.u_shell + motion.u_journal < 0);
   o.rupture_angle = cavity.rupture, o.reformation_angle = cavity.reformation;

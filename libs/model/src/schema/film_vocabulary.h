@@ -47,6 +47,20 @@ inline constexpr Vocabulary<film::ShearForce, 2> shear_force_words{{
     {film::ShearForce::torque_only, "torque_only", "the net force of shear is left out"},
 }};
 
+inline constexpr Vocabulary<film::TurbulenceModel, 4> turbulence_words{{
+    {film::TurbulenceModel::none, "none", "a laminar film at every speed"},
+    {film::TurbulenceModel::ng_pan, "ng_pan",
+     "Reichardt's eddy viscosity integrated across the film (Ng and Pan 1965): the most exact"},
+    {film::TurbulenceModel::constantinescu, "constantinescu",
+     "powers of the Reynolds number from a mixing length (Constantinescu 1959)"},
+    {film::TurbulenceModel::hirs, "hirs", "bulk flow with Blasius' friction of smooth walls (Hirs 1973)"},
+}};
+
+inline constexpr Vocabulary<film::TransitionNumber, 2> transition_words{{
+    {film::TransitionNumber::reynolds, "reynolds", "Re = rho v h/mu of the sliding"},
+    {film::TransitionNumber::taylor, "taylor", "Re sqrt(h/R), of the vortices between a journal and its bore"},
+}};
+
 inline constexpr Vocabulary<film::FilmSolver, 3> film_solver_words{{
     {film::FilmSolver::newton, "newton", "Newton's method with exact derivatives"},
     {film::FilmSolver::multigrid, "multigrid", "the same, its linear systems solved by multigrid: for fine grids"},

@@ -78,6 +78,25 @@ TypePtr compliance_format() {
                  });
 }
 
+TypePtr turbulence_format() {
+  const auto keys = std::vector<Key>{
+      defaulted("transition", choice(transition_words), "reynolds",
+                "Number of the film at a point that says whether it is laminar there."),
+      optional("onset", number("900", {.low = 1, .high = 1e6}), "Number up to which the film is laminar.",
+               "900; of `taylor` 41.2"),
+      optional("full", number("1600", {.low = 1, .high = 1e6}),
+               "Number from which the film is fully turbulent; the friction between both is a smooth mixture.",
+               "1600; of `taylor` 82.4"),
+      defaulted(
+          "prandtl", number("0.9", {.low = 0.1, .high = 10}), "0.9",
+          "Turbulent Prandtl number, eddy viscosity over eddy diffusivity of heat; for `thermal: {model: film}`."),
+  };
+  std::vector<Variant> models = variants_of(turbulence_words);
+  for (Variant& model : models)
+    if (model.tag != "none") model.keys = keys;
+  return variant("a turbulence model", "model", {}, std::move(models));
+}
+
 TypePtr materials_format(const SurfaceKeys& surfaces) {
   const TypePtr material = with_together(
       object("a material",
@@ -132,6 +151,8 @@ std::vector<Key> shared_bearing_keys() {
                "Peak film pressure that the bearing's lining bears; above it a run ends with a warning.",
                "200 MPa, the order of engine bearings"),
       defaulted("cavitated_shear", choice(cavitated_shear_words), "film_share", "Shear in the cavitated film."),
+      defaulted("turbulence", turbulence_format(), "none",
+                "Friction of the film at the speeds and thicknesses at which it is not laminar."),
       optional("solver", choice(film_solver_words),
                "Solver of the film. Coupled monolithically to the bodies, `sor` finds the initial film only.",
                "newton; of grids of more than 15,000 nodes multigrid"),

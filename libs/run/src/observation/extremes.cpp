@@ -33,6 +33,8 @@ void BearingExtremes::take(double t, double dt, const bearing::BearingObservatio
   if (observation.heat)
     // Fmax ignores the initial value, which is not a number
     summary_.T_max = std::fmax(summary_.T_max, observation.heat->T_max);
+  summary_.reynolds_max = std::max(summary_.reynolds_max, film.reynolds_max);
+  summary_.laminar_share = std::min(summary_.laminar_share, film.laminar_share);
   summary_.turned += dt * observation.position.speed, summary_.travelled += dt * std::abs(observation.position.speed);
   summary_.worst_mass_balance = std::max(summary_.worst_mass_balance, film.mass_balance_error);
   const double put_in = -observation.power_into_bodies, taken = film.power_taken();
@@ -65,6 +67,7 @@ void BearingExtremes::persist(Archive& archive) {
   archive.io("max_force", s.max_force), archive.io("T_max", s.T_max);
   archive.io("eccentricity_ratio", s.eccentricity_ratio);
   archive.io("worst_mass_balance", s.worst_mass_balance);
+  archive.io("reynolds_max", s.reynolds_max), archive.io("laminar_share", s.laminar_share);
   archive.io("turned", s.turned), archive.io("travelled", s.travelled);
   archive.io("energy_put_in", s.energy_put_in), archive.io("energy_taken", s.energy_taken);
   archive.io("last_put_in", last_put_in_), archive.io("last_taken", last_taken_);

@@ -141,6 +141,8 @@ void RunRecord::summarise(Summary& summary) const {
     bearing.warnings = model::film_warnings(plan.validity, bearing.T_max, bearing.pofp - plan.film.p_cav);
     for (std::string& warning : model::surface_warnings(plan, bearing.pofp, bearing.moft))
       bearing.warnings.push_back(std::move(warning));
+    for (std::string& warning : model::regime_warnings(plan, bearing.reynolds_max, bearing.laminar_share))
+      bearing.warnings.push_back(std::move(warning));
     for (std::string& warning : model::rotation_warnings(plan, bearing.turned, bearing.travelled))
       bearing.warnings.push_back(std::move(warning));
     bearing.cavitated_shear = cavitated_shear(plan.film, bearing);

@@ -247,6 +247,28 @@ std::string shear_thinning(const model::Bearing& bearing) {
                                : "by the sliding over the film thickness, with the tangent viscosity against pressure");
 }
 
+/// Friction of the film beyond that of a laminar one.
+std::string turbulence(const film::FilmModel& film) {
+  const film::Turbulence& t = film.turbulence;
+  const auto law = [&]() -> std::string {
+    switch (t.model) {
+      case film::TurbulenceModel::none:
+        return "none: a laminar film at every Reynolds number";
+      case film::TurbulenceModel::ng_pan:
+        return "Reichardt's eddy viscosity across the film (Ng and Pan)";
+      case film::TurbulenceModel::constantinescu:
+        return "powers of the Reynolds number (Constantinescu)";
+      case film::TurbulenceModel::hirs:
+        return "bulk flow (Hirs)";
+    }
+    return {};
+  };
+  if (!t.counts()) return law();
+  return law() + fmt::format(", laminar up to {} {:.4g}, full from {:.4g}",
+                             t.number == film::TransitionNumber::taylor ? "a Taylor number of" : "Re =", t.onset,
+                             t.full);
+}
+
 std::string viscosity(const model::Bearing& bearing) {
   const film::Lubricant& oil = bearing.film.lubricant;
   const bool varies = !std::holds_alternative<std::monostate>(bearing.heat);
@@ -349,6 +371,7 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   row("grid", grid(film));
   row("viscosity", viscosity(bearing));
   if (std::string text = shear_thinning(bearing); !text.empty()) row("shear thinning", std::move(text));
+  row("turbulence", turbulence(film));
   if (std::string text = heat(bearing); !text.empty()) row("temperature", std::move(text));
   row("roughness", roughness(film));
   row("contact", asperities(film.asperities));

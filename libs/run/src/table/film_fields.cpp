@@ -25,6 +25,8 @@ const std::vector<FilmField>& film_fields() {
       {"asperity_pressure", "Pa", "asperity contact pressure", "asperity pressure", "MPa", 1e-6, &F::p_asperity, "p_a"},
       {"thickness", "m", "film thickness, depth of features included", "film thickness", "um", 1e6, &F::thickness, "h"},
       {"fill", "1", "fill fraction", "fill fraction", "", 1, &F::theta, "theta"},
+      {"reynolds_number", "1", "Reynolds number of the sliding, rho v h/mu", "Reynolds number", "", 1, &F::reynolds,
+       "Re", "of films with a model of `turbulence`"},
       {"shell_displacement", "m", "radial displacement of the shell's surface, outward", "shell displacement", "um",
        1e6, &F::d_shell, "", of_elastic},
       {"journal_displacement", "m", "radial displacement of the journal's surface, outward", "journal displacement",

@@ -12,6 +12,7 @@
 #include "hersey/film/shear_law.h"
 #include "hersey/film/surface_feature.h"
 #include "hersey/film/temperature_law.h"
+#include "hersey/film/turbulence.h"
 #include "hersey/film/viscosity_law.h"
 
 namespace hersey::film {
@@ -125,6 +126,7 @@ struct FilmModel {
   SupplyLine supply;
   Asperities asperities;
   Roughness roughness;
+  Turbulence turbulence;
   double compliance = 0;  ///< column compliance w/p = length / composite modulus [m/Pa], >= 0; 0: rigid
   CavitatedShear cavitated_shear = CavitatedShear::film_share;
   ShearForce shear_force = ShearForce::full;

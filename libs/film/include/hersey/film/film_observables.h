@@ -18,6 +18,7 @@ struct FilmFields {
   [[nodiscard]] Eigen::VectorXd thickness() const { return depth.size() == 0 ? h : Eigen::VectorXd(h + depth); }
   Eigen::VectorXd w;           ///< column deformation [m]
   Eigen::VectorXd p_asperity;  ///< asperity contact pressure [Pa]
+  Eigen::VectorXd reynolds;    ///< rho v h/mu of the sliding (turbulence.1) [-]; empty: of a film without Turbulence
   /// Radial displacement of the surfaces of elastic bodies against their frames, away from the bearing's axis [m];
   /// empty where a surface is rigid. The bearing fills them in.
   Eigen::VectorXd d_shell, d_journal;
@@ -71,6 +72,12 @@ struct FilmObservables {
   double mass_balance_error = 0;               ///< |supply - out - storage| over the largest of the flows and U c L [-]
   /// Angles at which the widest cavity at mid-width begins and ends along the flow [rad]; NaN without a cavity.
   double rupture_angle = 0, reformation_angle = 0;
+  /// Largest Reynolds number rho v h/mu of the sliding, and of journals the largest Taylor number Re sqrt(h/R); of
+  /// others not a number [-].
+  double reynolds_max = 0, taylor_max = 0;
+  /// Parts of the film's area that are laminar, in the band of transition, and fully turbulent by Turbulence's numbers,
+  /// whether the film's friction follows them or not [-].
+  double laminar_share = 1, transition_share = 0, turbulent_share = 0;
   double cavitated_share =
       0;  ///< fraction of the area with theta < 1 or (other models) p <= p_cav without film action [-]
 };

@@ -9,7 +9,9 @@
 namespace hersey::film {
 
 /// Returns the fields at the nodes for the unknown u.
-[[nodiscard]] FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u);
+/// @param viscosity  with which the film was solved; its Reynolds numbers depend on it, nothing else
+[[nodiscard]] FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, const Eigen::VectorXd& u,
+                                     const LayeredViscosity& viscosity = {});
 
 /// Returns the mean depth of features over the control volumes [m], shape (grid.size()), with the journal rotated by
 /// `phi_journal` [rad].

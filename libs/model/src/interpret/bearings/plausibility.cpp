@@ -64,6 +64,15 @@ std::vector<std::string> surface_warnings(const Bearing& bearing, double p_max, 
   return warnings;
 }
 
+std::vector<std::string> regime_warnings(const Bearing& bearing, double reynolds_max, double laminar_share) {
+  const film::Turbulence& turbulence = bearing.film.turbulence;
+  if (turbulence.counts() || laminar_share >= 1) return {};
+  return {fmt::format(
+      "{:.3g} % of the film lies above a Reynolds number of {:g}, where films cease to be laminar (largest: {:.4g}): "
+      "computed as laminar, its friction is too small; `turbulence: {{model: ng_pan}}` accounts for it",
+      100 * (1 - laminar_share), turbulence.onset, reynolds_max)};
+}
+
 std::vector<std::string> rotation_warnings(const Bearing& bearing, double turned, double travelled) {
   constexpr double round_off = 1e-9;  // rad
   if (!bearing.heated_journal || (travelled > round_off && std::abs(turned) > 0.5 * travelled)) return {};

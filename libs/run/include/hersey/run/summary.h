@@ -43,6 +43,7 @@ struct BearingSummary {
   double energy_taken = 0;  ///< by shear, flow, friction, storage and oil, each an integral over the film [J]
   double energy_error = 0;  ///< their difference over the film's dissipation [-]
   double T_max = std::numeric_limits<double>::quiet_NaN();  ///< hottest oil of a film with temperatures [K]
+  double reynolds_max = 0, laminar_share = 1;  ///< largest Reynolds number, smallest laminar share of the area [-]
   double turned = 0, travelled = 0;  ///< rotation of the journal in its shell: net, and the sum of its magnitudes [rad]
   std::vector<std::string> warnings;  ///< states in which the film exceeds the range for which its oil is known
   std::string cavitated_shear;  ///< the assumption taken, with the result of the alternative; empty if it makes no

@@ -24,6 +24,9 @@ std::optional<fem::ElasticMaterial> material_of(const Value& bearing, const std:
 /// Radii: a housing as thick as that still is one.
 constexpr double kLongestColumn = 100;
 
+/// Taylor number at which vortices set in between a rotating journal and its bore (Taylor 1923).
+constexpr double kTaylor = 41.2;
+
 /// Mean pressure on the projected area that no solid bears, whatever the film does: the elastic modulus of diamond.
 constexpr double kHardest = 1e12;
 
@@ -86,6 +89,42 @@ void FilmReader::read_pressure_scale() {
 void FilmReader::read_shear() {
   film_.cavitated_shear = meaning_of(value_, "cavitated_shear", cavitated_shear_words);
   film_.shear_force = meaning_of(value_, "shear_force", shear_force_words);
+  read_turbulence();
+}
+
+void FilmReader::read_turbulence() {
+  const Value* turbulence = value_.find("turbulence");
+  if (turbulence == nullptr || turbulence->broken) return;
+  film::Turbulence& read = film_.turbulence;
+  read.model = meaning_of(*turbulence, turbulence_words);
+  if (!read.counts()) return;
+  read.number = meaning_of(*turbulence, "transition", transition_words, film::TransitionNumber::reynolds);
+  if (read.number == film::TransitionNumber::taylor) read.onset = kTaylor, read.full = 2 * kTaylor;
+  if (turbulence->find("onset") != nullptr) read.onset = number_of(*turbulence, "onset");
+  if (turbulence->find("full") != nullptr) read.full = number_of(*turbulence, "full");
+  read.prandtl = number_of(*turbulence, "prandtl");
+  if (!context_.has_fault_in(turbulence->path)) check_turbulence(*turbulence);
+}
+
+/// The friction is that of a Newtonian oil between smooth surfaces: the flow factors of rough ones are those of laminar
+/// flow, and what shear thinning does to eddies is not known.
+void FilmReader::check_turbulence(const Value& turbulence) {
+  const film::Turbulence& read = film_.turbulence;
+  if (read.onset >= read.full)
+    context_.fault_at_key(turbulence,
+                          fmt::format("turbulence that is full at {:g} and begins at {:g}", read.full, read.onset),
+                          "an `onset` below `full`");
+  if (read.number == film::TransitionNumber::taylor && !std::holds_alternative<film::Cylinder>(film_.surface))
+    context_.fault(*turbulence.find("transition"), "a Taylor number of surfaces that are not round",
+                   "transition: reynolds; Taylor's vortices are those between a journal and its bore");
+  if (film_.roughness.counts())
+    context_.fault_at_key(turbulence,
+                          "turbulence together with flow factors of rough surfaces, which are those of a "
+                          "laminar film",
+                          "`flow_factors: none` in `roughness`, or `turbulence: none`");
+  if (!film_.lubricant.shear_thinning.is_newtonian())
+    context_.fault_at_key(turbulence, "turbulence of an oil that thins by shear, for which no law is known here",
+                          "an oil without `shear_thinning`, or `turbulence: none`");
 }
 
 /// With mass conserved, oil that nothing presses in above the cavitation pressure does not come back where the film

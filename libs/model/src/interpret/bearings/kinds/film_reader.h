@@ -29,6 +29,7 @@ class FilmReader {
   void read_contact();
   /// Reads the scale of pressures; reports those below a vacuum.
   void read_pressure_scale();
+  /// Reads how the film is sheared, turbulence included. Oil, roughness and the film's surface come before.
   void read_shear();
   /// Reports a film that loses its oil for good: `edges` at the cavitation pressure and nothing that feeds it.
   void warn_of_starvation(const std::vector<film::Edge>& edges);
@@ -37,6 +38,8 @@ class FilmReader {
   [[nodiscard]] const Lubricant* lubricant() const { return lubricant_; }
 
  private:
+  void read_turbulence();
+  void check_turbulence(const Value& turbulence);
   void read_roughness();
   void read_asperities();
   void read_summits(const Value& asperities);
