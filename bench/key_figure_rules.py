@@ -50,6 +50,7 @@ COMMANDS = {
     "slider_crank/flexible_rod": [("run", "simulation.duration=40deg")],
     "slider_crank/model": [("run",)],
     "slider_crank/pin_hole": [("run", "simulation.duration=90deg")],
+    "tilting_pads/bearing": [("bearing",), ("run",)],
     "tilting_pads/model": [("run",)],
     "spinning_rod/model": [("run", "simulation.duration=10s")],
     "squeezer/model": [("run", "simulation.duration=15ms")],

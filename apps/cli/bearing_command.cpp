@@ -91,6 +91,17 @@ Plan plan_of(const BearingArguments& arguments, const model::Model& model) {
     plan.sweeps.push_back(study::parse_sweep(text));
     plan.sweeps.back().name = names.path_of(plan.sweeps.back().name);
   }
+  if (!arguments.whirl_ratios.empty()) {
+    const std::string path = names.path_of("whirl_ratio");
+    if (path == "whirl_ratio")
+      throw InputError(Fault{{"--whirl-ratio", 0, 0},
+                             "bearings." + bearing.name,
+                             "a bearing without parts that follow its journal",
+                             "a bearing of `kind: tilting_pad`; the coefficients of others hold at every frequency",
+                             ""});
+    plan.sweeps.push_back(study::parse_sweep("whirl_ratio=" + arguments.whirl_ratios));
+    plan.sweeps.back().name = path;
+  }
   replace_other(names, bearing, plan);
   // Each value is checked with the others at their first, so that a sweep may complete what the file leaves open.
   for (const model::StudyParameter& sweep : plan.sweeps) {

@@ -63,6 +63,7 @@ struct BearingArguments {
   std::vector<std::string> overrides;
   std::string bearing;                                                                       ///< empty: the only one
   std::string speed, shell_speed, load, load_angle, eccentricity_ratio, eccentricity_angle;  ///< empty: the file's
+  std::string whirl_ratios;  ///< separated by commas, at which pads follow; empty: the file's
   std::vector<std::string> sweeps;
   std::filesystem::path csv, fields, vtu, report;  ///< files to write; empty: none
   bool json = false;

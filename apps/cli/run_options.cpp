@@ -88,6 +88,8 @@ void add_bearing(CLI::App& app, Commands& commands) {
   value("--speed", bearing->speed, "Angular velocity of the journal", "3000rpm");
   value("--shell-speed", bearing->shell_speed, "Angular velocity of the shell", "0rpm");
   value("--load", bearing->load, "Load on the journal: its position is sought", "2500N");
+  value("--whirl-ratio", bearing->whirl_ratios,
+        "Frequencies over the journal's at which tilting pads follow, in stiffness and damping", "0,0.5,1");
   value("--load-angle", bearing->load_angle, "Direction of the load, from x towards y", "-90deg");
   value("--eccentricity-ratio", bearing->eccentricity_ratio, "Position of the journal: its load is sought", "0.6");
   value("--eccentricity-angle", bearing->eccentricity_angle, "Direction of that position", "-60deg");

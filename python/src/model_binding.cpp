@@ -34,6 +34,7 @@ Texts texts_of(const std::vector<Fault>& faults) {
 
 Texts bearings_of(const Session& session) {
   Texts names;
+  for (const model::Composite& composite : session.model().composites) names.push_back(composite.bearing.name);
   for (const model::Bearing& bearing : session.model().bearings) names.push_back(bearing.name);
   return names;
 }
@@ -68,6 +69,13 @@ py::list bare_numbers(const std::string& text, const std::string& file, const Te
 
 /// Names of the kind of a bearing that is there, with the paths that its short names have in this model.
 model::BearingKindNames names_of(const Session& session, const std::string& bearing) {
+  for (const model::Composite& composite : session.model().composites) {
+    const model::Bearing& candidate = composite.bearing;
+    if (candidate.name != bearing) continue;
+    model::BearingKindNames names = model::names_of_kind(composite.kind, bearing, candidate.lubricant).value();
+    names.short_names = model::short_names(session.model(), candidate);
+    return names;
+  }
   for (const model::Bearing& candidate : session.model().bearings) {
     if (candidate.name != bearing) continue;
     model::BearingKindNames names = model::names_of_kind(candidate.kind->name(), bearing, candidate.lubricant).value();

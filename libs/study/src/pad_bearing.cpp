@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "hersey/bearing/clearance.h"
@@ -21,6 +22,9 @@ namespace hersey::study {
 namespace {
 
 constexpr const char* journal_joint = "journal";
+
+/// After which a search counts as one without an answer: those with one need ten.
+constexpr int most_iterations = 100;
 
 /// Numbers of the pads in the order of their angles, from which each film's lines are counted on.
 std::vector<std::size_t> around(const std::vector<model::Bearing>& films) {
@@ -60,6 +64,7 @@ class WholeFilm {
   void observe(const run::SteadyMotion& motion) {
     film.h_min = film.h_min_centre = std::numeric_limits<double>::infinity();
     film.h_min_features = film.rupture_angle = film.reformation_angle = std::numeric_limits<double>::quiet_NaN();
+    film.laminar_share = 0;
     film.force_pressure.setZero(), film.force_shear.setZero(), film.force_asperity.setZero();
     for (const std::size_t k : order_) {
       add_figures(motion.bearings[k].film, films_[k].film.grid);
@@ -111,14 +116,19 @@ class WholeFilm {
       film.*sum += pad.*sum;
     film.patches.push_back(pad.patches.front());
     film.mass_balance_error = std::max(film.mass_balance_error, pad.mass_balance_error);
-    film.cavitated_share += pad.cavitated_share * (grid.phi(grid.n_phi - 1) - grid.phi(0)) / angle_of_pads();
+    film.reynolds_max = std::max(film.reynolds_max, pad.reynolds_max);
+    film.taylor_max = std::max(film.taylor_max, pad.taylor_max);
+    const double part = (grid.phi(grid.n_phi - 1) - grid.phi(0)) / angle_of_pads();
+    film.laminar_share += part * pad.laminar_share, film.transition_share += part * pad.transition_share;
+    film.turbulent_share += part * pad.turbulent_share;
+    film.cavitated_share += part * pad.cavitated_share;
   }
 
   void add_fields(const film::FilmFields& pad) {
     for (const auto field :
          {&film::FilmFields::p, &film::FilmFields::theta, &film::FilmFields::density, &film::FilmFields::h,
-          &film::FilmFields::depth, &film::FilmFields::w, &film::FilmFields::p_asperity, &film::FilmFields::T,
-          &film::FilmFields::T_shell, &film::FilmFields::T_journal, &film::FilmFields::T_hottest})
+          &film::FilmFields::depth, &film::FilmFields::w, &film::FilmFields::p_asperity, &film::FilmFields::reynolds,
+          &film::FilmFields::T, &film::FilmFields::T_shell, &film::FilmFields::T_journal, &film::FilmFields::T_hottest})
       append(fields.*field, pad.*field);
   }
 
@@ -145,13 +155,28 @@ bool has_joint(const model::Model& model, const std::string& name) {
   return std::any_of(model.joints.begin(), model.joints.end(), [&](const model::Joint& j) { return j.name == name; });
 }
 
+/// Names of the coordinates of the journal's centre.
+std::vector<std::string> journal_axes() {
+  return {fmt::format("joint {}, x", journal_joint), fmt::format("joint {}, y", journal_joint)};
+}
+
 /// Rotation of a pad about the axis along the bearing, whatever its pivot allows.
 double tilt_of(const mbd::JointObservation& pivot) { return pivot.position[pivot.position.size() - 1]; }
 
-PadState pad_state(const model::Composite& composite, std::size_t k, const run::SteadyMotion& motion) {
+/// A steady motion of journal and pads, and the pads that have none and stand aside in it.
+struct PadMotion {
+  model::Model alone;                    ///< with those pads fixed
+  std::vector<std::string> released;     ///< coordinates of a journal whose position is given
+  std::vector<double> fixed_tilts = {};  ///< of each pad; not a number of one that is free
+  run::SteadyMotion motion = {};
+};
+
+PadState pad_state(const model::Composite& composite, std::size_t k, const PadMotion& found) {
   const model::Model& alone = *composite.alone;
+  const run::SteadyMotion& motion = found.motion;
   PadState pad{.name = fmt::format("{}", k + 1), .pivot_angle = composite.pivot_angles[k]};
-  pad.tilt = tilt_of(joint_of(alone, motion, composite.pads[k] + "_pivot"));
+  pad.is_aside = !std::isnan(found.fixed_tilts[k]);
+  pad.tilt = pad.is_aside ? found.fixed_tilts[k] : tilt_of(joint_of(alone, motion, composite.pads[k] + "_pivot"));
   if (const std::string travel = composite.pads[k] + "_travel"; has_joint(alone, travel))
     pad.pivot_travel = joint_of(alone, motion, travel).position[0];
   const Eigen::Rotation2Dd turned(pad.tilt);
@@ -169,9 +194,83 @@ PadState pad_state(const model::Composite& composite, std::size_t k, const run::
   return pad;
 }
 
-/// Names of the coordinates of the journal's centre.
-std::vector<std::string> journal_axes() {
-  return {fmt::format("joint {}, x", journal_joint), fmt::format("joint {}, y", journal_joint)};
+/// Fixes a pad at a tilt: its pivot carries what the film does, and nothing of it moves.
+void fix_pad(model::Model& alone, const std::string& pad, double tilt) {
+  const std::string pivot = pad + "_pivot";
+  std::erase_if(alone.forces, [&](const model::Force& force) { return force.name == pad + "_friction"; });
+  for (model::Joint& joint : alone.joints) {
+    if (joint.name != pivot) continue;
+    joint.type = model::JointType::fixed;
+    joint.initial.clear();
+  }
+  for (model::Body& body : alone.bodies) {
+    if (body.name != pad) continue;
+    for (model::Frame& frame : body.frames)
+      if (frame.name == "pivot") frame.X_BF.R = Eigen::AngleAxisd(-tilt, Vector3::UnitZ()).toRotationMatrix();
+  }
+}
+
+/// Tilt at which the film of a pad only widens along the sliding direction and carries nothing [rad].
+double unloaded_tilt(const model::Composite& composite, std::size_t k, double speed) {
+  const film::Arcs* arcs = film::arcs_of(composite.alone->bearings[k].film);
+  const model::Bearing& pad = composite.alone->bearings[k];
+  const double before = composite.pivot_angles[k] - arcs->arcs.front().from;
+  return -std::copysign(0.5, speed) * pad.film.c / (pad.film.R * std::sin(std::min(before, 0.25 * two_pi)));
+}
+
+/// The pad that is least loaded, of those that are free: the one farthest from the direction of the load.
+std::optional<std::size_t> least_loaded(const model::Composite& composite, const std::vector<double>& fixed_tilts,
+                                        double load_angle) {
+  std::optional<std::size_t> least;
+  double smallest = 0;  // pads below the journal are needed
+  for (std::size_t k = 0; k < fixed_tilts.size(); ++k) {
+    const double part = std::cos(composite.pivot_angles[k] - load_angle);
+    if (!std::isnan(fixed_tilts[k]) || part >= smallest) continue;
+    least = k, smallest = part;
+  }
+  return least;
+}
+
+/// Finds the motion; pads opposite to the load that shear or the shape of their films turns over, so that nothing
+/// balances them, are fixed one after the other where they carry nothing.
+PadMotion find_motion(const model::Composite& composite, const model::JournalPoint& point) {
+  const double direction = point.load ? point.load_angle : point.eccentricity_angle;
+  PadMotion found{.alone = *composite.alone, .released = point.load ? std::vector<std::string>{} : journal_axes()};
+  found.fixed_tilts.assign(composite.pads.size(), std::numeric_limits<double>::quiet_NaN());
+  found.motion = run::find_steady_motion(found.alone, found.released, most_iterations);
+  const std::string why = found.motion.message;
+  while (!found.motion.solved()) {
+    const std::optional<std::size_t> k = least_loaded(composite, found.fixed_tilts, direction);
+    if (!k) {
+      found.motion.message = why;
+      break;
+    }
+    found.fixed_tilts[*k] = unloaded_tilt(composite, *k, point.journal_speed);
+    fix_pad(found.alone, composite.pads[*k], found.fixed_tilts[*k]);
+    found.motion = run::find_steady_motion(found.alone, found.released, most_iterations);
+  }
+  return found;
+}
+
+/// Small motions about the motion, their stiffness and damping the means over four positions of the grids' lines in
+/// their cells: the fronts of films jump from line to line, theory manual eq. (bearing.38).
+solver::Linearisation mean_small_motions(const PadMotion& found) {
+  constexpr int positions = 4;
+  solver::Linearisation mean = found.motion.small_motions;
+  int count = 1;
+  for (int m = 1; m < positions; ++m) {
+    model::Model turned = found.alone;
+    for (model::Bearing& pad : turned.bearings)
+      pad.film.grid = film::turned(pad.film.grid, static_cast<double>(m) / positions);
+    const run::SteadyMotion motion = run::find_steady_motion(turned, found.released, most_iterations);
+    if (!motion.solved()) continue;
+    const Eigen::MatrixXd change = motion.small_motions.Z.transpose() * mean.Z;
+    mean.K += change.transpose() * motion.small_motions.K * change;
+    mean.C += change.transpose() * motion.small_motions.C * change;
+    ++count;
+  }
+  mean.K /= count, mean.C /= count;
+  return mean;
 }
 
 /// Velocity components of the journal's centre.
@@ -208,28 +307,37 @@ void fill_state(const model::Composite& composite, const run::SteadyMotion& moti
 void solve_pads(const model::Composite& composite, BearingSolution& solution) {
   const auto began = std::chrono::steady_clock::now();
   const auto& point = std::get<model::JournalPoint>(*composite.bearing.operating_point);
-  const run::SteadyMotion motion =
-      run::find_steady_motion(*composite.alone, point.load ? std::vector<std::string>{} : journal_axes());
+  const PadMotion found = find_motion(composite, point);
+  const run::SteadyMotion& motion = found.motion;
   solution.summary.iterations = motion.iterations;
   WholeFilm whole(composite.alone->bearings);
   solution.model = whole.model;
   if (!motion.solved()) return solution.fail(fmt::format("bearing {}: {}", composite.bearing.name, motion.message));
   whole.observe(motion);
   auto pads = std::make_shared<PadBearingSolution>();
-  for (const std::size_t k : whole.order()) pads->pads.push_back(pad_state(composite, k, motion));
+  for (const std::size_t k : whole.order()) pads->pads.push_back(pad_state(composite, k, found));
   pads->fields = std::move(whole.fields);
   pads->whirl_ratio = composite.whirl_ratio;
   fill_state(composite, motion, whole, *pads, solution.state);
   const double omega = composite.whirl_ratio * std::abs(point.journal_speed);
-  const solver::ReducedCoefficients reduced = reduce(motion.small_motions, journal_coordinates(motion), omega);
+  const solver::Linearisation small_motions = mean_small_motions(found);
+  const solver::ReducedCoefficients reduced = reduce(small_motions, journal_coordinates(motion), omega);
   solution.state.coefficients = {reduced.K, reduced.C};
   pads->coordinates = motion.coordinates;
-  const Eigen::MatrixXd& Z = motion.small_motions.Z;
-  pads->stiffness = Z * motion.small_motions.K * Z.transpose();
-  pads->damping = Z * motion.small_motions.C * Z.transpose();
-  pads->mass = Z * motion.small_motions.M * Z.transpose();
+  const auto over_coordinates = [&](const Eigen::MatrixXd& A) {
+    return Eigen::MatrixXd(small_motions.Z * A * small_motions.Z.transpose());
+  };
+  pads->stiffness = over_coordinates(small_motions.K);
+  pads->damping = over_coordinates(small_motions.C);
+  pads->mass = over_coordinates(small_motions.M);
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
+  for (const PadState& pad : pads->pads)
+    if (pad.is_aside)
+      solution.warnings.push_back(
+          fmt::format("bearing {}: nothing balances pad {}, which would rub or flutter (spragging): it stands aside, "
+                      "tilted so that it carries {:.3g} N; preload, an offset pivot or a spring keeps it in place",
+                      composite.bearing.name, pad.name, pad.force.norm()));
   for (std::size_t k = 0; k < composite.alone->bearings.size(); ++k) {
     const model::Bearing& pad = composite.alone->bearings[k];
     for (const std::string& warning :

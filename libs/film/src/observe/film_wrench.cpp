@@ -67,6 +67,9 @@ FilmWrench::Basis FilmWrench::basis(int i, int j) const {
   if (model_.shear_force == ShearForce::torque_only) {
     b.shear_along.tail<3>().setZero();
     b.shear_across.tail<3>().setZero();
+  } else if (model_.shear_force == ShearForce::none) {
+    b.shear_along.setZero();
+    b.shear_across.setZero();
   }
   return b;
 }

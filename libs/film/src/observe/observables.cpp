@@ -245,9 +245,14 @@ FilmObservables observe_film(const FilmModel& model, const SurfaceMotion& motion
   FlowBalance balance(model);
   const FilmDomain domain = balance.evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(model, domain));
-  FilmWrench wrench(model);
+  FilmWrench wrench(with_torque(model));
   wrench.evaluate(balance, motion, false);
   return observe_evaluated(balance, wrench, motion, e, u, tilt);
+}
+
+FilmModel with_torque(FilmModel model) {
+  if (model.shear_force == ShearForce::none) model.shear_force = ShearForce::torque_only;
+  return model;
 }
 
 FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,

@@ -13,4 +13,7 @@ namespace hersey::film {
                                                 const SurfaceMotion& motion, const Eigen::Vector2d& e,
                                                 const Eigen::VectorXd& u, const Eigen::Vector2d& tilt);
 
+/// The model whose friction is observed: torques of shear are shown where they do not act, too.
+[[nodiscard]] FilmModel with_torque(FilmModel model);
+
 }  // namespace hersey::film

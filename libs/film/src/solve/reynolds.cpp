@@ -246,7 +246,11 @@ FilmForces Reynolds::forces() const {
 
 FilmObservables Reynolds::observe(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
                                   const Eigen::Vector2d& tilt) const {
-  return observe_evaluated(impl_->balance, impl_->summed_wrench(), motion, e, u, tilt);
+  if (impl_->balance.model().shear_force != ShearForce::none)
+    return observe_evaluated(impl_->balance, impl_->summed_wrench(), motion, e, u, tilt);
+  FilmWrench wrench(with_torque(impl_->balance.model()));
+  wrench.evaluate(impl_->balance, motion, false);
+  return observe_evaluated(impl_->balance, wrench, motion, e, u, tilt);
 }
 
 void Reynolds::newton_increment(Eigen::VectorXd& du, const IncrementOptions& options) {

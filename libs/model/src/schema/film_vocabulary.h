@@ -42,9 +42,11 @@ inline constexpr Vocabulary<film::CavitatedShear, 2> cavitated_shear_words{{
     {film::CavitatedShear::full, "full", "as if the gap were full"},
 }};
 
-inline constexpr Vocabulary<film::ShearForce, 2> shear_force_words{{
+inline constexpr Vocabulary<film::ShearForce, 3> shear_force_words{{
     {film::ShearForce::full, "full", "torque and net force"},
     {film::ShearForce::torque_only, "torque_only", "the net force of shear is left out"},
+    {film::ShearForce::none, "none",
+     "neither acts on the bodies, as in most charts of tilting pads; friction is reported nevertheless"},
 }};
 
 inline constexpr Vocabulary<film::TurbulenceModel, 4> turbulence_words{{

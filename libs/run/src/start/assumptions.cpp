@@ -19,6 +19,12 @@ std::string cavitation(const film::FilmModel& film) {
   return std::string(film::cavitation_law(film).text()) + " at " + pressure(film.p_cav);
 }
 
+std::string shear_on_bodies(film::ShearForce shear) {
+  if (shear == film::ShearForce::full) return "its force and its torque";
+  return shear == film::ShearForce::torque_only ? "its torque only (`shear_force: torque_only`)"
+                                                : "nothing (`shear_force: none`)";
+}
+
 std::string edge(const film::FilmModel& film, const film::Edge& at) {
   if (at.kind == film::EdgeKind::closed) return "closed: no oil passes";
   const double p = at.pressure, fill = at.ambient_fill;
@@ -339,13 +345,11 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
     rows.emplace_back(bearing.name + ": " + name, std::move(text));
   };
   row("cavitation", cavitation(film));
-  row("shear",
-      fmt::format("the cavitated film is sheared over {}; shear acts by {}",
-                  film.cavitated_shear == film::CavitatedShear::full
-                      ? "the whole gap (`cavitated_shear: full`)"
-                      : "the oil's share of the gap (`cavitated_shear: film_share`)",
-                  film.shear_force == film::ShearForce::full ? "its force and its torque"
-                                                             : "its torque only (`shear_force: torque_only`)"));
+  row("shear", fmt::format("the cavitated film is sheared over {}; shear acts by {}",
+                           film.cavitated_shear == film::CavitatedShear::full
+                               ? "the whole gap (`cavitated_shear: full`)"
+                               : "the oil's share of the gap (`cavitated_shear: film_share`)",
+                           shear_on_bodies(film.shear_force)));
   row("pressures",
       film.pressures == film::PressureScale::absolute ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
   const film::Arcs* bore = film::arcs_of(film);

@@ -9,12 +9,14 @@
 
 namespace hersey::run {
 
-SteadyMotion find_steady_motion(const model::Model& model, const std::vector<std::string>& released) {
+SteadyMotion find_steady_motion(const model::Model& model, const std::vector<std::string>& released,
+                                int max_iterations) {
   model::Machine machine = model::build(model);
   solver::State state = starting_state(model, machine);
   mbd::Mechanism& mechanism = *machine.mechanism;
   SteadyMotion motion;
-  const solver::EquilibriumSummary found = solver::find_equilibrium(mechanism, state, {.steady_motion = true});
+  const solver::EquilibriumSummary found =
+      solver::find_equilibrium(mechanism, state, {.max_iterations = max_iterations, .steady_motion = true});
   motion.iterations = found.iterations;
   motion.message = found.message;
   if (!found.solved()) return motion;

@@ -87,7 +87,8 @@ struct Asperities {
 };
 
 enum class CavitatedShear { full, film_share };
-enum class ShearForce { full, torque_only };
+/// What shear does to the bodies; friction torques and powers are reported whatever it is.
+enum class ShearForce { full, torque_only, none };
 enum class FilmSolver { newton, sor, multigrid };
 
 /// Condition on an edge: oil at a prescribed pressure, or a wall that no oil passes. Two walls make a bearing of

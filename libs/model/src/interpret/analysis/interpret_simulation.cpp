@@ -122,7 +122,14 @@ namespace {
 void refuse_bearings(Context& context, const Value& value) {
   const Simulation& simulation = context.model.simulation;
   const Value* bearings = context.root.find("bearings");
-  if (bearings == nullptr || bearings->members.empty() || simulation.analysis == Analysis::dynamics) return;
+  if (bearings == nullptr || bearings->members.empty()) return;
+  for (const auto& [name, bearing] : bearings->members) {
+    const Value* shear = simulation.has_duration() ? bearing.find("shear_force") : nullptr;
+    if (shear == nullptr || shear->broken || shear->text != "none") continue;
+    context.fault(*shear, "shear that acts on no body, in a motion over time: its energy would come from nowhere",
+                  "`full`; or `analysis: steady`");
+  }
+  if (simulation.analysis == Analysis::dynamics) return;
   if (simulation.analysis == Analysis::kinematics) {
     context.fault(*value.find("analysis"), "a kinematic analysis of a machine with bearings",
                   "ideal joints: a film lets its journal move as forces will", "leave out `bearings`, or use dynamics");

@@ -27,8 +27,30 @@ void interpret_bearings(Context& context) {
   }
 }
 
+namespace {
+
+/// Kind of the films of a bearing of several, whose short names it has.
+const std::string& kind_of_films(const std::string& kind) {
+  static const std::string journal = "journal";
+  return kind == "tilting_pad" ? journal : kind;
+}
+
+/// Short names of a bearing of tilting pads: those of a journal's that it has, and its own.
+ShortNames names_of_pads(ShortNames names, const std::string& bearing) {
+  std::erase_if(names.paths,
+                [](const auto& path) { return path.first == "shell_speed" || path.first == "radial_velocity"; });
+  const std::string path = "bearings." + bearing + ".";
+  names.paths.emplace_back("whirl_ratio", path + "operating_point.whirl_ratio");
+  names.paths.emplace_back("preload", path + "pads.preload");
+  return names;
+}
+
+}  // namespace
+
 ShortNames short_names(const Model& model, const Bearing& bearing) {
   const std::string name = bearing.kind->name();
+  for (const Composite& composite : model.composites)
+    if (&composite.bearing == &bearing) return names_of_pads(journal_short_names(model, bearing), bearing.name);
   for (const KindReader& kind : bearing_kinds())
     if (kind.kind == name) return kind.short_names(model, bearing);
   HERSEY_REQUIRE(false, "every kind of bearing has a reader");
@@ -40,7 +62,8 @@ std::optional<BearingKindNames> names_of_kind(const std::string& kind, const std
   const std::string& tag = kind.empty() ? formats.front().tag : kind;
   const auto format = std::find_if(formats.begin(), formats.end(), [&](const auto& each) { return each.tag == tag; });
   const std::vector<KindReader> readers = bearing_kinds();
-  const auto reader = std::find_if(readers.begin(), readers.end(), [&](const auto& each) { return each.kind == tag; });
+  const auto reader =
+      std::find_if(readers.begin(), readers.end(), [&](const auto& each) { return each.kind == kind_of_films(tag); });
   if (format == formats.end() || reader == readers.end()) return std::nullopt;
   BearingKindNames names{.kind = tag, .title = format->title, .point_keys = {}, .short_names = {}};
   if (const Key* point = find_key(format->keys, "operating_point"))
@@ -49,6 +72,7 @@ std::optional<BearingKindNames> names_of_kind(const std::string& kind, const std
   stand_in.name = bearing;
   stand_in.lubricant = lubricant;
   names.short_names = reader->short_names(Model{}, stand_in);
+  if (reader->kind != tag) names.short_names = names_of_pads(std::move(names.short_names), bearing);
   return names;
 }
 

@@ -26,7 +26,7 @@ struct PadInertia {
   double axial = 0;       ///< and along the axis
 };
 
-/// Sector between the radii r and r + t, of the angle `arc` and the width L.
+/// Sector between the radii r and r + t, of the angle `arc`, theory manual eq. (pads.1).
 PadInertia sector_of_ring(double r, double t, double arc, double width, double density) {
   const double outer = r + t, half = arc / 2;
   const double area = half * (outer * outer - r * r), fourth = (std::pow(outer, 4) - std::pow(r, 4)) / 4;
@@ -86,7 +86,7 @@ class TiltingPads {
   [[nodiscard]] bool yields() const { return pivot_.text != "rigid"; }
   [[nodiscard]] std::string pad_name(std::size_t k) const { return fmt::format("{}_pad_{}", parts_.name, k + 1); }
 
-  /// Tilt with which a pad begins [rad]: its film narrows along the sliding direction by half the clearance towards the
+  /// Tilt with which a pad begins [rad], theory manual eq. (pads.3): its film narrows along the sliding direction by half the clearance towards the
   /// farther end. Flat pads may have no film to begin with.
   [[nodiscard]] double opening() const {
     const double farther = std::max(offset_, 1 - offset_) * arc_;
@@ -226,7 +226,7 @@ class TiltingPads {
     return seat;
   }
 
-  /// k of F = k d^1.5 between a ball and what it stands on, theory manual eq. (bearing.60). A sphere in a cylinder is
+  /// k of F = k d^1.5 between a ball and what it stands on, theory manual eq. (pads.2). A sphere in a cylinder is
   /// taken as a sphere in a socket of the mean curvature.
   [[nodiscard]] double hertz_constant() const {
     const double ball = 1 / number_of(pivot_, "ball_radius");

@@ -24,7 +24,9 @@ struct [[nodiscard]] SteadyMotion : Outcome {
 
 /// Finds the steady motion of `model`, whose drives keep their speeds.
 /// @param released  names of coordinates that drives prescribe and whose small motions are free nevertheless
+/// @param max_iterations  of Newton's method, after which the search is given up
 /// @throws InputError if the model cannot start
-[[nodiscard]] SteadyMotion find_steady_motion(const model::Model& model, const std::vector<std::string>& released = {});
+[[nodiscard]] SteadyMotion find_steady_motion(const model::Model& model, const std::vector<std::string>& released = {},
+                                              int max_iterations = 500);
 
 }  // namespace hersey::run

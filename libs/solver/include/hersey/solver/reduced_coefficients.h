@@ -14,8 +14,8 @@ struct ReducedCoefficients {
 };
 
 /// Returns the coefficients of the forces that harmonic motions of the chosen coordinates meet while no force acts on
-/// the others: those of a bearing as its journal sees them, for example, while its pads follow. Theory manual eq.
-/// (integrator.36).
+/// the others: those of a bearing as its journal sees them, for example, while its pads follow. Theory manual eqs.
+/// (pads.4), (pads.5).
 /// @param linear  small motions about a state
 /// @param chosen  velocity components, whose motions must be free and independent; their own inertia is left out
 /// @param omega  angular frequency [rad/s], >= 0; at 0 the limit of slow motions

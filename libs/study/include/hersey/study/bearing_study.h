@@ -22,6 +22,7 @@ struct PadState {
   double pivot_angle = 0;   ///< of its pivot, from the shell's x-axis towards y [rad]
   double tilt = 0;          ///< about the axis along the bearing, in the sense from x to y [rad]
   double pivot_travel = 0;  ///< of its pivot along the radius, outwards; 0 of a rigid one [m]
+  bool is_aside = false;    ///< nothing balances it: it is fixed at a tilt at which it carries nothing
   double h_pivot = 0;       ///< film thickness at the pivot, at mid-width [m]
   Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< of the film on it, bearing axes [N]
 };
