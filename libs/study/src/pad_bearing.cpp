@@ -252,6 +252,12 @@ PadMotion find_motion(const model::Composite& composite, const model::JournalPoi
   return found;
 }
 
+/// The motions of coordinates that a linearisation's directions give.
+Eigen::MatrixXd over_coordinates(const solver::Linearisation& linear, const Eigen::MatrixXd& A) {
+  const Eigen::MatrixXd along = linear.Z.completeOrthogonalDecomposition().pseudoInverse();
+  return along.transpose() * A * along;
+}
+
 /// Small motions about the motion, their stiffness and damping the means over four positions of the grids' lines in
 /// their cells: the fronts of films jump from line to line, theory manual eq. (bearing.38).
 solver::Linearisation mean_small_motions(const PadMotion& found) {
@@ -264,9 +270,9 @@ solver::Linearisation mean_small_motions(const PadMotion& found) {
       pad.film.grid = film::turned(pad.film.grid, static_cast<double>(m) / positions);
     const run::SteadyMotion motion = run::find_steady_motion(turned, found.released, most_iterations);
     if (!motion.solved()) continue;
-    const Eigen::MatrixXd change = motion.small_motions.Z.transpose() * mean.Z;
-    mean.K += change.transpose() * motion.small_motions.K * change;
-    mean.C += change.transpose() * motion.small_motions.C * change;
+    const solver::Linearisation& other = motion.small_motions;
+    mean.K += mean.Z.transpose() * over_coordinates(other, other.K) * mean.Z;
+    mean.C += mean.Z.transpose() * over_coordinates(other, other.C) * mean.Z;
     ++count;
   }
   mean.K /= count, mean.C /= count;
@@ -324,12 +330,9 @@ void solve_pads(const model::Composite& composite, BearingSolution& solution) {
   const solver::ReducedCoefficients reduced = reduce(small_motions, journal_coordinates(motion), omega);
   solution.state.coefficients = {reduced.K, reduced.C};
   pads->coordinates = motion.coordinates;
-  const auto over_coordinates = [&](const Eigen::MatrixXd& A) {
-    return Eigen::MatrixXd(small_motions.Z * A * small_motions.Z.transpose());
-  };
-  pads->stiffness = over_coordinates(small_motions.K);
-  pads->damping = over_coordinates(small_motions.C);
-  pads->mass = over_coordinates(small_motions.M);
+  pads->stiffness = over_coordinates(small_motions, small_motions.K);
+  pads->damping = over_coordinates(small_motions, small_motions.C);
+  pads->mass = over_coordinates(small_motions, small_motions.M);
   solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
   solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
   for (const PadState& pad : pads->pads)

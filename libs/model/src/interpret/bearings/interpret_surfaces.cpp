@@ -335,11 +335,13 @@ class SurfaceReader {
   /// Lines at the same distance in all arcs: as many as `circumferential` would lay around a whole bore. Their number
   /// lets two coarser grids have every second and every fourth of them.
   [[nodiscard]] std::vector<film::Patch> patches_of_arcs() const {
+    constexpr double half = 0.5 + 1e-9;  // angles of arcs that are turned differ by round-off
     std::vector<film::Patch> patches;
     for (const film::Arc& arc : film::arcs_of(film_)->arcs) {
       const double quarters = 0.25 * film_.grid.n_phi * (arc.to - arc.from) / two_pi;
-      patches.push_back(
-          {.from = arc.from, .to = arc.to, .lines = 4 * std::max(1, static_cast<int>(std::lround(quarters))) + 1});
+      patches.push_back({.from = arc.from,
+                         .to = arc.to,
+                         .lines = 4 * std::max(1, static_cast<int>(std::floor(quarters + half))) + 1});
     }
     return patches;
   }
