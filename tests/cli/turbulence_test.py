@@ -177,7 +177,7 @@ class Turbulence(unittest.TestCase):
                       faults("    turbulence: ng_pan\n    roughness: {shell: {sigma: 1 um}}\n"))
         self.assertIn("wrong.yaml:10:40", faults("    turbulence: {model: ng_pan, onset: 0}\n"))
         self.assertIn("ng_pan", faults("    turbulence: eddies\n"))
-        thinning = TURBINE.replace("density: 850 kg/m^3", "density: 850 kg/m^3, shear_thinning: {law: cross, critical_rate: 1e5 1/s}")
+        thinning = TURBINE.replace("density: 850 kg/m^3", "density: 850 kg/m^3, shear_thinning: {law: cross, exponent: 0.8, critical_shear_rate: 1e5 1/s}")
         self.assertIn("thins by shear", faults("    turbulence: ng_pan\n", thinning))
         self.assertIn("surfaces that are not round",
                       faults("", PAD.replace("constantinescu", "{model: hirs, transition: taylor}")))

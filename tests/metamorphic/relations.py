@@ -55,7 +55,7 @@ NEUTRAL = [
     ("PLAIN", "lubricants.oil.compressibility", "incompressible"),
     ("PLAIN", "lubricants.oil.compressibility", {"law": "dowson_higginson", "rise": "0 1/Pa"}),
     ("PLAIN", "lubricants.oil.temperature", "55 degC"),
-    ("PLAIN", "lubricants.oil.density", "900 kg/m^3"),
+    ("PLAIN", "lubricants.oil.density", "850 kg/m^3"),
     ("PLAIN", "lubricants.oil.thermal_expansion", "0 1/K"),
     ("PLAIN", "lubricants.oil.specific_heat", "1900 J/kg/K"),
     ("PLAIN", "lubricants.oil.conductivity", "0.2 W/m/K"),

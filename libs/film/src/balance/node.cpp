@@ -106,7 +106,7 @@ void NodeLaw::rheology(const NodeViscosity& viscosity, const Sliding& sliding, N
   node.content = node.density * node.theta;
   node.content_u = node.density_u * node.theta + node.density * node.theta_u;
   node.mu_laminar = node.mu;
-  node.reynolds = oil.density * node.density * sliding.speed * node.h / node.mu;
+  node.reynolds = reynolds_number(model_, node, sliding.speed);
   if (model_.turbulence.counts()) add_turbulence(sliding, slope, node);
 }
 

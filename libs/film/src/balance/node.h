@@ -48,7 +48,7 @@ struct Node {
   double mu = 0, mu_u = 0, mu_h = 0;                    ///< viscosity of sliding [Pa s], at fixed h and at fixed u
   double mu_rate = 0;                                   ///< with the logarithm of the sliding speed [Pa s]
   double mu_laminar = 0;                                ///< the oil's own part of `mu`, without turbulence [Pa s]
-  double reynolds = 0;                                  ///< rho v h/mu_laminar of the sliding (turbulence.1) [-]
+  double reynolds = 0;                                  ///< reynolds_number() at the speed of Sliding [-]
   double turbulent_fraction = 0;                        ///< TurbulentFriction::fraction [-]
   double density = 1, density_u = 0;                    ///< rho/rho0 [-]
   double content = 1, content_u = 0;                    ///< oil in the gap, density theta [-]
@@ -76,6 +76,11 @@ struct NodeViscosity {
   double at_rest = 1;          ///< without shear thinning [Pa s]
   bool is_sheared = false;     ///< true if the others include shear thinning
 };
+
+/// Returns the Reynolds number of a node between surfaces that slide at a speed [m/s] (turbulence.1) [-].
+[[nodiscard]] inline double reynolds_number(const FilmModel& model, const Node& node, double speed) {
+  return model.lubricant.density * node.density * speed * node.h / node.mu_laminar;
+}
 
 /// Returns the viscosities of one node of a film.
 [[nodiscard]] NodeViscosity node_viscosity(const LayeredViscosity& viscosity, int node);

@@ -139,13 +139,14 @@ void observe_regimes(const FlowBalance& balance, FilmObservables& o) {
   o.laminar_share = 0;
   for (int k = 0; k < balance.size(); ++k) {
     const Node& node = balance.nodes()[k];
-    const double area = balance.area(k), number = transition_number(turbulence, node.reynolds, node.h, model.R);
+    const double reynolds = reynolds_number(model, node, balance.slip(k % model.grid.n_z).norm());
+    const double area = balance.area(k), number = transition_number(turbulence, reynolds, node.h, model.R);
     total += area;
     (number <= turbulence.onset ? o.laminar_share
      : number < turbulence.full ? o.transition_share
                                 : o.turbulent_share) += area;
-    o.reynolds_max = std::max(o.reynolds_max, node.reynolds);
-    o.taylor_max = std::max(o.taylor_max, transition_number(by_taylor, node.reynolds, node.h, model.R));
+    o.reynolds_max = std::max(o.reynolds_max, reynolds);
+    o.taylor_max = std::max(o.taylor_max, transition_number(by_taylor, reynolds, node.h, model.R));
   }
   o.laminar_share /= total, o.transition_share /= total, o.turbulent_share /= total;
   if (!std::holds_alternative<Cylinder>(model.surface)) o.taylor_max = std::numeric_limits<double>::quiet_NaN();
