@@ -35,5 +35,6 @@ struct BearingKindFormat {
 // Keys of the kinds, one file each in schema/kinds.
 [[nodiscard]] std::vector<Key> journal_keys();
 [[nodiscard]] std::vector<Key> plane_slider_keys();
+[[nodiscard]] std::vector<Key> thrust_keys();
 
 }  // namespace hersey::model

@@ -80,6 +80,7 @@ class ThrustBearing final : public BearingKind {
   [[nodiscard]] bool has_axis() const override { return false; }
   [[nodiscard]] std::string fixed_surface() const override { return "stator"; }
   [[nodiscard]] std::string moving_surface() const override { return "runner"; }
+  [[nodiscard]] bool is_forward() const override { return is_forward_; }
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> description(
       const film::FilmModel& model) const override;
   [[nodiscard]] std::unique_ptr<GapKinematics> gap(const film::FilmModel& model,
@@ -88,8 +89,6 @@ class ThrustBearing final : public BearingKind {
 
   /// The pads; empty: a washer.
   [[nodiscard]] const std::vector<SectorPad>& pads() const { return pads_; }
-  /// True if the leading edge of a pad is the one with the smaller angle.
-  [[nodiscard]] bool is_forward() const { return is_forward_; }
   /// Returns by how much the shapes open the gap at the nodes [m], shape (grid.size()).
   [[nodiscard]] Eigen::VectorXd opening(const film::FilmModel& model) const;
 
