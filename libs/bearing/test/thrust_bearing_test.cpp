@@ -122,12 +122,12 @@ TEST_CASE("TiltedWasher_MeetsAnIndependentSolution") {
   t.point.tilt = {-0.5 * h_2 / r_o, 0};  // the gap is widest at phi = 0
   const SteadyState state = t.solve();
   const Vector6& W = state.film.wrench_on_shell;
-  CHECK(load(state) / unit_load == relative(0.130208).epsilon(3e-3));        // (1/40)^2 times some five
-  CHECK(-W[0] / (unit_load * r_o) == relative(0.0459537).epsilon(6e-3));     // likewise, of the moment
-  CHECK(W[1] / (unit_load * r_o) == relative(-0.0095030).epsilon(2e-2));     // a difference of two halves
-  CHECK(state.film.flow_right / unit_flow == relative(-0.0021655).epsilon(2e-2));  // the reference's first order
+  CHECK(load(state) / unit_load == relative(0.130208).epsilon(3e-3));                // (1/40)^2 times some five
+  CHECK(-W[0] / (unit_load * r_o) == relative(0.0459537).epsilon(6e-3));             // likewise, of the moment
+  CHECK(W[1] / (unit_load * r_o) == relative(-0.0095030).epsilon(2e-2));             // a difference of two halves
+  CHECK(state.film.flow_right / unit_flow == relative(-0.0021655).epsilon(2e-2));    // the reference's first order
   CHECK(std::abs(state.film.flow_left + state.film.flow_right) < 1e-9 * unit_flow);  // the film's tolerance
-  CHECK(state.film.cavitated_share == relative(0.10635).epsilon(5e-2));  // a share of nodes
+  CHECK(state.film.cavitated_share == relative(0.10635).epsilon(5e-2));              // a share of nodes
 }
 
 // Far from the axis a sector is a rectangle: the deviation falls with width over radius, squared.
@@ -154,8 +154,9 @@ TEST_CASE("SectorFarFromTheAxis_IsAPlaneSlider") {
     CHECK(-state.film.torque_journal / R == relative(slider.film.wrench_on_shell[4]).epsilon(1e-3));  // (L/R)^2
     CHECK(state.film.flow_first == relative(slider.film.flow_first).epsilon(1e-3));                   // likewise
     CHECK(state.film.flow_sides() == relative(slider.film.flow_sides()).epsilon(1e-3));               // likewise
-    CHECK(state.coefficients.stiffness(0, 0) == relative(slider.coefficients.stiffness(0, 0)).epsilon(1e-3));  // likewise
-    CHECK(state.coefficients.damping(0, 0) == relative(slider.coefficients.damping(0, 0)).epsilon(1e-3));      // likewise
+    CHECK(state.coefficients.stiffness(0, 0) ==
+          relative(slider.coefficients.stiffness(0, 0)).epsilon(1e-3));                                    // likewise
+    CHECK(state.coefficients.damping(0, 0) == relative(slider.coefficients.damping(0, 0)).epsilon(1e-3));  // likewise
   }
   CHECK(std::abs(deviation[1]) < 1e-4);  // (L/R)^2 = 1e-4
   CHECK(order(deviation[0], deviation[1]) == doctest::Approx(2).epsilon(0.1));
@@ -241,7 +242,7 @@ TEST_CASE("PadsBetweenGrooves_AreAWasherWithThem") {
       largest = std::max(largest, std::abs(a.u[13 * i + j] - b.u[13 * line + j]));
     }
   }
-  CHECK(largest < 1e-7 * a.film.p_max);  // the film's tolerance
+  CHECK(largest < 1e-7 * a.film.p_max);                         // the film's tolerance
   CHECK(a.film.p_max == relative(b.film.p_max).epsilon(1e-7));  // likewise
   CHECK(a.film.flow_right > 0);
 }
@@ -278,7 +279,7 @@ TEST_CASE("ThrustCoefficients_MatchDifferences") {
 TEST_CASE("PowerOfTaperedPads_IsBalanced") {
   std::array<double, 2> errors{};
   for (const int k : {0, 1}) {
-    Thrust t = thrust({{"1", 0, 1}}, {SectorRamp{h_2, 0.7}, SectorCone{5e-6}}, k == 0 ? 31 : 61, k == 0 ? 17 : 33);
+    Thrust t = thrust({{"1", 0, 1}}, {SectorRamp{h_2, 0.7}, SectorCone{5e-6}}, k == 0 ? 51 : 101, k == 0 ? 25 : 49);
     t.point.tilt = {1e-4, 5e-5};
     t.point.e[0] = 2 * h_2;
     t.point.e_rate[0] = -2e-3;
@@ -286,7 +287,7 @@ TEST_CASE("PowerOfTaperedPads_IsBalanced") {
     const double put_in = -state.film.torque_journal * omega + state.load[0] * t.point.e_rate[0];
     errors[static_cast<std::size_t>(k)] = put_in / state.film.power_taken() - 1;
   }
-  CHECK(std::abs(errors[1]) < 1e-3);  // (1/32)^2
+  CHECK(std::abs(errors[1]) < 4e-4);  // (1/48)^2
   CHECK(order(errors[0], errors[1]) > 1.7);
 }
 

@@ -430,6 +430,8 @@ class Summary {
     if (const std::vector<double> y = values(series + "_y"); row < y.size())
       text += fmt::format(", y = {:.2f} mm", y[row] * 1e3);
     if (row < z.size()) text += fmt::format(", z = {:.2f} mm", z[row] * 1e3);
+    if (const std::vector<double> r = values(series + "_r"); row < r.size())
+      text += fmt::format(", r = {:.2f} mm", r[row] * 1e3);
     return text;
   }
 

@@ -211,20 +211,22 @@ Group thrust_dynamics() {
   const auto axial = [](Matrix bearing::DynamicCoefficients::*of) {
     return [of](const Solution& s) { return (s.state.coefficients.*of)(0, 0); };
   };
-  const auto tilting = [](Matrix bearing::DynamicCoefficients::*of) {
-    return [of](const Solution& s, std::size_t k) {
-      return (s.state.coefficients.*of)(1 + static_cast<Eigen::Index>(k / 2), 1 + static_cast<Eigen::Index>(k % 2));
+  // What is zero by symmetry comes out as the round-off of parts that are as large as the axial entry over the radius.
+  const auto entry = [](Matrix bearing::DynamicCoefficients::*of, const Solution& s, Eigen::Index i, Eigen::Index j) {
+    const Matrix& m = s.state.coefficients.*of;
+    const double arms = (i > 0 ? s.model.R : 1) * (j > 0 ? s.model.R : 1);
+    return without_round_off(m(i, j), std::abs(m(0, 0)) * arms);
+  };
+  const auto tilting = [entry](Matrix bearing::DynamicCoefficients::*of) {
+    return [=](const Solution& s, std::size_t k) {
+      return entry(of, s, 1 + static_cast<Eigen::Index>(k / 2), 1 + static_cast<Eigen::Index>(k % 2));
     };
   };
-  const auto force_by_slope = [](Matrix bearing::DynamicCoefficients::*of) {
-    return [of](const Solution& s, std::size_t k) {
-      return (s.state.coefficients.*of)(0, 1 + static_cast<Eigen::Index>(k));
-    };
+  const auto force_by_slope = [entry](Matrix bearing::DynamicCoefficients::*of) {
+    return [=](const Solution& s, std::size_t k) { return entry(of, s, 0, 1 + static_cast<Eigen::Index>(k)); };
   };
-  const auto moment_by_distance = [](Matrix bearing::DynamicCoefficients::*of) {
-    return [of](const Solution& s, std::size_t k) {
-      return (s.state.coefficients.*of)(1 + static_cast<Eigen::Index>(k), 0);
-    };
+  const auto moment_by_distance = [entry](Matrix bearing::DynamicCoefficients::*of) {
+    return [=](const Solution& s, std::size_t k) { return entry(of, s, 1 + static_cast<Eigen::Index>(k), 0); };
   };
   return {"stiffness and damping",
           {{"stiffness",

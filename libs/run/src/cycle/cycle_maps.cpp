@@ -18,6 +18,8 @@ auto of_cycle(Member member) {
 }
 
 bool is_of_plane(const model::Bearing& bearing) { return !film::is_round(bearing.film.surface); }
+bool is_of_annulus(const model::Bearing& bearing) { return bearing::is_on_annulus(bearing.film); }
+bool has_z(const model::Bearing& bearing) { return !is_of_annulus(bearing); }
 bool is_of_angle(const model::Bearing& bearing) { return !is_of_plane(bearing); }
 
 /// Energy over the cycle's duration.
@@ -42,7 +44,12 @@ void add_extreme(const std::string& name, const char* unit, const char* text, Fi
                    "where: along the sliding direction",
                    of(&FilmExtreme::phi),
                    {.note = "of a plane slider", .only = is_of_plane}});
-  table.push_back({name + "_z", "m", "where: axial; on a thrust bearing beyond the mean radius", of(&FilmExtreme::z)});
+  table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z), {.only = has_z}});
+  table.push_back({name + "_r",
+                   "m",
+                   "where: radius",
+                   [extreme](const CycleRow& row) { return row.radius + (row.cycle.*extreme).z; },
+                   {.note = "of a thrust bearing", .only = is_of_annulus}});
 }
 
 CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::VectorXd BearingCycle::*values,
@@ -187,7 +194,7 @@ std::vector<BearingCycle> CycleMaps::write(bool is_complete) {
   cycles.reserve(sums_.size());
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     const BearingCycle& cycle = cycles.emplace_back(sums_[i].close());
-    series_[i].append({cycle, is_complete});
+    series_[i].append({cycle, is_complete, machine_.bearings[i].bearing->model().R});
   }
   ++rows_;
   return cycles;

@@ -114,9 +114,14 @@ class ThrustReader {
       add_pad(std::to_string(k + 1), number_of(value, "angle") + two_pi * k / count, arc, value);
   }
 
-  // The first end lies within half a revolution on either side of the x-axis.
+  // The first end of the first pad lies within half a revolution on either side of the x-axis; the others follow.
   void add_pad(const std::string& name, double middle, double arc, const Value& value) {
-    const double from = std::remainder(middle - 0.5 * arc, two_pi);
+    const double begins = middle - 0.5 * arc;
+    double from = std::remainder(begins, two_pi);
+    if (!pads_.empty()) {
+      const double behind = std::fmod(std::fmod(begins - pads_[0].from, two_pi) + two_pi, two_pi);
+      from = pads_[0].from + behind;
+    }
     pads_.push_back({name, from, from + std::min(arc, two_pi)});
     pad_values_.push_back(&value);
   }
