@@ -52,6 +52,7 @@ COMMANDS = {
     "slider_crank/pin_hole": [("run", "simulation.duration=90deg")],
     "thrust_pads/fixed": [("bearing",)],
     "thrust_pads/model": [("run",)],
+    "thrust_pads/shaft": [("run",)],
     "tilting_pads/model": [("run",)],
     "spinning_rod/model": [("run", "simulation.duration=10s")],
     "squeezer/model": [("run", "simulation.duration=15ms")],

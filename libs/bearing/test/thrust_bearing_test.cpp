@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <complex>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -111,6 +112,40 @@ TEST_CASE("SectorPads_MeetIndependentSolutionsWithOrderTwo") {
     }
     CHECK(order(coarse[0] / c.exact[0] - 1, fine[0] / c.exact[0] - 1) == doctest::Approx(2).epsilon(0.15));
   }
+}
+
+// A flat pad that leans as on a pivot 30 degrees behind its leading edge at 0.76 r_o, film h_2 there. Its own stiffness
+// and damping by film at the pivot and both tilts, and of the pad that follows the runner at rest (2 by similarity) and
+// at the frequency of the rotation, by the same program.
+TEST_CASE("CoefficientsOfAPadOnAPivot_MeetAnIndependentSolution") {
+  constexpr double r_p = 0.76 * r_o, onwards = 1.1160867 * h_2 / r_o, outwards = 0.0762492 * h_2 / r_o;
+  Thrust t = thrust({{"1", -30 * degree, 20 * degree}}, {}, 61, 49);
+  t.point.tilt = {-outwards, onwards};
+  t.point.e[0] = h_2 - outwards * r_p;
+  const SteadyState state = t.solve();
+  const double W = load(state);
+  CHECK(W / unit_load == relative(0.01678395).epsilon(1e-3));  // (1/48)^2 times some two
+  // Position and slopes of the runner's axis by the film at the pivot and both tilts.
+  Matrix3 by_pad;
+  by_pad << 1, 0, -r_p, 0, 0, -1, 0, 1, 0;
+  const Vector3 lengths(1, 1 / r_o, 1 / r_o);
+  const auto of_pad = [&](const DynamicCoefficients::Matrix& m) -> Matrix3 {
+    return lengths.asDiagonal() * (by_pad.transpose() * Matrix3(m) * by_pad) * lengths.asDiagonal() * (h_2 / W);
+  };
+  const Matrix3 K = of_pad(state.coefficients.stiffness), C = omega * of_pad(state.coefficients.damping);
+  Matrix3 exact_K, exact_C;
+  exact_K << 3.059709, -0.951194, 0.025008, -0.062675, 0.055474, 0.009983, 0.005901, -0.007043, 0.025697;
+  exact_C << 2.383859, 0.008432, -0.019183, 0.008432, 0.034155, -0.004075, -0.019183, -0.004075, 0.014301;
+  CHECK((K - exact_K).norm() < 5e-4 * exact_K.norm());  // (1/48)^2
+  CHECK((C - exact_C).norm() < 5e-4 * exact_C.norm());  // likewise
+  const auto following = [&](double nu) {
+    const Eigen::Matrix3cd Z = K.cast<std::complex<double>>() + std::complex<double>(0, nu) * C;
+    const Eigen::Vector2cd answer = Z.bottomRightCorner<2, 2>().inverse() * Z.block<2, 1>(1, 0);
+    return Z(0, 0) - (Z.block<1, 2>(0, 1) * answer)(0, 0);
+  };
+  CHECK(following(0).real() == relative(2.0).epsilon(1e-3));       // (1/48)^2 times some two
+  CHECK(following(1).real() == relative(2.461597).epsilon(1e-3));  // likewise
+  CHECK(following(1).imag() == relative(2.985266).epsilon(1e-3));  // likewise
 }
 
 // A tilted even washer, ri = ro/2, its film 1 - cos(phi)/2 from thin to wide, at a pressure of 0.05 on both edges; oil

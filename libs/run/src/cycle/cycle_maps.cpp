@@ -19,7 +19,7 @@ auto of_cycle(Member member) {
 
 bool is_of_plane(const model::Bearing& bearing) { return !film::is_round(bearing.film.surface); }
 bool is_of_annulus(const model::Bearing& bearing) { return bearing::is_on_annulus(bearing.film); }
-bool has_z(const model::Bearing& bearing) { return !is_of_annulus(bearing); }
+bool has_axial_place(const model::Bearing& bearing) { return !is_of_annulus(bearing); }
 bool is_of_angle(const model::Bearing& bearing) { return !is_of_plane(bearing); }
 
 /// Energy over the cycle's duration.
@@ -44,7 +44,7 @@ void add_extreme(const std::string& name, const char* unit, const char* text, Fi
                    "where: along the sliding direction",
                    of(&FilmExtreme::phi),
                    {.note = "of a plane slider", .only = is_of_plane}});
-  table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z), {.only = has_z}});
+  table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z), {.only = has_axial_place}});
   table.push_back({name + "_r",
                    "m",
                    "where: radius",
