@@ -96,14 +96,16 @@ TEST_CASE("CollarBetweenTwoBearings_FloatsInTheMiddle") {
 )");
   const std::string rotation = "rotation: {axis: x, angle: 180 deg}";
   both.replace(both.find("zz: 1 kg.m^2}}"), std::string("zz: 1 kg.m^2}}").size(),
-               "zz: 1 kg.m^2}, frames: {back: {origin: 0 0 30 mm, " + rotation + "}}}\n  ground: {frames: {back: {origin: "
-               "0 0 30.08 mm, " + rotation + "}}}");
+               "zz: 1 kg.m^2}, frames: {back: {origin: 0 0 30 mm, " + rotation +
+                   "}}}\n  ground: {frames: {back: {origin: "
+                   "0 0 30.08 mm, " +
+                   rotation + "}}}");
   const Ran free(both, {"forces.thrust.components=[0 N, 0 N, 0 N]"}), pushed(both);
   CHECK(free.number("bearings/main/film_thickness_axis") == relative(40e-6).epsilon(1e-7));  // of 80 um; Newton's
   CHECK(free.number("bearings/back/film_thickness_axis") == relative(40e-6).epsilon(1e-7));  // likewise
   CHECK(free.number("bearings/main/h_min") == relative(free.number("bearings/back/h_min")).epsilon(1e-7));
   CHECK(free.number("bearings/main/torque_runner") ==
-        relative(-free.number("bearings/back/torque_runner")).epsilon(1e-6));  // both brake the shaft
+        relative(-free.number("bearings/back/torque_runner")).epsilon(1e-6));        // both brake the shaft
   CHECK(free.number("bearings/back/runner_speed") == relative(-300).epsilon(1e-9));  // the drive's
   CHECK(pushed.number("bearings/main/film_thickness_axis") < 40e-6);
   CHECK(pushed.last("bearings/main/force")[2] - 5000 ==
@@ -112,8 +114,8 @@ TEST_CASE("CollarBetweenTwoBearings_FloatsInTheMiddle") {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// One pad of 50 degrees, 50 to 100 mm, on a pivot in its face, 30 degrees behind its leading edge at 76 mm, below a runner
-/// that turns at 300 rad/s and is pressed on it by the load [N].
+/// One pad of 50 degrees, 50 to 100 mm, on a pivot in its face, 30 degrees behind its leading edge at 76 mm, below a
+/// runner that turns at 300 rad/s and is pressed on it by the load [N].
 std::string pivoted(double load, double turned, const std::string& simulation) {
   const double x = 0.076 * std::cos(turned * degree), y = 0.076 * std::sin(turned * degree);
   const std::string pivot = fmt::format("{{origin: [{:.17g} m, {:.17g} m, 0 m]}}", x, y);
@@ -145,8 +147,8 @@ simulation: {3}
                      pivot, -load, turned - 5, simulation);
 }
 
-// Of an independent solution on three grids: at W h_p^2/(mu omega r_o^4) = 0.016784 the film at the pivot is h_p, and the
-// pad leans by 1.1161 h_p/r_o along and 0.0762 h_p/r_o across the sliding direction there.
+// Of an independent solution on three grids: at W h_p^2/(mu omega r_o^4) = 0.016784 the film at the pivot is h_p, and
+// the pad leans by 1.1161 h_p/r_o along and 0.0762 h_p/r_o across the sliding direction there.
 TEST_CASE("PivotedPad_MeetsAnIndependentSolution_AtAnyAngle") {
   constexpr double h_p = 30e-6, r_o = 0.1;
   const double load = 0.01678395 * 0.02 * 300 * std::pow(r_o, 4) / (h_p * h_p);
@@ -167,9 +169,9 @@ TEST_CASE("PivotedPad_MeetsAnIndependentSolution_AtAnyAngle") {
     CHECK(found.number("bearings/pad/power_film") == relative(power).epsilon(of_grid));
     // The stator's force goes through the pivot, and runner and pad feel the same wrench.
     const std::vector<double> force = found.last("bearings/pad/force"), moment = found.last("bearings/pad/moment");
-    CHECK(force[2] == relative(-load).epsilon(1e-6));                                           // Newton's tolerance
-    CHECK(std::abs(moment[0] - 0.076 * s * force[2]) < 1e-6 * load * r_o);                      // likewise
-    CHECK(std::abs(moment[1] + 0.076 * c * force[2]) < 1e-6 * load * r_o);                      // likewise
+    CHECK(force[2] == relative(-load).epsilon(5e-6));  // along the pad's axis: a slope of 3e-4 of the shear force
+    CHECK(std::abs(moment[0] - 0.076 * s * force[2]) < 1e-6 * load * r_o);  // likewise
+    CHECK(std::abs(moment[1] + 0.076 * c * force[2]) < 1e-6 * load * r_o);  // likewise
   }
 }
 

@@ -30,20 +30,34 @@ bearings:
     operating_point: {speed: 300 rad/s, film_thickness: 20 um}
 )";
 
+/// The same without its pads, and with others or none in their place.
+std::string with_pads(const std::string& pads) {
+  const std::string equal = "    pads: {count: 3, arc: 50 deg}\n";
+  std::string text = thrust;
+  return text.replace(text.find(equal), equal.size(), pads);
+}
+
+/// An even washer.
+std::string washer() {
+  const std::string ramp = "    shape: [{profile: ramp, rise: 20 um}]\n";
+  std::string text = with_pads("");
+  return text.replace(text.find(ramp), ramp.size(), "");
+}
+
 using Figures = std::map<std::string, BearingFigure>;
 
-Figures figures_with(const std::vector<std::string>& overrides, bool with_grid_error = false) {
-  const model::Model model = model::read_text(thrust, "m.yaml", overrides);
-  const BearingSolution solution = BearingSolver().solve(model, {.grid_error = with_grid_error});
+Figures figures_with(const std::vector<std::string>& overrides, const std::string& text = thrust) {
+  const model::Model model = model::read_text(text, "m.yaml", overrides);
+  const BearingSolution solution = BearingSolver().solve(model, {.grid_error = false});
   REQUIRE_MESSAGE(solution.solved(), solution.message);
   Figures all;
   for (const BearingFigure& f : figures_of(solution)) all[f.key] = f;
   return all;
 }
 
-std::string fault_with(const std::vector<std::string>& overrides) {
+std::string fault_with(const std::vector<std::string>& overrides, const std::string& text = thrust) {
   try {
-    const model::Model model = model::read_text(thrust, "m.yaml", overrides);
+    const model::Model model = model::read_text(text, "m.yaml", overrides);
     (void)operating_point_of(model.bearings.front());
   } catch (const InputError& error) {
     return error.what();
@@ -77,13 +91,13 @@ TEST_CASE("EqualPads_HaveTheFiguresOfAnIndependentSolution") {
   CHECK(si("damping") * omega * h / si("load") == relative(1.745329).epsilon(of_grid));
   CHECK(si("thrust_number") == relative(3 * 0.00828283).epsilon(of_grid));
   // Three equal pads all around: tilts do the same in every direction, and nothing to the load.
-  CHECK(si("tilting_stiffness_xx") == relative(si("tilting_stiffness_yy")).epsilon(1e-8));  // the film's tolerance
+  CHECK(si("tilting_stiffness_xx") == relative(si("tilting_stiffness_yy")).epsilon(1e-8));   // the film's tolerance
   CHECK(si("tilting_stiffness_xy") == relative(-si("tilting_stiffness_yx")).epsilon(1e-8));  // likewise
   CHECK(std::abs(si("load_by_tilt_x")) < 1e-8 * si("stiffness") * r_o);                      // likewise
 }
 
-// What is given one way and another is the same bearing: sectors for pads, a load for a film thickness, a negative sense
-// for a positive one.
+// What is given one way and another is the same bearing: sectors for pads, a load for a film thickness, a negative
+// sense for a positive one.
 TEST_CASE("SameThrustBearing_InOtherWords") {
   const std::vector<std::string> tilted{point + "tilt_x=5e-5 rad", point + "tilt_y=2e-5 rad"};
   const auto with = [&](std::vector<std::string> more) {
@@ -91,12 +105,12 @@ TEST_CASE("SameThrustBearing_InOtherWords") {
     return more;
   };
   const Figures as_it_is = figures_with(tilted);
-  const Figures sectors =
-      figures_with(with({bearing + "sectors={c: {middle: 240 deg, arc: 50 deg}, a: {middle: 0 deg, arc: 50 deg}, "
-                                   "b: {middle: 120 deg, arc: 50 deg}}",
-                         bearing + "pads=~"}));
-  const Figures loaded =
-      figures_with(with({point + "film_thickness=none", point + "load=" + std::to_string(as_it_is.at("load").value) + " N"}));
+  const Figures sectors = figures_with(
+      tilted,
+      with_pads("    sectors: {c: {middle: 240 deg, arc: 50 deg}, a: {middle: 0 deg, arc: 50 deg}, b: {middle: 120 "
+                "deg, arc: 50 deg}}\n"));
+  const Figures loaded = figures_with(
+      with({point + "film_thickness=none", point + "load=" + std::to_string(as_it_is.at("load").value) + " N"}));
   constexpr double solved = 1e-6;  // digits of the load as it is written
   for (const char* key : {"load", "h_min", "p_max", "p_max_r", "torque_runner", "stiffness", "damping", "flow_outer",
                           "flow_leading", "moment_x", "moment_y", "centre_x"}) {
@@ -105,8 +119,8 @@ TEST_CASE("SameThrustBearing_InOtherWords") {
     CHECK(loaded.at(key).value == relative(as_it_is.at(key).value).epsilon(solved));
   }
   // Mirrored at y = 0.
-  const Figures mirrored = figures_with({bearing + "sense=negative", point + "speed=-300 rad/s",
-                                         point + "tilt_x=5e-5 rad", point + "tilt_y=-2e-5 rad"});
+  const Figures mirrored = figures_with(
+      {bearing + "sense=negative", point + "speed=-300 rad/s", point + "tilt_x=5e-5 rad", point + "tilt_y=-2e-5 rad"});
   for (const char* key : {"load", "h_min", "p_max", "stiffness", "flow_leading", "flow_outer", "moment_y", "centre_x",
                           "pad_centre_angle_1", "pad_flow_in_1"}) {
     CAPTURE(key);
@@ -125,11 +139,16 @@ TEST_CASE("StepsAndPockets_Carry") {
   CHECK(forward.at("load").value > 1000);
   CHECK(backward.at("load").value == relative(forward.at("load").value).epsilon(1e-8));  // the film's tolerance
   CHECK(wrong.at("load").value < 0.2 * forward.at("load").value);
+  CHECK(model::read_text(thrust, "m.yaml", {step}).warnings.empty());
+  const model::Model against = model::read_text(thrust, "m.yaml", {step, bearing + "sense=negative"});
+  REQUIRE(against.warnings.size() == 1);
+  CHECK(against.warnings[0].expected == "a speed < 0, or `sense: positive`");
   // A washer at rest on a circular groove: between two discs Q = pi h^3 p/(6 mu ln(r_2/r_1)) goes to either side.
   const Figures fed = figures_with(
-      {bearing + "shape=[]", bearing + "pads=~", bearing + "grid={along: 24, radial: 41}",
+      {bearing + "grid={along: 24, radial: 41}",
        bearing + "features={ring: {shape: pocket, angle: 0 deg, arc: 360 deg, width: 10 mm, pressure: 20 bar}}",
-       point + "speed=0 rpm"});
+       point + "speed=0 rpm"},
+      washer());
   const auto flow = [](double inner, double outer) {
     return 3.14159265358979 * std::pow(20e-6, 3) * 20e5 / (6 * 0.02 * std::log(outer / inner));
   };
@@ -141,14 +160,13 @@ TEST_CASE("StepsAndPockets_Carry") {
 TEST_CASE("FaultsOfThrustBearings_AreToldByName") {
   CHECK(fault_with({bearing + "outer_diameter=100 mm"}).find("expected more than the inner diameter, 100 mm") !=
         std::string::npos);
-  CHECK(fault_with({bearing + "pads.count=8"}).find("8 pads of 50 deg, 400 deg in all; expected 360 deg in all at most") !=
-        std::string::npos);
+  CHECK(fault_with({bearing + "pads.count=8"})
+            .find("8 pads of 50 deg, 400 deg in all; expected 360 deg in all at most") != std::string::npos);
   CHECK(fault_with({bearing + "sectors={a: {middle: 0 deg, arc: 50 deg}}"}).find("both 'pads' and 'sectors'") !=
         std::string::npos);
-  CHECK(fault_with({bearing + "pads=~",
-                    bearing + "sectors={a: {middle: 0 deg, arc: 50 deg}, b: {middle: 30 deg, arc: 50 deg}}"})
+  CHECK(fault_with({}, with_pads("    sectors: {a: {middle: 0 deg, arc: 50 deg}, b: {middle: 30 deg, arc: 50 deg}}\n"))
             .find("pad 'a' (-25 to 25 deg) overlaps 'b' (5 to 55 deg)") != std::string::npos);
-  CHECK(fault_with({bearing + "pads=~"}).find("a ramp of a washer, which has no leading edge") != std::string::npos);
+  CHECK(fault_with({}, with_pads("")).find("a ramp of a washer, which has no leading edge") != std::string::npos);
   CHECK(fault_with({bearing + "shape=[{profile: ramp, rise: 20 um, arc: 60 deg}]"})
             .find("60 deg, longer than a pad; expected at most the pads' arc, 50 deg") != std::string::npos);
   CHECK(fault_with({bearing + "features={p: {shape: pocket, angle: 60 deg, arc: 20 deg, pressure: 2 bar}}"})
@@ -161,7 +179,8 @@ TEST_CASE("FaultsOfThrustBearings_AreToldByName") {
   CHECK(fault_with({bearing + "edge_pressure=closed"}).find("the pressure is given nowhere") != std::string::npos);
   CHECK(fault_with({point + "load=5 kN"}).find("keys 'load' and 'film_thickness' together") != std::string::npos);
   CHECK(fault_with({point + "speed=0 rpm"}).find("a runner at rest") != std::string::npos);
-  CHECK(fault_with({bearing + "thermal={model: film}"}).find("unknown key 'thermal'") != std::string::npos);
+  CHECK(fault_with({bearing + "thermal={model: film}"}).find("key 'thermal', which kind thrust does not have") !=
+        std::string::npos);
 }
 
 // On three grids, each half of the one before, the load changes by a quarter of what it did.

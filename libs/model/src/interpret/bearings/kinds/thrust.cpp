@@ -232,6 +232,7 @@ class ThrustReader {
   void read_shape(const Value& value, std::vector<bearing::SectorShape>& shapes) {
     if (value.text == "barrel") return shapes.emplace_back(bearing::SectorBarrel{number_of(value, "drop")}), void();
     if (value.text == "cone") return shapes.emplace_back(bearing::SectorCone{number_of(value, "rise")}), void();
+    if (context_.has_fault_in(value_.path + ".pads") || context_.has_fault_in(value_.path + ".sectors")) return;
     if (pads_.empty()) {
       context_.fault(value, fmt::format("a {} of a washer, which has no leading edge", value.text),
                      "`pads` or `sectors`; or `barrel`, `cone`");
@@ -317,6 +318,20 @@ class ThrustReader {
   bool is_forward_ = true;
 };
 
+/// Below a ramp or a step the film of a runner that turns the other way widens in the direction of motion.
+void warn_of_sense(Context& context, const Value& bearing, const Value& speed, bool is_forward) {
+  const Value* shape = bearing.find("shape");
+  const bool serves_one_sense =
+      shape != nullptr && std::any_of(shape->members.begin(), shape->members.end(), [](const Member& member) {
+        return member.value.text == "ramp" || member.value.text == "step";
+      });
+  if (!serves_one_sense || speed.broken || speed.number == 0 || (speed.number > 0) == is_forward) return;
+  context.model.warnings.push_back(
+      {speed.position, speed.path, "a runner that turns against the sense that ramps or steps are made for",
+       is_forward ? "a speed > 0, or `sense: negative`" : "a speed < 0, or `sense: positive`",
+       "their film then widens in the direction of motion and bears next to nothing"});
+}
+
 }  // namespace
 
 void read_thrust(Context& context, const Value& value, Bearing& bearing) {
@@ -330,8 +345,9 @@ void read_thrust_point(Context& context, const Value& bearing_value, Bearing& be
   ThrustPoint point;
   point.tilt_x = std::tan(number_of(*value, "tilt_x"));
   point.tilt_y = std::tan(number_of(*value, "tilt_y"));
-  if (read_approach(context, *value, two_pi * bearing.film.R * bearing.film.L, bearing, point))
-    bearing.operating_point = point;
+  if (!read_approach(context, *value, two_pi * bearing.film.R * bearing.film.L, bearing, point)) return;
+  warn_of_sense(context, bearing_value, *value->find("speed"), bearing.kind->is_forward());
+  bearing.operating_point = point;
 }
 
 ShortNames thrust_short_names(const Model& /*model*/, const Bearing& bearing) {
