@@ -15,6 +15,7 @@ double runner_speed(const Solution& s) { return s.state.point.journal_speed; }
 bool rotates(const Solution& s) { return runner_speed(s) != 0; }
 double outer_radius(const Solution& s) { return s.model.R + 0.5 * s.model.L; }
 
+/// About the runner's own axis, which leans (thrust.7).
 double torque_on_runner(const Solution& s) { return s.state.film.torque_journal; }
 
 /// The stator rests: power enters through the runner's torque, and through the load as runner and stator approach.

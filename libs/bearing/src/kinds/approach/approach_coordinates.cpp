@@ -34,6 +34,7 @@ Coordinates ApproachCoordinates::with_smallest_gap(const OperatingPoint& point, 
   return Coordinates::Constant(1, widest[0] - sign_ * (smallest_gap(point, widest) - gap));
 }
 
+// Pads in a row, each a long plane slider near its best inclination (slider.7), (thrust.8).
 Coordinates ApproachCoordinates::start(const OperatingPoint& point) {
   const double length = pads_.length;
   const double slenderness = length / model_.L;  // side flow of a pad with L = B takes about half of the load
