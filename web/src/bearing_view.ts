@@ -113,7 +113,7 @@ export class BearingView {
     const plot = new LinePlot({
       name: `${this.bearing}-midplane`,
       x: { label: axisName(along.coordinate), unit: along.coordinate.display.unit, values: along.shown() },
-      left: { label: "pressure at z = 0", unit: "MPa", fromZero: true },
+      left: { label: `pressure at ${this.surface.middle}`, unit: "MPa", fromZero: true },
       ...(fields.at("thickness", 0) ? { right: { label: "film thickness", unit: "µm", fromZero: true } } : {}),
       curves: curves(0),
     });
@@ -173,7 +173,7 @@ export class BearingView {
     };
     this.add("thickness", surface.thickness, { label: "film thickness", unit: "µm", fromZero: true }, [
       ...of("h_min", "smallest", micrometre),
-      ...of("h_min_centre", "smallest at z = 0", micrometre, { dash: [6, 4] }),
+      ...of("h_min_centre", `smallest at ${surface.middle}`, micrometre, { dash: [6, 4] }),
       ...of("film_thickness_middle", `at ${surface.whole}’s middle`, micrometre, { dash: [2, 3] }),
       ...of("film_thickness_axis", "on the axis", micrometre, { dash: [2, 3] }),
     ]);

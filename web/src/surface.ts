@@ -41,6 +41,8 @@ export interface Surface {
   /** The thing as a whole, and its map. */
   whole: string;
   map: string;
+  /** Where the middle of its rows lies: behind "pressure at ". */
+  middle: string;
   /** Behind "Extremes over the width, ". */
   way: string;
   axes: string;
@@ -60,6 +62,7 @@ const bore: Surface = {
   moving: "journal",
   whole: "the bearing",
   map: "the unwrapped bearing",
+  middle: "z = 0",
   way: "around the bore",
   axes: "in the bearing’s axes",
   thickness: "Smallest film thickness, edges included, and along the middle of the bearing.",
@@ -74,6 +77,7 @@ const plane: Surface = {
   moving: "runner",
   whole: "the pad",
   map: "the pad",
+  middle: "z = 0",
   way: "along the pad",
   axes: "in its axes: x normal to its face, y along the sliding direction",
   thickness: "Smallest film thickness, edges included, along the middle of the pad, and at its middle.",
@@ -88,6 +92,7 @@ const annulus: Surface = {
   moving: "runner",
   whole: "the bearing",
   map: "the unwrapped pads",
+  middle: "the mean radius",
   way: "around the axis",
   axes: "in the stator’s axes: z along the axis, towards the runner",
   thickness: "Smallest film thickness, edges included, along the mean radius, and on the axis.",
