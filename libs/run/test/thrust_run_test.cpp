@@ -100,7 +100,8 @@ TEST_CASE("CollarBetweenTwoBearings_FloatsInTheMiddle") {
                    "}}}\n  ground: {frames: {back: {origin: "
                    "0 0 30.08 mm, " +
                    rotation + "}}}");
-  const Ran free(both, {"forces.thrust.components=[0 N, 0 N, 0 N]"}), pushed(both);
+  const Ran free(both, {"forces.thrust.components=[0 N, 0 N, 0 N]", "joints.turning.initial.translation=30 um"}),
+      pushed(both);
   CHECK(free.number("bearings/main/film_thickness_axis") == relative(40e-6).epsilon(1e-7));  // of 80 um; Newton's
   CHECK(free.number("bearings/back/film_thickness_axis") == relative(40e-6).epsilon(1e-7));  // likewise
   CHECK(free.number("bearings/main/h_min") == relative(free.number("bearings/back/h_min")).epsilon(1e-7));  // likewise
