@@ -154,7 +154,7 @@ TEST_CASE("StepsAndPockets_Carry") {
   };
   CHECK(fed.at("flow_outer").value * 1e-9 == relative(flow(0.08, 0.1)).epsilon(3e-3));   // 16 cells over the land
   CHECK(fed.at("flow_inner").value * 1e-9 == relative(flow(0.05, 0.07)).epsilon(3e-3));  // likewise
-  CHECK(fed.at("torque_runner").value == 0);
+  CHECK(std::abs(fed.at("torque_runner").value) < 1e-12);  // round-off of some newton metres
 }
 
 TEST_CASE("FaultsOfThrustBearings_AreToldByName") {
