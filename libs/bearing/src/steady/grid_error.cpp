@@ -29,21 +29,20 @@ double runner_friction(const film::FilmModel& model, const SteadyState& state) {
 
 /// Figures of a kind without an axis: no attitude, no coefficients along the load.
 Figures plain_figures_of(const film::FilmModel& model, const SteadyState& state) {
-  return {
-      .h_min = state.film.h_min,
-      .p_max = state.film.p_max,
-      .eccentricity_ratio = 0,
-      .attitude = 0,
-      .load = state.load.norm(),
-      .friction_journal = runner_friction(model, state),
-      .side_flow = state.film.flow_sides(),
-      .torque_journal = state.film.torque_journal,
-      .torque_shell = state.film.torque_shell,
-      .power_film = state.film.power_film,
-      .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
-      .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
-      .K = Eigen::Matrix2d::Zero(),
-      .C = Eigen::Matrix2d::Zero()};
+  return {.h_min = state.film.h_min,
+          .p_max = state.film.p_max,
+          .eccentricity_ratio = 0,
+          .attitude = 0,
+          .load = state.load.norm(),
+          .friction_journal = runner_friction(model, state),
+          .side_flow = state.film.flow_sides(),
+          .torque_journal = state.film.torque_journal,
+          .torque_shell = state.film.torque_shell,
+          .power_film = state.film.power_film,
+          .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
+          .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
+          .K = Eigen::Matrix2d::Zero(),
+          .C = Eigen::Matrix2d::Zero()};
 }
 
 Figures figures_of(const film::FilmModel& model, const SteadyState& state) {

@@ -29,8 +29,7 @@ double SectorCone::opening(const SectorPoint& at) const {
 
 double SectorIncline::opening(const SectorPoint& at) const {
   const double from_middle = at.theta - 0.5 * at.arc;
-  return -along * at.r * std::sin(from_middle) +
-         across * (at.r * std::cos(from_middle) - 0.5 * (at.inner + at.outer));
+  return -along * at.r * std::sin(from_middle) + across * (at.r * std::cos(from_middle) - 0.5 * (at.inner + at.outer));
 }
 
 ThrustBearing::ThrustBearing(std::vector<SectorPad> pads, std::vector<SectorShape> shapes, bool is_forward)
@@ -43,7 +42,8 @@ std::vector<std::pair<std::string, std::string>> ThrustBearing::description(cons
   rows.emplace_back("size", fmt::format("{:.4g} mm inner and {:.4g} mm outer diameter", 1e3 * (2 * model.R - model.L),
                                         1e3 * (2 * model.R + model.L)));
   constexpr double in_degrees = 180 / std::numbers::pi;
-  std::string pads = pads_.empty() ? "a whole washer" : fmt::format("{} pad{} for", pads_.size(), pads_.size() > 1 ? "s" : "");
+  std::string pads =
+      pads_.empty() ? "a whole washer" : fmt::format("{} pad{} for", pads_.size(), pads_.size() > 1 ? "s" : "");
   if (!pads_.empty())
     pads += is_forward_ ? " a runner that turns from x towards y:" : " a runner that turns from y towards x:";
   for (const SectorPad& pad : pads_)

@@ -26,8 +26,8 @@ SteadyCoordinates::ForceRows thrust_force_rows() {
 }  // namespace
 
 ThrustCoordinates::ThrustCoordinates(const film::FilmModel& model, int pads, double arc, Eigen::VectorXd opening)
-    : ApproachCoordinates(model, {.length = model.R * arc, .count = pads, .radius = model.R}, 1,
-                          2 * model.R + model.L, thrust_force_rows()),
+    : ApproachCoordinates(model, {.length = model.R * arc, .count = pads, .radius = model.R}, 1, 2 * model.R + model.L,
+                          thrust_force_rows()),
       surfaces_(model, std::move(opening)) {}
 
 film::SurfaceMotion ThrustCoordinates::surfaces(const OperatingPoint& point, const Coordinates& e) {

@@ -7,7 +7,8 @@
 namespace hersey::bearing {
 
 /// Parameters through which the plane of a runner opens the gap above a stator, in this order (theory manual,
-/// thrust.1). In the stator's frame, whose plane z = 0 faces the runner, the runner's plane is z = zeta - a_x x - a_y y.
+/// thrust.1). In the stator's frame, whose plane z = 0 faces the runner, the runner's plane is z = zeta - a_x x - a_y
+/// y.
 enum ThrustParameter : int {
   kThrustZ,   ///< zeta, height of the runner's plane on the stator's axis [m]
   kThrustAx,  ///< a_x, slope of the runner's axis towards x [-]
@@ -19,8 +20,8 @@ enum ThrustParameter : int {
   kThrustParameterCount
 };
 
-/// Values of ThrustParameter for a runner frame B that moves relative to a stator frame A, with derivatives with respect
-/// to the twist xi that moves B in A (dX_AB = xi^ X_AB) and to the relative velocity V_AB_A.
+/// Values of ThrustParameter for a runner frame B that moves relative to a stator frame A, with derivatives with
+/// respect to the twist xi that moves B in A (dX_AB = xi^ X_AB) and to the relative velocity V_AB_A.
 struct ThrustKinematics {
   Eigen::Matrix<double, kThrustParameterCount, 1> value = Eigen::Matrix<double, kThrustParameterCount, 1>::Zero();
   Eigen::Matrix<double, kThrustParameterCount, 6> d_dX = Eigen::Matrix<double, kThrustParameterCount, 6>::Zero();
