@@ -51,6 +51,9 @@ COMMANDS = {
     "slider_crank/model": [("run",)],
     "slider_crank/pin_hole": [("run", "simulation.duration=90deg")],
     "tilting_pads/bearing": [("bearing",), ("run",)],
+    "thrust_pads/fixed": [("bearing",)],
+    "thrust_pads/model": [("run",)],
+    "thrust_pads/shaft": [("run",)],
     "tilting_pads/model": [("run",)],
     "spinning_rod/model": [("run", "simulation.duration=10s")],
     "squeezer/model": [("run", "simulation.duration=15ms")],
@@ -122,6 +125,8 @@ def mean(values, time):
 OF_A_RUN = [
     ("bearings/*/h_min", "min"), ("bearings/*/p_max", "max"), ("bearings/*/force", "length"),
     ("bearings/*/eccentricity_ratio", "end"), ("bearings/*/attitude", "end"), ("bearings/*/film_thickness_middle", "end"),
+    ("bearings/*/film_thickness_axis", "end"), ("bearings/*/torque_runner", "mean"), ("bearings/*/flow_inner", "mean"),
+    ("bearings/*/flow_outer", "mean"),
     ("bearings/*/power_film", "mean"), ("bearings/*/power_asperity", "mean"), ("bearings/*/torque_journal", "mean"),
     ("bearings/*/flow_left", "mean"), ("bearings/*/flow_right", "mean"), ("bearings/*/flow_leading", "mean"),
     ("bearings/*/flow_trailing", "mean"), ("bearings/*/flow_supply", "mean"),

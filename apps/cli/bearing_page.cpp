@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bearing_table.h"
+#include "hersey/bearing/film_coordinates.h"
 #include "hersey/core/version.h"
 #include "hersey/run/assumptions.h"
 #include "hersey/run/film_fields.h"
@@ -21,12 +22,10 @@ using study::BearingSolution;
 void add_fields(const BearingSolution& solution, PageSolution& page) {
   const film::FilmModel& model = solution.model;
   const film::FilmFields fields = study::fields_of(solution);
-  page.phi.resize(model.grid.n_phi);
-  page.z.resize(model.grid.n_z);
-  page.is_plane = !film::is_round(model.surface);
-  for (int i = 0; i < model.grid.n_phi; ++i) page.phi[i] = model.grid.phi(i);
-  if (!page.is_plane && !model.grid.closes()) page.arcs = film::arc_of_lines(model.grid);
-  for (int j = 0; j < model.grid.n_z; ++j) page.z[j] = model.L * model.grid.z_over_L(j);
+  const bearing::FilmCoordinate along = bearing::coordinate_along(model), across = bearing::coordinate_across(model);
+  page.along = along.name, page.across = across.name;
+  page.phi = along.values, page.z = across.values;
+  if (film::is_round(model.surface) && !model.grid.closes()) page.arcs = film::arc_of_lines(model.grid);
   for (const run::FilmField& field : run::film_fields())
     if (Eigen::VectorXd values = field.values(fields); values.size() > 0)
       page.fields.push_back({field.name, field.unit, field.text, std::move(values)});
@@ -34,10 +33,11 @@ void add_fields(const BearingSolution& solution, PageSolution& page) {
 
 void add_features(const BearingSolution& solution, PageSolution& page) {
   const film::FilmModel& model = solution.model;
+  const double beyond = bearing::is_on_annulus(model) ? model.R : 0;
   for (const film::SurfaceFeature& f : model.features) {
     const double turned = f.surface == film::Surface::journal ? solution.state.point.journal_angle : 0;
     page.features.push_back(
-        {f.name, std::holds_alternative<film::Ellipse>(f.shape), f.phi + turned, f.z, f.arc, f.length});
+        {f.name, std::holds_alternative<film::Ellipse>(f.shape), f.phi + turned, f.z + beyond, f.arc, f.length});
   }
   if (model.supply.kind == film::SupplyKind::none) return;
   const film::SurfaceMotion motion = bearing::steady_surfaces(model, solution.state.point, solution.state.e);
@@ -53,6 +53,7 @@ PageSolution page_of(const BearingSolution& solution) {
   }
   if (!solution.solved()) return page;
   page.remark = whirl_remark(solution);
+  page.has_axis = solution.state.kind->has_axis();
   if (solution.state.kind->has_axis()) {
     page.clearance = bearing::clearance(solution.model, solution.state.point);
     page.e = solution.state.e;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "hersey/bearing/film_coordinates.h"
 #include "hersey/run/film_fields.h"
 #include "hersey/study/shear_remarks.h"
 #include "table.h"
@@ -222,9 +223,10 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
   const film::FilmFields fields = study::fields_of(solution);
   std::vector<const run::FilmField*> shown;
   std::vector<Eigen::VectorXd> columns;
+  const bearing::FilmCoordinate along = bearing::coordinate_along(model), across = bearing::coordinate_across(model);
   const bool is_round = film::is_round(model.surface);
-  const double shown_per_phi = is_round ? 180 / std::numbers::pi : 1e3 * model.R;
-  std::string text = is_round ? "angle [deg], z [mm]" : "y [mm], z [mm]";
+  const double shown_along = is_round ? 180 / std::numbers::pi : 1e3;
+  std::string text = fmt::format("{}, {} [mm]", is_round ? "angle [deg]" : "y [mm]", across.name);
   for (const run::FilmField& field : run::film_fields()) {
     Eigen::VectorXd values = field.values(fields);
     if (values.size() == 0) continue;
@@ -235,7 +237,7 @@ std::string bearing_fields_csv(const BearingSolution& solution) {
   text += "\n";
   for (int i = 0; i < model.grid.n_phi; ++i) {
     for (int j = 0; j < model.grid.n_z; ++j) {
-      text += fmt::format("{:.8g}, {:.8g}", shown_per_phi * model.grid.phi(i), 1e3 * model.L * model.grid.z_over_L(j));
+      text += fmt::format("{:.8g}, {:.8g}", shown_along * along.values[i], 1e3 * across.values[j]);
       for (std::size_t k = 0; k < columns.size(); ++k)
         text += fmt::format(", {:.8g}", shown[k]->shown_per_si * columns[k][model.grid.index(i, j)]);
       text += "\n";

@@ -128,7 +128,7 @@ class BearingSolution(Mapping):
 
     @property
     def kind(self) -> str:
-        """Kind of the bearing as in a model file: "journal", "plane_slider"; empty where there is no solution."""
+        """Kind of the bearing as in a model file: "journal", "plane_slider", "thrust"; empty where there is no solution."""
         return self._solution.kind
 
     @property
@@ -136,7 +136,8 @@ class BearingSolution(Mapping):
         """Position of the moving surface in the coordinates of its kind [m].
 
         Of a journal x and y of its axis, which is its `eccentricity`; of a plane slider x of the runner's plane where it
-        passes the middle of the pad's face: the film thickness there with the other sign, as x points into the pad.
+        passes the middle of the pad's face: the film thickness there with the other sign, as x points into the pad; of a
+        thrust bearing the film thickness on the axis.
         """
         return self._solution.position
 
@@ -154,7 +155,8 @@ class BearingSolution(Mapping):
 
         Of a journal: force on the shell (F_x, F_y [N], M_y, -M_x [N m]) by the journal's position (e_x, e_y [m], its
         slopes), 4 x 4. Of a plane slider: force on the pad (F_x [N], -M_z, M_y [N m]) by the runner's position (x [m], its
-        slopes along and across the sliding direction), 3 x 3.
+        slopes along and across the sliding direction), 3 x 3. Of a thrust bearing: force on the stator (F_z [N], M_y, -M_x
+        [N m]) by the runner's position (z [m], slopes of its axis towards x and y), 3 x 3.
         """
         return self._solution.stiffness
 
@@ -189,7 +191,8 @@ class BearingSolution(Mapping):
     @property
     def fields(self):
         """Pressure, film thickness and all other fields as an `xarray.Dataset` over bearing angle `phi` [rad] and `z` [m],
-        of a plane slider over `y` [m] along the sliding direction and `z`."""
+        of a plane slider over `y` [m] along the sliding direction and `z`, of a thrust bearing over `phi` and the radius `r`
+        [m]."""
         import xarray
 
         coordinates = {name: (name, values, {"units": unit, "long_name": text})

@@ -47,7 +47,8 @@ def orbit(results: Any, bearing: Optional[str] = None, ax: Any = None, **style: 
 
 def film_map(source: Any, bearing: Optional[str] = None, time: Optional[float] = None, field: str = "pressure",
              ax: Any = None, **style: Any) -> Any:
-    """A field of a film over bearing angle [deg] and z [mm], of a plane slider over y along the sliding direction [mm].
+    """A field of a film over bearing angle [deg] and z [mm]; of a plane slider over y along the sliding direction [mm], of a
+    thrust bearing over angle and radius.
 
     `source` is the results of a run, at the stored instant nearest to `time` [s] (the last one where it is left out),
     or a `BearingSolution`.
@@ -58,14 +59,15 @@ def film_map(source: Any, bearing: Optional[str] = None, time: Optional[float] =
         film = film.isel(time=-1) if time is None else film.sel(time=time, method="nearest")
     else:
         film = source.fields
-    (along,) = (name for name in film[field].dims if name != "z")  # phi, or y of a film that is plane
-    data, is_angle = film[field].transpose("z", along), film[along].attrs.get("units") == "rad"
+    (along,) = (name for name in film[field].dims if name not in ("z", "r"))  # phi, or y of a film that is plane
+    across = "r" if "r" in film[field].dims else "z"
+    data, is_angle = film[field].transpose(across, along), film[along].attrs.get("units") == "rad"
     scale, unit = {"Pa": (1e-6, "MPa"), "m": (1e6, "um")}.get(data.attrs.get("units", ""), (1, data.attrs.get("units", "")))
     places = np.degrees(film[along].values) if is_angle else 1e3 * film[along].values
-    mesh = ax.pcolormesh(places, 1e3 * film["z"].values, scale * data.values, shading="nearest", **style)
+    mesh = ax.pcolormesh(places, 1e3 * film[across].values, scale * data.values, shading="nearest", **style)
     ax.figure.colorbar(mesh, ax=ax, label=f"{data.attrs.get('long_name', field)} [{unit}]")
     ax.set_xlabel("bearing angle [deg]" if is_angle else f"{along} [mm]")
-    ax.set_ylabel("z [mm]")
+    ax.set_ylabel(f"{across} [mm]")
     return ax
 
 

@@ -102,7 +102,8 @@ class Results:
 
     def film(self, name: Optional[str] = None):
         """Stored fields of a film over time [s], bearing angle `phi` [rad] and `z` [m], read where they are used; of a plane
-        slider over `y` [m], along the sliding direction, in place of `phi`."""
+        slider over `y` [m], along the sliding direction, in place of `phi`, of a thrust bearing over the radius `r` [m] in
+        place of `z`."""
         return self._with_crank(self[f"bearings/{self._called(name)}/fields"])
 
     def _called(self, name: Optional[str]) -> str:

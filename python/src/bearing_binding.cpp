@@ -5,6 +5,7 @@
 #include <future>
 
 #include "bindings.h"
+#include "hersey/bearing/film_coordinates.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/run/film_fields.h"
 #include "hersey/session/session.h"
@@ -106,18 +107,10 @@ py::dict fields_of(const BearingSolution& solution) {
 
 // Dimensions of the fields: [(name, SI unit, text, positions of the nodes)], as results files name them.
 py::list dimensions_of(const BearingSolution& solution) {
-  const film::FilmModel& model = solution.model;
-  const bool is_round = film::is_round(model.surface);
-  Eigen::VectorXd along(model.grid.n_phi), z(model.grid.n_z);
-  for (int i = 0; i < along.size(); ++i) along[i] = (is_round ? 1 : model.R) * model.grid.phi(i);
-  for (int j = 0; j < z.size(); ++j) z[j] = model.L * model.grid.z_over_L(j);
   py::list dimensions;
-  if (is_round)
-    dimensions.append(py::make_tuple("phi", "rad", "bearing angle", along));
-  else
-    dimensions.append(py::make_tuple("y", "m", "position along the sliding direction", along));
-  dimensions.append(
-      py::make_tuple("z", "m", is_round ? "place along the axis" : "position across the sliding direction", z));
+  for (const bearing::FilmCoordinate& c :
+       {bearing::coordinate_along(solution.model), bearing::coordinate_across(solution.model)})
+    dimensions.append(py::make_tuple(c.name, c.unit, c.text, c.values));
   return dimensions;
 }
 

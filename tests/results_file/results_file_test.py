@@ -36,6 +36,7 @@ RUNS = {
     "examples/plane_slider/carriage.yaml": ["--set", "simulation.duration=2ms", "--set",
                                             "simulation.cycle={period: 1 ms, most: 2}"],
     "examples/tilting_pads/model.yaml": [],
+    "tests/results_file/thrust.yaml": [],
     "tests/results_file/every_line.yaml": ["--step-error", "--set", "simulation.duration=0.5ms"],
 }
 # Lines that no run of seconds has: films on elastic surfaces, modes of meshed bodies, meshes as shapes of ground.

@@ -38,6 +38,31 @@ export function matrices(solution: SolutionText): HTMLElement {
 }
 
 /** Of a pad: approach and tilts, a table each of stiffness and damping. */
+/** All nine coefficients of a thrust bearing, by the axis and both tilts. */
+export function thrustMatrices(solution: SolutionText): HTMLElement | null {
+  const entries = (axial: string, tilting: string, load: string, moment: string): [string, string][] => [
+    [axial, "Load by distance"],
+    ...["xx", "xy", "yx", "yy"].map((pair): [string, string] => [`${tilting}_${pair}`, `Moment by tilt, ${pair}`]),
+    ...["x", "y"].map((way): [string, string] => [`${load}_${way}`, `Load by tilt, ${way}`]),
+    ...["x", "y"].map((way): [string, string] => [`${moment}_${way}`, `Moment by distance, ${way}`]),
+  ];
+  const row = ([key, label]: [string, string]) => {
+    const f = figureOf(solution, key);
+    if (!f) return [];
+    const error = errorText(f);
+    return [h("tr", {}, h("th", { scope: "row" }, label, error ? h("span", { class: "where" }, error) : null), h("td", { class: "number", "data-quantity": key }, valueText(f), unitText(f)))];
+  };
+  const table = (title: string, of: [string, string][]) => {
+    const rows = of.flatMap(row);
+    return rows.length > 0 ? [h("table", {}, h("caption", {}, title), h("tbody", {}, ...rows))] : [];
+  };
+  const parts = [
+    ...table("Stiffness", entries("stiffness", "tilting_stiffness", "load_by_tilt", "moment_by_distance")),
+    ...table("Damping", entries("damping", "tilting_damping", "load_by_tilting", "moment_by_approach")),
+  ];
+  return parts.length > 0 ? tables(...parts, h("p", { class: "note" }, "Tilts are slopes of the runner’s axis towards x and y; a moment is the one that works on such a slope. Damping: the same by rates.")) : null;
+}
+
 export function approachAndTilt(solution: SolutionText): HTMLElement | null {
   const motions: [string, string][] = [
     ["", "Approach"],

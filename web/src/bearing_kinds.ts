@@ -1,7 +1,7 @@
 // What the page of a bearing by itself shows of each kind: key numbers, figures of a sweep, columns of its table,
 // stiffness and damping. Figures that a solution lacks are left out.
 
-import { approachAndTilt, matrices } from "./bearing_coefficients";
+import { approachAndTilt, matrices, thrustMatrices } from "./bearing_coefficients";
 import type { Line } from "./bearing_sweep";
 import type { BearingText, SolutionText } from "./data";
 import type { Curve, LineFigure } from "./line_plot";
@@ -241,7 +241,54 @@ const slider: BearingKind = {
   coefficients: approachAndTilt,
 };
 
-const kinds = [journal, slider];
+const thrust: BearingKind = {
+  surface: surfaces.annulus,
+  title: "thrust bearing",
+  tiles: [
+    ["h_min", "Minimum film thickness"],
+    ["p_max", "Peak film pressure"],
+    ["film_thickness_axis", "Film thickness on the axis"],
+    ["friction_runner", "Friction coefficient"],
+    ["side_flow", "Flow over both edges"],
+    ["power_film", "Friction power"],
+  ],
+  sweep: (swept) => {
+    const { over, lines } = swept;
+    const edges = lines.length === 1 ? " and, positive where it leaves, over leading and trailing edges" : "";
+    return [
+      film(swept, lines.length === 1 ? [{ key: "film_thickness_axis", label: "on the axis", unit: "µm", alone: true, dash: [6, 4] }] : []),
+      friction(swept, "friction_runner"),
+      pressure(swept),
+      { name: "stiffness", caption: `Stiffness along the axis ${over}.`, left: { label: "stiffness", unit: "N/m", log: true }, curves: [{ key: "stiffness", label: "along the axis", unit: "N/m" }] },
+      {
+        name: "tilt-stiffness",
+        caption: `Stiffness of tilts ${over}: moment by the slope of the runner’s axis. Dotted: where it is negative.`,
+        left: { label: "stiffness", unit: "N·m/rad", log: true },
+        curves: [...signed("tilting_stiffness_xx", "xx", "N·m/rad", 0), ...signed("tilting_stiffness_yy", "yy", "N·m/rad", 1, [6, 4])].map((curve): SweepCurve => ({ ...curve, alone: true })),
+      },
+      { name: "damping", caption: `Damping along the axis ${over}.`, left: { label: "damping", unit: "N·s/m", log: true }, curves: [{ key: "damping", label: "along the axis", unit: "N·s/m" }] },
+      flow(swept, `inner and outer edges${edges}`, [
+        { key: "flow_leading", label: "leading edges", unit: "mm³/s", alone: true },
+        { key: "flow_trailing", label: "trailing edges", unit: "mm³/s", alone: true, dash: [6, 4] },
+      ]),
+      power(swept),
+    ];
+  },
+  columns: [
+    ["runner_speed", "speed"],
+    ["load", "load"],
+    ["film_thickness_axis", "h axis"],
+    ["h_min", "h min"],
+    ["p_max", "p max"],
+    ["friction_runner", "friction"],
+    ["asperity_share", "contact", "may be missing"],
+    ["side_flow", "flow"],
+    ["power_film", "power"],
+  ],
+  coefficients: thrustMatrices,
+};
+
+const kinds = [journal, slider, thrust];
 
 export function kindOf(bearing: BearingText): BearingKind {
   const surface = surfaceOfPage(bearing);

@@ -20,6 +20,7 @@ const groups: [string, string][] = [
   ["operating point", "Operating point"],
   ["film", "Film"],
   ["arcs", "Arcs"],
+  ["pads", "Pads"],
   ["deformation", "Deformation"],
   ["friction", "Friction"],
   ["oil", "Oil"],
@@ -266,7 +267,7 @@ class SolutionView {
     const plot = new LinePlot({
       name: `${this.bearing.name}-midplane`,
       x: { label: axisName(along.coordinate), unit: along.coordinate.display.unit, values: along.shown() },
-      left: { label: "pressure at z = 0", unit: "MPa", fromZero: true },
+      left: { label: `pressure at ${surface.middle}`, unit: "MPa", fromZero: true },
       ...(thickness ? { right: { label: "film thickness", unit: "µm", fromZero: true } } : {}),
       curves,
       height: 260,

@@ -113,7 +113,7 @@ export class BearingView {
     const plot = new LinePlot({
       name: `${this.bearing}-midplane`,
       x: { label: axisName(along.coordinate), unit: along.coordinate.display.unit, values: along.shown() },
-      left: { label: "pressure at z = 0", unit: "MPa", fromZero: true },
+      left: { label: `pressure at ${this.surface.middle}`, unit: "MPa", fromZero: true },
       ...(fields.at("thickness", 0) ? { right: { label: "film thickness", unit: "µm", fromZero: true } } : {}),
       curves: curves(0),
     });
@@ -173,8 +173,9 @@ export class BearingView {
     };
     this.add("thickness", surface.thickness, { label: "film thickness", unit: "µm", fromZero: true }, [
       ...of("h_min", "smallest", micrometre),
-      ...of("h_min_centre", "smallest at z = 0", micrometre, { dash: [6, 4] }),
+      ...of("h_min_centre", `smallest at ${surface.middle}`, micrometre, { dash: [6, 4] }),
       ...of("film_thickness_middle", `at ${surface.whole}’s middle`, micrometre, { dash: [2, 3] }),
+      ...of("film_thickness_axis", "on the axis", micrometre, { dash: [2, 3] }),
     ]);
     this.add("peak-pressure", "Peak film pressure.", { label: "peak pressure", unit: "MPa", fromZero: true }, of("p_max", "peak pressure", megapascal));
     const size = magnitude(run, this.path("force"));
@@ -195,12 +196,16 @@ export class BearingView {
       ...of("power_film", "oil film", watt),
       ...of("power_asperity", "asperity contact", watt),
     ]);
-    this.add("torque", "Friction torque on the journal about its axis and on the shell about its own.", { label: "friction torque", unit: "N·mm" }, [
+    this.add("torque", `Friction torque on the ${surface.moving} about its axis and on the ${surface.held} about its own.`, { label: "friction torque", unit: "N·mm" }, [
       ...of("torque_journal", "on the journal", newtonMillimetre),
+      ...of("torque_runner", "on the runner", newtonMillimetre),
       ...of("torque_shell", "on the shell", newtonMillimetre),
+      ...of("torque_stator", "on the stator", newtonMillimetre),
     ]);
     this.add("flow", surface.flow, { label: "flow", unit: "mm³/s", fromZero: true }, [
       ...of("flow_left", "side flow, left", cubicMillimetrePerSecond),
+      ...of("flow_inner", "over inner edges", cubicMillimetrePerSecond),
+      ...of("flow_outer", "over outer edges", cubicMillimetrePerSecond, { dash: [6, 4] }),
       ...of("flow_right", "side flow, right", cubicMillimetrePerSecond, { dash: [6, 4] }),
       ...of("flow_leading", "leading end", cubicMillimetrePerSecond),
       ...of("flow_trailing", "trailing end", cubicMillimetrePerSecond, { dash: [6, 4] }),
@@ -215,6 +220,12 @@ export class BearingView {
       this.add("tilt", "Tilt of the journal against the shell.", { label: "tilt", unit: "mrad" }, [
         ...of("tilt", "about x", { factor: 1e3, unit: "mrad" }, { column: 0 }),
         ...of("tilt", "about y", { factor: 1e3, unit: "mrad" }, { column: 1 }),
+      ]);
+    const runner = run.dataset(this.path("runner_tilt"));
+    if (runner && runner.values.some((v) => Math.abs(v) > 1e-9))
+      this.add("runner-tilt", "Slopes of the runner’s axis towards x and y, in the stator’s frame.", { label: "slope", unit: "µm/m" }, [
+        ...of("runner_tilt", "towards x", micrometrePerMetre, { column: 0 }),
+        ...of("runner_tilt", "towards y", micrometrePerMetre, { column: 1, dash: [6, 4] }),
       ]);
     this.addSlides(of);
     this.addFurther(shown);

@@ -42,7 +42,7 @@ export class ComparisonView {
       return one ? [{ run, label: label(run), course: one }] : [];
     });
     const given = this.others().map(({ name }) => name);
-    this.chosen = ["eccentricity_ratio", "film_thickness_middle"].find((name) => given.includes(name)) ?? given[0] ?? "";
+    this.chosen = ["eccentricity_ratio", "film_thickness_middle", "film_thickness_axis"].find((name) => given.includes(name)) ?? given[0] ?? "";
     this.render();
   }
 

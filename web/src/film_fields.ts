@@ -94,16 +94,17 @@ export class FilmFields {
     return extent(this.fields.get(key)?.values ?? []);
   }
 
-  /** The field along the middle, z = 0, between two rows if none lies there; once more at the end where the film closes. */
+  /** The field along the middle of its rows, between two rows if none lies there; once more at the end where the film closes. */
   midplane(key: string, instant: number, factor = 1): number[] | null {
     const field = this.at(key, instant);
     if (!field) return null;
     const z = this.across.nodes;
     const nz = z.length;
     let below = 0;
-    while (below < nz - 2 && z[below + 1]! <= 1e-12) below++;
+    const middle = 0.5 * (z[0]! + z[nz - 1]!);
+    while (below < nz - 2 && z[below + 1]! <= middle + 1e-12) below++;
     const [low, high] = [z[below]!, z[below + 1] ?? z[below]!];
-    const t = high > low ? Math.min(1, Math.max(0, -low / (high - low))) : 0;
+    const t = high > low ? Math.min(1, Math.max(0, (middle - low) / (high - low))) : 0;
     const row = Float64Array.from(this.along.nodes, (_, i) => {
       const at = i * nz + below;
       return t === 0 ? field[at]! : (1 - t) * field[at]! + t * field[at + 1]!;

@@ -114,11 +114,11 @@ export class StudyView {
       const places = runs.map((run) => this.midplane(run)?.x).find((x) => x !== undefined);
       if (curves.length === 0 || !places) return [];
       const regular = curves.filter((c) => c.y.length === places.length);
-      const { along, whole } = surfaceOf(runs[0]!, this.bearing);
+      const { along, whole, middle } = surfaceOf(runs[0]!, this.bearing);
       const plot = new LinePlot({
         name: "study-midplane",
         x: { label: axisName(along), unit: along.display.unit, values: places },
-        left: { label: "pressure at z = 0", unit: "MPa", fromZero: true, highest },
+        left: { label: `pressure at ${middle}`, unit: "MPa", fromZero: true, highest },
         curves: regular,
         height: 280,
       });

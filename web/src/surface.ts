@@ -41,6 +41,8 @@ export interface Surface {
   /** The thing as a whole, and its map. */
   whole: string;
   map: string;
+  /** Where the middle of its rows lies: behind "pressure at ". */
+  middle: string;
   /** Behind "Extremes over the width, ". */
   way: string;
   axes: string;
@@ -60,6 +62,7 @@ const bore: Surface = {
   moving: "journal",
   whole: "the bearing",
   map: "the unwrapped bearing",
+  middle: "z = 0",
   way: "around the bore",
   axes: "in the bearing’s axes",
   thickness: "Smallest film thickness, edges included, and along the middle of the bearing.",
@@ -74,29 +77,45 @@ const plane: Surface = {
   moving: "runner",
   whole: "the pad",
   map: "the pad",
+  middle: "z = 0",
   way: "along the pad",
   axes: "in its axes: x normal to its face, y along the sliding direction",
   thickness: "Smallest film thickness, edges included, along the middle of the pad, and at its middle.",
   flow: "Oil leaving over the two sides and over the leading and the trailing end (negative: it comes in), and entering through holes and pockets.",
 };
 
+const annulus: Surface = {
+  along: { ...bore.along, name: "angle" },
+  across: { key: "r", figure: "r", symbol: "r", display: millimetre, digits: 3 },
+  point: (phi, radius) => [radius * Math.cos(phi), radius * Math.sin(phi), 0],
+  held: "stator",
+  moving: "runner",
+  whole: "the bearing",
+  map: "the unwrapped pads",
+  middle: "the mean radius",
+  way: "around the axis",
+  axes: "in the stator’s axes: z along the axis, towards the runner",
+  thickness: "Smallest film thickness, edges included, along the mean radius, and on the axis.",
+  flow: "Oil leaving over the inner and the outer edges and over leading and trailing edges of pads (negative: it comes in), and entering through holes and pockets.",
+};
+
 /** The first is taken where a file tells nothing. */
-export const surfaces = { bore, plane };
+export const surfaces = { bore, plane, annulus };
 
 function first(test: (surface: Surface) => boolean): Surface {
   return Object.values(surfaces).find(test) ?? bore;
 }
 
-/** By the coordinate that its places are given in. */
+/** By the coordinates that its places are given in. */
 export function surfaceOf(run: Run, bearing: string): Surface {
   const names = new Set(run.namesAfter(`/bearings/${bearing}/`));
-  return first(({ along }) => names.has(`fields/${along.key}`) || names.has(`h_min_${along.key}`));
+  return first((surface) => [surface.along, surface.across].every(({ key }) => names.has(`fields/${key}`) || names.has(`h_min_${key}`)));
 }
 
 /** Likewise of a bearing by itself. */
 export function surfaceOfPage(bearing: BearingText): Surface {
   const known = new Set(bearing.solutions.flatMap(({ figures }) => figures.map(({ key }) => key)));
-  return first(({ along }) => known.has(`h_min_${along.figure}`));
+  return first((surface) => [surface.along, surface.across].every(({ figure }) => known.has(`h_min_${figure}`)));
 }
 
 /** "bearing angle φ". */

@@ -286,14 +286,12 @@ inline std::vector<State> states_on_surfaces() {
     for (State pockets : states_with_pockets()) {
       if ((pockets.history.dt > 0) != transient || pockets.motion.phi_supply != 1.3) continue;
       pockets.model.surface = Annulus{};
-      pockets.motion.shell_opening.resize(0);
       pockets.name += ", annulus";
       states.push_back(pockets);
     }
     s = rough_state(Cavitation::mass_conserving, true, transient);
     s.model.surface = Annulus{};
     s.model.lubricant.shear_thinning = {Cross{.limit = 0.3, .exponent = 0.8}, 3e5, 0};
-    s.motion.shell_opening.resize(0);
     s.motion.phi_supply = 1.5, s.motion.w_journal = 4;
     s.name = "annulus, sheared";
     states.push_back(s);

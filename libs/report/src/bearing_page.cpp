@@ -29,10 +29,10 @@ json datasets(const PageSolution& solution, const std::string& bearing) {
   const std::string fields = "/bearings/" + bearing + "/fields/";
   json result;
   result[fields + "time"] = dataset(Eigen::VectorXd::Zero(1), {1}, "s");
-  result[fields + (solution.is_plane ? "y" : "phi")] = dataset(solution.phi, {n_phi}, solution.is_plane ? "m" : "rad");
+  result[fields + solution.along] = dataset(solution.phi, {n_phi}, solution.along == "phi" ? "rad" : "m");
   if (!solution.arcs.empty())
     result[fields + "arc"] = dataset(Eigen::Map<const Eigen::VectorXd>(solution.arcs.data(), n_phi), {n_phi}, "1");
-  result[fields + "z"] = dataset(solution.z, {n_z}, "m");
+  result[fields + solution.across] = dataset(solution.z, {n_z}, "m");
   for (const PageField& field : solution.fields)
     result[fields + field.name] = dataset(field.values, {1, n_phi, n_z}, field.unit, field.text);
   return result;
@@ -53,7 +53,7 @@ json solution_data(const PageSolution& solution, const std::string& bearing) {
   json data{{"label", solution.label},   {"values", pairs(solution.values)}, {"error", solution.message},
             {"remark", solution.remark}, {"figures", figures(solution)},     {"features", json::array()},
             {"datasets", json::object()}};
-  if (!solution.is_plane) {
+  if (solution.has_axis) {
     data["clearance"] = solution.clearance;
     data["e"] = {solution.e.x(), solution.e.y()};
     data["load"] = {solution.load.x(), solution.load.y()};

@@ -187,8 +187,9 @@ class Summary {
   /// The largest value of the last cycle's map, and where.
   void largest_of_map(const std::string& name, const std::string& map, double factor, const std::string& unit) {
     const bool is_plane = reader_.has(path_ + "fields/y");
-    const std::vector<double> phi = values(is_plane ? "fields/y" : "fields/phi"), z = values("fields/z"),
-                              all = cycle(map);
+    const bool is_annulus = reader_.has(path_ + "fields/r");
+    const std::vector<double> phi = values(is_plane ? "fields/y" : "fields/phi"),
+                              z = values(is_annulus ? "fields/r" : "fields/z"), all = cycle(map);
     const std::size_t n = phi.size() * z.size();
     if (n == 0 || all.size() < n) return;
     const auto last = all.end() - static_cast<std::ptrdiff_t>(n), most = std::max_element(last, all.end());
@@ -196,7 +197,7 @@ class Summary {
     add(name, factor * *most, unit,
         (is_plane ? fmt::format("y = {:.2f} mm", phi[k / z.size()] * 1e3)
                   : fmt::format("φ = {:.1f}°", phi[k / z.size()] * degrees)) +
-            fmt::format(", z = {:.2f} mm", z[k % z.size()] * 1e3));
+            fmt::format(", {} = {:.2f} mm", is_annulus ? "r" : "z", z[k % z.size()] * 1e3));
   }
 
   /// The stored instant at time t, if there is one.
@@ -429,6 +430,8 @@ class Summary {
     if (const std::vector<double> y = values(series + "_y"); row < y.size())
       text += fmt::format(", y = {:.2f} mm", y[row] * 1e3);
     if (row < z.size()) text += fmt::format(", z = {:.2f} mm", z[row] * 1e3);
+    if (const std::vector<double> r = values(series + "_r"); row < r.size())
+      text += fmt::format(", r = {:.2f} mm", r[row] * 1e3);
     return text;
   }
 

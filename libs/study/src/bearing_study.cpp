@@ -419,6 +419,23 @@ bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model:
   return point;
 }
 
+// The load presses the runner against the stator, whose z points to the runner.
+bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model::ThrustPoint& given) {
+  bearing::OperatingPoint point{.journal_speed = given.speed};
+  point.tilt = {given.tilt_x, given.tilt_y};
+  point.e = bearing::Coordinates::Zero(1);
+  point.e_rate = bearing::Coordinates::Constant(1, -given.approach_speed);
+  if (given.load) {
+    point.load = bearing::Coordinates::Constant(1, -*given.load);
+    return point;
+  }
+  const std::unique_ptr<bearing::SteadyCoordinates> coordinates = bearing.kind->steady_coordinates(bearing.film);
+  const bearing::Coordinates widest = coordinates->widest();
+  point.e =
+      bearing::Coordinates::Constant(1, widest[0] - coordinates->smallest_gap(point, widest) + *given.film_thickness);
+  return point;
+}
+
 }  // namespace
 
 void require_coefficients(const model::Bearing& bearing, ThermalCoefficients coefficients) {

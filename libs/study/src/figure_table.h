@@ -151,5 +151,7 @@ inline auto height(double film::FilmObservables::*z) {
 
 /// The table of a plane slider's figures, in the order in which they are reported.
 [[nodiscard]] std::vector<Group> plane_slider_figures();
+/// The table of a thrust bearing's figures, likewise.
+[[nodiscard]] std::vector<Group> thrust_figures();
 
 }  // namespace hersey::study

@@ -20,27 +20,33 @@ struct Figures {
   Eigen::Matrix2d stiffness, damping, K, C;
 };
 
+/// Friction of a runner over its load: by its drag, on an annulus by its torque over the mean radius.
+double runner_friction(const film::FilmModel& model, const SteadyState& state) {
+  if (std::holds_alternative<film::Annulus>(model.surface))
+    return std::abs(state.film.torque_journal) / (model.R * state.load.norm());
+  return std::abs(state.film.wrench_on_shell[4] + state.tilt.x() * state.load[0]) / state.load.norm();
+}
+
 /// Figures of a kind without an axis: no attitude, no coefficients along the load.
-Figures plain_figures_of(const SteadyState& state) {
-  return {
-      .h_min = state.film.h_min,
-      .p_max = state.film.p_max,
-      .eccentricity_ratio = 0,
-      .attitude = 0,
-      .load = state.load.norm(),
-      .friction_journal = std::abs(state.film.wrench_on_shell[4] + state.tilt.x() * state.load[0]) / state.load.norm(),
-      .side_flow = state.film.flow_sides(),
-      .torque_journal = 0,
-      .torque_shell = 0,
-      .power_film = state.film.power_film,
-      .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
-      .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
-      .K = Eigen::Matrix2d::Zero(),
-      .C = Eigen::Matrix2d::Zero()};
+Figures plain_figures_of(const film::FilmModel& model, const SteadyState& state) {
+  return {.h_min = state.film.h_min,
+          .p_max = state.film.p_max,
+          .eccentricity_ratio = 0,
+          .attitude = 0,
+          .load = state.load.norm(),
+          .friction_journal = runner_friction(model, state),
+          .side_flow = state.film.flow_sides(),
+          .torque_journal = state.film.torque_journal,
+          .torque_shell = state.film.torque_shell,
+          .power_film = state.film.power_film,
+          .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
+          .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
+          .K = Eigen::Matrix2d::Zero(),
+          .C = Eigen::Matrix2d::Zero()};
 }
 
 Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
-  if (!state.kind->has_axis()) return plain_figures_of(state);
+  if (!state.kind->has_axis()) return plain_figures_of(model, state);
   const BearingNumbers n = bearing_numbers(model, state);
   const LoadAxesCoefficients along_load = in_load_axes(model, state);
   Figures f{.h_min = state.film.h_min,

@@ -27,7 +27,9 @@ std::string position_of_node(const FilmModel& model, int node) {
   const double phi = grid.phi(node / grid.n_z);
   const std::string along = is_round(model.surface) ? fmt::format("{:.1f} deg", phi * 180 / std::numbers::pi)
                                                     : fmt::format("{:.3g} mm", 1e3 * model.R * phi);
-  return along + fmt::format(", z = {:.3g} mm", 1e3 * model.L * grid.z_over_L(node % grid.n_z));
+  const double z = model.L * grid.z_over_L(node % grid.n_z);
+  const bool is_annulus = std::holds_alternative<Annulus>(model.surface);
+  return along + fmt::format(", {} = {:.3g} mm", is_annulus ? "r" : "z", 1e3 * (is_annulus ? model.R + z : z));
 }
 
 std::string text(const FilmModel& model, const FilmDomain& domain) {

@@ -30,8 +30,8 @@ Low lowest(double y0, double a, double ya, double b, double yb, double from, dou
 
 class Search {
  public:
-  Search(const FilmModel& model, const GridGeometry& at, const Eigen::VectorXd& h, double phi_journal)
-      : model_(model), grid_(model.grid), at_(at), h_(h) {
+  Search(const FilmModel& model, const GridGeometry& at, const Eigen::VectorXd& h, double phi_journal, int patch)
+      : model_(model), grid_(model.grid), at_(at), h_(h), patch_(patch) {
     for (SurfaceFeature feature : model.features) {
       if (feature.depth == 0) continue;
       if (feature.surface == Surface::journal) feature.phi += phi_journal;
@@ -66,6 +66,7 @@ class Search {
   }
 
   [[nodiscard]] int wrapped(int i) const { return (i % grid_.n_phi + grid_.n_phi) % grid_.n_phi; }
+  [[nodiscard]] bool is_looked_at(int line) const { return patch_ < 0 || grid_.patch_of(line) == patch_; }
   /// True if the line k further on belongs to the same patch.
   [[nodiscard]] bool is_patch_of(int i, int k) const {
     return grid_.closes() || (i + k >= 0 && i + k < grid_.n_phi && grid_.patch_of(i) == grid_.patch_of(i + k));
@@ -79,7 +80,7 @@ class Search {
   // the nodes decide which has the lower node.
   void search_row(int j, Thinnest& best) const {
     for (int i = 0; i < grid_.n_phi; ++i) {
-      if (outside(i, j)) search_dip(i, j, best);
+      if (is_looked_at(i) && outside(i, j)) search_dip(i, j, best);
     }
   }
 
@@ -170,6 +171,7 @@ class Search {
   void try_point(double phi, double z, Thinnest& best) const {
     const double sliver = 1e-9;  // a border lies outside its own feature
     if (std::abs(z) > 0.5 * model_.L * (1 + sliver) || !is_on_land(phi, z)) return;
+    if (!is_looked_at(at_.locate(phi).node)) return;
     const double value = between(phi, std::clamp(z, at_.z[0], at_.z[grid_.n_z - 1]));
     if (value >= best.value) return;
     best.value = value, best.phi = at_.reported_angle(phi), best.z = z;
@@ -207,7 +209,7 @@ class Search {
     int node = -1;
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < grid_.size() && !deep_.empty(); ++k) {
-      if (outside_[static_cast<std::size_t>(k)] != 0) continue;
+      if (outside_[static_cast<std::size_t>(k)] != 0 || !is_looked_at(k / grid_.n_z)) continue;
       const double h = with_depth(k);
       if (h < least) least = h, node = k;
     }
@@ -223,14 +225,16 @@ class Search {
   const Grid& grid_;
   const GridGeometry& at_;
   const Eigen::VectorXd& h_;
+  int patch_;
   std::vector<SurfaceFeature> deep_;
   std::vector<char> outside_;
 };
 
 }  // namespace
 
-Thinnest thinnest_film(const FilmModel& model, const GridGeometry& at, const Eigen::VectorXd& h, double phi_journal) {
-  return Search(model, at, h, phi_journal).find();
+Thinnest thinnest_film(const FilmModel& model, const GridGeometry& at, const Eigen::VectorXd& h, double phi_journal,
+                       int patch) {
+  return Search(model, at, h, phi_journal, patch).find();
 }
 
 }  // namespace hersey::film

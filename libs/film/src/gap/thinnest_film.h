@@ -16,7 +16,8 @@ struct Thinnest {
 
 /// Returns the smallest thickness at all nodes outside features with depth, with each row interpolated around the
 /// bearing between nodes that lie outside, and on those features' borders (theory manual, film.30).
+/// @param patch  of the grid to look at; -1: all
 [[nodiscard]] Thinnest thinnest_film(const FilmModel& model, const GridGeometry& at, const Eigen::VectorXd& h,
-                                     double phi_journal);
+                                     double phi_journal, int patch = -1);
 
 }  // namespace hersey::film

@@ -268,8 +268,8 @@ void FilmWrench::add_borders(const FlowBalance& balance) {
 // uniform pressure contributes nothing. Contact ends at the edges. Sums over the intervals between nodes are exactly
 // zero where p or d is uniform.
 void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradient) {
-  HERSEY_REQUIRE(!std::holds_alternative<Annulus>(model_.surface), "openings of a bore or of a plane pad");
   const bool is_plane = std::holds_alternative<Plane>(model_.surface);
+  const bool is_annulus = std::holds_alternative<Annulus>(model_.surface);
   const Grid& grid = model_.grid;
   // Adds the contribution of the interval from node a to node b to the entry `row` of the wrench; `arm` is its width
   // and lever.
@@ -287,10 +287,30 @@ void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradie
     by_opening_(row, a) += rise + contact;
     by_opening_(row, b) += rise - contact;
   };
-  constexpr int moment_x = 0, moment_z = 2, force_y = 4, force_z = 5;
+  constexpr int moment_x = 0, moment_z = 2, force_x = 3, force_y = 4, force_z = 5;
+  // On an annulus (film.63): e_phi is its mean over the interval, the difference of both ends' e_r over the angle.
+  const auto add_on_annulus = [&](int i, int j, int next) {
+    const int node = grid.index(i, j);
+    const GridLine& here = lines_[static_cast<std::size_t>(i)];
+    if (next >= 0) {
+      const GridLine& there = lines_[static_cast<std::size_t>(next)];
+      const double width = geometry_.weight_z[j], dphi = geometry_.dphi(i);
+      add(moment_z, node, grid.index(next, j), model_.R * geometry_.stretch[j] * width);
+      add(force_x, node, grid.index(next, j), width * (there.cosine - here.cosine) / dphi);
+      add(force_y, node, grid.index(next, j), width * (there.sine - here.sine) / dphi);
+    }
+    if (j + 1 >= grid.n_z) return;
+    const double width = geometry_.weight_phi[i] * geometry_.stretch_between[j];
+    add(force_x, node, node + 1, width * here.cosine);
+    add(force_y, node, node + 1, width * here.sine);
+  };
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j) {
       const int node = grid.index(i, j), next = grid.next(i);
+      if (is_annulus) {
+        add_on_annulus(i, j, next);
+        continue;
+      }
       if (next >= 0 && !is_plane) add(moment_z, node, grid.index(next, j), model_.R * geometry_.weight_z[j]);
       if (next >= 0 && is_plane) {
         add(force_y, node, grid.index(next, j), geometry_.weight_z[j]);

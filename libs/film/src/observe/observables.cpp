@@ -153,7 +153,7 @@ void observe_regimes(const FlowBalance& balance, FilmObservables& o) {
 }
 
 /// Between nodes as h_min and p_max of the whole film are.
-void observe_patches(const FlowBalance& balance, const FilmFields& fields, FilmObservables& o) {
+void observe_patches(const FlowBalance& balance, const FilmFields& fields, double phi_journal, FilmObservables& o) {
   const Grid& grid = balance.model().grid;
   const PeakFinder peaks(balance.model(), balance.geometry());
   Eigen::VectorXd within;
@@ -166,7 +166,7 @@ void observe_patches(const FlowBalance& balance, const FilmFields& fields, FilmO
       within.segment(first, end - first) = field.segment(first, end - first);
       return peaks.largest(within, [&](int a, int b) { return is_smooth(balance, a, b); }).value;
     };
-    patch.h_min = -largest(-fields.h);
+    patch.h_min = thinnest_film(balance.model(), balance.geometry(), fields.h, phi_journal, static_cast<int>(p)).value;
     patch.p_max = largest(fields.p);
     for (int k = first; k < end; ++k) balance.add_flow_over_edge(patch, k, balance.acting_outflow(k));
   }
@@ -274,7 +274,7 @@ FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& 
   o.normal_forces = wrench.normal().value;
   observe_oil(balance, motion, o);
   observe_regimes(balance, o);
-  observe_patches(balance, fields, o);
+  observe_patches(balance, fields, motion.phi_journal, o);
   const Cavity cavity = widest_cavity(balance, u, motion.u_shell + motion.u_journal < 0);
   o.rupture_angle = cavity.rupture, o.reformation_angle = cavity.reformation;
   o.sliding_speed = std::hypot(motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell);

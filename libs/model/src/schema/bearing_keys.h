@@ -39,5 +39,6 @@ struct BearingKindFormat {
 
 /// True for a key of a bearing of tilting pads that belongs to the film of each pad.
 [[nodiscard]] bool is_key_of_each_pad(const std::string& key);
+[[nodiscard]] std::vector<Key> thrust_keys();
 
 }  // namespace hersey::model

@@ -33,7 +33,7 @@ TypePtr root() {
           optional("contacts", contacts_format(), "Pairs of shapes that may touch."),
           optional("lubricants", lubricants_format(), "Oils that bearings refer to."),
           optional("thermal", thermal_network_format(), "Bodies and surroundings that the films' heat flows to."),
-          optional("bearings", bearings_format(), "Oil films: journal bearings and plane sliders."),
+          optional("bearings", bearings_format(), "Oil films: journal bearings, plane sliders and thrust bearings."),
           optional("simulation", simulation_format(), "Time span, step and solver settings.",
                    "**required** to simulate"),
           defaulted("output", output_format(), "{}", "What is stored, and how often."),

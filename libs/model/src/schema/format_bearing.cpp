@@ -73,7 +73,7 @@ TypePtr compliance_format() {
                       {
                           composite_modulus_key(),
                           optional("length", quantity("m", "22.5 mm", Range::positive()), "Length of the columns.",
-                                   "a journal bearing's radius, a pad's length"),
+                                   "a journal bearing's radius, a pad's length, the width of an annulus"),
                       }},
                  });
 }
@@ -177,6 +177,11 @@ const std::vector<BearingKindFormat>& bearing_kind_formats() {
        {.fixed = "pad", .of_fixed = "The pad.", .moving = "runner", .of_moving = "The runner."},
        plane_slider_keys()},
       {"tilting_pad", "Tilting-pad bearing", "a journal on pads that tilt on pivots", {}, tilting_pad_keys()},
+      {"thrust",
+       "Thrust bearing",
+       "pads in sectors of an annulus, or a washer, below a runner that turns about the axis",
+       {.fixed = "stator", .of_fixed = "The pads.", .moving = "runner", .of_moving = "The runner."},
+       thrust_keys()},
   };
   return kinds;
 }

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "hersey/bearing/film_coordinates.h"
+
 namespace hersey::run {
 namespace {
 
@@ -15,8 +17,10 @@ auto of_cycle(Member member) {
   return [member](const CycleRow& row) { return std::invoke(member, row.cycle); };
 }
 
-bool is_of_axis(const model::Bearing& bearing) { return bearing.kind->has_axis(); }
-bool is_of_plane(const model::Bearing& bearing) { return !is_of_axis(bearing); }
+bool is_of_plane(const model::Bearing& bearing) { return !film::is_round(bearing.film.surface); }
+bool is_of_annulus(const model::Bearing& bearing) { return bearing::is_on_annulus(bearing.film); }
+bool has_axial_place(const model::Bearing& bearing) { return !is_of_annulus(bearing); }
+bool is_of_angle(const model::Bearing& bearing) { return !is_of_plane(bearing); }
 
 /// Energy over the cycle's duration.
 auto mean_power(double BearingCycle::*energy) {
@@ -34,13 +38,18 @@ void add_extreme(const std::string& name, const char* unit, const char* text, Fi
   };
   table.push_back({name, unit, text, of(&FilmExtreme::value), {.summary_entries = {summary_entry}}});
   table.push_back({name + "_time", "s", "when", of(&FilmExtreme::t)});
-  table.push_back({name + "_phi", "rad", "where: bearing angle", of(&FilmExtreme::phi), {.only = is_of_axis}});
+  table.push_back({name + "_phi", "rad", "where: bearing angle", of(&FilmExtreme::phi), {.only = is_of_angle}});
   table.push_back({name + "_y",
                    "m",
                    "where: along the sliding direction",
                    of(&FilmExtreme::phi),
                    {.note = "of a plane slider", .only = is_of_plane}});
-  table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z)});
+  table.push_back({name + "_z", "m", "where: axial", of(&FilmExtreme::z), {.only = has_axial_place}});
+  table.push_back({name + "_r",
+                   "m",
+                   "where: radius",
+                   [extreme](const CycleRow& row) { return row.radius + (row.cycle.*extreme).z; },
+                   {.note = "of a thrust bearing", .only = is_of_annulus}});
 }
 
 CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::VectorXd BearingCycle::*values,
@@ -56,8 +65,9 @@ CycleLine map_line(const char* name, const char* unit, const char* text, Eigen::
                       },
                       {"../../fields/phi", "../../fields/z"},
                       [](const model::Bearing& bearing) {
-                        return std::vector<std::string>{is_of_axis(bearing) ? "../../fields/phi" : "../../fields/y",
-                                                        "../../fields/z"};
+                        return std::vector<std::string>{
+                            is_of_plane(bearing) ? "../../fields/y" : "../../fields/phi",
+                            bearing::is_on_annulus(bearing.film) ? "../../fields/r" : "../../fields/z"};
                       }},
            .summary_entries = std::move(summary_entries)}};
 }
@@ -184,7 +194,7 @@ std::vector<BearingCycle> CycleMaps::write(bool is_complete) {
   cycles.reserve(sums_.size());
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     const BearingCycle& cycle = cycles.emplace_back(sums_[i].close());
-    series_[i].append({cycle, is_complete});
+    series_[i].append({cycle, is_complete, machine_.bearings[i].bearing->model().R});
   }
   ++rows_;
   return cycles;

@@ -13,6 +13,7 @@ namespace hersey::run {
 struct CycleRow {
   const BearingCycle& cycle;
   bool is_complete = false;  ///< a cycle of the model; else the whole run
+  double radius = 0;         ///< of the film, to which an annulus' z is relative [m]
 };
 
 /// The bearings' cycles in the results file: losses, extremes and maps, one row per cycle (docs/results-file.md).

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "cycle/cycle_maps.h"
+#include "hersey/bearing/film_coordinates.h"
 #include "hersey/bearing/quantities.h"
 #include "hersey/run/assumptions.h"
 #include "hersey/run/film_fields.h"
@@ -55,7 +56,21 @@ double power_error(const BearingRow& row) {
 bool has_axis(const BearingPlan& plan) { return plan.bearing.kind->has_axis(); }
 
 bool has_ends(const BearingPlan& plan) { return !plan.bearing.film.ends.empty(); }
-bool is_plane(const BearingPlan& plan) { return !has_axis(plan); }
+bool is_annulus(const BearingPlan& plan) { return bearing::is_on_annulus(plan.bearing.film); }
+bool is_plane(const BearingPlan& plan) { return !film::is_round(plan.bearing.film.surface); }
+bool is_round(const BearingPlan& plan) { return !is_plane(plan); }
+/// True of films whose rows have a z, not a radius.
+bool has_z(const BearingPlan& plan) { return !is_annulus(plan); }
+
+/// A flow over the leading or the trailing ends of patches.
+auto over_end(double Film::*of_forward, double Film::*of_backward) {
+  return [=](const BearingRow& row) { return row.observation.film.*(row.is_forward ? of_forward : of_backward); };
+}
+
+/// A radius on an annulus, from what the film counts from the mean one.
+auto of_radius(double Film::*z) {
+  return [z](const BearingRow& row) { return row.radius + row.observation.film.*z; };
+}
 
 bool has_depth(const BearingPlan& plan) {
   const std::vector<film::SurfaceFeature>& features = plan.bearing.film.features;
@@ -143,23 +158,26 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       {"fields/phi"}};
   static const std::string of_film_heat = "this and the following: of films with `thermal: {model: film}`";
   static const std::string per_angle = "four bytes a number";
-  static const std::string of_plane = "of a plane slider", of_ends = "of a plane slider, or of a bore of arcs";
+  static const std::string of_plane = "of a plane slider", of_thrust = "of a thrust bearing",
+                           of_ends = "of a plane slider, of pads of a thrust bearing, or of a bore of arcs";
   static const QuantityTable<BearingRow, BearingPlan> table{
       line("h_min", of_film(&Film::h_min),
            {.summary_entries = {{Statistic::smallest, "minimum film thickness (MOFT)", "µm", true},
                                 {Statistic::at_end, "minimum film thickness at the end", "µm"}}}),
-      line("h_min_phi", of_film(&Film::h_min_phi), {.only = has_axis}),
+      line("h_min_phi", of_film(&Film::h_min_phi), {.only = is_round}),
       line("h_min_y", of_film(&Film::h_min_phi), {.note = of_plane, .only = is_plane}),
-      line("h_min_z", of_film(&Film::h_min_z)),
+      line("h_min_z", of_film(&Film::h_min_z), {.only = has_z}),
+      line("h_min_r", of_radius(&Film::h_min_z), {.note = of_thrust, .only = is_annulus}),
       line("h_min_centre", of_film(&Film::h_min_centre),
            {.summary_entries = {{Statistic::smallest, "minimum film thickness at the centreline", "µm"}}}),
       line("h_min_features", of_film(&Film::h_min_features), {.note = "only where there are any", .only = has_depth}),
       line("p_max", of_film(&Film::p_max),
            {.summary_entries = {{Statistic::largest, "peak film pressure (POFP)", "MPa", true},
                                 {Statistic::at_end, "peak film pressure at the end", "MPa"}}}),
-      line("p_max_phi", of_film(&Film::p_max_phi), {.only = has_axis}),
+      line("p_max_phi", of_film(&Film::p_max_phi), {.only = is_round}),
       line("p_max_y", of_film(&Film::p_max_phi), {.note = of_plane, .only = is_plane}),
-      line("p_max_z", of_film(&Film::p_max_z)),
+      line("p_max_z", of_film(&Film::p_max_z), {.only = has_z}),
+      line("p_max_r", of_radius(&Film::p_max_z), {.note = of_thrust, .only = is_annulus}),
       line("p_max_node", of_film(&Film::p_max_node)),
       line("force", force_on_shell, {.summary_entries = {{Statistic::longest, "largest load", "N"}}}),
       line("force_pressure", of_film(&Film::force_pressure)),
@@ -172,6 +190,10 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
            {.note = of_plane,
             .only = is_plane,
             .summary_entries = {{Statistic::at_end, "film thickness at the pad's middle at the end", "µm"}}}),
+      line("film_thickness_axis", [](const BearingRow& row) { return row.observation.position.e[0]; },
+           {.note = of_thrust,
+            .only = is_annulus,
+            .summary_entries = {{Statistic::at_end, "film thickness on the axis at the end", "µm"}}}),
       line("eccentricity_ratio", of_position(&bearing::GapPosition::ratio),
            {.only = has_axis,
             .summary_entries = {{Statistic::largest, "largest eccentricity ratio"},
@@ -201,7 +223,9 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
             .summary_entries = {{Statistic::at_end, "attitude angle at the end", "°"}}}),
       line("tilt", of_position(&bearing::GapPosition::tilt), {.only = has_axis}),
       line("slope", of_position(&bearing::GapPosition::tilt), {.note = of_plane, .only = is_plane}),
+      line("runner_tilt", of_position(&bearing::GapPosition::tilt), {.note = of_thrust, .only = is_annulus}),
       line("speed", of_position(&bearing::GapPosition::speed), {.only = has_axis}),
+      line("runner_speed", of_position(&bearing::GapPosition::speed), {.note = of_thrust, .only = is_annulus}),
       line("sliding_speed", of_position(&bearing::GapPosition::speed), {.note = of_plane, .only = is_plane}),
       line("power_film", of_film(&Film::power_film),
            {.summary_entries = {{Statistic::mean, "mean power loss in the film", "W"}}}),
@@ -220,18 +244,31 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       line("torque_journal", of_film(&Film::torque_journal),
            {.only = has_axis, .summary_entries = {{Statistic::mean, "mean friction torque on the journal", "N·mm"}}}),
       line("torque_shell", of_film(&Film::torque_shell), {.only = has_axis}),
-      line("flow_leading", of_film(&Film::flow_first),
+      line("torque_runner", of_film(&Film::torque_journal),
+           {.note = of_thrust,
+            .only = is_annulus,
+            .summary_entries = {{Statistic::mean, "mean friction torque on the runner", "N·mm"}}}),
+      line("torque_stator", of_film(&Film::torque_shell), {.note = of_thrust, .only = is_annulus}),
+      line("flow_leading", over_end(&Film::flow_first, &Film::flow_last),
            {.note = of_ends,
             .only = has_ends,
             .summary_entries = {{Statistic::mean, "mean flow out over the leading end", "mm³/s"}}}),
-      line("flow_trailing", of_film(&Film::flow_last),
+      line("flow_trailing", over_end(&Film::flow_last, &Film::flow_first),
            {.note = of_ends,
             .only = has_ends,
             .summary_entries = {{Statistic::mean, "mean flow out over the trailing end", "mm³/s"}}}),
+      line("flow_inner", of_film(&Film::flow_left),
+           {.note = of_thrust,
+            .only = is_annulus,
+            .summary_entries = {{Statistic::mean, "mean flow out over the inner edges", "mm³/s"}}}),
+      line("flow_outer", of_film(&Film::flow_right),
+           {.note = of_thrust,
+            .only = is_annulus,
+            .summary_entries = {{Statistic::mean, "mean flow out over the outer edges", "mm³/s"}}}),
       line("flow_left", of_film(&Film::flow_left),
-           {.summary_entries = {{Statistic::mean, "mean side flow, left", "mm³/s"}}}),
+           {.only = has_z, .summary_entries = {{Statistic::mean, "mean side flow, left", "mm³/s"}}}),
       line("flow_right", of_film(&Film::flow_right),
-           {.summary_entries = {{Statistic::mean, "mean side flow, right", "mm³/s"}}}),
+           {.only = has_z, .summary_entries = {{Statistic::mean, "mean side flow, right", "mm³/s"}}}),
       line("flow_supply", of_film(&Film::flow_supply),
            {.summary_entries = {{Statistic::mean, "mean supply flow", "mm³/s"}}}),
       line("flow_feature_<name>", flow_of_feature,
@@ -248,8 +285,8 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       line("oil_unexplained", of_oil(&bearing::CumulativeOilBalance::unexplained)),
       line("cavitated_share", of_film(&Film::cavitated_share)),
       line("rupture_angle", of_film(&Film::rupture_angle),
-           {.note = "with the flow, of its widest cavity", .only = has_axis}),
-      line("reformation_angle", of_film(&Film::reformation_angle), {.only = has_axis}),
+           {.note = "with the flow, of its widest cavity", .only = is_round}),
+      line("reformation_angle", of_film(&Film::reformation_angle), {.only = is_round}),
       line("rupture_y", of_film(&Film::rupture_angle), {.note = of_plane, .only = is_plane}),
       line("reformation_y", of_film(&Film::reformation_angle), {.note = of_plane, .only = is_plane}),
       line("T_max", celsius(&Heat::T_max),
@@ -299,9 +336,9 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       line("exchanges", of_bearing(&bearing::BearingObservation::exchanges),
            {.note = "of a partitioned coupling", .only = is_partitioned}),
       line("h_min_around", h_min_around,
-           {.note = per_angle, .only = has_axis, .extent = around, .precision = results::Precision::float32}),
+           {.note = per_angle, .only = is_round, .extent = around, .precision = results::Precision::float32}),
       line("p_max_around", p_max_around,
-           {.note = per_angle, .only = has_axis, .extent = around, .precision = results::Precision::float32}),
+           {.note = per_angle, .only = is_round, .extent = around, .precision = results::Precision::float32}),
   };
   return table;
 }
@@ -309,16 +346,16 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
 /// The lines of film_fields() as series.
 const QuantityTable<FilmInstant, BearingPlan>& film_field_quantities() {
   static const QuantityTable<FilmInstant, BearingPlan> table = [] {
-    const Extent<BearingPlan> nodes{
-        "n_phi, n_z",
-        [](const BearingPlan& plan, std::size_t /*k*/) {
-          const film::Grid& grid = plan.bearing.film.grid;
-          return std::vector{grid.n_phi, grid.n_z};
-        },
-        {"fields/phi", "fields/z"},
-        [](const BearingPlan& plan) {
-          return std::vector<std::string>{has_axis(plan) ? "fields/phi" : "fields/y", "fields/z"};
-        }};
+    const Extent<BearingPlan> nodes{"n_phi, n_z",
+                                    [](const BearingPlan& plan, std::size_t /*k*/) {
+                                      const film::Grid& grid = plan.bearing.film.grid;
+                                      return std::vector{grid.n_phi, grid.n_z};
+                                    },
+                                    {"fields/phi", "fields/z"},
+                                    [](const BearingPlan& plan) {
+                                      return std::vector<std::string>{is_plane(plan) ? "fields/y" : "fields/phi",
+                                                                      is_annulus(plan) ? "fields/r" : "fields/z"};
+                                    }};
     QuantityTable<FilmInstant, BearingPlan> lines{{"fields/time", "s", "time of the fields", &FilmInstant::t}};
     for (const FilmField& field : film_fields())
       lines.push_back({"fields/" + field.name,
@@ -332,6 +369,12 @@ const QuantityTable<FilmInstant, BearingPlan>& film_field_quantities() {
     return lines;
   }();
   return table;
+}
+
+/// Positions of the rows of nodes [m].
+std::vector<double> rows_of_nodes(const BearingPlan& plan) {
+  const Eigen::VectorXd rows = bearing::coordinate_across(plan.bearing.film).values;
+  return {rows.begin(), rows.end()};
 }
 
 /// Positions of the nodes: the dimensions of all fields.
@@ -348,7 +391,7 @@ const std::vector<Constant<BearingPlan>>& film_nodes() {
          return phi;
        },
        {},
-       {.only = has_axis}},
+       {.only = is_round}},
       {"fields/y",
        "m",
        "position of the nodes along the sliding direction",
@@ -363,18 +406,20 @@ const std::vector<Constant<BearingPlan>>& film_nodes() {
        {.note = "of a plane slider", .only = is_plane}},
       {"fields/arc",
        "1",
-       "number of the arc on which the nodes lie, from 0",
+       "number of the arc or pad on which the nodes lie, from 0",
        "[n_phi]",
        [](const BearingPlan& plan) { return film::arc_of_lines(plan.bearing.film.grid); },
        {},
-       {.note = "of a bore of arcs", .only = [](const BearingPlan& plan) { return has_axis(plan) && has_ends(plan); }}},
-      {"fields/z", "m", "axial position of the nodes", "[n_z]",
-       [](const BearingPlan& plan) {
-         const film::FilmModel& film = plan.bearing.film;
-         std::vector<double> z(static_cast<std::size_t>(film.grid.n_z));
-         for (int j = 0; j < film.grid.n_z; ++j) z[static_cast<std::size_t>(j)] = film.L * film.grid.z_over_L(j);
-         return z;
-       }},
+       {.note = "of a bore of arcs, or of pads of a thrust bearing",
+        .only = [](const BearingPlan& plan) { return is_round(plan) && has_ends(plan); }}},
+      {"fields/z", "m", "axial position of the nodes", "[n_z]", rows_of_nodes, {}, {.only = has_z}},
+      {"fields/r",
+       "m",
+       "radius of the nodes",
+       "[n_z]",
+       rows_of_nodes,
+       {},
+       {.note = "of a thrust bearing", .only = is_annulus}},
   };
   return table;
 }
@@ -407,6 +452,11 @@ const std::vector<Attribute<BearingPlan>>& bearing_attributes() {
          return film.R * (film.grid.phi(film.grid.n_phi - 1) - film.grid.phi(0));
        },
        {.symbol = "B", .note = "of a plane slider", .only = is_plane}},
+      {"mean_radius",
+       "m",
+       "of the pads",
+       of_model(&film::FilmModel::R),
+       {.note = "of a thrust bearing", .only = is_annulus}},
       {"width", "m", "of the bearing", of_model(&film::FilmModel::L), {.symbol = "L"}},
       {"radial_clearance",
        "m",
@@ -437,6 +487,7 @@ const BearingPlan& written(const BearingPlan& plan, results::Writer& writer) {
 
 BearingRecord::BearingRecord(const BearingPlan& plan, const bearing::FilmForce& film, results::Writer& writer)
     : film_(film),
+      is_forward_(plan.bearing.kind->is_forward()),
       rows_(bearing_quantities(), group_of(plan.bearing), written(plan, writer), writer),
       fields_(film_field_quantities(), group_of(plan.bearing), plan, writer) {}
 

@@ -20,6 +20,8 @@ struct BearingRow {
   const bearing::BearingObservation& observation;
   const film::FilmFields& fields;
   const film::Grid& grid;
+  double radius = 0;       ///< of the film, to which an annulus' z is relative [m]
+  bool is_forward = true;  ///< leading ends are those with the smaller coordinate
 };
 
 /// The fields of a film at an instant.
@@ -34,7 +36,7 @@ class BearingRecord {
   /// @param film  of the bearing; outlives this
   BearingRecord(const BearingPlan& plan, const bearing::FilmForce& film, results::Writer& writer);
   void append(const bearing::BearingObservation& observation) const {
-    rows_.append({observation, film_.fields(), film_.model().grid});
+    rows_.append({observation, film_.fields(), film_.model().grid, film_.model().R, is_forward_});
   }
   void append_fields(double t) const { fields_.append({t, film_.fields()}); }
   /// The group of a bearing and that of its cycles.
@@ -42,6 +44,7 @@ class BearingRecord {
 
  private:
   const bearing::FilmForce& film_;
+  bool is_forward_;
   QuantityRows<BearingRow, BearingPlan> rows_;
   QuantityRows<FilmInstant, BearingPlan> fields_;
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hersey/bearing/clearance.h"
+#include "hersey/bearing/film_coordinates.h"
 #include "hersey/film/gap_shape.h"
 
 namespace hersey::run {
@@ -74,6 +75,12 @@ std::string described(const film::FilmModel& film, const film::SurfaceFeature& f
     return fmt::format("{} in the pad at y = {:.4g} mm, z = {:.4g} mm, {:.4g} mm x {:.4g} mm{}{}",
                        std::visit(ShapeDescription{feature.is_fed}, feature.shape), 1e3 * film.R * feature.phi,
                        1e3 * feature.z, 1e3 * film.R * feature.arc, 1e3 * feature.length, depth,
+                       feature.is_fed ? "" : ", not fed");
+  if (bearing::is_on_annulus(film))
+    return fmt::format("{} in the stator at {:.4g} deg, r = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
+                       std::visit(ShapeDescription{feature.is_fed}, feature.shape),
+                       feature.phi * 180 / std::numbers::pi, 1e3 * (film.R + feature.z),
+                       feature.arc * 180 / std::numbers::pi, 1e3 * feature.length, depth,
                        feature.is_fed ? "" : ", not fed");
   return fmt::format("{} in the {} at {:.4g} deg, z = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
                      std::visit(ShapeDescription{feature.is_fed}, feature.shape),
@@ -308,6 +315,8 @@ std::string grid(const film::FilmModel& film) {
   const film::Grid& g = film.grid;
   if (!film::is_round(film.surface))
     return fmt::format("{} x {} nodes (along and across the sliding direction, borders included)", g.n_phi, g.n_z);
+  if (bearing::is_on_annulus(film))
+    return fmt::format("{} x {} nodes (around all pads and along the radius, edges included)", g.n_phi, g.n_z);
   std::string text = fmt::format("{} x {} nodes (circumferential x axial, edges included)", g.n_phi, g.n_z);
   if (g.is_uniform()) return text;
   double narrowest = g.phi(0) + 2 * std::numbers::pi - g.phi(g.n_phi - 1), lowest = 1;
@@ -353,13 +362,16 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   row("pressures",
       film.pressures == film::PressureScale::absolute ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
   const film::Arcs* bore = film::arcs_of(film);
-  for (std::size_t k = 0; k < film.ends.size(); ++k) {
+  const bool is_annulus = bearing::is_on_annulus(film);
+  // The pads of a thrust bearing lie between grooves of one condition.
+  for (std::size_t k = 0; k < (is_annulus ? std::min<std::size_t>(film.ends.size(), 1) : film.ends.size()); ++k) {
     const std::string arc = bore != nullptr ? " of " + bore->arcs[k].name : "";
-    row(("edge pressure leading" + arc).c_str(), edge(film, film.ends[k].first));
-    row(("edge pressure trailing" + arc).c_str(), edge(film, film.ends[k].last));
+    const auto& [first, last] = film.ends[k];
+    row(("edge pressure leading" + arc).c_str(), edge(film, bearing.kind->is_forward() ? first : last));
+    row(("edge pressure trailing" + arc).c_str(), edge(film, bearing.kind->is_forward() ? last : first));
   }
-  row("edge pressure left", edge(film, film.edge_left));
-  row("edge pressure right", edge(film, film.edge_right));
+  row(is_annulus ? "edge pressure inner" : "edge pressure left", edge(film, film.edge_left));
+  row(is_annulus ? "edge pressure outer" : "edge pressure right", edge(film, film.edge_right));
   if (bearing.kind->has_axis()) row("supply", supply(film));
   for (const film::SurfaceFeature& feature : film.features)
     row(("feature " + feature.name).c_str(), described(film, feature));

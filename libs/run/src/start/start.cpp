@@ -92,7 +92,8 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
                      "speed up")};
   }
   if (summary.status == Status::domain_error) {
-    return {fault_at(model, summary.message, summary.message, "a journal inside its shell at the start",
+    return {fault_at(model, summary.message, summary.message,
+                     "surfaces apart at the start: a journal inside its shell, a runner off its pads",
                      "move the bodies' frames or the joints' `initial` values, or enlarge `radial_clearance`")};
   }
   return faults_of_open_loop(model, summary);

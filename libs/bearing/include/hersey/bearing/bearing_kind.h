@@ -26,6 +26,9 @@ class BearingKind {
   [[nodiscard]] virtual std::string fixed_surface() const = 0;
   /// See fixed_surface().
   [[nodiscard]] virtual std::string moving_surface() const = 0;
+  /// True if the leading ends of films in patches are those with the smaller coordinate; pads that are made for the
+  /// other sense of motion have them at the larger one.
+  [[nodiscard]] virtual bool is_forward() const { return true; }
   /// Returns what a report states of the kind's own geometry: name and text of each statement.
   [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> description(
       const film::FilmModel& model) const = 0;

@@ -232,8 +232,18 @@ struct SliderPoint {
   SourcePosition position;
 };
 
+/// Conditions of a thrust bearing without a machine. Either the load or the film thickness is given.
+struct ThrustPoint {
+  double speed = 0;                      ///< of the runner about the stator's z-axis [rad/s]
+  std::optional<double> load;            ///< that presses runner and stator together [N], > 0
+  std::optional<double> film_thickness;  ///< smallest distance of the undeformed surfaces [m], > 0
+  double approach_speed = 0;             ///< of runner and stator towards each other [m/s]; 0 where a load is given
+  double tilt_x = 0, tilt_y = 0;         ///< slope of the runner's axis towards x and y [-]
+  SourcePosition position;
+};
+
 /// Conditions of a single bearing without a machine, by its kind.
-using OperatingPoint = std::variant<JournalPoint, SliderPoint>;
+using OperatingPoint = std::variant<JournalPoint, SliderPoint, ThrustPoint>;
 
 /// A bearing's surface that lies on the mesh of its flexible body.
 struct DeformingSurface {

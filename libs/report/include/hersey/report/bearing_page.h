@@ -42,9 +42,10 @@ struct [[nodiscard]] PageSolution : Outcome {
   double clearance = 0;                            ///< radial [m]
   Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< on the journal [N]
-  bool is_plane = false;                           ///< a slider: no clearance, position and load as vectors
-  Eigen::VectorXd phi, z;                          ///< positions of the nodes [rad, m]; of a slider [m, m]
-  std::vector<double> arcs;  ///< number of the arc on which each node of phi lies; empty: a whole bore
+  bool has_axis = true;                            ///< a journal: with clearance, position and load as vectors
+  std::string along = "phi", across = "z";  ///< names of the nodes' coordinates: "y" of a slider, "r" of a thrust
+  Eigen::VectorXd phi, z;                   ///< positions of the nodes along and across [rad, m]; "y": [m, m]
+  std::vector<double> arcs;                 ///< number of the arc on which each node of phi lies; empty: a whole bore
   std::vector<PageField> fields;
 };
 

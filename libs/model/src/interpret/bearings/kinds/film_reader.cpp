@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "hersey/film/film_solver.h"
@@ -127,6 +128,46 @@ void FilmReader::check_turbulence(const Value& turbulence) {
                           "an oil without `shear_thinning`, or `turbulence: none`");
 }
 
+void FilmReader::read_temperature() {
+  const Value* T = value_.find("temperature");
+  if (lubricant_ == nullptr) return;
+  bearing_.validity = lubricant_->validity;
+  if (T != nullptr && !T->broken) {
+    warn_of_temperature(context_, *T, bearing_.validity, lubricant_->name);
+    film_.lubricant = film::at_temperature(film_.lubricant, T->number);
+  } else if (lubricant_->temperature) {
+    film_.lubricant = film::at_temperature(film_.lubricant, *lubricant_->temperature);
+  } else if (film::depends_on_temperature(film_.lubricant.temperature_law)) {
+    context_.fault_at_key(
+        value_, "an oil '" + lubricant_->name + "' whose viscosity falls with temperature, and no temperature",
+        "a `temperature` of the lubricant or of this bearing");
+  }
+}
+
+void FilmReader::require_gauge_pressures() {
+  if (film_.pressures == film::PressureScale::gauge) return;
+  context_.fault(*value_.find("pressures"), "absolute pressures, which would count the atmosphere below a pad as load",
+                 "gauge, with `cavitation: {pressure: -1.01325 bar}` for a vacuum");
+}
+
+void FilmReader::read_feed(const Value& value, film::SurfaceFeature& feature) {
+  const Value* pressure = value.find("pressure");
+  feature.is_fed = pressure != nullptr;
+  if (pressure == nullptr && feature.depth == 0)
+    context_.fault_at_key(value, "neither 'pressure' nor 'depth'", "a pressure that feeds it, a depth, or both");
+  bearing_.feature_pressures.push_back(pressure != nullptr ? function_of(context_, *pressure, "Pa")
+                                                           : not_fed(value.path));
+  const Function& given = bearing_.feature_pressures.back();
+  if (pressure == nullptr || !given.is_constant()) return;
+  Value constant = *pressure;
+  constant.number = feature.pressure = given.value->value({});
+  require_above_cavitation(context_, constant, film_);
+}
+
+Function FilmReader::not_fed(const std::string& path) const {
+  return {std::make_shared<ConstantFunction>(film_.p_cav), {}, {}, {}, path};
+}
+
 /// With mass conserved, oil that nothing presses in above the cavitation pressure does not come back where the film
 /// has once ruptured: the steady film is p = p_cav everywhere and bears nothing.
 void FilmReader::warn_of_starvation(const std::vector<film::Edge>& edges_of_film) {
@@ -215,7 +256,9 @@ void FilmReader::read_compliance() {
   if (length != nullptr && !length->broken && surfaces_.size > 0 && length->number > kLongestColumn * surfaces_.size)
     context_.fault(*length,
                    fmt::format("{:.3g} m, {:.3g} times the {}", length->number, length->number / surfaces_.size,
-                               (surfaces_.fixed == "shell" ? "bearing's radius" : "pad's length")),
+                               (surfaces_.fixed == "shell"    ? "bearing's radius"
+                                : surfaces_.fixed == "stator" ? "annulus' width"
+                                                              : "pad's length")),
                    fmt::format("at most {:g} times that: columns represent a lining or a housing", kLongestColumn));
   if (modulus) film_.compliance = (length != nullptr ? length->number : surfaces_.size) / *modulus;
 }

@@ -31,6 +31,15 @@ class FilmReader {
   void read_pressure_scale();
   /// Reads how the film is sheared, turbulence included. Oil, roughness and the film's surface come before.
   void read_shear();
+  /// Reads `temperature` of a bearing whose oil has one temperature, and puts the oil at it.
+  void read_temperature();
+  /// Reports absolute pressures of a pad: the atmosphere acts on its back, too, so that a load is what the film has
+  /// above it.
+  void require_gauge_pressures();
+  /// Reads `pressure` of a hole or pocket, once its depth is known, and appends it to the pressures of features.
+  void read_feed(const Value& value, film::SurfaceFeature& feature);
+  /// Returns the pressure of a feature that is not fed.
+  [[nodiscard]] Function not_fed(const std::string& path) const;
   /// Reports a film that loses its oil for good: `edges` at the cavitation pressure and nothing that feeds it.
   void warn_of_starvation(const std::vector<film::Edge>& edges);
 

@@ -29,10 +29,16 @@ void read_plane_slider(Context& context, const Value& value, Bearing& bearing);
 void read_plane_slider_point(Context& context, const Value& value, Bearing& bearing);
 [[nodiscard]] ShortNames plane_slider_short_names(const Model& model, const Bearing& bearing);
 
+// Pads in sectors of an annulus, or a washer, below a runner that turns.
+void read_thrust(Context& context, const Value& value, Bearing& bearing);
+void read_thrust_point(Context& context, const Value& value, Bearing& bearing);
+[[nodiscard]] ShortNames thrust_short_names(const Model& model, const Bearing& bearing);
+
 /// All kinds.
 [[nodiscard]] inline std::vector<KindReader> bearing_kinds() {
   return {{"journal", read_journal, read_journal_point, journal_short_names},
-          {"plane_slider", read_plane_slider, read_plane_slider_point, plane_slider_short_names}};
+          {"plane_slider", read_plane_slider, read_plane_slider_point, plane_slider_short_names},
+          {"thrust", read_thrust, read_thrust_point, thrust_short_names}};
 }
 
 }  // namespace hersey::model

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "interpret/bearings/kinds/approach_point.h"
 #include "interpret/bearings/kinds/film_reader.h"
 #include "interpret/bearings/kinds/kinds.h"
 
@@ -41,9 +42,9 @@ class PadReader {
     if (const Value* most = value_.find("permissible_pressure"); most != nullptr && !most->broken)
       bearing_.permissible_pressure = most->number;
     reader_.read_contact();
-    read_temperature();
+    reader_.read_temperature();
     reader_.read_pressure_scale();
-    require_gauge_pressures();
+    reader_.require_gauge_pressures();
     reader_.read_shear();
     read_kind();
     if (context_.has_fault_in(value_.path)) return;
@@ -86,23 +87,9 @@ class PadReader {
       feature.arc = number_of(value, "along");
       feature.length = value.find("across") != nullptr ? number_of(value, "across") : film_.L;
     }
-    const Value* pressure = value.find("pressure");
-    feature.is_fed = pressure != nullptr;
-    if (pressure == nullptr && feature.depth == 0)
-      context_.fault_at_key(value, "neither 'pressure' nor 'depth'", "a pressure that feeds it, a depth, or both");
-    bearing_.feature_pressures.push_back(pressure != nullptr ? function_of(context_, *pressure, "Pa")
-                                                             : not_fed(value.path));
-    if (const Function& given = bearing_.feature_pressures.back(); pressure != nullptr && given.is_constant()) {
-      Value constant = *pressure;
-      constant.number = feature.pressure = given.value->value({});
-      require_above_cavitation(context_, constant, film_);
-    }
+    reader_.read_feed(value, feature);
     check_extent(value, feature);
     film_.features.push_back(std::move(feature));
-  }
-
-  [[nodiscard]] Function not_fed(const std::string& path) const {
-    return {std::make_shared<ConstantFunction>(film_.p_cav), {}, {}, {}, path};
   }
 
   void check_extent(const Value& value, const film::SurfaceFeature& feature) {
@@ -126,23 +113,6 @@ class PadReader {
         fmt::format("grid: {{along: {:.0f}, across: {:.0f}}} would do",
                     std::max<double>(film_.grid.n_phi, std::ceil(2 * length_ / feature.arc) + 1),
                     std::max<double>(film_.grid.n_z, std::ceil(2 * film_.L / feature.length) + 1)));
-  }
-
-  void read_temperature() {
-    const Value* T = value_.find("temperature");
-    const Lubricant* oil = reader_.lubricant();
-    if (oil == nullptr) return;
-    bearing_.validity = oil->validity;
-    if (T != nullptr && !T->broken) {
-      warn_of_temperature(context_, *T, bearing_.validity, oil->name);
-      film_.lubricant = film::at_temperature(film_.lubricant, T->number);
-    } else if (oil->temperature) {
-      film_.lubricant = film::at_temperature(film_.lubricant, *oil->temperature);
-    } else if (film::depends_on_temperature(film_.lubricant.temperature_law)) {
-      context_.fault_at_key(value_,
-                            "an oil '" + oil->name + "' whose viscosity falls with temperature, and no temperature",
-                            "a `temperature` of the lubricant or of this bearing");
-    }
   }
 
   /// The pad with its shapes. A step is a pocket of the pad, whose border is a jump of the gap.
@@ -172,16 +142,8 @@ class PadReader {
                               .length = film_.L,
                               .is_fed = false,
                               .depth = number_of(value, "depth")});
-    bearing_.feature_pressures.push_back(not_fed(value.path));
+    bearing_.feature_pressures.push_back(reader_.not_fed(value.path));
     check_extent(value, film_.features.back());
-  }
-
-  /// The atmosphere acts on the pad's back, too: a load is what the film has above it.
-  void require_gauge_pressures() {
-    if (film_.pressures == film::PressureScale::gauge) return;
-    context_.fault(*value_.find("pressures"),
-                   "absolute pressures, which would count the atmosphere below a pad as load",
-                   "gauge, with `cavitation: {pressure: -1.01325 bar}` for a vacuum");
   }
 
   /// Between closed edges the pressure is known up to a constant only, unless something holds it.
@@ -217,38 +179,10 @@ void read_plane_slider_point(Context& context, const Value& bearing_value, Beari
   const Value* value = bearing_value.find("operating_point");
   if (value == nullptr || value->broken) return;
   SliderPoint point;
-  point.position = value->key_position;
-  point.speed = number_of(*value, "speed");
-  point.approach_speed = number_of(*value, "approach_speed");
   point.tilt_along = std::tan(number_of(*value, "tilt_along"));
   point.tilt_across = std::tan(number_of(*value, "tilt_across"));
-  const Value *load = given(*value, "load"), *thickness = given(*value, "film_thickness");
-  if (thickness != nullptr) point.film_thickness = thickness->number;
-  if (load != nullptr) {
-    point.load = load->number;
-    const double length = number_of(bearing_value, "length");
-    require_bearable(context, *load, length * bearing.film.L);
-  }
-  if (load == nullptr && thickness == nullptr) {
-    context.fault_at_key(*value, "neither 'load' nor 'film_thickness'", "exactly one of them");
-  } else if (load != nullptr && thickness != nullptr) {
-    context.fault_at_key(*thickness, "keys 'load' and 'film_thickness' together", "exactly one of them",
-                         "with --set, give the other one as 'none'");
-  }
-  if (context.has_fault_in(value->path)) return;
-  if (load != nullptr && point.approach_speed != 0) {
-    context.fault(*value->find("approach_speed"), "a velocity along a film thickness that is sought",
-                  "an approach_speed with a film_thickness", "its load is found");
-    return;
-  }
-  const bool is_smooth = bearing.film.asperities.model == film::AsperityModel::none;
-  const bool is_fed = std::any_of(bearing.film.features.begin(), bearing.film.features.end(),
-                                  [](const auto& feature) { return feature.is_fed; });
-  if (is_smooth && !is_fed && point.speed == 0 && point.approach_speed == 0) {
-    context.fault(*value->find("speed"), "a runner at rest, which drags no oil into the gap",
-                  "a speed, an approach_speed, a hole or pocket with a pressure, or asperities");
-    return;
-  }
+  const double area = number_of(bearing_value, "length") * bearing.film.L;
+  if (!read_approach(context, *value, area, bearing, point)) return;
   bearing.operating_point = point;
 }
 
