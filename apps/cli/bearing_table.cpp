@@ -40,6 +40,8 @@ std::string grid_error_text(const BearingFigure& figure) {
 std::string pressures_of(const film::FilmModel& film) {
   const auto bar = [](double pascal) { return fmt::format("{:.4g} bar", 1e-5 * pascal); };
   const auto outside = [&](const film::Edge& edge) {
+    if (edge.kind == film::EdgeKind::leaking)
+      return fmt::format("sealed with leakage {:.4g} to {}", edge.leakage, bar(edge.pressure));
     return edge.kind == film::EdgeKind::closed ? std::string("closed") : "at " + bar(edge.pressure);
   };
   const std::string left = outside(film.edge_left), right = outside(film.edge_right);

@@ -17,6 +17,8 @@ struct SurfaceKeys {
 [[nodiscard]] TypePtr bearing_pressure();
 /// Pressure outside an edge of the film, or a wall there.
 [[nodiscard]] TypePtr edge_format();
+/// A seal at an edge of the film, through which oil leaks.
+[[nodiscard]] TypePtr seal_format();
 
 /// Keys that every kind of bearing has.
 [[nodiscard]] std::vector<Key> shared_bearing_keys();

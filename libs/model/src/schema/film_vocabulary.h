@@ -8,12 +8,15 @@
 // Words of bearings and their oil.
 namespace hersey::model {
 
-inline constexpr Vocabulary<film::Cavitation, 3> cavitation_words{{
+inline constexpr Vocabulary<film::Cavitation, 4> cavitation_words{{
     {film::Cavitation::mass_conserving, "mass_conserving",
      "pressure or fill fraction at every point (Jakobsson, Floberg, Olsson)"},
     {film::Cavitation::reynolds, "reynolds",
      "zero pressure gradient at rupture; oil is lost where the film forms again"},
     {film::Cavitation::guembel, "guembel", "full film, negative pressures left out of the forces (half Sommerfeld)"},
+    {film::Cavitation::full_film, "full_film",
+     "no cavitation: negative pressures act on the surfaces (full Sommerfeld); for dampers and films under high "
+     "pressure that do not cavitate"},
 }};
 
 inline constexpr Vocabulary<ThermalWalls, 3> thermal_walls_words{{

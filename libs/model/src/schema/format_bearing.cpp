@@ -12,6 +12,17 @@ TypePtr edge_format() {
                                        "no oil passes: at both edges a film of infinite width, at one a cap or a plane "
                                        "of symmetry"}});
 }
+TypePtr seal_format() {
+  return object(
+      "a seal that leaks",
+      {
+          required("leakage", number("0.5", Range::positive()),
+                   "kappa of the flow per circumference kappa c^3/(12 mu L/2) (p - outside) through it, with the "
+                   "radial clearance c and the width L: 1 leaks like half of the film's own width; 0 would be a closed "
+                   "edge, infinity an open one."),
+          defaulted("outside", bearing_pressure(), "0 Pa", "Pressure behind it."),
+      });
+}
 
 namespace {
 

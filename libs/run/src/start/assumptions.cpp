@@ -21,6 +21,8 @@ std::string cavitation(const film::FilmModel& film) {
 
 std::string edge(const film::FilmModel& film, const film::Edge& at) {
   if (at.kind == film::EdgeKind::closed) return "closed: no oil passes";
+  if (at.kind == film::EdgeKind::leaking)
+    return fmt::format("a seal of leakage {:.4g}, behind which are {}", at.leakage, pressure(at.pressure));
   const double p = at.pressure, fill = at.ambient_fill;
   if (!film::cavitation_law(film).has_fill() || p > film.p_cav) return pressure(p);
   if (fill == 0) return pressure(p) + ", in air: oil may leave, none comes in";

@@ -98,7 +98,7 @@ class JournalFilmReader {
     const Value* edges = value_.find("edge_pressure");
     if (edges == nullptr || edges->broken || edges->members.empty()) return;
     const Value& content = edges->members.front().value;
-    const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
+    const bool is_pair = content.has("left") && content.has("right");
     film_.edge_left = reader_.edge_of(is_pair ? *content.find("left") : content);
     film_.edge_right = is_pair ? reader_.edge_of(*content.find("right")) : film_.edge_left;
   }
@@ -111,10 +111,10 @@ class JournalFilmReader {
     const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
     const Value& left = is_pair ? *content.find("left") : content;
     const Value& right = is_pair ? *content.find("right") : content;
-    const auto is_wall = [](const film::Edge& edge) { return edge.kind == film::EdgeKind::closed; };
-    if (film::is_closed(film_) || (is_pair && ((is_wall(film_.edge_left) && left.number > 0) ||
+    const auto is_wall = [](const film::Edge& edge) { return edge.kind != film::EdgeKind::pressure; };
+    if ((is_wall(film_.edge_left) && is_wall(film_.edge_right)) || (is_pair && ((is_wall(film_.edge_left) && left.number > 0) ||
                                                (is_wall(film_.edge_right) && right.number > 0)))) {
-      context_.fault_at_key(*fill, "oil outside edges that are closed",
+      context_.fault_at_key(*fill, "oil outside edges that are closed or sealed",
                             "edge_pressure: a pressure, or no ambient_fill");
       return;
     }
