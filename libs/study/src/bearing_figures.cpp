@@ -348,8 +348,10 @@ const std::vector<Group>& journal_table() {
 
 /// Tables by the name of the kind. A new kind is a line here, and a file with its table beside this one.
 const std::vector<std::pair<std::string, std::vector<Group>>>& tables() {
-  static const std::vector<std::pair<std::string, std::vector<Group>>> all{{"journal", journal_table()},
-                                                                           {"plane_slider", plane_slider_figures()}};
+  static const std::vector<std::pair<std::string, std::vector<Group>>> all{
+      {"journal", journal_table()},
+      {"plane_slider", plane_slider_figures()},
+      {"squeeze_film_damper", squeeze_film_damper_figures()}};
   return all;
 }
 

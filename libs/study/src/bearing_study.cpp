@@ -168,9 +168,14 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
   solution.expands = bearing.expansion.has_value();
+  if (const auto* damper = std::get_if<model::DamperPoint>(&*bearing.operating_point))
+    solution.whirl_speed = damper->whirl_speed;
   solution.model = bearing::scaled_for(bearing.film, point);
   solution.elasticity = bodies.elasticity(model, bearing);
-  bearing::SteadyOptions steady{.kind = bearing.kind, .solver = bearing.solver, .elasticity = solution.elasticity};
+  bearing::SteadyOptions steady{.kind = bearing.kind,
+                                .solver = bearing.solver,
+                                .elasticity = solution.elasticity,
+                                .inertia_factor = model::momentum_factor(bearing.oil_inertia)};
   if (start != nullptr) {
     steady.start = start->e;
     if (start->u.size() == bearing.film.grid.size()) steady.start_film = start->u;
@@ -203,7 +208,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
       solution.state, bearing::turned_films(solution.model, solution.state, steady));
   solution.state.coefficients = frozen;
   if (!solve_heat(bearing, options, steady, solution)) return;
-  if (bearing.kind->has_axis()) {
+  if (std::holds_alternative<model::JournalPoint>(*bearing.operating_point)) {
     solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
     solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
     solution.whirl =
@@ -377,6 +382,17 @@ bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model:
                     given.eccentricity_angle);  // of the given clearance
     point.e_rate = polar(given.radial_velocity, given.eccentricity_angle);
   }
+  return with_growth(point, bearing.film, bearing.growth);
+}
+
+// An orbit begins on the axes' x-direction and takes them along. Small motions need no velocity: their film is that of
+// the resting journal.
+bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model::DamperPoint& given) {
+  const double c = bearing::clearance(bearing.film);
+  bearing::OperatingPoint point;
+  const bool orbits = given.orbit_ratio > 0;
+  point.e = orbits ? polar(given.orbit_ratio * c, 0) : polar(given.eccentricity_ratio * c, given.eccentricity_angle);
+  if (orbits) point.whirl_speed = given.whirl_speed;
   return with_growth(point, bearing.film, bearing.growth);
 }
 

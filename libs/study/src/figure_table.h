@@ -147,5 +147,7 @@ inline auto height(double film::FilmObservables::*z) {
 
 /// The table of a plane slider's figures, in the order in which they are reported.
 [[nodiscard]] std::vector<Group> plane_slider_figures();
+/// The table of a squeeze-film damper.
+[[nodiscard]] std::vector<Group> squeeze_film_damper_figures();
 
 }  // namespace hersey::study

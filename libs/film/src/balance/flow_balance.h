@@ -105,6 +105,9 @@ class FlowBalance {
   /// Derivative of the residual along a direction, at fixed u.
   void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
 
+  /// Change of the residual as flows accelerate at the rate at which they change with `du` (damper.6) [m^3 s].
+  void inertia_residual(const Eigen::Ref<const Eigen::VectorXd>& du, double momentum_factor, Eigen::VectorXd& dr) const;
+
   /// Oil entering through each feature (film.22): as supply() and over_land(), summed [m^3/s], shape (features).
   void find_port_flows(Eigen::VectorXd& flow) const;
   /// Their derivatives by u, shape (n, features).

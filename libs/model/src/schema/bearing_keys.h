@@ -37,5 +37,6 @@ struct BearingKindFormat {
 // Keys of the kinds, one file each in schema/kinds.
 [[nodiscard]] std::vector<Key> journal_keys();
 [[nodiscard]] std::vector<Key> plane_slider_keys();
+[[nodiscard]] std::vector<Key> squeeze_film_damper_keys();
 
 }  // namespace hersey::model

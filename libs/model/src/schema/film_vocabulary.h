@@ -34,6 +34,15 @@ inline constexpr Vocabulary<film::AsperityModel, 3> asperity_words{{
     {film::AsperityModel::greenwood_tripp_exact, "greenwood_tripp", "the same with the exact integral F_5/2"},
 }};
 
+inline constexpr Vocabulary<OilInertia, 3> oil_inertia_words{{
+    {OilInertia::none, "none", "the oil has no inertia"},
+    {OilInertia::added_mass, "added_mass",
+     "added mass of a parabolic velocity profile (6/5 of the mean flow's momentum), as at squeeze Reynolds numbers rho "
+     "omega c^2/mu of up to about 10"},
+    {OilInertia::added_mass_high_frequency, "added_mass_high_frequency",
+     "added mass of a uniform velocity profile, as at squeeze Reynolds numbers far above 10"},
+}};
+
 inline constexpr Vocabulary<film::FlowFactors, 2> flow_factor_words{{
     {film::FlowFactors::patir_cheng, "patir_cheng",
      "it changes flow and shear of the oil (Patir and Cheng 1978, 1979)"},

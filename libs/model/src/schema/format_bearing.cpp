@@ -166,6 +166,11 @@ const std::vector<BearingKindFormat>& bearing_kind_formats() {
        "a rectangular pad on a plane runner that slides below it",
        {.fixed = "pad", .of_fixed = "The pad.", .moving = "runner", .of_moving = "The runner."},
        plane_slider_keys()},
+      {"squeeze_film_damper",
+       "Squeeze-film damper",
+       "a journal that orbits in a bore without rotating",
+       {},
+       squeeze_film_damper_keys()},
   };
   return kinds;
 }

@@ -60,7 +60,8 @@ std::vector<Key> journal_keys() {
   const TypePtr diameter = quantity("m", "45 mm", Range::positive());
   const TypePtr width = quantity("m", "20 mm", Range::positive());
   const TypePtr clearance = quantity("m", "34 um", Range::positive());
-  const TypePtr edge = any_of("a pressure such as 2 bar, `closed`, or {leakage, outside}", {edge_format(), seal_format()});
+  const TypePtr edge =
+      any_of("a pressure such as 2 bar, `closed`, or {leakage, outside}", {edge_format(), seal_format()});
   const TypePtr edges = any_of("a pressure such as 2 bar, `closed`, {leakage, outside} or {left, right}",
                                {edge_format(), seal_format(),
                                 object("two edges", {
@@ -117,6 +118,9 @@ std::vector<Key> journal_keys() {
                "own.",
                "given on the command line"),
   };
+  keys.push_back(defaulted("oil_inertia", choice(oil_inertia_words), "none",
+                           "Inertia of the oil as an added mass of the journal, which `hersey bearing` reports beside "
+                           "stiffness and damping."));
   keys.push_back(defaulted("shear_force", choice(shear_force_words), "full", "What shear does to the bodies."));
   for (Key& key : surface_keys({})) keys.push_back(std::move(key));
   return keys;

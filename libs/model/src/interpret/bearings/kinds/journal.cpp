@@ -112,8 +112,9 @@ class JournalFilmReader {
     const Value& left = is_pair ? *content.find("left") : content;
     const Value& right = is_pair ? *content.find("right") : content;
     const auto is_wall = [](const film::Edge& edge) { return edge.kind != film::EdgeKind::pressure; };
-    if ((is_wall(film_.edge_left) && is_wall(film_.edge_right)) || (is_pair && ((is_wall(film_.edge_left) && left.number > 0) ||
-                                               (is_wall(film_.edge_right) && right.number > 0)))) {
+    if ((is_wall(film_.edge_left) && is_wall(film_.edge_right)) ||
+        (is_pair &&
+         ((is_wall(film_.edge_left) && left.number > 0) || (is_wall(film_.edge_right) && right.number > 0)))) {
       context_.fault_at_key(*fill, "oil outside edges that are closed or sealed",
                             "edge_pressure: a pressure, or no ambient_fill");
       return;
@@ -225,6 +226,7 @@ void read_journal(Context& context, const Value& value, Bearing& bearing) {
   bearing.shell_surface = deforming_surface_of(context, value, "shell", bearing.shell, bearing.film);
   bearing.journal_surface = deforming_surface_of(context, value, "journal", bearing.journal, bearing.film);
   require_facing_surfaces(context, value, bearing);
+  bearing.oil_inertia = meaning_of(value, "oil_inertia", oil_inertia_words);
   bearing.heated_shell = heated_shell_of(context, value, bearing);
   bearing.heated_journal = heated_journal_of(context, value, bearing);
 }
