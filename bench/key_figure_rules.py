@@ -52,6 +52,8 @@ COMMANDS = {
     "slider_crank/pin_hole": [("run", "simulation.duration=90deg")],
     "tilting_pads/model": [("run",)],
     "spinning_rod/model": [("run", "simulation.duration=10s")],
+    "squeeze_film_damper/model": [("bearing",)],
+    "squeeze_film_damper/rotor": [("run", "simulation.duration=20ms")],
     "squeezer/model": [("run", "simulation.duration=15ms")],
 }
 # Examples that are not run, each with its reason.

@@ -84,8 +84,9 @@ std::string heat_of(const BearingSolution& solution) {
 
 // Under which condition the figures hold: at light loads it decides about them.
 std::string condition_of(const BearingSolution& solution) {
-  constexpr std::array<const char*, 3> cavitation{"guembel", "reynolds", "mass_conserving"};
   const film::FilmModel& film = solution.model;
+  const std::string_view law = film::cavitation_law(film).text();
+  const std::string_view cavitation = law.substr(0, law.find(' '));
   const bearing::SteadySummary& work = solution.summary;
   const std::string film_work =
       work.film_iterations > 0 ? fmt::format(" and {} film iterations", work.film_iterations) : "";
@@ -93,8 +94,8 @@ std::string condition_of(const BearingSolution& solution) {
   for (const auto& [name, text] : surface_remarks(solution)) surfaces += fmt::format("  {}: {}\n", name, text);
   for (const auto& [name, text] : study::shear_remarks(solution)) shear += fmt::format("  {}\n", text);
   return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} film linearisations{}, {:.3g} s\n",
-                     cavitation[static_cast<std::size_t>(film.cavitation)], 1e-5 * film.p_cav, pressures_of(film),
-                     film.grid.n_phi, film.grid.n_z, work.iterations, film_work, solution.wall_time) +
+                     cavitation, 1e-5 * film.p_cav, pressures_of(film), film.grid.n_phi, film.grid.n_z, work.iterations,
+                     film_work, solution.wall_time) +
          shear + roughness_of(film.roughness) + surfaces + heat_of(solution);
 }
 

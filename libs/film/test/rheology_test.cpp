@@ -43,6 +43,7 @@ TEST_CASE("LawSlopes_MatchFiniteDifference") {
   const std::vector<Lubricant> oils = {{.mu0 = 0.02, .viscosity_law = Barus{2e-8}},
                                        {.mu0 = 0.02, .viscosity_law = Roelands{0.6}, .density_law = DowsonHigginson{}},
                                        {.mu0 = 0.02, .density_law = ConstantBulkModulus{2e9}},
+                                       {.mu0 = 0.02, .density_law = BubblyOil{0.2, 1e5}},
                                        {.mu0 = 0.03, .viscosity_law = barus_table()}};
   for (const Lubricant& oil : oils) {
     for (const double p : {1e5, 2e7, 5e8}) {
@@ -83,6 +84,19 @@ TEST_CASE("ConstantBulkModulus_IsThatAtEveryPressure_AndWorkIsItsIntegral") {
     for (int k = 0; k < n; ++k) work += p / n / density_ratio(oil, p * (k + 0.5) / n).value;
     CHECK(oil_work(oil, p) == doctest::Approx(work).epsilon(1e-6));  // midpoint rule of 1000 intervals
   }
+}
+
+TEST_CASE("BubblyOil_CompressesItsGasAlone_AndWorkIsItsIntegral") {
+  const BubblyOil law{.gas_fraction = 0.2, .pressure = 1e5};
+  const Lubricant oil{.density_law = law};
+  CHECK(density_ratio(oil, 0).value == doctest::Approx(1).epsilon(kRoundOff));
+  // At ten times the pressure a tenth of the gas's volume is left: 0.8 + 0.02 of the volume.
+  CHECK(density_ratio(oil, 9e5).value == doctest::Approx(1 / 0.82).epsilon(kRoundOff));
+  double work = 0;
+  constexpr int n = 1000;
+  for (int k = 0; k < n; ++k) work += 4e5 / n / density_ratio(oil, 4e5 * (k + 0.5) / n).value;
+  CHECK(oil_work(oil, 4e5) == doctest::Approx(work).epsilon(1e-6));    // midpoint rule of 1000 intervals
+  CHECK(density_ratio({.density_law = BubblyOil{}}, 1e8).value == 1);  // without gas
 }
 
 TEST_CASE("SummitsAboveTheMeanPlane_TouchSoMuchSooner") {

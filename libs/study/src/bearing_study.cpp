@@ -106,6 +106,14 @@ std::vector<std::string> warnings_of(const model::Bearing& bearing, const bearin
   if (state.heat) T = state.heat->observed.T_max;
   if (state.effective) T = state.effective->T;
   std::vector<std::string> warnings = model::film_warnings(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
+  // What no film between real surfaces bears: tension below a vacuum.
+  const double vacuum = bearing.film.pressures == film::PressureScale::absolute ? 0 : -101325;
+  const double least = bearing.film.p_cav + state.u.minCoeff();
+  if (film::cavitation_law(bearing.film).bears_tension() && least < vacuum)
+    warnings.push_back(
+        fmt::format("the oil bears tension, down to {:.3g} bar where a vacuum has {:.3g} bar: "
+                    "`cavitation: full_film` is meant for films that do not cavitate",
+                    1e-5 * least, 1e-5 * vacuum));
   for (std::string& warning : model::surface_warnings(bearing, state.film.p_max, state.film.h_min))
     warnings.push_back(std::move(warning));
   return warnings;

@@ -15,7 +15,9 @@ bool has_inertia(const Solution& s) { return s.state.coefficients.inertia.size()
 double clearance_of(const Solution& s) { return bearing::clearance(s.model, s.state.point); }
 
 /// Force on the journal along its eccentricity, and along its motion (damper.2).
-double radial(const Solution& s) { return -s.state.load.dot(s.state.e) / radius_of(s); }
+double radial(const Solution& s) {
+  return without_round_off(-s.state.load.dot(s.state.e) / radius_of(s), s.state.load.norm());
+}
 double tangential(const Solution& s) {
   const bearing::Coordinates &e = s.state.e, &load = s.state.load;
   return -std::copysign(1.0, s.whirl_speed) * (e.x() * load.y() - e.y() * load.x()) / radius_of(s);

@@ -324,9 +324,9 @@ double FlowBalance::outflow_of_row(int node) const {
 double FlowBalance::outflow(int node) const { return outflow_of_row(node) + over_land(node); }
 
 double FlowBalance::acting_outflow(int node) const {
-  if (!cavitation_.has_tension() || cavitation_.bears_tension()) return outflow(node);
+  if (cavitation_.bears_tension()) return outflow(node);
   if (is_on_leaking_edge(node)) return seal_flow_at(node, std::max(nodes_[node].p, 0.0)) + over_land(node);
-  if (!is_on_prescribed_edge(node)) return outflow(node);
+  if (!cavitation_.has_tension() || !is_on_prescribed_edge(node)) return outflow(node);
   const int inside = edges_[node].inside;
   if (nodes_[inside].p >= -round_off_of_u()) return outflow(node);
   return over_land(node) - flows_[face_at_edge(node)].K * edge_unknown(node);

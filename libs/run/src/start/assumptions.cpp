@@ -99,6 +99,9 @@ struct DensityDescription {
   std::string operator()(const film::ConstantBulkModulus& law) const {
     return fmt::format("bulk modulus {:.4g} GPa", 1e-9 * law.bulk_modulus);
   }
+  std::string operator()(const film::BubblyOil& law) const {
+    return fmt::format("a mixture with {:.3g} of gas at {:.4g} bar absolute", law.gas_fraction, 1e-5 * law.pressure);
+  }
 };
 
 double celsius(double T) { return T - film::zero_celsius; }

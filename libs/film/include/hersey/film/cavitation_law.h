@@ -35,8 +35,8 @@ struct CavitatedRow {
 };
 
 /// A cavitation model: the meaning of the film's one unknown u [Pa] per node. The pressure on the walls is p_cav +
-/// max(u, 0), but p_cav + u in a film that bears tension. A new model is a class like those in cavitation_law.cpp, its name in Cavitation and its
-/// word in the model file's format.
+/// max(u, 0), but p_cav + u in a film that bears tension. A new model is a class like those in
+/// cavitation_law.cpp, its name in Cavitation and its word in the model file's format.
 class CavitationLaw {
  public:
   virtual ~CavitationLaw() = default;

@@ -90,7 +90,7 @@ enum class ShearForce { full, torque_only };
 enum class FilmSolver { newton, sor, multigrid };
 
 /// Condition on an edge: oil at a prescribed pressure, a wall that no oil passes, or a seal through which pressure
-/// drives oil to a given pressure outside. Two walls make a bearing of infinite width, one a plane of symmetry or a cap.
+/// drives oil out. Two walls make a bearing of infinite width, one a plane of symmetry or a cap.
 enum class EdgeKind { pressure, closed, leaking };
 
 /// An edge of the film, z = -L/2 or +L/2, or an end of a patch.

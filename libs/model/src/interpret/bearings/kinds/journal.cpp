@@ -220,6 +220,23 @@ std::optional<JournalPoint> operating_point_of(Context& context, const Value& be
 
 }  // namespace
 
+namespace {
+
+/// The added mass belongs to small motions of rigid surfaces. In a machine in motion the film's forces are those of oil
+/// without inertia.
+void check_inertia(Context& context, const Value& value, const Bearing& bearing) {
+  if (bearing.oil_inertia == OilInertia::none) return;
+  const Value& inertia = *value.find("oil_inertia");
+  if (bearing.shell_surface || bearing.journal_surface)
+    context.fault(inertia, "inertia of the oil between surfaces that deform", "none, or rigid surfaces");
+  if (!bearing.shell.body.empty())
+    context.model.warnings.push_back(
+        {inertia.position, inertia.path, "inertia of the oil in a machine, whose motion does not feel it",
+         "`hersey bearing`, which reports the added mass", "add that mass to the journal's body"});
+}
+
+}  // namespace
+
 void read_journal(Context& context, const Value& value, Bearing& bearing) {
   read_frames(context, value, {}, bearing);
   JournalFilmReader(context, value, bearing).read();
@@ -227,6 +244,7 @@ void read_journal(Context& context, const Value& value, Bearing& bearing) {
   bearing.journal_surface = deforming_surface_of(context, value, "journal", bearing.journal, bearing.film);
   require_facing_surfaces(context, value, bearing);
   bearing.oil_inertia = meaning_of(value, "oil_inertia", oil_inertia_words);
+  check_inertia(context, value, bearing);
   bearing.heated_shell = heated_shell_of(context, value, bearing);
   bearing.heated_journal = heated_journal_of(context, value, bearing);
 }
