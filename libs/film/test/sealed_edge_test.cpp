@@ -28,11 +28,13 @@ TEST_CASE("FeedBetweenSeals_LeaksAsTwoResistancesInSeries") {
     REQUIRE(film.summary.solved());
     const double unit = 2 * pi * m.R * std::pow(m.c, 3) / (6 * m.lubricant.mu0 * m.L);
     const double left = unit * 4e5 / (1 + 1 / 0.4), right = unit * 5e5 / (1 + 1 / 1.2);
-    CHECK(film.observed.flow_left == relative(left).epsilon(1e-8));                // the solver's 1e-10
-    CHECK(film.observed.flow_right == relative(right).epsilon(1e-8));              // the same
-    CHECK(film.observed.flow_supply == relative(left + right).epsilon(1e-8));      // the same
-    CHECK(film.fields.p[0] == relative(1e5 + left / (0.4 * unit)).epsilon(1e-8));  // the same
-    CHECK(film.observed.mass_balance_error < 1e-9);                                // the same
+    // The groove is 1e-9 m wide, 3e-8 of the half width.
+    constexpr double kNarrow = 1e-7;
+    CHECK(film.observed.flow_left == relative(left).epsilon(kNarrow));
+    CHECK(film.observed.flow_right == relative(right).epsilon(kNarrow));
+    CHECK(film.observed.flow_supply == relative(left + right).epsilon(kNarrow));
+    CHECK(film.fields.p[0] == relative(1e5 + left / (0.4 * unit)).epsilon(kNarrow));
+    CHECK(film.observed.mass_balance_error < 1e-9);  // the same
   }
 }
 
@@ -59,9 +61,9 @@ TEST_CASE("Seals_TendToOpenAndToClosedEdges") {
     return m;
   };
   const Vector6 of_closed = force(closed);
-  const double near = (force(fed(1e-3)) - of_closed).norm(), nearer = (force(fed(1e-5)) - of_closed).norm();
-  CHECK(near < 0.1 * of_closed.norm());                 // of first order in kappa
-  CHECK(nearer == relative(near / 100).epsilon(0.05));  // the next order
+  const double near = (force(fed(1e-4)) - of_closed).norm(), nearer = (force(fed(1e-6)) - of_closed).norm();
+  CHECK(near < 1e-2 * of_closed.norm());                // of first order in kappa
+  CHECK(nearer == relative(near / 100).epsilon(0.02));  // the next order
 }
 
 TEST_CASE("SealedFilm_IsTheSameByEverySolver") {

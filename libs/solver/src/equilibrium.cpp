@@ -262,12 +262,14 @@ class EquilibriumSearch {
     keep_damping();
     const Index nv = equations_.nv();
     for (Index i = 0; i < nv; ++i) {
-      bool is_constrained = false;
-      for (Equations::SparseMatrix::InnerIterator entry(stiffness_, i); entry; ++entry)
-        is_constrained = is_constrained || (entry.row() >= nv && entry.value() != 0);
-      const double by_rate = std::abs(weight_.coeff(i, i)) * fastest;
-      if (!is_constrained && by_rate > 0 && std::abs(stiffness_.coeff(i, i)) < kUnheld * by_rate)
-        free_rates_.push_back(i);
+      const double by_rate = std::abs(weight_.coeff(i, i)) * fastest * reach_[i];
+      bool is_held = by_rate == 0;
+      for (Equations::SparseMatrix::InnerIterator entry(stiffness_, i); entry; ++entry) {
+        const bool is_constraint = entry.row() >= nv;
+        const double force = std::abs(entry.value()) * (is_constraint ? 1 : reach_[entry.row()]);
+        is_held = is_held || (is_constraint ? force > 0 : force >= kUnheld * by_rate);
+      }
+      if (!is_held) free_rates_.push_back(i);
     }
     for (const Index i : free_rates_) reach_[i] = fastest;
   }
