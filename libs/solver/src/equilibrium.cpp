@@ -271,7 +271,17 @@ class EquilibriumSearch {
       }
       if (!is_held) free_rates_.push_back(i);
     }
-    for (const Index i : free_rates_) reach_[i] = fastest;
+    if (free_rates_.empty()) return;
+    // A ring that rests leaves its outer film without pressure, from where no direction leads on: the search begins at
+    // the rates that balance the torques there.
+    const State given = here_;
+    for (const Index i : free_rates_) {
+      reach_[i] = fastest;
+      here_.v[i] -= std::clamp(residual_[i] / weight_.coeff(i, i), -fastest, fastest);
+    }
+    if (assemble(here_)) return;
+    here_ = given;
+    (void)assemble(here_);
   }
 
   /// Puts the derivatives by free rates in the place of those by their positions.

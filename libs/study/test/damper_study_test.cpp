@@ -119,7 +119,7 @@ TEST_CASE("DampersThatHaveNoAnswer_AreRefusedByName") {
   CHECK(mentions(fault_of({path + "edge_pressure={left: {leakage: 1}, right: closed}", path + "ambient_fill=1"}),
                  "oil outside edges that are closed or sealed"));
   CHECK(mentions(fault_of({path + "edge_pressure={leakage: 1, outside: -1 bar}"}), "below the cavitation pressure"));
-  CHECK(fault_of({path + "features={g: {shape: circumferential_groove, length: 3 mm, pressure: 1 bar}}"}) ==
+  CHECK(fault_of({path + "features={g: {shape: circumferential_groove, length: 8 mm, pressure: 1 bar}}"}) ==
         "no fault");
 }
 
