@@ -31,6 +31,7 @@ COMMANDS = {
     "flexible_rotor/model": [("run", "simulation.duration=0.3s")],
     "flexible_rotor/modes": [("run",)],
     "flexible_slider_crank/model": [("run",)],
+    "floating_ring/model": [("run",)],
     "four_bar/model": [("run",)],
     "gyroscope/model": [("run", "simulation.duration=1s")],
     "hot_bearing/global": [("bearing",)],
@@ -56,6 +57,8 @@ COMMANDS = {
     "thrust_pads/shaft": [("run",)],
     "tilting_pads/model": [("run",)],
     "spinning_rod/model": [("run", "simulation.duration=10s")],
+    "squeeze_film_damper/model": [("bearing",)],
+    "squeeze_film_damper/rotor": [("run", "simulation.duration=20ms")],
     "squeezer/model": [("run", "simulation.duration=15ms")],
 }
 # Examples that are not run, each with its reason.

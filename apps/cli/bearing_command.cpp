@@ -68,7 +68,15 @@ void replace_other(const ShortNames& names, const model::Bearing& bearing, Plan&
                                     [&](const model::StudyParameter& sweep) { return sweep.name == path; });
   };
   const auto& [load, position] = names.load_or_position();
-  const bool has_load = std::visit([](const auto& point) { return point.load.has_value(); }, *bearing.operating_point);
+  if (load.empty()) return;  // a kind that is given no load
+  const bool has_load = std::visit(
+      [](const auto& point) {
+        if constexpr (requires { point.load; })
+          return point.load.has_value();
+        else
+          return false;
+      },
+      *bearing.operating_point);
   if (is_set(position) && !is_set(load) && has_load) plan.overrides.push_back(names.key_path(load) + "=none");
   if (is_set(load) && !is_set(position) && !has_load) plan.overrides.push_back(names.key_path(position) + "=none");
 }

@@ -41,6 +41,8 @@ std::string grid_error_text(const BearingFigure& figure) {
 std::string pressures_of(const film::FilmModel& film) {
   const auto bar = [](double pascal) { return fmt::format("{:.4g} bar", 1e-5 * pascal); };
   const auto outside = [&](const film::Edge& edge) {
+    if (edge.kind == film::EdgeKind::leaking)
+      return fmt::format("sealed with leakage {:.4g} to {}", edge.leakage, bar(edge.pressure));
     return edge.kind == film::EdgeKind::closed ? std::string("closed") : "at " + bar(edge.pressure);
   };
   const std::string left = outside(film.edge_left), right = outside(film.edge_right);
@@ -83,8 +85,9 @@ std::string heat_of(const BearingSolution& solution) {
 
 // Under which condition the figures hold: at light loads it decides about them.
 std::string condition_of(const BearingSolution& solution) {
-  constexpr std::array<const char*, 3> cavitation{"guembel", "reynolds", "mass_conserving"};
   const film::FilmModel& film = solution.model;
+  const std::string_view law = film::cavitation_law(film).text();
+  const std::string_view cavitation = law.substr(0, law.find(' '));
   const bearing::SteadySummary& work = solution.summary;
   const std::string film_work =
       work.film_iterations > 0 ? fmt::format(" and {} film iterations", work.film_iterations) : "";
@@ -92,8 +95,8 @@ std::string condition_of(const BearingSolution& solution) {
   for (const auto& [name, text] : surface_remarks(solution)) surfaces += fmt::format("  {}: {}\n", name, text);
   for (const auto& [name, text] : study::shear_remarks(solution)) shear += fmt::format("  {}\n", text);
   return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} film linearisations{}, {:.3g} s\n",
-                     cavitation[static_cast<std::size_t>(film.cavitation)], 1e-5 * film.p_cav, pressures_of(film),
-                     film.grid.n_phi, film.grid.n_z, work.iterations, film_work, solution.wall_time) +
+                     cavitation, 1e-5 * film.p_cav, pressures_of(film), film.grid.n_phi, film.grid.n_z, work.iterations,
+                     film_work, solution.wall_time) +
          shear + roughness_of(film.roughness) + surfaces + heat_of(solution);
 }
 

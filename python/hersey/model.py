@@ -354,7 +354,7 @@ class Model:
         names = self._names(name)
         found = {key if key in parameters else names.path_of(key): value for key, value in values.items()}
         for given, other in (names.load_or_position, names.load_or_position[::-1]):
-            if names.path_of(given) in found and given in values and other not in values and other in point:
+            if given and names.path_of(given) in found and given in values and other not in values and other in point:
                 found[names.path_of(other)] = None
         return found
 

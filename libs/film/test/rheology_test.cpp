@@ -85,6 +85,21 @@ TEST_CASE("ConstantBulkModulus_IsThatAtEveryPressure_AndWorkIsItsIntegral") {
   }
 }
 
+TEST_CASE("BubblyOil_CompressesItsGasAlone_AndWorkIsItsIntegral") {
+  const BubblyOil law{.gas_fraction = 0.2, .pressure = 1e5};
+  const Lubricant oil{.density_law = law};
+  CHECK(density_ratio(oil, 0).value == doctest::Approx(1).epsilon(kRoundOff));
+  // At ten times the pressure a tenth of the gas's volume is left: 0.8 + 0.02 of the volume.
+  CHECK(density_ratio(oil, 9e5).value == doctest::Approx(1 / 0.82).epsilon(kRoundOff));
+  const double slope = (density_ratio(oil, 9e5 + 10).value - density_ratio(oil, 9e5 - 10).value) / 20;
+  CHECK(density_ratio(oil, 9e5).slope == relative(slope).epsilon(1e-6));  // a difference over 1e-5 of the pressure
+  double work = 0;
+  constexpr int n = 1000;
+  for (int k = 0; k < n; ++k) work += 4e5 / n / density_ratio(oil, 4e5 * (k + 0.5) / n).value;
+  CHECK(oil_work(oil, 4e5) == doctest::Approx(work).epsilon(1e-6));    // midpoint rule of 1000 intervals
+  CHECK(density_ratio({.density_law = BubblyOil{}}, 1e8).value == 1);  // without gas
+}
+
 TEST_CASE("SummitsAboveTheMeanPlane_TouchSoMuchSooner") {
   FilmModel plain{.c = 30e-6, .grid = {12, 3}};
   plain.asperities = {AsperityModel::greenwood_tripp_exact, 1e-6, 3e-3, 57e9, 0.1};

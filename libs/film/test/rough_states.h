@@ -100,6 +100,18 @@ inline std::vector<State> rough_states() {
   s.model.edge_left.ambient_fill = 0.8, s.model.edge_right.ambient_fill = 1;
   s.name = "edges in oil mist and in oil";
   states.push_back(s);
+  for (const auto cavitation :
+       {Cavitation::guembel, Cavitation::full_film, Cavitation::reynolds, Cavitation::mass_conserving}) {
+    s = rough_state(cavitation, true, cavitation == Cavitation::mass_conserving);
+    s.model.lubricant.shear_thinning = {Cross{.limit = 0.3, .exponent = 0.8}, 3e5, 0};
+    s.model.lubricant.density_law = BubblyOil{0.1, 1e6};
+    s.motion.w_journal = 4;
+    s.model.edge_left = {.kind = EdgeKind::leaking, .pressure = 2e5, .leakage = 0.4};
+    s.model.edge_right = {.kind = EdgeKind::leaking, .pressure = 1e6, .leakage = 2};
+    s.model.features[0].length = 0.03;  // to both edges
+    s.name += ", seals that leak";
+    states.push_back(s);
+  }
   for (const bool transient : {false, true}) {
     s = rough_state(Cavitation::mass_conserving, true, transient);
     for (int i = 0; i < s.model.grid.n_phi; ++i) {

@@ -9,7 +9,8 @@ TEST_CASE("UnknownKey_NamesTheNearest") {
   CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
         "m.yaml:27:5: bearings.big_end: unknown key 'widht'; did you mean 'width'? expected shell, journal, diameter, "
         "width, radial_clearance, diametral_clearance, grid, edge_pressure, ambient_fill, thermal, supply, features, "
-        "bore, arcs, shape, shell_surface, journal_surface, operating_point, shear_force, roughness, materials, "
+        "bore, arcs, shape, shell_surface, journal_surface, operating_point, oil_inertia, shear_force, roughness, "
+        "materials, "
         "lubricant, "
         "pressures, "
         "cavitation, asperities, compliance, permissible_pressure, cavitated_shear, turbulence, solver, coupling or "

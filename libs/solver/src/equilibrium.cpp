@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "hersey/solver/linearise.h"
 #include "hersey/solver/sparse_lu.h"
@@ -26,6 +27,9 @@ constexpr double kShortest = 1e-2;              // of a step of Newton's method 
 constexpr double kContraction = 0.5;  // of the increments of Newton's method, for a step that one of them solves
 constexpr double kNeutral = 1e-12;    // of the terms whose sum is a stiffness
 constexpr double kSteady = 1e-8;      // rad, or sizes of the system: ten times what Newton's tolerance leaves
+// Torque of a turn of one radian over that of the fastest rate, below which nothing holds a coordinate: films of a grid
+// that rotates change by some thousandths of that; what is supported changes by its order.
+constexpr double kUnheld = 1e-2;
 constexpr double kFixedShare = 1e-2;  // largest share of the deformation that may be fixed in space in a steady motion
 
 class EquilibriumSearch {
@@ -46,6 +50,7 @@ class EquilibriumSearch {
       const std::string why = equations_.domain_error();
       return failure(why.empty() ? "the forces at the start are not numbers" : why);
     }
+    if (options_.steady_motion) find_free_rates();
     const State start = here_;
     const VectorXd load = residual_.head(equations_.nv());
     for (; worst_ > 1; ++summary_.iterations) {
@@ -147,10 +152,8 @@ class EquilibriumSearch {
   bool take_full_step(double most) {
     const Index nv = equations_.nv();
     if (increment_.head(nv).cwiseQuotient(reach_).lpNorm<Eigen::Infinity>() > most) return false;
-    State next = here_;
-    equations_.retract(here_.q, increment_.head(nv), next.q);
-    next.lambda += increment_.tail(increment_.size() - nv);
-    here_ = next;
+    const State from = here_;
+    move(from, 1);
     return assemble(here_);
   }
 
@@ -181,18 +184,17 @@ class EquilibriumSearch {
     if (!solve()) return false;
     const Index nv = equations_.nv();
     const State from = here_;
-    const VectorXd dx = increment_.head(nv), dlambda = increment_.tail(increment_.size() - nv);
+    const VectorXd dx = increment_.head(nv);
     const double whole = dx.cwiseQuotient(reach_).norm();
     const double reach = dx.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>();
     for (double length = std::min(1.0, kLargestMove / std::max(reach, 1e-300)); length > kShortest;) {
-      equations_.retract(from.q, length * dx, here_.q);
-      here_.lambda = from.lambda + length * dlambda;
+      move(from, length);
       if (!assemble(here_)) {
         length /= 2;
         continue;
       }
       if (worst_ <= 1 || next_increment().cwiseQuotient(reach_).norm() <= (1 - length / 4) * whole) {
-        walked_ += length * dx;
+        walked_ += length * of_positions(dx);
         return true;
       }
       length /= 2;
@@ -235,21 +237,80 @@ class EquilibriumSearch {
     if (!solved) return std::numeric_limits<double>::infinity();
     const Index nv = equations_.nv();
     const VectorXd dx = increment_.head(nv);
-    equations_.retract(from.q, dx, here_.q);
-    here_.lambda = from.lambda + increment_.tail(increment_.size() - nv);
+    move(from, 1);
     double remaining = std::numeric_limits<double>::infinity();
     if (dx.cwiseQuotient(reach_).lpNorm<Eigen::Infinity>() <= kLargestMove && assemble(here_)) {
-      residual_ += mu * (weight_ * increment_);
+      residual_ += mu * (weight_ * of_positions(increment_));
       remaining = next_increment().cwiseQuotient(reach_).norm() / dx.cwiseQuotient(reach_).norm();
-      residual_ -= mu * (weight_ * increment_);
+      residual_ -= mu * (weight_ * of_positions(increment_));
     }
     if (remaining <= kContraction) {
-      walked_ += dx;
+      walked_ += of_positions(dx);
       return remaining;
     }
     here_ = from;
     (void)assemble(here_);
     return remaining;
+  }
+
+  /// Finds the coordinates whose rate is an unknown in place of their position: nothing holds them, and a rate changes
+  /// the forces along them, as of a ring that floats between two films. Their rates are measured by the fastest one.
+  /// Theory manual eq. (integrator.36).
+  void find_free_rates() {
+    const double fastest = here_.v.size() > 0 ? here_.v.lpNorm<Eigen::Infinity>() : 0;
+    if (fastest == 0) return;
+    keep_damping();
+    const Index nv = equations_.nv();
+    for (Index i = 0; i < nv; ++i) {
+      const double by_rate = std::abs(weight_.coeff(i, i)) * fastest * reach_[i];
+      bool is_held = by_rate == 0;
+      for (Equations::SparseMatrix::InnerIterator entry(stiffness_, i); entry; ++entry) {
+        const bool is_constraint = entry.row() >= nv;
+        const double force = std::abs(entry.value()) * (is_constraint ? 1 : reach_[entry.row()]);
+        is_held = is_held || (is_constraint ? force > 0 : force >= kUnheld * by_rate);
+      }
+      if (!is_held) free_rates_.push_back(i);
+    }
+    if (free_rates_.empty()) return;
+    // A ring that rests leaves its outer film without pressure, from where no direction leads on: the search begins at
+    // the rates that balance the torques there.
+    const State given = here_;
+    for (const Index i : free_rates_) {
+      reach_[i] = fastest;
+      here_.v[i] -= std::clamp(residual_[i] / weight_.coeff(i, i), -fastest, fastest);
+    }
+    if (assemble(here_)) return;
+    here_ = given;
+    (void)assemble(here_);
+  }
+
+  /// Puts the derivatives by free rates in the place of those by their positions.
+  void take_rates_as_unknowns() {
+    if (free_rates_.empty()) return;
+    const Equations::SparseMatrix other = weight_;
+    keep_damping();
+    for (const Index i : free_rates_) {
+      Equations::SparseMatrix::InnerIterator rate(weight_, i);
+      for (Equations::SparseMatrix::InnerIterator entry(tangent_, i); entry; ++entry, ++rate)
+        entry.valueRef() = rate.value();
+    }
+    weight_ = other;
+  }
+
+  /// An increment without its rates.
+  [[nodiscard]] VectorXd of_positions(VectorXd dx) const {
+    for (const Index i : free_rates_) dx[i] = 0;
+    return dx;
+  }
+
+  /// Moves from a state by a part of the increment: positions, free rates and multipliers.
+  void move(const State& from, double length) {
+    const Index nv = equations_.nv();
+    const VectorXd dx = length * increment_.head(nv);
+    equations_.retract(from.q, of_positions(dx), here_.q);
+    here_.v = from.v;
+    for (const Index i : free_rates_) here_.v[i] += dx[i];
+    here_.lambda = from.lambda + length * increment_.tail(increment_.size() - nv);
   }
 
   /// Returns the increment of the positions by the residual at hand and the tangent factorised last.
@@ -366,6 +427,7 @@ class EquilibriumSearch {
     tangent_ = stiffness_;
     Eigen::Map<VectorXd>(tangent_.valuePtr(), tangent_.nonZeros()) +=
         mu_ * Eigen::Map<const VectorXd>(weight_.valuePtr(), weight_.nonZeros());
+    take_rates_as_unknowns();
     const auto nonzeros = static_cast<std::size_t>(tangent_.nonZeros());
     if (lu_.size() != tangent_.rows()) lu_.analyse(tangent_);
     if (!lu_.factorise({tangent_.valuePtr(), nonzeros})) return false;
@@ -407,8 +469,9 @@ class EquilibriumSearch {
   EquilibriumOptions options_;
   State here_;
   VectorXd reach_, residual_, scale_, increment_;
-  VectorXd withheld_load_;  ///< out-of-balance forces that do not act yet; empty: none
-  VectorXd walked_;         ///< by the steps towards a steady motion
+  VectorXd withheld_load_;         ///< out-of-balance forces that do not act yet; empty: none
+  VectorXd walked_;                ///< by the steps towards a steady motion
+  std::vector<Index> free_rates_;  ///< coordinates whose rate is an unknown in place of their position
   Equations::SparseMatrix stiffness_, weight_, tangent_;
   SparseLu lu_;
   double mu_ = 0, worst_ = 0;

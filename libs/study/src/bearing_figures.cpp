@@ -375,10 +375,12 @@ const std::vector<Group>& tilting_pad_table() {
 
 /// Tables by the name of the kind. A new kind is a line here, and a file with its table beside this one.
 const std::vector<std::pair<std::string, std::vector<Group>>>& tables() {
-  static const std::vector<std::pair<std::string, std::vector<Group>>> all{{"journal", journal_table()},
-                                                                           {"plane_slider", plane_slider_figures()},
-                                                                           {"thrust", thrust_figures()},
-                                                                           {"tilting_pad", tilting_pad_table()}};
+  static const std::vector<std::pair<std::string, std::vector<Group>>> all{
+      {"journal", journal_table()},
+      {"plane_slider", plane_slider_figures()},
+      {"thrust", thrust_figures()},
+      {"squeeze_film_damper", squeeze_film_damper_figures()},
+      {"tilting_pad", tilting_pad_table()}};
   return all;
 }
 

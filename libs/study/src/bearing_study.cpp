@@ -107,6 +107,14 @@ std::vector<std::string> warnings_of(const model::Bearing& bearing, const bearin
   if (state.heat) T = state.heat->observed.T_max;
   if (state.effective) T = state.effective->T;
   std::vector<std::string> warnings = model::film_warnings(bearing.validity, T, state.film.p_max - bearing.film.p_cav);
+  // What no film between real surfaces bears: tension below a vacuum.
+  const double vacuum = bearing.film.pressures == film::PressureScale::absolute ? 0 : -101325;
+  const double least = bearing.film.p_cav + state.u.minCoeff();
+  if (film::cavitation_law(bearing.film).bears_tension() && least < vacuum)
+    warnings.push_back(
+        fmt::format("the oil bears tension, down to {:.3g} bar where a vacuum has {:.3g} bar: "
+                    "`cavitation: full_film` is meant for films that do not cavitate",
+                    1e-5 * least, 1e-5 * vacuum));
   for (std::string& warning : model::surface_warnings(bearing, state.film.p_max, state.film.h_min))
     warnings.push_back(std::move(warning));
   for (std::string& warning : model::regime_warnings(bearing, state.film.reynolds_max, state.film.laminar_share))
@@ -173,9 +181,14 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   for (const model::Composite& composite : model.composites)
     if (&composite.bearing == &bearing) return solve_pads(composite, solution);
   solution.expands = bearing.expansion.has_value();
+  if (const auto* damper = std::get_if<model::DamperPoint>(&*bearing.operating_point))
+    solution.whirl_speed = damper->whirl_speed;
   solution.model = bearing::scaled_for(bearing.film, point);
   solution.elasticity = bodies.elasticity(model, bearing);
-  bearing::SteadyOptions steady{.kind = bearing.kind, .solver = bearing.solver, .elasticity = solution.elasticity};
+  bearing::SteadyOptions steady{.kind = bearing.kind,
+                                .solver = bearing.solver,
+                                .elasticity = solution.elasticity,
+                                .inertia_factor = model::momentum_factor(bearing.oil_inertia)};
   if (start != nullptr) {
     steady.start = start->e;
     if (start->u.size() == bearing.film.grid.size()) steady.start_film = start->u;
@@ -208,7 +221,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
       solution.state, bearing::turned_films(solution.model, solution.state, steady));
   solution.state.coefficients = frozen;
   if (!solve_heat(bearing, options, steady, solution)) return;
-  if (bearing.kind->has_axis()) {
+  if (std::holds_alternative<model::JournalPoint>(*bearing.operating_point)) {
     solution.numbers = bearing::bearing_numbers(solution.model, solution.state);
     solution.coefficients = bearing::in_load_axes(solution.model, solution.state);
     solution.whirl =
@@ -399,6 +412,17 @@ bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model:
                     given.eccentricity_angle);  // of the given clearance
     point.e_rate = polar(given.radial_velocity, given.eccentricity_angle);
   }
+  return with_growth(point, bearing.film, bearing.growth);
+}
+
+// An orbit begins on the axes' x-direction and takes them along. Small motions need no velocity: their film is that of
+// the resting journal.
+bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model::DamperPoint& given) {
+  const double c = bearing::clearance(bearing.film);
+  bearing::OperatingPoint point;
+  const bool orbits = given.orbit_ratio > 0;
+  point.e = orbits ? polar(given.orbit_ratio * c, 0) : polar(given.eccentricity_ratio * c, given.eccentricity_angle);
+  if (orbits) point.whirl_speed = given.whirl_speed;
   return with_growth(point, bearing.film, bearing.growth);
 }
 

@@ -153,5 +153,7 @@ inline auto height(double film::FilmObservables::*z) {
 [[nodiscard]] std::vector<Group> plane_slider_figures();
 /// The table of a thrust bearing's figures, likewise.
 [[nodiscard]] std::vector<Group> thrust_figures();
+/// The table of a squeeze-film damper.
+[[nodiscard]] std::vector<Group> squeeze_film_damper_figures();
 
 }  // namespace hersey::study

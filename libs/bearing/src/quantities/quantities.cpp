@@ -8,10 +8,12 @@
 namespace hersey::bearing {
 
 std::span<const QuantityList> bearing_quantities() {
-  static const std::array lists{QuantityList{"Film", film_quantities()}, QuantityList{"Heat", heat_quantities()},
+  static const std::array lists{QuantityList{"Film", film_quantities()},
+                                QuantityList{"Heat", heat_quantities()},
                                 QuantityList{"Journal bearings", journal_quantities()},
                                 QuantityList{"Plane sliders", plane_slider_quantities()},
-                                QuantityList{"Thrust bearings", thrust_quantities()}};
+                                QuantityList{"Thrust bearings", thrust_quantities()},
+                                QuantityList{"Squeeze-film dampers", squeeze_film_damper_quantities()}};
   return lists;
 }
 

@@ -380,6 +380,11 @@ void SteadyFilm::respond(std::span<const film::MotionDirection> directions, Matr
   dW += W_by_s_ * ds;
 }
 
+SteadyFilm::Columns SteadyFilm::by_acceleration(const MatrixXd& dx_by_rate, double inertia_factor) {
+  HERSEY_REQUIRE(!deforms(), "rigid surfaces: amplitudes that follow have an inertia of their own");
+  return reynolds_.forces().wrench_by_u * reynolds_.inertia(dx_by_rate, inertia_factor);
+}
+
 double SteadyFilm::depth(const Coordinates& load) {
   if (!deforms()) return 0;
   // Under a pressure that falls from the load's side around the bearing like a cosine and bears the load.

@@ -83,6 +83,10 @@ class SteadyFilm {
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces (bearing.28).
   void respond(std::span<const film::MotionDirection> directions, Eigen::MatrixXd& dx, Columns& dW);
+  /// Change of the wrench on the shell with accelerations by the oil's inertia (damper.8), given what unit rates do to
+  /// x.
+  /// @pre rigid surfaces
+  [[nodiscard]] Columns by_acceleration(const Eigen::MatrixXd& dx_by_rate, double inertia_factor);
   /// Change of force() by changes of x and of the wrench.
   [[nodiscard]] Eigen::MatrixXd change_of_force(const Eigen::MatrixXd& dx, const Columns& dW) const;
 

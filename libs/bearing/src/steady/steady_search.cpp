@@ -141,7 +141,10 @@ DynamicCoefficients SteadySearch::coefficients() {
     rate.g_rate += film_.opening(film_.amplitudes_of(dx.col(a)));
   }
   film_.respond(rates, dx, by_rate);
-  return {coordinates_of().force_rows() * by_position, coordinates_of().force_rows() * by_rate};
+  DynamicCoefficients result{coordinates_of().force_rows() * by_position, coordinates_of().force_rows() * by_rate};
+  if (options_.inertia_factor > 0)
+    result.inertia = coordinates_of().force_rows() * film_.by_acceleration(dx, options_.inertia_factor);
+  return result;
 }
 
 SteadyState SteadySearch::state() {

@@ -19,6 +19,7 @@ class MiddleRow {
 
   [[nodiscard]] int size() const { return n_; }
   [[nodiscard]] bool is_cavity(int i) const {
+    if (cavitation_law(balance_.model()).bears_tension()) return false;
     return value(i) < -1e-9 * fill_scale(balance_.model()) && !balance_.is_flooded(node(i));
   }
   /// True if an edge lies between node i and the next one.

@@ -177,7 +177,7 @@ double FlowBalance::cavitated_fraction(int node) const {
 
 void FlowBalance::find_borders() {
   borders_.clear();
-  if (cavitation_.has_fill()) return;
+  if (cavitation_.has_fill() || cavitation_.bears_tension()) return;
   const Grid& grid = model_.grid;
   for (int i = 0; i < grid.n_phi; ++i) {
     for (int j = 0; j < grid.n_z; ++j)

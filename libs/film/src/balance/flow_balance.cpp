@@ -18,6 +18,7 @@ void check(const FilmModel& m) {
   for (const Edge& edge : edges) {
     HERSEY_REQUIRE(edge.kind == EdgeKind::closed || edge.pressure >= m.p_cav, "edges lie at or above p_cav");
     HERSEY_REQUIRE(0 <= edge.ambient_fill && edge.ambient_fill <= 1, "fill lies between 0 and 1");
+    HERSEY_REQUIRE(edge.kind != EdgeKind::leaking || edge.leakage > 0, "a seal that leaks has a leakage");
   }
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.supply.pressure >= m.p_cav, "supply lies at or above p_cav");
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.grid.closes(), "a supply line has film on both sides");
@@ -79,6 +80,13 @@ void FlowBalance::lay_edges() {
     at.ambient = fill > 0 ? (fill - 1) * fill_scale(model_) : -std::numeric_limits<double>::infinity();
     at.kind = EdgeNode::Kind::wall;
     if (edge->kind == EdgeKind::closed) continue;
+    if (edge->kind == EdgeKind::leaking) {
+      at.kind = EdgeNode::Kind::leaking;
+      at.u = edge->pressure - model_.p_cav;
+      at.seal = edge->leakage * std::pow(model_.c, 3) / (6 * model_.L) * geometry_.width_phi[i] * geometry_.stretch[j];
+      leaking_edge_nodes_.push_back(node);
+      continue;
+    }
     at.kind = open_edge(model_, node) ? EdgeNode::Kind::open : EdgeNode::Kind::prescribed;
     at.u = edge->pressure - model_.p_cav;
     if (!grid.closes() && !at.of_patch && grid.is_end(i)) {
@@ -233,6 +241,11 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   u_ = u;
   if (const FilmDomain domain = evaluate_nodes(motion, u); !domain.is_inside()) return domain;
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
+  for (const int node : leaking_edge_nodes_) {
+    const double leaves = seal_flow(node).value;
+    balance_[node] += leaves;
+    throughput_[node] = std::max(throughput_[node], std::abs(leaves));
+  }
   find_borders();
   replace_boundary_rows();
   // Scale of the throughput of a film without oil: a thousandth of the flow that its surfaces would carry in a full
@@ -299,6 +312,7 @@ bool FlowBalance::returns_to_edge(int node) const {
 
 // On an edge in air the oil that a supply beside it would take back leaves, too.
 double FlowBalance::outflow_of_row(int node) const {
+  if (is_on_leaking_edge(node)) return seal_flow(node).value;
   if (is_on_open_edge(node)) return returns_to_edge(node) ? -balance_[node] : slack(node);
   if (!is_on_prescribed_edge(node)) return 0;
   return blocks_inflow(node) ? 0 : -balance_[node];
@@ -307,10 +321,27 @@ double FlowBalance::outflow_of_row(int node) const {
 double FlowBalance::outflow(int node) const { return outflow_of_row(node) + over_land(node); }
 
 double FlowBalance::acting_outflow(int node) const {
+  if (cavitation_.bears_tension()) return outflow(node);
+  if (is_on_leaking_edge(node)) return seal_flow_at(node, std::max(nodes_[node].p, 0.0)) + over_land(node);
   if (!cavitation_.has_tension() || !is_on_prescribed_edge(node)) return outflow(node);
   const int inside = edges_[node].inside;
   if (nodes_[inside].p >= -round_off_of_u()) return outflow(node);
   return over_land(node) - flows_[face_at_edge(node)].K * edge_unknown(node);
+}
+
+// The seal is a gap of its own with the oil of the film before it (damper.1).
+double FlowBalance::seal_flow_at(int node, double p) const { return seal_conductance(node) * (p - edges_[node].u); }
+
+FlowBalance::SealFlow FlowBalance::seal_flow(int node) const {
+  const Node& at = nodes_[node];
+  const Fluidity& flow = at.flow[1];
+  const double seal = edges_[node].seal, drop = at.p - edges_[node].u, by_fluidity = seal * at.density * drop;
+  return {.value = by_fluidity * flow.value,
+          .u = seal * at.density * flow.value * at.p_u + by_fluidity * (flow.u + flow.h * at.h_u) +
+               seal * flow.value * drop * at.density_u,
+          .g = by_fluidity * flow.h * at.h_g,
+          .rate = by_fluidity * flow.rate,
+          .rotation = by_fluidity * flow.rotation};
 }
 
 double FlowBalance::flow_along_side(int node) const {
@@ -333,6 +364,7 @@ double FlowBalance::supply_of_row(int node) const {
   const double land = over_land(node);
   if (!is_on_supply(node)) return land;
   const double lost = is_on_open_edge(node) ? 0 : (1 - draws(node)) * slack(node);
+  if (is_on_leaking_edge(node)) return balance_[node] + lost + land;  // the balance has what leaks
   return balance_[node] + lost + outflow_of_row(node) + land;
 }
 
@@ -370,6 +402,7 @@ int FlowBalance::worst_node() const {
 void FlowBalance::assemble_jacobian() {
   std::fill(values_.begin(), values_.end(), 0.0);
   for (int i = 0; i < size(); ++i) values_[diagonal_slot_[i]] = storage_u(i) + slack_u(i);
+  for (const int node : leaking_edge_nodes_) values_[diagonal_slot_[node]] += seal_flow(node).u;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
     const auto [q_a, q_b] = flow_by_u(f);
@@ -425,6 +458,12 @@ void FlowBalance::balance_along(const MotionDirection& direction, Eigen::VectorX
     const bool cut = is_cut(f);
     if (!cut || !has_line_row(faces_[f].a)) dr[faces_[f].a] += q;
     if (!cut || !has_line_row(faces_[f].b)) dr[faces_[f].b] -= q;
+  }
+  for (const int node : leaking_edge_nodes_) {
+    const SealFlow leaks = seal_flow(node);
+    const SlidingChange& sliding = sliding_along(node);
+    dr[node] += leaks.rate * sliding.rate + leaks.rotation * sliding.rotation;
+    if (gap) dr[node] += leaks.g * direction.g[node];
   }
 }
 

@@ -105,6 +105,9 @@ class FlowBalance {
   /// Derivative of the residual along a direction, at fixed u.
   void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
 
+  /// Change of the residual as flows accelerate at the rate at which they change with `du` (damper.6) [m^3 s].
+  void inertia_residual(const Eigen::Ref<const Eigen::VectorXd>& du, double momentum_factor, Eigen::VectorXd& dr) const;
+
   /// Oil entering through each feature (film.22): as supply() and over_land(), summed [m^3/s], shape (features).
   void find_port_flows(Eigen::VectorXd& flow) const;
   /// Their derivatives by u, shape (n, features).
@@ -165,6 +168,8 @@ class FlowBalance {
   /// True if a node lies on an edge at p_cav of a film with a fill fraction: oil leaves freely, and its row is a
   /// balance.
   [[nodiscard]] bool is_on_open_edge(int node) const { return edges_[node].kind == EdgeNode::Kind::open; }
+  /// True if a node lies on an edge with a seal: its balance includes what leaks there.
+  [[nodiscard]] bool is_on_leaking_edge(int node) const { return edges_[node].kind == EdgeNode::Kind::leaking; }
   /// u at which an edge at p_cav is as full as its surroundings; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
   /// True on an edge at p_cav with oil outside: oil that comes in there fills the gap, whatever u is.
@@ -236,6 +241,10 @@ class FlowBalance {
   [[nodiscard]] TowardsLine towards_line(int node) const;
   [[nodiscard]] bool is_cut(std::size_t f) const;                               ///< by the supply line
   [[nodiscard]] double edge_unknown(int node) const { return edges_[node].u; }  ///< u on an edge [Pa]
+  /// Conductance of the seal at a node of a leaking edge [m^3/(Pa s)]; 0 elsewhere.
+  [[nodiscard]] double seal_conductance(int node) const {
+    return edges_[node].seal * nodes_[node].flow[1].value * nodes_[node].density;
+  }
 
   [[nodiscard]] const std::vector<int>& column_start() const { return column_start_; }
   [[nodiscard]] const std::vector<int>& row_index() const { return row_index_; }
@@ -328,13 +337,14 @@ class FlowBalance {
 
   /// Properties of a node that its edge determines.
   struct EdgeNode {
-    enum class Kind { none, wall, prescribed, open };
+    enum class Kind { none, wall, prescribed, open, leaking };
     Kind kind = Kind::none;
     bool of_patch = false;   ///< the edge is the end of a patch
     bool is_corner = false;  ///< a row's edge meets an open end of a patch
     int inside = 0;          ///< the next node from the edge
-    double u = 0;            ///< prescribed unknown [Pa]
+    double u = 0;            ///< prescribed unknown, or that of the pressure behind a seal [Pa]
     double ambient = 0;      ///< ambient_unknown() [Pa]
+    double seal = 0;         ///< of a seal: flow per pressure and fluidity [m^3] (damper.1)
   };
 
   /// Fraction of a full gap's entrained flow that crosses a face which the line cuts, with derivatives: by the fill
@@ -342,6 +352,15 @@ class FlowBalance {
   struct CutFaceFraction {
     double value = 1, theta = 0, h_a = 0, h_b = 0, bend = 0, excess = 0, journal = 0;
   };
+
+  /// Oil that leaves through the seal of a leaking edge at a node, with derivatives by u, by the undeformed gap and by
+  /// the two members of SlidingChange.
+  struct SealFlow {
+    double value = 0, u = 0, g = 0, rate = 0, rotation = 0;
+  };
+  /// Flow through the seal at a node of a leaking edge, driven by a pressure p above p_cav [Pa] (damper.1).
+  [[nodiscard]] double seal_flow_at(int node, double p) const;
+  [[nodiscard]] SealFlow seal_flow(int node) const;
 
   template <class Flows>
   [[nodiscard]] double& flow_over_end(Flows& flows, int node) const {
@@ -488,6 +507,7 @@ class FlowBalance {
   double D0_ = 0, unit_conductance_ = 0;
   std::vector<EdgeNode> edges_;             ///< of every node
   std::vector<int> prescribed_edge_nodes_;  ///< nodes on edges of prescribed pressure
+  std::vector<int> leaking_edge_nodes_;     ///< nodes on edges with a seal
   std::vector<double> area_;                ///< of the control volumes [m^2]
   std::vector<Face> faces_;
   std::size_t first_axial_face_ = 0;

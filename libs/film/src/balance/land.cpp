@@ -25,7 +25,7 @@ void FlowBalance::find_strips(int f, double phi, double u) {
     const double R = model_.R * geometry_.stretch[j];
     for (int i = 0; i < grid.n_phi; ++i) {
       const int node = grid.index(i, j), before = grid.before(i);
-      if (edges_[node].kind == EdgeNode::Kind::wall || edges_[node].of_patch) continue;
+      if (edges_[node].kind == EdgeNode::Kind::wall || is_on_leaking_edge(node) || edges_[node].of_patch) continue;
       const double back = before < 0 ? 0 : 0.5 * geometry_.step(before, j), ahead = 0.5 * geometry_.step(i, j);
       const double turns = feature.surface == Surface::journal ? R : 0;
       const double middle = R * geometry_.from_to(geometry_.phi[i], phi), reach = 0.5 * R * feature.arc;

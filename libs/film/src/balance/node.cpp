@@ -79,12 +79,13 @@ void NodeLaw::pressure_and_fill(double u, int at, Node& node) const {
     phase.p = {};
     const double least = ambient_fill(model_, at);
     if (least > 0 && phase.theta.value < least) phase.theta = {least, 0};
-  } else if (u >= 0) {
+  } else if (u >= 0 || cavitation_.bears_tension()) {
     node.wall += u, node.wall_u = 1;
   }
   node.p = phase.p.value, node.p_u = phase.p.slope;
   node.theta = phase.theta.value, node.theta_u = phase.theta.slope;
-  const ValueAndSlope fraction = cavitation_.has_fill() || u >= 0 ? phase.theta : ValueAndSlope{0};
+  const bool is_whole = cavitation_.has_fill() || cavitation_.bears_tension() || u >= 0;
+  const ValueAndSlope fraction = is_whole ? phase.theta : ValueAndSlope{0};
   if (model_.cavitated_shear == CavitatedShear::full)
     node.other_sheared_fraction = fraction.value;
   else

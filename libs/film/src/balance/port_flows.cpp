@@ -19,6 +19,7 @@ void FlowBalance::find_port_flows_by_u(Eigen::MatrixXd& by_u) const {
     if (prescribed.feature < 0 || returns_to_edge(i)) continue;
     auto column = by_u.col(prescribed.feature);
     column[i] += storage_u(i) + (is_on_open_edge(i) ? 1 : 1 - draws(i)) * slack_u(i);
+    if (is_on_leaking_edge(i)) column[i] += seal_flow(i).u;
     for (const int f : faces_around(i)) {
       if (f < 0) continue;
       const Face& face = faces_[static_cast<std::size_t>(f)];

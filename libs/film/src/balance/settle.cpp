@@ -39,6 +39,10 @@ void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {
     const double start = area_[i] * content_start_[i] * (start_of(i) + cells_[i].depth_start);
     const double whole = area_[i] * oil_gap(i);
     double out = is_on_open_edge(i) ? slack(i) + slack_u(i) * du[i] : 0;
+    if (is_on_leaking_edge(i)) {
+      const SealFlow leaks = seal_flow(i);
+      out = leaks.value + leaks.u * du[i];
+    }
     // A prescribed row takes the oil that its state needs; the others keep what their flows leave.
     const bool prescribed = is_on_supply(i) || is_on_prescribed_edge(i) || !conserves;
     accepts_surplus[static_cast<std::size_t>(i)] = prescribed ? 1 : 0;

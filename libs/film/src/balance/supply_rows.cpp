@@ -365,7 +365,8 @@ double FlowBalance::line_fraction_along(std::size_t f, const CutFaceFraction& fr
   const FaceFlow& flow = flows_[f];
   const Speeds speeds = speeds_along(f, direction);
   double change = fraction.journal * direction.phi_journal;
-  if (speeds.mean != 0 || speeds.half_slip != 0) {
+  // Of surfaces at rest nothing is carried, of which a fraction could change.
+  if (flow.couette != 0 && (speeds.mean != 0 || speeds.half_slip != 0)) {
     const auto [full, little] = carried_at(f, speeds);
     const EntrainedFlow carried = flow.carried(upstream(f).theta);
     change += flow.density * ((carried.full - fraction.value) * full + carried.little * little) / flow.couette;

@@ -23,6 +23,21 @@ class Guembel final : public CavitationLaw {
   [[nodiscard]] bool has_tension() const override { return true; }
 };
 
+class FullFilm final : public CavitationLaw {
+ public:
+  [[nodiscard]] std::string_view text() const override {
+    return "full_film (no cavitation: tension acts on the surfaces)";
+  }
+  [[nodiscard]] FilmPhase phase(double u, const CavitationScales& /*scales*/) const override { return {.p = {u, 1}}; }
+  [[nodiscard]] double cavitated_unknown(const CavitatedRow& /*row*/,
+                                         const CavitationScales& /*scales*/) const override {
+    HERSEY_REQUIRE(false, "a film that bears tension is never cavitated");
+    return 0;
+  }
+  [[nodiscard]] bool has_tension() const override { return true; }
+  [[nodiscard]] bool bears_tension() const override { return true; }
+};
+
 class ReynoldsCondition final : public CavitationLaw {
  public:
   [[nodiscard]] std::string_view text() const override {
@@ -61,6 +76,7 @@ const CavitationLaw& cavitation_law(Cavitation cavitation) {
   static const Guembel guembel;
   static const ReynoldsCondition reynolds;
   static const MassConserving mass_conserving;
+  static const FullFilm full_film;
   switch (cavitation) {
     case Cavitation::guembel:
       return guembel;
@@ -68,6 +84,8 @@ const CavitationLaw& cavitation_law(Cavitation cavitation) {
       return reynolds;
     case Cavitation::mass_conserving:
       return mass_conserving;
+    case Cavitation::full_film:
+      return full_film;
   }
   HERSEY_REQUIRE(false, "every cavitation model has its law");
   return guembel;

@@ -104,7 +104,7 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
       add_node(nodes, balance.rough_gaps()[grid.index(i, j)], i, j, want_gradient);
     }
   }
-  if (cavitation_law(model_).has_tension()) cut_off(nodes, want_gradient);
+  if (cavitation_law(model_).has_tension() && !cavitation_law(model_).bears_tension()) cut_off(nodes, want_gradient);
   if (want_gradient && model_.cavitated_shear == CavitatedShear::film_share) add_borders(balance);
   pushes_.clear();
   if (balance.relief().has_pockets()) push_on_pocket_walls(balance, want_gradient);

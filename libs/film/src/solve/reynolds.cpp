@@ -364,6 +364,16 @@ void Reynolds::solve(Eigen::MatrixXd& columns, SystemMatrix matrix) {
     m.lu.solve(values, count);
 }
 
+Eigen::MatrixXd Reynolds::inertia(const Eigen::MatrixXd& du_by_rate, double momentum_factor) {
+  Eigen::MatrixXd answer(du_by_rate.rows(), du_by_rate.cols());
+  for (Eigen::Index k = 0; k < answer.cols(); ++k) {
+    impl_->balance.inertia_residual(du_by_rate.col(k), momentum_factor, impl_->rhs);
+    answer.col(k) = -impl_->rhs;
+  }
+  solve(answer);
+  return answer;
+}
+
 void Reynolds::persist(Archive& archive) {
   impl_->lu.persist(archive);
   if (archive.restores()) impl_->linearised = impl_->factorised = impl_->set_up = impl_->condensed = false;

@@ -120,7 +120,7 @@ double Sor::over_relaxation() const {
   const double dphi = mean_step(grid);
   const double across = std::pow(balance_.model().R * dphi * (grid.n_z - 1) / balance_.model().L, 2);
   const FilmModel& model = balance_.model();
-  const bool one_wall = (model.edge_left.kind == EdgeKind::closed) != (model.edge_right.kind == EdgeKind::closed);
+  const bool one_wall = (model.edge_left.kind == EdgeKind::pressure) != (model.edge_right.kind == EdgeKind::pressure);
   const double wave = std::numbers::pi / (grid.n_z - 1) * (one_wall ? 0.5 : 1);
   const double rho = is_closed(model) ? std::cos(0.5 * dphi) : (1 + across * std::cos(wave)) / (1 + across);
   return 2 / (1 + std::sqrt(1 - rho * rho));
@@ -179,6 +179,11 @@ FilmDomain Sor::enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u) 
 NodeRow Sor::row(int node) const {
   NodeRow r(storage_theta_[node]);
   r.known = storage_known_[node];
+  if (balance_.is_on_leaking_edge(node)) {
+    const double seal = balance_.seal_conductance(node);
+    r.K += seal;
+    r.known -= seal * balance_.edge_unknown(node);
+  }
   for (int f : around_[node]) {
     const Face& face = balance_.faces()[f];
     const FaceFlow& flow = balance_.flows()[f];

@@ -17,6 +17,8 @@ struct SurfaceKeys {
 [[nodiscard]] TypePtr bearing_pressure();
 /// Pressure outside an edge of the film, or a wall there.
 [[nodiscard]] TypePtr edge_format();
+/// A seal at an edge of the film, through which oil leaks.
+[[nodiscard]] TypePtr seal_format();
 
 /// Keys that every kind of bearing has.
 [[nodiscard]] std::vector<Key> shared_bearing_keys();
@@ -40,5 +42,6 @@ struct BearingKindFormat {
 /// True for a key of a bearing of tilting pads that belongs to the film of each pad.
 [[nodiscard]] bool is_key_of_each_pad(const std::string& key);
 [[nodiscard]] std::vector<Key> thrust_keys();
+[[nodiscard]] std::vector<Key> squeeze_film_damper_keys();
 
 }  // namespace hersey::model

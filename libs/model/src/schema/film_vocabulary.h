@@ -8,12 +8,15 @@
 // Words of bearings and their oil.
 namespace hersey::model {
 
-inline constexpr Vocabulary<film::Cavitation, 3> cavitation_words{{
+inline constexpr Vocabulary<film::Cavitation, 4> cavitation_words{{
     {film::Cavitation::mass_conserving, "mass_conserving",
      "pressure or fill fraction at every point (Jakobsson, Floberg, Olsson)"},
     {film::Cavitation::reynolds, "reynolds",
      "zero pressure gradient at rupture; oil is lost where the film forms again"},
     {film::Cavitation::guembel, "guembel", "full film, negative pressures left out of the forces (half Sommerfeld)"},
+    {film::Cavitation::full_film, "full_film",
+     "no cavitation: negative pressures act on the surfaces (full Sommerfeld); for dampers and films under high "
+     "pressure that do not cavitate"},
 }};
 
 inline constexpr Vocabulary<ThermalWalls, 3> thermal_walls_words{{
@@ -29,6 +32,15 @@ inline constexpr Vocabulary<film::AsperityModel, 3> asperity_words{{
     {film::AsperityModel::greenwood_tripp_fit, "greenwood_tripp_fit",
      "Greenwood and Tripp (1971), F = 4.4086e-5 (4 - (h - delta)/sigma)^6.804"},
     {film::AsperityModel::greenwood_tripp_exact, "greenwood_tripp", "the same with the exact integral F_5/2"},
+}};
+
+inline constexpr Vocabulary<OilInertia, 3> oil_inertia_words{{
+    {OilInertia::none, "none", "the oil has no inertia"},
+    {OilInertia::added_mass, "added_mass",
+     "added mass of a parabolic velocity profile (6/5 of the mean flow's momentum), as at squeeze Reynolds numbers rho "
+     "omega c^2/mu of up to about 10"},
+    {OilInertia::added_mass_high_frequency, "added_mass_high_frequency",
+     "added mass of a uniform velocity profile, as at squeeze Reynolds numbers far above 10"},
 }};
 
 inline constexpr Vocabulary<film::FlowFactors, 2> flow_factor_words{{

@@ -12,6 +12,17 @@ TypePtr edge_format() {
                                        "no oil passes: at both edges a film of infinite width, at one a cap or a plane "
                                        "of symmetry"}});
 }
+TypePtr seal_format() {
+  return object(
+      "a seal that leaks",
+      {
+          required("leakage", number("0.5", Range::positive()),
+                   "kappa of the flow per circumference kappa c^3/(12 mu L/2) (p - outside) through it, with the "
+                   "radial clearance c and the width L: 1 leaks like half of the film's own width; 0 would be a closed "
+                   "edge, infinity an open one."),
+          defaulted("outside", bearing_pressure(), "0 Pa", "Pressure behind it."),
+      });
+}
 
 namespace {
 
@@ -182,6 +193,11 @@ const std::vector<BearingKindFormat>& bearing_kind_formats() {
        "pads in sectors of an annulus, or a washer, below a runner that turns about the axis",
        {.fixed = "stator", .of_fixed = "The pads.", .moving = "runner", .of_moving = "The runner."},
        thrust_keys()},
+      {"squeeze_film_damper",
+       "Squeeze-film damper",
+       "a journal that orbits in a bore without rotating",
+       {},
+       squeeze_film_damper_keys()},
   };
   return kinds;
 }

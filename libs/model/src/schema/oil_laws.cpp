@@ -130,6 +130,16 @@ const std::vector<Alternative<film::DensityLaw>>& density_laws() {
         {required("bulk_modulus", quantity("Pa", "1.5 GPa", {.low = 1e5}),
                   "rho dp/drho, the same at every pressure; oils: about 1.5 GPa.")}},
        [](const Value& law) { return film::ConstantBulkModulus{number_of(law, "bulk_modulus")}; }},
+      {{"bubbly",
+        "a homogeneous mixture of oil and small gas bubbles, compressed at one temperature: rho = rho0 (1 + r)/(1 + r "
+        "P/(P + p)), r = gas_fraction/(1 - gas_fraction); `density` and `viscosity` are those of the mixture at p = 0",
+        {required("gas_fraction", number("0.1", {.low = 0, .high = 0.9}),
+                  "Of the mixture's volume at the cavitation pressure."),
+         defaulted("pressure", quantity("Pa", "1 bar", Range::positive()), "1.01325 bar",
+                   "P, the cavitation pressure on the absolute scale.")}},
+       [](const Value& law) {
+         return film::BubblyOil{number_of(law, "gas_fraction"), number_of(law, "pressure")};
+       }},
   };
   return laws;
 }

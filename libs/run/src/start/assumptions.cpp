@@ -28,6 +28,8 @@ std::string shear_on_bodies(film::ShearForce shear) {
 
 std::string edge(const film::FilmModel& film, const film::Edge& at) {
   if (at.kind == film::EdgeKind::closed) return "closed: no oil passes";
+  if (at.kind == film::EdgeKind::leaking)
+    return fmt::format("a seal of leakage {:.4g}, behind which are {}", at.leakage, pressure(at.pressure));
   const double p = at.pressure, fill = at.ambient_fill;
   if (!film::cavitation_law(film).has_fill() || p > film.p_cav) return pressure(p);
   if (fill == 0) return pressure(p) + ", in air: oil may leave, none comes in";
@@ -109,6 +111,9 @@ struct DensityDescription {
   }
   std::string operator()(const film::ConstantBulkModulus& law) const {
     return fmt::format("bulk modulus {:.4g} GPa", 1e-9 * law.bulk_modulus);
+  }
+  std::string operator()(const film::BubblyOil& law) const {
+    return fmt::format("a mixture with {:.3g} of gas at {:.4g} bar absolute", law.gas_fraction, 1e-5 * law.pressure);
   }
 };
 

@@ -30,9 +30,12 @@ struct OperatingPoint {
   Eigen::Vector2d tilt_rate = Eigen::Vector2d::Zero();  ///< at which it changes [1/s]
   double journal_angle = 0;                             ///< by which the journal, with its holes, stands turned [rad]
   double growth = 0;  ///< of the radial clearance with the temperatures of its walls [m]
+  /// Angular velocity at which the position `e` goes around the shell's axis (damper.4) [rad/s]. The axes of position
+  /// and film then rotate with it, in which the film is steady. Only between surfaces that are the same all around.
+  double whirl_speed = 0;
 
-  /// Sum of both speeds, which drags the oil [rad/s].
-  [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed; }
+  /// Sum of both speeds in the axes of the film, which drags the oil [rad/s].
+  [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed - 2 * whirl_speed; }
   /// Speed by which the fill fraction is scaled: the entraining speed, or twice the speed of the eccentricity ratio if
   /// that is larger, as it counts in Reynolds' equation [rad/s].
   [[nodiscard]] double film_speed(double c) const {
@@ -57,6 +60,8 @@ struct SteadyOptions {
   /// Of the film; `sor` solves it anew at every position. Between surfaces that deform always `newton`.
   film::FilmSolver solver = film::FilmSolver::newton;
   std::shared_ptr<const SteadyElasticity> elasticity = {};  ///< of the surfaces; null: both rigid
+  /// Momentum factor of the oil's inertia in DynamicCoefficients::inertia (damper.7); 0: none [-].
+  double inertia_factor = 0;
   std::optional<film::ThermalModel> thermal = {};  ///< of a film with temperatures; unset: one temperature, the model's
   std::optional<film::ThermalNetworkModel> network = {};  ///< of walls that are nodes; in balance with this film alone
   std::optional<Coordinates> start;  ///< where the search begins [m]; unset: where the kind's own estimate lies

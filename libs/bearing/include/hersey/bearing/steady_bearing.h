@@ -25,10 +25,13 @@ struct [[nodiscard]] SteadySummary : Outcome {
 /// the journal and its rate: stiffness dQ/dx and damping dQ/dx' (theory manual, chapter bearing). Moments, about the
 /// bearing's origin, are conjugate to the tilt. Units of stiffness: N/m (by e) and N (by t) in rows of forces, N and N
 /// m in rows of moments; those of damping are times s. 4 x 4 of a journal, 3 x 3 of a plane slider.
+/// `inertia` is dQ/dx'' by the inertia of the oil, the added mass of a small motion (damper.8); empty where that is not
+/// asked for.
 struct DynamicCoefficients {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
   Matrix stiffness = Eigen::Matrix4d::Zero();
   Matrix damping = Eigen::Matrix4d::Zero();
+  Matrix inertia = {};
 };
 
 /// Temperatures of a solved operating point.

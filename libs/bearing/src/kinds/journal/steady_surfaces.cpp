@@ -16,7 +16,8 @@ film::SurfaceMotion steady_surfaces(RigidSurfaces& surfaces, const film::FilmMod
   film::SurfaceMotion motion;
   surfaces.set_clearance_change(point.growth, 0);
   surfaces.evaluate(parameters_of(model, point, e), motion);
-  motion.u_shell = model.R * point.shell_speed;
+  motion.u_shell = model.R * (point.shell_speed - point.whirl_speed);
+  motion.u_journal -= model.R * point.whirl_speed;
   // The bearing's axes rest: a shell that turns takes its shape along.
   if (point.shell_speed != 0) motion.g_rate -= point.shell_speed * film::GapShape(model).shell_slope();
   return motion;

@@ -11,6 +11,7 @@ enum class Cavitation {
   guembel,          ///< full film solved, negative pressures dropped from the forces (half Sommerfeld)
   reynolds,         ///< p >= p_cav with dp/dn = 0 at rupture; mass is lost where the film re-forms
   mass_conserving,  ///< pressure or fill fraction in each node (Jakobsson-Floberg-Olsson)
+  full_film,        ///< no cavitation: tension acts on the surfaces as pressure does (Sommerfeld)
 };
 
 /// Scales of u where u < 0 is not a pressure [Pa], > 0 each.
@@ -34,8 +35,8 @@ struct CavitatedRow {
 };
 
 /// A cavitation model: the meaning of the film's one unknown u [Pa] per node. The pressure on the walls is p_cav +
-/// max(u, 0) in all of them. A new model is a class like those in cavitation_law.cpp, its name in Cavitation and its
-/// word in the model file's format.
+/// max(u, 0), but p_cav + u in a film that bears tension. A new model is a class like those in
+/// cavitation_law.cpp, its name in Cavitation and its word in the model file's format.
 class CavitationLaw {
  public:
   virtual ~CavitationLaw() = default;
@@ -51,8 +52,10 @@ class CavitationLaw {
 
   /// True if the gap may be filled in part, so that oil is conserved in cavities, too.
   [[nodiscard]] virtual bool has_fill() const { return false; }
-  /// True if the balance of flows includes tension, which forces then leave out.
+  /// True if the balance of flows includes tension, which forces leave out unless bears_tension().
   [[nodiscard]] virtual bool has_tension() const { return false; }
+  /// True if tension acts on the surfaces, too: no film is ever cavitated.
+  [[nodiscard]] virtual bool bears_tension() const { return false; }
   /// True if oil is lost in a cavitated film, so that flows over the edges and from the supply do not balance.
   [[nodiscard]] bool loses_oil() const { return !has_fill() && !has_tension(); }
 };

@@ -48,6 +48,24 @@ struct ConstantBulkModulus {
   [[nodiscard]] double work(double p) const { return -bulk_modulus * std::expm1(-p / bulk_modulus); }
 };
 
-using DensityLaw = std::variant<Incompressible, DowsonHigginson, ConstantBulkModulus>;
+/// A homogeneous mixture of oil and small bubbles of gas, which is compressed at one temperature (damper.9): rho = rho0
+/// (1 + r)/(1 + r P/(P + p)), r = gas_fraction/(1 - gas_fraction).
+/// @see Nikolajsen (1999), J. Tribol. 121, 186.
+struct BubblyOil {
+  double gas_fraction = 0;  ///< of the mixture's volume at p = 0 [-], in [0, 1)
+  double pressure = 1e5;    ///< P, absolute pressure at p = 0 [Pa], > 0
+  /// rho/rho0 and its slope [1/Pa].
+  [[nodiscard]] ValueAndSlope ratio(double p) const {
+    const double r = gas_fraction / (1 - gas_fraction), absolute = pressure + p, volume = 1 + r * pressure / absolute;
+    return {(1 + r) / volume, (1 + r) * r * pressure / (absolute * absolute * volume * volume)};
+  }
+  /// Integral of dp rho0/rho from 0 to p [Pa].
+  [[nodiscard]] double work(double p) const {
+    const double r = gas_fraction / (1 - gas_fraction);
+    return (p + r * pressure * std::log1p(p / pressure)) / (1 + r);
+  }
+};
+
+using DensityLaw = std::variant<Incompressible, DowsonHigginson, ConstantBulkModulus, BubblyOil>;
 
 }  // namespace hersey::film

@@ -91,16 +91,17 @@ enum class CavitatedShear { full, film_share };
 enum class ShearForce { full, torque_only, none };
 enum class FilmSolver { newton, sor, multigrid };
 
-/// Condition on an edge: oil at a prescribed pressure, or a wall that no oil passes. Two walls make a bearing of
-/// infinite width, one a plane of symmetry or a cap.
-enum class EdgeKind { pressure, closed };
+/// Condition on an edge: oil at a prescribed pressure, a wall that no oil passes, or a seal through which pressure
+/// drives oil out. Two walls make a bearing of infinite width, one a plane of symmetry or a cap.
+enum class EdgeKind { pressure, closed, leaking };
 
 /// An edge of the film, z = -L/2 or +L/2, or an end of a patch.
 struct Edge {
   EdgeKind kind = EdgeKind::pressure;
-  double pressure = 0;  ///< [Pa], >= p_cav; without meaning at a wall
+  double pressure = 0;  ///< outside [Pa], >= p_cav; without meaning at a wall
   /// Fill fraction outside an edge at p_cav, from 0 (air) to 1 (oil); it counts only where oil is conserved [-].
   double ambient_fill = 0;
+  double leakage = 0;  ///< kappa of a seal (damper.1), > 0; counts only where the edge leaks [-]
 };
 
 /// The edges on the first and on the last line of a patch.
@@ -143,15 +144,16 @@ struct FilmModel {
   return j == model.grid.n_z - 1 ? &model.edge_right : nullptr;
 }
 
-/// Fraction of oil in what a film draws in over an edge: 1 above the cavitation pressure; a wall counts less than air
-/// [-].
+/// Fraction of oil in what a film draws in over an edge: 1 above the cavitation pressure; a wall counts less than air,
+/// as does a seal, which only pressure passes [-].
 [[nodiscard]] inline double fill_outside(const FilmModel& model, const Edge& edge) {
   if (edge.kind == EdgeKind::closed) return -1;
+  if (edge.kind == EdgeKind::leaking) return edge.pressure > model.p_cav ? 1 : -0.5;
   return edge.pressure > model.p_cav ? 1 : edge.ambient_fill;
 }
 
-/// The edge on which a node lies; null between them. Where two meet, one with a pressure counts before a wall, then the
-/// one with more oil outside, which fills the corner, then that of the row.
+/// The edge on which a node lies; null between them. Where two meet, one with a pressure counts before a seal and this
+/// before a wall, then the one with more oil outside, which fills the corner, then that of the row.
 [[nodiscard]] inline const Edge* edge_of_node(const FilmModel& model, int node) {
   const Grid& grid = model.grid;
   const Edge* of_row = edge_of_row(model, node % grid.n_z);
@@ -160,6 +162,7 @@ struct FilmModel {
   const PatchEnds& ends = model.ends[static_cast<std::size_t>(grid.patch_of(line))];
   const Edge& of_line = grid.begins_patch(line) ? ends.first : ends.last;
   if (of_row == nullptr) return &of_line;
+  if (of_row->kind == EdgeKind::leaking) return of_line.kind == EdgeKind::pressure ? &of_line : of_row;
   const bool is_wall = of_row->kind == EdgeKind::closed;
   return is_wall || fill_outside(model, of_line) > fill_outside(model, *of_row) ? &of_line : of_row;
 }

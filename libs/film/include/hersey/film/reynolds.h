@@ -132,6 +132,12 @@ class Reynolds {
   /// along the last linearisation. linearise() comes next. A run begins with oil_at_start() instead.
   void settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, StepOilBalance& oil);
 
+  /// Change of the film's unknowns with accelerations of its surfaces by the inertia of the oil to first order
+  /// (damper.6), a column each [Pa s^2/m for accelerations in m/s^2].
+  /// @param du_by_rate  what respond() says of the rates whose changes these accelerations are
+  /// @param momentum_factor  6/5 of a parabolic velocity profile, 1 of a uniform one (damper.7)
+  [[nodiscard]] Eigen::MatrixXd inertia(const Eigen::MatrixXd& du_by_rate, double momentum_factor);
+
   /// The pivot order in use; linearise() comes next.
   void persist(Archive& archive);
 

@@ -242,8 +242,31 @@ struct ThrustPoint {
   SourcePosition position;
 };
 
+/// Conditions of a squeeze-film damper without a machine: a circular orbit about the bore's axis, or small motions
+/// about a position at which the journal rests.
+struct DamperPoint {
+  double whirl_speed = 0;         ///< angular velocity of the orbit, or frequency of small motions [rad/s], not 0
+  double orbit_ratio = 0;         ///< radius of the orbit over the clearance, [0, 1); 0: small motions
+  double eccentricity_ratio = 0;  ///< of the position about which small motions go on, [0, 1); 0 with an orbit
+  double eccentricity_angle = 0;  ///< direction of that position, from x towards y [rad]
+  SourcePosition position;
+};
+
 /// Conditions of a single bearing without a machine, by its kind.
-using OperatingPoint = std::variant<JournalPoint, SliderPoint, ThrustPoint>;
+using OperatingPoint = std::variant<JournalPoint, SliderPoint, ThrustPoint, DamperPoint>;
+
+/// How the inertia of a film's oil acts on its journal.
+enum class OilInertia {
+  none,
+  added_mass,                 ///< of a parabolic velocity profile: at low frequencies
+  added_mass_high_frequency,  ///< of a uniform velocity profile: at high frequencies
+};
+
+/// Returns the momentum factor of that inertia (damper.7); 0: it has none [-].
+[[nodiscard]] inline double momentum_factor(OilInertia inertia) {
+  if (inertia == OilInertia::none) return 0;
+  return inertia == OilInertia::added_mass ? 1.2 : 1;
+}
 
 /// A bearing's surface that lies on the mesh of its flexible body.
 struct DeformingSurface {
@@ -273,6 +296,7 @@ struct Bearing {
   std::shared_ptr<const fem::FilmSurface> heated_shell;
   /// The surface of the journal's body, for a journal whose wall is that body (film::BodyJournal); else null.
   std::shared_ptr<const fem::FilmSurface> heated_journal;
+  OilInertia oil_inertia = OilInertia::none;
   std::optional<OperatingPoint> operating_point;
   SourcePosition position;
 };

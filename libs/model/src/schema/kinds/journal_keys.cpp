@@ -60,12 +60,14 @@ std::vector<Key> journal_keys() {
   const TypePtr diameter = quantity("m", "45 mm", Range::positive());
   const TypePtr width = quantity("m", "20 mm", Range::positive());
   const TypePtr clearance = quantity("m", "34 um", Range::positive());
-  const TypePtr edge = edge_format();
-  const TypePtr edges = any_of("a pressure such as 2 bar, `closed`, or {left, right}",
-                               {edge, object("two edges", {
-                                                              required("left", edge, "At the edge with z < 0."),
-                                                              required("right", edge, "At the edge with z > 0."),
-                                                          })});
+  const TypePtr edge =
+      any_of("a pressure such as 2 bar, `closed`, or {leakage, outside}", {edge_format(), seal_format()});
+  const TypePtr edges = any_of("a pressure such as 2 bar, `closed`, {leakage, outside} or {left, right}",
+                               {edge_format(), seal_format(),
+                                object("two edges", {
+                                                        required("left", edge, "At the edge with z < 0."),
+                                                        required("right", edge, "At the edge with z > 0."),
+                                                    })});
   const TypePtr fill = number("0.5", {.low = 0, .high = 1});
   const TypePtr fills =
       any_of("a number from 0 to 1, or {left, right}",
@@ -94,7 +96,7 @@ std::vector<Key> journal_keys() {
       optional("radial_clearance", clearance, "Radius of the bore minus radius of the journal."),
       optional("diametral_clearance", clearance, "Twice the radial clearance, instead of it."),
       defaulted("grid", grid_format(), "{}", "Nodes of the oil film."),
-      defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges, or walls there."),
+      defaulted("edge_pressure", edges, "0 Pa", "Pressure outside both edges, or walls or seals there."),
       optional("ambient_fill", fills,
                "Share of oil in what surrounds an edge at the cavitation pressure and is drawn in there: 0 air, 1 "
                "oil. An edge above that pressure is always flooded.",
@@ -116,6 +118,9 @@ std::vector<Key> journal_keys() {
                "own.",
                "given on the command line"),
   };
+  keys.push_back(defaulted("oil_inertia", choice(oil_inertia_words), "none",
+                           "Inertia of the oil as an added mass of the journal, which `hersey bearing` reports beside "
+                           "stiffness and damping."));
   keys.push_back(defaulted("shear_force", choice(shear_force_words), "full", "What shear does to the bodies."));
   for (Key& key : surface_keys({})) keys.push_back(std::move(key));
   return keys;

@@ -54,6 +54,7 @@ struct [[nodiscard]] BearingSolution : Outcome {
   bearing::DynamicCoefficients tangent;
   bearing::LoadAxesCoefficients coefficients;
   bearing::WhirlStability whirl;
+  double whirl_speed = 0;  ///< of a damper's orbit, or angular frequency of its small motions [rad/s]
   ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;  ///< those of `state`
   bearing::GridError grid_error;
   std::shared_ptr<const PadBearingSolution>

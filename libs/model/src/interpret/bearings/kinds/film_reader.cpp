@@ -62,6 +62,13 @@ void FilmReader::read_cavitation() {
 }
 
 film::Edge FilmReader::edge_of(const Value& outside) {
+  if (outside.broken) return {.pressure = film_.p_cav};
+  if (outside.type->kind == Type::Kind::any_of) return edge_of(outside.members.front().value);
+  if (outside.has("leakage")) {
+    const Value& behind = *outside.find("outside");
+    require_above_cavitation(context_, behind, film_);
+    return {.kind = film::EdgeKind::leaking, .pressure = behind.number, .leakage = number_of(outside, "leakage")};
+  }
   // Nothing flows over a wall; so that its row has a pressure to start from, it is that of cavitation.
   if (outside.text == "closed") return {.kind = film::EdgeKind::closed, .pressure = film_.p_cav};
   require_above_cavitation(context_, outside, film_);
@@ -173,7 +180,7 @@ Function FilmReader::not_fed(const std::string& path) const {
 void FilmReader::warn_of_starvation(const std::vector<film::Edge>& edges_of_film) {
   if (!film::cavitation_law(film_).has_fill()) return;
   for (const film::Edge& edge : edges_of_film) {
-    if (edge.kind == film::EdgeKind::pressure && film::fill_outside(film_, edge) > 0) return;
+    if (film::fill_outside(film_, edge) > 0) return;
   }
   if (film_.supply.kind != film::SupplyKind::none) return;
   for (std::size_t f = 0; f < film_.features.size(); ++f) {

@@ -98,7 +98,7 @@ class JournalFilmReader {
     const Value* edges = value_.find("edge_pressure");
     if (edges == nullptr || edges->broken || edges->members.empty()) return;
     const Value& content = edges->members.front().value;
-    const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
+    const bool is_pair = content.has("left") && content.has("right");
     film_.edge_left = reader_.edge_of(is_pair ? *content.find("left") : content);
     film_.edge_right = is_pair ? reader_.edge_of(*content.find("right")) : film_.edge_left;
   }
@@ -111,10 +111,11 @@ class JournalFilmReader {
     const bool is_pair = content.find("left") != nullptr && content.find("right") != nullptr;
     const Value& left = is_pair ? *content.find("left") : content;
     const Value& right = is_pair ? *content.find("right") : content;
-    const auto is_wall = [](const film::Edge& edge) { return edge.kind == film::EdgeKind::closed; };
-    if (film::is_closed(film_) || (is_pair && ((is_wall(film_.edge_left) && left.number > 0) ||
-                                               (is_wall(film_.edge_right) && right.number > 0)))) {
-      context_.fault_at_key(*fill, "oil outside edges that are closed",
+    const auto is_wall = [](const film::Edge& edge) { return edge.kind != film::EdgeKind::pressure; };
+    if ((is_wall(film_.edge_left) && is_wall(film_.edge_right)) ||
+        (is_pair &&
+         ((is_wall(film_.edge_left) && left.number > 0) || (is_wall(film_.edge_right) && right.number > 0)))) {
+      context_.fault_at_key(*fill, "oil outside edges that are closed or sealed",
                             "edge_pressure: a pressure, or no ambient_fill");
       return;
     }
@@ -219,12 +220,31 @@ std::optional<JournalPoint> operating_point_of(Context& context, const Value& be
 
 }  // namespace
 
+namespace {
+
+/// The added mass belongs to small motions of rigid surfaces. In a machine in motion the film's forces are those of oil
+/// without inertia.
+void check_inertia(Context& context, const Value& value, const Bearing& bearing) {
+  if (bearing.oil_inertia == OilInertia::none) return;
+  const Value& inertia = *value.find("oil_inertia");
+  if (bearing.shell_surface || bearing.journal_surface)
+    context.fault(inertia, "inertia of the oil between surfaces that deform", "none, or rigid surfaces");
+  if (!bearing.shell.body.empty())
+    context.model.warnings.push_back(
+        {inertia.position, inertia.path, "inertia of the oil in a machine, whose motion does not feel it",
+         "`hersey bearing`, which reports the added mass", "add that mass to the journal's body"});
+}
+
+}  // namespace
+
 void read_journal(Context& context, const Value& value, Bearing& bearing) {
   read_frames(context, value, {}, bearing);
   JournalFilmReader(context, value, bearing).read();
   bearing.shell_surface = deforming_surface_of(context, value, "shell", bearing.shell, bearing.film);
   bearing.journal_surface = deforming_surface_of(context, value, "journal", bearing.journal, bearing.film);
   require_facing_surfaces(context, value, bearing);
+  bearing.oil_inertia = meaning_of(value, "oil_inertia", oil_inertia_words);
+  check_inertia(context, value, bearing);
   bearing.heated_shell = heated_shell_of(context, value, bearing);
   bearing.heated_journal = heated_journal_of(context, value, bearing);
 }

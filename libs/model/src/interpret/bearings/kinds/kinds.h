@@ -34,11 +34,18 @@ void read_thrust(Context& context, const Value& value, Bearing& bearing);
 void read_thrust_point(Context& context, const Value& value, Bearing& bearing);
 [[nodiscard]] ShortNames thrust_short_names(const Model& model, const Bearing& bearing);
 
+// A journal that orbits without rotating.
+void read_squeeze_film_damper(Context& context, const Value& value, Bearing& bearing);
+void read_squeeze_film_damper_point(Context& context, const Value& value, Bearing& bearing);
+[[nodiscard]] ShortNames squeeze_film_damper_short_names(const Model& model, const Bearing& bearing);
+
 /// All kinds.
 [[nodiscard]] inline std::vector<KindReader> bearing_kinds() {
   return {{"journal", read_journal, read_journal_point, journal_short_names},
           {"plane_slider", read_plane_slider, read_plane_slider_point, plane_slider_short_names},
-          {"thrust", read_thrust, read_thrust_point, thrust_short_names}};
+          {"thrust", read_thrust, read_thrust_point, thrust_short_names},
+          {"squeeze_film_damper", read_squeeze_film_damper, read_squeeze_film_damper_point,
+           squeeze_film_damper_short_names}};
 }
 
 }  // namespace hersey::model
