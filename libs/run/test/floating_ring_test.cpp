@@ -26,7 +26,7 @@ bodies:
   ring: {mass: 5 g, inertia: {xx: 2e-7 kg.m^2, yy: 2e-7 kg.m^2, zz: 2.5e-7 kg.m^2}}
 joints:
   shaft: {type: planar, between: [ground, shaft], axis: z, initial: {y: -5 um}}
-  ring: {type: planar, between: [ground, ring], axis: z, initial: {y: -4 um}}
+  ring: {type: planar, between: [ground, ring], axis: z, initial: {y: -4 um, rotation_rate: 1000 rad/s}}
 drives:
   motor: {joint: shaft, coordinate: rotation, speed: "${driven}"}
 forces:

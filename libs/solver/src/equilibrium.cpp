@@ -253,35 +253,23 @@ class EquilibriumSearch {
     return remaining;
   }
 
-  /// Finds the coordinates whose rate is an unknown in place of their position: nothing holds them, and a rate changes
-  /// the forces along them, as of a ring that floats between two films. Their rates are measured by the fastest one.
-  /// Theory manual eq. (integrator.36).
+  /// Finds the coordinates whose rate is an unknown in place of their position: they move at the start, nothing holds
+  /// them, and a rate changes the forces along them, as of a ring that floats between two films. Their rates are
+  /// measured by the fastest one. Theory manual eq. (integrator.36).
   void find_free_rates() {
     const double fastest = here_.v.size() > 0 ? here_.v.lpNorm<Eigen::Infinity>() : 0;
     if (fastest == 0) return;
     keep_damping();
     const Index nv = equations_.nv();
     for (Index i = 0; i < nv; ++i) {
-      const double by_rate = std::abs(weight_.coeff(i, i)) * fastest * reach_[i];
-      bool is_held = by_rate == 0;
-      for (Equations::SparseMatrix::InnerIterator entry(stiffness_, i); entry; ++entry) {
-        const bool is_constraint = entry.row() >= nv;
-        const double force = std::abs(entry.value()) * (is_constraint ? 1 : reach_[entry.row()]);
-        is_held = is_held || (is_constraint ? force > 0 : force >= kUnheld * by_rate);
-      }
-      if (!is_held) free_rates_.push_back(i);
+      bool is_constrained = false;
+      for (Equations::SparseMatrix::InnerIterator entry(stiffness_, i); entry; ++entry)
+        is_constrained = is_constrained || (entry.row() >= nv && entry.value() != 0);
+      const double by_rate = std::abs(weight_.coeff(i, i)) * fastest;
+      const bool moves = here_.v[i] != 0 && !is_constrained;
+      if (moves && std::abs(stiffness_.coeff(i, i)) < kUnheld * by_rate) free_rates_.push_back(i);
     }
-    if (free_rates_.empty()) return;
-    // A ring that rests leaves its outer film without pressure, from where no direction leads on: the search begins at
-    // the rates that balance the torques there.
-    const State given = here_;
-    for (const Index i : free_rates_) {
-      reach_[i] = fastest;
-      here_.v[i] -= std::clamp(residual_[i] / weight_.coeff(i, i), -fastest, fastest);
-    }
-    if (assemble(here_)) return;
-    here_ = given;
-    (void)assemble(here_);
+    for (const Index i : free_rates_) reach_[i] = fastest;
   }
 
   /// Puts the derivatives by free rates in the place of those by their positions.
