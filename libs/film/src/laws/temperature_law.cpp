@@ -9,9 +9,9 @@ namespace hersey::film {
 namespace {
 
 // Constants of the standard: nu in mm^2/s.
-constexpr double shift = 0.7, mm2_s = 1e-6;
+constexpr double walther_constant = 0.7, mm2_s = 1e-6;
 
-double double_logarithm(double nu) { return std::log10(std::log10(nu / mm2_s + shift)); }
+double double_logarithm(double nu) { return std::log10(std::log10(nu / mm2_s + walther_constant)); }
 
 }  // namespace
 
@@ -32,7 +32,7 @@ ValueAndSlope WaltherViscosity::kinematic(double T) const {
   const double ln10 = std::numbers::ln10;
   const double inner = std::exp(ln10 * A - B * std::log(T)), sum = std::exp(ln10 * inner);
   const double by_inner = ln10 * sum;  // d sum/d inner
-  return {mm2_s * (sum - shift), mm2_s * by_inner * (-B / T) * inner};
+  return {mm2_s * (sum - walther_constant), mm2_s * by_inner * (-B / T) * inner};
 }
 
 ValueAndSlope WaltherViscosity::log_viscosity(double T) const {
