@@ -96,8 +96,8 @@ TEST_CASE("SmallOrbits_HaveTheClosedFormBetweenSeals") {
     const double unit = model.lubricant.mu0 * model.R * std::pow(model.L / model.c, 3);
     OperatingPoint rest;
     const DynamicCoefficients all = solved(model, rest).coefficients;
-    CHECK(all.damping(0, 0) / unit == relative(exact).epsilon(4e-3));  // of the grid's second order: 3e-3 here
-    CHECK(all.damping(1, 1) == relative(all.damping(0, 0)).epsilon(1e-6));
+    CHECK(all.damping(0, 0) / unit == relative(exact).epsilon(4e-3));       // of the grid's second order: 3e-3 here
+    CHECK(all.damping(1, 1) == relative(all.damping(0, 0)).epsilon(1e-6));  // of the film's tolerance
     CHECK(std::abs(all.stiffness(0, 0)) < kSolved * 100 * all.damping(0, 0));
     // -dF/dv of a small orbit is its damping.
     const OperatingPoint small = orbit(model, 1e-3, 100);

@@ -357,7 +357,7 @@ Group pad_figures() {
     return [member](const Solution& s, std::size_t k) { return s.pads->pads[k].*member; };
   };
   return {"pads",
-          {{"pad_load_<name>",
+          {{"pad_force_<name>",
             kNewton,
             [](const Solution& s, std::size_t k) { return s.pads->pads[k].force.norm(); },
             {.each = names}},

@@ -215,7 +215,8 @@ double unloaded_tilt(const model::Composite& composite, std::size_t k, double sp
   const film::Arcs* arcs = film::arcs_of(composite.alone->bearings[k].film);
   const model::Bearing& pad = composite.alone->bearings[k];
   const double before = composite.pivot_angles[k] - arcs->arcs.front().from;
-  return -std::copysign(0.5, speed) * pad.film.c / (pad.film.R * std::sin(std::min(before, 0.25 * two_pi)));
+  return -std::copysign(0.5, speed) * bearing::clearance(pad.film) /
+         (pad.film.R * std::sin(std::min(before, 0.25 * two_pi)));
 }
 
 /// The pad that is least loaded, of those that are free: the one farthest from the direction of the load.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hersey/model/model.h"
-#include "hersey/study/bearing_study.h"
+#include "hersey/study/bearing_solution.h"
 
 namespace hersey::study {
 

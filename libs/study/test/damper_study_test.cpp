@@ -94,7 +94,7 @@ TEST_CASE("AddedMassOfADamper_IsThatOfTheExactSmallMotion") {
                                      path + "radial_clearance=120 um", "lubricants.oil.viscosity=6 mPa.s",
                                      path + "oil_inertia=added_mass",  point + "orbit_ratio=0"};
   const auto f = figures(set);
-  CHECK(f.at("squeeze_reynolds") == relative(0.204).epsilon(1e-12));
+  CHECK(f.at("squeeze_reynolds") == relative(0.204).epsilon(1e-12));  // of the products that make it
   CHECK(f.at("damping_xx") == relative(18675.8765).epsilon(5e-3));    // of the grid, second order
   CHECK(f.at("added_mass_yy") == relative(3.8098578).epsilon(5e-3));  // the same
   CHECK(f.count("orbit_damping") == 0);

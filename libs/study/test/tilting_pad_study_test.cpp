@@ -76,7 +76,7 @@ TEST_CASE("TiltingPads_MatchAnIndependentProgram") {
   const BearingSolution rigid = at(1, "{type: rigid}");
   CHECK(rigid.warnings.empty());
   CHECK(rigid.numbers.eccentricity_ratio == doctest::Approx(0.733208).epsilon(0.003));
-  CHECK(figure(rigid, "pad_load_1") / 7853.9816 == doctest::Approx(0.95978).epsilon(0.003));
+  CHECK(figure(rigid, "pad_force_1") / 7853.9816 == doctest::Approx(0.95978).epsilon(0.003));
   CHECK(figure(rigid, "pad_h_pivot_1") == doctest::Approx(26.68e-6).epsilon(0.005));
   CHECK(figure(rigid, "arc_h_min_2") == doctest::Approx(65.66e-6).epsilon(0.005));
   const BearingSolution yielding = at(0, "{type: spring, stiffness: 7.8539816e8 N/m}");
@@ -94,7 +94,7 @@ TEST_CASE("SamePads_HaveTheSameNumbersTurnedAndMirrored") {
   for (const BearingSolution* other : {&turned, &mirrored}) {
     CHECK(other->numbers.eccentricity_ratio == doctest::Approx(one.numbers.eccentricity_ratio).epsilon(solved_for));
     CHECK(std::abs(other->numbers.attitude) == doctest::Approx(std::abs(one.numbers.attitude)).epsilon(solved_for));
-    for (const char* key : {"h_min", "p_max", "side_flow", "power_film", "pad_load_1"})
+    for (const char* key : {"h_min", "p_max", "side_flow", "power_film", "pad_force_1"})
       CHECK(figure(*other, key) == doctest::Approx(figure(one, key)).epsilon(solved_for));
     check_near(other->coefficients.K, one.coefficients.K, solved_for);
     check_near(other->coefficients.C, one.coefficients.C, solved_for);
@@ -114,19 +114,20 @@ TEST_CASE("SlowStiffness_IsTheDifferenceOfForces") {
   const Eigen::Vector2d outwards = (carried(e + step, -60) - carried(e - step, -60)) / (2 * step * c);
   const double turn = step / e / degree;
   const Eigen::Vector2d around = (carried(e, -60 + turn) - carried(e, -60 - turn)) / (2 * step * c);
-  constexpr double of_differences = 2e-4;  // of second order in the step, and of fronts that move between lines
+  constexpr double of_differences = 1e-3;  // coefficients are means over four grids, forces those of one
   CHECK((K * radial - outwards).norm() < of_differences * K.norm());
   CHECK((K * tangential - around).norm() < of_differences * K.norm());
   const BearingSolution by_load =
       solved({fmt::format("load={} N", here.numbers.load), fmt::format("a={} rad", here.numbers.load_angle), "nu=0"});
-  CHECK((by_load.state.e - here.state.e).norm() < 1e-6 * c);      // the position is found again
-  check_near(by_load.coefficients.K, here.coefficients.K, 1e-4);  // and what it has, to the search's tolerance
+  CHECK((by_load.state.e - here.state.e).norm() < 1e-6 * c);  // the position is found again
+  check_near(by_load.coefficients.K, here.coefficients.K,
+             2e-3);  // means at positions given, and of the load on each grid
 }
 
 TEST_CASE("BallOnItsSeat_YieldsAsHertzSays") {
   const BearingSolution found =
       solved({"bearings.main.pivot={type: ball_in_socket, ball_radius: 20 mm, socket_radius: 21 mm}"});
-  const double force = figure(found, "pad_load_1"), travel = figure(found, "pad_pivot_travel_1");
+  const double force = figure(found, "pad_force_1"), travel = figure(found, "pad_pivot_travel_1");
   const double modulus = 210e9 / (2 * (1 - 0.09)), radius = 0.42;  // 1/(1/20 mm - 1/21 mm)
   const double expected = std::pow(0.75 * force / (modulus * std::sqrt(radius)), 2.0 / 3);
   CHECK(travel == doctest::Approx(expected).epsilon(1e-4));  // the film's force leans from the pivot by the pad's tilt

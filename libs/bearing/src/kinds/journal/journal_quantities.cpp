@@ -54,7 +54,7 @@ std::span<const Quantity> journal_quantities() {
       {"arc_h_min_<name>", "", "m", "minimum film thickness of arc <name>"},
       {"arc_p_max_<name>", "", "Pa", "peak pressure of arc <name>"},
       {"arc_flow_in_<name>", "", "m^3/s", "flow into arc <name> over its ends"},
-      {"pad_load_<name>", "", "N", "film force on pad <name>"},
+      {"pad_force_<name>", "", "N", "film force on pad <name>"},
       {"pad_tilt_<name>", "", "rad", "tilt of pad <name>", "about an axis along the bearing, in the sense from x to y"},
       {"pad_pivot_travel_<name>", "", "m", "travel of the pivot of pad <name>", "outwards along the radius"},
       {"pad_h_pivot_<name>", "", "m", "film thickness at the pivot of pad <name>", "at mid-width"},

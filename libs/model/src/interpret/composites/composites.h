@@ -1,29 +1,12 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "hersey/model/model.h"
-#include "tree/source_tree.h"
+#include "interpret/composites/composite_parts.h"
 
 namespace hersey::model {
-
-/// A bearing of several films and bodies, taken out of a model's tree and spelt out there as parts that could have been
-/// written by hand.
-struct CompositeParts {
-  std::string name;
-  SourcePosition position;            ///< of its key
-  std::vector<std::string> pads;      ///< names of its films, which are those of its pads
-  std::vector<double> pivot_angles;   ///< of each pad, from the shell's x-axis towards y [rad]
-  double preload = 0;                 ///< of each pad [-]
-  double sense = 1;                   ///< of the journal's rotation, 1 or -1, where the pads begin
-  double whirl_ratio = 1;             ///< frequency over the journal's at which the pads follow [-]
-  std::optional<JournalPoint> point;  ///< of the bearing by itself
-  bool is_in_machine = false;         ///< false: it is described by itself only
-  Node alone;                         ///< a model of the bearing by itself, at its operating point or centred
-};
 
 /// The composites of a model and the location of their keys.
 struct Composites {

@@ -86,8 +86,8 @@ class TiltingPads {
   [[nodiscard]] bool yields() const { return pivot_.text != "rigid"; }
   [[nodiscard]] std::string pad_name(std::size_t k) const { return fmt::format("{}_pad_{}", parts_.name, k + 1); }
 
-  /// Tilt with which a pad begins [rad], theory manual eq. (pads.3): its film narrows along the sliding direction by half the clearance towards the
-  /// farther end. Flat pads may have no film to begin with.
+  /// Tilt with which a pad begins [rad], theory manual eq. (pads.3): its film narrows along the sliding direction by
+  /// half the clearance towards the farther end. Flat pads may have no film to begin with.
   [[nodiscard]] double opening() const {
     const double farther = std::max(offset_, 1 - offset_) * arc_;
     return parts_.sense * 0.5 * clearance() / ((R_ + thickness_) * std::sin(std::min(farther, 0.25 * two_pi)));

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "check/check.h"
-#include "interpret/composites/composites.h"
+#include "interpret/composites/composite_parts.h"
 
 namespace hersey::model {
 

@@ -6,66 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "hersey/bearing/bearing_numbers.h"
-#include "hersey/bearing/steady_surfaces.h"  // who shows a solution draws its surfaces
 #include "hersey/model/study.h"
+#include "hersey/study/bearing_solution.h"
 #include "hersey/study/model_reader.h"
 
 namespace hersey::study {
-
-/// Treatment of temperatures while a bearing's journal moves about its position: frozen, or following the motion.
-enum class ThermalCoefficients { frozen, total };
-
-/// One pad of a solved bearing of tilting pads.
-struct PadState {
-  std::string name;         ///< its number, "1"
-  double pivot_angle = 0;   ///< of its pivot, from the shell's x-axis towards y [rad]
-  double tilt = 0;          ///< about the axis along the bearing, in the sense from x to y [rad]
-  double pivot_travel = 0;  ///< of its pivot along the radius, outwards; 0 of a rigid one [m]
-  bool is_aside = false;    ///< nothing balances it: it is fixed at a tilt at which it carries nothing
-  double h_pivot = 0;       ///< film thickness at the pivot, at mid-width [m]
-  Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< of the film on it, bearing axes [N]
-};
-
-/// What a bearing of tilting pads has beside its film.
-struct PadBearingSolution {
-  std::vector<PadState> pads;  ///< in the order of the film's arcs
-  film::FilmFields fields;     ///< of all pads, on the grid of the solution's model
-  double whirl_ratio = 1;      ///< frequency over the journal's at which the pads follow in the coefficients
-  /// Full coefficients, with the freedoms of the pads: names of the velocity components of the bearing by itself and
-  /// the matrices over them; drives and joints allow no motion where rows and columns are zero.
-  std::vector<std::string> coordinates;
-  Eigen::MatrixXd stiffness, damping, mass;
-};
-
-/// Solution of a single bearing at one operating point, with its derived results. Unsolved, all but `run` is empty.
-struct [[nodiscard]] BearingSolution : Outcome {
-  model::StudyRun run;
-  film::FilmModel model;
-  bool expands = false;                 ///< its clearance follows the temperatures of its walls
-  std::vector<std::string> node_names;  ///< nodes of the thermal network to which its walls belong; empty if they
-                                        ///< belong to none
-  std::shared_ptr<const bearing::SteadyElasticity> elasticity;  ///< of the surfaces; null: both rigid
-  bearing::SteadySummary summary;
-  bearing::SteadyState state;
-  bearing::BearingNumbers numbers;
-  /// Coefficients of the force on the present grid, from differences of solutions nearby; `state` has their mean over
-  /// the possible positions of the grid's lines (bearing.38).
-  bearing::DynamicCoefficients tangent;
-  bearing::LoadAxesCoefficients coefficients;
-  bearing::WhirlStability whirl;
-  double whirl_speed = 0;  ///< of a damper's orbit, or angular frequency of its small motions [rad/s]
-  ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;  ///< those of `state`
-  bearing::GridError grid_error;
-  std::shared_ptr<const PadBearingSolution>
-      pads;                           ///< of a bearing of tilting pads, which are its film's arcs; else null
-  std::vector<std::string> warnings;  ///< states in which the film exceeds the range for which its oil is known
-  double wall_time = 0;               ///< grid error included [s]
-  bool from_neighbour = false;        ///< found from a neighbour's solution after a cold start had failed
-
-  /// True if its temperatures are part of the solution.
-  [[nodiscard]] bool has_temperatures() const { return state.heat || state.effective; }
-};
 
 struct BearingStudyOptions {
   std::string bearing;     ///< empty: the only one of the model
