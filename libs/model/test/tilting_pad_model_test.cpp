@@ -86,6 +86,20 @@ TEST_CASE("BearingOfPads_ReadsAsItsPartsWrittenByHand") {
   }
 }
 
+TEST_CASE("HotPads_RunInAMachineOnly") {
+  std::string hot = machine("{count: 5, arc: 60 deg}",
+                            "    thermal: {model: film, supply_temperature: 40 degC}\n"
+                            "    operating_point: {journal_speed: 3000 rpm, load: 1 kN}\n");
+  check_fault(hot, "bearings.front.thermal: temperatures of a film in a steady state of the machine");
+  hot.replace(hot.find("{analysis: steady}"), 18, "{duration: 1 s, step: 1 ms}");
+  hot.replace(hot.find("viscosity: 20 mPa.s"), 19, "grade: iso_vg_32");
+  const Model model = read_text(hot, "m.yaml");
+  REQUIRE(model.composites.size() == 1);
+  CHECK_FALSE(model.composites[0].alone);
+  REQUIRE(model.composites[0].alone_faults.size() == 1);
+  CHECK(model.composites[0].alone_faults[0].path == "bearings.front.thermal");
+}
+
 TEST_CASE("FaultsOfABearingOfPads_NameWhatTheFileSays") {
   const std::string good = "{count: 5, arc: 60 deg}";
   check_fault(machine("{count: 5, arc: 80 deg}"), "m.yaml:16:");

@@ -13,6 +13,7 @@
 #include "hersey/bearing/clearance.h"
 #include "hersey/bearing/journal_bearing.h"
 #include "hersey/core/contract.h"
+#include "hersey/core/input_error.h"
 #include "hersey/core/two_pi.h"
 #include "hersey/model/plausibility.h"
 #include "hersey/run/steady_motion.h"
@@ -312,6 +313,7 @@ void fill_state(const model::Composite& composite, const run::SteadyMotion& moti
 }  // namespace
 
 void solve_pads(const model::Composite& composite, BearingSolution& solution) {
+  if (!composite.alone) throw InputError(composite.alone_faults);
   const auto began = std::chrono::steady_clock::now();
   const auto& point = std::get<model::JournalPoint>(*composite.bearing.operating_point);
   const PadMotion found = find_motion(composite, point);

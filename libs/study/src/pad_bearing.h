@@ -9,6 +9,7 @@ namespace hersey::study {
 /// is that of all pads together, as of a bore of arcs; its coefficients are those with pads that follow at the whirl
 /// ratio of the operating point.
 /// @param solution  its `run` is set already
+/// @throws InputError where the bearing can only be in its machine
 void solve_pads(const model::Composite& composite, BearingSolution& solution);
 
 }  // namespace hersey::study

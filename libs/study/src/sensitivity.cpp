@@ -267,7 +267,7 @@ std::vector<std::string> usual_parameters(const std::string& text, const std::st
 }
 
 bool are_sensitivities_exact(const BearingSolution& solution) {
-  return bearing::SteadyDerivative::is_of_film_alone(solution.state) && !solution.elasticity;
+  return bearing::SteadyDerivative::is_of_film_alone(solution.state) && !solution.elasticity && !solution.pads;
 }
 
 std::vector<Sensitivity> sensitivities(const std::string& path, const BearingSolution& solution,

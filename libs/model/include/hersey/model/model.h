@@ -311,7 +311,8 @@ struct Composite {
   std::vector<std::string> pads;       ///< names of the bearings that are its films
   std::vector<double> pivot_angles;    ///< of each pad, from the shell's x-axis towards y [rad]
   double whirl_ratio = 1;              ///< frequency over the journal's at which its pads follow [-]
-  std::shared_ptr<const Model> alone;  ///< by itself at its operating point; never null
+  std::shared_ptr<const Model> alone;  ///< by itself at its operating point; null: it can only be in its machine
+  std::vector<Fault> alone_faults;     ///< why; empty where there is one
 };
 
 /// The joint whose driven rotation is the machine's crank angle.

@@ -82,21 +82,30 @@ namespace {
 void interpret_composites(Context& context, const Composites& composites) {
   context.model.positions.insert(composites.positions.begin(), composites.positions.end());
   for (const CompositeParts& parts : composites.parts) {
-    const std::size_t faults_before = context.faults.size();
-    auto alone = std::make_shared<Model>(read_tree(parts.alone, context.model.file, {}, context.faults));
-    if (context.faults.size() > faults_before || alone->bearings.empty()) continue;
-    if (!parts.is_in_machine)
-      context.model.warnings.insert(context.model.warnings.end(), alone->warnings.begin(), alone->warnings.end());
-    Composite composite{.bearing = alone->bearings.front(),
-                        .kind = "tilting_pad",
+    Composite composite{.kind = "tilting_pad",
                         .pads = parts.pads,
                         .pivot_angles = parts.pivot_angles,
-                        .whirl_ratio = parts.whirl_ratio,
-                        .alone = {}};
+                        .whirl_ratio = parts.whirl_ratio};
+    auto alone = std::make_shared<Model>(read_tree(parts.alone, context.model.file, {}, composite.alone_faults));
+    const auto first = std::find_if(context.model.bearings.begin(), context.model.bearings.end(),
+                                    [&](const Bearing& bearing) { return bearing.name == parts.pads.front(); });
+    if (!parts.is_in_machine) {
+      context.faults.insert(context.faults.end(), composite.alone_faults.begin(), composite.alone_faults.end());
+      context.model.warnings.insert(context.model.warnings.end(), alone->warnings.begin(), alone->warnings.end());
+    }
+    if (composite.alone_faults.empty() && !alone->bearings.empty()) {
+      composite.bearing = alone->bearings.front();
+      composite.alone = std::move(alone);
+    } else if (first != context.model.bearings.end()) {
+      composite.bearing = *first;
+    } else {
+      continue;
+    }
+    name_composites({parts}, composite.alone_faults);
+    tidy(composite.alone_faults);  // each pad has the same
     composite.bearing.name = parts.name;
     composite.bearing.position = parts.position;
     if (parts.point) composite.bearing.operating_point = *parts.point;
-    composite.alone = std::move(alone);
     context.model.composites.push_back(std::move(composite));
   }
 }
