@@ -14,6 +14,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
 import random_models  # noqa: E402
+import rotor_bearings  # noqa: E402
 
 HERSEY = os.path.abspath(sys.argv.pop(1))
 SEED = "hersey"
@@ -49,6 +50,12 @@ class RandomModels(unittest.TestCase):
 
     def test_steady_bearings_25_to_29(self):
         self.fulfil("steady", 25, 5)
+
+    def test_bearings_of_rotors(self):
+        for name in [f"{kind}-{k}" for kind in rotor_bearings.KINDS for k in range(3)]:
+            with self.subTest(name):
+                ending, text, findings, _ = rotor_bearings.examine(HERSEY, "1", name, os.path.abspath("random-models"))
+                self.assertEqual((ending, findings), ("answer", []), text)
 
     def test_machines_0_to_4(self):
         self.fulfil("machine", 0, 5)
