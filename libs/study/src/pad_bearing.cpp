@@ -261,7 +261,7 @@ model::Model starting_at(model::Model alone, const run::SteadyMotion& motion) {
 }
 
 /// The bearing with its journal held at `e` [m].
-model::Model held_at(model::Model alone, const Eigen::Vector2d& e) {
+model::Model with_journal_at(model::Model alone, const Eigen::Vector2d& e) {
   std::erase_if(alone.forces, [](const model::Force& force) { return force.name == "load"; });
   std::erase_if(alone.drives, [](const model::Drive& drive) { return drive.coordinate != "rotation"; });
   for (const auto& [axis, at] : {std::pair{"x", e.x()}, std::pair{"y", e.y()}})
@@ -313,7 +313,7 @@ run::SteadyMotion motion_held_at(const model::Model& alone, const Eigen::Vector2
   double reached = 0, step = 1;
   while (reached < 1) {
     try {
-      motion = run::find_steady_motion(held_at(from, (reached + step) * e), journal_axes(), most_iterations);
+      motion = run::find_steady_motion(with_journal_at(from, (reached + step) * e), journal_axes(), most_iterations);
       if (motion.solved() && !pads_return(motion)) motion.fail("pads that would tilt away from where they stand");
     } catch (const InputError& error) {  // pads that stand as they began touch the journal there
       motion.fail(error_text(error));
@@ -400,7 +400,7 @@ PadMotion find_motion(const model::Composite& composite, const model::JournalPoi
 solver::Linearisation mean_small_motions(const PadMotion& found) {
   constexpr int positions = 4;
   const Eigen::Vector2d e = joint_of(found.alone, found.motion, journal_joint).position.head<2>();
-  const model::Model held = held_at(starting_at(found.alone, found.motion), e);
+  const model::Model held = with_journal_at(starting_at(found.alone, found.motion), e);
   solver::Linearisation mean = found.motion.small_motions;
   int count = 1;
   for (int m = 1; m < positions; ++m) {
