@@ -31,4 +31,4 @@ def test_the_shaft_of_the_example_floats_where_its_pads_carry_it(tmp_path):
     model = hersey.Model.load(os.path.join(examples, "thrust_pads/model.yaml"))
     results = model.run(tmp_path / "pads")
     force = np.array([results[f"bearings/pad_{k}"]["force"].values[-1] for k in range(1, 7)])
-    assert force[:, 2].sum() == pytest.approx(-40e3)
+    assert force[:, 2].sum() == pytest.approx(-40e3, rel=1e-5)  # balance of the steady motion
