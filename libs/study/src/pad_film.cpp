@@ -1,0 +1,124 @@
+#include "pad_film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "hersey/core/contract.h"
+#include "hersey/core/two_pi.h"
+
+namespace hersey::study {
+namespace {
+
+/// Numbers of the pads in the order of their angles, from which each film's lines are counted on.
+std::vector<std::size_t> around(const std::vector<model::Bearing>& films) {
+  std::vector<std::size_t> order(films.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto begin = [&](std::size_t k) {
+    const double angle = films[k].film.grid.phi(0);
+    return angle - two_pi * std::floor((angle + std::numbers::pi) / two_pi);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return begin(a) < begin(b); });
+  return order;
+}
+
+void append(Eigen::VectorXd& all, const Eigen::VectorXd& more) {
+  const Eigen::Index before = all.size();
+  all.conservativeResize(before + more.size());
+  all.tail(more.size()) = more;
+}
+
+}  // namespace
+
+PadFilm::PadFilm(const std::vector<model::Bearing>& films) : films_(films), order_(around(films)) {
+  model = films.front().film;
+  model.grid = {.n_phi = 0,
+                .n_z = films.front().film.grid.n_z,
+                .angles = {},
+                .heights = films.front().film.grid.heights,
+                .patches = {}};
+  model.ends.clear();
+  film::Arcs bore;
+  for (const std::size_t k : order_) add_model(films_[k], k, bore);
+  model.profiles = {{std::move(bore), film::Surface::shell}};
+}
+
+void PadFilm::observe(const run::SteadyMotion& motion, const std::vector<double>& fixed_tilts) {
+  film.h_min = film.h_min_centre = std::numeric_limits<double>::infinity();
+  film.h_min_features = film.rupture_angle = film.reformation_angle = std::numeric_limits<double>::quiet_NaN();
+  film.laminar_share = 0;
+  film.force_pressure.setZero(), film.force_shear.setZero(), film.force_asperity.setZero();
+  for (const std::size_t k : order_) {
+    if (std::isnan(fixed_tilts[k])) add_extremes(motion.bearings[k].film);
+    add_figures(motion.bearings[k].film, films_[k].film.grid);
+    add_fields(motion.fields[k]);
+  }
+}
+
+void PadFilm::add_model(const model::Bearing& pad, std::size_t number, film::Arcs& bore) {
+  film::Grid& grid = model.grid;
+  const film::Grid& own = pad.film.grid;
+  grid.patches.push_back(grid.n_phi);
+  const double last = grid.angles.empty() ? -std::numbers::pi : grid.angles.back();
+  const double shift = two_pi * std::ceil((last - own.phi(0)) / two_pi);
+  for (int i = 0; i < own.n_phi; ++i) grid.angles.push_back(own.phi(i) + shift);
+  grid.n_phi += own.n_phi;
+  model.ends.push_back(pad.film.ends.front());
+  const film::Arcs* arcs = film::arcs_of(pad.film);
+  HERSEY_REQUIRE(arcs != nullptr, "a pad's film lies on an arc");
+  bore.arcs.push_back(arcs->arcs.front());
+  bore.arcs.back().name = fmt::format("{}", number + 1);
+  bore.arcs.back().from += shift, bore.arcs.back().to += shift;
+}
+
+void PadFilm::add_extremes(const film::FilmObservables& pad) {
+  if (pad.h_min < film.h_min) film.h_min = pad.h_min, film.h_min_phi = pad.h_min_phi, film.h_min_z = pad.h_min_z;
+  film.h_min_centre = std::min(film.h_min_centre, pad.h_min_centre);
+  if (pad.p_max > film.p_max) film.p_max = pad.p_max, film.p_max_phi = pad.p_max_phi, film.p_max_z = pad.p_max_z;
+  film.p_max_node = std::max(film.p_max_node, pad.p_max_node);
+}
+
+void PadFilm::add_figures(const film::FilmObservables& pad, const film::Grid& grid) {
+  film.wrench_on_shell += pad.wrench_on_shell;
+  append(film.normal_forces, pad.normal_forces);
+  film.force_pressure += pad.force_pressure, film.force_shear += pad.force_shear;
+  film.force_asperity += pad.force_asperity;
+  film.sliding_speed = pad.sliding_speed;
+  for (const auto sum :
+       {&film::FilmObservables::torque_journal, &film::FilmObservables::torque_shell,
+        &film::FilmObservables::power_film, &film::FilmObservables::torque_journal_other_shear,
+        &film::FilmObservables::power_film_other_shear, &film::FilmObservables::power_asperity,
+        &film::FilmObservables::power_stored, &film::FilmObservables::power_oil, &film::FilmObservables::flow_left,
+        &film::FilmObservables::flow_right, &film::FilmObservables::flow_first, &film::FilmObservables::flow_last,
+        &film::FilmObservables::flow_supply, &film::FilmObservables::storage_rate, &film::FilmObservables::oil_volume})
+    film.*sum += pad.*sum;
+  film.patches.push_back(pad.patches.front());
+  film.mass_balance_error = std::max(film.mass_balance_error, pad.mass_balance_error);
+  film.reynolds_max = std::max(film.reynolds_max, pad.reynolds_max);
+  film.taylor_max = std::max(film.taylor_max, pad.taylor_max);
+  const double part = (grid.phi(grid.n_phi - 1) - grid.phi(0)) / angle_of_pads();
+  film.laminar_share += part * pad.laminar_share, film.transition_share += part * pad.transition_share;
+  film.turbulent_share += part * pad.turbulent_share;
+  film.cavitated_share += part * pad.cavitated_share;
+}
+
+void PadFilm::add_fields(const film::FilmFields& pad) {
+  for (const auto field :
+       {&film::FilmFields::p, &film::FilmFields::theta, &film::FilmFields::density, &film::FilmFields::h,
+        &film::FilmFields::depth, &film::FilmFields::w, &film::FilmFields::p_asperity, &film::FilmFields::reynolds,
+        &film::FilmFields::T, &film::FilmFields::T_shell, &film::FilmFields::T_journal, &film::FilmFields::T_hottest})
+    append(fields.*field, pad.*field);
+}
+
+double PadFilm::angle_of_pads() const {
+  double sum = 0;
+  for (const model::Bearing& pad : films_) sum += pad.film.grid.phi(pad.film.grid.n_phi - 1) - pad.film.grid.phi(0);
+  return sum;
+}
+
+}  // namespace hersey::study

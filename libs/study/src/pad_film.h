@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "hersey/model/model.h"
+#include "hersey/run/steady_motion.h"
+
+namespace hersey::study {
+
+/// Film of all pads of a bearing together, as that of a bore of arcs: one grid of patches, one set of figures and
+/// fields.
+class PadFilm {
+ public:
+  /// @param films  of the pads, each on one arc; they outlive this
+  explicit PadFilm(const std::vector<model::Bearing>& films);
+
+  /// Adds up what the pads' films show.
+  /// @param fixed_tilts  of pads that stand aside, whose thickness and pressure are not those of the bearing; not a
+  /// number of all others
+  void observe(const run::SteadyMotion& motion, const std::vector<double>& fixed_tilts);
+
+  /// Numbers of the pads in the order of the arcs.
+  [[nodiscard]] const std::vector<std::size_t>& order() const { return order_; }
+
+  film::FilmModel model;
+  film::FilmObservables film;
+  film::FilmFields fields;
+
+ private:
+  void add_model(const model::Bearing& pad, std::size_t number, film::Arcs& bore);
+  void add_extremes(const film::FilmObservables& pad);
+  void add_figures(const film::FilmObservables& pad, const film::Grid& grid);
+  void add_fields(const film::FilmFields& pad);
+  [[nodiscard]] double angle_of_pads() const;
+
+  const std::vector<model::Bearing>& films_;
+  std::vector<std::size_t> order_;
+};
+
+}  // namespace hersey::study
