@@ -117,7 +117,8 @@ class TiltingPads {
                                           : 0;
     if (machined != nullptr && preload != nullptr)
       fault(*machined, "both 'machined_clearance' and 'preload'", "one of them");
-    if (parts_.preload >= 1) fault(*preload, "a preload of 1 or more", "less than 1, such as 0.5");
+    if (preload != nullptr && parts_.preload >= 1)
+      fault(*preload, "a preload of 1 or more", "less than 1, such as 0.5");
   }
 
   void check_pads() {
