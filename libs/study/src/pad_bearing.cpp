@@ -28,13 +28,15 @@ PadState pad_state(const model::Composite& composite, std::size_t k, const PadMo
   // The gap is smooth over a pad: the film at the pivot lies between two lines.
   const film::Grid& grid = alone.bearings[k].film.grid;
   const Eigen::VectorXd& h = motion.fields[k].h;
-  const int row = grid.n_z / 2;
+  const auto middle = [&](int line) {
+    return 0.5 * (h[grid.index(line, (grid.n_z - 1) / 2)] + h[grid.index(line, grid.n_z / 2)]);
+  };
   double angle = pad.pivot_angle - grid.phi(0);
   angle -= two_pi * std::floor(angle / two_pi);
   int i = 0;
   while (i + 2 < grid.n_phi && grid.phi(i + 1) - grid.phi(0) < angle) ++i;
   const double step = grid.phi(i + 1) - grid.phi(i), part = (angle - (grid.phi(i) - grid.phi(0))) / step;
-  pad.h_pivot = (1 - part) * h[grid.index(i, row)] + part * h[grid.index(i + 1, row)];
+  pad.h_pivot = (1 - part) * middle(i) + part * middle(i + 1);
   return pad;
 }
 

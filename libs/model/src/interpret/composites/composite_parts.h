@@ -16,7 +16,7 @@ struct CompositeParts {
   SourcePosition position;            ///< of its key
   std::vector<std::string> pads;      ///< names of its films, which are those of its pads
   std::vector<double> pivot_angles;   ///< of each pad, from the shell's x-axis towards y [rad]
-  double preload = 0;                 ///< of each pad [-]
+  double clearance = 0;               ///< assembled, radial [m]
   double sense = 1;                   ///< of the journal's rotation, 1 or -1, where the pads begin
   double whirl_ratio = 1;             ///< frequency over the journal's at which the pads follow [-]
   std::optional<JournalPoint> point;  ///< of the bearing by itself

@@ -83,7 +83,7 @@ std::optional<JournalPoint> point_of(const Value& bearing, double& whirl_ratio, 
 }
 
 /// A model with a journal that rotates at its speed, loaded or where it is said to be, and nothing else beside `parts`.
-Node alone_in(const Node& root, Node parts, const CompositeParts& composite, double clearance) {
+Node alone_in(const Node& root, Node parts, const CompositeParts& composite) {
   const JournalPoint point = composite.point.value_or(JournalPoint{.eccentricity_ratio = 0});
   std::string text = fmt::format(
       "hersey: 1\nbodies:\n  journal: {{mass: 1 kg, inertia: {{xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}}}}\n"
@@ -94,7 +94,7 @@ Node alone_in(const Node& root, Node parts, const CompositeParts& composite, dou
     text += fmt::format("forces:\n  load: {{type: force, body: journal, components: [{} N, {} N, 0 N]}}\n",
                         *point.load * std::cos(point.load_angle), *point.load * std::sin(point.load_angle));
   } else {
-    const double e = *point.eccentricity_ratio * clearance;
+    const double e = *point.eccentricity_ratio * composite.clearance;
     for (const auto& [axis, at] : {std::pair{'x', e * std::cos(point.eccentricity_angle)},
                                    std::pair{'y', e * std::sin(point.eccentricity_angle)}})
       text += fmt::format("  {0}: {{joint: journal, coordinate: {0}, position: {1} m}}\n", axis, at);
@@ -142,9 +142,7 @@ std::optional<Node> expand(const Node& root, const Entry& bearing, Composites& c
   if (parts.point && parts.point->journal_speed < 0) parts.sense = -1;
   std::optional<Node> own = tilting_pads(bearing.value, value, "ground", "journal", parts, faults);
   if (!own || faults.size() > faults_before) return std::nullopt;
-  const double clearance = value.find("diametral_clearance") != nullptr ? number_of(value, "diametral_clearance") / 2
-                                                                        : number_of(value, "radial_clearance");
-  parts.alone = alone_in(root, std::move(*own), parts, clearance);
+  parts.alone = alone_in(root, std::move(*own), parts);
   std::optional<Node> in_machine;
   if (!shell.empty()) {
     CompositeParts again{.name = parts.name, .position = parts.position, .sense = sense_of(root, journal), .alone = {}};

@@ -63,6 +63,8 @@ class TiltingPads {
   std::optional<Node> expand() {
     const std::size_t faults_before = faults_.size();
     R_ = number_of(value_, "diameter") / 2;
+    parts_.clearance = value_.find("diametral_clearance") != nullptr ? number_of(value_, "diametral_clearance") / 2
+                                                                     : number_of(value_, "radial_clearance");
     arc_ = number_of(pads_, "arc");
     offset_ = number_of(pads_, "offset");
     thickness_ = pads_.find("thickness") != nullptr ? number_of(pads_, "thickness") : 0.4 * R_;
@@ -90,12 +92,7 @@ class TiltingPads {
   /// half the clearance towards the farther end. Flat pads may have no film to begin with.
   [[nodiscard]] double opening() const {
     const double farther = std::max(offset_, 1 - offset_) * arc_;
-    return parts_.sense * 0.5 * clearance() / ((R_ + thickness_) * std::sin(std::min(farther, 0.25 * two_pi)));
-  }
-
-  [[nodiscard]] double clearance() const {
-    return value_.find("diametral_clearance") != nullptr ? number_of(value_, "diametral_clearance") / 2
-                                                         : number_of(value_, "radial_clearance");
+    return parts_.sense * 0.5 * parts_.clearance / ((R_ + thickness_) * std::sin(std::min(farther, 0.25 * two_pi)));
   }
 
   void find_pivots() {
@@ -112,13 +109,10 @@ class TiltingPads {
 
   void read_preload() {
     const Value *machined = pads_.find("machined_clearance"), *preload = pads_.find("preload");
-    parts_.preload = machined != nullptr  ? 1 - clearance() / machined->number
-                     : preload != nullptr ? preload->number
-                                          : 0;
+    preload_ = machined != nullptr ? 1 - parts_.clearance / machined->number : preload != nullptr ? preload->number : 0;
     if (machined != nullptr && preload != nullptr)
       fault(*machined, "both 'machined_clearance' and 'preload'", "one of them");
-    if (preload != nullptr && parts_.preload >= 1)
-      fault(*preload, "a preload of 1 or more", "less than 1, such as 0.5");
+    if (preload != nullptr && preload_ >= 1) fault(*preload, "a preload of 1 or more", "less than 1, such as 0.5");
   }
 
   void check_pads() {
@@ -170,7 +164,7 @@ class TiltingPads {
           "transition_speed: {2} rad/s}}\n",
           pad, torque, creep);
     }
-    const std::string preload = fmt::format("preload: {}", parts_.preload);
+    const std::string preload = fmt::format("preload: {}", preload_);
     bearings_ += fmt::format("  {0}:\n    shell: {0}.face\n    journal: {1}\n", pad, journal_);
     bearings_ += fmt::format("    arcs: {{pad: {{middle: {} rad, arc: {} rad, {}, offset: {}}}}}\n",
                              angle + (0.5 - offset_) * arc_, arc_, preload, offset_);
@@ -273,7 +267,7 @@ class TiltingPads {
   std::string shell_, journal_;
   CompositeParts& parts_;
   std::vector<Fault>& faults_;
-  double R_ = 0, arc_ = 0, offset_ = 0, thickness_ = 0;
+  double R_ = 0, arc_ = 0, offset_ = 0, thickness_ = 0, preload_ = 0;
   PadInertia inertia_;
   std::string bodies_, carrier_frames_, joints_, forces_, bearings_;
 };
