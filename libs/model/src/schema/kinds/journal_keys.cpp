@@ -4,6 +4,7 @@
 #include "schema/bearing_keys.h"
 #include "schema/film_vocabulary.h"
 #include "schema/kinds/arc_keys.h"
+#include "schema/thermal_walls.h"
 
 namespace hersey::model {
 namespace {
