@@ -65,6 +65,7 @@ film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
 film::FilmSolveSummary FilmElement::solve_steady(const film::SurfaceMotion& surfaces) {
   history_.dt = 0;
   history_.phi_journal = surfaces.phi_journal;
+  if (heat_) history_.viscosity = heat_->viscosity();
   has_started_ = false;
   return film::solve_film(reynolds_, surfaces, history_, options_.solve, u_);
 }

@@ -32,7 +32,7 @@ class FilmElement {
   /// Solves the film of a freshly filled gap at the start of a run, a compliant liner in static equilibrium with it. On
   /// failure the summary gives the reason, and the node where the film leaves its domain.
   [[nodiscard]] film::FilmSolveSummary start(const film::SurfaceMotion& surfaces);
-  /// Solves the steady film of the surfaces' present motion, starting from the last film.
+  /// Solves the steady film of the surfaces' present motion at the present temperatures, starting from the last film.
   [[nodiscard]] film::FilmSolveSummary solve_steady(const film::SurfaceMotion& surfaces);
   /// Starts a step of length dt from the film accepted last.
   void begin_step(double dt);

@@ -13,6 +13,7 @@
 #include "gap/deforming_surfaces.h"
 #include "gap/hot_clearance.h"
 #include "gap/oil_temperatures.h"
+#include "heat/film_temperatures.h"
 #include "hersey/bearing/clearance.h"
 #include "hersey/core/contract.h"
 
@@ -259,6 +260,27 @@ void FilmForce::move_walls(const Eigen::VectorXd& T) {
   film_->heat()->move_walls(T);
   film_->update_viscosity();
   thermal_->change_target();
+}
+
+Eigen::VectorXd FilmForce::temperatures() const {
+  HERSEY_REQUIRE(heat() != nullptr, "a film with temperatures");
+  return film_temperatures(*heat());
+}
+
+void FilmForce::set_temperatures(const Eigen::VectorXd& x) {
+  HERSEY_REQUIRE(film_->heat() != nullptr, "a film with temperatures");
+  set_film_temperatures(x, *film_->heat());
+}
+
+void FilmForce::guess_temperatures() {
+  HERSEY_REQUIRE(film_->heat() != nullptr, "a film with temperatures");
+  film::FilmHeat& heat = *film_->heat();
+  heat.set_state(film::first_guess(model(), heat.thermal(), heat.thermal().T_supply, heat.state()));
+}
+
+void FilmForce::set_ends(std::vector<film::EndOil> ends) {
+  HERSEY_REQUIRE(film_->heat() != nullptr, "a film with temperatures");
+  film_->heat()->set_ends(std::move(ends));
 }
 
 std::string FilmForce::thermal_failure(double closed) const {

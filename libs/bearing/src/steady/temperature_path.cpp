@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gap/oil_temperatures.h"
+#include "heat/film_temperatures.h"
 #include "kinds/journal/short_bearing.h"
 
 namespace hersey::bearing {
@@ -32,9 +33,6 @@ constexpr double kSlowRelaxation = 0.3;
 constexpr double kAway = 10;
 
 constexpr int kMostStepsBack = 12;
-
-// Of a change of the logarithm of viscosity by shear, the rise of temperature that changes it as much [K].
-constexpr double kHeatOfShear = 30;
 
 }  // namespace
 
@@ -79,9 +77,9 @@ void TemperaturePath::fill(double T_oil) {
 
 Eigen::VectorXd TemperaturePath::unknowns(double growth) const {
   const film::HeatState& now = heat_.state();
-  Eigen::VectorXd x(now.film.size() + now.thinning.size() + shape_unknowns() + journal_unknowns() + growth_unknowns());
-  x << now.film.array() - thermal_.T_supply, kHeatOfShear * now.thinning.array().log(),
-      per_watt_ * now.wall_heat.head(shape_unknowns()),
+  const Eigen::VectorXd film = film_temperatures(heat_);
+  Eigen::VectorXd x(film.size() + shape_unknowns() + journal_unknowns() + growth_unknowns());
+  x << film, per_watt_ * now.wall_heat.head(shape_unknowns()),
       Eigen::VectorXd::Constant(journal_unknowns(), journal_per_watt_ * now.journal_heat),
       Eigen::VectorXd::Constant(growth_unknowns(), per_metre_ * growth);
   return x;
@@ -92,12 +90,11 @@ Eigen::Index TemperaturePath::shape_unknowns() const { return per_watt_ > 0 ? he
 Eigen::Index TemperaturePath::growth_unknowns() const { return per_metre_ > 0 ? 1 : 0; }
 
 void TemperaturePath::try_next(const Eigen::VectorXd& x) {
+  const Eigen::Index film = x.size() - shape_unknowns() - journal_unknowns() - growth_unknowns();
+  set_film_temperatures(x.head(film), heat_);
   film::HeatState next = heat_.state();
-  const Eigen::Index film = next.film.size(), thinning = next.thinning.size();
-  next.film = x.head(film).array() + thermal_.T_supply;
-  next.thinning = (x.segment(film, thinning) / kHeatOfShear).array().exp();
-  if (per_watt_ > 0) next.wall_heat = x.segment(film + thinning, shape_unknowns()) / per_watt_;
-  if (journal_per_watt_ > 0) next.journal_heat = x[film + thinning + shape_unknowns()] / journal_per_watt_;
+  if (per_watt_ > 0) next.wall_heat = x.segment(film, shape_unknowns()) / per_watt_;
+  if (journal_per_watt_ > 0) next.journal_heat = x[film + shape_unknowns()] / journal_per_watt_;
   try_next(std::move(next), per_metre_ > 0 ? x[x.size() - 1] / per_metre_ : 0);
 }
 
@@ -105,16 +102,19 @@ void TemperaturePath::begin_at(const TemperaturePath& other, const film::GridTra
   T_oil_.reset();
   film::HeatState state = heat_.state();
   state.film = transfer(other.heat_.state().film, thermal_.layers);
-  const Eigen::Index film = state.film.size(), thinning = state.thinning.size();
-  const Eigen::Index film_there = other.heat_.state().film.size(), thinning_there = other.heat_.state().thinning.size();
+  state.ends = other.heat_.state().ends;
+  const auto ends = static_cast<Eigen::Index>(state.ends.size());
+  const Eigen::Index film = layer_temperatures(heat_), thinning = shear_temperatures(heat_);
+  const Eigen::Index film_there = layer_temperatures(other.heat_), thinning_there = shear_temperatures(other.heat_);
   try_next(std::move(state), growth_);
   mixing_.learn_from(other.mixing_, [&](const Eigen::VectorXd& x) {
-    Eigen::VectorXd here(film + thinning);
+    Eigen::VectorXd here(film + thinning + ends);
     here.head(film) = transfer(x.head(film_there), thermal_.layers);
+    here.tail(ends) = x.tail(ends);
     if (thinning == 0) return here;
     // Of the layers' viscosities, then of each node's two factors of flow.
     here.segment(film, film) = transfer(x.segment(film_there, film_there), thermal_.layers);
-    here.tail(thinning - film) = transfer(x.tail(thinning_there - film_there), 2);
+    here.segment(2 * film, thinning - film) = transfer(x.segment(2 * film_there, thinning_there - film_there), 2);
     return here;
   });
 }

@@ -320,6 +320,13 @@ double FlowBalance::outflow_of_row(int node) const {
 
 double FlowBalance::outflow(int node) const { return outflow_of_row(node) + over_land(node); }
 
+double FlowBalance::end_fraction(int node) const {
+  if (edges_[node].of_patch) return 1;
+  if (!edges_[node].is_corner) return 0;
+  const double over_both = outflow(node);
+  return over_both == 0 ? 0 : std::clamp(flow_along_side(node) / over_both, 0.0, 1.0);
+}
+
 double FlowBalance::acting_outflow(int node) const {
   if (cavitation_.bears_tension()) return outflow(node);
   if (is_on_leaking_edge(node)) return seal_flow_at(node, std::max(nodes_[node].p, 0.0)) + over_land(node);

@@ -189,6 +189,8 @@ class FlowBalance {
     flow_over_edge(flows, node) += flow - along;
   }
   [[nodiscard]] double outflow(int node) const;  ///< oil leaving over the edge at this node [m^3/s]
+  /// Fraction of outflow() that passes the end of a patch on which the node lies; the rest passes a side.
+  [[nodiscard]] double end_fraction(int node) const;
   /// Outflow by the pressure that acts: in a film that bears tension it leaves out the inflow that tension draws
   /// (film.55) [m^3/s].
   [[nodiscard]] double acting_outflow(int node) const;

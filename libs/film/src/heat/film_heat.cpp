@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -33,14 +35,14 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
                  "heat made in each layer of each node or none");
   for (const SurfaceMaterial& surface : {thermal.shell_surface, thermal.journal_surface})
     HERSEY_REQUIRE(surface.conductivity > 0 && surface.heat_capacity > 0, "surfaces that conduct and hold heat");
-  const bool is_bore = std::holds_alternative<Cylinder>(model.surface) && model.grid.closes();
-  HERSEY_REQUIRE(is_bore || !has_own_temperatures(thermal.shell), "a ring or a body around the film");
+  const bool is_cylinder = std::holds_alternative<Cylinder>(model.surface);
+  HERSEY_REQUIRE(is_cylinder || !has_own_temperatures(thermal.shell), "a ring or a body around the film");
   if (const auto* ring = std::get_if<RingWall>(&thermal.shell)) {
     HERSEY_REQUIRE(ring->outer_radius > model.R && ring->conductivity > 0 && ring->heat_capacity > 0,
                    "a ring around the film that conducts and holds heat");
   }
   if (const auto* body = std::get_if<BodyWall>(&thermal.shell)) {
-    HERSEY_REQUIRE(body->conduction != nullptr, "a body that conducts");
+    HERSEY_REQUIRE(body->conduction != nullptr && model.grid.closes(), "a body that conducts, around a full bore");
     const WallConduction& wall = *body->conduction;
     const Eigen::Index n = model.grid.n_phi;
     HERSEY_REQUIRE(wall.T0.size() == n && wall.rise.rows() == n && wall.rise.cols() == n, "conduction at these angles");
@@ -152,6 +154,8 @@ HeatState FilmHeat::Impl::start() const {
   if (const auto* shell = std::get_if<NodeWall>(&thermal.shell)) first.shell.setConstant(grid.n_phi, shell->T);
   first.outside = outside_at_start(thermal);
   first.supplies.resize(equations.supplies());
+  const double at_edges = thermal.oil.edges ? thermal.oil.edges->T : thermal.T_edges;
+  first.ends.assign(2 * grid.patches.size(), {.T = at_edges});
   for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k, first.outside);
   if (shears_layers()) first.thinning.setOnes(first.film.size() + 2 * grid.size());
   return first;
@@ -237,7 +241,8 @@ void FilmHeat::set_state(const HeatState& state) {
   const HeatState& now = impl_->state;
   HERSEY_REQUIRE(state.film.size() == now.film.size() && state.shell.size() == now.shell.size() &&
                      state.wall_heat.size() == now.wall_heat.size() && state.supplies.size() == now.supplies.size() &&
-                     state.outside.size() == now.outside.size() && state.thinning.size() == now.thinning.size(),
+                     state.outside.size() == now.outside.size() && state.thinning.size() == now.thinning.size() &&
+                     state.ends.size() == now.ends.size(),
                  "temperatures of this film");
   impl_->state = state;
   impl_->average_walls();
@@ -318,6 +323,7 @@ void FilmHeat::advance(const SurfaceMotion& motion, const FilmHistory& history, 
   if (m.shears_layers()) m.thin();
   m.end_of_step = m.state;
   m.is_observed = false;
+  if (m.thermal.has_grooves) m.state.ends = m.equations.mixed_in_grooves(m.carrying(), m.state);
   if (terminals_of(m.thermal).has_any() && !(m.has_fixed_walls() && m.dt > 0)) m.find_heat_flow();
 }
 
@@ -377,6 +383,15 @@ void FilmHeat::move_walls(const Eigen::VectorXd& T) {
   m.heat_flow.T = T;
   m.end_of_step = m.state;
   m.is_observed = false;
+}
+
+std::vector<EndFlow> FilmHeat::end_flows() const {
+  return impl_->equations.end_flows(impl_->carrying(), impl_->end_of_step);
+}
+
+void FilmHeat::set_ends(std::vector<EndOil> ends) {
+  HERSEY_REQUIRE(ends.size() == impl_->state.ends.size(), "oil at each end of each patch");
+  impl_->state.ends = std::move(ends);
 }
 
 double FilmHeat::thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
@@ -501,6 +516,11 @@ void FilmHeat::persist(Archive& archive) {
   archive.io("T_supplies", impl_->state.supplies);
   if (impl_->state.outside.size() > 0) archive.io("T_outside", impl_->state.outside);
   if (impl_->shears_layers()) archive.io("thinning", impl_->state.thinning);
+  for (std::size_t k = 0; k < impl_->state.ends.size(); ++k) {
+    EndOil& end = impl_->state.ends[k];
+    const Archive::Group group(archive, "end_" + std::to_string(k));
+    archive.io("T", end.T), archive.io("carried", end.carried), archive.io("passed_on", end.passed_on);
+  }
   if (!impl_->has_fixed_walls()) return;
   impl_->equations.mean().persist(archive);
   impl_->fixed_walls.persist(archive);

@@ -42,7 +42,8 @@ std::vector<double> HeatEquations::fresh_fractions(const CarryingFilm& film) con
 
 // Mean coupling of the film with the nodes that are no walls: fresh oil comes at a node's temperature, and oil that
 // leaves the film does so at its own.
-OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std::vector<double>& fresh) const {
+OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const HeatState& start,
+                                             const std::vector<double>& fresh) const {
   const Eigen::Index n = at_.outside(), rows = system_.size();
   OutsideOfMean mean{Eigen::MatrixXd::Zero(rows, n), Eigen::MatrixXd::Zero(n, rows), Eigen::VectorXd::Zero(n)};
   const auto take = [&mean](Eigen::Index terminal, int row, double rate) {
@@ -59,13 +60,15 @@ OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const std
     const int supply = is_supplied ? film.balance.supplied_by(node) + (has_line() ? 1 : 0) : -1;
     const double fraction = is_supplied ? fresh[static_cast<std::size_t>(supply)] * std::max(given, 0.0) : 0;
     const double replaced = is_supplied ? (1 - thermal_.carry_over) * film.balance.supplied_fraction(node) : 0;
+    const double drawn = out < 0 ? -out * fresh_fraction(film, start, node) : 0;
+    const double lost = out > 0 ? out * lost_fraction(film, start, node) : 0;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
-      if (edges >= 0 && out < 0) mean.by(row, edges) -= rc_ * out * width(l);
+      if (edges >= 0) mean.by(row, edges) += rc_ * drawn * width(l);
       if (const Eigen::Index oil = is_supplied ? oil_of(supply) : -1; oil >= 0)
         mean.by(row, oil) += rc_ * (fraction * width(l) + replaced * inflow_[row]);
       if (drain < 0) continue;
-      if (out > 0) take(drain, row, rc_ * out * film.flows.leaving_fraction(node, l));
+      if (lost > 0) take(drain, row, rc_ * lost * film.flows.leaving_fraction(node, l));
       if (is_supplied && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_fraction(node, l));
       if (is_supplied) take(drain, row, rc_ * replaced * inflow_[row]);
     }
@@ -104,7 +107,7 @@ void HeatEquations::add_equations_to_mean(const CarryingFilm& film, const HeatSt
                                 .to_shell = into_shell,
                                 .to_journal = into_journal,
                                 .capacity = film.dt * storage_,
-                                .outside = at_.outside() > 0 ? outside_of_mean(film, fresh) : OutsideOfMean{}});
+                                .outside = at_.outside() > 0 ? outside_of_mean(film, start, fresh) : OutsideOfMean{}});
 }
 
 void HeatEquations::fix_journal(double T) {

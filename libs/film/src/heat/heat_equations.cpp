@@ -28,6 +28,9 @@ HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal
              .outside = at_.outside(),
              .body = conduction_of(thermal.shell),
              .journal_body = conduction_of(thermal.journal)}) {
+  end_of_line_.assign(static_cast<std::size_t>(model.grid.n_phi), -1);
+  for (int i = 0; !model.grid.closes() && i < model.grid.n_phi; ++i)
+    if (model.grid.is_end(i)) end_of_line_[i] = 2 * model.grid.patch_of(i) + (model.grid.begins_patch(i) ? 0 : 1);
   if (const auto* ring = std::get_if<RingWall>(&thermal_.shell))
     ring_ = conductances(model_, GridGeometry(model_), *ring);
 }
@@ -181,7 +184,7 @@ HeatBalance HeatEquations::balance(const CarryingFilm& film, const HeatState& st
       sum.power += film.flows.dissipation(node, l);
       sum.source += made(film, node, l);
       sum.to_oil += rc_ * (out > 0 ? out * film.flows.leaving_fraction(node, l) * T
-                                   : out * width(l) * (at_edges(end.outside) - T0));
+                                   : out * width(l) * (coming(film, end, node) - T0));
       sum.to_oil += rc_ * film.flows.lost(node) * width(l) * T;
       if (film.dt == 0) {
         sum.stored += rc_ * film.balance.storage(node) * width(l) * T;

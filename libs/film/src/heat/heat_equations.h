@@ -63,6 +63,10 @@ class HeatEquations {
 
   /// Temperature of the oil supplied, before it mixes with the oil in the groove [K]. @param outside  of HeatState
   [[nodiscard]] double fresh(int supply, const Eigen::VectorXd& outside) const;
+  /// Returns the flows over the ends of all patches, at these temperatures.
+  [[nodiscard]] std::vector<EndFlow> end_flows(const CarryingFilm& film, const HeatState& state) const;
+  /// Returns the oil at these ends as grooves between them mix it (theory manual, thermal.68).
+  [[nodiscard]] std::vector<EndOil> mixed_in_grooves(const CarryingFilm& film, const HeatState& state) const;
   [[nodiscard]] int supplies() const { return static_cast<int>(model_.features.size()) + (has_line() ? 1 : 0); }
 
  private:
@@ -108,9 +112,17 @@ class HeatEquations {
   /// Index of the node from which a supply, or edges, draw oil, among the nodes that are no walls; -1: none.
   [[nodiscard]] Eigen::Index oil_of(int supply) const;
   [[nodiscard]] double at_edges(const Eigen::VectorXd& outside) const;
+  /// Oil at the end of a patch on which a node lies; null: it lies on none.
+  [[nodiscard]] const EndOil* end_oil(const HeatState& state, int node) const;
+  /// Temperature of the oil that comes in over the edge at a node [K].
+  [[nodiscard]] double coming(const CarryingFilm& film, const HeatState& state, int node) const;
+  /// Of the oil that comes in over the edge at a node, the fraction that is at_edges().
+  [[nodiscard]] double fresh_fraction(const CarryingFilm& film, const HeatState& state, int node) const;
+  /// Of the oil that leaves over the edge at a node, the fraction that no film draws in again.
+  [[nodiscard]] double lost_fraction(const CarryingFilm& film, const HeatState& state, int node) const;
   [[nodiscard]] double at_ring(const Eigen::VectorXd& outside) const;
   /// Rows of layers and supplies whose oil leaves the film for good, with its heat per kelvin [W/K].
-  [[nodiscard]] std::vector<std::pair<int, double>> drained(const CarryingFilm& film) const;
+  [[nodiscard]] std::vector<std::pair<int, double>> drained(const CarryingFilm& film, const HeatState& state) const;
 
   void assemble(const CarryingFilm& film, const HeatState& start);
   void add_storage(const CarryingFilm& film, const HeatState& start);
@@ -128,7 +140,7 @@ class HeatEquations {
   void add_flow(const Upstream& way, int layer, double q);
   [[nodiscard]] HeatSystem::Side side_of(int from, int to) const;
   void add_flow_upwards(const CarryingFilm& film);
-  void add_edges(const CarryingFilm& film);
+  void add_edges(const CarryingFilm& film, const HeatState& start);
   void add_conduction(const CarryingFilm& film);
   void add_shell(const CarryingFilm& film, const HeatState& start);
   void add_ring(const CarryingFilm& film, const HeatState& start);
@@ -149,7 +161,8 @@ class HeatEquations {
   void fix_journal(double T);
   [[nodiscard]] std::vector<double> fresh_fractions(const CarryingFilm& film) const;
   void add_equations_to_mean(const CarryingFilm& film, const HeatState& start);
-  [[nodiscard]] OutsideOfMean outside_of_mean(const CarryingFilm& film, const std::vector<double>& fresh) const;
+  [[nodiscard]] OutsideOfMean outside_of_mean(const CarryingFilm& film, const HeatState& start,
+                                              const std::vector<double>& fresh) const;
   void add_heat_to_mean(const CarryingFilm& film, const HeatState& start, const HeatState& end);
   /// Computes y = A x, x = [layers; ring; journal; supplies].
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
@@ -170,8 +183,9 @@ class HeatEquations {
   const ThermalModel thermal_;
   const FilmTerminals at_;
   const Layering& across_;
-  double rc_ = 0;                ///< heat capacity of the oil per volume [J/(m^3 K)]
-  double heat_partition_ = 0.5;  ///< shell's fraction of the heat that asperities generate [-]
+  std::vector<Eigen::Index> end_of_line_;  ///< index of the end of a patch that each line is, -1 for none
+  double rc_ = 0;                          ///< heat capacity of the oil per volume [J/(m^3 K)]
+  double heat_partition_ = 0.5;            ///< shell's fraction of the heat that asperities generate [-]
   RingConductances ring_;
   HeatSystem system_;
   Eigen::VectorXd known_;       ///< right-hand sides of all rows [W]

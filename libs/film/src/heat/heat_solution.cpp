@@ -126,12 +126,13 @@ HeatState HeatEquations::response_to_outside(Eigen::Index terminal) {
 }
 
 // Oil leaves over the edges, into a supply that removes it, or to be replaced by a supply.
-std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& film) const {
+std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& film, const HeatState& state) const {
   std::vector<std::pair<int, double>> oil;
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double out = film.balance.outflow(node);
-    for (int l = 0; l < layers() && out > 0; ++l)
-      oil.emplace_back(system_.row(node, l), rc_ * out * film.flows.leaving_fraction(node, l));
+    const double lost = out > 0 ? rc_ * out * lost_fraction(film, state, node) : 0;
+    for (int l = 0; l < layers() && lost > 0; ++l)
+      oil.emplace_back(system_.row(node, l), lost * film.flows.leaving_fraction(node, l));
   }
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
   for (const SuppliedNode& supplied : supplied_nodes_) flow[supplied.supply] += supplied.flow;
@@ -152,7 +153,7 @@ Eigen::VectorXd HeatEquations::into_outside(const CarryingFilm& film, const Heat
     heat[at_.index_of_ambient()] += ring_.outside[i] * (state.shell[i] - state.outside[at_.index_of_ambient()]);
   if (!at_.drain) return heat;
   const double T = state.outside[at_.index_of_drain()];
-  for (const auto& [row, rate] : drained(film)) {
+  for (const auto& [row, rate] : drained(film, state)) {
     const int supply = row - system_.size() - 1;
     heat[at_.index_of_drain()] += rate * ((supply >= 0 ? state.supplies[supply] : state.film[row]) - T);
   }

@@ -106,6 +106,7 @@ class Builder {
     for (const Contact& contact : model_.contacts) add_contact(contact);
     for (const Bearing& bearing : model_.bearings) add_bearing(bearing);
     if (!model_.thermal.network.nodes.empty()) machine_.network.emplace(model_.thermal.network);
+    machine_.grooves = model_.thermal.grooves;
     machine_.mechanism = mechanism_.finalise();
     return std::move(machine_);
   }

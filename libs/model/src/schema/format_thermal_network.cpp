@@ -22,6 +22,19 @@ TypePtr thermal_network_format() {
           required("conductance", quantity("W/K", "5 W/K", Range::not_negative()),
                    "Heat flow for each kelvin between them: k A/l of a bar, alpha A of a surface."),
       });
+  const TypePtr groove = object(
+      "a groove between films",
+      {
+          required(
+              "between", list("two bearings", text("a bearing", "pad_1"), 2),
+              "The one whose film ends at the groove, then the one whose film begins there, counted from x towards "
+              "y; both lie on arcs."),
+          optional("temperature", temperature("40 degC"), "Of the fresh oil that mixes with what the films bring.",
+                   "`edge_temperature` of the film that begins there"),
+          optional("carry_over", number("0.9", {.low = 0, .high = 1}),
+                   "Share of the oil that comes out of the films which stays on the journal; 0: all is renewed.",
+                   "that of the film that begins there"),
+      });
   return object(
       "a thermal network",
       {
@@ -32,6 +45,11 @@ TypePtr thermal_network_format() {
                    "Bodies and surroundings; a bearing's shell or journal is one with `{wall: node, node: block}`, and "
                    "several bearings may share one.",
                    "none"),
+          optional(
+              "grooves", named("a mapping from names to grooves", groove),
+              "Grooves between films of several bearings, such as pads, in which the oil that one film brings warms "
+              "what the next one draws.",
+              "none"),
           optional("paths", named("a mapping from names to paths", path), "What conducts heat between nodes.", "none"),
       });
 }

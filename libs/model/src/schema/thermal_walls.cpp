@@ -67,6 +67,25 @@ const std::vector<Alternative<film::ShellWall>>& shell_walls() {
                                .heat_capacity = heat_of_steel,
                                .T_start = start_of(wall)};
        }},
+      {{"pad",
+        "each arc lies on a pad that conducts heat along its arc and through its thickness, and gives it off on all "
+        "sides",
+        {required("thickness", quantity("m", "20 mm", Range::positive()), "Of the pad."),
+         defaulted("conductivity", quantity("W/m/K", "50 W/m/K", Range::positive()), "50 W/m/K", "Of its material."),
+         defaulted("heat_transfer", quantity("W/m^2/K", "80 W/m^2/K", Range::not_negative()), "80 W/m^2/K",
+                   "From its back, its sides and its faces beside the grooves to the surroundings."),
+         required("ambient", temperature_or_node("40 degC"),
+                  "Temperature of these, or the node that they are and that the heat warms."),
+         optional("temperature", temperature("60 degC"), "With which a simulation begins.", "that of the supply")}},
+       [](const Value& wall) {
+         return film::RingWall{
+             .outer_radius = number_of(wall, "thickness"),  // over the bore's, which is not known here
+             .conductivity = number_of(wall, "conductivity"),
+             .transfer = number_of(wall, "heat_transfer"),
+             .heat_capacity = heat_of_steel,
+             .T_start = start_of(wall),
+             .closes = false};
+       }},
       {{"body",
         "the mesh of the shell's body conducts the heat, steadily: its `heat` says how and where to",
         {optional("faces", text("a surface or a set of nodes", "bore"),

@@ -24,6 +24,7 @@
 #include "time_stepping/checkpoint.h"
 #include "time_stepping/instants.h"
 #include "time_stepping/machine_run.h"
+#include "time_stepping/steady_heat.h"
 
 namespace hersey::run {
 namespace {
@@ -109,7 +110,7 @@ class Run {
   bool come_to_rest() {
     solver::EquilibriumOptions options;
     options.steady_motion = model_.simulation.is_steady_motion();
-    const solver::EquilibriumSummary rest = solver::find_equilibrium(machine_.mechanism(), machine_.state(), options);
+    const solver::EquilibriumSummary rest = find_warm_steady_motion(machine_.machine(), machine_.state(), options);
     newton_iterations_ += rest.iterations;
     message_ = rest.message;
     if (!rest.solved()) fail((options.steady_motion ? "" : "static: ") + rest.message + advice_on_films());

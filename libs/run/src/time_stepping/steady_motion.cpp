@@ -6,6 +6,7 @@
 #include "hersey/solver/equilibrium.h"
 #include "observation/observe_step.h"
 #include "start/start.h"
+#include "time_stepping/steady_heat.h"
 
 namespace hersey::run {
 
@@ -16,7 +17,7 @@ SteadyMotion find_steady_motion(const model::Model& model, const std::vector<std
   mbd::Mechanism& mechanism = *machine.mechanism;
   SteadyMotion motion;
   const solver::EquilibriumSummary found =
-      solver::find_equilibrium(mechanism, state, {.max_iterations = max_iterations, .steady_motion = true});
+      find_warm_steady_motion(machine, state, {.max_iterations = max_iterations, .steady_motion = true});
   motion.iterations = found.iterations;
   motion.message = found.message;
   if (!found.solved()) return motion;

@@ -1,8 +1,10 @@
 #include "time_stepping/warm_bodies.h"
 
+#include <utility>
 #include <vector>
 
 #include "hersey/bearing/global_heat.h"
+#include "hersey/film/groove_mixing.h"
 
 namespace hersey::run {
 
@@ -19,6 +21,21 @@ void warm_bodies(model::Machine& machine, double dt) {
   machine.network->advance(dt, films);
   for (std::size_t i = 0; i < films.size(); ++i)
     warmed[i]->move_walls(machine.network->walls(films[i].at, films[i].heat_flow.T));
+}
+
+void mix_grooves(model::Machine& machine) {
+  std::vector<std::vector<film::EndOil>> ends(machine.bearings.size());
+  for (const model::Groove& groove : machine.grooves) {
+    const film::FilmHeat &before = *machine.bearings[groove.before].bearing->heat(),
+                         &after = *machine.bearings[groove.after].bearing->heat();
+    const std::vector<film::EndOil> mixed = film::mixed_in_groove(
+        {before.end_flows().back(), after.end_flows().front()}, groove.carry_over, groove.T_fresh);
+    for (const std::size_t k : {groove.before, groove.after})
+      if (ends[k].empty()) ends[k] = machine.bearings[k].bearing->heat()->state().ends;
+    ends[groove.before].back() = mixed.front(), ends[groove.after].front() = mixed.back();
+  }
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    if (!ends[k].empty()) machine.bearings[k].bearing->set_ends(std::move(ends[k]));
 }
 
 void settle_walls(model::Machine& machine) {

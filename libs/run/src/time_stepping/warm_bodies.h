@@ -11,6 +11,10 @@ namespace hersey::run {
 /// without a network.
 void warm_bodies(model::Machine& machine, double dt);
 
+/// Mixes the oil in grooves between films, by their flows at the state last accepted, and gives it to the films that draw
+/// it (theory manual, thermal.68). Does nothing without grooves.
+void mix_grooves(model::Machine& machine);
+
 /// Sets, after the last step of a cycle, quasi-steady walls, bodies of the network among them, to the temperatures at
 /// which the cycle's mean heat would flow through them (theory manual, thermal.19).
 void settle_walls(model::Machine& machine);

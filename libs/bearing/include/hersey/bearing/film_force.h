@@ -36,7 +36,8 @@ struct BearingOptions {
   double initial_dt = 1e-4;  ///< the film at the start follows from a gap that was full this long before [s], > 0
   /// With motion.dt = 0, solve the steady film of the surfaces' present motion instead of that of a freshly filled gap:
   /// for machines at rest or in steady motion, and for small motions about it. A partitioned coupling is monolithic
-  /// there. Not together with `thermal`.
+  /// there. Temperatures of a `thermal` film do not move with those motions: a steady state of both is found by turns,
+  /// with temperatures() and set_temperatures().
   bool starts_steady = false;
   /// Supply pressure over time of each groove, hole or pocket of the film model [Pa]; empty: constant, as in the model.
   std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
@@ -105,6 +106,15 @@ class FilmForce : public mbd::TwoBodyForce {
   void settle_walls(const Eigen::VectorXd& T_nodes);
   /// Temperatures of the film; null: the film is isothermal.
   [[nodiscard]] const film::FilmHeat* heat() const;
+  /// Returns the temperatures on which the film's pressure depends, as unknowns of the alternate solution of film and
+  /// heat: rises [K]. Those of a film that starts steady are, after a state has been accepted, what that film makes.
+  [[nodiscard]] Eigen::VectorXd temperatures() const;
+  /// Sets these; what is evaluated next has their viscosities.
+  void set_temperatures(const Eigen::VectorXd& x);
+  /// Reduces temperatures that a film without warm oil has made, as the oil thins while it warms (film::first_guess).
+  void guess_temperatures();
+  /// Sets the oil that ends of the film's patches draw in (film::FilmHeat::set_ends).
+  void set_ends(std::vector<film::EndOil> ends);
   /// Calls film::FilmHeat::move_walls() after a step has been accepted.
   void move_walls(const Eigen::VectorXd& T);
   /// Describes, at the state last accepted, a clearance that temperatures close, or oil that warms without bound, and

@@ -46,6 +46,11 @@ class FilmHeat {
   /// differences and the heat of renewed oil are taken from them.
   void advance(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
 
+  /// Flows over the ends of all patches in the film last advanced, the first before the last of each.
+  [[nodiscard]] std::vector<EndFlow> end_flows() const;
+  /// Sets the oil that these ends draw in from now on. @throws ContractError for another number of ends
+  void set_ends(std::vector<EndOil> ends);
+
   /// Updates the layers' shear thinning to the film `u` at the present temperatures; no layers, no effect. @returns the
   /// largest change of a logarithm of viscosity [-]
   double thin(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);

@@ -1,10 +1,25 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <vector>
 
 #include "hersey/film/film_observables.h"
 
 namespace hersey::film {
+
+/// Oil that a film draws in over an end of a patch.
+struct EndOil {
+  double T = 0;          ///< [K]
+  double carried = 0;    ///< fraction of it that has left a film over an end, the rest is fresh [-]
+  double passed_on = 0;  ///< of the oil that leaves over the end, the fraction that films draw in again [-]
+};
+
+/// Oil that passes an end of a patch, both ways.
+struct EndFlow {
+  double drawn = 0;    ///< into the film [m^3/s]
+  double leaving = 0;  ///< out of it [m^3/s]
+  double T = 0;        ///< of what leaves [K]; 0: nothing does
+};
 
 /// Temperatures of a film and of its surroundings [K], and the state that is kept with them from step to step.
 struct HeatState {
@@ -19,6 +34,7 @@ struct HeatState {
   /// along pressure exceeds that of these viscosities, around and along the axis [-], node by node; empty: there is one
   /// layer, or the oil does not thin.
   Eigen::VectorXd thinning = {};
+  std::vector<EndOil> ends = {};  ///< of each patch, the first before the last; a ring has none
 };
 
 /// Fields at the nodes, shape (grid.size()) each [K].

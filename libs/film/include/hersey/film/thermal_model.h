@@ -42,6 +42,7 @@ struct RingWall {
   double heat_capacity = 3.6e6;  ///< per volume [J/(m^3 K)], > 0; of no account to a steady film
   std::optional<double> T_start = {};            ///< with which a simulation begins [K]; unset: the supply's
   std::optional<NetworkNode> surroundings = {};  ///< node at T_ambient, which the heat warms
+  bool closes = true;  ///< it runs on behind the grooves between patches; false: each patch lies on a pad of its own
 };
 
 /// A journal of one temperature that gives off heat only to the film: it rotates fast, and each of its points takes the
@@ -110,6 +111,9 @@ struct ThermalModel {
   JournalWall journal = FreeJournal{};
   WallMotion walls = WallMotion::by_their_heat;  ///< of no account to a steady film
   double carry_over = 1;  ///< fraction of the film's oil that passes a groove with it [-], 0 (all is renewed) to 1
+  /// Ends of neighbouring patches lie on one groove, in which the oil of both mixes (theory manual, thermal.68); false:
+  /// ends draw fresh oil, or what FilmHeat::set_ends() says.
+  bool has_grooves = false;
   std::optional<ThermalExpansion> expansion = {};            ///< of the walls; unset: they keep their size
   SurfaceMaterial shell_surface = {}, journal_surface = {};  ///< share the asperities' heat; steel
   /// Heat sources in the oil beside friction, in its layers node by node [W/m^3], shape (grid.size() layers); empty:

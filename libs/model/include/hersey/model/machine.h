@@ -71,6 +71,7 @@ struct Machine {
   std::vector<BuiltContact> contacts;
   std::vector<BuiltBearing> bearings;
   std::optional<film::ThermalNetwork> network;  ///< of walls that are nodes; unset: the model has none
+  std::vector<Groove> grooves;                  ///< between films with temperatures
   std::vector<BuiltFlexible> flexibles;
   std::vector<BuiltSurfaceLoad> surface_loads;
   std::vector<BuiltBeam> beams;

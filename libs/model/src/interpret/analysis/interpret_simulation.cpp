@@ -139,9 +139,20 @@ void refuse_bearings(Context& context, const Value& value) {
   for (const auto& [name, bearing] : bearings->members) {
     const Value* thermal = bearing.find("thermal");
     if (thermal == nullptr || thermal->broken || thermal->text != "film") continue;
-    context.fault_at_key(*thermal, "temperatures of a film in a steady state of the machine", "`model: isothermal`",
-                         "use dynamics with `settle`, or modes with `modes_about: end`; `hersey bearing` solves one "
-                         "bearing with its heat");
+    if (!simulation.is_steady_motion()) {
+      context.fault_at_key(*thermal, "temperatures of a film in a machine that does not turn", "`model: isothermal`",
+                           "use `analysis: steady`, modes with `modes_about: turning` or `end`, or dynamics");
+      continue;
+    }
+    if (thermal->find("expansion") != nullptr)
+      context.fault_at_key(*thermal->find("expansion"), "walls that grow, in the steady motion of a machine",
+                           "walls that keep their size", "`hersey bearing` solves one bearing between walls that grow");
+    for (const char* wall : {"shell", "journal"}) {
+      const Value* of = thermal->find(wall);
+      if (of != nullptr && !of->broken && of->text == "body")
+        context.fault(*of, "a wall in a body that conducts, in the steady motion of a machine", "any other wall",
+                      "`hersey bearing` solves one bearing with its bodies");
+    }
   }
 }
 

@@ -77,7 +77,9 @@ bool oil_is_renewed(const film::FilmModel& film, const film::ThermalModel& heat)
 /// A ring that is none, or a film whose heat has nowhere to go.
 void check_walls(Context& context, const Value& thermal, const film::FilmModel& film, const film::ThermalModel& heat) {
   const auto* ring = std::get_if<film::RingWall>(&heat.shell);
-  if (ring != nullptr && ring->outer_radius <= film.R) {
+  if (ring != nullptr && !ring->closes && film::arcs_of(film) == nullptr)
+    context.fault(*thermal.find("shell"), "a pad around a full bore", "a `ring`, or `arcs`");
+  if (ring != nullptr && ring->closes && ring->outer_radius <= film.R) {
     context.fault(*thermal.find("shell")->find("outer_diameter"), "a ring no larger than its bore",
                   "an outer diameter above that of the bearing");
   }
@@ -142,7 +144,8 @@ void warn_of_unused_temperatures(Context& context, const Value& bearing) {
 }
 
 /// Completes the data of walls besides their own keys: tables over the angle, nodes of the network.
-void complete_walls(Context& context, const Value& thermal, const film::Grid& grid, film::ThermalModel& heat) {
+void complete_walls(Context& context, const Value& thermal, const film::FilmModel& film, film::ThermalModel& heat) {
+  const film::Grid& grid = film.grid;
   const Value &shell = *thermal.find("shell"), &journal = *thermal.find("journal");
   if (std::holds_alternative<film::WallAtTemperature>(heat.shell))
     heat.shell = wall_at_temperature(context, *shell.find("temperature"), grid);
@@ -150,6 +153,7 @@ void complete_walls(Context& context, const Value& thermal, const film::Grid& gr
   if (std::holds_alternative<film::NodeWall>(heat.journal)) heat.journal = node_wall_of(context, journal);
   auto* ring = std::get_if<film::RingWall>(&heat.shell);
   if (ring == nullptr) return;
+  if (!ring->closes) ring->outer_radius += film.R;  // read as a thickness
   const auto ambient = own_temperature(context, shell.find("ambient"));
   if (ambient) ring->T_ambient = ambient->T, ring->surroundings = ambient->node;
 }
@@ -193,8 +197,9 @@ film::ThermalModel film_heat(Context& context, const Value& value, const film::F
   heat.journal = read_alternative(*thermal.find("journal"), journal_walls());
   if (auto* free = std::get_if<film::FreeJournal>(&heat.journal); free != nullptr && free->heat_capacity == 0)
     free->heat_capacity = heat_of_steel * std::numbers::pi * film.R * film.R * film.L;
-  complete_walls(context, thermal, film.grid, heat);
+  complete_walls(context, thermal, film, heat);
   read_supplies(context, value, film, heat);
+  heat.has_grooves = film::arcs_of(film) != nullptr;
   if (const auto walls = wall_expansion_of(thermal)) heat.expansion = walls->material;
   if (heat.expansion && heat.expansion->shell != 0 && std::holds_alternative<film::BodyWall>(heat.shell)) {
     context.fault(*thermal.find("expansion"), "a shell that grows by its body's mesh and by a coefficient as well",

@@ -160,6 +160,8 @@ void interpret_lubricants(Context& context);
 /// The section `thermal`. Before bearings.
 void interpret_thermal_network(Context& context);
 void interpret_bearings(Context& context);
+/// Grooves between films. After bearings.
+void interpret_grooves(Context& context);
 /// Reports nodes of the network to which nothing leads. After bearings.
 void check_thermal_network(Context& context);
 /// Refuses faces of nodal bodies that carry several films or contacts. After contacts and bearings.

@@ -138,6 +138,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_lubricants(context);
   interpret_thermal_network(context);
   interpret_bearings(context);
+  interpret_grooves(context);
   check_thermal_network(context);
   require_separate_faces(context);
   interpret_simulation(context);

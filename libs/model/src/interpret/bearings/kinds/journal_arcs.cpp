@@ -226,10 +226,9 @@ void check_with_arcs(Context& context, const Value& value, const Bearing& bearin
                   "gauge, with `cavitation: {pressure: -1.01325 bar}` for a vacuum");
   warn_of_corners(context, value, film);
   const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
-  if (heat != nullptr &&
-      (std::holds_alternative<film::RingWall>(heat->shell) || std::holds_alternative<film::BodyWall>(heat->shell)))
-    context.fault(*value.find("thermal"), "a shell that conducts heat around a bore of arcs",
-                  "`insulated`, `given` or a `node` as the shell's wall");
+  if (heat != nullptr && std::holds_alternative<film::BodyWall>(heat->shell))
+    context.fault(*value.find("thermal"), "a shell in a body that conducts, around a bore of arcs",
+                  "`insulated`, `given`, a `ring`, a `pad` or a `node` as the shell's wall");
   if (!context.has_fault_in(value.path) && !(film.c + film::gap_opening(film).minCoeff() > 0))
     context.fault_at_key(*value.find(value.find("arcs") != nullptr ? "arcs" : "bore"),
                          "arcs that close the gap beside their nearest point", "a preload nearer to 0");
