@@ -356,20 +356,28 @@ Group pad_figures() {
   const auto of_pad = [](double PadState::*member) {
     return [member](const Solution& s, std::size_t k) { return s.pads->pads[k].*member; };
   };
-  return {"pads",
-          {{"pad_force_<name>",
-            kNewton,
-            [](const Solution& s, std::size_t k) { return s.pads->pads[k].force.norm(); },
-            {.each = names}},
-           {"pad_tilt_<name>", kMicroradian, of_pad(&PadState::tilt), {.each = names}},
-           {"pad_pivot_travel_<name>", kMicrometre, of_pad(&PadState::pivot_travel), {.each = names}},
-           {"pad_h_pivot_<name>", kMicrometre, of_pad(&PadState::h_pivot), {.each = names}},
-           {"pads_whirl_ratio", kNone, [](const Solution& s) { return s.pads->whirl_ratio; }}}};
+  const auto celsius_of_pad = [of_pad](double PadState::*member) {
+    return [T = of_pad(member)](const Solution& s, std::size_t k) { return T(s, k) - film::zero_celsius; };
+  };
+  const auto has_heat = [](const Solution& s) { return s.state.heat.has_value(); };
+  return {
+      "pads",
+      {{"pad_force_<name>",
+        kNewton,
+        [](const Solution& s, std::size_t k) { return s.pads->pads[k].force.norm(); },
+        {.each = names}},
+       {"pad_tilt_<name>", kMicroradian, of_pad(&PadState::tilt), {.each = names}},
+       {"pad_pivot_travel_<name>", kMicrometre, of_pad(&PadState::pivot_travel), {.each = names}},
+       {"pad_h_pivot_<name>", kMicrometre, of_pad(&PadState::h_pivot), {.each = names}},
+       {"pad_T_max_<name>", kCelsius, celsius_of_pad(&PadState::T_max), {.only = has_heat, .each = names}},
+       {"pad_T_face_max_<name>", kCelsius, celsius_of_pad(&PadState::T_face_max), {.only = has_heat, .each = names}},
+       {"pads_whirl_ratio", kNone, [](const Solution& s) { return s.pads->whirl_ratio; }}}};
 }
 
 const std::vector<Group>& tilting_pad_table() {
   static const std::vector<Group> groups{operating_point(), film_figures(), arc_figures(), pad_figures(),
-                                         dimensionless(),   friction(),     oil(),         dynamics()};
+                                         dimensionless(),   friction(),     oil(),         heat(),
+                                         dynamics()};
   return groups;
 }
 

@@ -25,6 +25,7 @@ PadState pad_state(const model::Composite& composite, std::size_t k, const PadMo
   if (const mbd::JointObservation* travel = find_joint(alone, motion, composite.pads[k] + "_travel"))
     pad.pivot_travel = travel->position[0];
   pad.force = force_on_pad(composite, k, found);
+  if (const auto& heat = motion.bearings[k].heat) pad.T_max = heat->T_max, pad.T_face_max = heat->T_shell_max;
   // The gap is smooth over a pad: the film at the pivot lies between two lines.
   const film::Grid& grid = alone.bearings[k].film.grid;
   const Eigen::VectorXd& h = motion.fields[k].h;
@@ -47,6 +48,11 @@ void fill_state(const model::Composite& composite, const run::SteadyMotion& moti
   state.point.journal_speed = point.journal_speed;
   state.e = Eigen::Vector2d(find_joint(*composite.alone, motion, journal_joint)->position.head<2>());
   state.film = whole.film;
+  if (whole.heat) {
+    state.heat.emplace();
+    state.heat->observed = *whole.heat;
+    if (motion.network) state.heat->network = *motion.network;
+  }
   Eigen::Vector2d carried = Eigen::Vector2d::Zero();
   for (const PadState& pad : pads.pads) carried += pad.force;
   state.load = carried;
@@ -71,6 +77,9 @@ void solve_pads(const model::Composite& composite, BearingSolution& solution) {
   solution.model = whole.model;
   if (!motion.solved()) return solution.fail(fmt::format("bearing {}: {}", composite.bearing.name, motion.message));
   whole.observe(motion, found.fixed_tilts);
+  if (motion.network)
+    for (const film::ThermalNode& node : composite.alone->thermal.network.nodes)
+      solution.node_names.push_back(node.name);
   auto pads = std::make_shared<PadBearingSolution>();
   for (const std::size_t k : whole.order()) pads->pads.push_back(pad_state(composite, k, found));
   pads->fields = std::move(whole.fields);

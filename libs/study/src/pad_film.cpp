@@ -57,7 +57,10 @@ void PadFilm::observe(const run::SteadyMotion& motion, const std::vector<double>
     if (std::isnan(fixed_tilts[k])) add_extremes(motion.bearings[k].film);
     add_figures(motion.bearings[k].film, films_[k].film.grid);
     add_fields(motion.fields[k]);
+    if (const auto& of_pad = motion.bearings[k].heat)
+      add_heat(*of_pad, films_[k].film.grid, motion.bearings[k].film.oil_volume);
   }
+  if (heat) divide_heat();
 }
 
 void PadFilm::add_model(const model::Bearing& pad, std::size_t number, film::Arcs& bore) {
@@ -113,6 +116,28 @@ void PadFilm::add_fields(const film::FilmFields& pad) {
         &film::FilmFields::depth, &film::FilmFields::w, &film::FilmFields::p_asperity, &film::FilmFields::reynolds,
         &film::FilmFields::T, &film::FilmFields::T_shell, &film::FilmFields::T_journal, &film::FilmFields::T_hottest})
     append(fields.*field, pad.*field);
+}
+
+// Means are sums first: over the area, of the film over the volume of its oil, of side flows over these.
+void PadFilm::add_heat(const film::HeatObservables& pad, const film::Grid& grid, double oil_volume) {
+  const double part = (grid.phi(grid.n_phi - 1) - grid.phi(0)) / angle_of_pads();
+  if (!heat) heat.emplace();
+  if (pad.T_max > heat->T_max) heat->T_max = pad.T_max, heat->T_max_phi = pad.T_max_phi, heat->T_max_z = pad.T_max_z;
+  if (pad.T_shell_max > heat->T_shell_max)
+    heat->T_shell_max = pad.T_shell_max, heat->T_shell_max_phi = pad.T_shell_max_phi;
+  for (const auto mean : {&film::HeatObservables::T_shell_mean, &film::HeatObservables::T_journal,
+                          &film::HeatObservables::T_shell_wall, &film::HeatObservables::T_journal_wall})
+    (*heat).*mean += part * pad.*mean;
+  if (oil_volume > 0) heat->T_film_mean += oil_volume * pad.T_film_mean;
+  if (pad.leaving > 0) heat->T_side += pad.leaving * pad.T_side, heat->leaving += pad.leaving;
+  for (const auto power : {&film::HeatBalance::power, &film::HeatBalance::source, &film::HeatBalance::to_oil,
+                           &film::HeatBalance::to_shell, &film::HeatBalance::to_journal, &film::HeatBalance::stored})
+    heat->balance.*power += pad.balance.*power;
+}
+
+void PadFilm::divide_heat() {
+  heat->T_film_mean /= film.oil_volume;
+  heat->T_side /= heat->leaving;
 }
 
 double PadFilm::angle_of_pads() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hersey/model/model.h"
@@ -25,12 +26,15 @@ class PadFilm {
   film::FilmModel model;
   film::FilmObservables film;
   film::FilmFields fields;
+  std::optional<film::HeatObservables> heat;  ///< unset: the films have one temperature
 
  private:
   void add_model(const model::Bearing& pad, std::size_t number, film::Arcs& bore);
   void add_extremes(const film::FilmObservables& pad);
   void add_figures(const film::FilmObservables& pad, const film::Grid& grid);
   void add_fields(const film::FilmFields& pad);
+  void add_heat(const film::HeatObservables& pad, const film::Grid& grid, double oil_volume);
+  void divide_heat();
   [[nodiscard]] double angle_of_pads() const;
 
   const std::vector<model::Bearing>& films_;

@@ -493,6 +493,7 @@ void FilmHeat::Impl::average(const CarryingFilm& film) {
   }
   observed.T_shell_mean /= area, observed.T_journal /= area;
   observed.T_film_mean = oil > 0 ? observed.T_film_mean / oil : std::numeric_limits<double>::quiet_NaN();
+  observed.leaving = out;
   observed.T_side = out > 0 ? observed.T_side / out : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -27,7 +27,7 @@ std::vector<bool> reached(const ThermalNetworkModel& model, std::vector<bool> fr
 
 double NetworkObservables::error() const {
   const double in = heat.sum();
-  const double largest = std::max({heat.cwiseAbs().sum(), std::abs(to_fixed), std::abs(stored)});
+  const double largest = std::max({exchanged, std::abs(to_fixed), std::abs(stored)});
   return largest > 0 ? (in - to_fixed - stored) / largest : 0;
 }
 
@@ -95,11 +95,12 @@ void ThermalNetwork::advance(double dt, const std::vector<FilmAtNodes>& films) {
 
 void ThermalNetwork::observe(double dt, const Eigen::VectorXd& change, const std::vector<FilmAtNodes>& films) {
   observables_.heat.setZero();
-  observables_.to_fixed = observables_.stored = 0;
+  observables_.exchanged = observables_.to_fixed = observables_.stored = 0;
   for (const FilmAtNodes& film : films) {
     const WallHeatFlow& observed = film.heat_flow;
     const Eigen::VectorXd heat = observed.heat + observed.by_T * (walls(film.at, observed.T) - observed.T);
-    for (const auto& [row, i] : film.at.nodes()) observables_.heat[i] += heat[row];
+    for (const auto& [row, i] : film.at.nodes())
+      observables_.heat[i] += heat[row], observables_.exchanged += std::abs(heat[row]);
   }
   for (std::size_t k = 0; k < model_.nodes.size(); ++k) {
     const auto i = static_cast<Index>(k);
@@ -125,6 +126,7 @@ Eigen::VectorXd ThermalNetwork::walls(const FilmTerminals& at, const Eigen::Vect
 
 void ThermalNetwork::persist(Archive& archive) {
   archive.io("T", observables_.T), archive.io("heat", observables_.heat);
+  archive.io("exchanged", observables_.exchanged);
   archive.io("to_fixed", observables_.to_fixed), archive.io("stored", observables_.stored);
 }
 

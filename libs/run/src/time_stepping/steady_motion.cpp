@@ -24,6 +24,7 @@ SteadyMotion find_steady_motion(const model::Model& model, const std::vector<std
   StepRecord record = observe_step(machine, state, force_kinds(machine));
   motion.bearings = std::move(record.bearings);
   motion.joints = std::move(record.mechanism.joints);
+  motion.network = std::move(record.network);
   for (const model::BuiltBearing& bearing : machine.bearings) motion.fields.push_back(bearing.bearing->fields());
   std::vector<solver::Equations::Index> free;
   for (solver::Equations::Index row = 0; row < mechanism.nv(); ++row) {

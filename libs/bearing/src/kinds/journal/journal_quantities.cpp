@@ -58,6 +58,8 @@ std::span<const Quantity> journal_quantities() {
       {"pad_tilt_<name>", "", "rad", "tilt of pad <name>", "about an axis along the bearing, in the sense from x to y"},
       {"pad_pivot_travel_<name>", "", "m", "travel of the pivot of pad <name>", "outwards along the radius"},
       {"pad_h_pivot_<name>", "", "m", "film thickness at the pivot of pad <name>", "at mid-width"},
+      {"pad_T_max_<name>", "", "degC", "hottest oil of pad <name>"},
+      {"pad_T_face_max_<name>", "", "degC", "hottest place on the face of pad <name>"},
       {"pads_whirl_ratio", "", "1", "whirl frequency ratio at which pads follow",
        "over the journal's frequency, in stiffness and damping"},
       {"critical_mass", "", "kg", "critical mass of a rigid rotor"},

@@ -78,6 +78,7 @@ struct HeatObservables {
   double T_journal_body_max = 0;                 ///< of the body that the journal is in; else 0
   double T_film_mean = 0;                        ///< over the volume of the oil
   double T_side = 0;                             ///< of the oil that leaves over the edges; NaN where none does
+  double leaving = 0;                            ///< that oil [m^3/s]
   /// Mean temperatures of the walls themselves, by which they expand; a wall without heat has that of its surface.
   double T_shell_wall = 0, T_journal_wall = 0;
   Eigen::VectorXd T_supplies;  ///< of line and features, mixed; the line first if there is one

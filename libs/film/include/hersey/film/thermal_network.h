@@ -41,6 +41,7 @@ struct FilmAtNodes {
 struct NetworkObservables {
   Eigen::VectorXd T;     ///< of the nodes [K]
   Eigen::VectorXd heat;  ///< from films into each node
+  double exchanged = 0;  ///< sum of what passes between films and nodes, whichever way
   double to_fixed = 0;   ///< into surroundings
   double stored = 0;     ///< rate of the bodies' heat
   /// Imbalance of (thermal.49) over the largest of these powers [-].

@@ -32,8 +32,9 @@ Value checked(const Entry& bearing, std::vector<Fault>& faults, std::map<std::st
   return check(root, *type, faults, positions);
 }
 
-/// Adds the sections of `parts` to those of `root`. Names that are taken are faults.
-void add_parts(Node& root, Node parts, const CompositeParts& composite, std::vector<Fault>& faults) {
+/// Adds the sections of `parts` to those of `root`, which lies at `path`. Names that are taken are faults.
+void add_parts(Node& root, Node parts, const CompositeParts& composite, std::vector<Fault>& faults,
+               const std::string& path = "") {
   for (Entry& section : parts.entries) {
     Node* own = root.find(section.key);
     if (own == nullptr || own->kind == Node::Kind::null) {
@@ -42,9 +43,13 @@ void add_parts(Node& root, Node parts, const CompositeParts& composite, std::vec
       continue;
     }
     if (own->kind != Node::Kind::mapping) continue;  // a fault of that section
+    if (section.key == "thermal") {                  // whose sections are one deeper
+      add_parts(*own, std::move(section.value), composite, faults, "thermal.");
+      continue;
+    }
     for (Entry& part : section.value.entries) {
       if (const Node* taken = own->find(part.key); taken != nullptr) {
-        faults.push_back({taken->position, section.key + "." + part.key,
+        faults.push_back({taken->position, path + section.key + "." + part.key,
                           "a name that a part of bearing '" + composite.name + "' has", "another name", ""});
         continue;
       }
@@ -105,7 +110,9 @@ Node alone_in(const Node& root, Node parts, const CompositeParts& composite) {
   HERSEY_REQUIRE(tree && faults.empty(), "a bearing by itself is a model");
   move_to(*tree, composite.position);
   for (const Entry& entry : root.entries)
-    if (entry.key == "lubricants") tree->entries.push_back(entry);
+    if (entry.key == "lubricants" || entry.key == "thermal") tree->entries.push_back(entry);
+  if (Node* thermal = tree->find("thermal"))
+    std::erase_if(thermal->entries, [](const Entry& entry) { return entry.key == "grooves" || entry.key == "walls"; });
   add_parts(*tree, std::move(parts), composite, faults);
   HERSEY_REQUIRE(faults.empty(), "names of a bearing by itself are not taken");
   return std::move(*tree);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hersey/bearing/film_observation.h"
 #include "hersey/core/outcome.h"
 #include "hersey/film/film_observables.h"
+#include "hersey/film/thermal_network.h"
 #include "hersey/mbd/observation.h"
 #include "hersey/model/model.h"
 #include "hersey/solver/linearise.h"
@@ -18,6 +20,7 @@ struct [[nodiscard]] SteadyMotion : Outcome {
   std::vector<bearing::BearingObservation> bearings;  ///< in the order of the model, as all that follow
   std::vector<film::FilmFields> fields;               ///< of each bearing's film
   std::vector<mbd::JointObservation> joints;
+  std::optional<film::NetworkObservables> network;  ///< of the thermal network; unset: there is none
   solver::Linearisation small_motions;
   std::vector<std::string> coordinates;  ///< name of each velocity component, "joint turning, x"
 };
