@@ -264,12 +264,26 @@ void FilmForce::move_walls(const Eigen::VectorXd& T) {
 
 Eigen::VectorXd FilmForce::temperatures() const {
   HERSEY_REQUIRE(heat() != nullptr, "a film with temperatures");
-  return film_temperatures(*heat());
+  Eigen::VectorXd x = film_temperatures(*heat());
+  if (const double scale = heat_of_growth(); scale > 0) {
+    x.conservativeResize(x.size() + 1);
+    x[x.size() - 1] = scale * thermal_->growth_target();
+  }
+  return x;
+}
+
+// A growth of the clearance as the temperature that makes it [K/m]; 0: walls keep their size.
+double FilmForce::heat_of_growth() const {
+  const auto& walls = heat()->thermal().expansion;
+  const double largest = walls ? std::max(std::abs(walls->shell), std::abs(walls->journal)) : 0;
+  return largest > 0 ? 1 / (model().R * largest) : 0;
 }
 
 void FilmForce::set_temperatures(const Eigen::VectorXd& x) {
   HERSEY_REQUIRE(film_->heat() != nullptr, "a film with temperatures");
-  set_film_temperatures(x, *film_->heat());
+  const double scale = heat_of_growth();
+  if (scale > 0) thermal_->set_growth(x[x.size() - 1] / scale);
+  set_film_temperatures(x.head(x.size() - (scale > 0 ? 1 : 0)), *film_->heat());
 }
 
 void FilmForce::guess_temperatures() {

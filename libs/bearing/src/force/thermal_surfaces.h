@@ -37,6 +37,8 @@ class ThermalSurfaces : public SurfaceShape {
   /// True where a surface has a shape of its own.
   [[nodiscard]] bool changes_gap() const override { return shell().size() > 0 || journal().size() > 0; }
 
+  /// Sets the growth of the clearance of a film in steady motion [m].
+  void set_growth(double growth) { growth_.start_at(growth); }
   /// Growth of the clearance at the end of the step [m].
   [[nodiscard]] double growth() const { return growth_.now(); }
   /// Growth that temperatures call for [m].

@@ -106,8 +106,8 @@ class FilmForce : public mbd::TwoBodyForce {
   void settle_walls(const Eigen::VectorXd& T_nodes);
   /// Temperatures of the film; null: the film is isothermal.
   [[nodiscard]] const film::FilmHeat* heat() const;
-  /// Returns the temperatures on which the film's pressure depends, as unknowns of the alternate solution of film and
-  /// heat: rises [K]. Those of a film that starts steady are, after a state has been accepted, what that film makes.
+  /// Returns the temperatures on which the film's pressure depends, and the growth of its clearance as one, as unknowns
+  /// of the alternate solution of film and heat: rises [K]. Those of a film that starts steady are, after a state has been accepted, what that film makes.
   [[nodiscard]] Eigen::VectorXd temperatures() const;
   /// Sets these; what is evaluated next has their viscosities.
   void set_temperatures(const Eigen::VectorXd& x);
@@ -136,6 +136,7 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] double smallest_gap() const;
   [[nodiscard]] double summed_forces() const;
   void start_film();
+  [[nodiscard]] double heat_of_growth() const;
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
   void evaluate_partitioned(mbd::ForceResponse& response);
   void condense_film(mbd::ForceResponse& response);

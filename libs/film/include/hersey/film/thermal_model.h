@@ -70,11 +70,19 @@ using JournalWall = std::variant<FreeJournal, WallAtTemperature, InsulatedWall, 
 struct ThermalExpansion {
   double shell = 0, journal = 0;  ///< coefficients of linear expansion [1/K]
   double T_reference = 293.15;    ///< of both walls, at which the clearance is as given [K]
+  /// What holds pads of the shell's material, which grow inwards from there.
+  struct Carrier {
+    double T = 313.15;     ///< [K]
+    double thickness = 0;  ///< of the pads [m]
+  };
+  std::optional<Carrier> carrier = {};  ///< unset: the whole shell has the temperature of the wall
 
   /// Returns the increase of the radial clearance of a bearing of radius R [m] between walls at these temperatures [K]
-  /// (theory manual, thermal.42) [m].
+  /// (theory manual, thermal.42, thermal.71) [m].
   [[nodiscard]] double growth(double R, double T_shell, double T_journal) const {
-    return R * (shell * (T_shell - T_reference) - journal * (T_journal - T_reference));
+    const double inwards = carrier ? carrier->thickness * (carrier->T - T_shell) : 0;
+    const double outwards = R * ((carrier ? carrier->T : T_shell) - T_reference);
+    return shell * (outwards + inwards) - journal * R * (T_journal - T_reference);
   }
 };
 

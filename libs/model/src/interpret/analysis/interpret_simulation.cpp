@@ -144,9 +144,6 @@ void refuse_bearings(Context& context, const Value& value) {
                            "use `analysis: steady`, modes with `modes_about: turning` or `end`, or dynamics");
       continue;
     }
-    if (thermal->find("expansion") != nullptr)
-      context.fault_at_key(*thermal->find("expansion"), "walls that grow, in the steady motion of a machine",
-                           "walls that keep their size", "`hersey bearing` solves one bearing between walls that grow");
     for (const char* wall : {"shell", "journal"}) {
       const Value* of = thermal->find(wall);
       if (of != nullptr && !of->broken && of->text == "body")

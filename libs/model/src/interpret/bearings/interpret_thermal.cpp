@@ -185,6 +185,19 @@ void check_shear(Context& context, const Value& thermal, int layers, const film:
       "each layer is sheared at the rate that its stress takes");
 }
 
+/// The temperature of what holds pads that grow.
+void read_carrier(Context& context, const Value& thermal, const film::FilmModel& film, film::ThermalModel& heat) {
+  const Value* expansion = thermal.find("expansion");
+  const Value* T = expansion != nullptr && !expansion->broken ? expansion->find("carrier") : nullptr;
+  if (T == nullptr || T->broken || !heat.expansion) return;
+  const auto* ring = std::get_if<film::RingWall>(&heat.shell);
+  if (ring == nullptr || ring->closes) {
+    context.fault_at_key(*T, "a carrier of a shell that is no pad", "`shell: {wall: pad, ...}`, or no carrier");
+    return;
+  }
+  heat.expansion->carrier = {.T = T->number, .thickness = ring->outer_radius - film.R};
+}
+
 film::ThermalModel film_heat(Context& context, const Value& value, const film::FilmModel& film) {
   const Value& thermal = *value.find("thermal");
   film::ThermalModel heat;
@@ -201,6 +214,7 @@ film::ThermalModel film_heat(Context& context, const Value& value, const film::F
   read_supplies(context, value, film, heat);
   heat.has_grooves = film::arcs_of(film) != nullptr;
   if (const auto walls = wall_expansion_of(thermal)) heat.expansion = walls->material;
+  read_carrier(context, thermal, film, heat);
   if (heat.expansion && heat.expansion->shell != 0 && std::holds_alternative<film::BodyWall>(heat.shell)) {
     context.fault(*thermal.find("expansion"), "a shell that grows by its body's mesh and by a coefficient as well",
                   "'shell: 0 1/K' beside 'shell: {wall: body}'", "the body's `heat.expansion` says how the bore grows");
