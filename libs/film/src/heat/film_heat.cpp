@@ -382,6 +382,7 @@ void FilmHeat::move_walls(const Eigen::VectorXd& T) {
   m.heat_flow.heat += m.heat_flow.by_T * by;
   m.heat_flow.T = T;
   m.end_of_step = m.state;
+  if (m.thermal.has_grooves) m.state.ends = m.equations.mixed_in_grooves(m.carrying(), m.state);
   m.is_observed = false;
 }
 
