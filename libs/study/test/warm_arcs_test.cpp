@@ -120,7 +120,7 @@ TEST_CASE("OneArcAroundTheBore_IsABoreWithAGroove") {
   const BearingSolution bore =
       solved(common +
              "    grid: {circumferential: 144, axial: 9}\n    features: {g: {shape: axial_groove, angle: 90 deg, "
-             "arc: 20 deg, length: 60 mm, pressure: 0 Pa}}\n");
+             "arc: 20 deg, length: 60 mm, pressure: 0 Pa, depth: 5 mm}}\n");
   constexpr double cells = 0.01;  // a groove's edges lie between lines, an arc's on lines
   for (const char* key : {"h_min", "power_film"})
     CHECK(figure(arc, key) == doctest::Approx(figure(bore, key)).epsilon(cells));

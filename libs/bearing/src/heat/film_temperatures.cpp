@@ -25,7 +25,7 @@ Eigen::VectorXd film_temperatures(const film::FilmHeat& heat) {
   Eigen::VectorXd x(now.film.size() + now.thinning.size() + ends);
   x.head(now.film.size()) = now.film.array() - T_supply;
   x.segment(now.film.size(), now.thinning.size()) = kHeatOfShear * now.thinning.array().log();
-  for (Eigen::Index k = 0; k < ends; ++k) x[x.size() - ends + k] = now.ends[static_cast<std::size_t>(k)].T - T_supply;
+  for (Eigen::Index k = 0; k < ends; ++k) x[x.size() - ends + k] = now.ends[static_cast<std::size_t>(k)].rise;
   return x;
 }
 
@@ -41,7 +41,7 @@ void set_film_temperatures(const Eigen::VectorXd& x, film::FilmHeat& heat) {
   next.film = x.head(film).unaryExpr(within_trials);
   next.thinning = (x.segment(film, thinning) / kHeatOfShear).array().exp();
   for (Eigen::Index k = 0; k < ends; ++k)
-    next.ends[static_cast<std::size_t>(k)].T = within_trials(x[film + thinning + k]);
+    next.ends[static_cast<std::size_t>(k)].rise = within_trials(x[film + thinning + k]) - T_supply;
   heat.set_state(next);
 }
 

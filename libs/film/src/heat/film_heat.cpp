@@ -154,8 +154,7 @@ HeatState FilmHeat::Impl::start() const {
   if (const auto* shell = std::get_if<NodeWall>(&thermal.shell)) first.shell.setConstant(grid.n_phi, shell->T);
   first.outside = outside_at_start(thermal);
   first.supplies.resize(equations.supplies());
-  const double at_edges = thermal.oil.edges ? thermal.oil.edges->T : thermal.T_edges;
-  first.ends.assign(2 * grid.patches.size(), {.T = at_edges});
+  first.ends.resize(2 * grid.patches.size());
   for (int k = 0; k < equations.supplies(); ++k) first.supplies[k] = equations.fresh(k, first.outside);
   if (shears_layers()) first.thinning.setOnes(first.film.size() + 2 * grid.size());
   return first;
@@ -390,6 +389,8 @@ std::vector<EndFlow> FilmHeat::end_flows() const {
   return impl_->equations.end_flows(impl_->carrying(), impl_->end_of_step);
 }
 
+double FilmHeat::edge_temperature() const { return impl_->equations.at_edges(impl_->state.outside); }
+
 void FilmHeat::set_ends(std::vector<EndOil> ends) {
   HERSEY_REQUIRE(ends.size() == impl_->state.ends.size(), "oil at each end of each patch");
   impl_->state.ends = std::move(ends);
@@ -521,7 +522,7 @@ void FilmHeat::persist(Archive& archive) {
   for (std::size_t k = 0; k < impl_->state.ends.size(); ++k) {
     EndOil& end = impl_->state.ends[k];
     const Archive::Group group(archive, "end_" + std::to_string(k));
-    archive.io("T", end.T), archive.io("carried", end.carried), archive.io("passed_on", end.passed_on);
+    archive.io("rise", end.rise), archive.io("carried", end.carried), archive.io("passed_on", end.passed_on);
   }
   if (!impl_->has_fixed_walls()) return;
   impl_->equations.mean().persist(archive);

@@ -10,11 +10,11 @@ std::vector<EndOil> mixed_in_groove(const std::vector<EndFlow>& flows, double ca
   for (const EndFlow& flow : flows)
     drawn += flow.drawn, leaving += flow.leaving, heat += flow.leaving * (flow.T - T_fresh);
   const double carried = carry_over * leaving;
-  EndOil oil{.T = T_fresh};
+  EndOil oil;
   if (leaving > 0) {
     oil.carried = carried < drawn ? carried / drawn : 1;
     oil.passed_on = std::min(carried, drawn) / leaving;
-    oil.T += oil.carried * heat / leaving;
+    oil.rise = oil.carried * heat / leaving;
   }
   return std::vector<EndOil>(flows.size(), oil);
 }

@@ -165,14 +165,14 @@ void HeatEquations::add_edges(const CarryingFilm& film, const HeatState& start) 
   for (int node = 0; node < model_.grid.size(); ++node) {
     const double in = -film.balance.outflow(node);
     if (in <= 0) continue;
-    const double T = coming(film, start, node), fresh_part = fresh_fraction(film, start, node);
+    const double T = coming(film, start, node);
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       inflow_[row] += in * width(l);
       system_.diagonal(row) += rc_ * in * width(l);
       known_[row] += rc_ * in * width(l) * T;
       if (const Eigen::Index terminal = at_.index_of_oil(thermal_.oil.edges); terminal >= 0)
-        by_outside_(row, terminal) += fresh_part * rc_ * in * width(l);
+        by_outside_(row, terminal) += rc_ * in * width(l);
     }
   }
 }

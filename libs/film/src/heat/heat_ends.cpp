@@ -12,7 +12,7 @@ const EndOil* HeatEquations::end_oil(const HeatState& state, int node) const {
 double HeatEquations::coming(const CarryingFilm& film, const HeatState& state, int node) const {
   const double T = at_edges(state.outside);
   const EndOil* end = end_oil(state, node);
-  return end == nullptr ? T : T + film.balance.end_fraction(node) * (end->T - T);
+  return end == nullptr ? T : T + film.balance.end_fraction(node) * end->rise;
 }
 
 double HeatEquations::fresh_fraction(const CarryingFilm& film, const HeatState& state, int node) const {

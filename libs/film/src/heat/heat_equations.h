@@ -63,6 +63,8 @@ class HeatEquations {
 
   /// Temperature of the oil supplied, before it mixes with the oil in the groove [K]. @param outside  of HeatState
   [[nodiscard]] double fresh(int supply, const Eigen::VectorXd& outside) const;
+  /// Temperature of the oil that edges draw in, but for what ends draw beyond it [K]. @param outside  of HeatState
+  [[nodiscard]] double at_edges(const Eigen::VectorXd& outside) const;
   /// Returns the flows over the ends of all patches, at these temperatures.
   [[nodiscard]] std::vector<EndFlow> end_flows(const CarryingFilm& film, const HeatState& state) const;
   /// Returns the oil at these ends as grooves between them mix it (theory manual, thermal.68).
@@ -111,7 +113,6 @@ class HeatEquations {
   [[nodiscard]] double made(const CarryingFilm& film, int node, int layer) const;
   /// Index of the node from which a supply, or edges, draw oil, among the nodes that are no walls; -1: none.
   [[nodiscard]] Eigen::Index oil_of(int supply) const;
-  [[nodiscard]] double at_edges(const Eigen::VectorXd& outside) const;
   /// Oil at the end of a patch on which a node lies; null: it lies on none.
   [[nodiscard]] const EndOil* end_oil(const HeatState& state, int node) const;
   /// Temperature of the oil that comes in over the edge at a node [K].

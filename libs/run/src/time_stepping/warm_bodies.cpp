@@ -28,8 +28,11 @@ void mix_grooves(model::Machine& machine) {
   for (const model::Groove& groove : machine.grooves) {
     const film::FilmHeat &before = *machine.bearings[groove.before].bearing->heat(),
                          &after = *machine.bearings[groove.after].bearing->heat();
-    const std::vector<film::EndOil> mixed = film::mixed_in_groove(
-        {before.end_flows().back(), after.end_flows().front()}, groove.carry_over, groove.T_fresh);
+    const double T_fresh = groove.T_fresh.value_or(after.edge_temperature());
+    std::vector<film::EndOil> mixed =
+        film::mixed_in_groove({before.end_flows().back(), after.end_flows().front()}, groove.carry_over, T_fresh);
+    mixed.front().rise += T_fresh - before.edge_temperature();
+    mixed.back().rise += T_fresh - after.edge_temperature();
     for (const std::size_t k : {groove.before, groove.after})
       if (ends[k].empty()) ends[k] = machine.bearings[k].bearing->heat()->state().ends;
     ends[groove.before].back() = mixed.front(), ends[groove.after].front() = mixed.back();

@@ -48,6 +48,8 @@ class FilmHeat {
 
   /// Flows over the ends of all patches in the film last advanced, the first before the last of each.
   [[nodiscard]] std::vector<EndFlow> end_flows() const;
+  /// Temperature of the oil that sides draw in [K].
+  [[nodiscard]] double edge_temperature() const;
   /// Sets the oil that these ends draw in from now on. @throws ContractError for another number of ends
   void set_ends(std::vector<EndOil> ends);
 

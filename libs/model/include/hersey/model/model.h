@@ -185,9 +185,9 @@ struct Lubricant {
 /// A groove between the films of two bearings, in which their oil mixes (theory manual, thermal.68).
 struct Groove {
   std::string name;
-  std::size_t before = 0, after = 0;  ///< bearings whose last end, and whose first end, lie on it
-  double T_fresh = 0;                 ///< of what comes in addition [K]
-  double carry_over = 1;              ///< fraction of the oil that reaches it which stays on the journal [-]
+  std::size_t before = 0, after = 0;   ///< bearings whose last end, and whose first end, lie on it
+  std::optional<double> T_fresh = {};  ///< of what comes in addition [K]; unset: that of the oil `after` draws
+  double carry_over = 1;               ///< fraction of the oil that reaches it which stays on the journal [-]
 };
 
 /// The section `thermal`.

@@ -53,7 +53,7 @@ void interpret_grooves(Context& context) {
         {.name = name,
          .before = *before,
          .after = *after,
-         .T_fresh = T != nullptr && !T->broken ? T->number : heat.T_edges,
+         .T_fresh = T != nullptr && !T->broken ? std::optional(T->number) : std::nullopt,
          .carry_over = carry_over != nullptr && !carry_over->broken ? carry_over->number : heat.carry_over});
   }
   for (const Groove& groove : grooves)
