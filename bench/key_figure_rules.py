@@ -52,6 +52,7 @@ COMMANDS = {
     "slider_crank/model": [("run",)],
     "slider_crank/pin_hole": [("run", "simulation.duration=90deg")],
     "tilting_pads/bearing": [("bearing",), ("run",)],
+    "tilting_pads/hot": [("bearing",)],
     "thrust_pads/fixed": [("bearing",)],
     "thrust_pads/model": [("run",)],
     "thrust_pads/shaft": [("run",)],
