@@ -179,10 +179,14 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
   }
 }
 
+// Sweeps from node to node do not find a pressure that a whole feature has.
+bool can_be_swept(const FilmModel& model) { return !has_restrictors(model); }
+
 FilmSolveSummary solve_here(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                             const FilmSolveOptions& options, Eigen::VectorXd& u) {
-  return options.solver == FilmSolver::sor ? solve_by_sor(reynolds, motion, history, options, u)
-                                           : solve_by_newton(reynolds, motion, history, options, u);
+  return options.solver == FilmSolver::sor && can_be_swept(reynolds.model())
+             ? solve_by_sor(reynolds, motion, history, options, u)
+             : solve_by_newton(reynolds, motion, history, options, u);
 }
 
 // A film front that no flow carries moves by one node per Newton step, and an error that spans the film takes SOR as
@@ -249,7 +253,7 @@ FilmSolveSummary fill_from_none(Reynolds& reynolds, const SurfaceMotion& motion,
   Reynolds direct(reynolds.model());
   const Eigen::VectorXd start = u;
   FilmSolveSummary summary = solve_by_newton(direct, motion, history, options, u, none);
-  if (!summary.solved() && options.allows_fallback) {
+  if (!summary.solved() && options.allows_fallback && can_be_swept(reynolds.model())) {
     const int before = summary.iterations;
     u = start;
     summary = sweep_on(reynolds, motion, history, options, u);
@@ -282,7 +286,7 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
     summary.iterations += before;
   }
   if (!summary.solved() && options.allows_fallback && options.solver != FilmSolver::sor &&
-      options.max_iterations > patience) {
+      can_be_swept(reynolds.model()) && options.max_iterations > patience) {
     const int before = summary.iterations;
     summary = rescue_by_sor(reynolds, motion, history, options, start, u);
     summary.iterations += before;
