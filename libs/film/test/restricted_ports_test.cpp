@@ -165,6 +165,20 @@ TEST_CASE("WeakRestrictor_IsAGivenPressure") {
   CHECK((s.u - given.u).cwiseAbs().maxCoeff() < 1e-4 * given.u.maxCoeff());  // ten times weak over the lands'
 }
 
+// The root of an orifice's law has no slope where there is no drop: Newton's method jumps over it from a film of
+// nothing.
+TEST_CASE("OrificesWithHardlyAnyDrop_AreFoundFromNothing") {
+  for (const double diameter : {0.3e-3, 1e-3, 3e-3}) {
+    CAPTURE(diameter);
+    State s = four_recesses(Orifice{.diameter = diameter, .discharge_coefficient = 0.6}, 100, 12e6);  // 120 bar
+    Reynolds film(s.model);
+    REQUIRE(solve_film(film, s.motion, s.history, {.rtol = 1e-10}, s.u).solved());
+    const FilmObservables o = observe_film(s.model, s.motion, s.history, {12e-6, 9e-6}, s.u);
+    CHECK(o.mass_balance_error < 1e-8);  // a hundred times the solver's
+    if (diameter > 2e-3) CHECK(o.pressure_features.minCoeff() > 0.98 * 12e6);
+  }
+}
+
 // With less than the surfaces carry away, a recess is filled in part, and the film conserves what it gets.
 TEST_CASE("RecessThatLacksOil_PassesOnWhatItGets") {
   State s = four_recesses(ConstantFlow{.rate = 4e-7}, 300);

@@ -20,6 +20,7 @@ struct Capillary {
   static constexpr std::string_view name = "capillary";
   double length = 0.02;      ///< [m], > 0
   double diameter = 0.5e-3;  ///< of its bore [m], > 0
+  /// Returns the flow under a drop of pressure and its slope, as Restrictor::flow() does.
   [[nodiscard]] ValueAndSlope flow(double drop, const RestrictorOil& oil) const;
 };
 
@@ -28,6 +29,7 @@ struct Capillary {
 struct FlowResistance {
   static constexpr std::string_view name = "resistance";
   double resistance = 1e12;  ///< [Pa s/m^3], > 0
+  /// Returns the flow under a drop of pressure and its slope, as Restrictor::flow() does.
   [[nodiscard]] ValueAndSlope flow(double drop, const RestrictorOil& oil) const;
 };
 
@@ -38,6 +40,7 @@ struct Orifice {
   static constexpr std::string_view name = "orifice";
   double diameter = 0.5e-3;            ///< [m], > 0
   double discharge_coefficient = 0.6;  ///< of flow at large Reynolds numbers [-], in (0, 1]
+  /// Returns the flow under a drop of pressure and its slope, as Restrictor::flow() does.
   [[nodiscard]] ValueAndSlope flow(double drop, const RestrictorOil& oil) const;
 };
 
@@ -48,6 +51,7 @@ struct ConstantFlow {
   double rate = 1e-6;  ///< [m^3/s], > 0
   /// Drop below the limit at which the relief valve begins to open [Pa]; 0: there is no limit.
   double relief_band = 0;
+  /// Returns the flow under a drop of pressure and its slope, as Restrictor::flow() does.
   [[nodiscard]] ValueAndSlope flow(double drop, const RestrictorOil& oil) const;
 };
 
