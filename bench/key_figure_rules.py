@@ -39,6 +39,8 @@ COMMANDS = {
     "hot_bearing/model": [("bearing",)],
     "hot_pedestal/model": [("bearing",), ("run",)],
     "hot_pedestal/with_shaft": [("bearing",), ("run",)],
+    "hydrostatic/model": [("bearing",)],
+    "hydrostatic/spindle": [("run",)],
     "lemon_bore/model": [("bearing",)],
     "lobed_bores/model": [("bearing",)],
     "lobed_bores/partial_arc": [("bearing",)],

@@ -44,11 +44,14 @@ class FirstSteps(unittest.TestCase):
     def test_init_alone_lists_the_models(self):
         run = self.hersey("init")
         self.assertEqual(run.returncode, OK)
-        for name in ("bearing", "tilting_pads", "thrust", "damper", "rotor", "big_end", "engine", "turbocharger", "flexible_rod"):
+        for name in ("bearing", "hydrostatic", "tilting_pads", "thrust", "damper", "rotor", "big_end", "engine", "turbocharger", "flexible_rod"):
             self.assertIn(f"\n  {name} ", run.stdout)
 
     def test_init_bearing_runs(self):
         self.begin_and_run("bearing")
+
+    def test_init_hydrostatic_runs(self):
+        self.begin_and_run("hydrostatic")
 
     def test_init_tilting_pads_runs(self):
         self.begin_and_run("tilting_pads")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Random bores of arcs, tilting pads and thrust bearings: answers that must not depend on how a bearing is written down.
+"""Random bores of arcs, hybrid bearings, tilting pads and thrust bearings: answers that must not depend on how a bearing is written down.
 
     rotor_bearings.py HERSEY [--seed S] [--count N] [--only NAME] [--output DIR]
 
@@ -107,6 +107,37 @@ class Arcs(Journal):
         return {**self.size(), "arcs": arcs}
 
 
+class Hybrid(Journal):
+    """Recesses behind restrictors in a whole bore: turned by steps of its grid, which does not turn."""
+
+    step = 5.0
+
+    def __init__(self, rng):
+        super().__init__(rng)
+        if self.film["cavitation"] == "mass_conserving":
+            self.film["ambient_fill"] = 1
+        supply = rng.choice([10, 40, 120])  # [bar]
+        area = self.diameter**2 * self.slenderness * 1e-6
+        self.load = supply * 1e5 * area * rng.uniform(0.02, 0.25)
+        size = (self.diameter / 100, self.slenderness)
+        count, first = rng.randint(2, 5), rng.uniform(0, 360)
+        law = rng.choice([{"type": "capillary", "length": "40 mm", "diameter": f"{rng.uniform(0.4, 1.2) * size[0]:.6g} mm"},
+                          {"type": "orifice", "diameter": f"{rng.uniform(0.2, 0.8) * size[0]:.6g} mm"},
+                          {"type": "constant_flow", "flow": f"{rng.uniform(0.02, 1) * size[0] ** 2:.6g} l/min"}])
+        self.recesses = {f"r{k}": {"angle": first + 360 / count * k, "arc": rng.uniform(0.3, 0.7) * 360 / count,
+                                   "length": rng.uniform(0.4, 0.7) * self.diameter * self.slenderness,
+                                   "pressure": supply, "restrictor": law} for k in range(count)}
+
+    def keys(self, turn, mirror):
+        features = {}
+        for name, recess in self.recesses.items():
+            angle = recess["angle"] + turn
+            features[name] = {"shape": "pocket", "angle": degrees(-angle if mirror else angle), "arc": degrees(recess["arc"]),
+                              "length": f"{recess['length']:.12g} mm", "pressure": f"{recess['pressure']} bar",
+                              "restrictor": recess["restrictor"]}
+        return {**self.size(), "features": features}
+
+
 class Pads(Journal):
     def __init__(self, rng):
         super().__init__(rng)
@@ -168,7 +199,7 @@ class Thrust(Case):
         return None
 
 
-KINDS = {"arcs": Arcs, "pads": Pads, "thrust": Thrust}
+KINDS = {"arcs": Arcs, "hybrid": Hybrid, "pads": Pads, "thrust": Thrust}
 
 
 def solved(hersey, case, folder, **writing):
@@ -215,6 +246,8 @@ def examine(hersey, seed, name, output):
     if not all(math.isfinite(value) for value in figures.values()):
         findings.append("figures that are no numbers")
     angle = rng.uniform(10, 350)
+    if step := getattr(case, "step", None):
+        angle = step * round(angle / step)
     for what, writing in (("turned", {"turn": angle}), ("mirrored", {"mirror": True})):
         again, others = solved(hersey, case, folder, **writing)
         if again.kind != "answer":

@@ -66,6 +66,7 @@ TEST_CASE("Quantities_AreConvertedToSI") {
   check_quantity("+1 kN", "N", 1000);
   check_quantity("850 kg/m^3", "kg/m^3", 850);
   check_quantity("0.5 l/min", "m^3/s", 0.5e-3 / 60);
+  check_quantity("20 bar.min/l", "Pa.s/m^3", 20 * 1e5 * 60 * 1e3);
   check_quantity("60 degC", "K", 333.15);
   check_quantity("0.25", "1", 0.25);
   check_quantity("25 %", "1", 0.25);

@@ -340,9 +340,16 @@ Group stability() {
 
 /// The table of a journal bearing's figures, in the order in which they are reported.
 const std::vector<Group>& journal_table() {
-  static const std::vector<Group> groups{
-      operating_point(), film_figures(), arc_figures(), deformation(), with(dimensionless(), regime_of_flow()),
-      friction(),        oil(),          heat(),        dynamics(),    stability()};
+  static const std::vector<Group> groups{operating_point(),
+                                         film_figures(),
+                                         arc_figures(),
+                                         deformation(),
+                                         with(dimensionless(), regime_of_flow()),
+                                         friction(),
+                                         with(oil(), restricted_feeds()),
+                                         heat(),
+                                         dynamics(),
+                                         stability()};
   return groups;
 }
 
@@ -375,8 +382,14 @@ Group pad_figures() {
 }
 
 const std::vector<Group>& tilting_pad_table() {
-  static const std::vector<Group> groups{operating_point(), film_figures(), arc_figures(), pad_figures(),
-                                         dimensionless(),   friction(),     oil(),         heat(),
+  static const std::vector<Group> groups{operating_point(),
+                                         film_figures(),
+                                         arc_figures(),
+                                         pad_figures(),
+                                         dimensionless(),
+                                         friction(),
+                                         with(oil(), restricted_feeds()),
+                                         heat(),
                                          dynamics()};
   return groups;
 }

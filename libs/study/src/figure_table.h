@@ -139,6 +139,8 @@ inline auto height(double film::FilmObservables::*z) {
 [[nodiscard]] Line power_not_explained(double (*put_in)(const Solution&));
 [[nodiscard]] Line flow_through_features();
 [[nodiscard]] Line mass_balance_error();
+/// Pressures, pressure ratios and pumping power of features behind restrictors.
+[[nodiscard]] std::vector<Line> restricted_feeds();
 /// Numbers that say where the flow is laminar, in transition or turbulent.
 [[nodiscard]] std::vector<Line> regime_of_flow();
 /// The group with more lines at its end.

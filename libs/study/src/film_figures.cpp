@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "figure_table.h"
+#include "hersey/bearing/restricted_feeds.h"
 
 // Lines that the tables of all kinds of bearing have in common.
 namespace hersey::study {
@@ -45,6 +46,23 @@ Line flow_through_features() {
           kFlow,
           [](const Solution& s, std::size_t k) { return s.state.film.flow_features[static_cast<Eigen::Index>(k)]; },
           {.each = feature_names}};
+}
+
+std::vector<Line> restricted_feeds() {
+  using Feeds = bearing::RestrictedFeeds;
+  const auto feeds = [](const Solution& s) { return Feeds(s.model, s.state.film); };
+  return {{"pressure_feature_<name>",
+           kMegapascal,
+           [feeds](const Solution& s, std::size_t k) { return feeds(s).pressure(k); },
+           {.each = [](const Solution& s) { return Feeds::names(s.model); }}},
+          {"pressure_ratio_<name>",
+           kNone,
+           [feeds](const Solution& s, std::size_t k) { return feeds(s).pressure_ratio(k); },
+           {.each = [](const Solution& s) { return Feeds::names_with_supply(s.model); }}},
+          {"pumping_power",
+           kWatt,
+           [feeds](const Solution& s) { return feeds(s).pumping_power(); },
+           {.only = [](const Solution& s) { return film::has_restrictors(s.model); }}}};
 }
 
 Group with(Group group, const std::vector<Line>& more) {

@@ -138,8 +138,12 @@ Group pad_dynamics() {
 }  // namespace
 
 std::vector<Group> plane_slider_figures() {
-  return {point_figures(), pad_film(), with(numbers_of_sliders(), regime_of_flow()),
-          pad_friction(),  pad_oil(),  pad_dynamics()};
+  return {point_figures(),
+          pad_film(),
+          with(numbers_of_sliders(), regime_of_flow()),
+          pad_friction(),
+          with(pad_oil(), restricted_feeds()),
+          pad_dynamics()};
 }
 
 }  // namespace hersey::study

@@ -249,8 +249,9 @@ Group thrust_dynamics() {
 }  // namespace
 
 std::vector<Group> thrust_figures() {
-  return {thrust_point(),    thrust_film(), thrust_pads(),    thrust_numbers(),
-          thrust_friction(), thrust_oil(),  thrust_dynamics()};
+  return {thrust_point(),   thrust_film(),     thrust_pads(),
+          thrust_numbers(), thrust_friction(), with(thrust_oil(), restricted_feeds()),
+          thrust_dynamics()};
 }
 
 }  // namespace hersey::study

@@ -237,8 +237,8 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   HERSEY_REQUIRE(u.size() == n, "u of shape (grid.size())");
   take_history(history);
   take_motion(motion);
-  find_supply(motion);
   u_ = u;
+  find_supply(motion);
   if (const FilmDomain domain = evaluate_nodes(motion, u); !domain.is_inside()) return domain;
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
   for (const int node : leaking_edge_nodes_) {
@@ -393,6 +393,7 @@ void FlowBalance::replace_boundary_rows() {
     residual_[node] = D0_ * (u_[node] - edge_unknown(node));
     throughput_[node] = std::max(throughput_[node], D0_ * std::abs(edge_unknown(node)));
   }
+  replace_restricted_rows();
 }
 
 double FlowBalance::relative_residual() const {
@@ -478,6 +479,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   HERSEY_REQUIRE(direction.port_pressure.size() == 0 || direction.port_pressure.size() == port_count(),
                  "a change of pressure for each feature or none");
   balance_along(direction, dr);
+  if (!restricted_.empty()) direction_balance_ = dr;
   const bool gap = direction.g.size() != 0;
   for (const PrescribedNode& prescribed : prescribed_) {
     const int i = prescribed.node;
@@ -498,6 +500,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
     dr[i] += t.k * (draws_along(prescribed, direction) - port_along(prescribed.feature, prescribed.u, direction));
   }
   for (const int node : prescribed_edge_nodes_) dr[node] = 0;
+  if (!restricted_.empty()) find_restricted_along(direction, direction_balance_, dr);
 }
 
 }  // namespace hersey::film

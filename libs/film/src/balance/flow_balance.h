@@ -115,6 +115,26 @@ class FlowBalance {
   /// Their derivatives along a direction, at fixed u, shape (features).
   void find_port_flows_along(const MotionDirection& direction, Eigen::VectorXd& change) const;
 
+  /// A feature behind a restrictor. Its pressure is u at a node that it covers wholly, whose row is the balance of the
+  /// oil through the restrictor (hydrostatic.1).
+  struct RestrictedPort {
+    int feature = 0;
+    int node = 0;
+    double u = 0;       ///< of the feature [Pa]
+    double supply = 0;  ///< pressure before the restrictor above p_cav [Pa]
+    /// True if u is a pressure; else the recess lacks oil.
+    bool has_pressure = true;
+  };
+  [[nodiscard]] const std::vector<RestrictedPort>& restricted_ports() const { return restricted_; }
+  /// Derivatives by u of the rows of restricted ports, `rows` of shape (n, restricted), and of all other rows by u of
+  /// the ports' nodes as the pressure of their features, `columns` of the same shape (hydrostatic.5). The pattern's
+  /// values leave both out: there each feature has a given pressure.
+  void find_restricted(Eigen::MatrixXd& rows, Eigen::MatrixXd& columns) const;
+  /// Pressure in a feature above p_cav [Pa]: that of its supply, or behind its restrictor.
+  [[nodiscard]] double feature_unknown(int feature) const { return feature_u_[static_cast<std::size_t>(feature)]; }
+  /// Flow of the restrictor of a port [m^3/s] by the drop of pressure over it.
+  [[nodiscard]] ValueAndSlope restrictor_flow(const RestrictedPort& port) const;
+
   /// Subtracts from a right-hand side the defect of the squeeze term over a time step: the control volume's area times
   /// the difference between the gap's rate at the end of the step and its mean rate over the step (film.15).
   void subtract_squeeze_defect(Eigen::VectorXd& rhs) const;
@@ -271,6 +291,8 @@ class FlowBalance {
     double draws_journal = 0;   ///< d/d phi_journal [1/rad]
     int feature = -1;           ///< index of the feature; -1: the line
     double u = 0;               ///< u of the supply [Pa]
+    double by_port = 0;         ///< d u/d (u of the restricted port) [-]
+    bool is_main = false;       ///< node of a restricted port
     double centrality = 0;      ///< feature: 1 - distance from its centre over half its size (CoveredNode) [-]
     int other = -1;             ///< line: the node on its other side
     /// Line: weights of h at this node, of h at `other` and of the bend of the gap in the thickness between node and
@@ -377,6 +399,16 @@ class FlowBalance {
   void lay_faces();
   void lay_pattern();
   void find_supply(const SurfaceMotion& motion);
+  /// Returns the node of a restricted port; -1: none.
+  [[nodiscard]] int main_node(const std::vector<CoveredNode>& covered) const;
+  void keep_restricted_ports();
+  void replace_restricted_rows();
+  /// find_port_flows_along() by the change of the balances of all nodes.
+  void find_port_flows_along(const MotionDirection& direction, const Eigen::VectorXd& balance,
+                             Eigen::VectorXd& change) const;
+  /// Sets the rows of restricted ports in a change of the residual.
+  void find_restricted_along(const MotionDirection& direction, const Eigen::VectorXd& balance,
+                             Eigen::VectorXd& dr) const;
   void prescribe_line(double phi);
   void find_strips(int feature, double phi, double u);
   void merge_land_intervals();
@@ -544,6 +576,8 @@ class FlowBalance {
   std::vector<LandInterval> strips_;
   std::vector<int> land_index_;  ///< index of every node in lands_; -1: none
   std::vector<CoveredNode> covered_;
+  std::vector<RestrictedPort> restricted_;
+  std::vector<double> feature_u_;     ///< of every feature [Pa]
   bool freezes_deformation_ = false;  ///< the step starts with the deformation with which it ends
   double phi_start_ = 0;
   bool has_start_gap_ = false, uses_gap_difference_ = false, expects_any_fill_ = false;

@@ -18,7 +18,12 @@ void FlowBalance::inertia_residual(const Eigen::Ref<const Eigen::VectorXd>& du, 
     dr[face.a] -= K * drop;
     dr[face.b] += K * drop;
   }
+  std::vector<double> ports(restricted_.size(), 0.0);
+  for (std::size_t k = 0; k < ports.size(); ++k)
+    for (const PrescribedNode& prescribed : prescribed_)
+      if (prescribed.feature == restricted_[k].feature) ports[k] += dr[prescribed.node];
   for (const PrescribedNode& prescribed : prescribed_) dr[prescribed.node] *= 1 - prescribed.chi;
+  for (std::size_t k = 0; k < ports.size(); ++k) dr[restricted_[k].node] = ports[k];
   for (const int node : prescribed_edge_nodes_) dr[node] = 0;
 }
 

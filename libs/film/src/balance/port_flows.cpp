@@ -36,13 +36,19 @@ void FlowBalance::find_port_flows_by_u(Eigen::MatrixXd& by_u) const {
     auto column = by_u.col(port);
     column[land.node] += tie.k_u[0] * drop_over_land(land.node);
     column[land.inside] += tie.k_u[1] * drop_over_land(land.node);
+    for (const RestrictedPort& restricted : restricted_)
+      if (restricted.feature == land.feature && restricted.has_pressure) column[restricted.node] += tie.k;
   }
 }
 
 void FlowBalance::find_port_flows_along(const MotionDirection& direction, Eigen::VectorXd& change) const {
+  balance_along(direction, direction_balance_);
+  find_port_flows_along(direction, direction_balance_, change);
+}
+
+void FlowBalance::find_port_flows_along(const MotionDirection& direction, const Eigen::VectorXd& db,
+                                        Eigen::VectorXd& change) const {
   change.setZero(port_count());
-  Eigen::VectorXd& db = direction_balance_;
-  balance_along(direction, db);
   for (const PrescribedNode& prescribed : prescribed_) {
     const int i = prescribed.node;
     if (prescribed.feature < 0 || returns_to_edge(i)) continue;

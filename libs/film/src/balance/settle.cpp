@@ -19,6 +19,13 @@ void FlowBalance::subtract_squeeze_defect(Eigen::VectorXd& rhs) const {
     if (is_on_prescribed_edge(i)) continue;
     rhs[i] -= balance_weight(i) * area_[i] * content_start_[i] * (cells_[i].start - start_of(i)) / dt_;
   }
+  for (const RestrictedPort& port : restricted_) {
+    for (const PrescribedNode& prescribed : prescribed_) {
+      const int i = prescribed.node;
+      if (prescribed.feature == port.feature)
+        rhs[port.node] -= area_[i] * content_start_[i] * (cells_[i].start - start_of(i)) / dt_;
+    }
+  }
 }
 
 void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {

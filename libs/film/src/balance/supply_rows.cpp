@@ -41,7 +41,8 @@ double FlowBalance::balance_weight(int node) const {
 
 double FlowBalance::supply_unknown(int node) const {
   const PrescribedNode* prescribed = prescribed_at(node);
-  return prescribed == nullptr ? 0 : prescribed->u;
+  if (prescribed == nullptr) return 0;
+  return cavitation_.has_tension() ? prescribed->u : std::max(prescribed->u, 0.0);
 }
 
 double FlowBalance::supply_conductance(int node) const {
@@ -54,11 +55,12 @@ double FlowBalance::draws(int node) const {
   return prescribed == nullptr || cavitation_.has_tension() ? 1 : prescribed->draws;
 }
 
-// Between the supply and the next node only pressure drives oil. On the supply itself the gap is full in any case.
+// Between the supply and the next node only pressure drives oil. On the supply itself the gap is full in any case, or,
+// behind a restrictor that yields too little, as full as it is there.
 ValueAndSlope FlowBalance::excess(const PrescribedNode& prescribed) const {
   const double u = u_[prescribed.node], fraction = u < 0 ? draws(prescribed.node) : 1;
   if (u > 0 && only_fills(prescribed.node)) return {0, 0};
-  return {fraction * u - prescribed.u, fraction};
+  return {fraction * u - (prescribed.u < 0 ? draws(prescribed.node) : 1) * prescribed.u, fraction};
 }
 
 // On an edge in air u > 0 is an outflow; a feature beside the edge does not take it.
@@ -71,7 +73,8 @@ double FlowBalance::supply_dissipation(int node) const {
   const PrescribedNode* prescribed = prescribed_at(node);
   // On the supply itself there is no distance left: the round-off of its pressure would be divided by next to nothing.
   if (prescribed == nullptr || 1 - prescribed->chi < kNoWay) return 0;
-  const double drop = nodes_[node].p - prescribed->u, acting = nodes_[node].wall - model_.p_cav - prescribed->u;
+  const double given = supply_unknown(node);
+  const double drop = nodes_[node].p - given, acting = nodes_[node].wall - model_.p_cav - given;
   return tie(*prescribed).k / (nodes_[node].density * (1 - prescribed->chi)) * drop * acting;
 }
 
@@ -150,6 +153,7 @@ FlowBalance::Tie FlowBalance::tie_to_line(const PrescribedNode& prescribed) cons
 // middle is nearer, so that the order in the file has no effect. A line on a node prescribes it wholly only to
 // rounding: a feature has precedence.
 bool FlowBalance::yields_to(const PrescribedNode& prescribed, const PrescribedNode& to) {
+  if (prescribed.is_main != to.is_main) return to.is_main;
   constexpr double as_much = 1e-9;  // relative round-off of a position
   if (std::abs(prescribed.chi - to.chi) > as_much) return prescribed.chi < to.chi;
   if ((prescribed.feature < 0) != (to.feature < 0)) return prescribed.feature < 0;
@@ -168,7 +172,7 @@ void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
     nodes.emplace_back();
   }
   nodes[index] = prescribed;
-  if (is_on_open_edge(prescribed.node)) nodes[index].u = 0;
+  if (is_on_open_edge(prescribed.node)) nodes[index].u = nodes[index].by_port = 0;
 }
 
 // The line cuts the flow tubes between two columns of nodes. Each side is connected to it by the part of the flow tube
@@ -209,7 +213,8 @@ void FlowBalance::prescribe_line(double phi) {
 void FlowBalance::find_supply(const SurfaceMotion& motion) {
   for (const PrescribedNode& prescribed : prescribed_) prescribed_index_[prescribed.node] = -1;
   for (const PrescribedNode& prescribed : supplied_edge_nodes_) edge_index_[prescribed.node] = -1;
-  prescribed_.clear(), supplied_edge_nodes_.clear(), clear_lands();
+  prescribed_.clear(), supplied_edge_nodes_.clear(), restricted_.clear(), clear_lands();
+  feature_u_.assign(model_.features.size(), 0.0);
   line_ = {};
   if (model_.supply.kind != SupplyKind::none) prescribe_line(motion.phi_supply);
   for (std::size_t f = 0; f < model_.features.size(); ++f) {
@@ -217,28 +222,44 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
     if (!feature.is_fed) continue;
     const auto index = static_cast<Eigen::Index>(f);
     const double pressure = motion.feature_pressure.size() == 0 ? feature.pressure : motion.feature_pressure[index];
-    const double u = std::max(0.0, pressure - model_.p_cav);
+    double u = std::max(0.0, pressure - model_.p_cav);
     covered_.clear();
     cover(model_, geometry_, feature, motion.phi_journal, covered_);
+    const int main = feature.restrictor ? main_node(covered_) : -1;
+    const bool has_pressure = main < 0 || u_[main] >= 0 || cavitation_.has_tension();
+    if (main >= 0) {
+      u = has_pressure || cavitation_.has_fill() ? u_[main] : 0;
+      restricted_.push_back({.feature = static_cast<int>(f),
+                             .node = main,
+                             .u = u,
+                             .supply = pressure - model_.p_cav,
+                             .has_pressure = has_pressure});
+    }
+    feature_u_[f] = u;
     for (const CoveredNode& node : covered_) {
       const int j = node.node % model_.grid.n_z;
       if (is_on_prescribed_edge(node.node) && !edges_[node.node].of_patch &&
           std::abs(geometry_.z[j] - feature.z) > (0.5 + as_written) * feature.length)
         continue;
+      const bool is_main = node.node == main;
       prescribe({.node = node.node,
-                 .chi = node.fraction,
-                 .chi_journal = node.fraction_journal,
+                 .chi = is_main ? 1 : node.fraction,
+                 .chi_journal = is_main ? 0 : node.fraction_journal,
                  .mixed_fraction = node.mixed_fraction,
-                 .draws = node.draws,
-                 .draws_journal = node.draws_journal,
+                 .draws = is_main ? 1 : node.draws,
+                 .draws_journal = is_main ? 0 : node.draws_journal,
                  .feature = static_cast<int>(f),
                  .u = u,
+                 .by_port = main >= 0 && (has_pressure || cavitation_.has_fill()) ? 1.0 : 0.0,
+                 .is_main = is_main,
                  .centrality = node.centrality});
     }
     const bool travels = feature.surface == Surface::journal;
-    find_strips(static_cast<int>(f), feature.phi + (travels ? motion.phi_journal : 0.0), u);
+    find_strips(static_cast<int>(f), feature.phi + (travels ? motion.phi_journal : 0.0),
+                cavitation_.has_tension() ? u : std::max(u, 0.0));
   }
   merge_land_intervals();
+  keep_restricted_ports();
 }
 
 bool FlowBalance::is_cut(std::size_t f) const {
@@ -422,13 +443,15 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
 
 /// Returns the change of excess() as line and journal move [Pa].
 double FlowBalance::draws_along(const PrescribedNode& prescribed, const MotionDirection& direction) const {
-  const double u = u_[prescribed.node];
-  if (u >= 0 || cavitation_.has_tension()) return 0;
+  const double u = std::min(u_[prescribed.node], 0.0) - std::min(prescribed.u, 0.0);
+  if (u == 0 || cavitation_.has_tension()) return 0;
   return (prescribed.draws_line * direction.phi_supply + prescribed.draws_journal * direction.phi_journal) * u;
 }
 
-// At p_cav a supply gives nothing more, however low its pressure is; on an edge in air its pressure cannot rise.
+// At p_cav a supply gives nothing more, however low its pressure is; on an edge in air its pressure cannot rise. Behind
+// a restrictor the supply's pressure acts on the balance of the port only.
 double FlowBalance::port_along(int feature, double u, const MotionDirection& direction) const {
+  if (feature >= 0 && model_.features[static_cast<std::size_t>(feature)].restrictor) return 0;
   return feature < 0 || direction.port_pressure.size() == 0 || u <= 0 ? 0 : direction.port_pressure[feature];
 }
 

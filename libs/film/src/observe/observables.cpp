@@ -97,6 +97,22 @@ Peak largest_pressure_of(const FlowBalance& balance, const Eigen::VectorXd& p, d
   return {model.supply.pressure, phi_supply - two_pi * std::floor(phi_supply / two_pi), 0};
 }
 
+/// Pressures in the features that are fed, and before their restrictors.
+void observe_features(const FlowBalance& balance, const SurfaceMotion& motion, FilmObservables& o) {
+  const FilmModel& model = balance.model();
+  const auto count = static_cast<Eigen::Index>(model.features.size());
+  o.pressure_features.setConstant(count, std::numeric_limits<double>::quiet_NaN());
+  o.pressure_supplies = o.pressure_features;
+  for (Eigen::Index f = 0; f < count; ++f) {
+    const SurfaceFeature& feature = model.features[static_cast<std::size_t>(f)];
+    if (!feature.is_fed) continue;
+    const double u = balance.feature_unknown(static_cast<int>(f));
+    o.pressure_features[f] = model.p_cav + (cavitation_law(model).has_tension() ? u : std::max(u, 0.0));
+    if (!feature.restrictor || feature.restrictor->has_supply_pressure())
+      o.pressure_supplies[f] = motion.feature_pressure.size() == 0 ? feature.pressure : motion.feature_pressure[f];
+  }
+}
+
 /// Sums the flows over the boundaries, storage and volume (film.55).
 void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmObservables& o) {
   const FilmModel& model = balance.model();
@@ -262,6 +278,7 @@ FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& 
   const FilmFields fields = fields_of(balance.nodes());
 
   FilmObservables o;
+  observe_features(balance, motion, o);
   o.flow_features.setZero(static_cast<Eigen::Index>(model.features.size()));
   const Thinnest thinnest = thinnest_film(model, balance.geometry(), fields.h, motion.phi_journal);
   const Peak peak = largest_pressure_of(balance, fields.p, motion.phi_supply);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "balance/node.h"
 #include "hersey/film/grid_transfer.h"
+#include "hersey/film/observables.h"
 #include "solve/coarse_film.h"
 #include "solve/sor.h"
 
@@ -179,10 +181,14 @@ FilmSolveSummary solve_by_newton(Reynolds& reynolds, const SurfaceMotion& motion
   }
 }
 
+// Sweeps from node to node do not find a pressure that a whole feature has.
+bool can_be_swept(const FilmModel& model) { return !has_restrictors(model); }
+
 FilmSolveSummary solve_here(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
                             const FilmSolveOptions& options, Eigen::VectorXd& u) {
-  return options.solver == FilmSolver::sor ? solve_by_sor(reynolds, motion, history, options, u)
-                                           : solve_by_newton(reynolds, motion, history, options, u);
+  return options.solver == FilmSolver::sor && can_be_swept(reynolds.model())
+             ? solve_by_sor(reynolds, motion, history, options, u)
+             : solve_by_newton(reynolds, motion, history, options, u);
 }
 
 // A film front that no flow carries moves by one node per Newton step, and an error that spans the film takes SOR as
@@ -240,6 +246,54 @@ FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, 
   return summary;
 }
 
+/// Pressures before the features less those behind their restrictors [Pa].
+Eigen::VectorXd drops_over_restrictors(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,
+                                       const Eigen::VectorXd& u) {
+  const FilmObservables film = observe_film(model, motion, history, {}, u);
+  return film.pressure_supplies - film.pressure_features;
+}
+
+// Where the root in an orifice's law makes Newton's method jump from side to side of no drop, resistances in its place
+// that pass the same flow at the last drop do not: each film halves the logarithm of their error at least.
+FilmSolveSummary rescue_by_resistances(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
+                                       const FilmSolveOptions& options, const Eigen::VectorXd& start,
+                                       Eigen::VectorXd& u) {
+  constexpr int most_films = 12;
+  constexpr double near = 0.05;  // of the drop: from there Newton's method arrives
+  const FilmModel& model = reynolds.model();
+  FilmModel eased = model;
+  const auto count = static_cast<Eigen::Index>(model.features.size());
+  Eigen::VectorXd drop(count);
+  for (Eigen::Index f = 0; f < count; ++f) {
+    const double given = motion.feature_pressure.size() == 0 ? model.features[static_cast<std::size_t>(f)].pressure
+                                                             : motion.feature_pressure[f];
+    drop[f] = 0.5 * (given - model.p_cav);
+  }
+  Eigen::VectorXd found = start;
+  for (int k = 0; k < most_films; ++k) {
+    for (std::size_t f = 0; f < model.features.size(); ++f) {
+      const std::optional<Restrictor>& restrictor = model.features[f].restrictor;
+      const double d = std::abs(drop[static_cast<Eigen::Index>(f)]);
+      if (restrictor && restrictor->throttles() && d > 0)
+        eased.features[f].restrictor->law = FlowResistance{d / restrictor->flow(d).value};
+    }
+    Reynolds film(eased, reynolds.linear_solver().kind);
+    const FilmSolveSummary summary = solve_by_newton(film, motion, history, options, found);
+    if (!summary.solved()) break;
+    const Eigen::VectorXd now = drops_over_restrictors(eased, motion, history, found);
+    double change = 0;
+    for (std::size_t f = 0; f < model.features.size(); ++f) {
+      const auto i = static_cast<Eigen::Index>(f);
+      if (model.features[f].restrictor && model.features[f].restrictor->throttles())
+        change = std::max(change, std::abs(now[i] - drop[i]) / std::max(std::abs(drop[i]), 1.0));
+    }
+    drop = now;
+    if (change < near) break;
+  }
+  u = found;
+  return solve_by_newton(reynolds, motion, history, options, u);
+}
+
 // Streaks of oil that nothing feeds or drains may hold any amount, less than none included: once more from none there
 // and never below, with a factorisation, which stays near where it begins.
 FilmSolveSummary fill_from_none(Reynolds& reynolds, const SurfaceMotion& motion, const FilmHistory& history,
@@ -249,7 +303,7 @@ FilmSolveSummary fill_from_none(Reynolds& reynolds, const SurfaceMotion& motion,
   Reynolds direct(reynolds.model());
   const Eigen::VectorXd start = u;
   FilmSolveSummary summary = solve_by_newton(direct, motion, history, options, u, none);
-  if (!summary.solved() && options.allows_fallback) {
+  if (!summary.solved() && options.allows_fallback && can_be_swept(reynolds.model())) {
     const int before = summary.iterations;
     u = start;
     summary = sweep_on(reynolds, motion, history, options, u);
@@ -282,9 +336,14 @@ FilmSolveSummary solve_film(Reynolds& reynolds, const SurfaceMotion& motion, con
     summary.iterations += before;
   }
   if (!summary.solved() && options.allows_fallback && options.solver != FilmSolver::sor &&
-      options.max_iterations > patience) {
+      can_be_swept(reynolds.model()) && options.max_iterations > patience) {
     const int before = summary.iterations;
     summary = rescue_by_sor(reynolds, motion, history, options, start, u);
+    summary.iterations += before;
+  }
+  if (!summary.solved() && options.allows_fallback && has_restrictors(reynolds.model())) {
+    const int before = summary.iterations;
+    summary = rescue_by_resistances(reynolds, motion, history, options, start, u);
     summary.iterations += before;
   }
   summary.coarse_iterations = coarse_iterations;

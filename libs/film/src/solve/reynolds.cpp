@@ -12,6 +12,7 @@
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
 #include "solve/multigrid_solver.h"
+#include "solve/port_border.h"
 
 namespace hersey::film {
 namespace {
@@ -38,6 +39,9 @@ struct Reynolds::Impl {
   [[nodiscard]] bool solve_regularised(Eigen::VectorXd& du);
   [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
+  void solve_in_pattern(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
+  void solve_directly(Eigen::Ref<Eigen::MatrixXd> columns);
+  void solve_transposed(Eigen::Ref<Eigen::MatrixXd> columns);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void find_port_flows(std::span<const MotionDirection> directions, PortFlows flows, CondensedFilm& film);
@@ -49,7 +53,8 @@ struct Reynolds::Impl {
   FlowBalance balance;
   FilmWrench wrench;
   LinearSolverState state;  // but for has_factor
-  solver::SparseLu lu;
+  solver::SparseLu lu;      // of the matrix in the pattern, which the border completes
+  PortBorder border;
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
   Eigen::VectorXd rhs, answer, row_size, rest, correction;
@@ -92,6 +97,7 @@ void Reynolds::Impl::factorise() {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
   if (factorised) return;
   if (lu.size() == 0) lu.analyse(balance.size(), balance.column_start(), balance.row_index());
+  if (state.kind == LinearSolver::direct) border.forget_answers();
   ++state.factorisations;
   factorised = lu.factorise(balance.values());
   if (factorised) return;
@@ -110,7 +116,9 @@ bool Reynolds::Impl::solve_regularised(Eigen::VectorXd& du) {
   factorised = false;  // as far as the Jacobian itself is asked for
   if (!factorise_shifted(1e-3)) return false;
   du = -balance.residual();
-  lu.solve({du.data(), static_cast<std::size_t>(du.size())});
+  border.forget_answers();
+  solve_directly(du);
+  border.forget_answers();
   return true;
 }
 
@@ -140,7 +148,34 @@ bool Reynolds::Impl::solve_by_multigrid(const Eigen::VectorXd& b, double rtol, E
   return summary.solved();
 }
 
+void Reynolds::Impl::solve_directly(Eigen::Ref<Eigen::MatrixXd> columns) {
+  border.solve(columns, [&](Eigen::Ref<Eigen::MatrixXd> of) {
+    lu.solve({of.data(), static_cast<std::size_t>(of.size())}, static_cast<int>(of.cols()));
+  });
+}
+
+void Reynolds::Impl::solve_transposed(Eigen::Ref<Eigen::MatrixXd> columns) {
+  const auto in_pattern = [&](Eigen::Ref<Eigen::MatrixXd> of) {
+    lu.solve({of.data(), static_cast<std::size_t>(of.size())}, static_cast<int>(of.cols()));
+  };
+  border.solve_transposed(columns, in_pattern, [&](Eigen::Ref<Eigen::MatrixXd> of) {
+    lu.solve_transposed({of.data(), static_cast<std::size_t>(of.size())}, static_cast<int>(of.cols()));
+  });
+}
+
 void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
+  if (border.is_empty()) return solve_in_pattern(b, rtol, x);
+  x = b;
+  border.solve(x, [&](Eigen::Ref<Eigen::MatrixXd> of) {
+    Eigen::VectorXd in_pattern;
+    for (auto column : of.colwise()) {
+      solve_in_pattern(column, std::min(rtol, tight), in_pattern);
+      column = in_pattern;
+    }
+  });
+}
+
+void Reynolds::Impl::solve_in_pattern(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
   if (state.kind == LinearSolver::multigrid) {
     if (solve_by_multigrid(b, rtol, x)) return;
     ++state.fallback_solves;
@@ -158,7 +193,7 @@ void Reynolds::Impl::condense_by_adjoint(const Eigen::MatrixXd& openings, Conden
   adjoint.leftCols<6>() = wrench.gradient_u().transpose();
   adjoint.middleCols(6, shapes) = wrench.normal().by_u.asDiagonal() * openings;
   adjoint.rightCols(ports) = port_flow_by_u;
-  lu.solve_transposed({adjoint.data(), static_cast<std::size_t>(adjoint.size())}, static_cast<int>(adjoint.cols()));
+  solve_transposed(adjoint);
   for (Eigen::Index i = 0; i < 6; ++i) film.wrench[i] -= adjoint.col(i).dot(balance.residual());
   film.wrench_by_s.noalias() -= adjoint.leftCols<6>().transpose() * residual_by_s;
   if (shapes > 0) {
@@ -224,6 +259,7 @@ FilmDomain Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& h
   impl_->linearised = impl_->summed = false;
   if (const FilmDomain domain = impl_->balance.evaluate(motion, history, u); !domain.is_inside()) return domain;
   impl_->balance.assemble_jacobian();
+  impl_->border.take(impl_->balance);
   if (!impl_->is_finite()) return {FilmDomain::Violation::not_finite, -1};
   impl_->factorised = impl_->set_up = impl_->condensed = false;
   SurfaceMotion& speeds = impl_->speeds;
@@ -272,7 +308,7 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
   }
   m.wrench.evaluate(m.balance, m.speeds, false);
   du = -m.balance.residual();
-  m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
+  m.solve_directly(du);
   return {};
 }
 
@@ -314,7 +350,7 @@ void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::Vector
   if (m.state.kind == LinearSolver::direct) {
     du = -m.condensed_residual;
     du.noalias() -= m.residual_by_s * ds;
-    m.lu.solve({du.data(), static_cast<std::size_t>(du.size())});
+    m.solve_directly(du);
   } else {
     du = m.increment;
     du.noalias() += m.answers * ds;
@@ -356,12 +392,10 @@ void Reynolds::solve(Eigen::MatrixXd& columns, SystemMatrix matrix) {
     return;
   }
   m.factorise();
-  const std::span<double> values(columns.data(), static_cast<std::size_t>(columns.size()));
-  const auto count = static_cast<int>(columns.cols());
   if (is_transposed)
-    m.lu.solve_transposed(values, count);
+    m.solve_transposed(columns);
   else
-    m.lu.solve(values, count);
+    m.solve_directly(columns);
 }
 
 Eigen::MatrixXd Reynolds::inertia(const Eigen::MatrixXd& du_by_rate, double momentum_factor) {
@@ -402,9 +436,11 @@ void Reynolds::Impl::solve_for_settling() {
 }
 
 void Reynolds::Impl::subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const {
+  const Eigen::VectorXd before = border.at_ports(y);
   for (Eigen::Index column = 0; column < x.size(); ++column)
     for (auto k = balance.column_start()[column]; k < balance.column_start()[column + 1]; ++k)
       y[balance.row_index()[k]] -= balance.values()[k] * x[column];
+  border.subtract_product(x, before, y);
 }
 
 void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
@@ -415,6 +451,7 @@ void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, c
   m.rhs = -m.balance.residual();
   m.balance.subtract_squeeze_defect(m.rhs);
   m.balance.assemble_jacobian();
+  m.border.take(m.balance);
   m.solve_for_settling();
   m.balance.settle(m.answer, oil);
   m.linearised = m.summed = m.factorised = m.set_up = false;

@@ -4,6 +4,7 @@
 #include "schema/format.h"
 #include "schema/oil_laws.h"
 #include "schema/profile_shapes.h"
+#include "schema/restrictor_laws.h"
 #include "schema/thermal_walls.h"
 
 // Format of the two surfaces of a bearing and of the grid between them.
@@ -23,6 +24,7 @@ TypePtr features_format() {
           "Supply pressure; a function of time or of the rotation of `simulation.crank`. Where feeds touch, a supply "
           "line or an edge included, they need one pressure: what flows between two depends on the grid.",
           "not fed: a pocket of the given depth"),
+      restrictor_key(),
       defaulted("depth", quantity("m", "0.5 mm", Range::not_negative()), "0 mm",
                 "By how much it widens the gap, and its friction falls; 0 leaves the gap as it is."),
       optional("temperature", temperature_or_node("50 degC"),

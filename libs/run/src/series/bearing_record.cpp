@@ -7,6 +7,7 @@
 #include "cycle/cycle_maps.h"
 #include "hersey/bearing/film_coordinates.h"
 #include "hersey/bearing/quantities.h"
+#include "hersey/bearing/restricted_feeds.h"
 #include "hersey/run/assumptions.h"
 #include "hersey/run/film_fields.h"
 #include "series/geometry_record.h"
@@ -92,6 +93,18 @@ std::vector<std::string> feature_names(const BearingPlan& plan) {
 double flow_of_feature(const BearingRow& row, std::size_t k) {
   return row.observation.film.flow_features[static_cast<Eigen::Index>(k)];
 }
+
+std::vector<std::string> restricted_names(const BearingPlan& plan) {
+  return bearing::RestrictedFeeds::names(plan.bearing.film);
+}
+
+std::vector<std::string> names_with_supply(const BearingPlan& plan) {
+  return bearing::RestrictedFeeds::names_with_supply(plan.bearing.film);
+}
+
+bearing::RestrictedFeeds feeds(const BearingRow& row) { return {*row.model, row.observation.film}; }
+
+bool has_restrictors(const BearingPlan& plan) { return film::has_restrictors(plan.bearing.film); }
 
 bool has_heat(const BearingPlan& plan) { return std::holds_alternative<film::ThermalModel>(plan.bearing.heat); }
 
@@ -275,6 +288,16 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
            {.note = "one hole or groove; part of `flow_supply`",
             .each = feature_names,
             .summary_entries = {{Statistic::mean, "mean flow through <name>", "mm³/s"}}}),
+      line("pressure_feature_<name>", [](const BearingRow& row, std::size_t k) { return feeds(row).pressure(k); },
+           {.note = "of features with a `restrictor`",
+            .each = restricted_names,
+            .summary_entries = {{Statistic::mean, "mean pressure in <name>", "MPa"}}}),
+      line("pressure_ratio_<name>", [](const BearingRow& row, std::size_t k) { return feeds(row).pressure_ratio(k); },
+           {.note = "of features with a `restrictor` whose supply has a pressure", .each = names_with_supply}),
+      line("pumping_power", [](const BearingRow& row) { return feeds(row).pumping_power(); },
+           {.note = "only with restrictors",
+            .only = has_restrictors,
+            .summary_entries = {{Statistic::mean, "mean pumping power", "W"}}}),
       line("storage_rate", of_film(&Film::storage_rate)),
       line("oil_volume", of_film(&Film::oil_volume)),
       line("mass_balance_error", of_film(&Film::mass_balance_error),

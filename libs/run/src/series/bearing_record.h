@@ -22,6 +22,7 @@ struct BearingRow {
   const film::Grid& grid;
   double radius = 0;       ///< of the film, to which an annulus' z is relative [m]
   bool is_forward = true;  ///< leading ends are those with the smaller coordinate
+  const film::FilmModel* model = nullptr;
 };
 
 /// The fields of a film at an instant.
@@ -36,7 +37,8 @@ class BearingRecord {
   /// @param film  of the bearing; outlives this
   BearingRecord(const BearingPlan& plan, const bearing::FilmForce& film, results::Writer& writer);
   void append(const bearing::BearingObservation& observation) const {
-    rows_.append({observation, film_.fields(), film_.model().grid, film_.model().R, is_forward_});
+    const film::FilmModel& model = film_.model();
+    rows_.append({observation, film_.fields(), model.grid, model.R, is_forward_, &model});
   }
   void append_fields(double t) const { fields_.append({t, film_.fields()}); }
   /// The group of a bearing and that of its cycles.

@@ -71,24 +71,51 @@ struct ShapeDescription {
   const char* operator()(const film::Ellipse& /*shape*/) const { return "hole"; }
 };
 
+/// What a feature's restrictor is. The code does not compile for a law that has no description here.
+struct RestrictorDescription {
+  film::RestrictorOil oil;
+  std::string operator()(const film::Capillary& capillary) const {
+    return fmt::format("a capillary of {:.4g} mm x {:.4g} mm at {:.4g} mPa.s", 1e3 * capillary.length,
+                       1e3 * capillary.diameter, 1e3 * oil.mu);
+  }
+  std::string operator()(const film::FlowResistance& plug) const {
+    return fmt::format("a resistance of {:.4g} Pa.s/m^3", plug.resistance);
+  }
+  std::string operator()(const film::Orifice& orifice) const {
+    return fmt::format("an orifice of {:.4g} mm, discharge coefficient {:.4g}", 1e3 * orifice.diameter,
+                       orifice.discharge_coefficient);
+  }
+  std::string operator()(const film::ConstantFlow& pump) const {
+    return fmt::format("a pump of {:.4g} l/min", 60e3 * pump.rate);
+  }
+};
+
+std::string feed(const film::SurfaceFeature& feature) {
+  if (!feature.is_fed) return ", not fed";
+  if (!feature.restrictor) return "";
+  const film::Restrictor& restrictor = *feature.restrictor;
+  const std::string text = ", fed by " + std::visit(RestrictorDescription{restrictor.oil}, restrictor.law);
+  if (!restrictor.has_supply_pressure()) return text;
+  return text + (restrictor.throttles() ? " from " : ", limited to ") +
+         fmt::format("{:.4g} bar", 1e-5 * feature.pressure);
+}
+
 std::string described(const film::FilmModel& film, const film::SurfaceFeature& feature) {
   const std::string depth = feature.depth > 0 ? fmt::format(", {:.4g} um deep", 1e6 * feature.depth) : "";
   if (!film::is_round(film.surface))
     return fmt::format("{} in the pad at y = {:.4g} mm, z = {:.4g} mm, {:.4g} mm x {:.4g} mm{}{}",
                        std::visit(ShapeDescription{feature.is_fed}, feature.shape), 1e3 * film.R * feature.phi,
-                       1e3 * feature.z, 1e3 * film.R * feature.arc, 1e3 * feature.length, depth,
-                       feature.is_fed ? "" : ", not fed");
+                       1e3 * feature.z, 1e3 * film.R * feature.arc, 1e3 * feature.length, depth, feed(feature));
   if (bearing::is_on_annulus(film))
     return fmt::format("{} in the stator at {:.4g} deg, r = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
                        std::visit(ShapeDescription{feature.is_fed}, feature.shape),
                        feature.phi * 180 / std::numbers::pi, 1e3 * (film.R + feature.z),
-                       feature.arc * 180 / std::numbers::pi, 1e3 * feature.length, depth,
-                       feature.is_fed ? "" : ", not fed");
+                       feature.arc * 180 / std::numbers::pi, 1e3 * feature.length, depth, feed(feature));
   return fmt::format("{} in the {} at {:.4g} deg, z = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
                      std::visit(ShapeDescription{feature.is_fed}, feature.shape),
                      feature.surface == film::Surface::shell ? "shell" : "journal",
                      feature.phi * 180 / std::numbers::pi, 1e3 * feature.z, feature.arc * 180 / std::numbers::pi,
-                     1e3 * feature.length, depth, feature.is_fed ? "" : ", not fed");
+                     1e3 * feature.length, depth, feed(feature));
 }
 
 /// Text that follows the viscosity mu0 in its description. The code does not compile for a law that has no description

@@ -38,6 +38,11 @@ bool counts_on_crank(const model::Model& model) {
   return false;
 }
 
+/// False of a pump of constant flow without a limit.
+bool has_supply_pressure(const film::SurfaceFeature& feature) {
+  return !feature.restrictor || feature.restrictor->has_supply_pressure();
+}
+
 }  // namespace
 
 Inputs::Inputs(model::Model& model) : plan_(model.simulation) {
@@ -59,7 +64,7 @@ Inputs::Inputs(model::Model& model) : plan_(model.simulation) {
       add(*followed.function, followed.unit, followed.text, Jump::of_force);
   for (model::Bearing& bearing : model.bearings)
     for (std::size_t f = 0; f < bearing.feature_pressures.size(); ++f)
-      if (bearing.film.features[f].is_fed)
+      if (bearing.film.features[f].is_fed && has_supply_pressure(bearing.film.features[f]))
         add(bearing.feature_pressures[f], "Pa",
             fmt::format("pressure of {} in bearing {}", bearing.film.features[f].name, bearing.name), Jump::none);
   for (const Input& input : inputs_) infos_.push_back(input.info);

@@ -138,6 +138,13 @@ struct FilmModel {
   std::vector<Profile> profiles;         ///< shapes of bore and journal; the surfaces' motion includes them (GapShape)
 };
 
+/// True if a restrictor feeds one of the film's features, whose pressure is then found with the film.
+[[nodiscard]] inline bool has_restrictors(const FilmModel& model) {
+  for (const SurfaceFeature& feature : model.features)
+    if (feature.restrictor) return true;
+  return false;
+}
+
 /// The edge on which the axial row j of the grid lies; null for those between.
 [[nodiscard]] inline const Edge* edge_of_row(const FilmModel& model, int j) {
   if (j == 0) return &model.edge_left;

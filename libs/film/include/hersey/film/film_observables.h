@@ -67,9 +67,12 @@ struct FilmObservables {
   std::vector<PatchObservables> patches = {};  ///< of each patch of the grid; empty: a ring
   double flow_supply = 0;                      ///< oil entering through supply line and features [m^3/s]
   Eigen::VectorXd flow_features;               ///< oil entering through each feature [m^3/s]
-  double storage_rate = 0;                     ///< rate of change of the oil volume in the film [m^3/s]
-  double oil_volume = 0;                       ///< integral of theta h [m^3]
-  double mass_balance_error = 0;               ///< |supply - out - storage| over the largest of the flows and U c L [-]
+  /// Pressure in each feature that is fed, and of its supply, which differ by the drop over its restrictor [Pa]; of one
+  /// that is not fed, and of the supply of a pump without limit, not a number.
+  Eigen::VectorXd pressure_features, pressure_supplies;
+  double storage_rate = 0;        ///< rate of change of the oil volume in the film [m^3/s]
+  double oil_volume = 0;          ///< integral of theta h [m^3]
+  double mass_balance_error = 0;  ///< |supply - out - storage| over the largest of the flows and U c L [-]
   /// Angles at which the widest cavity at mid-width begins and ends along the flow [rad]; NaN without a cavity.
   double rupture_angle = 0, reformation_angle = 0;
   /// Largest Reynolds number rho v h/mu of the sliding, and of journals the largest Taylor number Re sqrt(h/R); of

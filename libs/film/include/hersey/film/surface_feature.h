@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <variant>
+
+#include "hersey/film/restrictor.h"
 
 namespace hersey::film {
 
@@ -50,6 +53,9 @@ struct SurfaceFeature {
   double pressure = 0;                     ///< [Pa]; SurfaceMotion::feature_pressure overrides it
   bool is_fed = true;                      ///< without it the pressure means nothing
   double depth = 0;                        ///< [m], >= 0
+  /// Through which it is fed: `pressure` is then the supply's, before the restrictor, and the pressure in the feature
+  /// an unknown of the film. Unset: the feature has the pressure of its supply.
+  std::optional<Restrictor> restrictor = {};
 };
 
 /// True if its outline ends with straight borders.

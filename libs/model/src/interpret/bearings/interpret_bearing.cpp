@@ -4,6 +4,7 @@
 #include "hersey/film/film_solver.h"
 #include "interpret/bearings/kinds/film_reader.h"
 #include "interpret/bearings/kinds/kinds.h"
+#include "interpret/bearings/kinds/restrictors.h"
 #include "schema/bearing_keys.h"
 #include "schema/film_vocabulary.h"
 
@@ -21,6 +22,7 @@ void interpret_bearings(Context& context) {
     kind->read(context, value, bearing);
     bearing.solver = value.find("solver") != nullptr ? meaning_of(value, "solver", film_solver_words)
                                                      : film::usual_solver(bearing.film.grid);
+    complete_restrictors(context, value, bearing);
     bearing.coupling = coupling_of(value);
     kind->read_point(context, value, bearing);
     context.model.bearings.push_back(std::move(bearing));

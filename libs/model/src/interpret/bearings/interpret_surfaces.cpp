@@ -8,6 +8,7 @@
 
 #include "hersey/core/two_pi.h"
 #include "hersey/film/gap_shape.h"
+#include "interpret/bearings/kinds/film_reader.h"
 #include "interpret/context/interpret.h"
 #include "schema/film_vocabulary.h"
 #include "schema/profile_shapes.h"
@@ -88,31 +89,13 @@ class SurfaceReader {
     for (const auto& [name, value] : section(value_, "features")) {
       if (value.broken) continue;
       film_.features.push_back(feature_of(value, name));
-      read_feed(value, film_.features.back());
+      FilmReader(context_, value_, bearing_).read_feed(value, film_.features.back());
       check_position(value, film_.features.back());
       check_overlap(value);
       warn_of_added_depths(value);
       check_line(value);
       warn_of_open_edge(value);
     }
-  }
-
-  void read_feed(const Value& value, film::SurfaceFeature& feature) {
-    const Value* pressure = value.find("pressure");
-    feature.is_fed = pressure != nullptr;
-    if (!feature.is_fed) {
-      bearing_.feature_pressures.push_back({std::make_shared<ConstantFunction>(film_.p_cav), {}, {}, {}, value.path});
-      if (feature.depth == 0) {
-        context_.fault_at_key(value, "neither 'pressure' nor 'depth'", "a pressure that feeds it, a depth, or both");
-      }
-      return;
-    }
-    bearing_.feature_pressures.push_back(function_of(context_, *pressure, "Pa"));
-    const Function& function = bearing_.feature_pressures.back();
-    if (!function.is_constant()) return;
-    Value constant = *pressure;
-    constant.number = feature.pressure = function.value->value({});
-    require_above_cavitation(context_, constant, film_);
   }
 
   [[nodiscard]] film::SurfaceFeature feature_of(const Value& value, const std::string& name) const {
@@ -165,7 +148,8 @@ class SurfaceReader {
   }
 
   [[nodiscard]] bool has_pressure(std::size_t feature, double pressure) const {
-    return bearing_.feature_pressures[feature].is_constant() && film_.features[feature].pressure == pressure;
+    return bearing_.feature_pressures[feature].is_constant() && film_.features[feature].pressure == pressure &&
+           !film_.features[feature].restrictor;
   }
 
   /// Two fed features of one surface that overlap must have one pressure: no film lies between them. Those of two

@@ -2,6 +2,7 @@
 
 #include "schema/bearing_keys.h"
 #include "schema/oil_laws.h"
+#include "schema/restrictor_laws.h"
 
 // Keys of a pad on a plane runner.
 namespace hersey::model {
@@ -38,6 +39,7 @@ TypePtr pad_features_format() {
       optional("pressure", function_format({"Pa"}, "20 bar"),
                "Supply pressure; a function of time or of the rotation of `simulation.crank`.",
                "not fed: a pocket of the given depth"),
+      restrictor_key(),
       defaulted("depth", quantity("m", "0.5 mm", Range::not_negative()), "0 mm",
                 "By how much it widens the gap, and its friction falls; 0 leaves the gap as it is."),
   };

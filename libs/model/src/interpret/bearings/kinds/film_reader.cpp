@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hersey/film/film_solver.h"
+#include "interpret/bearings/kinds/restrictors.h"
 #include "schema/film_vocabulary.h"
 
 namespace hersey::model {
@@ -160,15 +161,17 @@ void FilmReader::require_gauge_pressures() {
 void FilmReader::read_feed(const Value& value, film::SurfaceFeature& feature) {
   const Value* pressure = value.find("pressure");
   feature.is_fed = pressure != nullptr;
-  if (pressure == nullptr && feature.depth == 0)
+  if (pressure == nullptr && feature.depth == 0 && value.find("restrictor") == nullptr)
     context_.fault_at_key(value, "neither 'pressure' nor 'depth'", "a pressure that feeds it, a depth, or both");
   bearing_.feature_pressures.push_back(pressure != nullptr ? function_of(context_, *pressure, "Pa")
                                                            : not_fed(value.path));
   const Function& given = bearing_.feature_pressures.back();
-  if (pressure == nullptr || !given.is_constant()) return;
-  Value constant = *pressure;
-  constant.number = feature.pressure = given.value->value({});
-  require_above_cavitation(context_, constant, film_);
+  if (pressure != nullptr && given.is_constant()) {
+    Value constant = *pressure;
+    constant.number = feature.pressure = given.value->value({});
+    require_above_cavitation(context_, constant, film_);
+  }
+  read_restrictor(context_, value, given, feature);
 }
 
 Function FilmReader::not_fed(const std::string& path) const {

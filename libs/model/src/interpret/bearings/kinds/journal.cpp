@@ -206,7 +206,8 @@ std::optional<JournalPoint> operating_point_of(Context& context, const Value& be
   }
   const bool is_smooth = film.asperities.model == film::AsperityModel::none;
   const bool rests = point.journal_speed + point.shell_speed == 0 && point.radial_velocity == 0;
-  if (!context.has_fault_in(value->path) && is_smooth && rests) {
+  const bool is_fed = std::any_of(film.features.begin(), film.features.end(), [](const auto& f) { return f.is_fed; });
+  if (!context.has_fault_in(value->path) && is_smooth && !is_fed && rests) {
     context.fault(*value->find("journal_speed"), "speeds that drag no oil into the gap (their sum is 0)",
                   "surfaces that carry oil: half the sum of both speeds does, a radial_velocity presses it out",
                   "rough surfaces bear loads at rest: asperities");
