@@ -346,27 +346,6 @@ const std::vector<Group>& journal_table() {
   return groups;
 }
 
-/// Figures of each pad of a bearing of tilting pads.
-Group pad_figures() {
-  const auto names = [](const Solution& s) {
-    std::vector<std::string> numbers;
-    for (const PadState& pad : s.pads->pads) numbers.push_back(pad.name);
-    return numbers;
-  };
-  const auto of_pad = [](double PadState::*member) {
-    return [member](const Solution& s, std::size_t k) { return s.pads->pads[k].*member; };
-  };
-  return {"pads",
-          {{"pad_force_<name>",
-            kNewton,
-            [](const Solution& s, std::size_t k) { return s.pads->pads[k].force.norm(); },
-            {.each = names}},
-           {"pad_tilt_<name>", kMicroradian, of_pad(&PadState::tilt), {.each = names}},
-           {"pad_pivot_travel_<name>", kMicrometre, of_pad(&PadState::pivot_travel), {.each = names}},
-           {"pad_h_pivot_<name>", kMicrometre, of_pad(&PadState::h_pivot), {.each = names}},
-           {"pads_whirl_ratio", kNone, [](const Solution& s) { return s.pads->whirl_ratio; }}}};
-}
-
 const std::vector<Group>& tilting_pad_table() {
   static const std::vector<Group> groups{operating_point(), film_figures(), arc_figures(), pad_figures(),
                                          dimensionless(),   friction(),     oil(),         dynamics()};
@@ -376,11 +355,9 @@ const std::vector<Group>& tilting_pad_table() {
 /// Tables by the name of the kind. A new kind is a line here, and a file with its table beside this one.
 const std::vector<std::pair<std::string, std::vector<Group>>>& tables() {
   static const std::vector<std::pair<std::string, std::vector<Group>>> all{
-      {"journal", journal_table()},
-      {"plane_slider", plane_slider_figures()},
-      {"thrust", thrust_figures()},
-      {"squeeze_film_damper", squeeze_film_damper_figures()},
-      {"tilting_pad", tilting_pad_table()}};
+      {"journal", journal_table()},         {"plane_slider", plane_slider_figures()},
+      {"thrust", thrust_figures()},         {"squeeze_film_damper", squeeze_film_damper_figures()},
+      {"tilting_pad", tilting_pad_table()}, {"tilting_pad_thrust", thrust_pad_figures()}};
   return all;
 }
 
@@ -402,7 +379,7 @@ std::string filled_in(std::string_view pattern, const std::string& name) {
 }  // namespace
 
 std::string kind_of(const BearingSolution& solution) {
-  if (solution.pads) return "tilting_pad";
+  if (solution.pads) return solution.pads->kind;
   return solution.state.kind ? solution.state.kind->name() : "";
 }
 

@@ -179,7 +179,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
   for (const model::Composite& composite : model.composites)
-    if (&composite.bearing == &bearing) return solve_pads(composite, solution);
+    if (&composite.bearing == &bearing)
+      return composite.kind == "tilting_pad" ? solve_pads(composite, solution) : solve_thrust_pads(composite, solution);
   solution.expands = bearing.expansion.has_value();
   if (const auto* damper = std::get_if<model::DamperPoint>(&*bearing.operating_point))
     solution.whirl_speed = damper->whirl_speed;

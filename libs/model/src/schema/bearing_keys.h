@@ -38,10 +38,13 @@ struct BearingKindFormat {
 [[nodiscard]] std::vector<Key> journal_keys();
 [[nodiscard]] std::vector<Key> plane_slider_keys();
 [[nodiscard]] std::vector<Key> tilting_pad_keys();
-
-/// True for a key of a bearing of tilting pads that belongs to the film of each pad.
-[[nodiscard]] bool is_key_of_each_pad(const std::string& key);
+[[nodiscard]] std::vector<Key> tilting_pad_thrust_keys();
 [[nodiscard]] std::vector<Key> thrust_keys();
 [[nodiscard]] std::vector<Key> squeeze_film_damper_keys();
+
+/// Keys of what pads that tilt stand on. @param common  those that every pivot has
+[[nodiscard]] TypePtr pivot_format(const std::vector<Key>& common);
+/// True for a key of a bearing of tilting pads, of such a kind, that belongs to the film of each pad.
+[[nodiscard]] bool is_key_of_each_pad(const std::string& kind, const std::string& key);
 
 }  // namespace hersey::model

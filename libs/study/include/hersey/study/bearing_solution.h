@@ -15,17 +15,21 @@ enum class ThermalCoefficients { frozen, total };
 
 /// One pad of a solved bearing of tilting pads.
 struct PadState {
-  std::string name;         ///< its number, "1"
-  double pivot_angle = 0;   ///< of its pivot, from the shell's x-axis towards y [rad]
-  double tilt = 0;          ///< about the axis along the bearing, in the sense from x to y [rad]
-  double pivot_travel = 0;  ///< of its pivot along the radius, outwards; 0 of a rigid one [m]
+  std::string name;        ///< its number, "1"
+  double pivot_angle = 0;  ///< of its pivot, from the fixed surface's x-axis towards y [rad]
+  /// Around a journal about the axis along the bearing, in the sense from x to y; below a collar the slope along the
+  /// sense of rotation, positive: the gap is wider at the leading edge [rad].
+  double tilt = 0;
+  double tilt_across = 0;   ///< below a collar along the radius, positive: the gap is wider at the outer edge [rad]
+  double pivot_travel = 0;  ///< of its pivot away from the film; 0 of a rigid one [m]
   bool is_aside = false;    ///< nothing balances it: it is fixed at a tilt at which it carries nothing
-  double h_pivot = 0;       ///< film thickness at the pivot, at mid-width [m]
-  Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< of the film on it, bearing axes [N]
+  double h_pivot = 0;       ///< film thickness at the pivot, around a journal at mid-width [m]
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< around a journal: of the film on it, bearing axes [N]
 };
 
 /// What a bearing of tilting pads has beside its film.
 struct PadBearingSolution {
+  std::string kind = "tilting_pad";
   std::vector<PadState> pads;  ///< in the order of the film's arcs
   film::FilmFields fields;     ///< of all pads, on the grid of the solution's model
   double whirl_ratio = 1;      ///< frequency over the journal's at which the pads follow in the coefficients
@@ -55,7 +59,7 @@ struct [[nodiscard]] BearingSolution : Outcome {
   ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;  ///< those of `state`
   bearing::GridError grid_error;
   std::shared_ptr<const PadBearingSolution>
-      pads;                           ///< of a bearing of tilting pads, which are its film's arcs; else null
+      pads;                           ///< of a bearing of tilting pads, which are its film's arcs or sectors; else null
   std::vector<std::string> warnings;  ///< states in which the film exceeds the range for which its oil is known
   double wall_time = 0;               ///< grid error included [s]
   bool from_neighbour = false;        ///< found from a neighbour's solution after a cold start had failed
