@@ -46,7 +46,7 @@ bool stands_on_a_line(const model::Model& alone, const std::string& pad) {
 }
 
 /// Lets collar and pads begin with the film thickness `film` at the pivot where it is least: pads follow the collar and
-/// open their leading edges by half of the film (thrust.12).
+/// open their leading edges by half of their films (thrust.12).
 /// @returns the film thickness on the axis
 double begin_with_film(const model::Composite& composite, const model::ThrustPoint& point, double film,
                        model::Model& alone) {
@@ -62,7 +62,7 @@ double begin_with_film(const model::Composite& composite, const model::ThrustPoi
     const double before = std::abs(std::remainder(composite.pivot_angles[k] - grid.phi(0), two_pi)),
                  behind = std::abs(std::remainder(grid.phi(grid.n_phi - 1) - composite.pivot_angles[k], two_pi));
     const double lever = r * std::sin(std::min(std::max(before, behind), 0.25 * two_pi));
-    const double along = -onwards + std::copysign(0.5 * film / lever, point.speed);
+    const double along = -onwards + std::copysign(0.5 * (on_axis - r * outwards) / lever, point.speed);
     const std::string pivot = composite.pads[k] + "_pivot";
     if (stands_on_a_line(alone, composite.pads[k])) {
       begin_at(alone, pivot, "rotation", along);
@@ -113,6 +113,34 @@ run::SteadyMotion attempted(const model::Model& alone) {
   return motion;
 }
 
+/// The motion with the collar held at a film thickness on the axis, `least` at the nearest pivot: at once, or else
+/// followed from thicker films down in steps that pads can follow.
+run::SteadyMotion motion_held_at(const model::Composite& composite, const model::ThrustPoint& point, double on_axis,
+                                 double least, model::Model& alone) {
+  constexpr int widest = 6;
+  constexpr double shortest = 1.0 / 64;
+  run::SteadyMotion motion;
+  double at = on_axis;
+  for (int k = 0; k <= widest && !motion.solved(); ++k) {
+    at = begin_with_film(composite, point, std::exp2(k) * least, alone);
+    if (k == 0) begin_at(alone, distance_joint, "translation", at = on_axis);
+    motion = attempted(with_collar_at(alone, at));
+  }
+  const double from = at;
+  double reached = from == on_axis ? 1 : 0, step = 1;
+  while (motion.solved() && reached < 1) {
+    alone = beginning_at(std::move(alone), motion);
+    const double next = std::min(1.0, reached + step);
+    run::SteadyMotion there = attempted(with_collar_at(alone, (1 - next) * from + next * on_axis));
+    if (there.solved()) {
+      motion = std::move(there), reached = next;
+    } else if (step /= 2; step < shortest) {
+      return there;
+    }
+  }
+  return motion;
+}
+
 /// Film thickness at which so many pads carry the load, by (thrust.8).
 double estimated_film(const model::Composite& composite, const model::ThrustPoint& point) {
   const model::Bearing& pad = composite.alone->bearings.front();
@@ -129,11 +157,7 @@ std::optional<run::SteadyMotion> motion_by_thickness(const model::Composite& com
   constexpr double near = 1e-3;  // of the load, from where collar and pads are found at once
   model::Model from = alone;
   double on_axis = begin_with_film(composite, point, film, from);
-  run::SteadyMotion held = attempted(with_collar_at(from, on_axis));
-  for (int k = 1; k <= widest && !held.solved(); ++k) {
-    on_axis = begin_with_film(composite, point, std::exp2(k) * film, from);
-    held = attempted(with_collar_at(from, on_axis));
-  }
+  run::SteadyMotion held = motion_held_at(composite, point, on_axis, film, from);
   for (int i = 0; i < most && held.solved(); ++i) {
     from = beginning_at(std::move(from), held);
     const double carried = -wrench_of_pads(composite, {.alone = from, .motion = held})[5];
@@ -206,9 +230,7 @@ ThrustPadMotion find_thrust_motion(const model::Composite& composite, const mode
           fmt::format("a collar that leans by so much touches the pads: {:.4g} um at a pivot", 1e6 * least));
       return found;
     }
-    (void)begin_with_film(composite, point, least, found.alone);
-    begin_at(found.alone, distance_joint, "translation", *point.film_thickness);
-    found.motion = attempted(found.alone);
+    found.motion = motion_held_at(composite, point, *point.film_thickness, least, found.alone);
     return found;
   }
   const double film = estimated_film(composite, point);
