@@ -352,12 +352,23 @@ const std::vector<Group>& tilting_pad_table() {
   return groups;
 }
 
+const std::vector<Group>& ring_table() {
+  static const std::vector<Group> groups = [] {
+    std::vector<Group> all = ring_figures();
+    all.push_back(dynamics());
+    for (int k = 0; k < 2; ++k) all.back().lines.pop_back();  // those without a dimension
+    return all;
+  }();
+  return groups;
+}
+
 /// Tables by the name of the kind. A new kind is a line here, and a file with its table beside this one.
 const std::vector<std::pair<std::string, std::vector<Group>>>& tables() {
   static const std::vector<std::pair<std::string, std::vector<Group>>> all{
       {"journal", journal_table()},         {"plane_slider", plane_slider_figures()},
       {"thrust", thrust_figures()},         {"squeeze_film_damper", squeeze_film_damper_figures()},
-      {"tilting_pad", tilting_pad_table()}, {"tilting_pad_thrust", thrust_pad_figures()}};
+      {"tilting_pad", tilting_pad_table()}, {"tilting_pad_thrust", thrust_pad_figures()},
+      {"floating_ring", ring_table()}};
   return all;
 }
 

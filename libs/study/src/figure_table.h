@@ -154,6 +154,9 @@ inline auto height(double film::FilmObservables::*z) {
 /// The same of pads below a collar, whose loads stand among those of the film.
 [[nodiscard]] Group pad_pivot_figures();
 
+/// The table of a floating ring but for its stiffness and damping.
+[[nodiscard]] std::vector<Group> ring_figures();
+
 /// The table of a plane slider's figures, in the order in which they are reported.
 [[nodiscard]] std::vector<Group> plane_slider_figures();
 /// The table of a thrust bearing's figures, likewise.

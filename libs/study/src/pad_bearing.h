@@ -16,4 +16,7 @@ void solve_pads(const model::Composite& composite, BearingSolution& solution);
 /// thickness on the axis and slopes of the collar's axis.
 void solve_thrust_pads(const model::Composite& composite, BearingSolution& solution);
 
+/// The same of a floating ring, whose speed is found. The solution's film is the inner one.
+void solve_floating_ring(const model::Composite& composite, BearingSolution& solution);
+
 }  // namespace hersey::study

@@ -35,18 +35,27 @@ namespace {
 
 /// Kind of the films of a bearing of several, whose short names it has.
 std::string kind_of_films(const std::string& kind) {
-  if (kind == "tilting_pad") return "journal";
+  if (kind == "tilting_pad" || kind == "floating_ring") return "journal";
   return kind == "tilting_pad_thrust" ? "thrust" : kind;
 }
 
-/// Short names of a bearing of tilting pads: those of its films' kind that it has, and its own.
-ShortNames names_of_pads(ShortNames names, const std::string& kind, const std::string& bearing) {
-  std::erase_if(names.paths, [](const auto& path) {
-    return path.first == "shell_speed" || path.first == "radial_velocity" || path.first == "approach_speed";
+/// Short names of a bearing of several films: those of the films' kind that it has, and its own.
+ShortNames names_of_composite(ShortNames names, const std::string& kind, const std::string& bearing) {
+  const std::string path = "bearings." + bearing + ".", point = path + "operating_point.";
+  std::erase_if(names.paths, [&](const auto& name) {
+    const bool is_of_a_film =
+        kind == "floating_ring" && name.second.starts_with(path) && !name.second.starts_with(point);
+    return is_of_a_film || name.first == "shell_speed" || name.first == "radial_velocity" ||
+           name.first == "approach_speed";
   });
-  const std::string path = "bearings." + bearing + ".", of_pads = kind == "tilting_pad" ? "preload" : "offset";
-  names.paths.emplace_back("whirl_ratio", path + "operating_point.whirl_ratio");
-  names.paths.emplace_back(of_pads, path + "pads." + of_pads);
+  names.paths.emplace_back("whirl_ratio", point + "whirl_ratio");
+  if (kind == "tilting_pad") names.paths.emplace_back("preload", path + "pads.preload");
+  if (kind == "tilting_pad_thrust") names.paths.emplace_back("offset", path + "pads.offset");
+  if (kind != "floating_ring") return names;
+  for (const std::string film : {"inner", "outer"}) {
+    names.paths.emplace_back(film + "_clearance", path + film + ".radial_clearance");
+    names.paths.emplace_back(film + "_width", path + film + ".width");
+  }
   return names;
 }
 
@@ -62,7 +71,7 @@ const KindReader& reader_of(const std::string& kind) {
 ShortNames short_names(const Model& model, const Bearing& bearing) {
   const ShortNames names = reader_of(bearing.kind->name()).short_names(model, bearing);
   for (const Composite& composite : model.composites)
-    if (&composite.bearing == &bearing) return names_of_pads(names, composite.kind, bearing.name);
+    if (&composite.bearing == &bearing) return names_of_composite(names, composite.kind, bearing.name);
   return names;
 }
 
@@ -80,7 +89,7 @@ std::optional<BearingKindNames> names_of_kind(const std::string& kind, const std
   stand_in.name = bearing;
   stand_in.lubricant = lubricant;
   names.short_names = reader.short_names(Model{}, stand_in);
-  if (reader.kind != tag) names.short_names = names_of_pads(std::move(names.short_names), tag, bearing);
+  if (reader.kind != tag) names.short_names = names_of_composite(std::move(names.short_names), tag, bearing);
   return names;
 }
 

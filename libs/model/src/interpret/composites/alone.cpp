@@ -50,7 +50,7 @@ void read_journal_of_composite(const Value& bearing, CompositeParts& parts, std:
   if (const Value* ratio = given_number(*value, "eccentricity_ratio")) point.eccentricity_ratio = ratio->number;
   require_one_of(*value, "load", "eccentricity_ratio", faults);
   require_speed(*value, "journal_speed", "a journal at rest, whose film bears nothing", faults);
-  if (point.journal_speed < 0) parts.sense = -1;
+  if (point.journal_speed != 0) parts.speed = point.journal_speed;
   parts.point = point;
 }
 

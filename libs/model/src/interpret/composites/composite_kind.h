@@ -8,6 +8,7 @@
 #include "check/check.h"
 #include "interpret/composites/alone.h"
 #include "interpret/composites/composite_parts.h"
+#include "interpret/composites/floating_ring.h"
 #include "interpret/composites/thrust_pads.h"
 #include "interpret/composites/tilting_pads.h"
 
@@ -31,7 +32,8 @@ struct CompositeKind {
 [[nodiscard]] inline const std::vector<CompositeKind>& composite_kinds() {
   static const std::vector<CompositeKind> kinds{
       {"tilting_pad", "shell", "journal", "journal", read_journal_of_composite, tilting_pads, journal_alone},
-      {"tilting_pad_thrust", "stator", "runner", "collar", read_collar_of_composite, thrust_pads, collar_alone}};
+      {"tilting_pad_thrust", "stator", "runner", "collar", read_collar_of_composite, thrust_pads, collar_alone},
+      {"floating_ring", "shell", "journal", "journal", read_journal_of_composite, floating_ring, journal_alone}};
   return kinds;
 }
 

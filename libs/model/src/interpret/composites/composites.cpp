@@ -7,6 +7,7 @@
 #include "check/check.h"
 #include "check/members.h"
 #include "hersey/core/contract.h"
+#include "hersey/core/units.h"
 #include "interpret/composites/composite_kind.h"
 #include "interpret/composites/pad_parts.h"
 #include "schema/format.h"
@@ -61,8 +62,9 @@ Node alone_in(const Node& root, Node parts, const CompositeKind& kind, const Com
   return tree;
 }
 
-/// Sense in which a drive rotates the body of the frame `journal` about its joint's axis: where pads begin.
-double sense_of(const Node& root, const std::string& journal) {
+/// Speed at which a drive rotates the body of the frame `journal` about its joint's axis, as far as it is a number
+/// [rad/s]; else 1.
+double speed_of(const Node& root, const std::string& journal) {
   const std::string body = journal.substr(0, journal.find('.'));
   const Node *drives = root.find("drives"), *joints = root.find("joints");
   if (drives == nullptr || joints == nullptr) return 1;
@@ -70,8 +72,12 @@ double sense_of(const Node& root, const std::string& journal) {
     const Node* joint = joints->find(text_at(drive.value, "joint"));
     const Node* between = joint != nullptr ? joint->find("between") : nullptr;
     if (between == nullptr || between->items.size() != 2) continue;
-    const std::string& outboard = between->items[1].text;
-    if (outboard.substr(0, outboard.find('.')) == body && text_at(drive.value, "speed").starts_with('-')) return -1;
+    const std::string &outboard = between->items[1].text, speed = text_at(drive.value, "speed");
+    if (outboard.substr(0, outboard.find('.')) != body || speed.empty()) continue;
+    try {
+      if (const double number = parse_quantity(speed, "rad/s"); number != 0) return number;
+    } catch (const QuantityError&) {  // a fault of the drive
+    }
   }
   return 1;
 }
@@ -111,7 +117,7 @@ std::optional<Node> expand(const Node& root, const Entry& bearing, Composites& c
   parts.alone = alone_in(root, std::move(*own), kind, parts);
   std::optional<Node> in_machine;
   if (!fixed.empty()) {
-    again.sense = sense_of(root, moving);
+    again.speed = speed_of(root, moving);
     in_machine = kind.parts(bearing.value, value, fixed, moving, again, faults);
     parts.is_in_machine = true;
   }
@@ -143,10 +149,15 @@ void name_composites(const std::vector<CompositeParts>& composites, std::vector<
     for (const CompositeParts& composite : composites) {
       if (fault.path.starts_with("joints." + composite.name + "_carrier"))
         fault.path = "bearings." + composite.name + "." + composite.fixed_key;
-      for (const std::string& pad : composite.pads) {
-        const std::string path = "bearings." + pad;
+      for (std::size_t k = 0; k < composite.pads.size(); ++k) {
+        const std::string path = "bearings." + composite.pads[k], whole = "bearings." + composite.name;
         if (fault.path != path && !fault.path.starts_with(path + ".")) continue;
-        fault.path = "bearings." + composite.name + fault.path.substr(path.size());
+        const std::string rest = fault.path.substr(path.size());
+        const std::string section = composite.sections.empty() ? "" : composite.sections[k];
+        const bool is_of_section =
+            std::any_of(composite.own_keys.begin(), composite.own_keys.end(),
+                        [&](const std::string& key) { return (section + rest).starts_with(key); });
+        fault.path = whole + (is_of_section ? "." + section : "") + rest;
       }
     }
   }

@@ -63,7 +63,8 @@ class TiltingPads {
   /// half the clearance towards the farther end. Flat pads may have no film to begin with.
   [[nodiscard]] double opening() const {
     const double farther = std::max(offset_, 1 - offset_) * arc_;
-    return parts_.sense * 0.5 * parts_.clearance / ((R_ + thickness_) * std::sin(std::min(farther, 0.25 * two_pi)));
+    return std::copysign(0.5, parts_.speed) * parts_.clearance /
+           ((R_ + thickness_) * std::sin(std::min(farther, 0.25 * two_pi)));
   }
 
   void find_pivots() {

@@ -44,6 +44,27 @@ TypePtr pivot_format(const std::vector<Key>& common) {
                  });
 }
 
+TypePtr composite_point_format(const std::string& clearance, const std::string& parts) {
+  const TypePtr angle = quantity("rad", "-90 deg");
+  const std::vector<Word> not_given{{"none", "not given; for `--set`"}};
+  return object(
+      "an operating point",
+      {
+          required("journal_speed", quantity("rad/s", "3000 rpm"),
+                   "Angular velocity of the journal about the bearing's z-axis."),
+          optional("load", or_word(quantity("N", "2500 N", Range::positive()), not_given),
+                   "Load on the journal: its position is sought."),
+          defaulted("load_angle", angle, "-90 deg", "Direction of the load, from x towards y."),
+          optional("eccentricity_ratio", or_word(number("0.6", Range::not_negative()), not_given),
+                   "Position of the journal over " + clearance + ", instead of a load: its load is sought."),
+          defaulted("eccentricity_angle", angle, "-90 deg", "Direction of that position, from x towards y."),
+          defaulted(
+              "whirl_ratio", number("1", Range::not_negative()), "1",
+              "Frequency of the whirl at which " + parts +
+                  " follow, over the journal's frequency, in stiffness and damping; 1: synchronous, 0: slow motions."),
+      });
+}
+
 bool is_key_of_each_pad(const std::string& kind, const std::string& key) {
   const std::vector<std::string> of_all{"lubricant",   "grid",      "edge_pressure", "ambient_fill",
                                         "shear_force", "roughness", "materials"},

@@ -60,26 +60,6 @@ std::vector<Key> pivot_keys() {
   };
 }
 
-TypePtr pads_point_format() {
-  const TypePtr angle = quantity("rad", "-90 deg");
-  const std::vector<Word> not_given{{"none", "not given; for `--set`"}};
-  return object(
-      "an operating point",
-      {
-          required("journal_speed", quantity("rad/s", "3000 rpm"),
-                   "Angular velocity of the journal about the bearing's z-axis."),
-          optional("load", or_word(quantity("N", "2500 N", Range::positive()), not_given),
-                   "Load on the journal: its position is sought."),
-          defaulted("load_angle", angle, "-90 deg", "Direction of the load, from x towards y."),
-          optional("eccentricity_ratio", or_word(number("0.6", Range::not_negative()), not_given),
-                   "Position of the journal over the assembled clearance, instead of a load: its load is sought."),
-          defaulted("eccentricity_angle", angle, "-90 deg", "Direction of that position, from x towards y."),
-          defaulted("whirl_ratio", number("1", Range::not_negative()), "1",
-                    "Frequency of the whirl at which the pads follow, over the journal's frequency, in stiffness and "
-                    "damping; 1: synchronous, 0: slow motions."),
-      });
-}
-
 }  // namespace
 
 std::vector<Key> tilting_pad_keys() {
@@ -91,7 +71,7 @@ std::vector<Key> tilting_pad_keys() {
   const auto at = std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.name == "grid"; });
   keys.insert(at, {required("pads", pads_format(), "Number, size and place of the pads."),
                    defaulted("pivot", pivot_format(pivot_keys()), "{type: rigid}", "What the pads stand on.")});
-  keys.push_back(optional("operating_point", pads_point_format(),
+  keys.push_back(optional("operating_point", composite_point_format("the assembled clearance", "the pads"),
                           "Speed and load, or position, of the bearing by itself (`hersey bearing`); a simulation has "
                           "its own.",
                           "given on the command line"));
