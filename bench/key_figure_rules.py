@@ -58,6 +58,7 @@ COMMANDS = {
     "thrust_pads/fixed": [("bearing",)],
     "thrust_pads/model": [("run",)],
     "thrust_pads/shaft": [("run",)],
+    "thrust_pads/tilting": [("bearing",), ("run",)],
     "tilting_pads/model": [("run",)],
     "spinning_rod/model": [("run", "simulation.duration=10s")],
     "squeeze_film_damper/model": [("bearing",)],

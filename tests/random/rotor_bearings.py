@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Random bores of arcs, hybrid bearings, tilting pads and thrust bearings: answers that must not depend on how a bearing is written down.
+"""Random bores of arcs, hybrid bearings, tilting pads and thrust bearings, fixed and tilting: answers that must not depend on how a bearing is written down.
 
     rotor_bearings.py HERSEY [--seed S] [--count N] [--only NAME] [--output DIR]
 
@@ -21,7 +21,7 @@ import program  # noqa: E402
 
 SAME = 2e-5  # relative difference that two writings of one bearing may have: searches end at 1e-6 and better
 SCALARS = ("load", "h_min", "p_max", "power_film", "oil_volume", "torque_journal", "torque_runner", "side_flow", "eccentricity_ratio",
-           "film_thickness", "cavitated_share", "reynolds_max")
+           "film_thickness_axis", "stiffness", "damping", "cavitated_share", "reynolds_max")
 MATRICES = ("K", "C", "stiffness", "damping")
 
 
@@ -199,7 +199,40 @@ class Thrust(Case):
         return None
 
 
-KINDS = {"arcs": Arcs, "hybrid": Hybrid, "pads": Pads, "thrust": Thrust}
+class ThrustPads(Thrust):
+    """A collar on pads on pivots."""
+
+    def __init__(self, rng):
+        super().__init__(rng)
+        self.shape = [{"profile": "crown", "drop": f"{rng.choice([0, 3, 10])} um"}]
+        # Pads that have a wedge: of small arcs, their pivots behind and outside their middles.
+        self.count = rng.randint(5, 9)
+        self.arc = rng.uniform(0.6, 0.9) * 360 / self.count
+        self.offset, self.radius = rng.uniform(0.57, 0.65), self.inner + (self.outer - self.inner) * rng.uniform(0.5, 0.57)
+        self.pivot = rng.choice([{"type": "rigid"}, {"type": "rigid", "form": "line"},
+                                 {"type": "spring", "stiffness": f"{self.load * 1e5:.6g} N/m"}])
+        self.ratio = rng.choice([0, 0.5, 1])
+        self.film["shear_force"] = rng.choice(["full", "none"])
+        self.density = rng.choice([0, 7850])
+
+    def keys(self, turn, mirror):
+        keys = super().keys(turn, mirror)
+        first = self.first + turn
+        pads = {"count": self.count, "arc": degrees(self.arc), "offset": self.offset, "pivot_radius": f"{self.radius:.12g} mm",
+                "angle": degrees(-first if mirror else first), "thickness": "5 mm",
+                "density": f"{self.density} kg/m^3"}
+        return {**{key: value for key, value in keys.items() if key != "sectors"}, "kind": "tilting_pad_thrust", "pads": pads,
+                "pivot": self.pivot}
+
+    def point(self, turn, mirror):
+        return {**super().point(turn, mirror), "whirl_ratio": self.ratio}
+
+    @staticmethod
+    def position(figures):
+        return {"load": "none", "film_thickness": f"{figures['film_thickness_axis']:.15g} m"}
+
+
+KINDS = {"arcs": Arcs, "hybrid": Hybrid, "pads": Pads, "thrust": Thrust, "thrust_pads": ThrustPads}
 
 
 def solved(hersey, case, folder, **writing):

@@ -177,9 +177,9 @@ void outside_domain(const State& state, const std::string& why, InitialiseSummar
   summary.message = fmt::format("at the start, t = {:.6g} s: {}", state.t, why);
 }
 
-/// Accelerations and multipliers of `trial`, and the velocities of motions that have no inertia; false, with the
-/// reason, where they are not determined.
-bool find_accelerations(Equations& equations, State& trial, InitialiseSummary& summary) {
+/// Accelerations and multipliers of `trial`, and the velocities of motions that have no inertia if these are balanced;
+/// false, with the reason, where they are not determined.
+bool find_accelerations(Equations& equations, State& trial, bool balances_massless, InitialiseSummary& summary) {
   const Index nv = equations.nv();
   VectorXd h, velocity, gamma;
   Equations::SparseMatrix S;
@@ -192,6 +192,7 @@ bool find_accelerations(Equations& equations, State& trial, InitialiseSummary& s
   };
   if (!assembled()) return false;
   AccelerationSolution solution = solve_kkt(S, nv, h, gamma);
+  if (!solution.undetermined.empty() && !balances_massless) solution = solve_kkt_but_massless(S, nv, h, gamma);
   if (!solution.undetermined.empty()) {
     const MasslessSummary balance = balance_massless(equations, trial, massless_motions(S, nv));
     if (!balance.undetermined.empty()) {
@@ -229,7 +230,7 @@ InitialiseSummary initialise(Equations& equations, State& state, const Initialis
 
   project_velocities(equations, trial, options);
 
-  if (!find_accelerations(equations, trial, summary)) return summary;
+  if (!find_accelerations(equations, trial, options.balances_massless, summary)) return summary;
   state = std::move(trial);
   equations.accept_step(state);
   return summary;

@@ -353,34 +353,6 @@ const std::vector<Group>& journal_table() {
   return groups;
 }
 
-/// Figures of each pad of a bearing of tilting pads.
-Group pad_figures() {
-  const auto names = [](const Solution& s) {
-    std::vector<std::string> numbers;
-    for (const PadState& pad : s.pads->pads) numbers.push_back(pad.name);
-    return numbers;
-  };
-  const auto of_pad = [](double PadState::*member) {
-    return [member](const Solution& s, std::size_t k) { return s.pads->pads[k].*member; };
-  };
-  const auto celsius_of_pad = [of_pad](double PadState::*member) {
-    return [T = of_pad(member)](const Solution& s, std::size_t k) { return T(s, k) - film::zero_celsius; };
-  };
-  const auto has_heat = [](const Solution& s) { return s.state.heat.has_value(); };
-  return {
-      "pads",
-      {{"pad_force_<name>",
-        kNewton,
-        [](const Solution& s, std::size_t k) { return s.pads->pads[k].force.norm(); },
-        {.each = names}},
-       {"pad_tilt_<name>", kMicroradian, of_pad(&PadState::tilt), {.each = names}},
-       {"pad_pivot_travel_<name>", kMicrometre, of_pad(&PadState::pivot_travel), {.each = names}},
-       {"pad_h_pivot_<name>", kMicrometre, of_pad(&PadState::h_pivot), {.each = names}},
-       {"pad_T_max_<name>", kCelsius, celsius_of_pad(&PadState::T_max), {.only = has_heat, .each = names}},
-       {"pad_T_face_max_<name>", kCelsius, celsius_of_pad(&PadState::T_face_max), {.only = has_heat, .each = names}},
-       {"pads_whirl_ratio", kNone, [](const Solution& s) { return s.pads->whirl_ratio; }}}};
-}
-
 const std::vector<Group>& tilting_pad_table() {
   static const std::vector<Group> groups{operating_point(),
                                          film_figures(),
@@ -394,14 +366,23 @@ const std::vector<Group>& tilting_pad_table() {
   return groups;
 }
 
+const std::vector<Group>& ring_table() {
+  static const std::vector<Group> groups = [] {
+    std::vector<Group> all = ring_figures();
+    all.push_back(dynamics());
+    for (int k = 0; k < 2; ++k) all.back().lines.pop_back();  // those without a dimension
+    return all;
+  }();
+  return groups;
+}
+
 /// Tables by the name of the kind. A new kind is a line here, and a file with its table beside this one.
 const std::vector<std::pair<std::string, std::vector<Group>>>& tables() {
   static const std::vector<std::pair<std::string, std::vector<Group>>> all{
-      {"journal", journal_table()},
-      {"plane_slider", plane_slider_figures()},
-      {"thrust", thrust_figures()},
-      {"squeeze_film_damper", squeeze_film_damper_figures()},
-      {"tilting_pad", tilting_pad_table()}};
+      {"journal", journal_table()},         {"plane_slider", plane_slider_figures()},
+      {"thrust", thrust_figures()},         {"squeeze_film_damper", squeeze_film_damper_figures()},
+      {"tilting_pad", tilting_pad_table()}, {"tilting_pad_thrust", thrust_pad_figures()},
+      {"floating_ring", ring_table()}};
   return all;
 }
 
@@ -423,7 +404,7 @@ std::string filled_in(std::string_view pattern, const std::string& name) {
 }  // namespace
 
 std::string kind_of(const BearingSolution& solution) {
-  if (solution.pads) return "tilting_pad";
+  if (solution.pads) return solution.pads->kind;
   return solution.state.kind ? solution.state.kind->name() : "";
 }
 

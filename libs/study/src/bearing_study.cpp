@@ -20,6 +20,7 @@
 #include "hersey/bearing/clearance.h"
 #include "hersey/bearing/phase_averaged_coefficients.h"
 #include "hersey/bearing/total_coefficients.h"
+#include "hersey/core/contract.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
@@ -172,6 +173,13 @@ bool solve_heat(const model::Bearing& bearing, const BearingStudyOptions& option
   return false;
 }
 
+void solve_composite(const model::Composite& composite, BearingSolution& solution) {
+  if (composite.kind == "tilting_pad") return solve_pads(composite, solution);
+  if (composite.kind == "tilting_pad_thrust") return solve_thrust_pads(composite, solution);
+  HERSEY_REQUIRE(composite.kind == "floating_ring", "every kind of composite is solved by itself");
+  solve_floating_ring(composite, solution);
+}
+
 // Solves from `start` if there is one.
 void solve_one(const model::Model& model, const BearingStudyOptions& options, const bearing::SteadyState* start,
                KnownBodies& bodies, BearingSolution& solution) {
@@ -179,7 +187,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   const model::Bearing& bearing = bearing_called(model, options.bearing);
   const bearing::OperatingPoint point = operating_point_of(bearing);
   for (const model::Composite& composite : model.composites)
-    if (&composite.bearing == &bearing) return solve_pads(composite, solution);
+    if (&composite.bearing == &bearing) return solve_composite(composite, solution);
   solution.expands = bearing.expansion.has_value();
   if (const auto* damper = std::get_if<model::DamperPoint>(&*bearing.operating_point))
     solution.whirl_speed = damper->whirl_speed;

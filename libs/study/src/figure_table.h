@@ -151,10 +151,20 @@ inline auto height(double film::FilmObservables::*z) {
 /// True if the bore consists of arcs.
 [[nodiscard]] bool has_arcs(const Solution& s);
 
+/// Figures of each pad of a bearing of tilting pads.
+[[nodiscard]] Group pad_figures();
+/// The same of pads below a collar, whose loads stand among those of the film.
+[[nodiscard]] Group pad_pivot_figures();
+
+/// The table of a floating ring but for its stiffness and damping.
+[[nodiscard]] std::vector<Group> ring_figures();
+
 /// The table of a plane slider's figures, in the order in which they are reported.
 [[nodiscard]] std::vector<Group> plane_slider_figures();
 /// The table of a thrust bearing's figures, likewise.
 [[nodiscard]] std::vector<Group> thrust_figures();
+/// The table of a thrust bearing of pads on pivots.
+[[nodiscard]] std::vector<Group> thrust_pad_figures();
 /// The table of a squeeze-film damper.
 [[nodiscard]] std::vector<Group> squeeze_film_damper_figures();
 

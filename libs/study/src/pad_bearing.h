@@ -12,4 +12,11 @@ namespace hersey::study {
 /// @throws InputError where the bearing can only be in its machine
 void solve_pads(const model::Composite& composite, BearingSolution& solution);
 
+/// The same of pads below a collar, whose film is that of a thrust bearing. Its coefficients are those over film
+/// thickness on the axis and slopes of the collar's axis.
+void solve_thrust_pads(const model::Composite& composite, BearingSolution& solution);
+
+/// The same of a floating ring, whose speed is found. The solution's film is the inner one.
+void solve_floating_ring(const model::Composite& composite, BearingSolution& solution);
+
 }  // namespace hersey::study

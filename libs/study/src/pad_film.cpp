@@ -9,7 +9,6 @@
 #include <numeric>
 #include <utility>
 
-#include "hersey/core/contract.h"
 #include "hersey/core/two_pi.h"
 
 namespace hersey::study {
@@ -43,9 +42,11 @@ PadFilm::PadFilm(const std::vector<model::Bearing>& films) : films_(films), orde
                 .heights = films.front().film.grid.heights,
                 .patches = {}};
   model.ends.clear();
-  film::Arcs bore;
-  for (const std::size_t k : order_) add_model(films_[k], k, bore);
-  model.profiles = {{std::move(bore), film::Surface::shell}};
+  for (const std::size_t k : order_) add_patch(films_[k], k);
+  kind = films.front().kind;
+  if (const auto* thrust = dynamic_cast<const bearing::ThrustBearing*>(kind.get()))
+    kind = std::make_shared<bearing::ThrustBearing>(sectors_, thrust->shapes(), thrust->is_forward());
+  if (!bore_.arcs.empty()) model.profiles = {{bore_, film::Surface::shell}};
 }
 
 void PadFilm::observe(const run::SteadyMotion& motion, const std::vector<double>& fixed_tilts) {
@@ -63,7 +64,7 @@ void PadFilm::observe(const run::SteadyMotion& motion, const std::vector<double>
   if (heat) divide_heat();
 }
 
-void PadFilm::add_model(const model::Bearing& pad, std::size_t number, film::Arcs& bore) {
+void PadFilm::add_patch(const model::Bearing& pad, std::size_t number) {
   film::Grid& grid = model.grid;
   const film::Grid& own = pad.film.grid;
   grid.patches.push_back(grid.n_phi);
@@ -72,11 +73,14 @@ void PadFilm::add_model(const model::Bearing& pad, std::size_t number, film::Arc
   for (int i = 0; i < own.n_phi; ++i) grid.angles.push_back(own.phi(i) + shift);
   grid.n_phi += own.n_phi;
   model.ends.push_back(pad.film.ends.front());
-  const film::Arcs* arcs = film::arcs_of(pad.film);
-  HERSEY_REQUIRE(arcs != nullptr, "a pad's film lies on an arc");
-  bore.arcs.push_back(arcs->arcs.front());
-  bore.arcs.back().name = fmt::format("{}", number + 1);
-  bore.arcs.back().from += shift, bore.arcs.back().to += shift;
+  const std::string name = fmt::format("{}", number + 1);
+  if (const film::Arcs* arcs = film::arcs_of(pad.film); arcs != nullptr) {
+    bore_.arcs.push_back(arcs->arcs.front());
+    bore_.arcs.back().name = name;
+    bore_.arcs.back().from += shift, bore_.arcs.back().to += shift;
+  } else {
+    sectors_.push_back({name, own.phi(0) + shift, own.phi(own.n_phi - 1) + shift});
+  }
 }
 
 void PadFilm::add_extremes(const film::FilmObservables& pad) {

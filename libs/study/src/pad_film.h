@@ -1,18 +1,20 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "hersey/bearing/thrust_bearing.h"
 #include "hersey/model/model.h"
 #include "hersey/run/steady_motion.h"
 
 namespace hersey::study {
 
-/// Film of all pads of a bearing together, as that of a bore of arcs: one grid of patches, one set of figures and
-/// fields.
+/// Film of all pads of a bearing together, as that of a bore of arcs or of a thrust bearing: one grid of patches, one
+/// set of figures and fields.
 class PadFilm {
  public:
-  /// @param films  of the pads, each on one arc; they outlive this
+  /// @param films  of the pads, each on one arc or sector; they outlive this
   explicit PadFilm(const std::vector<model::Bearing>& films);
 
   /// Adds up what the pads' films show.
@@ -23,13 +25,14 @@ class PadFilm {
   /// Numbers of the pads in the order of the arcs.
   [[nodiscard]] const std::vector<std::size_t>& order() const { return order_; }
 
+  std::shared_ptr<const bearing::BearingKind> kind;  ///< with all pads
   film::FilmModel model;
   film::FilmObservables film;
   film::FilmFields fields;
   std::optional<film::HeatObservables> heat;  ///< unset: the films have one temperature
 
  private:
-  void add_model(const model::Bearing& pad, std::size_t number, film::Arcs& bore);
+  void add_patch(const model::Bearing& pad, std::size_t number);
   void add_extremes(const film::FilmObservables& pad);
   void add_figures(const film::FilmObservables& pad, const film::Grid& grid);
   void add_fields(const film::FilmFields& pad);
@@ -38,6 +41,8 @@ class PadFilm {
   [[nodiscard]] double angle_of_pads() const;
 
   const std::vector<model::Bearing>& films_;
+  film::Arcs bore_;                          // around a journal
+  std::vector<bearing::SectorPad> sectors_;  // below a collar
   std::vector<std::size_t> order_;
 };
 

@@ -38,9 +38,6 @@ Eigen::Vector2d force_on_pad(const model::Composite& composite, std::size_t k, c
 
 namespace {
 
-/// After which a search counts as one without an answer: those with one need ten.
-constexpr int most_iterations = 100;
-
 /// Names of the coordinates of the journal's centre.
 std::vector<std::string> journal_axes() {
   return {fmt::format("joint {}, x", journal_joint), fmt::format("joint {}, y", journal_joint)};
@@ -61,6 +58,51 @@ std::vector<solver::Equations::Index> journal_coordinates(const run::SteadyMotio
 Eigen::MatrixXd over_coordinates(const solver::Linearisation& linear, const Eigen::MatrixXd& A) {
   const Eigen::MatrixXd along = linear.Z.completeOrthogonalDecomposition().pseudoInverse();
   return along.transpose() * A * along;
+}
+
+model::Model starting_at(model::Model alone, const run::SteadyMotion& motion) {
+  for (std::size_t k = 0; k < alone.joints.size(); ++k) {
+    const mbd::JointValues& position = motion.joints[k].position;
+    for (model::InitialValue& initial : alone.joints[k].initial)
+      if (static_cast<Eigen::Index>(initial.value.size()) == position.size())
+        initial.value.assign(position.begin(), position.end());
+  }
+  return alone;
+}
+
+bool pads_return(const run::SteadyMotion& motion, const std::vector<std::string>& of_shaft) {
+  std::vector<Eigen::Index> of_pads;
+  for (std::size_t row = 0; row < motion.coordinates.size(); ++row)
+    if (std::none_of(of_shaft.begin(), of_shaft.end(), [&](const std::string& joint) {
+          return motion.coordinates[row].starts_with(fmt::format("joint {},", joint));
+        }))
+      of_pads.push_back(static_cast<Eigen::Index>(row));
+  if (of_pads.empty()) return true;
+  const solver::Linearisation& linear = motion.small_motions;
+  const Eigen::MatrixXd K = over_coordinates(linear, linear.K)(of_pads, of_pads),
+                        C = over_coordinates(linear, linear.C)(of_pads, of_pads);
+  const Eigen::VectorXcd rates = C.fullPivLu().solve(K).eigenvalues();
+  return rates.real().minCoeff() > 0;
+}
+
+solver::Linearisation mean_over_grids(const model::Model& held, const run::SteadyMotion& motion,
+                                      const std::vector<std::string>& released) {
+  constexpr int positions = 4;
+  solver::Linearisation mean = motion.small_motions;
+  int count = 1;
+  for (int m = 1; m < positions; ++m) {
+    model::Model turned = held;
+    for (model::Bearing& pad : turned.bearings)
+      pad.film.grid = film::turned(pad.film.grid, static_cast<double>(m) / positions);
+    const run::SteadyMotion there = run::find_steady_motion(turned, released, most_iterations);
+    if (!there.solved()) continue;
+    const solver::Linearisation& other = there.small_motions;
+    mean.K += mean.Z.transpose() * over_coordinates(other, other.K) * mean.Z;
+    mean.C += mean.Z.transpose() * over_coordinates(other, other.C) * mean.Z;
+    ++count;
+  }
+  mean.K /= count, mean.C /= count;
+  return mean;
 }
 
 namespace {
@@ -108,17 +150,6 @@ std::vector<std::size_t> least_loaded(const model::Composite& composite, const s
   return least;
 }
 
-/// The bearing with all joints starting where a motion has them.
-model::Model starting_at(model::Model alone, const run::SteadyMotion& motion) {
-  for (std::size_t k = 0; k < alone.joints.size(); ++k) {
-    const mbd::JointValues& position = motion.joints[k].position;
-    for (model::InitialValue& initial : alone.joints[k].initial)
-      if (static_cast<Eigen::Index>(initial.value.size()) == position.size())
-        initial.value.assign(position.begin(), position.end());
-  }
-  return alone;
-}
-
 /// The bearing with its journal held at `e` [m].
 model::Model with_journal_at(model::Model alone, const Eigen::Vector2d& e) {
   std::erase_if(alone.forces, [](const model::Force& force) { return force.name == "load"; });
@@ -131,21 +162,6 @@ model::Model with_journal_at(model::Model alone, const Eigen::Vector2d& e) {
   return alone;
 }
 
-/// True if pads return to where a motion has them while the journal is held: no motion of theirs, which films resist by
-/// C y', grows by -K y.
-bool pads_return(const run::SteadyMotion& motion) {
-  std::vector<Eigen::Index> of_pads;
-  for (std::size_t row = 0; row < motion.coordinates.size(); ++row)
-    if (!motion.coordinates[row].starts_with(fmt::format("joint {},", journal_joint)))
-      of_pads.push_back(static_cast<Eigen::Index>(row));
-  if (of_pads.empty()) return true;
-  const solver::Linearisation& linear = motion.small_motions;
-  const Eigen::MatrixXd K = over_coordinates(linear, linear.K)(of_pads, of_pads),
-                        C = over_coordinates(linear, linear.C)(of_pads, of_pads);
-  const Eigen::VectorXcd rates = C.fullPivLu().solve(K).eigenvalues();
-  return rates.real().minCoeff() > 0;
-}
-
 /// The motion with the journal held at `e`, reached from the middle of the bearing in steps that pads can follow; a
 /// last one unsolved tells why there is none.
 run::SteadyMotion motion_held_at(const model::Model& alone, const Eigen::Vector2d& e) {
@@ -156,7 +172,8 @@ run::SteadyMotion motion_held_at(const model::Model& alone, const Eigen::Vector2
   while (reached < 1) {
     try {
       motion = run::find_steady_motion(with_journal_at(from, (reached + step) * e), journal_axes(), most_iterations);
-      if (motion.solved() && !pads_return(motion)) motion.fail("pads that would tilt away from where they stand");
+      if (motion.solved() && !pads_return(motion, {journal_joint}))
+        motion.fail("pads that would tilt away from where they stand");
     } catch (const InputError& error) {  // pads that stand as they began touch the journal there
       motion.fail(error_text(error));
     }
@@ -182,7 +199,7 @@ Eigen::Vector2d carried_by(const model::Composite& composite, const PadMotion& f
 run::SteadyMotion motion_under_load(const model::Composite& composite, const model::Model& alone,
                                     const std::vector<double>& fixed_tilts, const model::JournalPoint& point) {
   const run::SteadyMotion direct = run::find_steady_motion(alone, {}, most_iterations);
-  if (direct.solved() && pads_return(direct)) return direct;
+  if (direct.solved() && pads_return(direct, {journal_joint})) return direct;
   const Eigen::Vector2d load = *point.load * Eigen::Vector2d(std::cos(point.load_angle), std::sin(point.load_angle));
   const double longest = 0.15 * bearing::clearance(alone.bearings.front().film);
   constexpr int most = 25;
@@ -239,24 +256,8 @@ PadMotion find_motion(const model::Composite& composite, const model::JournalPoi
 }
 
 solver::Linearisation mean_small_motions(const PadMotion& found) {
-  constexpr int positions = 4;
   const Eigen::Vector2d e = find_joint(found.alone, found.motion, journal_joint)->position.head<2>();
-  const model::Model held = with_journal_at(starting_at(found.alone, found.motion), e);
-  solver::Linearisation mean = found.motion.small_motions;
-  int count = 1;
-  for (int m = 1; m < positions; ++m) {
-    model::Model turned = held;
-    for (model::Bearing& pad : turned.bearings)
-      pad.film.grid = film::turned(pad.film.grid, static_cast<double>(m) / positions);
-    const run::SteadyMotion motion = run::find_steady_motion(turned, journal_axes(), most_iterations);
-    if (!motion.solved()) continue;
-    const solver::Linearisation& other = motion.small_motions;
-    mean.K += mean.Z.transpose() * over_coordinates(other, other.K) * mean.Z;
-    mean.C += mean.Z.transpose() * over_coordinates(other, other.C) * mean.Z;
-    ++count;
-  }
-  mean.K /= count, mean.C /= count;
-  return mean;
+  return mean_over_grids(with_journal_at(starting_at(found.alone, found.motion), e), found.motion, journal_axes());
 }
 
 }  // namespace hersey::study

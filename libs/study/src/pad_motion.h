@@ -15,6 +15,9 @@ struct PadMotion {
   run::SteadyMotion motion = {};
 };
 
+/// After which a search counts as one without an answer: those with one need ten.
+inline constexpr int most_iterations = 100;
+
 /// Name of the journal's joint in a bearing by itself.
 inline constexpr const char* journal_joint = "journal";
 
@@ -38,6 +41,21 @@ inline constexpr const char* journal_joint = "journal";
 /// shape of their films turns over, so that nothing balances them, are fixed where they carry nothing, the most remote
 /// from the load first.
 [[nodiscard]] PadMotion find_motion(const model::Composite& composite, const model::JournalPoint& point);
+
+/// The bearing with all joints that have a start beginning where a motion has them.
+[[nodiscard]] model::Model starting_at(model::Model alone, const run::SteadyMotion& motion);
+
+/// True if pads return to where a motion has them while the shaft is held: no motion of theirs, which films resist by
+/// C y', grows by -K y.
+/// @param of_shaft  joints whose coordinates are those of the shaft
+[[nodiscard]] bool pads_return(const run::SteadyMotion& motion, const std::vector<std::string>& of_shaft);
+
+/// Small motions about `motion`, their stiffness and damping the means over four positions of the grids' lines in their
+/// cells, theory manual eq. (bearing.38).
+/// @param held  the bearing with its shaft held where the motion has it, and pads that start there
+/// @param released  coordinates that drives prescribe in `held`
+[[nodiscard]] solver::Linearisation mean_over_grids(const model::Model& held, const run::SteadyMotion& motion,
+                                                    const std::vector<std::string>& released);
 
 /// Small motions about the motion, their stiffness and damping the means over four positions of the grids' lines in
 /// their cells, the journal at one place: the fronts of films jump from line to line, theory manual eq. (bearing.38).

@@ -254,4 +254,9 @@ std::vector<Group> thrust_figures() {
           thrust_dynamics()};
 }
 
+std::vector<Group> thrust_pad_figures() {
+  return {thrust_point(),   thrust_film(),     thrust_pads(), pad_pivot_figures(),
+          thrust_numbers(), thrust_friction(), thrust_oil(),  thrust_dynamics()};
+}
+
 }  // namespace hersey::study

@@ -133,6 +133,15 @@ TEST_CASE("BallOnItsSeat_YieldsAsHertzSays") {
   CHECK(travel == doctest::Approx(expected).epsilon(1e-4));  // the film's force leans from the pivot by the pad's tilt
 }
 
+// At rest nothing of pads feels their mass, and slow motions neither.
+TEST_CASE("PadsWithoutMass_LieWhereHeavyOnesDo") {
+  const BearingSolution light = solved({"nu=0", "bearings.main.pads.density=0 kg/m^3"}), heavy = solved({"nu=0"});
+  constexpr double solved_for = 1e-6;  // equations are solved to 1e-8 and better
+  for (const char* key : {"h_min", "p_max", "eccentricity_ratio", "pad_tilt_1", "pad_force_3"})
+    CHECK(figure(light, key) == doctest::Approx(figure(heavy, key)).epsilon(solved_for));
+  check_near(light.coefficients.K, heavy.coefficients.K, solved_for);
+}
+
 TEST_CASE("PadThatNothingBalances_StandsAsideAndIsNamed") {
   const BearingSolution found = solved({"load=9 kN", "bearings.main.shear_force=full",
                                         "bearings.main.pads={count: 4, arc: 80 deg, preload: 0, thickness: 25 mm}"});

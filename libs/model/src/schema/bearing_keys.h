@@ -38,10 +38,18 @@ struct BearingKindFormat {
 [[nodiscard]] std::vector<Key> journal_keys();
 [[nodiscard]] std::vector<Key> plane_slider_keys();
 [[nodiscard]] std::vector<Key> tilting_pad_keys();
-
-/// True for a key of a bearing of tilting pads that belongs to the film of each pad.
-[[nodiscard]] bool is_key_of_each_pad(const std::string& key);
+[[nodiscard]] std::vector<Key> tilting_pad_thrust_keys();
+[[nodiscard]] std::vector<Key> floating_ring_keys();
 [[nodiscard]] std::vector<Key> thrust_keys();
 [[nodiscard]] std::vector<Key> squeeze_film_damper_keys();
+
+/// Keys of what pads that tilt stand on. @param common  those that every pivot has
+[[nodiscard]] TypePtr pivot_format(const std::vector<Key>& common);
+/// Operating point of a journal in a bearing of several parts.
+/// @param clearance  over which positions are given, "the assembled clearance"
+/// @param parts  that follow the journal, "pads"
+[[nodiscard]] TypePtr composite_point_format(const std::string& clearance, const std::string& parts);
+/// True for a key of a bearing of tilting pads, of such a kind, that belongs to the film of each pad.
+[[nodiscard]] bool is_key_of_each_pad(const std::string& kind, const std::string& key);
 
 }  // namespace hersey::model

@@ -153,6 +153,7 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   options.fixed = machine.mechanism->given_coordinates();
   options.fixed_rates = machine.mechanism->given_rates();
   options.stiff = machine.mechanism->elastic_coordinates();
+  options.balances_massless = !model.simulation.is_steady_motion();
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
   if (!summary.solved()) throw InputError(faults_of(model, summary));
   require_given_start(model, *machine.mechanism, state, summary);

@@ -89,6 +89,8 @@ class ThrustBearing final : public BearingKind {
 
   /// The pads; empty: a washer.
   [[nodiscard]] const std::vector<SectorPad>& pads() const { return pads_; }
+  /// What makes the faces of all pads differ from the stator's plane.
+  [[nodiscard]] const std::vector<SectorShape>& shapes() const { return shapes_; }
   /// Returns by how much the shapes open the gap at the nodes [m], shape (grid.size()).
   [[nodiscard]] Eigen::VectorXd opening(const film::FilmModel& model) const;
 

@@ -316,10 +316,11 @@ struct Model;
 /// like any others; by itself it is a model of its own.
 struct Composite {
   Bearing bearing;                     ///< name, size, oil and operating point; its film is that of its first pad
-  std::string kind;                    ///< "tilting_pad"
+  std::string kind;                    ///< as in the model file, "tilting_pad"
   std::vector<std::string> pads;       ///< names of the bearings that are its films
-  std::vector<double> pivot_angles;    ///< of each pad, from the shell's x-axis towards y [rad]
-  double whirl_ratio = 1;              ///< frequency over the journal's at which its pads follow [-]
+  std::vector<double> pivot_angles;    ///< of each pad, from the fixed surface's x-axis towards y [rad]
+  double pivot_radius = 0;             ///< of pads below a collar: their pivots' distance from the axis [m]
+  double whirl_ratio = 1;              ///< frequency over the shaft's at which the parts follow [-]
   std::shared_ptr<const Model> alone;  ///< by itself at its operating point; null: it can only be in its machine
   std::vector<Fault> alone_faults;     ///< why; empty where there is one
 };

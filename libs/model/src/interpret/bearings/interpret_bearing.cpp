@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "hersey/core/contract.h"
 #include "hersey/film/film_solver.h"
@@ -32,30 +36,45 @@ void interpret_bearings(Context& context) {
 namespace {
 
 /// Kind of the films of a bearing of several, whose short names it has.
-const std::string& kind_of_films(const std::string& kind) {
-  static const std::string journal = "journal";
-  return kind == "tilting_pad" ? journal : kind;
+std::string kind_of_films(const std::string& kind) {
+  if (kind == "tilting_pad" || kind == "floating_ring") return "journal";
+  return kind == "tilting_pad_thrust" ? "thrust" : kind;
 }
 
-/// Short names of a bearing of tilting pads: those of a journal's that it has, and its own.
-ShortNames names_of_pads(ShortNames names, const std::string& bearing) {
-  std::erase_if(names.paths,
-                [](const auto& path) { return path.first == "shell_speed" || path.first == "radial_velocity"; });
-  const std::string path = "bearings." + bearing + ".";
-  names.paths.emplace_back("whirl_ratio", path + "operating_point.whirl_ratio");
-  names.paths.emplace_back("preload", path + "pads.preload");
+/// Short names of a bearing of several films: those of the films' kind that it has, and its own.
+ShortNames names_of_composite(ShortNames names, const std::string& kind, const std::string& bearing) {
+  const std::string path = "bearings." + bearing + ".", point = path + "operating_point.";
+  std::erase_if(names.paths, [&](const auto& name) {
+    const bool is_of_a_film =
+        kind == "floating_ring" && name.second.starts_with(path) && !name.second.starts_with(point);
+    return is_of_a_film || name.first == "shell_speed" || name.first == "radial_velocity" ||
+           name.first == "approach_speed";
+  });
+  names.paths.emplace_back("whirl_ratio", point + "whirl_ratio");
+  if (kind == "tilting_pad") names.paths.emplace_back("preload", path + "pads.preload");
+  if (kind == "tilting_pad_thrust") names.paths.emplace_back("offset", path + "pads.offset");
+  if (kind != "floating_ring") return names;
+  for (const std::string film : {"inner", "outer"}) {
+    names.paths.emplace_back(film + "_clearance", path + film + ".radial_clearance");
+    names.paths.emplace_back(film + "_width", path + film + ".width");
+  }
   return names;
+}
+
+const KindReader& reader_of(const std::string& kind) {
+  static const std::vector<KindReader> kinds = bearing_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const KindReader& k) { return k.kind == kind; });
+  HERSEY_REQUIRE(found != kinds.end(), "every kind of bearing has a reader");
+  return *found;
 }
 
 }  // namespace
 
 ShortNames short_names(const Model& model, const Bearing& bearing) {
-  const std::string name = bearing.kind->name();
+  const ShortNames names = reader_of(bearing.kind->name()).short_names(model, bearing);
   for (const Composite& composite : model.composites)
-    if (&composite.bearing == &bearing) return names_of_pads(journal_short_names(model, bearing), bearing.name);
-  for (const KindReader& kind : bearing_kinds())
-    if (kind.kind == name) return kind.short_names(model, bearing);
-  HERSEY_REQUIRE(false, "every kind of bearing has a reader");
+    if (&composite.bearing == &bearing) return names_of_composite(names, composite.kind, bearing.name);
+  return names;
 }
 
 std::optional<BearingKindNames> names_of_kind(const std::string& kind, const std::string& bearing,
@@ -63,18 +82,16 @@ std::optional<BearingKindNames> names_of_kind(const std::string& kind, const std
   const std::vector<BearingKindFormat>& formats = bearing_kind_formats();
   const std::string& tag = kind.empty() ? formats.front().tag : kind;
   const auto format = std::find_if(formats.begin(), formats.end(), [&](const auto& each) { return each.tag == tag; });
-  const std::vector<KindReader> readers = bearing_kinds();
-  const auto reader =
-      std::find_if(readers.begin(), readers.end(), [&](const auto& each) { return each.kind == kind_of_films(tag); });
-  if (format == formats.end() || reader == readers.end()) return std::nullopt;
+  if (format == formats.end()) return std::nullopt;
+  const KindReader& reader = reader_of(kind_of_films(tag));
   BearingKindNames names{.kind = tag, .title = format->title, .point_keys = {}, .short_names = {}};
   if (const Key* point = find_key(format->keys, "operating_point"))
     for (const Key* key : all_keys(*point->type)) names.point_keys.push_back(key->name);
   Bearing stand_in;
   stand_in.name = bearing;
   stand_in.lubricant = lubricant;
-  names.short_names = reader->short_names(Model{}, stand_in);
-  if (reader->kind != tag) names.short_names = names_of_pads(std::move(names.short_names), bearing);
+  names.short_names = reader.short_names(Model{}, stand_in);
+  if (reader.kind != tag) names.short_names = names_of_composite(std::move(names.short_names), tag, bearing);
   return names;
 }
 

@@ -1,21 +1,19 @@
 #include "interpret/composites/composites.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
+#include <string>
 #include <utility>
 
 #include "check/check.h"
 #include "check/members.h"
 #include "hersey/core/contract.h"
-#include "interpret/composites/tilting_pads.h"
+#include "hersey/core/units.h"
+#include "interpret/composites/composite_kind.h"
+#include "interpret/composites/pad_parts.h"
 #include "schema/format.h"
 
 namespace hersey::model {
 namespace {
-
-constexpr const char* kind_of_pads = "tilting_pad";
 
 std::string text_at(const Node& mapping, const char* key) {
   const Node* node = mapping.find(key);
@@ -58,68 +56,22 @@ void add_parts(Node& root, Node parts, const CompositeParts& composite, std::vec
   }
 }
 
-/// Operating point of a bearing of pads; reports what is wrong with it.
-std::optional<JournalPoint> point_of(const Value& bearing, double& whirl_ratio, std::vector<Fault>& faults) {
-  const Value* value = bearing.find("operating_point");
-  if (value == nullptr || value->broken) return std::nullopt;
-  const auto given = [&](const char* key) {
-    const Value* found = value->find(key);
-    return found != nullptr && !found->broken && found->text.empty() ? found : nullptr;
-  };
-  JournalPoint point;
-  point.position = value->key_position;
-  point.journal_speed = number_of(*value, "journal_speed");
-  point.load_angle = number_of(*value, "load_angle");
-  point.eccentricity_angle = number_of(*value, "eccentricity_angle");
-  whirl_ratio = number_of(*value, "whirl_ratio");
-  const Value *load = given("load"), *ratio = given("eccentricity_ratio");
-  if (load != nullptr) point.load = load->number;
-  if (ratio != nullptr) point.eccentricity_ratio = ratio->number;
-  const auto report = [&](const Value& at, std::string found, std::string suggestion) {
-    faults.push_back({at.key_position, at.path, std::move(found), "exactly one of them", std::move(suggestion)});
-  };
-  if (load != nullptr && ratio != nullptr)
-    report(*ratio, "keys 'load' and 'eccentricity_ratio' together", "with --set, give the other one as 'none'");
-  if (load == nullptr && ratio == nullptr) report(*value, "neither 'load' nor 'eccentricity_ratio'", "");
-  if (point.journal_speed == 0)
-    faults.push_back({value->find("journal_speed")->position, value->path + ".journal_speed",
-                      "a journal at rest, whose film bears nothing", "a speed, of either sign", ""});
-  return point;
-}
-
-/// A model with a journal that rotates at its speed, loaded or where it is said to be, and nothing else beside `parts`.
-Node alone_in(const Node& root, Node parts, const CompositeParts& composite) {
-  const JournalPoint point = composite.point.value_or(JournalPoint{.eccentricity_ratio = 0});
-  std::string text = fmt::format(
-      "hersey: 1\nbodies:\n  journal: {{mass: 1 kg, inertia: {{xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}}}}\n"
-      "joints:\n  journal: {{type: planar, between: [ground, journal], axis: z}}\n"
-      "drives:\n  rotation: {{joint: journal, coordinate: rotation, speed: {} rad/s}}\n",
-      composite.point ? point.journal_speed : 1.0);
-  if (point.load) {
-    text += fmt::format("forces:\n  load: {{type: force, body: journal, components: [{} N, {} N, 0 N]}}\n",
-                        *point.load * std::cos(point.load_angle), *point.load * std::sin(point.load_angle));
-  } else {
-    const double e = *point.eccentricity_ratio * composite.clearance;
-    for (const auto& [axis, at] : {std::pair{'x', e * std::cos(point.eccentricity_angle)},
-                                   std::pair{'y', e * std::sin(point.eccentricity_angle)}})
-      text += fmt::format("  {0}: {{joint: journal, coordinate: {0}, position: {1} m}}\n", axis, at);
-  }
-  text += "simulation: {analysis: steady}\n";
-  std::vector<Fault> faults;
-  std::optional<Node> tree = parse_yaml(text, composite.position.file, faults);
-  HERSEY_REQUIRE(tree && faults.empty(), "a bearing by itself is a model");
-  move_to(*tree, composite.position);
+/// The model of a composite by itself: `parts`, what is around them, and the oils of the file.
+Node alone_in(const Node& root, Node parts, const CompositeKind& kind, const CompositeParts& composite) {
+  Node tree = parts_tree(kind.alone(composite), composite.position);
   for (const Entry& entry : root.entries)
-    if (entry.key == "lubricants" || entry.key == "thermal") tree->entries.push_back(entry);
-  if (Node* thermal = tree->find("thermal"))
+    if (entry.key == "lubricants" || entry.key == "thermal") tree.entries.push_back(entry);
+  if (Node* thermal = tree.find("thermal"))
     std::erase_if(thermal->entries, [](const Entry& entry) { return entry.key == "grooves" || entry.key == "walls"; });
-  add_parts(*tree, std::move(parts), composite, faults);
+  std::vector<Fault> faults;
+  add_parts(tree, std::move(parts), composite, faults);
   HERSEY_REQUIRE(faults.empty(), "names of a bearing by itself are not taken");
-  return std::move(*tree);
+  return tree;
 }
 
-/// Sense in which a drive rotates the body of the frame `journal` about its joint's axis: where pads begin.
-double sense_of(const Node& root, const std::string& journal) {
+/// Speed at which a drive rotates the body of the frame `journal` about its joint's axis, as far as it is a number
+/// [rad/s]; else 1.
+double speed_of(const Node& root, const std::string& journal) {
   const std::string body = journal.substr(0, journal.find('.'));
   const Node *drives = root.find("drives"), *joints = root.find("joints");
   if (drives == nullptr || joints == nullptr) return 1;
@@ -127,33 +79,53 @@ double sense_of(const Node& root, const std::string& journal) {
     const Node* joint = joints->find(text_at(drive.value, "joint"));
     const Node* between = joint != nullptr ? joint->find("between") : nullptr;
     if (between == nullptr || between->items.size() != 2) continue;
-    const std::string& outboard = between->items[1].text;
-    if (outboard.substr(0, outboard.find('.')) == body && text_at(drive.value, "speed").starts_with('-')) return -1;
+    const std::string &outboard = between->items[1].text, speed = text_at(drive.value, "speed");
+    if (outboard.substr(0, outboard.find('.')) != body || speed.empty()) continue;
+    try {
+      if (const double number = parse_quantity(speed, "rad/s"); number != 0) return number;
+    } catch (const QuantityError&) {  // a fault of the drive
+    }
   }
   return 1;
 }
 
+/// The kind of a bearing in the tree; null if it is no composite.
+const CompositeKind* composite_kind(const Node& bearing) {
+  if (bearing.kind != Node::Kind::mapping) return nullptr;
+  const std::string tag = text_at(bearing, "kind");
+  const std::vector<CompositeKind>& kinds = composite_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const CompositeKind& k) { return k.tag == tag; });
+  return found == kinds.end() ? nullptr : &*found;
+}
+
 /// Expands one composite; returns what it puts into the machine, nothing if it is in none or at fault.
 std::optional<Node> expand(const Node& root, const Entry& bearing, Composites& composites, std::vector<Fault>& faults) {
+  const CompositeKind& kind = *composite_kind(bearing.value);
   const std::size_t faults_before = faults.size();
   const Value all = checked(bearing, faults, composites.positions);
   if (faults.size() > faults_before) return std::nullopt;
   const Value& value = all.find("bearings")->members.front().value;
-  CompositeParts parts{.name = bearing.key, .position = bearing.position, .alone = {}};
-  parts.point = point_of(value, parts.whirl_ratio, faults);
-  const std::string shell = text_at(bearing.value, "shell"), journal = text_at(bearing.value, "journal");
-  if (shell.empty() != journal.empty())
+  CompositeParts parts{.name = bearing.key,
+                       .kind = std::string(kind.tag),
+                       .position = bearing.position,
+                       .fixed_key = kind.fixed,
+                       .alone = {}};
+  CompositeParts again = parts;
+  kind.read_point(value, parts, faults);
+  const std::string fixed = text_at(bearing.value, kind.fixed.c_str()),
+                    moving = text_at(bearing.value, kind.moving.c_str());
+  if (fixed.empty() != moving.empty())
     faults.push_back({bearing.position, value.path,
-                      shell.empty() ? "a journal without 'shell'" : "a shell without 'journal'",
+                      fixed.empty() ? "a " + kind.moving + " without '" + kind.fixed + "'"
+                                    : "a " + kind.fixed + " without '" + kind.moving + "'",
                       "both frames, or neither in a model of bearings alone", ""});
-  if (parts.point && parts.point->journal_speed < 0) parts.sense = -1;
-  std::optional<Node> own = tilting_pads(bearing.value, value, "ground", "journal", parts, faults);
+  std::optional<Node> own = kind.parts(bearing.value, value, "ground", kind.body, parts, faults);
   if (!own || faults.size() > faults_before) return std::nullopt;
-  parts.alone = alone_in(root, std::move(*own), parts);
+  parts.alone = alone_in(root, std::move(*own), kind, parts);
   std::optional<Node> in_machine;
-  if (!shell.empty()) {
-    CompositeParts again{.name = parts.name, .position = parts.position, .sense = sense_of(root, journal), .alone = {}};
-    in_machine = tilting_pads(bearing.value, value, shell, journal, again, faults);
+  if (!fixed.empty()) {
+    again.speed = speed_of(root, moving);
+    in_machine = kind.parts(bearing.value, value, fixed, moving, again, faults);
     parts.is_in_machine = true;
   }
   composites.parts.push_back(std::move(parts));
@@ -168,7 +140,7 @@ Composites expand_composites(Node& root, std::vector<Fault>& faults) {
   if (bearings == nullptr || bearings->kind != Node::Kind::mapping) return composites;
   std::vector<Entry> found;
   std::erase_if(bearings->entries, [&](const Entry& entry) {
-    const bool is_ours = entry.value.kind == Node::Kind::mapping && text_at(entry.value, "kind") == kind_of_pads;
+    const bool is_ours = composite_kind(entry.value) != nullptr;
     if (is_ours) found.push_back(entry);
     return is_ours;
   });
@@ -183,11 +155,16 @@ void name_composites(const std::vector<CompositeParts>& composites, std::vector<
   for (Fault& fault : faults) {
     for (const CompositeParts& composite : composites) {
       if (fault.path.starts_with("joints." + composite.name + "_carrier"))
-        fault.path = "bearings." + composite.name + ".shell";
-      for (const std::string& pad : composite.pads) {
-        const std::string path = "bearings." + pad;
+        fault.path = "bearings." + composite.name + "." + composite.fixed_key;
+      for (std::size_t k = 0; k < composite.pads.size(); ++k) {
+        const std::string path = "bearings." + composite.pads[k], whole = "bearings." + composite.name;
         if (fault.path != path && !fault.path.starts_with(path + ".")) continue;
-        fault.path = "bearings." + composite.name + fault.path.substr(path.size());
+        const std::string rest = fault.path.substr(path.size());
+        const std::string section = composite.sections.empty() ? "" : composite.sections[k];
+        const bool is_of_section =
+            std::any_of(composite.own_keys.begin(), composite.own_keys.end(),
+                        [&](const std::string& key) { return (section + rest).starts_with(key); });
+        fault.path = whole + (is_of_section ? "." + section : "") + rest;
       }
     }
   }

@@ -14,42 +14,13 @@
 #include "check/members.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/two_pi.h"
+#include "interpret/composites/pad_parts.h"
 #include "schema/bearing_keys.h"
 #include "schema/thermal_walls.h"
 
 // A bearing of tilting pads: pads are bodies with a film on one arc, their pivots joints of a carrier.
 namespace hersey::model {
 namespace {
-
-/// Mass, centre and moments of inertia of a pad, a sector of a ring [SI].
-struct PadInertia {
-  double mass = 0;
-  double centre = 0;      ///< distance of its centre of mass from the bearing's axis, towards its middle
-  double radial = 0;      ///< moments of inertia about its centre: about the line from the axis to its middle,
-  double tangential = 0;  ///< at right angles to that and to the axis,
-  double axial = 0;       ///< and along the axis
-};
-
-/// Sector between the radii r and r + t, of the angle `arc`, theory manual eq. (pads.1).
-PadInertia sector_of_ring(double r, double t, double arc, double width, double density) {
-  const double outer = r + t, half = arc / 2;
-  const double area = half * (outer * outer - r * r), fourth = (std::pow(outer, 4) - std::pow(r, 4)) / 4;
-  PadInertia pad;
-  pad.mass = density * width * area;
-  pad.centre = 2.0 / 3 * std::sin(half) * (std::pow(outer, 3) - std::pow(r, 3)) / area;
-  // Second moments of area about the axis of the bearing: across and along the line to the middle.
-  const double across = fourth * (half - std::sin(arc) / 2), along = fourth * (half + std::sin(arc) / 2);
-  const double thin = pad.mass * width * width / 12, mass_per_area = density * width;
-  pad.radial = mass_per_area * across + thin;
-  pad.tangential = mass_per_area * along - pad.mass * pad.centre * pad.centre + thin;
-  pad.axial = mass_per_area * (across + along) - pad.mass * pad.centre * pad.centre;
-  return pad;
-}
-
-double plane_strain(const Value& material) {
-  const double nu = number_of(material, "poisson_ratio");
-  return (1 - nu * nu) / number_of(material, "youngs_modulus");
-}
 
 class TiltingPads {
  public:
@@ -75,7 +46,7 @@ class TiltingPads {
     find_pivots();
     read_preload();
     check_pads();
-    check_pivot();
+    check_pivot(pivot_, faults_);
     find_inertia();
     if (faults_.size() > faults_before) return std::nullopt;
     for (std::size_t k = 0; k < parts_.pivot_angles.size(); ++k) add_pad(k);
@@ -96,7 +67,8 @@ class TiltingPads {
   /// half the clearance towards the farther end. Flat pads may have no film to begin with.
   [[nodiscard]] double opening() const {
     const double farther = std::max(offset_, 1 - offset_) * arc_;
-    return parts_.sense * 0.5 * parts_.clearance / ((R_ + thickness_) * std::sin(std::min(farther, 0.25 * two_pi)));
+    return std::copysign(0.5, parts_.speed) * parts_.clearance /
+           ((R_ + thickness_) * std::sin(std::min(farther, 0.25 * two_pi)));
   }
 
   void find_pivots() {
@@ -137,16 +109,6 @@ class TiltingPads {
     }
   }
 
-  void check_pivot() {
-    for (const char* outer : {"socket_radius", "cylinder_radius"}) {
-      const bool is_ours = (pivot_.text == "ball_in_socket" && std::string(outer) == "socket_radius") ||
-                           (pivot_.text == "sphere_in_cylinder" && std::string(outer) == "cylinder_radius");
-      if (!is_ours || number_of(pivot_, outer) > number_of(pivot_, "ball_radius")) continue;
-      fault(*pivot_.find(outer), fmt::format("{:.6g} mm, not larger than the ball", 1e3 * number_of(pivot_, outer)),
-            fmt::format("more than ball_radius, {:.6g} mm", 1e3 * number_of(pivot_, "ball_radius")));
-    }
-  }
-
   void add_pad(std::size_t k) {
     const std::string pad = pad_name(k);
     parts_.pads.push_back(pad);
@@ -176,11 +138,7 @@ class TiltingPads {
 
   void find_inertia() {
     inertia_ = sector_of_ring(R_, thickness_, arc_, number_of(value_, "width"), number_of(pads_, "density"));
-    if (const Value* mass = pads_.find("mass"); mass != nullptr) {
-      const double ratio = inertia_.mass > 0 ? mass->number / inertia_.mass : 0;
-      for (double* moment : {&inertia_.radial, &inertia_.tangential, &inertia_.axial}) *moment *= ratio;
-      inertia_.mass = mass->number;
-    }
+    if (const Value* mass = pads_.find("mass"); mass != nullptr) inertia_ = with_mass(inertia_, mass->number);
     const Value* about_pivot = pads_.find("inertia");
     if (about_pivot == nullptr) return;
     const double r = R_ + thickness_, centre = inertia_.centre;
@@ -214,26 +172,9 @@ class TiltingPads {
     bodies_ += fmt::format("  {}: {{mass: 0 kg}}\n", seat);
     joints_ +=
         fmt::format("  {}: {{type: prismatic, between: [{}, {}], axis: [{}, {}, 0]}}\n", travel, inboard, seat, c, s);
-    std::string law;
-    if (pivot_.text == "spring") {
-      law = fmt::format("stiffness: {} N/m", number_of(pivot_, "stiffness"));
-    } else {
-      law = fmt::format("force: {{expression: \"{}*max(stretch, 0)^1.5\", unit: N}}", hertz_constant());
-    }
     forces_ += fmt::format("  {0}: {{type: sliding_spring, joint: {0}, damping: {1} N.s/m, {2}}}\n", travel,
-                           number_of(pivot_, "damping"), law);
+                           number_of(pivot_, "damping"), pivot_law(pivot_));
     return seat;
-  }
-
-  /// k of F = k d^1.5 between a ball and what it stands on, theory manual eq. (pads.2). A sphere in a cylinder is
-  /// taken as a sphere in a socket of the mean curvature.
-  [[nodiscard]] double hertz_constant() const {
-    const double ball = 1 / number_of(pivot_, "ball_radius");
-    double curvature = ball;
-    if (pivot_.text == "ball_in_socket") curvature -= 1 / number_of(pivot_, "socket_radius");
-    if (pivot_.text == "sphere_in_cylinder") curvature -= 0.5 / number_of(pivot_, "cylinder_radius");
-    const double yield = plane_strain(*pivot_.find("pad_material")) + plane_strain(*pivot_.find("seat_material"));
-    return 4.0 / 3 / yield / std::sqrt(curvature);
   }
 
   /// True if the films have temperatures.
@@ -282,11 +223,7 @@ class TiltingPads {
     if (!forces_.empty()) text += "forces:\n" + forces_;
     text += "bearings:\n" + bearings_;
     if (is_warm()) text += written_thermal();
-    std::vector<Fault> faults;
-    std::optional<Node> tree = parse_yaml(text, parts_.position.file, faults);
-    HERSEY_REQUIRE(tree && faults.empty(), "the parts of a composite are a model's");
-    move_to(*tree, parts_.position);
-    return std::move(*tree);
+    return parts_tree(text, parts_.position);
   }
 
   /// Makes the journal's wall of a film a node.
@@ -305,7 +242,7 @@ class TiltingPads {
     const Node* pads = node_.find("pads");
     for (Entry& film : tree.find("bearings")->entries) {
       for (const Entry& own : node_.entries)
-        if (is_key_of_each_pad(own.key)) film.value.entries.push_back(own);
+        if (is_key_of_each_pad(parts_.kind, own.key)) film.value.entries.push_back(own);
       if (is_warm() && has_free_journal()) set_journal_wall(*film.value.find("thermal"));
       if (const Node* journal = node_.find("journal")) film.value.find("journal")->position = journal->position;
       Node* arc = film.value.find("arcs")->find("pad");

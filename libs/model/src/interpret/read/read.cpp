@@ -82,9 +82,10 @@ namespace {
 void interpret_composites(Context& context, const Composites& composites) {
   context.model.positions.insert(composites.positions.begin(), composites.positions.end());
   for (const CompositeParts& parts : composites.parts) {
-    Composite composite{.kind = "tilting_pad",
+    Composite composite{.kind = parts.kind,
                         .pads = parts.pads,
                         .pivot_angles = parts.pivot_angles,
+                        .pivot_radius = parts.pivot_radius,
                         .whirl_ratio = parts.whirl_ratio};
     auto alone = std::make_shared<Model>(read_tree(parts.alone, context.model.file, {}, composite.alone_faults));
     const auto first = std::find_if(context.model.bearings.begin(), context.model.bearings.end(),

@@ -5,18 +5,12 @@
 
 #include "schema/bearing_keys.h"
 #include "schema/film_vocabulary.h"
+#include "schema/kinds/arc_keys.h"
 
 // Keys of a bearing of tilting pads: those of its pads and pivots, and what each pad's film has in common with a
 // journal bearing.
 namespace hersey::model {
 namespace {
-
-/// Keys of a journal bearing that each pad's film takes over as they are.
-bool belongs_to_a_film(const std::string& key) {
-  return key == "lubricant" || find_key(shared_bearing_keys(), key) != nullptr || key == "diameter" || key == "width" ||
-         key == "radial_clearance" || key == "diametral_clearance" || key == "grid" || key == "edge_pressure" ||
-         key == "ambient_fill" || key == "thermal" || key == "shear_force" || key == "roughness" || key == "materials";
-}
 
 TypePtr pads_format() {
   const TypePtr angle = quantity("rad", "-90 deg"), length = quantity("m", "20 mm", Range::positive());
@@ -51,71 +45,19 @@ TypePtr pads_format() {
   return object("the pads", std::move(keys));
 }
 
-TypePtr pivot_format() {
-  const TypePtr radius = quantity("m", "100 mm", Range::positive());
-  const TypePtr material = object(
-      "an elastic material",
-      {required("youngs_modulus", quantity("Pa", "210 GPa", Range::positive()), "Young's modulus."),
-       required("poisson_ratio", number("0.3", {.low = 0, .high = 0.5, .high_open = true}), "Poisson's ratio.")});
-  const std::vector<Key> of_contact{
-      defaulted("pad_material", material, "{youngs_modulus: 210 GPa, poisson_ratio: 0.3}", "Of the pads."),
-      defaulted("seat_material", material, "{youngs_modulus: 210 GPa, poisson_ratio: 0.3}",
-                "Of what the pads stand on."),
+/// Keys of pivots that pads around a journal have.
+std::vector<Key> pivot_keys() {
+  return {
+      defaulted("pitch",
+                choice({{"no", "pads roll about lines along the bearing"},
+                        {"yes", "pads stand on points and follow a tilted journal, too"}}),
+                "no", "Whether pads tilt along the bearing."),
+      defaulted("damping", quantity("N.s/m", "1e4 N.s/m", Range::not_negative()), "0 N.s/m",
+                "Of a pivot that yields, along the radius."),
+      defaulted("friction_torque", quantity("N.m", "5 N.m", Range::not_negative()), "0 N.m",
+                "Of dry friction that resists rolling: coefficient times force on the pivot times radius of ball or "
+                "rocker."),
   };
-  const auto with = [](std::vector<Key> keys, const std::vector<Key>& more) {
-    keys.insert(keys.end(), more.begin(), more.end());
-    return keys;
-  };
-  return variant(
-      "a pivot", "type",
-      {
-          defaulted("pitch",
-                    choice({{"no", "pads roll about lines along the bearing"},
-                            {"yes", "pads stand on points and follow a tilted journal, too"}}),
-                    "no", "Whether pads tilt along the bearing."),
-          defaulted("damping", quantity("N.s/m", "1e4 N.s/m", Range::not_negative()), "0 N.s/m",
-                    "Of a pivot that yields, along the radius."),
-          defaulted(
-              "friction_torque", quantity("N.m", "5 N.m", Range::not_negative()), "0 N.m",
-              "Of dry friction that resists rolling: coefficient times force on the pivot times radius of ball or "
-              "rocker."),
-      },
-      {
-          {"rigid", "a pivot that does not yield", {}},
-          {"spring",
-           "a pivot that yields in proportion to its force",
-           {required("stiffness", quantity("N/m", "2e8 N/m", Range::positive()), "Along the radius.")}},
-          {"ball_in_socket", "a sphere in a spherical socket, by Hertz",
-           with({required("ball_radius", radius, "Of the sphere."),
-                 required("socket_radius", radius, "Of the socket, larger than the sphere.")},
-                of_contact)},
-          {"sphere_on_plane", "a sphere on a plane, by Hertz",
-           with({required("ball_radius", radius, "Of the sphere.")}, of_contact)},
-          {"sphere_in_cylinder", "a sphere in a cylindrical bore, by Hertz",
-           with({required("ball_radius", radius, "Of the sphere."),
-                 required("cylinder_radius", radius, "Of the bore, larger than the sphere.")},
-                of_contact)},
-      });
-}
-
-TypePtr pads_point_format() {
-  const TypePtr angle = quantity("rad", "-90 deg");
-  const std::vector<Word> not_given{{"none", "not given; for `--set`"}};
-  return object(
-      "an operating point",
-      {
-          required("journal_speed", quantity("rad/s", "3000 rpm"),
-                   "Angular velocity of the journal about the bearing's z-axis."),
-          optional("load", or_word(quantity("N", "2500 N", Range::positive()), not_given),
-                   "Load on the journal: its position is sought."),
-          defaulted("load_angle", angle, "-90 deg", "Direction of the load, from x towards y."),
-          optional("eccentricity_ratio", or_word(number("0.6", Range::not_negative()), not_given),
-                   "Position of the journal over the assembled clearance, instead of a load: its load is sought."),
-          defaulted("eccentricity_angle", angle, "-90 deg", "Direction of that position, from x towards y."),
-          defaulted("whirl_ratio", number("1", Range::not_negative()), "1",
-                    "Frequency of the whirl at which the pads follow, over the journal's frequency, in stiffness and "
-                    "damping; 1: synchronous, 0: slow motions."),
-      });
 }
 
 }  // namespace
@@ -123,18 +65,17 @@ TypePtr pads_point_format() {
 std::vector<Key> tilting_pad_keys() {
   std::vector<Key> keys;
   for (Key& key : journal_keys()) {
-    if (key.name == "shell" || key.name == "journal" || belongs_to_a_film(key.name)) keys.push_back(std::move(key));
+    if (key.name == "shell" || key.name == "journal" || is_key_of_each_pad("tilting_pad", key.name))
+      keys.push_back(std::move(key));
   }
   const auto at = std::find_if(keys.begin(), keys.end(), [](const Key& key) { return key.name == "grid"; });
   keys.insert(at, {required("pads", pads_format(), "Number, size and place of the pads."),
-                   defaulted("pivot", pivot_format(), "{type: rigid}", "What the pads stand on.")});
-  keys.push_back(optional("operating_point", pads_point_format(),
+                   defaulted("pivot", pivot_format(pivot_keys()), "{type: rigid}", "What the pads stand on.")});
+  keys.push_back(optional("operating_point", composite_point_format("the assembled clearance", "the pads"),
                           "Speed and load, or position, of the bearing by itself (`hersey bearing`); a simulation has "
                           "its own.",
                           "given on the command line"));
   return keys;
 }
-
-bool is_key_of_each_pad(const std::string& key) { return belongs_to_a_film(key); }
 
 }  // namespace hersey::model

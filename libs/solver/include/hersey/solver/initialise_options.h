@@ -17,6 +17,9 @@ struct InitialiseOptions {
   /// Velocity components that move only if the constraints cannot be satisfied otherwise, not even with the fixed
   /// components free: deformations.
   std::vector<Equations::Index> stiff;
+  /// Motions without inertia begin with the rates at which no force acts along them; false: with the given ones, for
+  /// who seeks a motion in which they keep still.
+  bool balances_massless = true;
 };
 
 }  // namespace hersey::solver
