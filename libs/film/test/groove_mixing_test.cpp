@@ -20,7 +20,7 @@ TEST_CASE("OilOfAGroove_KeepsItsHeat") {
   for (const double carry_over : {0.0, 0.4, 1.0}) {
     const std::vector<EndOil> oil = mixed_in_groove(flows, carry_over, fresh);
     CHECK(drawn_heat(flows, oil) == doctest::Approx(carry_over * 2e-6 * 20));
-    CHECK(oil[1].carried * flows[1].drawn == doctest::Approx(oil[0].passed_on * flows[0].leaving));
+    CHECK(oil[1].carried * flows[1].drawn == doctest::Approx(oil[0].drawn_again * flows[0].leaving));
   }
 }
 
@@ -29,7 +29,7 @@ TEST_CASE("GrooveThatIsBroughtMoreThanItGives_HasTheFilmsTemperature") {
   const std::vector<EndOil> oil = mixed_in_groove(flows, 1, fresh);
   CHECK(oil[1].rise == doctest::Approx(20));
   CHECK(oil[1].carried == 1);
-  CHECK(oil[0].passed_on == doctest::Approx(0.75));
+  CHECK(oil[0].drawn_again == doctest::Approx(0.75));
 }
 
 TEST_CASE("OilFromBothSides_Mixes") {

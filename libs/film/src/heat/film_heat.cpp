@@ -522,7 +522,7 @@ void FilmHeat::persist(Archive& archive) {
   for (std::size_t k = 0; k < impl_->state.ends.size(); ++k) {
     EndOil& end = impl_->state.ends[k];
     const Archive::Group group(archive, "end_" + std::to_string(k));
-    archive.io("rise", end.rise), archive.io("carried", end.carried), archive.io("passed_on", end.passed_on);
+    archive.io("rise", end.rise), archive.io("carried", end.carried), archive.io("drawn_again", end.drawn_again);
   }
   if (!impl_->has_fixed_walls()) return;
   impl_->equations.mean().persist(archive);

@@ -13,7 +13,7 @@ std::vector<EndOil> mixed_in_groove(const std::vector<EndFlow>& flows, double ca
   EndOil oil;
   if (leaving > 0) {
     oil.carried = carried < drawn ? carried / drawn : 1;
-    oil.passed_on = std::min(carried, drawn) / leaving;
+    oil.drawn_again = std::min(carried, drawn) / leaving;
     oil.rise = oil.carried * heat / leaving;
   }
   return std::vector<EndOil>(flows.size(), oil);

@@ -22,7 +22,7 @@ double HeatEquations::fresh_fraction(const CarryingFilm& film, const HeatState& 
 
 double HeatEquations::lost_fraction(const CarryingFilm& film, const HeatState& state, int node) const {
   const EndOil* end = end_oil(state, node);
-  return end == nullptr ? 1 : 1 - film.balance.end_fraction(node) * end->passed_on;
+  return end == nullptr ? 1 : 1 - film.balance.end_fraction(node) * end->drawn_again;
 }
 
 std::vector<EndFlow> HeatEquations::end_flows(const CarryingFilm& film, const HeatState& state) const {

@@ -9,9 +9,9 @@ namespace hersey::film {
 
 /// Oil that a film draws in over an end of a patch.
 struct EndOil {
-  double rise = 0;       ///< of its temperature over that of the oil that sides draw in [K]
-  double carried = 0;    ///< fraction of it that has left a film over an end, the rest is fresh [-]
-  double passed_on = 0;  ///< of the oil that leaves over the end, the fraction that films draw in again [-]
+  double rise = 0;         ///< of its temperature over that of the oil that sides draw in [K]
+  double carried = 0;      ///< fraction of it that has left a film over an end, the rest is fresh [-]
+  double drawn_again = 0;  ///< of the oil that leaves over the end, the fraction that films draw in again [-]
 };
 
 /// Oil that passes an end of a patch, both ways.
