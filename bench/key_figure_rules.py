@@ -39,6 +39,8 @@ COMMANDS = {
     "hot_bearing/model": [("bearing",)],
     "hot_pedestal/model": [("bearing",), ("run",)],
     "hot_pedestal/with_shaft": [("bearing",), ("run",)],
+    # At rest the journal's attitude is round-off.
+    "hydrostatic/jacking": [("bearing", "bearings.main.operating_point.journal_speed=10rpm")],
     "hydrostatic/model": [("bearing",)],
     "hydrostatic/spindle": [("run",)],
     "lemon_bore/model": [("bearing",)],
