@@ -60,9 +60,9 @@ void add_init(CLI::App& app, Commands& commands) {
   const auto init = std::make_shared<InitArguments>();
   CLI::App* command =
       app.add_subcommand("init", "Write a commented model to begin with; alone: list the available ones");
-  command->add_option(
-      "TEMPLATE", init->model,
-      "bearing, tilting_pads, thrust, tilting_thrust, damper, rotor, big_end, engine, turbocharger or flexible_rod");
+  command->add_option("TEMPLATE", init->model,
+                      "bearing, tilting_pads, thrust, tilting_thrust, floating_ring, damper, rotor, big_end, engine, "
+                      "turbocharger or flexible_rod");
   command->add_option("NAME", init->name, "Name of the file to write (default: as the template)");
   commands.push_back({command, [init] { return init_command(*init); }});
 }
