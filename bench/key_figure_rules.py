@@ -31,6 +31,7 @@ COMMANDS = {
     "flexible_rotor/model": [("run", "simulation.duration=0.3s")],
     "flexible_rotor/modes": [("run",)],
     "flexible_slider_crank/model": [("run",)],
+    "floating_ring/entry": [("bearing",), ("run",)],
     "floating_ring/model": [("run",)],
     "four_bar/model": [("run",)],
     "gyroscope/model": [("run", "simulation.duration=1s")],

@@ -102,13 +102,13 @@ Plan plan_of(const BearingArguments& arguments, const model::Model& model) {
   if (!arguments.whirl_ratios.empty()) {
     const std::string path = names.path_of("whirl_ratio");
     if (path == "whirl_ratio")
-      throw InputError(
-          Fault{{"--whirl-ratio", 0, 0},
-                "bearings." + bearing.name,
-                "a bearing without parts that follow its journal",
-                "a bearing of `kind: tilting_pad` or `tilting_pad_thrust`; the coefficients of others hold at every "
-                "frequency",
-                ""});
+      throw InputError(Fault{{"--whirl-ratio", 0, 0},
+                             "bearings." + bearing.name,
+                             "a bearing without parts that follow its journal",
+                             "a bearing of `kind: tilting_pad`, `tilting_pad_thrust` or `floating_ring`; the "
+                             "coefficients of others hold at every "
+                             "frequency",
+                             ""});
     plan.sweeps.push_back(study::parse_sweep("whirl_ratio=" + arguments.whirl_ratios));
     plan.sweeps.back().name = path;
   }

@@ -44,7 +44,7 @@ class FirstSteps(unittest.TestCase):
     def test_init_alone_lists_the_models(self):
         run = self.hersey("init")
         self.assertEqual(run.returncode, OK)
-        for name in ("bearing", "hydrostatic", "tilting_pads", "thrust", "tilting_thrust", "damper", "rotor", "big_end", "engine", "turbocharger", "flexible_rod"):
+        for name in ("bearing", "hydrostatic", "tilting_pads", "thrust", "tilting_thrust", "floating_ring", "damper", "rotor", "big_end", "engine", "turbocharger", "flexible_rod"):
             self.assertIn(f"\n  {name} ", run.stdout)
 
     def test_init_bearing_runs(self):
@@ -61,6 +61,9 @@ class FirstSteps(unittest.TestCase):
 
     def test_init_tilting_thrust_runs(self):
         self.begin_and_run("tilting_thrust")
+
+    def test_init_floating_ring_runs(self):
+        self.begin_and_run("floating_ring")
 
     def test_init_damper_runs(self):
         self.begin_and_run("damper")

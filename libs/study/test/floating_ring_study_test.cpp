@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hersey/model/read.h"
+#include "hersey/run/steady_motion.h"
 #include "hersey/study/bearing_study.h"
 #include "relative.h"
 
@@ -73,6 +74,25 @@ TEST_CASE("FloatingRing_MatchesAnIndependentSolution") {
   CHECK(ring.films[0].film.power_film + ring.films[1].film.power_film == relative(87.680689).epsilon(of_grid));
 }
 
+TEST_CASE("RingInAMachine_IsThatByItself") {
+  std::string machine = ring_model;
+  machine.replace(machine.find("    lubricant: cool"), 4, "    shell: ground\n    journal: shaft\n    ");
+  machine += R"(bodies: {shaft: {mass: 1 kg, inertia: {xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}}}
+joints: {shaft: {type: planar, between: [ground, shaft], axis: z}}
+drives: {motor: {joint: shaft, coordinate: rotation, speed: 6000 rad/s}}
+forces: {load: {type: force, body: shaft, components: [0 N, -8 N, 0 N]}}
+simulation: {analysis: steady}
+)";
+  const BearingSolution alone = ring_with({}, machine);
+  const run::SteadyMotion motion = run::find_steady_motion(model::read_text(machine, "m.yaml"));
+  REQUIRE_MESSAGE(motion.solved(), motion.message);
+  const RingState& ring = *alone.pads->ring;
+  constexpr double solved_for = 1e-6;  // the steady motion is found to 1e-9
+  CHECK(motion.bearings.at(1).position.speed == relative(ring.speed).epsilon(solved_for));
+  CHECK(motion.bearings[0].film.h_min == relative(ring.films[0].film.h_min).epsilon(solved_for));
+  CHECK(motion.bearings[1].film.power_film == relative(ring.films[1].film.power_film).epsilon(solved_for));
+}
+
 // (rings.2): mu omega R^3 L/c on either side.
 TEST_CASE("ConcentricRing_RotatesByTheClosedForm") {
   const double outer = 12e-3 * std::pow(8.5, 3) * 9 / 40, inner = 8e-3 * std::pow(5.5, 3) * 7 / 20;
@@ -115,7 +135,8 @@ TEST_CASE("SlowStiffnessOfARing_IsTheDifferenceOfForces") {
   check_same(damping(slower), damping(slow), 1e-5);      // likewise
 }
 
-// A locked ring on springs is a plain bearing in series with a damper's film, the springs and the ring's inertia.
+// A locked ring on springs is a plain bearing in series with a damper's film, the springs and the ring's inertia,
+// (rings.5).
 TEST_CASE("LockedRing_IsAPlainBearingInSeriesWithADamper") {
   constexpr double k = 1e6, mass = 5e-3, omega = 6000;
   std::string parts = ring_model + R"(  plain: {diameter: 11 mm, width: 7 mm, radial_clearance: 20 um, lubricant: warm,
