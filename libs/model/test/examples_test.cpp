@@ -25,7 +25,7 @@ TEST_CASE("Examples_AreReadWithoutFault") {
     try {
       const Model model = read(file);
       CHECK_FALSE(model.title.empty());
-      CHECK(model.bearings.size() + model.joints.size() > 0);
+      CHECK(model.bearings.size() + model.composites.size() + model.joints.size() > 0);
       CHECK_NOTHROW((void)check_study(file));
       if (!model.study || !model.study->is_written_out()) continue;
       for (const StudyRun& run : expand_study(file)) CHECK_NOTHROW((void)read(file, run.overrides));

@@ -11,8 +11,8 @@ namespace hersey::run {
 /// without a network.
 void warm_bodies(model::Machine& machine, double dt);
 
-/// Mixes the oil in grooves between films, by their flows at the state last accepted, and gives it to the films that draw
-/// it (theory manual, thermal.68). Does nothing without grooves.
+/// Mixes the oil in grooves between films, by their flows at the state last accepted, and gives it to the films that
+/// draw it (theory manual, thermal.68). Does nothing without grooves.
 void mix_grooves(model::Machine& machine);
 
 /// Sets, after the last step of a cycle, quasi-steady walls, bodies of the network among them, to the temperatures at

@@ -107,7 +107,8 @@ class FilmForce : public mbd::TwoBodyForce {
   /// Temperatures of the film; null: the film is isothermal.
   [[nodiscard]] const film::FilmHeat* heat() const;
   /// Returns the temperatures on which the film's pressure depends, and the growth of its clearance as one, as unknowns
-  /// of the alternate solution of film and heat: rises [K]. Those of a film that starts steady are, after a state has been accepted, what that film makes.
+  /// of the alternate solution of film and heat: rises [K]. Those of a film that starts steady are, after a state has
+  /// been accepted, what that film makes.
   [[nodiscard]] Eigen::VectorXd temperatures() const;
   /// Sets these; what is evaluated next has their viscosities.
   void set_temperatures(const Eigen::VectorXd& x);
