@@ -22,6 +22,8 @@ Eigen::Vector2d ocvirk_position(const film::FilmModel& model, const OperatingPoi
   HERSEY_REQUIRE(point.load && point.load->norm() > 0, "a load that is not zero");
   constexpr double pi = std::numbers::pi;
   const double c = clearance(model, point), R_c = model.R / c, slenderness = model.L / (2 * model.R);
+  // Where nothing is entrained, feeds lift the journal: half-way down it is near them, and clear of the wall.
+  if (point.entraining_speed() == 0) return 0.5 * c * Eigen::Vector2d(point.load->head<2>().normalized());
   const double revolutions = std::abs(point.entraining_speed()) / (2 * pi);
   const double wanted = model.lubricant.mu0 * revolutions * R_c * R_c * 2 * model.R * model.L / point.load->norm() *
                         slenderness * slenderness;
