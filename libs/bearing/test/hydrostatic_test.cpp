@@ -212,7 +212,8 @@ TEST_CASE("JackingOil_LiftsAJournalAtRest") {
     CHECK(state.load[1] == relative(-12000.0).epsilon(kSolved));
     CHECK(state.film.h_min > 0);
     CHECK(std::abs(state.e[0]) < kSolved * model.c);
-    CHECK(state.e[1] < 0);
+    CHECK(state.film.h_min > 0.1 * model.c);  // no equilibrium by the wall, where lands hardly pass oil
+    CHECK(state.coefficients.stiffness(1, 1) > 0);
     CHECK(state.film.flow_features[0] > 0);
     CHECK(state.film.flow_out() == relative(state.film.flow_features[0]).epsilon(kSolved));
   }

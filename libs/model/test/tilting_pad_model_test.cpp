@@ -86,18 +86,25 @@ TEST_CASE("BearingOfPads_ReadsAsItsPartsWrittenByHand") {
   }
 }
 
-TEST_CASE("HotPads_RunInAMachineOnly") {
-  std::string hot = machine("{count: 5, arc: 60 deg}",
-                            "    thermal: {model: film, supply_temperature: 40 degC}\n"
-                            "    operating_point: {journal_speed: 3000 rpm, load: 1 kN}\n");
-  check_fault(hot, "bearings.front.thermal: temperatures of a film in a steady state of the machine");
-  hot.replace(hot.find("{analysis: steady}"), 18, "{duration: 1 s, step: 1 ms}");
+TEST_CASE("WarmPads_ShareTheirJournalAndMixTheirOil") {
+  std::string hot =
+      machine("{count: 5, arc: 60 deg}",
+              "    thermal: {model: film, supply_temperature: 40 degC, journal: {wall: free, heat_capacity: 70 "
+              "J/K}}\n    operating_point: {journal_speed: 3000 rpm, load: 1 kN}\n");
   hot.replace(hot.find("viscosity: 20 mPa.s"), 19, "grade: iso_vg_32");
   const Model model = read_text(hot, "m.yaml");
   REQUIRE(model.composites.size() == 1);
-  CHECK_FALSE(model.composites[0].alone);
-  REQUIRE(model.composites[0].alone_faults.size() == 1);
-  CHECK(model.composites[0].alone_faults[0].path == "bearings.front.thermal");
+  REQUIRE(model.composites[0].alone);
+  for (const Model* of : {&model, model.composites[0].alone.get()}) {
+    REQUIRE(of->thermal.network.nodes.size() == 1);
+    CHECK(of->thermal.network.nodes[0].name == "front_journal");
+    CHECK(of->thermal.network.nodes[0].heat_capacity == 70);
+    REQUIRE(of->thermal.grooves.size() == 5);
+    for (const Groove& groove : of->thermal.grooves) {
+      CHECK(groove.after == (groove.before + 1) % 5);
+      CHECK(groove.carry_over == 1);
+    }
+  }
 }
 
 TEST_CASE("FaultsOfABearingOfPads_NameWhatTheFileSays") {

@@ -187,13 +187,18 @@ simulation: {analysis: static}
   CHECK(rest.summary().message.find("films carry what their supplies press") != std::string::npos);
 }
 
-TEST_CASE("SteadyMotion_OfFilmsWithTemperaturesIsRefused") {
+TEST_CASE("SteadyMotion_WithAWallInABodyIsRefused") {
   try {
-    (void)model::read_text(rotor, "m.yaml", {"bearings.left.thermal={model: film, supply_temperature: 50 degC}"});
+    (void)model::read_text(rotor, "m.yaml",
+                           {"bearings.left.thermal={model: film, supply_temperature: 50 degC, shell: {wall: body}, "
+                            "journal: {wall: body}}"});
     FAIL("a fault");
   } catch (const InputError& error) {
-    CHECK(std::string(error.what()).find("bearings.left.thermal") != std::string::npos);
-    CHECK(std::string(error.what()).find("steady state of the machine") != std::string::npos);
+    const std::string text = error.what();
+    CHECK(text.find("bearings.left.thermal.shell: a wall in a body that conducts, in the steady motion") !=
+          std::string::npos);
+    CHECK(text.find("bearings.left.thermal.journal: a wall in a body that conducts, in the steady") !=
+          std::string::npos);
   }
 }
 

@@ -25,13 +25,7 @@ TypePtr expansion_format(bool of_film) {
       defaulted("reference", temperature("20 degC"), "20 degC",
                 "Temperature of both at which the clearance is as given."),
   };
-  if (of_film) {
-    keys.push_back(
-        optional("carrier", temperature("45 degC"),
-                 "Temperature of what holds the pads of a shell with `wall: pad`: their pivots move outwards "
-                 "with it, their faces inwards with their own.",
-                 "that of the pads"));
-  } else {
+  if (!of_film) {
     keys.push_back(optional("shell_temperature", temperature("80 degC"), "Mean of the shell.", "that of the oil"));
     keys.push_back(optional("journal_temperature", temperature("90 degC"), "Mean of the journal.", "that of the oil"));
   }

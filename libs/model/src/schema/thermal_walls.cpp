@@ -76,6 +76,11 @@ const std::vector<Alternative<film::ShellWall>>& shell_walls() {
                    "From its back, its sides and its faces beside the grooves to the surroundings."),
          required("ambient", temperature_or_node("40 degC"),
                   "Temperature of these, or the node that they are and that the heat warms."),
+         optional(
+             "carrier", temperature("45 degC"),
+             "Of what the pads stand in: with `expansion` their pivots move outwards with it, their faces inwards with "
+             "the pad.",
+             "that of the pads"),
          optional("temperature", temperature("60 degC"), "With which a simulation begins.", "that of the supply")}},
        [](const Value& wall) {
          return film::RingWall{

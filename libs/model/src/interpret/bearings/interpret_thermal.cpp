@@ -185,17 +185,15 @@ void check_shear(Context& context, const Value& thermal, int layers, const film:
       "each layer is sheared at the rate that its stress takes");
 }
 
-/// The temperature of what holds pads that grow.
+/// The temperature of what pads that grow stand in.
 void read_carrier(Context& context, const Value& thermal, const film::FilmModel& film, film::ThermalModel& heat) {
-  const Value* expansion = thermal.find("expansion");
-  const Value* T = expansion != nullptr && !expansion->broken ? expansion->find("carrier") : nullptr;
-  if (T == nullptr || T->broken || !heat.expansion) return;
-  const auto* ring = std::get_if<film::RingWall>(&heat.shell);
-  if (ring == nullptr || ring->closes) {
-    context.fault_at_key(*T, "a carrier of a shell that is no pad", "`shell: {wall: pad, ...}`, or no carrier");
+  const Value* T = thermal.find("shell")->find("carrier");
+  if (T == nullptr || T->broken) return;
+  if (!heat.expansion) {
+    context.fault_at_key(*T, "a carrier of pads that keep their size", "an `expansion` of shell and journal beside it");
     return;
   }
-  heat.expansion->carrier = {.T = T->number, .thickness = ring->outer_radius - film.R};
+  heat.expansion->carrier = {.T = T->number, .thickness = std::get<film::RingWall>(heat.shell).outer_radius - film.R};
 }
 
 film::ThermalModel film_heat(Context& context, const Value& value, const film::FilmModel& film) {
