@@ -38,6 +38,8 @@ void OpenFile::open(bool overwrite) {
     throw WriteError(path, "HDF5 refuses the file driver");
   }
   keep_metadata(access.get());
+  // Headers of objects have checksums from HDF5 1.8 on: a flipped bit in one is an error, not a text of any length.
+  H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE));
   H5Pset_istore_k(creation.get(), index_node_half);
   handle = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()));
