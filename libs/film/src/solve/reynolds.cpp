@@ -40,8 +40,8 @@ struct Reynolds::Impl {
   [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve_in_pattern(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
-  void solve_directly(Eigen::Ref<Eigen::MatrixXd> columns);
-  void solve_transposed(Eigen::Ref<Eigen::MatrixXd> columns);
+  void solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns);
+  void solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void find_port_flows(std::span<const MotionDirection> directions, PortFlows flows, CondensedFilm& film);
@@ -148,13 +148,13 @@ bool Reynolds::Impl::solve_by_multigrid(const Eigen::VectorXd& b, double rtol, E
   return summary.solved();
 }
 
-void Reynolds::Impl::solve_directly(Eigen::Ref<Eigen::MatrixXd> columns) {
+void Reynolds::Impl::solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns) {
   border.solve(columns, [&](Eigen::Ref<Eigen::MatrixXd> of) {
     lu.solve({of.data(), static_cast<std::size_t>(of.size())}, static_cast<int>(of.cols()));
   });
 }
 
-void Reynolds::Impl::solve_transposed(Eigen::Ref<Eigen::MatrixXd> columns) {
+void Reynolds::Impl::solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns) {
   const auto in_pattern = [&](Eigen::Ref<Eigen::MatrixXd> of) {
     lu.solve({of.data(), static_cast<std::size_t>(of.size())}, static_cast<int>(of.cols()));
   };
