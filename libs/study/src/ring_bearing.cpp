@@ -87,7 +87,7 @@ void solve_floating_ring(const model::Composite& composite, BearingSolution& sol
   state.kind = composite.bearing.kind;
   state.film = motion.bearings.front().film;
   state.point.journal_speed = point.journal_speed;
-  state.e = parts->ring->journal;
+  state.e = parts->ring->films.front().e;  // of the inner film, whose map and clearance circle are shown
   // The outer film is at rest in the shell's axes: its force on the shell is the journal's load.
   state.load = Eigen::Vector2d(motion.bearings[1].wrench_on_shell.segment<2>(3));
   if (point.load)
