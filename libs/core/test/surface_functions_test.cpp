@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -147,6 +148,56 @@ TEST_CASE("SurfaceFunctions_RefuseWhatTheyCannotBe") {
   CHECK_THROWS_AS(SurfaceFunctions(3, 2, width), ContractError);
   CHECK_THROWS_AS(SurfaceFunctions(8, 0, width), ContractError);
   CHECK_THROWS_AS(SurfaceFunctions(8, 2, 0), ContractError);
+}
+
+TEST_CASE("FunctionsOnAnArc_AddUpToOne_AndGoOnBeyondItsEnds") {
+  const SurfaceArc arc{5.5, 1.3};  // across the angle 0
+  for (const int around : {4, 5, 9}) {
+    const SurfaceFunctions functions(around, 3, width, arc);
+    for (int i = -40; i <= 40; ++i) {
+      double sum = 0;
+      for (const SurfaceTerm& term : all_at(functions, 0.157 * i, 0.3 * width)) {
+        CHECK(term.value >= 0);
+        sum += term.value;
+      }
+      CHECK(std::abs(sum - 1) < 16 * eps);
+    }
+    const auto at_end = all_at(functions, arc.from + arc.over, 0),
+               beyond = all_at(functions, arc.from + arc.over + 0.5, 0);
+    for (std::size_t j = 0; j < at_end.size(); ++j) {
+      CHECK(std::abs(beyond[j].value - at_end[j].value) < 16 * eps);
+      CHECK(beyond[j].by_phi == 0);
+    }
+  }
+}
+
+// Cubic polynomials of the angle are among them, with all derivatives.
+TEST_CASE("FunctionsOnAnArc_MeetCubicsExactly") {
+  const SurfaceArc arc{-0.4, 1.1};
+  constexpr int around = 7;
+  const SurfaceFunctions functions(around, 1, width, arc);
+  const auto cubic_at = [&](double phi) { return phi * phi * phi - 0.3 * phi * phi + 2 * phi - 1; };
+  Eigen::MatrixXd A(4 * around, around);
+  Eigen::VectorXd b(A.rows());
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    const double phi = arc.from + arc.over * static_cast<double>(i) / static_cast<double>(A.rows() - 1);
+    const auto all = all_at(functions, phi, 0);
+    for (Eigen::Index j = 0; j < around; ++j) A(i, j) = all[static_cast<std::size_t>(j)].value;
+    b[i] = cubic_at(phi);
+  }
+  const Eigen::VectorXd c = A.colPivHouseholderQr().solve(b);
+  constexpr double round_off_of_fit = 1e-10;  // condition of the fit and two derivatives
+  for (const double phi : {-0.35, 0.0, 0.21, 0.65}) {
+    double value = 0, slope = 0, curvature = 0;
+    const auto all = all_at(functions, phi, 0);
+    for (Eigen::Index j = 0; j < around; ++j) {
+      const SurfaceTerm& term = all[static_cast<std::size_t>(j)];
+      value += c[j] * term.value, slope += c[j] * term.by_phi, curvature += c[j] * term.by_phi_phi;
+    }
+    CHECK(std::abs(value - cubic_at(phi)) < round_off_of_fit);
+    CHECK(std::abs(slope - (3 * phi * phi - 0.6 * phi + 2)) < round_off_of_fit);
+    CHECK(std::abs(curvature - (6 * phi - 0.6)) < round_off_of_fit);
+  }
 }
 
 }  // namespace surface_functions_test

@@ -26,6 +26,7 @@ PadState pad_state(const model::Composite& composite, std::size_t k, const PadMo
     pad.pivot_travel = travel->position[0];
   pad.force = force_on_pad(composite, k, found);
   if (const auto& heat = motion.bearings[k].heat) pad.T_max = heat->T_max, pad.T_face_max = heat->T_shell_max;
+  if (const Eigen::VectorXd& d = motion.fields[k].d_shell; d.size() > 0) pad.bending = d.maxCoeff() - d.minCoeff();
   // The gap is smooth over a pad: the film at the pivot lies between two lines.
   const film::Grid& grid = alone.bearings[k].film.grid;
   const Eigen::VectorXd& h = motion.fields[k].h;

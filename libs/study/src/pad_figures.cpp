@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,10 @@ Line of_warm_pads(std::string_view key, double PadState::*T) {
           {.only = [](const Solution& s) { return s.state.heat.has_value(); }, .each = numbers_of_pads}};
 }
 
+bool has_elastic_pads(const Solution& s) {
+  return std::any_of(s.pads->pads.begin(), s.pads->pads.end(), [](const PadState& pad) { return pad.bending > 0; });
+}
+
 Line followed_at() {
   return {"pads_whirl_ratio", kNone, [](const Solution& s) { return s.pads->whirl_ratio; }};
 }
@@ -46,6 +51,10 @@ Group pad_figures() {
            of_pads("pad_tilt_<name>", kMicroradian, &PadState::tilt),
            of_pads("pad_pivot_travel_<name>", kMicrometre, &PadState::pivot_travel),
            of_pads("pad_h_pivot_<name>", kMicrometre, &PadState::h_pivot),
+           {"pad_bending_<name>",
+            kMicrometre,
+            of_pad(&PadState::bending),
+            {.only = has_elastic_pads, .each = numbers_of_pads}},
            of_warm_pads("pad_T_max_<name>", &PadState::T_max),
            of_warm_pads("pad_T_face_max_<name>", &PadState::T_face_max),
            followed_at()}};

@@ -118,7 +118,8 @@ void PadFilm::add_fields(const film::FilmFields& pad) {
   for (const auto field :
        {&film::FilmFields::p, &film::FilmFields::theta, &film::FilmFields::density, &film::FilmFields::h,
         &film::FilmFields::depth, &film::FilmFields::w, &film::FilmFields::p_asperity, &film::FilmFields::reynolds,
-        &film::FilmFields::T, &film::FilmFields::T_shell, &film::FilmFields::T_journal, &film::FilmFields::T_hottest})
+        &film::FilmFields::d_shell, &film::FilmFields::T, &film::FilmFields::T_shell, &film::FilmFields::T_journal,
+        &film::FilmFields::T_hottest})
     append(fields.*field, pad.*field);
 }
 

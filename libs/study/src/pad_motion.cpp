@@ -71,17 +71,27 @@ model::Model starting_at(model::Model alone, const run::SteadyMotion& motion) {
 }
 
 bool pads_return(const run::SteadyMotion& motion, const std::vector<std::string>& of_shaft) {
-  std::vector<Eigen::Index> of_pads;
-  for (std::size_t row = 0; row < motion.coordinates.size(); ++row)
-    if (std::none_of(of_shaft.begin(), of_shaft.end(), [&](const std::string& joint) {
-          return motion.coordinates[row].starts_with(fmt::format("joint {},", joint));
-        }))
-      of_pads.push_back(static_cast<Eigen::Index>(row));
-  if (of_pads.empty()) return true;
+  const auto is_of_shaft = [&](const std::string& coordinate) {
+    return std::any_of(of_shaft.begin(), of_shaft.end(), [&](const std::string& joint) {
+      return coordinate.starts_with(fmt::format("joint {},", joint));
+    });
+  };
+  // With the shaft at rest, pads as they bend while they move on their pivots.
+  std::vector<Eigen::Index> of_pads, on_pivots;
+  for (std::size_t row = 0; row < motion.coordinates.size(); ++row) {
+    if (is_of_shaft(motion.coordinates[row])) continue;
+    if (motion.coordinates[row].starts_with("joint ")) on_pivots.push_back(static_cast<Eigen::Index>(of_pads.size()));
+    of_pads.push_back(static_cast<Eigen::Index>(row));
+  }
+  if (on_pivots.empty()) return true;
   const solver::Linearisation& linear = motion.small_motions;
-  const Eigen::MatrixXd K = over_coordinates(linear, linear.K)(of_pads, of_pads),
-                        C = over_coordinates(linear, linear.C)(of_pads, of_pads);
-  const Eigen::VectorXcd rates = C.fullPivLu().solve(K).eigenvalues();
+  solver::Linearisation pads;
+  pads.K = over_coordinates(linear, linear.K)(of_pads, of_pads);
+  pads.C = over_coordinates(linear, linear.C)(of_pads, of_pads);
+  pads.M = Eigen::MatrixXd::Zero(pads.K.rows(), pads.K.cols());
+  pads.Z = Eigen::MatrixXd::Identity(pads.K.rows(), pads.K.cols());
+  const solver::ReducedCoefficients reduced = solver::reduce(pads, on_pivots, 0);
+  const Eigen::VectorXcd rates = reduced.C.fullPivLu().solve(reduced.K).eigenvalues();
   return rates.real().minCoeff() > 0;
 }
 
@@ -117,7 +127,7 @@ void fix_pad(model::Model& alone, const std::string& pad, double tilt) {
     joint.initial.clear();
   }
   for (model::Body& body : alone.bodies) {
-    if (body.name != pad) continue;
+    if (body.name != pad && body.name != pad + "_foot") continue;
     for (model::Frame& frame : body.frames)
       if (frame.name == "pivot") frame.X_BF.R = Eigen::AngleAxisd(-tilt, Vector3::UnitZ()).toRotationMatrix();
   }

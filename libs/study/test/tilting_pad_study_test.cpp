@@ -1,15 +1,12 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "hersey/study/bearing_study.h"
+#include "tilting_pad_cases.h"
 
 // Bearings of tilting pads by themselves: numbers of an independent program, and answers that must not depend on how a
 // bearing is written down.
@@ -17,51 +14,6 @@ namespace hersey::study {
 namespace tilting_pad_study_test {
 
 constexpr double degree = std::numbers::pi / 180;
-
-const std::string model_of_pads = R"(hersey: 1
-parameters: {load: 4 kN, ratio: none, a: -90 deg, s: 3000 rpm, nu: 1, around: 84, axial: 9, turn: 0 deg, offset: 0.5}
-lubricants:
-  oil: {viscosity: 20 mPa.s}
-bearings:
-  main:
-    kind: tilting_pad
-    diameter: 100 mm
-    width: 50 mm
-    radial_clearance: 100 um
-    lubricant: oil
-    grid: {circumferential: "${around}", axial: "${axial}"}
-    shear_force: none
-    pads: {count: 5, arc: 60 deg, preload: 0.5, offset: "${offset}", load: on_pad, load_angle: "-90 deg + ${turn}"}
-    operating_point: {journal_speed: "${s}", load: "${load}", eccentricity_ratio: "${ratio}",
-                      load_angle: "${a} + ${turn}", eccentricity_angle: "${a} + ${turn}", whirl_ratio: "${nu}"}
-)";
-
-BearingSolution attempted(std::vector<std::string> overrides) {
-  const std::string path = "tilting_pad_study_test.yaml";
-  std::ofstream(path) << model_of_pads;
-  auto solutions = solve_bearings(path, {{std::move(overrides), "", "", {}}}, {});
-  std::filesystem::remove(path);
-  return solutions.at(0);
-}
-
-BearingSolution solved(std::vector<std::string> overrides) {
-  BearingSolution solution = attempted(std::move(overrides));
-  INFO(solution.message);
-  REQUIRE(solution.solved());
-  return solution;
-}
-
-double figure(const BearingSolution& solution, const std::string& key) {
-  const std::vector<BearingFigure> all = figures_of(solution);
-  const auto found = std::find_if(all.begin(), all.end(), [&](const BearingFigure& f) { return f.key == key; });
-  REQUIRE_MESSAGE(found != all.end(), key);
-  return found->si * found->value;
-}
-
-void check_near(const Eigen::Matrix2d& found, const Eigen::Matrix2d& expected, double tolerance) {
-  CAPTURE(found);
-  CHECK((found - expected).cwiseAbs().maxCoeff() < tolerance * expected.cwiseAbs().maxCoeff());
-}
 
 // An independent program (numpy, 128 x 48 nodes a pad, extrapolated) without shear; loads, films and tilts over W and
 // c.
@@ -71,31 +23,31 @@ TEST_CASE("TiltingPads_MatchAnIndependentProgram") {
     std::vector<std::string> overrides = fine;
     overrides.push_back(fmt::format("nu={}", nu));
     overrides.push_back("bearings.main.pivot=" + pivot);
-    return solved(overrides);
+    return solved_pads(overrides);
   };
   const BearingSolution rigid = at(1, "{type: rigid}");
   CHECK(rigid.warnings.empty());
   CHECK(rigid.numbers.eccentricity_ratio == doctest::Approx(0.733208).epsilon(0.003));
-  CHECK(figure(rigid, "pad_force_1") / 7853.9816 == doctest::Approx(0.95978).epsilon(0.003));
-  CHECK(figure(rigid, "pad_h_pivot_1") == doctest::Approx(26.68e-6).epsilon(0.005));
-  CHECK(figure(rigid, "arc_h_min_2") == doctest::Approx(65.66e-6).epsilon(0.005));
+  CHECK(figure_of_pads(rigid, "pad_force_1") / 7853.9816 == doctest::Approx(0.95978).epsilon(0.003));
+  CHECK(figure_of_pads(rigid, "pad_h_pivot_1") == doctest::Approx(26.68e-6).epsilon(0.005));
+  CHECK(figure_of_pads(rigid, "arc_h_min_2") == doctest::Approx(65.66e-6).epsilon(0.005));
   const BearingSolution yielding = at(0, "{type: spring, stiffness: 7.8539816e8 N/m}");
   CHECK(yielding.numbers.eccentricity_ratio == doctest::Approx(0.827477).epsilon(0.003));
-  CHECK(figure(yielding, "pad_pivot_travel_1") == doctest::Approx(9.5281e-6).epsilon(0.003));
+  CHECK(figure_of_pads(yielding, "pad_pivot_travel_1") == doctest::Approx(9.5281e-6).epsilon(0.003));
   check_near(yielding.coefficients.K, Eigen::Vector2d(4.15492, 0.583844).asDiagonal(), 0.015);
   check_near(yielding.coefficients.C, Eigen::Vector2d(0.930120, 0.327032).asDiagonal(), 0.02);
 }
 
 TEST_CASE("SamePads_HaveTheSameNumbersTurnedAndMirrored") {
   constexpr double solved_for = 1e-6;  // equations are solved to 1e-8 and better
-  const BearingSolution one = solved({"a=-80 deg", "offset=0.55"});
-  const BearingSolution turned = solved({"a=-80 deg", "offset=0.55", "turn=137 deg"});
-  const BearingSolution mirrored = solved({"a=-100 deg", "offset=0.45", "s=-3000 rpm"});
+  const BearingSolution one = solved_pads({"a=-80 deg", "offset=0.55"});
+  const BearingSolution turned = solved_pads({"a=-80 deg", "offset=0.55", "turn=137 deg"});
+  const BearingSolution mirrored = solved_pads({"a=-100 deg", "offset=0.45", "s=-3000 rpm"});
   for (const BearingSolution* other : {&turned, &mirrored}) {
     CHECK(other->numbers.eccentricity_ratio == doctest::Approx(one.numbers.eccentricity_ratio).epsilon(solved_for));
     CHECK(std::abs(other->numbers.attitude) == doctest::Approx(std::abs(one.numbers.attitude)).epsilon(solved_for));
     for (const char* key : {"h_min", "p_max", "side_flow", "power_film", "pad_force_1"})
-      CHECK(figure(*other, key) == doctest::Approx(figure(one, key)).epsilon(solved_for));
+      CHECK(figure_of_pads(*other, key) == doctest::Approx(figure_of_pads(one, key)).epsilon(solved_for));
     check_near(other->coefficients.K, one.coefficients.K, solved_for);
     check_near(other->coefficients.C, one.coefficients.C, solved_for);
   }
@@ -105,10 +57,10 @@ TEST_CASE("SamePads_HaveTheSameNumbersTurnedAndMirrored") {
 TEST_CASE("SlowStiffness_IsTheDifferenceOfForces") {
   const auto carried = [](double ratio, double angle) {
     return Eigen::Vector2d(
-        solved({"load=none", fmt::format("ratio={}", ratio), fmt::format("a={} deg", angle), "nu=0"}).state.load);
+        solved_pads({"load=none", fmt::format("ratio={}", ratio), fmt::format("a={} deg", angle), "nu=0"}).state.load);
   };
   constexpr double e = 0.5, step = 2e-4, c = 1e-4;
-  const BearingSolution here = solved({"load=none", fmt::format("ratio={}", e), "a=-60 deg", "nu=0"});
+  const BearingSolution here = solved_pads({"load=none", fmt::format("ratio={}", e), "a=-60 deg", "nu=0"});
   const Eigen::Vector2d radial(0.5, -std::sqrt(0.75)), tangential(std::sqrt(0.75), 0.5);
   const Eigen::Matrix2d K = here.state.coefficients.stiffness.topLeftCorner<2, 2>();
   const Eigen::Vector2d outwards = (carried(e + step, -60) - carried(e - step, -60)) / (2 * step * c);
@@ -117,8 +69,8 @@ TEST_CASE("SlowStiffness_IsTheDifferenceOfForces") {
   constexpr double of_differences = 1e-3;  // coefficients are means over four grids, forces those of one
   CHECK((K * radial - outwards).norm() < of_differences * K.norm());
   CHECK((K * tangential - around).norm() < of_differences * K.norm());
-  const BearingSolution by_load =
-      solved({fmt::format("load={} N", here.numbers.load), fmt::format("a={} rad", here.numbers.load_angle), "nu=0"});
+  const BearingSolution by_load = solved_pads(
+      {fmt::format("load={} N", here.numbers.load), fmt::format("a={} rad", here.numbers.load_angle), "nu=0"});
   CHECK((by_load.state.e - here.state.e).norm() < 1e-6 * c);  // the position is found again
   check_near(by_load.coefficients.K, here.coefficients.K,
              2e-3);  // means at positions given, and of the load on each grid
@@ -126,8 +78,8 @@ TEST_CASE("SlowStiffness_IsTheDifferenceOfForces") {
 
 TEST_CASE("BallOnItsSeat_YieldsAsHertzSays") {
   const BearingSolution found =
-      solved({"bearings.main.pivot={type: ball_in_socket, ball_radius: 20 mm, socket_radius: 21 mm}"});
-  const double force = figure(found, "pad_force_1"), travel = figure(found, "pad_pivot_travel_1");
+      solved_pads({"bearings.main.pivot={type: ball_in_socket, ball_radius: 20 mm, socket_radius: 21 mm}"});
+  const double force = figure_of_pads(found, "pad_force_1"), travel = figure_of_pads(found, "pad_pivot_travel_1");
   const double modulus = 210e9 / (2 * (1 - 0.09)), radius = 0.42;  // 1/(1/20 mm - 1/21 mm)
   const double expected = std::pow(0.75 * force / (modulus * std::sqrt(radius)), 2.0 / 3);
   CHECK(travel == doctest::Approx(expected).epsilon(1e-4));  // the film's force leans from the pivot by the pad's tilt
@@ -135,16 +87,18 @@ TEST_CASE("BallOnItsSeat_YieldsAsHertzSays") {
 
 // At rest nothing of pads feels their mass, and slow motions neither.
 TEST_CASE("PadsWithoutMass_LieWhereHeavyOnesDo") {
-  const BearingSolution light = solved({"nu=0", "bearings.main.pads.density=0 kg/m^3"}), heavy = solved({"nu=0"});
+  const BearingSolution light = solved_pads({"nu=0", "bearings.main.pads.density=0 kg/m^3"}),
+                        heavy = solved_pads({"nu=0"});
   constexpr double solved_for = 1e-6;  // equations are solved to 1e-8 and better
   for (const char* key : {"h_min", "p_max", "eccentricity_ratio", "pad_tilt_1", "pad_force_3"})
-    CHECK(figure(light, key) == doctest::Approx(figure(heavy, key)).epsilon(solved_for));
+    CHECK(figure_of_pads(light, key) == doctest::Approx(figure_of_pads(heavy, key)).epsilon(solved_for));
   check_near(light.coefficients.K, heavy.coefficients.K, solved_for);
 }
 
 TEST_CASE("PadThatNothingBalances_StandsAsideAndIsNamed") {
-  const BearingSolution found = solved({"load=9 kN", "bearings.main.shear_force=full",
-                                        "bearings.main.pads={count: 4, arc: 80 deg, preload: 0, thickness: 25 mm}"});
+  const BearingSolution found =
+      solved_pads({"load=9 kN", "bearings.main.shear_force=full",
+                   "bearings.main.pads={count: 4, arc: 80 deg, preload: 0, thickness: 25 mm}"});
   REQUIRE_FALSE(found.warnings.empty());
   CHECK(found.warnings[0].find("(spragging): it stands aside") != std::string::npos);
   double upper = 0;

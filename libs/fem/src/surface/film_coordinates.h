@@ -52,10 +52,15 @@ struct CylinderBox {
   return box;
 }
 
-/// True if a face covers part of the film's width, not only touches its edge.
+/// True if a face covers part of the film's width and arc, not only touches its edge.
 [[nodiscard]] inline bool reaches_into(const CylinderBox& box, const FilmCylinder& cylinder) {
-  const double edge = cylinder.L / 2 * (1 - 1e-6);  // round-off of the mesh file's numbers
-  return box.z_low < edge && box.z_high > -edge;
+  constexpr double within = 1 - 1e-6;  // round-off of the mesh file's numbers
+  const double edge = cylinder.L / 2 * within;
+  if (box.z_low >= edge || box.z_high <= -edge) return false;
+  if (!cylinder.arc) return true;
+  const double half = cylinder.arc->over / 2, middle = (box.phi_low + box.phi_high) / 2,
+               away = std::abs(std::remainder(middle - cylinder.arc->from - half, 2 * std::numbers::pi));
+  return away < half * within + (box.phi_high - box.phi_low) / 2;
 }
 
 }  // namespace hersey::fem

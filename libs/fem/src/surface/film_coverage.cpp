@@ -30,6 +30,11 @@ bool holds(const std::array<FilmCorner, 3>& corners, double phi, double z) {
   return low >= -1e-9 * size || high <= 1e-9 * size;
 }
 
+bool has_film(const FilmCylinder& cylinder, double phi) {
+  if (!cylinder.arc) return true;
+  return std::abs(std::remainder(phi - cylinder.arc->from - cylinder.arc->over / 2, two_pi)) < cylinder.arc->over / 2;
+}
+
 /// Marks the points in one triangle.
 void mark(const std::array<FilmCorner, 3>& corners, double L, std::vector<char>& covered) {
   const auto [phi_low, phi_high] = std::minmax({corners[0].phi, corners[1].phi, corners[2].phi});
@@ -75,9 +80,11 @@ FilmCover film_cover(const Mesh& mesh, const std::vector<ElementFace>& faces, co
   for (const ElementFace face : faces)
     for (const auto& corners : film_triangles(mesh, face, cylinder, parts)) mark(corners, cylinder.L, covered);
   std::array<char, points_around> has_gap{};
-  int missing = 0, k_low = points_along, k_high = -1;
+  int all = 0, missing = 0, k_low = points_along, k_high = -1;
   for (int i = 0; i < points_around; ++i)
     for (int k = 0; k < points_along; ++k) {
+      if (!has_film(cylinder, phi_at(i))) continue;
+      ++all;
       if (covered[static_cast<std::size_t>(i * points_along + k)] != 0) continue;
       ++missing;
       has_gap[static_cast<std::size_t>(i)] = 1;
@@ -86,7 +93,7 @@ FilmCover film_cover(const Mesh& mesh, const std::vector<ElementFace>& faces, co
     }
   if (missing == 0) return {};
   const auto [first, columns] = arc_of(has_gap);
-  return {.missing = static_cast<double>(missing) / (points_around * points_along),
+  return {.missing = static_cast<double>(missing) / all,
           .phi_from = first * two_pi / points_around,
           .phi_over = columns * two_pi / points_around,
           .z_low = (static_cast<double>(k_low) / points_along - 0.5) * cylinder.L,

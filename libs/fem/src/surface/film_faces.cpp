@@ -9,7 +9,7 @@
 namespace hersey::fem {
 namespace {
 
-constexpr int most_around = 32, least_around = 8, most_along = 5;
+constexpr int most_around = 32, least_around = 8, least_on_arc = 4, most_along = 5;
 constexpr double nodes_per_function = 1.5;
 
 }  // namespace
@@ -38,11 +38,14 @@ SurfaceFunctions functions_for(const Mesh& mesh, const std::vector<ElementFace>&
     length += (box.z_high - box.z_low) / per_edge;
   }
   const auto count = static_cast<double>(faces.size());
-  const double around = 2 * std::numbers::pi * count / (nodes_per_function * angle);
+  // On an arc as along the axis: one per distance and one more.
+  const double whole = cylinder.arc ? cylinder.arc->over : 2 * std::numbers::pi, beyond = cylinder.arc ? 1 : 0;
+  const int least = cylinder.arc ? least_on_arc : least_around;
+  const double around = beyond + whole * count / (nodes_per_function * angle);
   const double along = 1 + cylinder.L * count / (nodes_per_function * length);
   // Written so that sums of zero, faces without extent, end at a limit.
-  return {around > least_around ? static_cast<int>(std::lround(std::min<double>(around, most_around))) : least_around,
-          along > 1 ? static_cast<int>(std::lround(std::min<double>(along, most_along))) : 1, cylinder.L};
+  return {around > least ? static_cast<int>(std::lround(std::min<double>(around, most_around))) : least,
+          along > 1 ? static_cast<int>(std::lround(std::min<double>(along, most_along))) : 1, cylinder.L, cylinder.arc};
 }
 
 }  // namespace hersey::fem

@@ -46,19 +46,32 @@ NodeColumns positions(const Mesh& mesh, const std::vector<int>& nodes, const Pos
   return x;
 }
 
-/// The part of a polygon on which side * z <= limit; z is taken linear along its edges.
-std::vector<FilmCorner> cut(const std::vector<FilmCorner>& polygon, double side, double limit) {
+/// The part of a polygon on which side * coordinate <= limit; coordinates are taken linear along its edges.
+std::vector<FilmCorner> cut(const std::vector<FilmCorner>& polygon, double FilmCorner::*coordinate, double side,
+                            double limit) {
   std::vector<FilmCorner> kept;
   kept.reserve(polygon.size() + 1);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const FilmCorner &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
-    const double over_from = side * from.z - limit, over_to = side * to.z - limit;
+    const double over_from = side * from.*coordinate - limit, over_to = side * to.*coordinate - limit;
     if (over_from <= 0) kept.push_back(from);
     if ((over_from <= 0) == (over_to <= 0)) continue;
     const double s = over_from / (over_from - over_to);
-    kept.push_back({from.xi + s * (to.xi - from.xi), from.phi + s * (to.phi - from.phi), side * limit});
+    kept.push_back({from.xi + s * (to.xi - from.xi), from.phi + s * (to.phi - from.phi), from.z + s * (to.z - from.z)});
+    kept.back().*coordinate = side * limit;
   }
   return kept;
+}
+
+/// The part of a triangle of a face that lies within the film.
+std::vector<FilmCorner> within_film(const std::array<FilmCorner, 3>& whole, const FilmCylinder& cylinder) {
+  std::vector<FilmCorner> polygon(whole.begin(), whole.end());
+  for (const double side : {1.0, -1.0}) polygon = cut(polygon, &FilmCorner::z, side, cylinder.L / 2);
+  if (!cylinder.arc) return polygon;
+  const double middle = angle_near(cylinder.arc->from + cylinder.arc->over / 2, whole[0].phi);
+  for (const double side : {1.0, -1.0})
+    polygon = cut(polygon, &FilmCorner::phi, side, side * middle + cylinder.arc->over / 2);
+  return polygon;
 }
 
 /// The points of one natural triangle.
@@ -102,8 +115,7 @@ void visit_film_points(const Mesh& mesh, ElementFace face, const FilmCylinder& c
   const std::vector<int> nodes = nodes_of(mesh, face);
   const NodeColumns x = positions(mesh, nodes, cylinder.X.inverse());
   for (const std::array<FilmCorner, 3>& whole : film_triangles(mesh, face, cylinder, parts)) {
-    std::vector<FilmCorner> polygon(whole.begin(), whole.end());
-    for (const double side : {1.0, -1.0}) polygon = cut(polygon, side, cylinder.L / 2);
+    const std::vector<FilmCorner> polygon = within_film(whole, cylinder);
     for (std::size_t c = 2; c < polygon.size(); ++c)
       visit_triangle({polygon[0].xi, polygon[c - 1].xi, polygon[c].xi}, nodes, x, cylinder, visit);
   }

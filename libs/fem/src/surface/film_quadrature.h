@@ -19,8 +19,8 @@ struct FilmPoint {
   double area = 0;                ///< its share of R dphi dz; < 0 where the face's normal points towards the axis [m^2]
 };
 
-/// Calls `visit` at points on `face` where |z| <= L / 2, after dividing the face into `parts` along each edge and
-/// cutting off the parts beyond the width.
+/// Calls `visit` at points on `face` within the film, after dividing the face into `parts` along each edge and cutting
+/// off the parts beyond width and arc.
 void visit_film_points(const Mesh& mesh, ElementFace face, const FilmCylinder& cylinder, int parts,
                        const std::function<void(const FilmPoint&)>& visit);
 

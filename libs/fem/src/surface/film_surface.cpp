@@ -28,11 +28,13 @@ int parts_of(const Mesh& mesh, const std::vector<ElementFace>& faces, const Film
              const SurfaceFunctions& functions) {
   const Pose to_cylinder = cylinder.X.inverse();
   const int intervals = std::max(1, functions.along() - 3);
+  const double per_angle =
+      cylinder.arc ? (functions.around() - 3) / cylinder.arc->over : functions.around() / (2 * std::numbers::pi);
   double most = 0;
   for (const ElementFace face : faces) {
     const CylinderBox box = cylinder_box(mesh, face, to_cylinder);
     most = std::max(
-        {most, (box.phi_high - box.phi_low) * functions.around() / (2 * std::numbers::pi),
+        {most, (box.phi_high - box.phi_low) * per_angle,
          (std::min(box.z_high, cylinder.L / 2) - std::max(box.z_low, -cylinder.L / 2)) * intervals / cylinder.L});
   }
   return std::clamp(static_cast<int>(std::ceil(3 * most)), 2, 12);

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "schema/format.h"
 #include "schema/machine_vocabulary.h"
 #include "schema/oil_laws.h"
@@ -32,6 +34,31 @@ TypePtr body_heat_format() {
                    "Where its temperature is given.", "none"),
           optional("fixed", list("sets of nodes", text("a set of nodes", "base")),
                    "Nodes that are fixed as the body expands.", "none: it expands freely"),
+      });
+}
+
+TypePtr sector_format() {
+  const TypePtr length = quantity("m", "20 mm", Range::positive());
+  const TypePtr angle = quantity("rad", "90 deg"), extent = quantity("rad", "60 deg", Range::positive());
+  const TypePtr seat =
+      object("where a sector stands", {
+                                          required("angle", angle, "Its middle, from the body's x-axis towards y."),
+                                          required("arc", extent, "Its extent around, on the outer face."),
+                                          optional("width", length, "Its extent along the axis.", "that of the sector"),
+                                      });
+  return object(
+      "a sector of a ring about the body's z-axis",
+      {
+          required("inner_radius", length, "Radius of its inner face."),
+          required("thickness", length, "From there to its outer face."),
+          required("width", length, "Along the axis, half of it on either side of the body's origin."),
+          required("middle", angle, "Angle of its middle, from the body's x-axis towards y."),
+          required("arc", quantity("rad", "60 deg", {.low = 0, .high = 1.95 * std::numbers::pi, .low_open = true}),
+                   "Its extent around."),
+          defaulted("elements", list("three numbers", integer(12, {.low = 1, .high = 1000}), 3), "[12, 4, 2]",
+                    "Quadratic elements around, along and through it."),
+          optional("seat", seat, "A part of the outer face, the set of nodes `seat`, on whose borders elements end.",
+                   "none"),
       });
 }
 
@@ -76,6 +103,11 @@ TypePtr flexible_format() {
           optional("reduced", text("a file of `hersey reduce`", "conrod.h5"),
                    "Reduced body beside the model file, instead of a mesh: its frames come with it by their names, and "
                    "its material, modes and units are those it was made with."),
+          optional(
+              "sector", sector_format(),
+              "A sector of a ring, meshed by the program, instead of a mesh: pads, half sleeves. Surfaces and sets "
+              "of nodes are `inner`, `outer`, `first_end`, `last_end` (by the angle), `low_side`, `high_side` (by "
+              "z), and `seat`."),
           optional("length_unit", quantity("m", "1 mm", Range::positive()), "What a length of 1 in the mesh means.",
                    "must be given with `mesh`"),
           optional("part", text("a part of the mesh file", "Block"),
@@ -103,7 +135,7 @@ TypePtr flexible_format() {
           optional("vtu_every", quantity("s", "1 ms", Range::positive()),
                    "Writes the deformed mesh at this interval beside the results file, for ParaView.", "not written"),
       });
-  return with_exactly_one(flexible, {"mesh", "reduced"});
+  return with_exactly_one(flexible, {"mesh", "reduced", "sector"});
 }
 
 }  // namespace hersey::model

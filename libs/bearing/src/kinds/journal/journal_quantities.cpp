@@ -58,6 +58,8 @@ std::span<const Quantity> journal_quantities() {
       {"pad_tilt_<name>", "", "rad", "tilt of pad <name>", "about an axis along the bearing, in the sense from x to y"},
       {"pad_pivot_travel_<name>", "", "m", "travel of the pivot of pad <name>",
        "away from the film: outwards along the radius, or along the axis"},
+      {"pad_bending_<name>", "", "m", "bending of the face of pad <name>",
+       "largest less least radial displacement of pads that are elastic"},
       {"pad_h_pivot_<name>", "", "m", "film thickness at the pivot of pad <name>", "around a journal at mid-width"},
       {"pad_T_max_<name>", "", "degC", "hottest oil of pad <name>"},
       {"pad_T_face_max_<name>", "", "degC", "hottest place on the face of pad <name>"},

@@ -21,7 +21,8 @@ namespace hersey::fem {
 [[nodiscard]] std::vector<ElementFace> faces_on_cylinder(const Mesh& mesh, const FilmCylinder& cylinder,
                                                          double tolerance);
 
-/// Returns as many functions as a mesh resolves: one per 1.5 node distances, 8 to 32 around and at most 5 along.
+/// Returns as many functions as a mesh resolves: one per 1.5 node distances, 8 to 32 around (4 or more on an arc) and
+/// at most 5 along.
 [[nodiscard]] SurfaceFunctions functions_for(const Mesh& mesh, const std::vector<ElementFace>& faces,
                                              const FilmCylinder& cylinder);
 
@@ -40,7 +41,7 @@ struct [[nodiscard]] FilmSurfaceResult : Outcome {
   std::string remedy;
 };
 
-/// Integrates T and G over the parts of `faces` with |z| <= L / 2. Each face is cut exactly at the edges of the film
+/// Integrates T and G over the parts of `faces` within the film. Each face is cut exactly at the edges of the film
 /// and divided finely against the functions. Areas are those on the cylinder, R dphi dz, so that faces that cover the
 /// cylinder have its area exactly.
 /// The function refuses: no faces; nodes off the cylinder by more than `tolerance` [m]; faces whose normal has the

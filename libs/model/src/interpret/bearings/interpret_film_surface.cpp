@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hersey/core/two_pi.h"
 #include "hersey/fem/load_distributions.h"
 #include "interpret/context/interpret.h"
 
@@ -58,7 +59,8 @@ class FilmSurfaceReader {
   /// none.
   std::optional<fem::FilmSurface> surface_of(const Body& body, const Value* named, double within, const Value& at) {
     if (film_.R <= 0 || film_.L <= 0) return std::nullopt;
-    const fem::FilmCylinder cylinder{.X = pose_in(body), .R = film_.R, .L = film_.L, .is_bore = is_shell_};
+    const fem::FilmCylinder cylinder{
+        .X = pose_in(body), .R = film_.R, .L = film_.L, .is_bore = is_shell_, .arc = arc_of_film()};
     const fem::Mesh& mesh = *body.flexible->mesh;
     if (context_.has_fault_in(value_.path)) return std::nullopt;
     std::vector<fem::ElementFace> faces;
@@ -70,6 +72,16 @@ class FilmSurfaceReader {
         fem::film_surface(mesh, faces, cylinder, functions_of(mesh, faces, cylinder), tolerance);
     if (!result.solved()) context_.fault(at, result.message, expected(), result.remedy);
     return result.surface;
+  }
+
+  /// The one arc of a pad's film, which its shell has to be; a journal passes all of it as it rotates, and the shell
+  /// of several arcs goes all around.
+  [[nodiscard]] std::optional<SurfaceArc> arc_of_film() const {
+    const film::Arcs* arcs = film::arcs_of(film_);
+    if (!is_shell_ || is_wall_ || arcs == nullptr || arcs->arcs.size() != 1) return std::nullopt;
+    const film::Arc& arc = arcs->arcs.front();
+    if (arc.to - arc.from >= two_pi) return std::nullopt;
+    return SurfaceArc{arc.from, arc.to - arc.from};
   }
 
   [[nodiscard]] std::string side() const { return is_shell_ ? "shell" : "journal"; }
@@ -129,8 +141,8 @@ class FilmSurfaceReader {
     const Value* given = is_wall_ ? nullptr : value_.find("functions");
     if (given != nullptr && given->members.size() == 2)
       return {static_cast<int>(given->members[0].value.number), static_cast<int>(given->members[1].value.number),
-              cylinder.L};
-    if (faces.empty()) return {4, 1, cylinder.L};
+              cylinder.L, cylinder.arc};
+    if (faces.empty()) return {4, 1, cylinder.L, cylinder.arc};
     return fem::functions_for(mesh, faces, cylinder);
   }
 
@@ -226,6 +238,10 @@ std::shared_ptr<const fem::FilmSurface> heated_surface_of(Context& context, cons
   const FrameName& on = is_shell ? bearing.shell : bearing.journal;
   const std::optional<DeformingSurface>& deforming = is_shell ? bearing.shell_surface : bearing.journal_surface;
   std::shared_ptr<const fem::FilmSurface> surface;
+  if (deforming && deforming->surface->cylinder.arc) {
+    context.fault_at_key(wall, "a wall in a body under a film on one arc", "a bore all around, or `wall: pad`");
+    return nullptr;
+  }
   if (deforming && wall.find("faces") == nullptr)
     surface = deforming->surface;
   else

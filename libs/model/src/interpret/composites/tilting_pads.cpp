@@ -47,7 +47,10 @@ class TiltingPads {
     read_preload();
     check_pads();
     check_pivot(pivot_, faults_);
-    find_inertia();
+    if (is_elastic())
+      check_elastic();
+    else
+      find_inertia();
     if (faults_.size() > faults_before) return std::nullopt;
     for (std::size_t k = 0; k < parts_.pivot_angles.size(); ++k) add_pad(k);
     Node tree = written_tree();
@@ -61,6 +64,8 @@ class TiltingPads {
   }
 
   [[nodiscard]] bool yields() const { return pivot_.text != "rigid"; }
+  [[nodiscard]] bool is_elastic() const { return pads_.find("elastic") != nullptr; }
+  [[nodiscard]] static std::string foot_of(const std::string& pad) { return pad + "_foot"; }
   [[nodiscard]] std::string pad_name(std::size_t k) const { return fmt::format("{}_pad_{}", parts_.name, k + 1); }
 
   /// Tilt with which a pad begins [rad], theory manual eq. (pads.3): its film narrows along the sliding direction by
@@ -109,20 +114,41 @@ class TiltingPads {
     }
   }
 
+  /// Of pads that bend, which have the mass of their mesh.
+  void check_elastic() {
+    const Value& elastic = *pads_.find("elastic");
+    for (const char* key : {"mass", "inertia"})
+      if (const Value* given = pads_.find(key); given != nullptr)
+        fault(*given, fmt::format("`{}` of pads that bend", key), "what their mesh and `density` give",
+              "remove the key");
+    if (number_of(pads_, "density") == 0)
+      fault(*pads_.find("density"), "pads that bend, without density", "a density above 0");
+    const Value* given = elastic.find("seat");
+    seat_ = given != nullptr ? given->number : 0.25 * thickness_;
+    const double to_end = std::min(offset_, 1 - offset_) * arc_ * (R_ + thickness_), width = number_of(value_, "width");
+    if (0.5 * seat_ <= to_end && seat_ <= width) return;
+    fault(given != nullptr ? *given : elastic,
+          fmt::format("a seat of {:.4g} mm around the pivot, outside the pad", 1e3 * seat_),
+          fmt::format("at most {:.4g} mm", 1e3 * std::min(2 * to_end, width)));
+  }
+
   void add_pad(std::size_t k) {
     const std::string pad = pad_name(k);
     parts_.pads.push_back(pad);
     const double angle = parts_.pivot_angles[k], c = std::cos(angle), s = std::sin(angle), r = R_ + thickness_;
     const std::string pivot = fmt::format("[{} m, {} m, 0 m]", r * c, r * s);
     carrier_frames_ += fmt::format("      pivot_{}: {{origin: {}}}\n", k + 1, pivot);
-    add_body(pad, pivot, angle + (0.5 - offset_) * arc_);
+    if (is_elastic())
+      add_elastic_body(pad, pivot, angle);
+    else
+      add_body(pad, pivot, angle + (0.5 - offset_) * arc_);
     std::string inboard = fmt::format("{}_carrier.pivot_{}", parts_.name, k + 1);
     if (yields()) inboard = add_seat(k, inboard, c, s);
     const bool pitches = pivot_.find("pitch")->text == "yes";
     const std::string start = pitches ? fmt::format("orientation: [0 rad, 0 rad, {} rad]", opening())
                                       : fmt::format("rotation: {} rad", opening());
-    joints_ += fmt::format("  {0}_pivot: {{type: {1}, between: [{2}, {0}.pivot], initial: {{{3}}}}}\n", pad,
-                           pitches ? "spherical" : "revolute", inboard, start);
+    joints_ += fmt::format("  {0}_pivot: {{type: {1}, between: [{2}, {3}.pivot], initial: {{{4}}}}}\n", pad,
+                           pitches ? "spherical" : "revolute", inboard, is_elastic() ? foot_of(pad) : pad, start);
     if (const double torque = number_of(pivot_, "friction_torque"); torque > 0) {
       constexpr double creep = 1e-3;  // rad/s, below which friction rises with the speed
       forces_ += fmt::format(
@@ -132,6 +158,9 @@ class TiltingPads {
     }
     const std::string preload = fmt::format("preload: {}", preload_);
     bearings_ += fmt::format("  {0}:\n    shell: {0}.face\n    journal: {1}\n", pad, journal_);
+    if (is_elastic())
+      bearings_ +=
+          fmt::format("    shell_surface: {{faces: inner, modes: {}}}\n", integer_of(*pads_.find("elastic"), "modes"));
     bearings_ += fmt::format("    arcs: {{pad: {{middle: {} rad, arc: {} rad, {}, offset: {}}}}}\n",
                              angle + (0.5 - offset_) * arc_, arc_, preload, offset_);
   }
@@ -164,6 +193,28 @@ class TiltingPads {
         "    inertia: {{xx: {} kg.m^2, yy: {} kg.m^2, zz: {} kg.m^2, xy: {} kg.m^2}}\n"
         "    frames: {{pivot: {{origin: {}}}, face: {{origin: [0 m, 0 m, 0 m]}}}}\n",
         pad, inertia_.mass, inertia_.centre * c, inertia_.centre * s, xx, yy, inertia_.axial, xy, pivot);
+  }
+
+  /// A pad that bends: a mesh that stands on its seat, which a foot without mass bears. The film's frame follows the
+  /// mean of the seat.
+  void add_elastic_body(const std::string& pad, const std::string& pivot, double angle) {
+    const Value& elastic = *pads_.find("elastic");
+    const double width = number_of(value_, "width");
+    const bool pitches = pivot_.find("pitch")->text == "yes";
+    bodies_ += fmt::format("  {}: {{mass: 0 kg, frames: {{pivot: {{origin: {}}}}}}}\n", foot_of(pad), pivot);
+    bodies_ += fmt::format("  {}:\n    flexible:\n      modes: 0\n", pad);
+    bodies_ += fmt::format("      material: {{youngs_modulus: {} Pa, poisson_ratio: {}, density: {} kg/m^3}}\n",
+                           number_of(elastic, "youngs_modulus"), number_of(elastic, "poisson_ratio"),
+                           number_of(pads_, "density"));
+    const std::vector<Member>& elements = elastic.find("elements")->members;
+    bodies_ += fmt::format(
+        "      sector:\n        inner_radius: {} m\n        thickness: {} m\n        width: {} m\n"
+        "        middle: {} rad\n        arc: {} rad\n        elements: [{}, {}, {}]\n"
+        "        seat: {{angle: {} rad, arc: {} rad, width: {} m}}\n",
+        R_, thickness_, width, angle + (0.5 - offset_) * arc_, arc_, elements[0].value.number, elements[1].value.number,
+        elements[2].value.number, angle, seat_ / (R_ + thickness_), pitches ? seat_ : width);
+    bodies_ += "    frames: {face: {nodes: seat, connection: average, origin: [0 m, 0 m, 0 m]}}\n";
+    joints_ += fmt::format("  {0}: {{type: fixed, between: [{0}, {1}.face]}}\n", foot_of(pad), pad);
   }
 
   /// A pivot that yields: a seat without mass that slides along the radius against a spring.
@@ -259,7 +310,7 @@ class TiltingPads {
   std::string shell_, journal_;
   CompositeParts& parts_;
   std::vector<Fault>& faults_;
-  double R_ = 0, arc_ = 0, offset_ = 0, thickness_ = 0, preload_ = 0;
+  double R_ = 0, arc_ = 0, offset_ = 0, thickness_ = 0, preload_ = 0, seat_ = 0;
   PadInertia inertia_;
   std::string bodies_, carrier_frames_, joints_, forces_, bearings_;
 };

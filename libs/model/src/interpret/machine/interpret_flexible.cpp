@@ -1,13 +1,16 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
 
 #include "hersey/core/spelling.h"
+#include "hersey/core/two_pi.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/fem/reduced_body_file.h"
 #include "hersey/fem/reduction.h"
+#include "hersey/fem/sector_mesh.h"
 #include "hersey/fem/skin.h"
 #include "interpret/context/interpret.h"
 #include "schema/machine_vocabulary.h"
@@ -36,7 +39,7 @@ class FlexibleReader {
       read_reduced(value, flexible, frames);
       return flexible;
     }
-    auto mesh = mesh_of(value, flexible.parts);
+    auto mesh = value.find("sector") != nullptr ? sector_of(value) : mesh_of(value, flexible.parts);
     if (!mesh) return flexible;
     refuse_ties(value, *mesh, flexible);
     flexible.materials = materials_of(value, *mesh);
@@ -161,6 +164,45 @@ class FlexibleReader {
       context_.faults_in_file(*file, error.faults());
       return std::nullopt;
     }
+  }
+
+  /// A sector of a ring, meshed here.
+  std::optional<fem::Mesh> sector_of(const Value& value) {
+    for (const char* key : {"length_unit", "part", "parts"})
+      if (const Value* given = value.find(key); given != nullptr && given->given)
+        context_.fault_at_key(*given, std::string("`") + key + "` of a sector", "what `sector` says",
+                              "remove the key: only files of meshes have it");
+    if (value.find("material") == nullptr)
+      context_.fault_at_key(value, "a sector without `material`", "an elastic material",
+                            "add `material: {youngs_modulus: ..., poisson_ratio: ..., density: ...}`");
+    const Value& sector = *value.find("sector");
+    if (sector.broken || value.find("material") == nullptr || context_.has_fault_in(sector.path)) return std::nullopt;
+    const double middle = number_of(sector, "middle"), half = 0.5 * number_of(sector, "arc");
+    fem::RingSector ring{.inner = number_of(sector, "inner_radius"),
+                         .outer = number_of(sector, "inner_radius") + number_of(sector, "thickness"),
+                         .width = number_of(sector, "width"),
+                         .from = middle - half,
+                         .to = middle + half};
+    const std::vector<Member>& elements = sector.find("elements")->members;
+    for (std::size_t k = 0; k < ring.elements.size(); ++k)
+      ring.elements[k] = static_cast<int>(elements[k].value.number);
+    if (const Value* seat = sector.find("seat")) {
+      ring.seat = seat_of(*seat, ring);
+      if (!ring.seat) return std::nullopt;
+    }
+    return fem::sector_mesh(ring);
+  }
+
+  /// Reported where it lies outside the sector.
+  std::optional<fem::SectorSeat> seat_of(const Value& value, const fem::RingSector& ring) {
+    const double half = 0.5 * number_of(value, "arc"),
+                 turns = std::round((0.5 * (ring.from + ring.to) - number_of(value, "angle")) / two_pi),
+                 angle = number_of(value, "angle") + two_pi * turns;
+    fem::SectorSeat seat{angle - half, angle + half, ring.width};
+    if (const Value* width = value.find("width")) seat.width = width->number;
+    if (seat.from >= ring.from && seat.to <= ring.to && seat.width <= ring.width) return seat;
+    context_.fault_at_key(value, "a seat that reaches beyond its sector", "one on the sector's outer face");
+    return std::nullopt;
   }
 
   static std::string part_of(const Value& value) {

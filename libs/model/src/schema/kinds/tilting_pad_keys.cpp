@@ -41,6 +41,22 @@ TypePtr pads_format() {
       optional("inertia", moment, "Moment of inertia of one pad about an axis along the bearing through its pivot.",
                "from `density`"),
   };
+  keys.push_back(optional(
+      "elastic",
+      object(
+          "an elastic pad",
+          {required("youngs_modulus", quantity("Pa", "210 GPa", Range::positive()), "Young's modulus."),
+           defaulted("poisson_ratio", number("0.3", {.low = -1, .high = 0.5, .low_open = true, .high_open = true}),
+                     "0.3", "Poisson's ratio."),
+           optional("seat", quantity("m", "10 mm", Range::positive()),
+                    "Length around, on a pad's back, over which a pivot bears; of pads that pitch along the bearing, "
+                    "too.",
+                    "a quarter of the thickness"),
+           defaulted("elements", list("three numbers", integer(12, {.low = 1, .high = 1000}), 3), "[12, 4, 2]",
+                     "Quadratic elements around, along and through a pad."),
+           defaulted("modes", integer(16, {.low = 1, .high = 1000}), "16",
+                     "How many static shapes of a pad under pressures of its film, the most compliant ones.")}),
+      "Pads bend under their films' pressure: each is a mesh of its own, with the mass of `density`.", "rigid"));
   for (Key& key : arc_end_keys()) keys.push_back(std::move(key));
   return object("the pads", std::move(keys));
 }

@@ -25,6 +25,7 @@ struct PadState {
   double pivot_travel = 0;  ///< of its pivot away from the film; 0 of a rigid one [m]
   bool is_aside = false;    ///< nothing balances it: it is fixed at a tilt at which it carries nothing
   double h_pivot = 0;       ///< film thickness at the pivot, around a journal at mid-width [m]
+  double bending = 0;       ///< largest less least radial displacement of its face; 0 of a rigid pad [m]
   double T_max = 0;         ///< of its hottest oil [K]; 0: the films have one temperature
   double T_face_max = 0;    ///< of the hottest place on its face [K]; 0 likewise
   Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< around a journal: of the film on it, bearing axes [N]
