@@ -38,7 +38,7 @@ TEST_CASE("SectorOfARing_IsABodyWithSidesAndASeat") {
   const Vector3 foot = model.bodies.front().frames.front().X_BF.r;
   CHECK(std::atan2(foot.y(), foot.x()) == doctest::Approx(-10 * std::numbers::pi / 180));
   const Machine machine = build(model);
-  CHECK(machine.flexible.size() == 1);
+  CHECK(machine.flexibles.size() == 1);
 }
 
 TEST_CASE("FaultsOfASector_SayWhatItNeeds") {
