@@ -325,6 +325,7 @@ const std::vector<Dimension>& dimensions() {
       {"Pa.s", "a dynamic viscosity", "15 mPa.s", {"Pa.s", "mPa.s", "cP"}, 1e12},
       {"m^2/s", "a kinematic viscosity", "20 cSt", {"m^2/s", "mm^2/s", "cSt"}, 1e9},
       {"1/Pa", "an inverse pressure", "1.28e-8 1/Pa", {"1/Pa", "1/MPa", "1/GPa"}, 1e6},
+      {"J/m^3", "an energy density", "1e13 J/m^3", {"J/m^3", "J/mm^3"}, 1e25},
       {"kg/m^3", "a density", "850 kg/m^3", {"kg/m^3", "g/cm^3"}, 1e9},
       {"kg/m", "a mass per length", "9.4 kg/m", {"kg/m", "g/mm"}, 1e12},
       {"kg.m", "a moment of inertia per length", "0.02 kg.m", {"kg.m", "kg.mm"}, 1e15},

@@ -9,6 +9,7 @@
 
 #include "force/film_element.h"
 #include "force/thermal_surfaces.h"
+#include "force/wearing_surfaces.h"
 #include "force/wrench_exchange.h"
 #include "gap/deforming_surfaces.h"
 #include "gap/hot_clearance.h"
@@ -55,7 +56,9 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
       gap_parameter_count_(gap_->parameters().size()),
       parameters_(Eigen::VectorXd::Zero(gap_parameter_count_ + 2 * deforming_->amplitudes())),
       directions_(static_cast<std::size_t>(parameters_.size())),
-      accepted_s_(Eigen::VectorXd::Zero(deforming_->amplitudes())) {}
+      accepted_s_(Eigen::VectorXd::Zero(deforming_->amplitudes())) {
+  if (options.wear) wearing_ = add_shape(std::make_unique<WearingSurfaces>(film_->model(), *options.wear), shapes_);
+}
 
 FilmForce::~FilmForce() = default;
 
@@ -242,6 +245,8 @@ void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   if (is_step) gap_->end_step(end);
   film_->accept_step(surfaces_);
   for (const auto& shape : shapes_) shape->accept_step(film_->dt());
+  if (wearing_ != nullptr)
+    wearing_->wear_off(film_->fields(accepted_surfaces_).p_asperity, accepted_surfaces_, is_step ? film_->dt() : 0);
   exchange_->accept_step();
 }
 
@@ -309,6 +314,8 @@ std::string FilmForce::thermal_failure(double closed) const {
                      1e3 * observed.T_max_z);
 }
 
+std::string FilmForce::wear_failure() const { return wearing_ != nullptr ? wearing_->failure() : std::string(); }
+
 std::string FilmForce::name_of_internal_residual() const {
   if (!is_monolithic_step_) return "wrench exchanged between film and bodies";
   const int node = film_->reynolds().residual().worst_node, n_z = model().grid.n_z;
@@ -331,6 +338,7 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   if (thermal_->shell().size() > 0) shown.bore_growth = thermal_->shell().mean();
   if (thermal_->journal().size() > 0) shown.journal_growth = thermal_->journal().mean();
   shown.clearance_of_bodies = shown.clearance + shown.bore_growth - shown.journal_growth;
+  if (wearing_ != nullptr) shown.wear = wearing_->observe();
   shown.film_iterations = accepted_iterations_;
   shown.exchanges = accepted_exchanges_;
   return shown;
@@ -340,6 +348,7 @@ film::FilmFields FilmForce::fields() const {
   film::FilmFields fields = film_->fields(accepted_surfaces_);
   if (options_.shell_surface) fields.d_shell = deforming_->shell_displacement(accepted_s_);
   if (options_.journal_surface) fields.d_journal = deforming_->journal_displacement(accepted_s_);
+  if (wearing_ != nullptr) fields.worn_fixed = wearing_->fixed(), fields.worn_moving = wearing_->moving();
   return fields;
 }
 

@@ -394,6 +394,7 @@ class Builder {
         body->conduction = journal_conduction(model_, bearing);
     }
     options.growth = bearing.growth;
+    options.wear = bearing.wear;
     for (const Function& pressure : bearing.feature_pressures) {
       options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
     }

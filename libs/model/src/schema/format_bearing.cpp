@@ -131,6 +131,24 @@ TypePtr materials_format(const SurfaceKeys& surfaces) {
                                  });
 }
 
+TypePtr wear_format(const SurfaceKeys& surfaces) {
+  const TypePtr surface = with_exactly_one(
+      object("wear of a surface", {optional("coefficient", quantity("1/Pa", "1e-16 1/Pa", Range::not_negative()),
+                                            "Archard's: worn depth over contact pressure and sliding distance, k/H."),
+                                   optional("energy_density", quantity("J/m^3", "1e13 J/m^3", Range::positive()),
+                                            "Fleischer's: work of friction that wears off a volume."),
+                                   optional("lining", quantity("m", "20 um", Range::positive()),
+                                            "Depth that may wear off; a run ends there.", "no end")}),
+      {"coefficient", "energy_density"});
+  return object("wear",
+                {optional(surfaces.fixed, surface, "Of the fixed surface, place by place.", "none"),
+                 optional(surfaces.moving, surface, "Of the moving surface, evenly around.", "none"),
+                 defaulted("acceleration", number("1000", {.low = 0, .high = 1e9, .low_open = true}), "1",
+                           "Times that wear counts: one cycle stands for as many."),
+                 optional("cycle", quantity("s", "40 ms", Range::positive()),
+                          "After which loads repeat: for the uncertainty by the acceleration.", "not estimated")});
+}
+
 TypePtr coupling_format() {
   return variant(
       "a coupling", "scheme", {},
@@ -176,6 +194,7 @@ std::vector<Key> surface_keys(const SurfaceKeys& surfaces) {
       optional("roughness", roughness_format(surfaces), "Roughness of both surfaces, as the flow of the oil sees it.",
                "smooth"),
       optional("materials", materials_format(surfaces), "Give the composite modulus where it is not given itself."),
+      optional("wear", wear_format(surfaces), "Wear of both surfaces over a run, where `asperities` touch.", "none"),
   };
 }
 

@@ -116,6 +116,16 @@ bool is_in_body(const BearingPlan& plan) { return shell_is_in_body(plan) || jour
 
 bool expands(const BearingPlan& plan) { return plan.bearing.expansion.has_value(); }
 
+bool wears(const BearingPlan& plan) { return plan.bearing.wear.has_value(); }
+
+bool wears_by_cycles(const BearingPlan& plan) { return wears(plan) && plan.bearing.wear->cycle > 0; }
+
+using Wear = bearing::WearObservation;
+
+auto of_wear(double Wear::*member) {
+  return [member](const BearingRow& row) { return *row.observation.wear.*member; };
+}
+
 using Heat = film::HeatObservables;
 
 /// Temperature of the film's heat in degC.
@@ -306,6 +316,24 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
             .summary_entries = {{Statistic::largest_in_size, "worst mass-balance error of the film"}}}),
       line("oil_through_flow", of_oil(&bearing::CumulativeOilBalance::through_flow)),
       line("oil_unexplained", of_oil(&bearing::CumulativeOilBalance::unexplained)),
+      line("wear_fixed", of_wear(&Wear::fixed_depth),
+           {.note = "this and the following: of bearings with `wear`",
+            .only = wears,
+            .summary_entries = {{Statistic::at_end, "largest wear of the fixed surface at the end", "µm"}}}),
+      line("worn_volume_fixed", of_wear(&Wear::fixed_volume),
+           {.only = wears,
+            .summary_entries = {{Statistic::at_end, "volume worn off the fixed surface at the end", "mm³"}}}),
+      line("wear_moving", of_wear(&Wear::moving_depth),
+           {.only = wears,
+            .summary_entries = {{Statistic::at_end, "largest wear of the moving surface at the end", "µm"}}}),
+      line("worn_volume_moving", of_wear(&Wear::moving_volume),
+           {.only = wears,
+            .summary_entries = {{Statistic::at_end, "volume worn off the moving surface at the end", "mm³"}}}),
+      line("wear_rate", of_wear(&Wear::rate), {.only = wears}),
+      line("wear_error", of_wear(&Wear::acceleration_error),
+           {.note = "with `wear.cycle`",
+            .only = wears_by_cycles,
+            .summary_entries = {{Statistic::at_end, "uncertainty of the worn volume by its acceleration", "mm³"}}}),
       line("cavitated_share", of_film(&Film::cavitated_share)),
       line("rupture_angle", of_film(&Film::rupture_angle),
            {.note = "with the flow, of its widest cavity", .only = is_round}),

@@ -20,6 +20,7 @@ FilmField temperature(const char* name, const char* label, const char* text, Eig
 const std::vector<FilmField>& film_fields() {
   using F = film::FilmFields;
   static const std::string of_elastic = "of surfaces of elastic bodies; against the surface's frame";
+  static const std::string of_wear = "of bearings with `wear`";
   static const std::vector<FilmField> table{
       {"pressure", "Pa", "film pressure", "pressure", "MPa", 1e-6, &F::p, "p"},
       {"asperity_pressure", "Pa", "asperity contact pressure", "asperity pressure", "MPa", 1e-6, &F::p_asperity, "p_a"},
@@ -31,6 +32,10 @@ const std::vector<FilmField>& film_fields() {
        1e6, &F::d_shell, "", of_elastic},
       {"journal_displacement", "m", "radial displacement of the journal's surface, outward", "journal displacement",
        "um", 1e6, &F::d_journal, "", of_elastic},
+      {"fixed_wear", "m", "depth worn off the fixed surface", "wear of the fixed surface", "um", 1e6, &F::worn_fixed,
+       "", of_wear},
+      {"moving_wear", "m", "depth worn off the moving surface", "wear of the moving surface", "um", 1e6,
+       &F::worn_moving, "", of_wear},
       temperature("temperature", "oil temperature", "temperature of the oil, mean over the thickness", &F::T, "T"),
       temperature("shell_temperature", "shell temperature", "temperature of the shell's surface", &F::T_shell, "T_S"),
       temperature("journal_temperature", "journal temperature", "temperature of the journal's surface", &F::T_journal,

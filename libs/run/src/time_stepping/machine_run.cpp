@@ -61,8 +61,8 @@ Outcome MachineRun::step(double limit) {
   if (model_.thermal_walls == model::ThermalWalls::transient) warm_bodies(machine_, step.dt);
   mix_grooves(machine_);
   record(step);
-  if (const std::string why = thermal_failure(machine_); !why.empty())
-    return no_answer<Outcome>(fmt::format("t = {:.6g} s: {}", state_.t, why));
+  for (const std::string& why : {thermal_failure(machine_), wear_failure(machine_)})
+    if (!why.empty()) return no_answer<Outcome>(fmt::format("t = {:.6g} s: {}", state_.t, why));
   return {Ending::solved};
 }
 

@@ -66,4 +66,11 @@ std::string thermal_failure(const model::Machine& machine, bool has_failed) {
   return {};
 }
 
+std::string wear_failure(const model::Machine& machine) {
+  for (const model::BuiltBearing& built : machine.bearings)
+    if (const std::string why = built.bearing->wear_failure(); !why.empty())
+      return "bearing " + built.bearing->name() + ": " + why;
+  return {};
+}
+
 }  // namespace hersey::run

@@ -23,4 +23,7 @@ void settle_walls(model::Machine& machine);
 /// @param has_failed  the next step did not converge: an almost closed clearance is then the reason
 [[nodiscard]] std::string thermal_failure(const model::Machine& machine, bool has_failed = false);
 
+/// Names a bearing one of whose linings has been worn off; empty where there is none.
+[[nodiscard]] std::string wear_failure(const model::Machine& machine);
+
 }  // namespace hersey::run

@@ -9,6 +9,7 @@
 #include "hersey/bearing/elastic_surface.h"
 #include "hersey/bearing/film_observation.h"
 #include "hersey/bearing/gap_kinematics.h"
+#include "hersey/bearing/wear.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/film/film_heat.h"
 #include "hersey/film/film_solver.h"
@@ -44,7 +45,8 @@ struct BearingOptions {
   /// Thermal model of the film, whose temperatures are advanced at each accepted step; unset: an isothermal film at the
   /// model's temperature.
   std::optional<film::ThermalModel> thermal = {};
-  double growth = 0;  ///< thermal change of the clearance of an isothermal film [m]
+  double growth = 0;                   ///< thermal change of the clearance of an isothermal film [m]
+  std::optional<WearModel> wear = {};  ///< of both surfaces, in time; unset: none
   /// Surfaces of elastic bodies; null: rigid. Their amplitudes come with the motion, the shell's before the journal's.
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
@@ -53,6 +55,7 @@ class DeformingSurfaces;
 class FilmElement;
 class SurfaceShape;
 class ThermalSurfaces;
+class WearingSurfaces;
 class WrenchExchange;
 
 /// An oil film between the surfaces of a shell frame A and of a journal frame B (theory manual, chapter bearing), whose
@@ -122,6 +125,8 @@ class FilmForce : public mbd::TwoBodyForce {
   /// where; empty if neither is the case.
   /// @param closed  fraction of the clearance as given below which it counts as closed [-]
   [[nodiscard]] std::string thermal_failure(double closed) const;
+  /// Names a lining that has been worn off at the state last accepted; empty where there is none.
+  [[nodiscard]] std::string wear_failure() const;
 
   /// Returns all figures of the state last accepted (or initialised).
   [[nodiscard]] BearingObservation observe(const mbd::RelativeMotion& motion) const;
@@ -150,6 +155,7 @@ class FilmForce : public mbd::TwoBodyForce {
   std::vector<std::unique_ptr<SurfaceShape>> shapes_;  // all that moves the surfaces beyond `gap_`
   ThermalSurfaces* thermal_;                           // of `shapes_`, as what follows
   DeformingSurfaces* deforming_;
+  WearingSurfaces* wearing_ = nullptr;  // null: surfaces do not wear
   std::unique_ptr<WrenchExchange> exchange_;
   bool is_monolithic_step_ = true;
 

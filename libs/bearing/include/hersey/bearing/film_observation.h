@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "hersey/bearing/gap_kinematics.h"
+#include "hersey/bearing/wear.h"
 #include "hersey/core/spatial.h"
 #include "hersey/film/film_observables.h"
 #include "hersey/film/heat_state.h"
@@ -31,8 +32,9 @@ struct BearingObservation {
   std::optional<film::HeatObservables> heat;  ///< of a film with temperatures
   film::WallCorrection walls;                 ///< of fixed walls, when they were last corrected
   CumulativeOilBalance oil;
-  int film_iterations = 0;  ///< film linearisations in the last step
-  int exchanges = 0;        ///< partitioned: wrenches that film and bodies exchanged in the last step
+  std::optional<WearObservation> wear;  ///< of surfaces that wear
+  int film_iterations = 0;              ///< film linearisations in the last step
+  int exchanges = 0;                    ///< partitioned: wrenches that film and bodies exchanged in the last step
 };
 
 }  // namespace hersey::bearing

@@ -22,6 +22,8 @@ struct FilmFields {
   /// Radial displacement of the surfaces of elastic bodies against their frames, away from the bearing's axis [m];
   /// empty where a surface is rigid. The bearing fills them in.
   Eigen::VectorXd d_shell, d_journal;
+  /// Depth worn off both surfaces [m]; empty where they do not wear. The bearing fills them in.
+  Eigen::VectorXd worn_fixed, worn_moving;
   /// Temperatures: mean over the thickness, of both surfaces, of the hottest layer [K]; empty without. FilmHeat fills
   /// them in (TemperatureFields).
   Eigen::VectorXd T, T_shell, T_journal, T_hottest;

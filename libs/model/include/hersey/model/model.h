@@ -11,6 +11,7 @@
 
 #include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/global_heat.h"
+#include "hersey/bearing/wear.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/core/spatial.h"
@@ -293,6 +294,7 @@ struct Bearing {
   Heat heat;             ///< none: one temperature
   std::optional<bearing::WallExpansion> expansion;  ///< of the walls, whatever heats the film; unset: they keep size
   double growth = 0;     ///< of the clearance of a film with one given temperature: expansion at that [m]
+  std::optional<bearing::WearModel> wear;  ///< of both surfaces over a run; unset: none
   OilValidity validity;  ///< of its oil
   std::optional<double> permissible_pressure;  ///< permissible pressure of its lining [Pa]; unset: the usual value in
                                                ///< engines

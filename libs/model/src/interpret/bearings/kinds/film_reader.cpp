@@ -204,6 +204,7 @@ void FilmReader::read_contact() {
   read_roughness();
   read_asperities();
   read_compliance();
+  read_wear();
   require_use_of_materials();
 }
 

@@ -25,7 +25,7 @@ class FilmReader {
   void read_cavitation();
   /// Returns the edge with what lies outside it, a pressure or `closed`.
   [[nodiscard]] film::Edge edge_of(const Value& outside);
-  /// Reads roughness, asperities and compliance, and reports materials that nothing uses.
+  /// Reads roughness, asperities, compliance and wear, and reports materials that nothing uses.
   void read_contact();
   /// Reads the scale of pressures; reports those below a vacuum.
   void read_pressure_scale();
@@ -53,6 +53,8 @@ class FilmReader {
   void read_asperities();
   void read_summits(const Value& asperities);
   void read_compliance();
+  void read_wear();
+  bearing::SurfaceWear wear_of(const Value& wear, const std::string& surface);
   void require_use_of_materials();
   std::optional<double> composite_modulus_of(const Value& parent);
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+
+namespace hersey::bearing {
+
+/// Wear of one surface where asperities slide, by Archard's law (theory manual, wear.1).
+struct SurfaceWear {
+  double coefficient = 0;  ///< worn depth over contact pressure and sliding distance, k/H [1/Pa], >= 0
+  double lining = std::numeric_limits<double>::infinity();  ///< depth that may wear off before the run ends [m], > 0
+};
+
+/// Wear of both surfaces of a bearing. The fixed one wears node by node; the moving one passes the contact with all of
+/// its circumference, and wears evenly around.
+struct WearModel {
+  SurfaceWear fixed, moving;
+  double acceleration = 1;  ///< times that wear counts, > 0: a cycle stands for as many
+  double cycle = 0;         ///< after which loads repeat, for the error of an acceleration [s]; 0: unknown
+};
+
+/// Figures of the wear since the start of a run, all of its acceleration included.
+struct WearObservation {
+  double fixed_depth = 0;    ///< largest worn depth of the fixed surface [m]
+  double fixed_volume = 0;   ///< worn off it [m^3]
+  double moving_depth = 0;   ///< largest of the moving surface [m]
+  double moving_volume = 0;  ///< [m^3]
+  double rate = 0;           ///< volume worn off both per time, without acceleration [m^3/s]
+  /// Uncertainty of the worn volume by the acceleration: half of how much the wear of each cycle differs from that of
+  /// the one before, over all cycles [m^3] (theory manual, wear.5).
+  double acceleration_error = 0;
+};
+
+}  // namespace hersey::bearing

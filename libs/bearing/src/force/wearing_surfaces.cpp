@@ -1,0 +1,147 @@
+#include "force/wearing_surfaces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hersey/bearing/shapes_at_rest.h"
+#include "hersey/core/two_pi.h"
+#include "hersey/film/film_surface.h"
+
+namespace hersey::bearing {
+
+using Eigen::VectorXd;
+
+namespace {
+
+/// Lengths of the control volumes around, half-way to the neighbours of each line on its patch, at the radius 1 [rad].
+VectorXd widths_around(const film::Grid& grid) {
+  VectorXd width = VectorXd::Zero(grid.n_phi);
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const int next = grid.next(i);
+    if (next < 0) continue;
+    const double step = grid.phi(next) - grid.phi(i) + (next > i ? 0 : two_pi);
+    width[i] += step / 2, width[next] += step / 2;
+  }
+  return width;
+}
+
+/// The same along the axis, over the width.
+VectorXd widths_along(const film::Grid& grid) {
+  VectorXd width = VectorXd::Zero(grid.n_z);
+  for (int j = 0; j + 1 < grid.n_z; ++j) {
+    const double step = grid.z_over_L(j + 1) - grid.z_over_L(j);
+    width[j] += step / 2, width[j + 1] += step / 2;
+  }
+  return width;
+}
+
+}  // namespace
+
+WearingSurfaces::WearingSurfaces(const film::FilmModel& model, const WearModel& wear)
+    : model_(model),
+      wear_(wear),
+      area_(model.grid.size()),
+      around_(model.grid.n_z),
+      worn_(VectorXd::Zero(model.grid.size() + model.grid.n_z)),
+      start_(worn_),
+      now_(worn_),
+      rate_(worn_) {
+  const film::Grid& grid = model.grid;
+  const VectorXd width = widths_around(grid), height = model.L * widths_along(grid);
+  for (int j = 0; j < grid.n_z; ++j) {
+    const double length = model.R * film::stretch(model.surface, model.R, model.L * grid.z_over_L(j));
+    around_[j] = two_pi * length * height[j];
+    for (int i = 0; i < grid.n_phi; ++i) area_[grid.index(i, j)] = width[i] * length * height[j];
+  }
+}
+
+VectorXd WearingSurfaces::at_nodes(const VectorXd& rows) const {
+  VectorXd values(area_.size());
+  for (Eigen::Index node = 0; node < values.size(); ++node) values[node] = rows[node % rows.size()];
+  return values;
+}
+
+void WearingSurfaces::begin_step(double dt) {
+  const double part = over_ > 0 ? std::min(1.0, dt / over_) : 1.0;
+  now_ = start_ + part * (worn_ - start_);
+  if (dt > 0)
+    rate_ = (now_ - start_) / dt;
+  else
+    rate_.setZero();
+}
+
+void WearingSurfaces::accept_step(double dt) {
+  start_ = now_;
+  over_ = dt;
+}
+
+void WearingSurfaces::add_to(const mbd::RelativeMotion& /*motion*/, const GapKinematics::Turning& /*turning*/,
+                             film::SurfaceMotion& surfaces) {
+  add_to_shell(now_.head(area_.size()), surfaces);
+  add_to_journal(-at_nodes(now_.tail(around_.size())), surfaces);
+  surfaces.g_rate += opening(rate_);
+}
+
+double WearingSurfaces::power(const VectorXd& normal_forces) const { return opening(rate_).dot(normal_forces); }
+
+void WearingSurfaces::wear_off(const VectorXd& p_asperity, const film::SurfaceMotion& surfaces, double dt) {
+  const film::Grid& grid = model_.grid;
+  VectorXd slid(p_asperity.size());
+  for (int node = 0; node < grid.size(); ++node) {
+    const double along = film::stretch(model_.surface, model_.R, model_.L * grid.z_over_L(node % grid.n_z));
+    slid[node] = p_asperity[node] *
+                 std::hypot(along * (surfaces.u_journal - surfaces.u_shell), surfaces.w_journal - surfaces.w_shell);
+  }
+  if (dt > 0) {
+    const VectorXd work = 0.5 * wear_.acceleration * dt * (sliding_pressure_ + slid);  // [Pa m]
+    worn_.head(area_.size()) += wear_.fixed.coefficient * work;
+    for (int node = 0; node < grid.size(); ++node) {
+      const int row = node % grid.n_z;
+      worn_[grid.size() + row] += wear_.moving.coefficient * work[node] * area_[node] / around_[row];
+    }
+    volume_of_cycle_ += (wear_.fixed.coefficient + wear_.moving.coefficient) * work.dot(area_);
+    of_cycle_ += dt;
+    constexpr double round_off_of_steps = 1e-9;  // of a cycle that ends with a step
+    if (wear_.cycle > 0 && of_cycle_ >= (1 - round_off_of_steps) * wear_.cycle) {
+      if (volume_of_last_ >= 0) error_ += 0.5 * std::abs(volume_of_cycle_ - volume_of_last_);
+      volume_of_last_ = std::exchange(volume_of_cycle_, 0.0);
+      of_cycle_ = 0;
+    }
+  }
+  sliding_pressure_ = std::move(slid);
+}
+
+WearObservation WearingSurfaces::observe() const {
+  const auto of_fixed = worn_.head(area_.size()), of_moving = worn_.tail(around_.size());
+  WearObservation shown{.fixed_depth = of_fixed.maxCoeff(),
+                        .fixed_volume = of_fixed.dot(area_),
+                        .moving_depth = of_moving.maxCoeff(),
+                        .moving_volume = of_moving.dot(around_),
+                        .acceleration_error = error_};
+  if (sliding_pressure_.size() > 0)
+    shown.rate = (wear_.fixed.coefficient + wear_.moving.coefficient) * sliding_pressure_.dot(area_);
+  return shown;
+}
+
+std::string WearingSurfaces::failure() const {
+  const auto worn_through = [](const char* surface, double depth, const SurfaceWear& wear) {
+    return depth < wear.lining ? std::string()
+                               : fmt::format("the {} surface has worn by {:.4g} um, all of its lining of {:.4g} um",
+                                             surface, 1e6 * depth, 1e6 * wear.lining);
+  };
+  std::string fixed = worn_through("fixed", worn_.head(area_.size()).maxCoeff(), wear_.fixed);
+  return !fixed.empty() ? fixed : worn_through("moving", worn_.tail(around_.size()).maxCoeff(), wear_.moving);
+}
+
+void WearingSurfaces::persist(Archive& archive) {
+  const Archive::Group group(archive, "wear");
+  archive.io("worn", worn_), archive.io("sliding_pressure", sliding_pressure_);
+  archive.io("start", start_), archive.io("now", now_), archive.io("rate", rate_), archive.io("over", over_);
+  archive.io("of_cycle", of_cycle_), archive.io("volume_of_cycle", volume_of_cycle_);
+  archive.io("volume_of_last", volume_of_last_), archive.io("error", error_);
+}
+
+}  // namespace hersey::bearing

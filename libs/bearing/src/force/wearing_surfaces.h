@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+
+#include "gap/surface_shape.h"
+#include "hersey/bearing/wear.h"
+#include "hersey/film/film_model.h"
+
+namespace hersey::bearing {
+
+/// Depth worn off the surfaces of a film in time. What a step has worn off opens the gap over the next one, at a
+/// constant rate, so that the oil is conserved (theory manual, wear.4).
+class WearingSurfaces : public SurfaceShape {
+ public:
+  WearingSurfaces(const film::FilmModel& model, const WearModel& wear);
+
+  void begin_step(double dt) override;
+  void accept_step(double dt) override;
+  void add_to(const mbd::RelativeMotion& motion, const GapKinematics::Turning& turning,
+              film::SurfaceMotion& surfaces) override;
+  [[nodiscard]] bool changes_gap() const override { return true; }
+  [[nodiscard]] double power(const Eigen::VectorXd& normal_forces) const override;
+  void persist(Archive& archive) override;
+
+  /// Wears off what contact does over the step that ends (theory manual, wear.2, wear.3).
+  /// @param p_asperity  at its end, at the nodes [Pa]
+  /// @param surfaces  whose speeds slide then
+  /// @param dt  length of the step [s]; 0: the start of a run
+  void wear_off(const Eigen::VectorXd& p_asperity, const film::SurfaceMotion& surfaces, double dt);
+
+  /// Worn depths at the nodes [m]: of the fixed surface, and of the moving one, the same all around.
+  [[nodiscard]] Eigen::VectorXd fixed() const { return worn_.head(area_.size()); }
+  [[nodiscard]] Eigen::VectorXd moving() const { return at_nodes(worn_.tail(around_.size())); }
+  [[nodiscard]] WearObservation observe() const;
+  /// Names a lining that has been worn off; empty where there is none.
+  [[nodiscard]] std::string failure() const;
+
+ private:
+  /// Values of rows at their nodes.
+  [[nodiscard]] Eigen::VectorXd at_nodes(const Eigen::VectorXd& rows) const;
+  /// Depths of both surfaces together at the nodes.
+  [[nodiscard]] Eigen::VectorXd opening(const Eigen::VectorXd& depths) const {
+    return depths.head(area_.size()) + at_nodes(depths.tail(around_.size()));
+  }
+
+  const film::FilmModel& model_;
+  WearModel wear_;
+  Eigen::VectorXd area_;    ///< of the nodes [m^2]
+  Eigen::VectorXd around_;  ///< area of the whole moving surface that passes a row [m^2], shape (n_z)
+  /// Depths of the fixed surface at the nodes, then of the moving one on the rows [m]: worn off until the end of the
+  /// step accepted last, and by which the gap is wider at the start and the end of a step; the latter's rate [m/s].
+  Eigen::VectorXd worn_, start_, now_, rate_;
+  Eigen::VectorXd sliding_pressure_;           ///< contact pressure times sliding speed at the step's start [Pa m/s]
+  double over_ = 0;                            ///< length of the step before [s]
+  double of_cycle_ = 0, volume_of_cycle_ = 0;  ///< time since the present cycle began [s], and what it has worn [m^3]
+  double volume_of_last_ = -1;                 ///< that the cycle before has worn; below 0: there is none [m^3]
+  double error_ = 0;                           ///< by the acceleration, of all cycles [m^3]
+};
+
+}  // namespace hersey::bearing

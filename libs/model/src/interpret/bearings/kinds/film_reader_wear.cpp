@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include <variant>
+
+#include "interpret/bearings/kinds/film_reader.h"
+
+// Wear of both surfaces of a bearing.
+namespace hersey::model {
+
+void FilmReader::read_wear() {
+  const Value* wear = value_.find("wear");
+  if (wear == nullptr || wear->broken) return;
+  if (film_.asperities.model == film::AsperityModel::none && value_.find("asperities")->given &&
+      context_.has_fault_in(value_.find("asperities")->path))
+    return;
+  if (film_.asperities.model == film::AsperityModel::none)
+    context_.fault_at_key(*wear, "`wear` of surfaces that never touch", "`asperities` beside it",
+                          "only contact of asperities wears");
+  if (wear->find(surfaces_.moving) != nullptr && std::holds_alternative<film::Plane>(film_.surface))
+    context_.fault_at_key(*wear->find(surfaces_.moving), "wear of what slides over a plane pad",
+                          "wear of the pad: of what passes it nobody knows how long it is");
+  if (wear->find(surfaces_.fixed) == nullptr && wear->find(surfaces_.moving) == nullptr)
+    context_.fault_at_key(*wear, "`wear` of no surface",
+                          fmt::format("`{}` or `{}` or both", surfaces_.fixed, surfaces_.moving));
+  const Value* cycle = wear->find("cycle");
+  bearing_.wear = bearing::WearModel{.fixed = wear_of(*wear, surfaces_.fixed),
+                                     .moving = wear_of(*wear, surfaces_.moving),
+                                     .acceleration = number_of(*wear, "acceleration"),
+                                     .cycle = cycle != nullptr && !cycle->broken ? cycle->number : 0};
+}
+
+bearing::SurfaceWear FilmReader::wear_of(const Value& wear, const std::string& surface) {
+  bearing::SurfaceWear worn;
+  const Value* given = wear.find(surface);
+  if (given == nullptr || given->broken) return worn;
+  if (const Value* lining = given->find("lining"); lining != nullptr && !lining->broken) worn.lining = lining->number;
+  const Value* energy = given->find("energy_density");
+  if (energy == nullptr) {
+    worn.coefficient = number_of(*given, "coefficient");
+    return worn;
+  }
+  if (energy->broken) return worn;
+  if (film_.asperities.model != film::AsperityModel::none && film_.asperities.mu_friction == 0)
+    context_.fault_at_key(*energy, "wear by work of friction without friction", "`asperities.friction` above 0",
+                          "or give `coefficient`");
+  worn.coefficient = film_.asperities.mu_friction / energy->number;
+  return worn;
+}
+
+}  // namespace hersey::model
