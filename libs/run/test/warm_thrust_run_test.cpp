@@ -23,7 +23,7 @@ lubricants:
   oil: {viscosity: {law: exponential, viscosity: 28 mPa.s, reference: 40 degC, coefficient: 0.034 1/K}, density: 860 kg/m^3,
         specific_heat: 2000 J/kg/K, conductivity: 0.13 W/m/K}
 bodies: {shaft: {mass: 20 kg, inertia: {xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}}}
-joints: {turning: {type: cylindrical, between: [ground, shaft], axis: z, initial: {translation: 40 um}}}
+joints: {turning: {type: cylindrical, between: [ground, shaft], axis: z, initial: {translation: 50 um}}}
 drives: {motor: {joint: turning, coordinate: rotation, speed: 3000 rpm}}
 forces: {load: {type: force, body: shaft, axes: ground, components: [0 N, 0 N, -30 kN]}}
 parameters: {carry: 0.8}
@@ -102,7 +102,7 @@ TEST_CASE("MachineOnWarmSectors_IsWhereTheBearingIsByItself") {
 }
 
 TEST_CASE("WarmThrustBearings_SettleInTimeWhereTheirSteadyMotionIs") {
-  constexpr double settled = 1e-4;  // what is left of the walls' warming, of degC
+  constexpr double settled = 1e-6;  // what is left of the runner's warming after 250 ms: 1e-8
   for (const auto& [text, film] : {std::pair{fixed, "main"}, std::pair{tilting, "pads_pad_2"}}) {
     // Pads of steel take minutes to warm: they are left out of the run.
     const std::vector<std::string> insulated =
