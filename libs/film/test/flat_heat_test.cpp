@@ -61,8 +61,8 @@ TEST_CASE("AnnulusOfALargeRadius_IsASlider_Hot") {
   }
 }
 
-// With one viscosity, no pressure and no heat through walls each radius warms its own oil: 2 mu omega r^2 arc/(rho c
-// h^2) at the end, whatever the distribution over the layers.
+// With one viscosity, no pressure and no heat through walls each radius warms its own oil (thermal.73): 2 mu omega r^2
+// arc/(rho c h^2) at the end, whatever the distribution over the layers.
 TEST_CASE("EvenFilmOnASector_WarmsWithTheSquareOfTheRadius") {
   Pad p = pad(Annulus{}, 0.05, 21, 21);
   FilmModel& m = p.model;
@@ -163,7 +163,7 @@ TEST_CASE("HottestOilOfASlider_ConvergesWithTheGrid") {
     hottest.push_back(solved(pad(Plane{}, 1, cells + 1, cells / 2 + 1), thermal).heat.T_max);
   const double order = std::log2((hottest[1] - hottest[0]) / (hottest[2] - hottest[1]));
   CAPTURE(order);
-  CHECK(order > 0.8);  // first order at the trailing edge, where it lies
+  CHECK(std::abs(order - 1) < 0.2);  // first order: oil of another temperature than the runner's comes in at the edge
 }
 
 }  // namespace flat_heat_test
