@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include "gap/grid_geometry.h"
+#include "heat/heat_walls.h"
 #include "hot_film.h"
 #include "relative.h"
 
@@ -132,6 +135,23 @@ TEST_CASE("PadThatGivesOffNoHeat_PassesItOn") {
   const HotFilm insulated = solved(pad(Annulus{}, 0.05, 21, 9), thermal, 1e-9);
   CHECK(std::abs(passing.heat.balance.to_shell) < 1e-8 * passing.heat.balance.power);  // of iterations to 1e-9 K
   CHECK(passing.heat.T_shell_max < insulated.heat.T_shell_max - 1);
+}
+
+// Of a sector of an annulus, whose inner side is shorter than its outer one (thermal.72).
+TEST_CASE("WallOfASector_HasTheSizeOfItsPad") {
+  const Pad p = pad(Annulus{}, 0.05, 21, 41);
+  constexpr double t = 0.01, k = 50, alpha = 80, C = 3.6e6, arc = 0.04 / 0.05, inner = 0.04, outer = 0.06;
+  const RingConductances wall = conductances(
+      p.model, GridGeometry(p.model),
+      {.outer_radius = 0.05 + t, .conductivity = k, .transfer = alpha, .heat_capacity = C, .closes = false});
+  const auto sum = [](const std::vector<double>& lines) { return std::accumulate(lines.begin(), lines.end(), 0.0); };
+  const double area = 0.5 * arc * (outer * outer - inner * inner);
+  constexpr double round_off_of_sums = 1e-12;  // of 21 lines, and of a thickness that is a difference of radii
+  CHECK(sum(wall.capacity) == relative(C * t * area).epsilon(round_off_of_sums));
+  const double edges = arc * (inner + outer) + 2 * (outer - inner);
+  CHECK(sum(wall.outside) == relative(area / (0.5 * t / k + 1 / alpha) + alpha * t * edges).epsilon(round_off_of_sums));
+  CHECK(wall.around[3] * arc / 20 == relative(k * t * std::log(outer / inner)).epsilon(std::pow(0.0005 / inner, 2)));
+  CHECK(wall.around[20] == 0);
 }
 
 // A washer is a pad that closes: around it heat is conducted across the first line as across any other.
