@@ -59,6 +59,7 @@ COMMANDS = {
     "tilting_pads/bearing": [("bearing",), ("run",)],
     "tilting_pads/hot": [("bearing",)],
     "thrust_pads/fixed": [("bearing",)],
+    "thrust_pads/hot": [("bearing",)],
     "thrust_pads/model": [("run",)],
     "thrust_pads/shaft": [("run",)],
     "thrust_pads/tilting": [("bearing",), ("run",)],

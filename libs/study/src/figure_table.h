@@ -146,6 +146,16 @@ inline auto height(double film::FilmObservables::*z) {
 /// The group with more lines at its end.
 [[nodiscard]] Group with(Group group, const std::vector<Line>& more);
 
+/// True if the film has temperatures.
+[[nodiscard]] bool has_film_heat(const Solution& s);
+/// Temperature of the film's heat [degC].
+[[nodiscard]] std::function<double(const Solution&)> celsius_of(double film::HeatObservables::*T);
+/// Term of the film's balance of heat [W].
+[[nodiscard]] std::function<double(const Solution&)> heat_term(double film::HeatBalance::*term);
+/// Temperatures and heat of a film between pads and a runner. @param oil, face  lines that say where the hottest oil
+/// and the hottest place of the faces lie
+[[nodiscard]] Group flat_heat(const std::vector<Line>& oil, const std::vector<Line>& face);
+
 /// Figures of each arc of a bore that consists of arcs.
 [[nodiscard]] Group arc_figures();
 /// True if the bore consists of arcs.

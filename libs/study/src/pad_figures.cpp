@@ -65,7 +65,9 @@ Group pad_pivot_figures() {
           {of_pads("pad_tilt_along_<name>", kMicroradian, &PadState::tilt),
            of_pads("pad_tilt_across_<name>", kMicroradian, &PadState::tilt_across),
            of_pads("pad_pivot_travel_<name>", kMicrometre, &PadState::pivot_travel),
-           of_pads("pad_h_pivot_<name>", kMicrometre, &PadState::h_pivot), followed_at()}};
+           of_pads("pad_h_pivot_<name>", kMicrometre, &PadState::h_pivot),
+           of_warm_pads("pad_T_max_<name>", &PadState::T_max),
+           of_warm_pads("pad_T_face_max_<name>", &PadState::T_face_max), followed_at()}};
 }
 
 }  // namespace hersey::study

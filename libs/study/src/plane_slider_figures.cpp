@@ -112,6 +112,17 @@ Group pad_oil() {
            {"reformation_y", "  and re-forms at y", kMillimetre, film(&Film::reformation_angle), {.only = ruptures}}}};
 }
 
+/// The film's phi is y, as its R is 1 m.
+Group slider_heat() {
+  using Heat = film::HeatObservables;
+  const auto of = [](double Heat::*place) {
+    return [place](const Solution& s) { return s.state.heat->observed.*place; };
+  };
+  return flat_heat({{"T_max_y", "  at y", kMillimetre, of(&Heat::T_max_phi), {.only = has_film_heat}},
+                    {"T_max_z", "  at z", kMillimetre, of(&Heat::T_max_z), {.only = has_film_heat}}},
+                   {{"T_face_max_y", "  at y", kMillimetre, of(&Heat::T_shell_max_phi), {.only = has_film_heat}}});
+}
+
 /// Derivatives by the runner's distance (n) and its slopes along (a) and across (c).
 Group pad_dynamics() {
   constexpr Unit kMomentStiffness{"N.m/rad", "N.m", 1}, kMomentDamping{"N.m.s/rad", "N.m.s", 1};
@@ -143,6 +154,7 @@ std::vector<Group> plane_slider_figures() {
           with(numbers_of_sliders(), regime_of_flow()),
           pad_friction(),
           with(pad_oil(), restricted_feeds()),
+          slider_heat(),
           pad_dynamics()};
 }
 

@@ -199,6 +199,21 @@ Group thrust_oil() {
            {"reformation_angle", "  and re-forms at", kDegree, film(&Film::reformation_angle), {.only = ruptures}}}};
 }
 
+Group thrust_heat() {
+  using Heat = film::HeatObservables;
+  const auto of = [](double Heat::*place) {
+    return [place](const Solution& s) { return s.state.heat->observed.*place; };
+  };
+  return flat_heat(
+      {{"T_max_angle", "  at the angle", kDegree, of(&Heat::T_max_phi), {.only = has_film_heat}},
+       {"T_max_r",
+        "  at the radius",
+        kMillimetre,
+        [](const Solution& s) { return s.model.R + s.state.heat->observed.T_max_z; },
+        {.only = has_film_heat}}},
+      {{"T_face_max_angle", "  at the angle", kDegree, of(&Heat::T_shell_max_phi), {.only = has_film_heat}}});
+}
+
 /// Names of the directions of a tilt, and of pairs of them.
 std::vector<std::string> directions(const Solution& /*s*/) { return {"x", "y"}; }
 std::vector<std::string> pairs(const Solution& /*s*/) { return {"xx", "xy", "yx", "yy"}; }
@@ -251,12 +266,12 @@ Group thrust_dynamics() {
 std::vector<Group> thrust_figures() {
   return {thrust_point(),   thrust_film(),     thrust_pads(),
           thrust_numbers(), thrust_friction(), with(thrust_oil(), restricted_feeds()),
-          thrust_dynamics()};
+          thrust_heat(),    thrust_dynamics()};
 }
 
 std::vector<Group> thrust_pad_figures() {
-  return {thrust_point(),   thrust_film(),     thrust_pads(), pad_pivot_figures(),
-          thrust_numbers(), thrust_friction(), thrust_oil(),  thrust_dynamics()};
+  return {thrust_point(),    thrust_film(), thrust_pads(), pad_pivot_figures(), thrust_numbers(),
+          thrust_friction(), thrust_oil(),  thrust_heat(), thrust_dynamics()};
 }
 
 }  // namespace hersey::study

@@ -59,6 +59,7 @@ PadState thrust_pad_state(const model::Composite& composite, std::size_t k, cons
   pad.tilt_across = tilts[1];
   if (const mbd::JointObservation* travel = find_joint(found.alone, found.motion, composite.pads[k] + "_travel"))
     pad.pivot_travel = travel->position[0];
+  if (const auto& heat = found.motion.bearings[k].heat) pad.T_max = heat->T_max, pad.T_face_max = heat->T_shell_max;
   pad.h_pivot =
       interpolated(found.alone.bearings[k].film, found.motion.fields[k].h, pad.pivot_angle, composite.pivot_radius);
   return pad;
@@ -121,6 +122,14 @@ void solve_thrust_pads(const model::Composite& composite, BearingSolution& solut
   state.e = bearing::Coordinates::Constant(1, find_joint(found.alone, motion, "distance")->position[0]);
   state.load = bearing::Coordinates::Constant(1, point.load ? -*point.load : whole.film.wrench_on_shell[5]);
   if (point.load) state.point.load = state.load;
+  if (whole.heat) {
+    state.heat.emplace();
+    state.heat->observed = *whole.heat;
+    if (motion.network) state.heat->network = *motion.network;
+  }
+  if (motion.network)
+    for (const film::ThermalNode& node : composite.alone->thermal.network.nodes)
+      solution.node_names.push_back(node.name);
 
   auto pads = std::make_shared<PadBearingSolution>();
   pads->kind = composite.kind;

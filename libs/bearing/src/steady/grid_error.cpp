@@ -20,6 +20,13 @@ struct Figures {
   Eigen::Matrix2d stiffness, damping, K, C;
 };
 
+void add_temperatures(const SteadyState& state, Figures& f) {
+  if (!state.heat) return;
+  const film::HeatObservables& observed = state.heat->observed;
+  f.T_max = observed.T_max, f.T_shell_max = observed.T_shell_max, f.T_shell_mean = observed.T_shell_mean;
+  f.T_journal = observed.T_journal, f.T_film = observed.T_film_mean, f.T_side = observed.T_side;
+}
+
 /// Friction of a runner over its load: by its drag, on an annulus by its torque over the mean radius.
 double runner_friction(const film::FilmModel& model, const SteadyState& state) {
   if (std::holds_alternative<film::Annulus>(model.surface))
@@ -29,20 +36,22 @@ double runner_friction(const film::FilmModel& model, const SteadyState& state) {
 
 /// Figures of a kind without an axis: no attitude, no coefficients along the load.
 Figures plain_figures_of(const film::FilmModel& model, const SteadyState& state) {
-  return {.h_min = state.film.h_min,
-          .p_max = state.film.p_max,
-          .eccentricity_ratio = 0,
-          .attitude = 0,
-          .load = state.load.norm(),
-          .friction_journal = runner_friction(model, state),
-          .side_flow = state.film.flow_sides(),
-          .torque_journal = state.film.torque_journal,
-          .torque_shell = state.film.torque_shell,
-          .power_film = state.film.power_film,
-          .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
-          .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
-          .K = Eigen::Matrix2d::Zero(),
-          .C = Eigen::Matrix2d::Zero()};
+  Figures f{.h_min = state.film.h_min,
+            .p_max = state.film.p_max,
+            .eccentricity_ratio = 0,
+            .attitude = 0,
+            .load = state.load.norm(),
+            .friction_journal = runner_friction(model, state),
+            .side_flow = state.film.flow_sides(),
+            .torque_journal = state.film.torque_journal,
+            .torque_shell = state.film.torque_shell,
+            .power_film = state.film.power_film,
+            .stiffness = state.coefficients.stiffness.topLeftCorner<2, 2>(),
+            .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
+            .K = Eigen::Matrix2d::Zero(),
+            .C = Eigen::Matrix2d::Zero()};
+  add_temperatures(state, f);
+  return f;
 }
 
 Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
@@ -63,10 +72,7 @@ Figures figures_of(const film::FilmModel& model, const SteadyState& state) {
             .damping = state.coefficients.damping.topLeftCorner<2, 2>(),
             .K = along_load.K,
             .C = along_load.C};
-  if (!state.heat) return f;
-  const film::HeatObservables& observed = state.heat->observed;
-  f.T_max = observed.T_max, f.T_shell_max = observed.T_shell_max, f.T_shell_mean = observed.T_shell_mean;
-  f.T_journal = observed.T_journal, f.T_film = observed.T_film_mean, f.T_side = observed.T_side;
+  add_temperatures(state, f);
   return f;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "gap/oil_temperatures.h"
 #include "heat/film_temperatures.h"
@@ -57,7 +58,9 @@ TemperaturePath::TemperaturePath(const film::FilmModel& model, const film::Therm
     growth_ = called_for();
     tried_ = unknowns(growth_);
   } else {
-    fill(likely_temperature(model, thermal.T_supply, point));
+    // Flat films begin with oil as it is supplied: their heat follows from the film thickness that is sought.
+    const bool is_bore = std::holds_alternative<film::Cylinder>(model.surface);
+    fill(is_bore ? likely_temperature(model, thermal.T_supply, point) : thermal.T_supply);
   }
 }
 

@@ -1,7 +1,10 @@
 #include "hersey/bearing/total_coefficients.h"
 
 #include <algorithm>
+#include <memory>
+#include <variant>
 
+#include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/clearance.h"
 
 namespace hersey::bearing {
@@ -11,12 +14,22 @@ namespace {
 // temperatures, found to 1e-8, leave over it.
 constexpr double kStep = 1e-3;
 
-// Of the force on the shell, in the order of the coefficients' rows.
-Eigen::Vector4d generalised(const Vector6& wrench) { return {wrench[3], wrench[4], wrench[1], -wrench[0]}; }
+/// Coordinate k of a point, positions before slopes, in the order of the coefficients' columns.
+double& coordinate(OperatingPoint& point, Eigen::Index k) {
+  return k < point.e.size() ? point.e[k] : point.tilt[k - point.e.size()];
+}
+double& rate(OperatingPoint& point, Eigen::Index k) {
+  return k < point.e_rate.size() ? point.e_rate[k] : point.tilt_rate[k - point.e_rate.size()];
+}
 
-/// e and tilt of a point in the order of the coefficients' columns.
-double& coordinate(OperatingPoint& point, int k) { return k < 2 ? point.e[k] : point.tilt[k - 2]; }
-double& rate(OperatingPoint& point, int k) { return k < 2 ? point.e_rate[k] : point.tilt_rate[k - 2]; }
+/// Distance from the film's middle at which slopes change its thickness most [m].
+double lever(const film::FilmModel& model) {
+  const film::Grid& grid = model.grid;
+  if (std::holds_alternative<film::Annulus>(model.surface)) return model.R + 0.5 * model.L;
+  if (std::holds_alternative<film::Plane>(model.surface))
+    return std::max(0.5 * model.L, 0.5 * model.R * (grid.phi(grid.n_phi - 1) - grid.phi(0)));
+  return 0.5 * model.L;
+}
 
 }  // namespace
 
@@ -27,23 +40,27 @@ SteadySummary find_total_coefficients(const film::FilmModel& model, const Steady
   here.e = state.e;
   const double step = kStep * std::max(state.film.h_min, 0.01 * clearance(model));
   const double frequency = here.film_speed(clearance(model));
+  const std::unique_ptr<SteadyCoordinates> coordinates = state.kind->steady_coordinates(model);
+  const SteadyCoordinates::ForceRows& rows = coordinates->force_rows();
+  here.e_rate.conservativeResizeLike(Coordinates::Zero(here.e.size()));
   DynamicCoefficients found;
+  found.stiffness = found.damping = DynamicCoefficients::Matrix::Zero(rows.rows(), rows.rows());
   SteadySummary summary;
-  const auto slope = [&](double& varied, OperatingPoint& point, double by) -> Eigen::Vector4d {
+  const auto slope = [&](double& varied, OperatingPoint& point, double by) -> Eigen::VectorXd {
     const double middle = varied;
-    Eigen::Vector4d difference = Eigen::Vector4d::Zero();
+    Eigen::VectorXd difference = Eigen::VectorXd::Zero(rows.rows());
     for (const double side : {1.0, -1.0}) {
       varied = middle + side * by;
       SteadyState beside;
       summary = solve(point, beside);
       if (!summary.solved()) break;
-      difference += side * generalised(beside.film.wrench_on_shell);
+      difference += side * rows * beside.film.wrench_on_shell;
     }
     varied = middle;
     return difference / (2 * by);
   };
-  for (int k = 0; k < 4; ++k) {
-    const double by = k < 2 ? step : 2 * step / model.L;
+  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+    const double by = k < coordinates->count() ? step : step / lever(model);
     OperatingPoint point = here;
     found.stiffness.col(k) = slope(coordinate(point, k), point, by);
     if (!summary.solved()) return summary;

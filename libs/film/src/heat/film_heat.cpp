@@ -36,7 +36,8 @@ void check(const FilmModel& model, const ThermalModel& thermal) {
   for (const SurfaceMaterial& surface : {thermal.shell_surface, thermal.journal_surface})
     HERSEY_REQUIRE(surface.conductivity > 0 && surface.heat_capacity > 0, "surfaces that conduct and hold heat");
   const bool is_cylinder = std::holds_alternative<Cylinder>(model.surface);
-  HERSEY_REQUIRE(is_cylinder || !has_own_temperatures(thermal.shell), "a ring or a body around the film");
+  HERSEY_REQUIRE(is_cylinder || !std::holds_alternative<BodyWall>(thermal.shell), "a body around the film");
+  HERSEY_REQUIRE(is_cylinder || !std::holds_alternative<BodyJournal>(thermal.journal), "a body inside the film");
   if (const auto* ring = std::get_if<RingWall>(&thermal.shell)) {
     HERSEY_REQUIRE(ring->outer_radius > model.R && ring->conductivity > 0 && ring->heat_capacity > 0,
                    "a ring around the film that conducts and holds heat");

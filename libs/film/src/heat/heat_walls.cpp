@@ -2,10 +2,36 @@
 
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 namespace hersey::film {
 
-RingConductances conductances(const FilmModel& model, const GridGeometry& geometry, const RingWall& ring) {
+namespace {
+
+// Every line of the film lies on a strip of even thickness t across the film's width. Heat passes half of t to either
+// side; along the film the strips are as far apart as the rows of the film, so that heat prefers the inner radius of an
+// annulus (thermal.72).
+RingConductances conductances_behind_plane(const FilmModel& model, const GridGeometry& geometry, const RingWall& wall) {
+  const double t = wall.outer_radius - model.R, k = wall.conductivity;
+  double across = 0;  // integral of dz over the stretch, half of which each row has to its neighbours
+  for (int j = 0; j + 1 < model.grid.n_z; ++j)
+    across += 0.5 * geometry.dz[j] * (1 / geometry.stretch[j] + 1 / geometry.stretch[j + 1]);
+  const double sides = geometry.stretch[0] + geometry.stretch[model.grid.n_z - 1];
+  RingConductances c;
+  c.inside = 0.5 * t / k;
+  for (int i = 0; i < model.grid.n_phi; ++i) {
+    double area = 0;
+    for (int j = 0; j < model.grid.n_z; ++j) area += geometry.area(i, j);
+    const int ends = (model.grid.next(i) < 0 ? 1 : 0) + (model.grid.before(i) < 0 ? 1 : 0);
+    const double back = wall.transfer > 0 ? area / (c.inside + 1 / wall.transfer) : 0;
+    c.around.push_back(model.grid.next(i) < 0 ? 0 : k * t * across / geometry.dx[i]);
+    c.outside.push_back(back + wall.transfer * t * (sides * geometry.width_phi[i] + ends * model.L));
+    c.capacity.push_back(wall.heat_capacity * t * area);
+  }
+  return c;
+}
+
+RingConductances conductances_around(const FilmModel& model, const GridGeometry& geometry, const RingWall& ring) {
   const double R = model.R, Ro = ring.outer_radius, middle = 0.5 * (R + Ro), k = ring.conductivity, L = model.L;
   RingConductances c;
   c.inside = R * std::log(middle / R) / k;
@@ -26,6 +52,13 @@ RingConductances conductances(const FilmModel& model, const GridGeometry& geomet
     c.capacity.push_back(ring.heat_capacity * L * 0.5 * both_ends);
   }
   return c;
+}
+
+}  // namespace
+
+RingConductances conductances(const FilmModel& model, const GridGeometry& geometry, const RingWall& ring) {
+  const bool is_around = std::holds_alternative<Cylinder>(model.surface);
+  return is_around ? conductances_around(model, geometry, ring) : conductances_behind_plane(model, geometry, ring);
 }
 
 bool has_own_temperatures(const ShellWall& shell) {

@@ -7,7 +7,8 @@
 
 namespace hersey::film {
 
-/// A ring's conductances (theory manual, thermal.12), angle by angle.
+/// A ring's conductances (theory manual, thermal.12), or those of what lies behind a flat film (thermal.72), line by
+/// line.
 struct RingConductances {
   double inside = 0;             ///< resistance from the bore to the ring's middle, per area of the bore [m^2 K/W]
   std::vector<double> around;    ///< to the next angle [W/K]
@@ -15,7 +16,7 @@ struct RingConductances {
   std::vector<double> capacity;  ///< [J/K]
 };
 
-/// Returns the conductances of the ring around the film of `model`.
+/// Returns the conductances of the ring around the film of `model`, or behind it.
 [[nodiscard]] RingConductances conductances(const FilmModel& model, const GridGeometry& geometry, const RingWall& ring);
 
 /// True if the temperatures of a shell are solved with those of the film, angle by angle.

@@ -20,6 +20,9 @@ struct SurfaceKeys {
 /// A seal at an edge of the film, through which oil leaks.
 [[nodiscard]] TypePtr seal_format();
 
+/// Model of the temperature of a film between pads and a runner.
+[[nodiscard]] TypePtr flat_thermal_format(const SurfaceKeys& surfaces);
+
 /// Keys that every kind of bearing has.
 [[nodiscard]] std::vector<Key> shared_bearing_keys();
 /// Keys of every kind that name its surfaces: roughness and materials.

@@ -1,4 +1,5 @@
 #include "hersey/film/thermal_model.h"
+#include "schema/bearing_keys.h"
 #include "schema/format.h"
 #include "schema/oil_laws.h"
 #include "schema/thermal_walls.h"
@@ -39,10 +40,46 @@ Key expansion_key(bool of_film) {
                   "the clearance is as given");
 }
 
+/// Keys of a film with temperatures. @param carry_over  what its share means in such a film
+std::vector<Key> film_heat_keys(const Key& fixed, const Key& moving, const std::string& carry_over) {
+  const TypePtr supply_or_node = temperature_or_node("50 degC");
+  return {required("supply_temperature", supply_or_node,
+                   "Of the oil that comes through line, holes and grooves; of a node, it follows the node."),
+          optional("edge_temperature", supply_or_node, "Of the oil that edges draw in.", "that of the supply"),
+          optional("drains_to", reference(Refers::thermal_node, "sump"),
+                   "Node of the network that the oil warms which leaves the film.", "its heat goes away with it"),
+          defaulted("layers", integer(5, {.low = 1, .high = film::most_layers}), "5",
+                    "Into which the film is divided across; 1: one temperature across the film."),
+          fixed,
+          moving,
+          defaulted("carry_over", number("1", {.low = 0, .high = 1}), "1", carry_over)};
+}
+
 }  // namespace
 
+TypePtr flat_thermal_format(const SurfaceKeys& surfaces) {
+  const Key fixed = defaulted(surfaces.fixed, variant("a wall of pads", "wall", {}, variants_of(pad_walls())),
+                              "insulated", "What the " + surfaces.fixed + " does with heat.");
+  const Key moving = defaulted(surfaces.moving, variant("a runner's wall", "wall", {}, variants_of(runner_walls())),
+                               "free", "What the " + surfaces.moving + " does with heat.");
+  return variant("a model of the film's temperature", "model", {},
+                 {{"isothermal", "one temperature everywhere: `temperature`, or that of the lubricant", {}},
+                  {"film", "the film's energy across and along it, with locally varying viscosity",
+                   film_heat_keys(fixed, moving,
+                                  "Share of the oil behind a pad, or of what passes a hole or pocket, that is mixed "
+                                  "there with fresh oil and comes to the next; 0: all of it is renewed.")}});
+}
+
 TypePtr thermal_format() {
-  const TypePtr supply = temperature("50 degC"), supply_or_node = temperature_or_node("50 degC");
+  const TypePtr supply = temperature("50 degC");
+  const Key shell = defaulted("shell", variant("a shell's wall", "wall", {}, variants_of(shell_walls())), "insulated",
+                              "What the shell does with heat."),
+            journal = defaulted("journal", variant("a journal's wall", "wall", {}, variants_of(journal_walls())),
+                                "free", "What the journal does with heat.");
+  const auto with_expansion = [](std::vector<Key> keys) {
+    keys.push_back(expansion_key(true));
+    return keys;
+  };
   return variant(
       "a model of the film's temperature", "model", {},
       {
@@ -56,23 +93,11 @@ TypePtr thermal_format() {
                      "Of the oil that comes; what leaves takes all heat along. This, or `cooling`.", "no oil cools"),
             optional("cooling", cooling_format(), "The housing gives off all heat.", "the oil cools"),
             expansion_key(false)}},
-          {"film",
-           "the film's energy across and along it, with locally varying viscosity",
-           {required("supply_temperature", supply_or_node,
-                     "Of the oil that comes through line, holes and grooves; of a node, it follows the node."),
-            optional("edge_temperature", supply_or_node, "Of the oil that edges draw in.", "that of the supply"),
-            optional("drains_to", reference(Refers::thermal_node, "sump"),
-                     "Node of the network that the oil warms which leaves the film.", "its heat goes away with it"),
-            defaulted("layers", integer(5, {.low = 1, .high = film::most_layers}), "5",
-                      "Into which the film is divided across; 1: one temperature across the film."),
-            defaulted("shell", variant("a shell's wall", "wall", {}, variants_of(shell_walls())), "insulated",
-                      "What the shell does with heat."),
-            defaulted("journal", variant("a journal's wall", "wall", {}, variants_of(journal_walls())), "free",
-                      "What the journal does with heat."),
-            defaulted("carry_over", number("1", {.low = 0, .high = 1}), "1",
-                      "Share of the film's oil that passes a hole or groove and is mixed there with what comes; 0: all "
-                      "of it is renewed."),
-            expansion_key(true)}},
+          {"film", "the film's energy across and along it, with locally varying viscosity",
+           with_expansion(
+               film_heat_keys(shell, journal,
+                              "Share of the film's oil that passes a hole or groove and is mixed there with what "
+                              "comes; 0: all of it is renewed."))},
       });
 }
 

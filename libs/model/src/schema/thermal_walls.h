@@ -17,4 +17,10 @@ inline constexpr double heat_of_steel = 3.6e6;
 /// Thermal models of a journal: format and reading.
 [[nodiscard]] const std::vector<Alternative<film::JournalWall>>& journal_walls();
 
+/// Thermal models of pads and of a stator: format and reading.
+[[nodiscard]] const std::vector<Alternative<film::ShellWall>>& pad_walls();
+
+/// Thermal models of a runner: format and reading.
+[[nodiscard]] const std::vector<Alternative<film::JournalWall>>& runner_walls();
+
 }  // namespace hersey::model

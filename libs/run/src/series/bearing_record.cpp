@@ -108,6 +108,14 @@ bool has_restrictors(const BearingPlan& plan) { return film::has_restrictors(pla
 
 bool has_heat(const BearingPlan& plan) { return std::holds_alternative<film::ThermalModel>(plan.bearing.heat); }
 
+// Walls of a bore are a shell and a journal, those of a flat film pads and a runner.
+bool is_warm_bore(const BearingPlan& plan) { return has_heat(plan) && has_axis(plan); }
+bool is_warm_flat(const BearingPlan& plan) { return has_heat(plan) && !has_axis(plan); }
+bool is_warm_annulus(const BearingPlan& plan) { return has_heat(plan) && is_annulus(plan); }
+bool is_warm_round(const BearingPlan& plan) { return has_heat(plan) && is_round(plan); }
+bool is_warm_plane(const BearingPlan& plan) { return has_heat(plan) && is_plane(plan); }
+bool is_warm_with_z(const BearingPlan& plan) { return has_heat(plan) && has_z(plan); }
+
 bool shell_is_in_body(const BearingPlan& plan) { return plan.bearing.heated_shell != nullptr; }
 
 bool journal_is_in_body(const BearingPlan& plan) { return plan.bearing.heated_journal != nullptr; }
@@ -182,6 +190,7 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
   static const std::string of_film_heat = "this and the following: of films with `thermal: {model: film}`";
   static const std::string per_angle = "four bytes a number";
   static const std::string of_plane = "of a plane slider", of_thrust = "of a thrust bearing",
+                           of_flat = "of a plane slider or a thrust bearing",
                            of_ends = "of a plane slider, of pads of a thrust bearing, or of a bore of arcs";
   static const QuantityTable<BearingRow, BearingPlan> table{
       line("h_min", of_film(&Film::h_min),
@@ -345,13 +354,26 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
             .only = has_heat,
             .summary_entries = {{Statistic::largest, "hottest oil", "°C", true},
                                 {Statistic::at_end, "hottest oil at the end", "°C"}}}),
-      line("T_max_phi", of_heat(&Heat::T_max_phi), {.only = has_heat}),
-      line("T_max_z", of_heat(&Heat::T_max_z), {.only = has_heat}),
+      line("T_max_phi", of_heat(&Heat::T_max_phi), {.only = is_warm_round}),
+      line("T_max_y", of_heat(&Heat::T_max_phi), {.note = of_plane, .only = is_warm_plane}),
+      line("T_max_z", of_heat(&Heat::T_max_z), {.note = "of films that are no annulus", .only = is_warm_with_z}),
+      line("T_max_r", [](const BearingRow& row) { return row.radius + row.observation.heat->T_max_z; },
+           {.note = of_thrust, .only = is_warm_annulus}),
       line("T_shell_max", celsius(&Heat::T_shell_max),
-           {.only = has_heat, .summary_entries = {{Statistic::largest, "hottest place of the shell", "°C"}}}),
-      line("T_shell_mean", celsius(&Heat::T_shell_mean), {.only = has_heat}),
+           {.only = is_warm_bore, .summary_entries = {{Statistic::largest, "hottest place of the shell", "°C"}}}),
+      line("T_shell_mean", celsius(&Heat::T_shell_mean), {.only = is_warm_bore}),
       line("T_journal", celsius(&Heat::T_journal),
-           {.only = has_heat, .summary_entries = {{Statistic::at_end, "temperature of the journal at the end", "°C"}}}),
+           {.only = is_warm_bore,
+            .summary_entries = {{Statistic::at_end, "temperature of the journal at the end", "°C"}}}),
+      line("T_face_max", celsius(&Heat::T_shell_max),
+           {.note = of_flat,
+            .only = is_warm_flat,
+            .summary_entries = {{Statistic::largest, "hottest place of the pads' faces", "°C"}}}),
+      line("T_face_mean", celsius(&Heat::T_shell_mean), {.note = of_flat, .only = is_warm_flat}),
+      line("T_runner", celsius(&Heat::T_journal),
+           {.note = of_flat,
+            .only = is_warm_flat,
+            .summary_entries = {{Statistic::at_end, "temperature of the runner at the end", "°C"}}}),
       line("T_body_max", celsius(&Heat::T_body_max),
            {.only = shell_is_in_body,
             .summary_entries = {{Statistic::at_end, "hottest place of the shell's body at the end", "°C"}}}),
@@ -368,9 +390,17 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       line("heat_to_oil", of_heat_balance(&film::HeatBalance::to_oil),
            {.only = has_heat, .summary_entries = {{Statistic::mean, "mean heat carried away by the oil", "W"}}}),
       line("heat_to_shell", of_heat_balance(&film::HeatBalance::to_shell),
-           {.only = has_heat, .summary_entries = {{Statistic::mean, "mean heat into the shell", "W"}}}),
+           {.only = is_warm_bore, .summary_entries = {{Statistic::mean, "mean heat into the shell", "W"}}}),
       line("heat_to_journal", of_heat_balance(&film::HeatBalance::to_journal),
-           {.only = has_heat, .summary_entries = {{Statistic::mean, "mean heat into the journal", "W"}}}),
+           {.only = is_warm_bore, .summary_entries = {{Statistic::mean, "mean heat into the journal", "W"}}}),
+      line("heat_to_pads", of_heat_balance(&film::HeatBalance::to_shell),
+           {.note = of_flat,
+            .only = is_warm_flat,
+            .summary_entries = {{Statistic::mean, "mean heat into the pads", "W"}}}),
+      line("heat_to_runner", of_heat_balance(&film::HeatBalance::to_journal),
+           {.note = of_flat,
+            .only = is_warm_flat,
+            .summary_entries = {{Statistic::mean, "mean heat into the runner", "W"}}}),
       line("heat_stored", of_heat_balance(&film::HeatBalance::stored), {.only = has_heat}),
       line("heat_balance_error", [](const BearingRow& row) { return row.observation.heat->balance.error(); },
            {.only = has_heat,

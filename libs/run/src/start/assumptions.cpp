@@ -177,6 +177,9 @@ std::string words_of_body(const std::optional<double>& T_start) {
 }
 
 struct ShellDescription {
+  double R;
+  bool is_flat;
+
   std::string operator()(const film::InsulatedWall&) const { return "takes no heat"; }
   std::string operator()(const film::WallAtTemperature& wall) const {
     if (wall.around.size() == 0) return fmt::format("at {:.4g} degC", celsius(wall.T));
@@ -187,8 +190,9 @@ struct ShellDescription {
   std::string operator()(const film::RingWall& ring) const {
     const std::string to = ring.surroundings ? words_of_node(*ring.surroundings)
                                              : fmt::format("surroundings at {:.4g} degC", celsius(ring.T_ambient));
-    return fmt::format("a ring to {:.4g} mm, {:.4g} W/m/K, {:.4g} W/m^2/K to {}", 2e3 * ring.outer_radius,
-                       ring.conductivity, ring.transfer, to);
+    const std::string size = is_flat ? fmt::format("{:.4g} mm thick", 1e3 * (ring.outer_radius - R))
+                                     : fmt::format("a ring to {:.4g} mm", 2e3 * ring.outer_radius);
+    return fmt::format("{}, {:.4g} W/m/K, {:.4g} W/m^2/K to {}", size, ring.conductivity, ring.transfer, to);
   }
   std::string operator()(const film::BodyWall& wall) const { return words_of_body(wall.T_start); }
 };
@@ -233,11 +237,12 @@ std::string nodes_of_oil(const film::FilmModel& film, const film::ThermalModel& 
 }
 
 /// Distribution of the heat of asperity friction.
-std::string rubbing(const film::FilmModel& film, const film::ThermalModel& heat) {
+std::string rubbing(const model::Bearing& bearing, const film::ThermalModel& heat) {
+  const film::FilmModel& film = bearing.film;
   if (film.asperities.model == film::AsperityModel::none) return {};
   const double shell = 100 * film::heat_partition(heat.shell_surface, heat.journal_surface);
-  return fmt::format("; of the asperities' heat {:.3g} % into the shell, {:.3g} % into the journal, by effusivities",
-                     shell, 100 - shell);
+  return fmt::format("; of the asperities' heat {:.3g} % into the {}, {:.3g} % into the {}, by effusivities", shell,
+                     bearing.kind->fixed_surface(), 100 - shell, bearing.kind->moving_surface());
 }
 
 /// Source of the film's temperature; empty if nothing depends on it.
@@ -246,11 +251,13 @@ std::string heat(const model::Bearing& bearing) {
   const std::string law = std::visit(TemperatureLawDescription{}, oil.temperature_law);
   if (const auto* film = std::get_if<film::ThermalModel>(&bearing.heat)) {
     return fmt::format(
-        "film in {} layers, viscosity {}, oil supplied at {:.4g} degC{}, {:.4g} J/kg/K, {:.4g} W/m/K; shell {}; "
-        "journal {}; grooves carry over {:.3g} of the film's oil{}",
+        "film in {} layers, viscosity {}, oil supplied at {:.4g} degC{}, {:.4g} J/kg/K, {:.4g} W/m/K; {} {}; "
+        "{} {}; grooves carry over {:.3g} of the film's oil{}",
         film->layers, law, celsius(film->T_supply), other_supplies(bearing.film, *film), oil.specific_heat,
-        oil.conductivity, std::visit(ShellDescription{}, film->shell), std::visit(JournalDescription{}, film->journal),
-        film->carry_over, nodes_of_oil(bearing.film, *film) + rubbing(bearing.film, *film));
+        oil.conductivity, bearing.kind->fixed_surface(),
+        std::visit(ShellDescription{bearing.film.R, !bearing.kind->has_axis()}, film->shell),
+        bearing.kind->moving_surface(), std::visit(JournalDescription{}, film->journal), film->carry_over,
+        nodes_of_oil(bearing.film, *film) + rubbing(bearing, *film));
   }
   if (const auto* one = std::get_if<bearing::GlobalHeat>(&bearing.heat)) {
     const std::string by = one->cools_by_surroundings

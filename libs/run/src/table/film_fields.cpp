@@ -37,9 +37,10 @@ const std::vector<FilmField>& film_fields() {
       {"moving_wear", "m", "depth worn off the moving surface", "wear of the moving surface", "um", 1e6,
        &F::worn_moving, "", of_wear},
       temperature("temperature", "oil temperature", "temperature of the oil, mean over the thickness", &F::T, "T"),
-      temperature("shell_temperature", "shell temperature", "temperature of the shell's surface", &F::T_shell, "T_S"),
-      temperature("journal_temperature", "journal temperature", "temperature of the journal's surface", &F::T_journal,
-                  "T_J"),
+      temperature("shell_temperature", "shell temperature", "temperature of the shell's surface, or of pads' faces",
+                  &F::T_shell, "T_S"),
+      temperature("journal_temperature", "journal temperature",
+                  "temperature of the journal's surface, or of the runner's", &F::T_journal, "T_J"),
       temperature("hottest_temperature", "hottest layer", "temperature of the hottest layer of oil", &F::T_hottest, ""),
   };
   return table;

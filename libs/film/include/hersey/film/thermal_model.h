@@ -33,9 +33,10 @@ struct NetworkNode {
 };
 
 /// A shell that is a ring around the film: heat is conducted around it and through it to its surroundings
-/// (theory manual, thermal.12).
+/// (theory manual, thermal.12). Behind a flat film each patch lies on a pad, or a washer on a ring, of even thickness
+/// (thermal.72).
 struct RingWall {
-  double outer_radius = 0;       ///< [m], > R
+  double outer_radius = 0;       ///< [m], > R; of a flat film R and the thickness behind it
   double conductivity = 50;      ///< [W/(m K)], > 0
   double transfer = 80;          ///< coefficient from its outside and its ends to the surroundings [W/(m^2 K)], >= 0
   double T_ambient = 313.15;     ///< of these [K]

@@ -145,7 +145,7 @@ void refuse_bearings(Context& context, const Value& value) {
       continue;
     }
     for (const char* wall : {"shell", "journal"}) {
-      const Value* of = thermal->find(wall);
+      const Value* of = thermal->has(wall) ? thermal->find(wall) : nullptr;  // flat films have walls of other names
       if (of != nullptr && !of->broken && of->text == "body")
         context.fault(*of, "a wall in a body that conducts, in the steady motion of a machine", "any other wall",
                       "`hersey bearing` solves one bearing with its bodies");

@@ -10,7 +10,7 @@
 namespace hersey::model {
 namespace {
 
-/// Index of a bearing on an arc whose film has temperatures; reports any other.
+/// Index of a bearing on an arc or a pad whose film has temperatures; reports any other.
 std::optional<std::size_t> film_on_groove(Context& context, const Value& name) {
   if (name.broken) return std::nullopt;
   const std::vector<Bearing>& bearings = context.model.bearings;
@@ -22,9 +22,9 @@ std::optional<std::size_t> film_on_groove(Context& context, const Value& name) {
     return std::nullopt;
   }
   const auto* heat = std::get_if<film::ThermalModel>(&found->heat);
-  if (heat == nullptr || film::arcs_of(found->film) == nullptr) {
+  if (heat == nullptr || found->film.ends.empty()) {
     context.fault(name, heat == nullptr ? "a film without temperatures" : "a film that has no ends",
-                  "a bearing with `arcs` and `thermal: {model: film, ...}`");
+                  "a bearing with `arcs`, or of pads, and `thermal: {model: film, ...}`");
     return std::nullopt;
   }
   return static_cast<std::size_t>(found - bearings.begin());

@@ -62,9 +62,16 @@ bearing::GlobalHeat global_heat(Context& context, const Value& thermal) {
   return heat;
 }
 
-/// True if oil removes heat between closed edges: a supply renews the oil that enters it, or oil passes from one feed
-/// to another of lower pressure.
+/// True of a film around a journal, whose shell and journal have walls of their own kinds.
+bool is_bore(const film::FilmModel& film) { return std::holds_alternative<film::Cylinder>(film.surface); }
+
+/// True if oil removes heat between closed edges: an open end draws fresh oil, a supply renews the oil that enters it,
+/// or oil passes from one feed to another of lower pressure.
 bool oil_is_renewed(const film::FilmModel& film, const film::ThermalModel& heat) {
+  const bool has_open_end = std::any_of(film.ends.begin(), film.ends.end(), [](const film::PatchEnds& ends) {
+    return ends.first.kind != film::EdgeKind::closed || ends.last.kind != film::EdgeKind::closed;
+  });
+  if (has_open_end && (heat.carry_over < 1 || !heat.has_grooves)) return true;
   std::vector<double> pressures;
   if (film.supply.kind != film::SupplyKind::none) pressures.push_back(film.supply.pressure);
   for (const film::SurfaceFeature& feature : film.features)
@@ -77,7 +84,7 @@ bool oil_is_renewed(const film::FilmModel& film, const film::ThermalModel& heat)
 /// A ring that is none, or a film whose heat has nowhere to go.
 void check_walls(Context& context, const Value& thermal, const film::FilmModel& film, const film::ThermalModel& heat) {
   const auto* ring = std::get_if<film::RingWall>(&heat.shell);
-  if (ring != nullptr && !ring->closes && film::arcs_of(film) == nullptr)
+  if (ring != nullptr && !ring->closes && is_bore(film) && film::arcs_of(film) == nullptr)
     context.fault(*thermal.find("shell"), "a pad around a full bore", "a `ring`, or `arcs`");
   if (ring != nullptr && ring->closes && ring->outer_radius <= film.R) {
     context.fault(*thermal.find("shell")->find("outer_diameter"), "a ring no larger than its bore",
@@ -98,8 +105,10 @@ void check_walls(Context& context, const Value& thermal, const film::FilmModel& 
   if (!leaves && !takes)
     context.fault_at_key(
         thermal, "closed edges, and walls that conduct no heat: no heat can leave",
-        "a shell or journal that is `given`, a `ring`, a `body` or a `node`, an open edge, or a supply "
-        "that renews its oil (`carry_over` below 1)");
+        (is_bore(film)
+             ? std::string("a shell or journal that is `given`, a `ring`, a `body` or a `node`, an open edge, ")
+             : "a wall that is `given`, a `pad` or a `node`, an open edge, ") +
+            "or a supply that renews its oil (`carry_over` below 1)");
 }
 
 /// The key `temperature` of a supply line or a feature; null where it is left to `supply_temperature`.
@@ -117,8 +126,9 @@ void read_supplies(Context& context, const Value& bearing, const film::FilmModel
   const auto line = own_temperature(context, temperature_of(bearing.find("supply")));
   if (line) heat.T_line = line->T;
   if (film.supply.kind != film::SupplyKind::none) heat.oil.line = line ? line->node : all.node;
+  const Value* features = bearing.find("features");
   for (const film::SurfaceFeature& feature : film.features) {
-    const Value* value = bearing.find("features")->find(feature.name);
+    const Value* value = features != nullptr ? features->find(feature.name) : nullptr;  // a pad's step is a shape
     const auto own = own_temperature(context, temperature_of(value));
     if (own && !feature.is_fed)
       context.fault(*value->find("temperature"), "a temperature of a pocket that nothing feeds",
@@ -139,15 +149,16 @@ void warn_of_unused_temperatures(Context& context, const Value& bearing) {
                                       "`thermal: {model: film, ...}`, or none",
                                       "with one temperature of the oil there is no other"});
   };
-  if (const Value* line = bearing.find("supply")) warn(*line);
+  if (const Value* line = bearing.find("supply"); line != nullptr) warn(*line);
   for (const auto& [name, feature] : section(bearing, "features")) warn(feature);
 }
 
 /// Completes the data of walls besides their own keys: tables over the angle, nodes of the network.
-void complete_walls(Context& context, const Value& thermal, const film::FilmModel& film, film::ThermalModel& heat) {
+void complete_walls(Context& context, const Value& thermal, const WallKeys& walls, const film::FilmModel& film,
+                    film::ThermalModel& heat) {
   const film::Grid& grid = film.grid;
-  const Value &shell = *thermal.find("shell"), &journal = *thermal.find("journal");
-  if (std::holds_alternative<film::WallAtTemperature>(heat.shell))
+  const Value &shell = *thermal.find(walls.fixed), &journal = *thermal.find(walls.moving);
+  if (is_bore(film) && std::holds_alternative<film::WallAtTemperature>(heat.shell))
     heat.shell = wall_at_temperature(context, *shell.find("temperature"), grid);
   if (std::holds_alternative<film::NodeWall>(heat.shell)) heat.shell = node_wall_of(context, shell);
   if (std::holds_alternative<film::NodeWall>(heat.journal)) heat.journal = node_wall_of(context, journal);
@@ -159,7 +170,7 @@ void complete_walls(Context& context, const Value& thermal, const film::FilmMode
 }
 
 /// Material of the shell or the journal, by which the heat of asperities is shared; steel by default.
-film::SurfaceMaterial surface_of(Context& context, const Value& bearing, const char* wall) {
+film::SurfaceMaterial surface_of(Context& context, const Value& bearing, const std::string& wall) {
   const Value* materials = bearing.find("materials");
   const Value* material = materials != nullptr && !materials->broken ? materials->find(wall) : nullptr;
   if (material == nullptr || material->broken || !material->has("conductivity") || !material->has("specific_heat"))
@@ -185,7 +196,7 @@ void check_shear(Context& context, const Value& thermal, int layers, const film:
       "each layer is sheared at the rate that its stress takes");
 }
 
-/// The temperature of what pads that grow stand in.
+/// The temperature of what pads around a journal stand in, if they grow.
 void read_carrier(Context& context, const Value& thermal, const film::FilmModel& film, film::ThermalModel& heat) {
   const Value* T = thermal.find("shell")->find("carrier");
   if (T == nullptr || T->broken) return;
@@ -196,22 +207,9 @@ void read_carrier(Context& context, const Value& thermal, const film::FilmModel&
   heat.expansion->carrier = {.T = T->number, .thickness = std::get<film::RingWall>(heat.shell).outer_radius - film.R};
 }
 
-film::ThermalModel film_heat(Context& context, const Value& value, const film::FilmModel& film) {
-  const Value& thermal = *value.find("thermal");
-  film::ThermalModel heat;
-  heat.layers = integer_of(thermal, "layers");
-  check_shear(context, thermal, heat.layers, film.lubricant.shear_thinning);
-  heat.carry_over = number_of(thermal, "carry_over");
-  heat.shell_surface = surface_of(context, value, "shell");
-  heat.journal_surface = surface_of(context, value, "journal");
-  heat.shell = read_alternative(*thermal.find("shell"), shell_walls());
-  heat.journal = read_alternative(*thermal.find("journal"), journal_walls());
-  if (auto* free = std::get_if<film::FreeJournal>(&heat.journal); free != nullptr && free->heat_capacity == 0)
-    free->heat_capacity = heat_of_steel * std::numbers::pi * film.R * film.R * film.L;
-  complete_walls(context, thermal, film, heat);
-  read_supplies(context, value, film, heat);
-  heat.has_grooves = film::arcs_of(film) != nullptr;
-  if (const auto walls = wall_expansion_of(thermal)) heat.expansion = walls->material;
+/// How a clearance follows walls around a journal.
+void read_expansion(Context& context, const Value& thermal, const film::FilmModel& film, film::ThermalModel& heat) {
+  if (const auto expansion = wall_expansion_of(thermal)) heat.expansion = expansion->material;
   read_carrier(context, thermal, film, heat);
   if (heat.expansion && heat.expansion->shell != 0 && std::holds_alternative<film::BodyWall>(heat.shell)) {
     context.fault(*thermal.find("expansion"), "a shell that grows by its body's mesh and by a coefficient as well",
@@ -222,11 +220,70 @@ film::ThermalModel film_heat(Context& context, const Value& value, const film::F
                   "'journal: 0 1/K' beside 'journal: {wall: body}'",
                   "the body's `heat.expansion` says how the journal grows");
   }
+}
+
+/// Of the journal in the bearing; of a runner as thick as the film is wide: a disc, or a plate of the pad's size [m^3].
+double volume_of_moving(const film::FilmModel& film) {
+  const double outer = is_bore(film) ? film.R : film.R + 0.5 * film.L;
+  if (film::closes(film.surface)) return std::numbers::pi * outer * outer * film.L;
+  return film.R * (film.grid.phi(film.grid.n_phi - 1) - film.grid.phi(0)) * film.L * film.L;
+}
+
+film::ThermalModel film_heat(Context& context, const Value& value, const WallKeys& walls, const film::FilmModel& film) {
+  const Value& thermal = *value.find("thermal");
+  film::ThermalModel heat;
+  heat.layers = integer_of(thermal, "layers");
+  check_shear(context, thermal, heat.layers, film.lubricant.shear_thinning);
+  heat.carry_over = number_of(thermal, "carry_over");
+  heat.shell_surface = surface_of(context, value, walls.fixed);
+  heat.journal_surface = surface_of(context, value, walls.moving);
+  heat.shell = read_alternative(*thermal.find(walls.fixed), is_bore(film) ? shell_walls() : pad_walls());
+  heat.journal = read_alternative(*thermal.find(walls.moving), is_bore(film) ? journal_walls() : runner_walls());
+  if (auto* free = std::get_if<film::FreeJournal>(&heat.journal); free != nullptr && free->heat_capacity == 0)
+    free->heat_capacity = heat_of_steel * volume_of_moving(film);
+  complete_walls(context, thermal, walls, film, heat);
+  read_supplies(context, value, film, heat);
+  // On a plane nothing leads the oil behind a pad back before it.
+  heat.has_grooves = !film.ends.empty() && film::closes(film.surface);
+  if (is_bore(film)) read_expansion(context, thermal, film, heat);
   check_walls(context, thermal, film, heat);
   return heat;
 }
 
+/// Temperatures of a model of heat at which the oil is not known.
+void warn_of_temperatures(Context& context, const Value& thermal, const Lubricant& lubricant) {
+  for (const char* key : {"temperature", "supply_temperature", "edge_temperature"}) {
+    const auto is_key = [&](const Member& member) { return member.key == key; };
+    const auto found = std::find_if(thermal.members.begin(), thermal.members.end(), is_key);
+    if (found == thermal.members.end() || !found->value.given || found->value.broken) continue;
+    const bool is_any = found->value.type->kind == Type::Kind::any_of && !found->value.members.empty();
+    const Value& given = is_any ? found->value.members.front().value : found->value;
+    if (given.type->kind == Type::Kind::quantity)
+      warn_of_temperature(context, given, lubricant.validity, lubricant.name);
+  }
+}
+
 }  // namespace
+
+void read_flat_heat(Context& context, const Value& value, const WallKeys& walls, const Lubricant* lubricant,
+                    Bearing& bearing) {
+  const Value* thermal = value.find("thermal");
+  if (thermal == nullptr || thermal->broken || context.has_fault_in(value.path)) return;
+  if (thermal->text != "film") return warn_of_unused_temperatures(context, value);
+  if (const Value* T = value.find("temperature"); T != nullptr && !T->broken) {
+    context.fault_at_key(*T,
+                         "one temperature of the oil beside `thermal: {model: film}`, which finds those of the film",
+                         "`thermal`, or `temperature` with `thermal: isothermal`");
+    return;
+  }
+  const film::ThermalModel heat = film_heat(context, value, walls, bearing.film);
+  if (lubricant != nullptr) {
+    bearing.validity = lubricant->validity;
+    warn_of_temperatures(context, *thermal, *lubricant);
+  }
+  bearing.film.lubricant = film::at_temperature(bearing.film.lubricant, heat.T_supply);
+  bearing.heat = heat;
+}
 
 void read_thermal(Context& context, const Value& value, const Lubricant* lubricant, Bearing& bearing) {
   const Value* thermal = value.find("thermal");
@@ -244,21 +301,13 @@ void read_thermal(Context& context, const Value& value, const Lubricant* lubrica
     heat.expansion = bearing.expansion;
     bearing.heat = heat;
   } else {
-    const film::ThermalModel heat = film_heat(context, value, bearing.film);
+    const film::ThermalModel heat = film_heat(context, value, {}, bearing.film);
     T = heat.T_supply;
     bearing.heat = heat;
   }
   if (lubricant != nullptr) {
     bearing.validity = lubricant->validity;
-    for (const char* key : {"temperature", "supply_temperature", "edge_temperature"}) {
-      const auto is_key = [&](const Member& member) { return member.key == key; };
-      const auto found = std::find_if(thermal->members.begin(), thermal->members.end(), is_key);
-      if (found == thermal->members.end() || !found->value.given || found->value.broken) continue;
-      const bool is_any = found->value.type->kind == Type::Kind::any_of && !found->value.members.empty();
-      const Value& given = is_any ? found->value.members.front().value : found->value;
-      if (given.type->kind == Type::Kind::quantity)
-        warn_of_temperature(context, given, bearing.validity, lubricant->name);
-    }
+    warn_of_temperatures(context, *thermal, *lubricant);
   }
   if (T) {
     oil = film::at_temperature(oil, *T);

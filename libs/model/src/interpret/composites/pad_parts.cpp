@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "check/members.h"
 #include "hersey/core/contract.h"
+#include "hersey/core/two_pi.h"
 
 namespace hersey::model {
 
@@ -68,6 +71,58 @@ double hertz_constant(const Value& pivot) {
 std::string pivot_law(const Value& pivot) {
   if (pivot.text == "spring") return fmt::format("stiffness: {} N/m", number_of(pivot, "stiffness"));
   return fmt::format("force: {{expression: \"{}*max(stretch, 0)^1.5\", unit: N}}", hertz_constant(pivot));
+}
+
+bool has_warm_films(const Value& bearing) {
+  const Value* thermal = bearing.find("thermal");
+  return thermal != nullptr && !thermal->broken && thermal->text == "film";
+}
+
+namespace {
+
+/// True if the moving surface takes the temperature at which it gives off no heat: one for all pads.
+bool is_free(const Value& bearing, const WarmedByPads& moving) {
+  return bearing.find("thermal")->find(moving.key)->text == "free";
+}
+
+}  // namespace
+
+std::string thermal_of_pads(const Value& bearing, const WarmedByPads& moving, const std::string& name,
+                            const std::vector<std::string>& pads, const std::vector<double>& angles) {
+  std::string text = "thermal:\n";
+  if (is_free(bearing, moving)) {
+    const Value &wall = *bearing.find("thermal")->find(moving.key), *start = wall.find("temperature");
+    const double given = number_of(wall, "heat_capacity");
+    text += fmt::format("  nodes:\n    {}: {{heat_capacity: {} J/K", moving.node, given > 0 ? given : moving.capacity);
+    if (start != nullptr) text += fmt::format(", temperature: {} K", start->number);
+    text += "}\n";
+  }
+  std::vector<std::size_t> order(pads.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto angle = [&](std::size_t k) {
+    const double at = std::fmod(angles[k], two_pi);
+    return at < 0 ? at + two_pi : at;
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return angle(a) < angle(b); });
+  text += "  grooves:\n";
+  for (std::size_t k = 0; k < order.size(); ++k)
+    text += fmt::format("    {}_groove_{}: {{between: [{}, {}]}}\n", name, k + 1, pads[order[k]],
+                        pads[order[(k + 1) % order.size()]]);
+  return text;
+}
+
+void set_moving_wall(const Value& bearing, const WarmedByPads& moving, const SourcePosition& position, Node& tree) {
+  if (!is_free(bearing, moving)) return;
+  std::vector<Fault> faults;
+  std::optional<Node> wall =
+      parse_yaml(fmt::format("{}: {{wall: node, node: {}}}", moving.key, moving.node), position.file, faults);
+  HERSEY_REQUIRE(wall && faults.empty(), "a wall that is a node");
+  move_to(*wall, position);
+  for (Entry& film : tree.find("bearings")->entries) {
+    Node& thermal = *film.value.find("thermal");
+    std::erase_if(thermal.entries, [&](const Entry& entry) { return entry.key == moving.key; });
+    thermal.entries.push_back(wall->entries.front());
+  }
 }
 
 Node parts_tree(const std::string& text, const SourcePosition& position) {

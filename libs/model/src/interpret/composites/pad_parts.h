@@ -30,6 +30,26 @@ void check_pivot(const Value& pivot, std::vector<Fault>& faults);
 /// Force of a pivot that yields, as the keys of a `sliding_spring`: linear, or by Hertz.
 [[nodiscard]] std::string pivot_law(const Value& pivot);
 
+/// Moving surface of a composite that all of its films warm.
+struct WarmedByPads {
+  std::string key;      ///< of its wall in `thermal`: "journal"
+  std::string node;     ///< of the thermal network that it is, where it has one free temperature
+  double capacity = 0;  ///< [J/K], unless the wall has one
+};
+
+/// True if the films of a composite have temperatures.
+[[nodiscard]] bool has_warm_films(const Value& bearing);
+
+/// The section `thermal` of a composite's parts: the moving surface, where it is free, and grooves between the pads in
+/// the order of their angles.
+/// @pre has_warm_films
+[[nodiscard]] std::string thermal_of_pads(const Value& bearing, const WarmedByPads& moving, const std::string& name,
+                                          const std::vector<std::string>& pads, const std::vector<double>& angles);
+
+/// Makes the wall of the moving surface a node in the `thermal` of each film of `tree`, where it is free.
+/// @pre has_warm_films
+void set_moving_wall(const Value& bearing, const WarmedByPads& moving, const SourcePosition& position, Node& tree);
+
 /// Parts of a composite, written as a model file has them, as a tree whose faults are at `position`.
 [[nodiscard]] Node parts_tree(const std::string& text, const SourcePosition& position);
 

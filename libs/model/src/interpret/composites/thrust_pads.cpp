@@ -10,6 +10,7 @@
 #include "hersey/core/two_pi.h"
 #include "interpret/composites/pad_parts.h"
 #include "schema/bearing_keys.h"
+#include "schema/thermal_walls.h"
 
 // A thrust bearing of pads on pivots: pads are bodies with a film on one sector, their pivots joints of a carrier.
 namespace hersey::model {
@@ -137,7 +138,17 @@ class ThrustPads {
     text += fmt::format("joints:\n  {0}_carrier: {{type: fixed, between: [{1}, {0}_carrier]}}\n{2}", parts_.name,
                         stator_, joints_);
     if (!forces_.empty()) text += "forces:\n" + forces_;
-    return parts_tree(text + "bearings:\n" + bearings_, parts_.position);
+    text += "bearings:\n" + bearings_;
+    if (has_warm_films(value_))
+      text += thermal_of_pads(value_, warmed(), parts_.name, parts_.pads, parts_.pivot_angles);
+    return parts_tree(text, parts_.position);
+  }
+
+  /// The collar that all films warm: a disc as thick as the pads are wide.
+  [[nodiscard]] WarmedByPads warmed() const {
+    return {.key = "runner",
+            .node = parts_.name + "_runner",
+            .capacity = heat_of_steel * std::numbers::pi * outer_ * outer_ * (outer_ - inner_)};
   }
 
   /// What each film has of the bearing, as it stands in the file.
@@ -147,6 +158,7 @@ class ThrustPads {
         if (is_key_of_each_pad(parts_.kind, own.key)) film.value.entries.push_back(own);
       if (const Node* runner = node_.find("runner")) film.value.find("runner")->position = runner->position;
     }
+    if (has_warm_films(value_)) set_moving_wall(value_, warmed(), parts_.position, tree);
   }
 
   const Node& node_;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -228,42 +227,11 @@ class TiltingPads {
     return seat;
   }
 
-  /// True if the films have temperatures.
-  [[nodiscard]] bool is_warm() const {
-    const Value* thermal = value_.find("thermal");
-    return thermal != nullptr && !thermal->broken && thermal->text == "film";
-  }
-
-  /// True if the journal takes the temperature at which it gives off no heat: one journal for all pads.
-  [[nodiscard]] bool has_free_journal() const { return value_.find("thermal")->find("journal")->text == "free"; }
-
-  [[nodiscard]] std::string journal_node() const { return parts_.name + "_journal"; }
-
-  /// The journal that all films warm, and the grooves between pads in the order of their angles.
-  [[nodiscard]] std::string written_thermal() const {
-    const Value& thermal = *value_.find("thermal");
-    std::string text = "thermal:\n";
-    if (has_free_journal()) {
-      const Value &journal = *thermal.find("journal"), *start = journal.find("temperature");
-      const double given = number_of(journal, "heat_capacity");
-      const double capacity =
-          given > 0 ? given : heat_of_steel * std::numbers::pi * R_ * R_ * number_of(value_, "width");
-      text += fmt::format("  nodes:\n    {}: {{heat_capacity: {} J/K", journal_node(), capacity);
-      if (start != nullptr) text += fmt::format(", temperature: {} K", start->number);
-      text += "}\n";
-    }
-    std::vector<std::size_t> order(parts_.pads.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto angle = [this](std::size_t k) {
-      const double at = std::fmod(parts_.pivot_angles[k], two_pi);
-      return at < 0 ? at + two_pi : at;
-    };
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return angle(a) < angle(b); });
-    text += "  grooves:\n";
-    for (std::size_t k = 0; k < order.size(); ++k)
-      text += fmt::format("    {}_groove_{}: {{between: [{}, {}]}}\n", parts_.name, k + 1, parts_.pads[order[k]],
-                          parts_.pads[order[(k + 1) % order.size()]]);
-    return text;
+  /// The journal that all films warm.
+  [[nodiscard]] WarmedByPads warmed() const {
+    return {.key = "journal",
+            .node = parts_.name + "_journal",
+            .capacity = heat_of_steel * std::numbers::pi * R_ * R_ * number_of(value_, "width")};
   }
 
   [[nodiscard]] Node written_tree() {
@@ -273,19 +241,9 @@ class TiltingPads {
                         shell_, joints_);
     if (!forces_.empty()) text += "forces:\n" + forces_;
     text += "bearings:\n" + bearings_;
-    if (is_warm()) text += written_thermal();
+    if (has_warm_films(value_))
+      text += thermal_of_pads(value_, warmed(), parts_.name, parts_.pads, parts_.pivot_angles);
     return parts_tree(text, parts_.position);
-  }
-
-  /// Makes the journal's wall of a film a node.
-  void set_journal_wall(Node& thermal) const {
-    std::erase_if(thermal.entries, [](const Entry& entry) { return entry.key == "journal"; });
-    std::vector<Fault> faults;
-    std::optional<Node> wall =
-        parse_yaml(fmt::format("journal: {{wall: node, node: {}}}", journal_node()), parts_.position.file, faults);
-    HERSEY_REQUIRE(wall && faults.empty(), "a wall that is a node");
-    move_to(*wall, parts_.position);
-    thermal.entries.push_back(std::move(wall->entries.front()));
   }
 
   /// What each film has of the bearing, as it stands in the file.
@@ -294,7 +252,6 @@ class TiltingPads {
     for (Entry& film : tree.find("bearings")->entries) {
       for (const Entry& own : node_.entries)
         if (is_key_of_each_pad(parts_.kind, own.key)) film.value.entries.push_back(own);
-      if (is_warm() && has_free_journal()) set_journal_wall(*film.value.find("thermal"));
       if (const Node* journal = node_.find("journal")) film.value.find("journal")->position = journal->position;
       Node* arc = film.value.find("arcs")->find("pad");
       for (const char* key : {"edge_pressure", "ambient_fill"}) {
@@ -303,6 +260,7 @@ class TiltingPads {
         if (given != pads->entries.end()) arc->entries.push_back(*given);
       }
     }
+    if (has_warm_films(value_)) set_moving_wall(value_, warmed(), parts_.position, tree);
   }
 
   const Node& node_;

@@ -84,6 +84,15 @@ void warn_of_temperature(Context& context, const Value& T, const OilValidity& va
 /// oil; null where there is none of that name
 void read_thermal(Context& context, const Value& value, const Lubricant* lubricant, Bearing& bearing);
 
+/// Keys of the walls of a film, in `thermal` and in `materials`.
+struct WallKeys {
+  std::string fixed = "shell", moving = "journal";
+};
+
+/// The same of a film between pads and a runner, whose one temperature has been read if it has one.
+void read_flat_heat(Context& context, const Value& value, const WallKeys& walls, const Lubricant* lubricant,
+                    Bearing& bearing);
+
 /// Features, grid and shape of a bearing whose size and cavitation have been read.
 void read_surfaces(Context& context, const Value& value, Bearing& bearing);
 

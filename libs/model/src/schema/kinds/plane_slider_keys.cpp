@@ -3,6 +3,7 @@
 #include "schema/bearing_keys.h"
 #include "schema/oil_laws.h"
 #include "schema/restrictor_laws.h"
+#include "schema/thermal_walls.h"
 
 // Keys of a pad on a plane runner.
 namespace hersey::model {
@@ -42,6 +43,8 @@ TypePtr pad_features_format() {
       restrictor_key(),
       defaulted("depth", quantity("m", "0.5 mm", Range::not_negative()), "0 mm",
                 "By how much it widens the gap, and its friction falls; 0 leaves the gap as it is."),
+      optional("temperature", temperature_or_node("50 degC"),
+               "Of the oil that feeds it, in a film with `thermal: {model: film}`.", "`thermal.supply_temperature`"),
   };
   return named("a mapping from names to holes and pockets of the pad",
                variant("a hole or pocket", "shape", common,
@@ -120,7 +123,10 @@ std::vector<Key> plane_slider_keys() {
           "ambient_fill", number("0.5", {.low = 0, .high = 1}), "1",
           "Share of oil in what surrounds edges at the cavitation pressure and is drawn in there: 1 an immersed or "
           "flooded slider, 0 air."),
-      optional("temperature", temperature("60 degC"), "Of the oil.", "that of the lubricant"),
+      optional("temperature", temperature("60 degC"), "Of the oil, where it has one temperature.",
+               "that of the lubricant"),
+      defaulted("thermal", flat_thermal_format({.fixed = "pad", .moving = "runner"}), "isothermal",
+                "Temperature of the film."),
       optional("features", pad_features_format(), "Holes and pockets of the pad.", "none"),
       optional("shape", pad_shape_format(), "What makes the pad's face differ from a plane; all add up.", "a plane"),
       optional(

@@ -5,6 +5,7 @@
 #include "schema/film_vocabulary.h"
 #include "schema/oil_laws.h"
 #include "schema/restrictor_laws.h"
+#include "schema/thermal_walls.h"
 
 // Keys of pads in sectors of an annulus, below a runner that turns about the axis.
 namespace hersey::model {
@@ -61,6 +62,8 @@ TypePtr sector_features_format() {
       restrictor_key(),
       defaulted("depth", quantity("m", "0.5 mm", Range::not_negative()), "0 mm",
                 "By how much it widens the gap, and its friction falls; 0 leaves the gap as it is."),
+      optional("temperature", temperature_or_node("50 degC"),
+               "Of the oil that feeds it, in a film with `thermal: {model: film}`.", "`thermal.supply_temperature`"),
   };
   return named("a mapping from names to holes, pockets and grooves of the stator",
                variant("a hole, pocket or groove", "shape", common,
@@ -174,7 +177,10 @@ std::vector<Key> thrust_keys() {
       defaulted("ambient_fill", sector_fills_format(), "1",
                 "Share of oil in what surrounds edges at the cavitation pressure and is drawn in there: 1 a flooded "
                 "bearing, 0 air."),
-      optional("temperature", temperature("60 degC"), "Of the oil.", "that of the lubricant"),
+      optional("temperature", temperature("60 degC"), "Of the oil, where it has one temperature.",
+               "that of the lubricant"),
+      defaulted("thermal", flat_thermal_format({.fixed = "stator", .moving = "runner"}), "isothermal",
+                "Temperature of the film."),
       optional("features", sector_features_format(), "Holes, pockets and grooves of the stator.", "none"),
       optional("operating_point", thrust_point_format(),
                "Speed and load, or film thickness, of the bearing by itself (`hersey bearing`); a simulation has its "

@@ -136,9 +136,18 @@ void FilmReader::check_turbulence(const Value& turbulence) {
                           "an oil without `shear_thinning`, or `turbulence: none`");
 }
 
+bool FilmReader::is_warm() const {
+  const Value* thermal = value_.find("thermal");
+  return thermal != nullptr && !thermal->broken && thermal->text == "film";
+}
+
+void FilmReader::read_heat() {
+  read_flat_heat(context_, value_, {.fixed = surfaces_.fixed, .moving = surfaces_.moving}, lubricant_, bearing_);
+}
+
 void FilmReader::read_temperature() {
   const Value* T = value_.find("temperature");
-  if (lubricant_ == nullptr) return;
+  if (lubricant_ == nullptr || is_warm()) return;
   bearing_.validity = lubricant_->validity;
   if (T != nullptr && !T->broken) {
     warn_of_temperature(context_, *T, bearing_.validity, lubricant_->name);

@@ -33,6 +33,8 @@ class FilmReader {
   void read_shear();
   /// Reads `temperature` of a bearing whose oil has one temperature, and puts the oil at it.
   void read_temperature();
+  /// Reads `thermal` of a film between pads and a runner, all else of which has been read.
+  void read_heat();
   /// Reports absolute pressures of a pad: the atmosphere acts on its back, too, so that a load is what the film has
   /// above it.
   void require_gauge_pressures();
@@ -47,6 +49,8 @@ class FilmReader {
   [[nodiscard]] const Lubricant* lubricant() const { return lubricant_; }
 
  private:
+  /// True if the film has temperatures.
+  [[nodiscard]] bool is_warm() const;
   void read_turbulence();
   void check_turbulence(const Value& turbulence);
   void read_roughness();

@@ -47,6 +47,7 @@ class PadReader {
     reader_.require_gauge_pressures();
     reader_.read_shear();
     read_kind();
+    reader_.read_heat();
     if (context_.has_fault_in(value_.path)) return;
     require_a_pressure();
   }

@@ -53,6 +53,7 @@ class ThrustReader {
     reader_.require_gauge_pressures();
     reader_.read_shear();
     read_kind();
+    reader_.read_heat();
     if (context_.has_fault_in(value_.path)) return;
     require_a_pressure();
     warn_of_corners();
