@@ -5,6 +5,7 @@ import { approachAndTilt, matrices, thrustMatrices } from "./bearing_coefficient
 import type { Line } from "./bearing_sweep";
 import type { BearingText, SolutionText } from "./data";
 import type { Curve, LineFigure } from "./line_plot";
+import { ring } from "./ring_kind";
 import { surfaceOfPage, surfaces, type Surface } from "./surface";
 
 /** What a sweep is about. */
@@ -41,6 +42,8 @@ export interface BearingKind {
   surface: Surface;
   /** Before its name. */
   title: string;
+  /** Figures of the smallest thickness of its films; one film: h_min. */
+  smallestThickness?: string[];
   /** What stands large above the figures. */
   tiles: [string, string][];
   sweep: (swept: Swept) => SweepFigure[];
@@ -291,6 +294,7 @@ const thrust: BearingKind = {
 const kinds = [journal, slider, thrust];
 
 export function kindOf(bearing: BearingText): BearingKind {
+  if (bearing.solutions.some(({ films }) => films.length > 1)) return ring;
   const surface = surfaceOfPage(bearing);
   return kinds.find((kind) => kind.surface === surface) ?? journal;
 }
