@@ -1,6 +1,7 @@
 // A bearing by itself: its operating point, or a sweep with one of its solutions in detail.
 
-import { kindOf, type BearingKind, type SweepCurve, type SweepFigure } from "./bearing_kinds";
+import type { BearingKind, SweepCurve, SweepFigure } from "./bearing_kind";
+import { kindOf } from "./bearing_kinds";
 import { figureOf, Sweep, type Line } from "./bearing_sweep";
 import { bearingVerdict, placeOf } from "./bearing_verdict";
 import { sweepDrawings } from "./canvas";
@@ -142,7 +143,8 @@ class SweepView {
   }
 
   private add({ name, caption, left, right, curves: specs, line }: SweepFigure): void {
-    const curves = specs.flatMap((spec) => this.curves(spec, line));
+    const isOfSeveral = specs.filter(({ alone }) => !alone).length > 1;
+    const curves = specs.flatMap((spec) => this.curves(spec, isOfSeveral, line));
     const values = curves.flatMap((c) => Array.from(c.y).filter((v) => v !== null && Number.isFinite(v)));
     // A pad that cannot tilt has no slopes to show.
     if (values.length === 0 || (name === "tilt" && values.every((v) => v === 0))) return;
@@ -165,13 +167,14 @@ class SweepView {
   }
 
   /** A curve for each line of the sweep, or for the one that the figure is about. */
-  private curves({ key, label, alone, sign, ...look }: SweepCurve, only?: Line): Curve[] {
+  private curves({ key, label, alone, sign, ...look }: SweepCurve, isOfSeveral: boolean, only?: Line): Curve[] {
     const { sweep } = this;
     if (alone && sweep.lines.length > 1) return [];
     return (only ? [only] : sweep.lines).map((line) => {
       const y = sweep.along(line, key);
       const sized = sign ? y.map((v) => (v !== null && sign * v > 0 ? sign * v : null)) : y;
-      return { points: true, ...look, label: only ? label : line.label || label, y: sized };
+      const name = only || !line.label ? label : isOfSeveral ? `${line.label}, ${label}` : line.label;
+      return { points: true, ...look, label: name, y: sized };
     });
   }
 

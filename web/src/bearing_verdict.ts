@@ -1,6 +1,6 @@
 // The first lines about a bearing by itself: whether it was solved, what is worst and where.
 
-import type { BearingKind } from "./bearing_kinds";
+import type { BearingKind } from "./bearing_kind";
 import { figureOf, type Sweep } from "./bearing_sweep";
 import type { BearingText, FigureText, SolutionText } from "./data";
 import { h } from "./dom";

@@ -1,7 +1,8 @@
 // What the page of a floating ring by itself shows: figures of both films, and the speed of the ring.
 
 import { bearingAxesMatrices } from "./bearing_coefficients";
-import type { BearingKind, SweepCurve, Swept } from "./bearing_kinds";
+import type { BearingKind, SweepCurve, Swept, SweepFigure } from "./bearing_kind";
+import type { Line } from "./bearing_sweep";
 import { surfaces } from "./surface";
 
 /** A curve of each film. */
@@ -11,16 +12,19 @@ const both = (key: string, unit: string): SweepCurve[] => [
 ];
 
 /** Four coefficients by their size; dotted where they are negative. */
-const coefficients = (name: string, unit: string, { over, lines }: Swept) => ({
+const coefficients = (name: string, unit: string, line: Line, { over }: Swept): SweepFigure => ({
   name,
-  caption: `${name === "stiffness" ? "Stiffness" : "Damping"} that the journal meets ${over}, bearing axes. Dotted: where a coefficient is negative.`,
+  caption: `${name === "stiffness" ? "Stiffness" : "Damping"} that the journal meets ${over}, bearing axes${line.label ? `; ${line.label}` : ""}. Dotted: where a coefficient is negative.`,
   left: { label: name, unit, log: true },
   curves: ["xx", "xy", "yx", "yy"].flatMap((pair, hue): SweepCurve[] => [
     { key: `${name}_${pair}`, label: pair, unit, sign: 1, hue, ...(hue === 1 || hue === 2 ? { dash: [6, 4] } : {}) },
     { key: `${name}_${pair}`, label: `−${pair}`, unit, sign: -1, hue, dash: [2, 3] },
   ]),
-  line: lines[0]!,
+  line,
 });
+
+/** Lines of a sweep whose coefficients have figures of their own. */
+const mostLines = 4;
 
 export const ring: BearingKind = {
   surface: surfaces.bore,
@@ -35,15 +39,14 @@ export const ring: BearingKind = {
     ["power_films", "Friction power of both films"],
   ],
   sweep: (swept) => {
-    const { over } = swept;
+    const { over, lines } = swept;
     return [
       { name: "film", caption: `Smallest thickness of both films ${over}.`, left: { label: "minimum film thickness", unit: "µm", fromZero: true }, curves: both("film_h_min", "µm") },
       { name: "ring-speed", caption: `Speed of the ring over that of the journal ${over}.`, left: { label: "speed ratio", unit: "", fromZero: true }, curves: [{ key: "ring_speed_ratio", label: "speed ratio", unit: "" }] },
       { name: "eccentricity", caption: `Eccentricity ratios of journal in ring and of ring in shell ${over}.`, left: { label: "eccentricity ratio", unit: "", fromZero: true }, curves: both("film_eccentricity_ratio", "") },
       { name: "pressure", caption: `Peak pressure of both films ${over}.`, left: { label: "peak film pressure", unit: "MPa", fromZero: true }, curves: both("film_p_max", "MPa") },
       { name: "power", caption: `Power lost to friction in both films ${over}.`, left: { label: "friction power", unit: "W", fromZero: true }, curves: both("film_power", "W") },
-      coefficients("stiffness", "N/m", swept),
-      coefficients("damping", "N·s/m", swept),
+      ...lines.slice(0, mostLines).flatMap((line) => [coefficients("stiffness", "N/m", line, swept), coefficients("damping", "N·s/m", line, swept)]),
     ];
   },
   columns: [

@@ -6,7 +6,6 @@
 
 #include "hersey/bearing/clearance.h"
 #include "hersey/bearing/operating_point.h"
-#include "hersey/bearing/squeeze_film_damper.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/core/contract.h"
 
@@ -129,8 +128,7 @@ FilmInertia::FilmInertia(const film::FilmModel& film, double momentum_factor) : 
     OperatingPoint point;
     point.e = Vector2d(clearance_ * std::sqrt(1 - s * s), 0);
     SteadyState state;
-    const SteadySummary found =
-        solve_steady(full, point, {.kind = squeeze_film_damper_kind(), .inertia_factor = momentum_factor}, state);
+    const SteadySummary found = solve_steady(full, point, {.inertia_factor = momentum_factor}, state);
     HERSEY_REQUIRE(found.solved(), "a full film at rest has a solution");
     const auto& M = state.coefficients.inertia;
     for (Index power = 0; power < kMassPoints; ++power) powers(k, power) = std::pow(x, static_cast<double>(power));

@@ -119,7 +119,7 @@ void Mechanism::view_energy(const solver::State& state, bool is_trial, EnergyVie
     const RelativeMotion relative = is_trial ? m.relatives[i] : m.relative_motion(i, state.t);
     const TwoBodyForce& force = *m.spec.forces[i].force;
     ForceView& observed = view.forces[i];
-    observed.stored = force.stored_energy(relative) + force.kinetic_energy(relative);
+    observed.stored = force.stored_energy(relative);
     observed.lost = force.lost_power(relative);
     observed.W = acting[i].W_B_A;
     observed.Q = acting[i].Q;
