@@ -167,7 +167,7 @@ TEST_CASE("PrescribedOrbit_HasTheForceOfDampingAndAddedMass") {
   orbit_y: {joint: orbit, coordinate: y, position: {expression: '2e-6*sin(600*t)', unit: m}}
 )"),
                                   "viscosity: 1e-3 mPa.s", "viscosity: 6 mPa.s");
-  const std::vector<std::string> overrides{"joints.orbit.initial.x=2 um", "simulation={duration: 4 ms, step: 0.1 ms}"};
+  const std::vector<std::string> overrides{"joints.orbit.initial.x=2 um", "simulation={duration: 4 ms, step: 50 us}"};
   const model::Model model = model::read_text(text, "m.yaml", overrides);
   bearing::SteadyState state;
   REQUIRE(bearing::solve_steady(model.bearings.front().film, {}, {.inertia_factor = 1.2}, state).solved());
@@ -183,7 +183,7 @@ TEST_CASE("PrescribedOrbit_HasTheForceOfDampingAndAddedMass") {
     const double x = force.values[k * force.width()], y = force.values[k * force.width() + 1];
     const Eigen::Vector2d polar(x * cosine + y * sine, -x * sine + y * cosine);
     const Eigen::Vector2d exact = e * Omega * Eigen::Vector2d(-M * Omega, C);
-    // Of the squared ratio of the orbit, 4e-4, and of the squared angle of a step, 4e-3/12, in phase and size.
+    // Of the squared ratio of the orbit, 4e-4, and of the squared angle of a step, 9e-4, in phase and size.
     constexpr double small = 2e-3;  // as above
     CHECK((polar - exact).norm() < small * exact.norm());
   }
