@@ -68,6 +68,7 @@ COMMANDS = {
     "squeeze_film_damper/model": [("bearing",)],
     "squeeze_film_damper/rotor": [("run", "simulation.duration=20ms")],
     "squeezer/model": [("run", "simulation.duration=15ms")],
+    "turbocharger/model": [("run", "first_speed=30000", "simulation.duration=20ms")],
 }
 # Examples that are not run, each with its reason.
 LEFT_OUT = {}

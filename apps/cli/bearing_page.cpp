@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <ctime>
 #include <utility>
 
@@ -19,9 +20,7 @@ namespace {
 using report::PageSolution;
 using study::BearingSolution;
 
-void add_fields(const BearingSolution& solution, PageSolution& page) {
-  const film::FilmModel& model = solution.model;
-  const film::FilmFields fields = study::fields_of(solution);
+void add_fields(const film::FilmModel& model, const film::FilmFields& fields, report::PageFilm& page) {
   const bearing::FilmCoordinate along = bearing::coordinate_along(model), across = bearing::coordinate_across(model);
   page.along = along.name, page.across = across.name;
   page.phi = along.values, page.z = across.values;
@@ -31,17 +30,42 @@ void add_fields(const BearingSolution& solution, PageSolution& page) {
       page.fields.push_back({field.name, field.unit, field.text, std::move(values)});
 }
 
-void add_features(const BearingSolution& solution, PageSolution& page) {
-  const film::FilmModel& model = solution.model;
+/// @param phi_line  where a supply line lies [rad]
+void add_features(const film::FilmModel& model, double journal_angle, double phi_line, report::PageFilm& page) {
   const double beyond = bearing::is_on_annulus(model) ? model.R : 0;
   for (const film::SurfaceFeature& f : model.features) {
-    const double turned = f.surface == film::Surface::journal ? solution.state.point.journal_angle : 0;
+    const double turned = f.surface == film::Surface::journal ? journal_angle : 0;
     page.features.push_back(
         {f.name, std::holds_alternative<film::Ellipse>(f.shape), f.phi + turned, f.z + beyond, f.arc, f.length});
   }
-  if (model.supply.kind == film::SupplyKind::none) return;
-  const film::SurfaceMotion motion = bearing::steady_surfaces(model, solution.state.point, solution.state.e);
-  page.features.push_back({"supply line", false, motion.phi_supply, 0, 0, model.L});
+  if (model.supply.kind != film::SupplyKind::none)
+    page.features.push_back({"supply line", false, phi_line, 0, 0, model.L});
+}
+
+report::PageFilm film_of(const BearingSolution& solution) {
+  const film::FilmModel& model = solution.model;
+  report::PageFilm page;
+  if (solution.state.kind->has_axis()) {
+    page.clearance = bearing::clearance(model, solution.state.point);
+    page.e = solution.state.e;
+  }
+  add_fields(model, study::fields_of(solution), page);
+  const bool has_line = model.supply.kind != film::SupplyKind::none;
+  const double phi_line =
+      has_line ? bearing::steady_surfaces(model, solution.state.point, solution.state.e).phi_supply : 0;
+  add_features(model, solution.state.point.journal_angle, phi_line, page);
+  return page;
+}
+
+report::PageFilm film_of_ring(const study::RingFilmState& film) {
+  report::PageFilm page;
+  page.name = film.name;
+  page.clearance = film.clearance;
+  page.e = film.e;
+  add_fields(film.model, film.fields, page);
+  const bool at_widest = film.model.supply.kind == film::SupplyKind::widest_gap;
+  add_features(film.model, 0, at_widest ? std::atan2(-film.e.y(), -film.e.x()) : film.model.supply.phi, page);
+  return page;
 }
 
 PageSolution page_of(const BearingSolution& solution) {
@@ -54,16 +78,15 @@ PageSolution page_of(const BearingSolution& solution) {
   if (!solution.solved()) return page;
   page.remark = whirl_remark(solution);
   page.has_axis = solution.state.kind->has_axis();
-  if (solution.state.kind->has_axis()) {
-    page.clearance = bearing::clearance(solution.model, solution.state.point);
-    page.e = solution.state.e;
-    page.load = solution.state.load;
-  }
+  if (page.has_axis) page.load = solution.state.load;
   for (const study::BearingFigure& f : study::figures_of(solution)) {
     page.figures.push_back({f.key, f.group, f.label, f.unit, f.value, f.grid_error, f.words});
   }
-  add_fields(solution, page);
-  add_features(solution, page);
+  if (solution.pads && solution.pads->ring) {
+    for (const study::RingFilmState& film : solution.pads->ring->films) page.films.push_back(film_of_ring(film));
+  } else {
+    page.films.push_back(film_of(solution));
+  }
   return page;
 }
 

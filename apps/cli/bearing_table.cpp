@@ -148,12 +148,18 @@ std::string bearing_text(const BearingSolution& solution) {
 std::string bearing_comparison_text(const std::vector<BearingSolution>& solutions) {
   std::vector<std::pair<const char*, const char*>> wanted{{"load", "W"},
                                                           {"eccentricity_ratio", "ecc. ratio"},
+                                                          {"ring_speed_ratio", "ring speed ratio"},
+                                                          {"film_eccentricity_ratio_inner", "ecc. ratio inner"},
+                                                          {"film_eccentricity_ratio_outer", "ecc. ratio outer"},
+                                                          {"film_h_min_inner", "h_min inner"},
+                                                          {"film_h_min_outer", "h_min outer"},
                                                           {"attitude", "attitude"},
                                                           {"h_min", "h_min"},
                                                           {"p_max", "p_max"},
                                                           {"friction_journal", "friction"},
                                                           {"friction_runner", "friction"},
                                                           {"asperity_share", "contact"},
+                                                          {"power_films", "power"},
                                                           {"side_flow", "side flow"},
                                                           {"sommerfeld_S", "S"},
                                                           {"load_number", "load number"},
@@ -167,6 +173,14 @@ std::string bearing_comparison_text(const std::vector<BearingSolution>& solution
       return std::none_of(figures.begin(), figures.end(), [&](const BearingFigure& f) { return f.key == one.first; });
     });
   }
+  const auto error_of_grid = [](const std::vector<BearingFigure>& figures) {
+    const auto at =
+        std::find_if(figures.begin(), figures.end(), [](const BearingFigure& f) { return f.key == "h_min"; });
+    return at == figures.end() ? -1.0 : at->grid_error;
+  };
+  const bool has_error = std::any_of(solutions.begin(), solutions.end(), [&](const BearingSolution& solution) {
+    return solution.solved() && error_of_grid(study::figures_of(solution)) >= 0;
+  });
   std::vector<std::vector<std::string>> lines;
   for (const BearingSolution& solution : solutions) {
     if (!solution.solved()) continue;
@@ -174,11 +188,12 @@ std::string bearing_comparison_text(const std::vector<BearingSolution>& solution
     if (lines.empty()) {
       lines.push_back({""});
       for (const auto& [key, heading] : wanted) lines.back().push_back(with_unit(heading, figure(figures, key).unit));
-      lines.back().push_back("h_min +- (grid)");
+      if (has_error) lines.back().push_back("h_min +- (grid)");
     }
     lines.push_back({solution.run.label});
     for (const auto& [key, heading] : wanted) lines.back().push_back(fmt::format("{:.5g}", figure(figures, key).value));
-    const double error = figure(figures, "h_min").grid_error;
+    if (!has_error) continue;
+    const double error = error_of_grid(figures);
     lines.back().push_back(error < 0 ? "-" : fmt::format("{:.2g}", error));
   }
   const std::string shear = study::shear_remark(solutions);

@@ -14,7 +14,7 @@ GROUPS = {
     "Bearings by themselves": ["bearing_alone", "lemon_bore", "lobed_bores", "hot_bearing", "hot_pedestal", "plane_slider",
                                "hydrostatic", "squeeze_film_damper", "wear"],
     "Bearings in machines": ["paper_big_end", "slider_crank", "engine", "flexible_big_end", "oil_whirl", "tilting_pads", "thrust_pads",
-                             "floating_ring"],
+                             "floating_ring", "turbocharger"],
     "Elastic bodies and rotors": ["conrod_pressure", "flexible_slider_crank", "flexible_rotor", "spinning_rod", "meshes"],
     "Mechanisms and contact": ["crank_train", "double_pendulum", "four_bar", "gyroscope", "squeezer", "ball_drop", "cam_follower"],
     "More": [],

@@ -28,6 +28,7 @@ SHORTENED = {
     "examples/paper_big_end/model.yaml": "study.parameters.load=[2500N]",
     "examples/slider_crank/model.yaml --output build/slider_crank": "simulation.duration=60deg",
     "examples/slider_crank/pin_hole.yaml": "simulation.duration=60deg",
+    "examples/turbocharger/model.yaml": "simulation.duration=20ms",
     "build/tutorial/big_end/model.yaml": "simulation.duration=180deg",
 }
 

@@ -6,6 +6,7 @@ import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { bearingReport, besideReport, everyReport, comparisonReport, machineReport, runReport, runUpReport, spectraReport, studyReport, sweepReport, modesReport } from "./checks.mjs";
 import { padReport, padRunReport, padStateReport, padSweepReport } from "./pad_checks.mjs";
+import { ringReport, ringSweepReport } from "./ring_checks.mjs";
 import { samplingReport } from "./sampling_checks.mjs";
 
 const flags = [
@@ -159,7 +160,8 @@ async function testReport(browser, file) {
   const hasMore = (await page.getByRole("button", { name: /^Load all/ }).count()) > 0;
   const isSampling = (await page.locator('[data-figure="parallel"]').count()) > 0;
   const ofSimulation = { ...(isComparison ? comparisonReport : {}), ...(isStudy ? studyReport : runReport), ...(isStudy && !isComparison ? spectraReport : {}), ...everyReport };
-  const ofBearing = { ...(isStudy ? sweepReport : {}), ...bearingReport };
+  const isRing = (await page.locator('[data-figure="map-outer"]').count()) > 0;
+  const ofBearing = isRing ? (isStudy ? ringSweepReport : ringReport) : { ...(isStudy ? sweepReport : {}), ...bearingReport };
   const isPad = (await page.locator("h1").innerText()).startsWith("A pad");
   const isState = (await page.locator(".figure.state").count()) > 0;
   const ofPad = isBearing ? { ...(isStudy ? padSweepReport : {}), ...padReport } : isState ? padStateReport : padRunReport;

@@ -10,8 +10,27 @@ function tables(...parts: HTMLElement[]): HTMLElement {
   return h("section", { class: "summary matrices", "aria-label": "Stiffness and damping" }, ...parts);
 }
 
-/** Of a journal: four matrices. */
-export function matrices(solution: SolutionText): HTMLElement {
+/** Of a journal: four matrices, or those that there are. */
+export function matrices(solution: SolutionText): HTMLElement | null {
+  return journalMatrices(solution, [
+    ["K = k c/W, axes of the load", "K"],
+    ["C = b c ω/W, axes of the load", "C"],
+    ["Stiffness k [N/m], bearing axes", "stiffness"],
+    ["Damping b [N·s/m], bearing axes", "damping"],
+  ], "Axes of the load: x along the load, y a quarter turn on in the sense of rotation.");
+}
+
+/** Of a journal whose coefficients have no load or clearance to be related to. */
+export function bearingAxesMatrices(solution: SolutionText): HTMLElement | null {
+  return journalMatrices(solution, [
+    ["Stiffness k [N/m], bearing axes", "stiffness"],
+    ["Damping b [N·s/m], bearing axes", "damping"],
+  ], "All parts of the bearing follow the journal at the whirl frequency.");
+}
+
+function journalMatrices(solution: SolutionText, wanted: [string, string][], note: string): HTMLElement | null {
+  const present = wanted.filter(([, key]) => figureOf(solution, `${key}_xx`));
+  if (present.length === 0) return null;
   const axes = ["x", "y"];
   const cell = (key: string) => h("td", { class: "number", "data-quantity": key }, format(figureOf(solution, key)?.value ?? null));
   // One error for all entries of a matrix.
@@ -29,11 +48,8 @@ export function matrices(solution: SolutionText): HTMLElement {
     );
   };
   return tables(
-    matrix("K = k c/W, axes of the load", "K"),
-    matrix("C = b c ω/W, axes of the load", "C"),
-    matrix("Stiffness k [N/m], bearing axes", "stiffness"),
-    matrix("Damping b [N·s/m], bearing axes", "damping"),
-    h("p", { class: "note" }, "Row: force of the film on the shell; column: displacement or velocity of the journal. Axes of the load: x along the load, y a quarter turn on in the sense of rotation."),
+    ...present.map(([title, key]) => matrix(title, key)),
+    h("p", { class: "note" }, `Row: force of the film on the shell; column: displacement or velocity of the journal. ${note}`),
   );
 }
 

@@ -2,52 +2,11 @@
 // stiffness and damping. Figures that a solution lacks are left out.
 
 import { approachAndTilt, matrices, thrustMatrices } from "./bearing_coefficients";
+import type { BearingKind, SweepCurve, Swept, SweepFigure } from "./bearing_kind";
 import type { Line } from "./bearing_sweep";
-import type { BearingText, SolutionText } from "./data";
-import type { Curve, LineFigure } from "./line_plot";
-import { surfaceOfPage, surfaces, type Surface } from "./surface";
-
-/** What a sweep is about. */
-export interface Swept {
-  /** "over speed". */
-  over: string;
-  lines: Line[];
-  isStribeck: boolean;
-  /** Whether asperities bear something somewhere. */
-  rough: boolean;
-}
-
-export interface SweepCurve extends Partial<Omit<Curve, "y">> {
-  key: string;
-  label: string;
-  unit: string;
-  /** Only where a single parameter is varied: a second quantity would drown among many lines. */
-  alone?: boolean;
-  /** Only values of this sign, by size: for logarithmic axes. */
-  sign?: 1 | -1;
-}
-
-export interface SweepFigure {
-  name: string;
-  caption: string;
-  left: LineFigure["left"];
-  right?: LineFigure["right"];
-  curves: SweepCurve[];
-  /** Of one line of the sweep only. */
-  line?: Line;
-}
-
-export interface BearingKind {
-  surface: Surface;
-  /** Before its name. */
-  title: string;
-  /** What stands large above the figures. */
-  tiles: [string, string][];
-  sweep: (swept: Swept) => SweepFigure[];
-  /** Figures in the table of a sweep with their short names; those that may be missing are left out where no solution has them. */
-  columns: [string, string, "may be missing"?][];
-  coefficients: (solution: SolutionText) => HTMLElement | null;
-}
+import type { BearingText } from "./data";
+import { ring } from "./ring_kind";
+import { surfaceOfPage, surfaces } from "./surface";
 
 /** Lines of a sweep whose coefficients have figures of their own. */
 const mostLines = 4;
@@ -291,6 +250,7 @@ const thrust: BearingKind = {
 const kinds = [journal, slider, thrust];
 
 export function kindOf(bearing: BearingText): BearingKind {
+  if (bearing.solutions.some(({ films }) => films.length > 1)) return ring;
   const surface = surfaceOfPage(bearing);
   return kinds.find((kind) => kind.surface === surface) ?? journal;
 }

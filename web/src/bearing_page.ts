@@ -1,10 +1,11 @@
 // A bearing by itself: its operating point, or a sweep with one of its solutions in detail.
 
-import { kindOf, type BearingKind, type SweepCurve, type SweepFigure } from "./bearing_kinds";
+import type { BearingKind, SweepCurve, SweepFigure } from "./bearing_kind";
+import { kindOf } from "./bearing_kinds";
 import { figureOf, Sweep, type Line } from "./bearing_sweep";
 import { bearingVerdict, placeOf } from "./bearing_verdict";
 import { sweepDrawings } from "./canvas";
-import { fieldsOnly, type BearingText, type FigureText, type SolutionText } from "./data";
+import { fieldsOnly, type BearingText, type FigureText, type FilmText, type SolutionText } from "./data";
 import { figure, h, segmented, tableButton } from "./dom";
 import { FieldMap, type Mark } from "./field_map";
 import { errorText, unitText, valueText } from "./figure_text";
@@ -19,10 +20,13 @@ import { megapascal, micrometre, shownUnit, typeset } from "./units";
 const groups: [string, string][] = [
   ["operating point", "Operating point"],
   ["film", "Film"],
+  ["films", "Films"],
   ["arcs", "Arcs"],
   ["pads", "Pads"],
   ["deformation", "Deformation"],
+  ["force of the orbit", "Force of the orbit"],
   ["friction", "Friction"],
+  ["power", "Power"],
   ["oil", "Oil"],
   ["heat", "Heat"],
   ["numbers", "Numbers"],
@@ -33,7 +37,7 @@ export function showBearing(page: HTMLElement, title: string, bearing: BearingTe
   const sweep = new Sweep(bearing);
   const kind = kindOf(bearing);
   const solved = bearing.solutions.flatMap((s, i) => (s.error ? [] : [i]));
-  page.append(head(title, kind, bearing, solved.length), bearingVerdict(bearing, kind.surface, sweep));
+  page.append(head(title, kind, bearing, solved.length), bearingVerdict(bearing, kind, sweep));
   const notes = assumptions(bearing.conditions);
   if (notes) page.append(notes);
   if (bearing.solutions.length === 1) {
@@ -80,30 +84,36 @@ function showSweep(page: HTMLElement, bearing: BearingText, kind: BearingKind, s
   if (solved.length > 0) show(solved[solved.length - 1]!, false);
 }
 
-/** Positions of journals over their clearance; of other kinds there are none. */
-function lines(sweep: Sweep, solutions: SolutionText[]): ConstructorParameters<typeof Locus>[0]["lines"] {
+/** Positions of journals over their clearance, of the k-th film; of other kinds there are none. */
+function lines(sweep: Sweep, solutions: SolutionText[], k: number): ConstructorParameters<typeof Locus>[0]["lines"] {
   return sweep.lines.map((line, colour) => ({
     colour,
     points: line.solutions.flatMap((index) => {
-      const { error, e, clearance } = solutions[index]!;
-      return error || !e || !clearance ? [] : [{ label: sweep.label(index), x: e[0] / clearance, y: e[1] / clearance, index }];
+      const { e, clearance } = solutions[index]!.films[k] ?? {};
+      return !e || !clearance ? [] : [{ label: sweep.label(index), x: e[0] / clearance, y: e[1] / clearance, index }];
     }),
   }));
 }
 
-/** The journal's centre in its clearance circle; nothing where there is no journal. */
-function locusOf(sweep: Sweep, solutions: SolutionText[], only: number | null, pick: (index: number) => void): Locus | null {
-  const all = lines(sweep, solutions).map((line) => ({ ...line, points: line.points.filter(({ index }) => only === null || index === only) }));
+/** The centre of what moves in the k-th film in its clearance circle; nothing where there is no journal. */
+function locusOf(sweep: Sweep, solutions: SolutionText[], k: number, only: number | null, pick: (index: number) => void): Locus | null {
+  const all = lines(sweep, solutions, k).map((line) => ({ ...line, points: line.points.filter(({ index }) => only === null || index === only) }));
   if (all.every(({ points }) => points.length === 0)) return null;
-  const clearance = (i: number) => solutions[i]!.clearance || (solutions.find((s) => !s.error)?.clearance ?? 0);
+  const clearance = (i: number) => solutions[i]!.films[k]?.clearance || (solutions.find((s) => !s.error)?.films[k]?.clearance ?? 0);
   return new Locus({ lines: all, load: (i) => solutions[i]!.load ?? [0, 0], clearance }, only ?? 0, pick);
 }
+
+/** Films of the first solution. */
+const filmsOf = (solutions: SolutionText[]): FilmText[] => solutions.find(({ films }) => films.length > 0)?.films ?? [];
+
+/** What moves in a film and what is around it. */
+const centre = ({ name }: FilmText): string => (name === "outer" ? "ring’s centre in the shell" : name === "inner" ? "journal’s centre in the ring" : "journal’s centre");
 
 /** Figures over the abscissa, and a table from which an operating point is picked. */
 class SweepView {
   readonly element = h("section", { class: "study", "aria-label": "Sweep" });
   private readonly figures = h("div", { class: "figures" });
-  private readonly locus: Locus | null;
+  private readonly loci: Locus[] = [];
   private readonly plots: LinePlot[] = [];
 
   constructor(
@@ -112,14 +122,18 @@ class SweepView {
     private readonly sweep: Sweep,
     private readonly pick: (index: number) => void,
   ) {
-    this.locus = locusOf(sweep, bearing.solutions, null, pick);
-    if (this.locus) this.figures.append(figure("locus", `Locus of the journal’s centre in the clearance circle over ${sweep.abscissa}, bearing axes; the point shown in detail with its load (arrow). A click on a point shows it.`, null, this.locus.element));
+    filmsOf(bearing.solutions).forEach((film, k) => {
+      const locus = locusOf(sweep, bearing.solutions, k, null, pick);
+      if (!locus) return;
+      this.loci.push(locus);
+      this.figures.append(figure(named("locus", film), `Locus of the ${centre(film)} in the clearance circle over ${sweep.abscissa}, bearing axes; the point shown in detail with its load (arrow). A click on a point shows it.`, null, locus.element));
+    });
     this.addAll();
     this.element.append(h("h2", {}, `Sweep over ${sweep.parameters.map((p) => p.replaceAll("_", " ")).join(" and ")}`), this.figures, this.table(), ...this.failures());
   }
 
   choose(index: number): void {
-    this.locus?.show(index);
+    for (const locus of this.loci) locus.show(index);
     for (const plot of this.plots) plot.mark(this.sweep.place(index));
     this.element.querySelectorAll<HTMLElement>("tr[data-run]").forEach((row) => {
       const chosen = row.dataset["run"] === String(index);
@@ -129,7 +143,8 @@ class SweepView {
   }
 
   private add({ name, caption, left, right, curves: specs, line }: SweepFigure): void {
-    const curves = specs.flatMap((spec) => this.curves(spec, line));
+    const isOfSeveral = specs.filter(({ alone }) => !alone).length > 1;
+    const curves = specs.flatMap((spec) => this.curves(spec, isOfSeveral, line));
     const values = curves.flatMap((c) => Array.from(c.y).filter((v) => v !== null && Number.isFinite(v)));
     // A pad that cannot tilt has no slopes to show.
     if (values.length === 0 || (name === "tilt" && values.every((v) => v === 0))) return;
@@ -152,13 +167,14 @@ class SweepView {
   }
 
   /** A curve for each line of the sweep, or for the one that the figure is about. */
-  private curves({ key, label, alone, sign, ...look }: SweepCurve, only?: Line): Curve[] {
+  private curves({ key, label, alone, sign, ...look }: SweepCurve, isOfSeveral: boolean, only?: Line): Curve[] {
     const { sweep } = this;
     if (alone && sweep.lines.length > 1) return [];
     return (only ? [only] : sweep.lines).map((line) => {
       const y = sweep.along(line, key);
       const sized = sign ? y.map((v) => (v !== null && sign * v > 0 ? sign * v : null)) : y;
-      return { points: true, ...look, label: only ? label : line.label || label, y: sized };
+      const name = only || !line.label ? label : isOfSeveral ? `${line.label}, ${label}` : line.label;
+      return { points: true, ...look, label: name, y: sized };
     });
   }
 
@@ -206,16 +222,18 @@ class SolutionView {
   private readonly solution: SolutionText;
 
   constructor(
-    private readonly bearing: BearingText,
+    bearing: BearingText,
     private readonly kind: BearingKind,
     sweep: Sweep,
     index: number,
   ) {
     this.solution = bearing.solutions[index]!;
     const figures = h("div", { class: "figures" });
-    const locus = locusOf(sweep, bearing.solutions, index, () => undefined);
-    if (locus) figures.append(figure("locus", "The journal’s centre in the clearance circle, bearing axes, and the direction of the load (arrow).", null, locus.element));
-    this.addFilm(figures);
+    this.solution.films.forEach((film, k) => {
+      const locus = locusOf(sweep, bearing.solutions, k, index, () => undefined);
+      if (locus) figures.append(figure(named("locus", film), `The ${centre(film)} in the clearance circle, bearing axes, and the direction of the load (arrow).`, null, locus.element));
+      this.addFilm(figures, film);
+    });
     this.element.append(...[this.headline(), figures, kind.coefficients(this.solution), this.tables()].filter((e) => e !== null));
   }
 
@@ -234,17 +252,20 @@ class SolutionView {
     );
   }
 
-  private addFilm(figures: HTMLElement): void {
-    const fields = FilmFields.of(fieldsOnly(this.solution.datasets), this.bearing.name);
+  private addFilm(figures: HTMLElement, film: FilmText): void {
+    const fields = FilmFields.of(fieldsOnly(this.solution.datasets), film.bearing);
     if (!fields) return;
     const kinds = fields.kinds();
-    const map = new FieldMap(fields, kinds[0]!, "run", this.solution.features);
-    map.show(0, [...this.mark("p_max", "cross"), ...this.mark("h_min", "ring")]);
+    const map = new FieldMap(fields, kinds[0]!, "run", film.features);
+    // Figures know places between nodes; of the films of a ring there are none.
+    const marks = film.name ? [...extremeMark(fields, "pressure", 1, "cross"), ...extremeMark(fields, "thickness", -1, "ring")] : [...this.mark("p_max", "cross"), ...this.mark("h_min", "ring")];
+    map.show(0, marks);
     const choices = kinds.map(({ key, label }) => ({ value: key, label: capital(label.replace("Film ", "")) }));
     const controls = h("div", { class: "controls" }, segmented("Field shown", choices, kinds[0]!.key, (key) => map.choose(kinds.find((k: FieldKind) => k.key === key)!)));
-    const drawn = this.solution.features.length > 0 ? " White outlines: where oil is fed." : "";
-    figures.append(figure("map", `The film on ${fields.surface.map}.${drawn} Thin white line: edge of the full film; cross: peak pressure; ring: smallest film thickness.`, tableButton(`${this.bearing.name}-film`, () => map.numbers()), controls, map.element));
-    const midplane = this.midplane(fields);
+    const drawn = film.features.length > 0 ? " White outlines: where oil is fed." : "";
+    const which = film.name ? `The ${film.name} film, unwrapped` : `The film on ${fields.surface.map}`;
+    figures.append(figure(named("map", film), `${which}.${drawn} Thin white line: edge of the full film; cross: peak pressure; ring: smallest film thickness.`, tableButton(`${film.bearing}-film`, () => map.numbers()), controls, map.element));
+    const midplane = this.midplane(fields, film);
     if (midplane) figures.append(midplane);
   }
 
@@ -258,21 +279,21 @@ class SolutionView {
     return typeof x === "number" && typeof y === "number" ? [{ along: x, across: y, symbol }] : [];
   }
 
-  private midplane(fields: FilmFields): HTMLElement | null {
+  private midplane(fields: FilmFields, film: FilmText): HTMLElement | null {
     const { along, surface } = fields;
     const [pressure, thickness] = [fields.midplane("pressure", 0, megapascal.factor), fields.midplane("thickness", 0, micrometre.factor)];
     if (!pressure) return null;
     const curves: Curve[] = [{ label: "pressure", y: pressure, unit: "MPa", fill: true }];
     if (thickness) curves.push({ label: "film thickness", y: thickness, unit: "µm", axis: "right" });
     const plot = new LinePlot({
-      name: `${this.bearing.name}-midplane`,
+      name: `${film.bearing}-midplane`,
       x: { label: axisName(along.coordinate), unit: along.coordinate.display.unit, values: along.shown() },
       left: { label: `pressure at ${surface.middle}`, unit: "MPa", fromZero: true },
       ...(thickness ? { right: { label: "film thickness", unit: "µm", fromZero: true } } : {}),
       curves,
       height: 260,
     });
-    return figure("midplane", `Pressure and film thickness along the middle of ${surface.whole}.`, plot.tools, plot.element);
+    return figure(named("midplane", film), `Pressure and film thickness along the middle of ${film.name ? `the ${film.name} film` : surface.whole}.`, plot.tools, plot.element);
   }
 
   private tables(): HTMLElement {
@@ -282,6 +303,21 @@ class SolutionView {
     });
     return h("section", { class: "summary", "aria-label": "Figures" }, ...tables, this.solution.remark ? h("p", { class: "note" }, capital(this.solution.remark) + ".") : null);
   }
+}
+
+/** Name of a figure of one of several films. */
+function named(name: string, film: FilmText): string {
+  return film.name ? `${name}-${film.name}` : name;
+}
+
+/** The node at which a field is largest (sign 1) or smallest. */
+function extremeMark(fields: FilmFields, key: string, sign: 1 | -1, symbol: Mark["symbol"]): Mark[] {
+  const values = fields.at(key, 0);
+  if (!values) return [];
+  let best = 0;
+  for (let i = 1; i < values.length; i++) if (sign * values[i]! > sign * values[best]!) best = i;
+  const across = fields.across.nodes;
+  return [{ along: fields.along.nodes[Math.floor(best / across.length)]!, across: across[best % across.length]!, symbol }];
 }
 
 /** A moment that symmetry makes zero but for round-off. */

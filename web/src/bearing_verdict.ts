@@ -1,5 +1,6 @@
 // The first lines about a bearing by itself: whether it was solved, what is worst and where.
 
+import type { BearingKind } from "./bearing_kind";
 import { figureOf, type Sweep } from "./bearing_sweep";
 import type { BearingText, FigureText, SolutionText } from "./data";
 import { h } from "./dom";
@@ -19,15 +20,15 @@ export function placeOf({ along, across }: Surface, solution: SolutionText, key:
   return places.every((text) => text) ? places.join(", ") : "";
 }
 
-export function bearingVerdict(bearing: BearingText, surface: Surface, sweep: Sweep): HTMLElement {
+export function bearingVerdict(bearing: BearingText, { surface, smallestThickness = ["h_min"] }: BearingKind, sweep: Sweep): HTMLElement {
   const list = judged(bearing);
   const sweeps = bearing.solutions.length > 1;
   return h(
     "section",
     { class: `verdict ${worstLevel(list)}`, "aria-label": "Verdict" },
-    sentence(bearing, surface, sweep, sweeps),
+    sentence(bearing, surface, smallestThickness, sweep, sweeps),
     judgementList(list),
-    sweeps ? h("div", { class: "tiles key-tiles" }, ...tiles(bearing, surface, sweep)) : null,
+    sweeps ? h("div", { class: "tiles key-tiles" }, ...tiles(bearing, surface, smallestThickness, sweep)) : null,
   );
 }
 
@@ -44,11 +45,14 @@ function judged(bearing: BearingText): Judgement[] {
 
 type Worst = { figure: FigureText; index: number };
 
-function worst(bearing: BearingText, key: string, worse: (a: number, b: number) => boolean): Worst | null {
+/** Of one figure, or of those of several films. */
+function worst(bearing: BearingText, keys: string[], worse: (a: number, b: number) => boolean): Worst | null {
   let best: Worst | null = null;
   bearing.solutions.forEach((solution, index) => {
-    const figure = solution.error ? undefined : figureOf(solution, key);
-    if (figure && figure.value !== null && (best === null || worse(figure.value, best.figure.value!))) best = { figure, index };
+    for (const key of keys) {
+      const figure = solution.error ? undefined : figureOf(solution, key);
+      if (figure && figure.value !== null && (best === null || worse(figure.value, best.figure.value!))) best = { figure, index };
+    }
   });
   return best;
 }
@@ -56,26 +60,27 @@ function worst(bearing: BearingText, key: string, worse: (a: number, b: number) 
 const below = (a: number, b: number) => a < b;
 const above = (a: number, b: number) => a > b;
 
-function sentence(bearing: BearingText, surface: Surface, sweep: Sweep, sweeps: boolean): HTMLElement | null {
-  const thinnest = worst(bearing, "h_min", below);
+function sentence(bearing: BearingText, surface: Surface, thicknesses: string[], sweep: Sweep, sweeps: boolean): HTMLElement | null {
+  const thinnest = worst(bearing, thicknesses, below);
   if (!thinnest) return null;
   const { figure, index } = thinnest;
-  const at = placeOf(surface, bearing.solutions[index]!, "h_min");
-  const who = sweeps ? sweep.label(index) : spaced(bearing.name);
+  const at = placeOf(surface, bearing.solutions[index]!, figure.key);
+  const film = figure.key.startsWith("film_h_min_") ? `, ${figure.key.replace("film_h_min_", "")} film` : "";
+  const who = `${sweeps ? sweep.label(index) : spaced(bearing.name)}${film}`;
   return h("p", { class: "verdict-line" }, sweeps ? `Thinnest film of ${bearing.solutions.length} operating points: ` : "Thinnest film: ", h("strong", {}, who), `, ${withUnit(figure.value, shownUnit(figure.unit))}${at ? ` at ${place(at)}` : ""}`);
 }
 
-function tiles(bearing: BearingText, surface: Surface, sweep: Sweep): HTMLElement[] {
-  const asked: [string, string, typeof below][] = [
-    ["Thinnest film", "h_min", below],
-    ["Peak film pressure", "p_max", above],
-    ["Hottest oil", "T_max", above],
-    ["Greatest film loss", "power_film", above],
-    ["Largest side flow", "side_flow", above],
-    ["Least critical mass", "critical_mass", below],
+function tiles(bearing: BearingText, surface: Surface, thicknesses: string[], sweep: Sweep): HTMLElement[] {
+  const asked: [string, string[], typeof below][] = [
+    ["Thinnest film", thicknesses, below],
+    ["Peak film pressure", ["p_max", "film_p_max_inner", "film_p_max_outer"], above],
+    ["Hottest oil", ["T_max"], above],
+    ["Greatest film loss", ["power_film", "power_films"], above],
+    ["Largest side flow", ["side_flow"], above],
+    ["Least critical mass", ["critical_mass"], below],
   ];
-  return asked.flatMap(([label, key, worse]) => {
-    const found = worst(bearing, key, worse);
-    return found ? [tile({ label, value: found.figure.value, unit: shownUnit(found.figure.unit), owner: sweep.label(found.index), where: placeOf(surface, bearing.solutions[found.index]!, key) })] : [];
+  return asked.flatMap(([label, keys, worse]) => {
+    const found = worst(bearing, keys, worse);
+    return found ? [tile({ label, value: found.figure.value, unit: shownUnit(found.figure.unit), owner: sweep.label(found.index), where: placeOf(surface, bearing.solutions[found.index]!, found.figure.key) })] : [];
   });
 }

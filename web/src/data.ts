@@ -98,16 +98,27 @@ export interface FeatureText {
   length: number;
 }
 
+/** A film of a bearing by itself. */
+export interface FilmText {
+  /** "inner"; empty where it is the only one. */
+  name: string;
+  /** The bearing that its datasets are of. */
+  bearing: string;
+  features: FeatureText[];
+  /** Of a surface in a bore. */
+  clearance?: number;
+  e?: [number, number];
+}
+
 export interface SolutionText {
   label: string;
   values: [string, string][];
   error: string;
   remark: string;
   figures: FigureText[];
-  features: FeatureText[];
+  /** One, or those of a floating ring, the inner first; none where there is no solution. */
+  films: FilmText[];
   /** Of a journal in a bore. */
-  clearance?: number;
-  e?: [number, number];
   load?: [number, number];
   datasets: Record<string, DatasetText>;
 }

@@ -74,8 +74,8 @@ class Quadratic final : public ScalarFunction {
   double a_, b_, c_;
 };
 
-/// A linear force between two frames in all six directions, neither symmetric nor conservative: the hardest case a film
-/// can present to the assembly.
+/// A linear force between two frames in all six directions, neither symmetric nor conservative but for its inertia: the
+/// hardest case a film can present to the assembly.
 class FullBushing final : public TwoBodyForce {
  public:
   FullBushing() {
@@ -85,6 +85,9 @@ class FullBushing final : public TwoBodyForce {
       K_(i) = 40 * uniform(random);
       D_(i) = 7 * uniform(random);
     }
+    Matrix6 root;
+    for (int i = 0; i < 36; ++i) root(i) = 0.3 * uniform(random);
+    M_ = root * root.transpose();
   }
   void evaluate(const RelativeMotion& motion, bool, ForceResponse& response) override {
     // A function of the pose whose derivative with respect to a twist is known: its columns R e_1, and r.
@@ -93,13 +96,14 @@ class FullBushing final : public TwoBodyForce {
     x << d, r;
     Matrix6 dx;  // dx/dxi: d' = phi x d, r' = rho + phi x r
     dx << -skew(d), Matrix3::Zero(), -skew(r), Matrix3::Identity();
-    response.W_B_A = K_ * x + D_ * motion.V_AB_A;
+    response.W_B_A = K_ * x + D_ * motion.V_AB_A - M_ * motion.A_AB_A;
     response.dW_dX = K_ * dx;
     response.dW_dV = D_;
+    response.dW_dA = -M_;
   }
 
  private:
-  Matrix6 K_, D_;
+  Matrix6 K_, D_, M_;
 };
 
 /// A force that depends on the shapes of elastic bodies and acts on them: every component depends on everything.

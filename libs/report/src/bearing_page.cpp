@@ -23,19 +23,30 @@ json dataset(const Eigen::VectorXd& values, const std::vector<Eigen::Index>& sha
   return {{"unit", unit}, {"description", text}, {"shape", shape}, {"type", "f4"}, {"data", base64_float32(numbers)}};
 }
 
-// The film as a results file stores it, with a single instant.
-json datasets(const PageSolution& solution, const std::string& bearing) {
-  const Eigen::Index n_phi = solution.phi.size(), n_z = solution.z.size();
-  const std::string fields = "/bearings/" + bearing + "/fields/";
-  json result;
+// Name of a film as a machine's results have it: of a ring "turbine_inner", else that of the bearing.
+std::string name_of_film(const PageFilm& film, const std::string& bearing) {
+  return film.name.empty() ? bearing : bearing + "_" + film.name;
+}
+
+// A film as a results file stores it, with a single instant.
+void add_datasets(const PageFilm& film, const std::string& bearing, json& result) {
+  const Eigen::Index n_phi = film.phi.size(), n_z = film.z.size();
+  const std::string fields = "/bearings/" + name_of_film(film, bearing) + "/fields/";
   result[fields + "time"] = dataset(Eigen::VectorXd::Zero(1), {1}, "s");
-  result[fields + solution.along] = dataset(solution.phi, {n_phi}, solution.along == "phi" ? "rad" : "m");
-  if (!solution.arcs.empty())
-    result[fields + "arc"] = dataset(Eigen::Map<const Eigen::VectorXd>(solution.arcs.data(), n_phi), {n_phi}, "1");
-  result[fields + solution.across] = dataset(solution.z, {n_z}, "m");
-  for (const PageField& field : solution.fields)
+  result[fields + film.along] = dataset(film.phi, {n_phi}, film.along == "phi" ? "rad" : "m");
+  if (!film.arcs.empty())
+    result[fields + "arc"] = dataset(Eigen::Map<const Eigen::VectorXd>(film.arcs.data(), n_phi), {n_phi}, "1");
+  result[fields + film.across] = dataset(film.z, {n_z}, "m");
+  for (const PageField& field : film.fields)
     result[fields + field.name] = dataset(field.values, {1, n_phi, n_z}, field.unit, field.text);
-  return result;
+}
+
+json features(const PageFilm& film) {
+  json list = json::array();
+  for (const PageFeature& f : film.features)
+    list.push_back(
+        {{"name", f.name}, {"round", f.is_round}, {"phi", f.phi}, {"z", f.z}, {"arc", f.arc}, {"length", f.length}});
+  return list;
 }
 
 json figures(const PageSolution& solution) {
@@ -51,18 +62,18 @@ json figures(const PageSolution& solution) {
 
 json solution_data(const PageSolution& solution, const std::string& bearing) {
   json data{{"label", solution.label},   {"values", pairs(solution.values)}, {"error", solution.message},
-            {"remark", solution.remark}, {"figures", figures(solution)},     {"features", json::array()},
+            {"remark", solution.remark}, {"figures", figures(solution)},     {"films", json::array()},
             {"datasets", json::object()}};
-  if (solution.has_axis) {
-    data["clearance"] = solution.clearance;
-    data["e"] = {solution.e.x(), solution.e.y()};
-    data["load"] = {solution.load.x(), solution.load.y()};
+  if (solution.has_axis) data["load"] = {solution.load.x(), solution.load.y()};
+  for (const PageFilm& film : solution.films) {
+    json& entry = data["films"].emplace_back();
+    entry = {{"name", film.name}, {"bearing", name_of_film(film, bearing)}, {"features", features(film)}};
+    if (solution.has_axis) {
+      entry["clearance"] = film.clearance;
+      entry["e"] = {film.e.x(), film.e.y()};
+    }
+    if (solution.solved()) add_datasets(film, bearing, data["datasets"]);
   }
-  for (const PageFeature& f : solution.features) {
-    data["features"].push_back(
-        {{"name", f.name}, {"round", f.is_round}, {"phi", f.phi}, {"z", f.z}, {"arc", f.arc}, {"length", f.length}});
-  }
-  if (solution.solved()) data["datasets"] = datasets(solution, bearing);
   return data;
 }
 

@@ -59,7 +59,9 @@ RingState ring_state(const model::Composite& composite, const run::SteadyMotion&
     state.films.push_back({.name = films[k].first,
                            .e = films[k].second,
                            .clearance = bearing::clearance(alone.bearings[k].film),
-                           .film = motion.bearings[k].film});
+                           .film = motion.bearings[k].film,
+                           .model = alone.bearings[k].film,
+                           .fields = motion.fields[k]});
   return state;
 }
 

@@ -154,6 +154,8 @@ void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, m
   } else {
     evaluate_partitioned(response);
   }
+  // The film's forces above are those of the present motion; inertia adds to them and has no unknowns.
+  if (domain_error_.empty() && options_.inertia) options_.inertia->add(motion, want_tangent, response);
   // A prediction of a step that exchanges forces has no film yet.
   if (domain_error_.empty() && (is_monolithic || exchange_->exchanges() > 0)) response.summed = summed_forces();
 }
@@ -330,6 +332,7 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   shown.oil = film_->oil().of_run();
   shown.wrench_on_shell = shown.film.wrench_on_shell;
   shown.power_into_bodies = -shown.wrench_on_shell.dot(motion.V_AB_A);
+  if (options_.inertia) shown.wrench_on_shell -= options_.inertia->wrench(motion);
   if (deforming_->deform())
     shown.power_into_bodies += (deforming_->openings().transpose() * shown.film.normal_forces).dot(motion.s_rate);
   for (const auto& shape : shapes_) shown.power_of_growth += shape->power(shown.film.normal_forces);

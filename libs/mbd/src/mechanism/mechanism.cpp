@@ -383,8 +383,11 @@ void Mechanism::accept_step(const State& end) {
   m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.body().accept_step(elastic.motion()); });
   m.accepted.resize(m.spec.forces.size());
   const auto accept = [&](std::size_t i) {
-    m.spec.forces[i].force->accept_step(m.relative_motion(i, end.t));
-    m.accepted[i].W_B_A = m.responses[i].W_B_A;
+    const RelativeMotion relative = m.relative_motion(i, end.t);
+    m.spec.forces[i].force->accept_step(relative);
+    // Accelerations may be solved for after the forces have been evaluated, as at a start: inertia forces follow them.
+    const ForceResponse& found = m.responses[i];
+    m.accepted[i].W_B_A = found.W_B_A + found.dW_dA * (relative.A_AB_A - m.relatives[i].A_AB_A);
     m.accepted[i].Q = m.responses[i].Q;
   };
   m.for_each_force(std::cref(accept));

@@ -154,6 +154,7 @@ void MechanismParts::observe_efforts(const solver::State& state, Observation& ob
     observation.force_wrenches.push_back(response.W_B_A);
     observation.force_powers.push_back(response.W_B_A.dot(relative.V_AB_A) + response.Q.dot(relative.s_rate));
     observation.spring_energy += spec.forces[i].force->stored_energy(relative);
+    observation.kinetic_energy += spec.forces[i].force->kinetic_energy(relative);
     observation.damper_power += spec.forces[i].force->lost_power(relative);
   }
 }

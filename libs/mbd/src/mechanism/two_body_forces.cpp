@@ -17,6 +17,7 @@ void ForceResponse::set_zero(Index amplitudes) {
   summed = 0;
   dW_dX.setZero();
   dW_dV.setZero();
+  dW_dA.setZero();
   Q.setZero(amplitudes);
   dW_ds.setZero(6, amplitudes);
   dW_dr.setZero(6, amplitudes);

@@ -14,6 +14,23 @@ Vector6 sizes(const Vector6& W, double summed, const Vector3& at) {
   return size;
 }
 
+/// Change of the relative acceleration (mechanisms.29), in ground's axes at its origin, by an increment of a column
+/// between the frames of a pair: theory manual eq. (mechanisms.30).
+Vector6 acceleration_change(const Assembly& assembly, const Pair& pair, const SignedColumn& col) {
+  const TreeMotion& motion = assembly.motion;
+  const Direction& d = assembly.directions[col.column];
+  const Vector6 &V_a = motion.V(pair.a.link), &V_b = motion.V(pair.b.link);
+  const auto velocity = [&](const Vector6& V) { return Vector6(cross_motion(d.J, V) + d.H); };
+  const auto acceleration = [&](const Vector6& V, const Vector6& A) {
+    return Vector6(cross_motion(d.J, A) + cross_motion(d.H, V) + d.E);
+  };
+  if (col.sign > 0) return acceleration(V_b, motion.A(pair.b.link)) - cross_motion(V_a, velocity(V_b));
+  const Vector6 V_ab = V_b - V_a, dV_a = velocity(V_a);
+  const Vector6 relative = motion.A(pair.b.link) - motion.A(pair.a.link) - cross_motion(V_a, V_ab);
+  return -cross_motion(d.J, relative) - acceleration(V_a, motion.A(pair.a.link)) - cross_motion(dV_a, V_ab) +
+         cross_motion(V_a, dV_a);
+}
+
 }  // namespace
 
 void compute_directions(const Tree& tree, const TreeMotion& motion, const solver::Stage& stage,
@@ -53,8 +70,10 @@ void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& r
   const Matrix6 to_A = motion_transform(X_WA.inverse());
   const Matrix6 K = to_A.transpose() * response.dW_dX * to_A;
   const bool is_damped = !response.dW_dV.isZero(0);  // that of a constraint is not
-  Matrix6 D;
+  const bool has_inertia = !response.dW_dA.isZero(0);
+  Matrix6 D, M;
   if (is_damped) D = to_A.transpose() * response.dW_dV * to_A;
+  if (has_inertia) M = to_A.transpose() * response.dW_dA * to_A;
   const double c = assembly.stage.c;
   for (const SignedColumn& col : pair.columns) {
     // A column that moves b alone changes the relative pose by +J and the relative velocity by J x (V_b - V_p);
@@ -65,6 +84,7 @@ void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& r
     if (is_damped)
       dW += col.sign *
             (D * (cross_motion(J_k, motion.V(pair.b.link) - motion.V(link.parent)) + c * motion.J(col.column)));
+    if (has_inertia) dW += M * acceleration_change(assembly, pair, col);
     if (col.sign < 0) dW += cross_force(J_k, W);
     for (const SignedColumn& row : pair.columns) {
       const Vector6& J_j = motion.J(row.column);

@@ -114,7 +114,10 @@ RelativeMotion TreeMotion::relative(const Pair& pair) const {
   const Pose X_WA = pose(pair.a);
   RelativeMotion motion;
   motion.X_AB = X_WA.inverse() * pose(pair.b);
-  motion.V_AB_A = motion_transform(X_WA.inverse()) * (V_[pair.b.link] - V_[pair.a.link]);
+  const Matrix6 to_A = motion_transform(X_WA.inverse());
+  const Vector6 &V_a = V_[pair.a.link], V_ab = V_[pair.b.link] - V_a;
+  motion.V_AB_A = to_A * V_ab;
+  motion.A_AB_A = to_A * (A_[pair.b.link] - A_[pair.a.link] - cross_motion(V_a, V_ab));  // (mechanisms.29)
   return motion;
 }
 

@@ -7,6 +7,7 @@
 
 #include "build/build_beam.h"
 #include "build/build_flexible.h"
+#include "hersey/bearing/film_inertia.h"
 #include "hersey/bearing/journal_bearing.h"
 #include "hersey/core/contract.h"
 #include "hersey/fem/load_distributions.h"
@@ -395,6 +396,8 @@ class Builder {
     }
     options.growth = bearing.growth;
     options.wear = bearing.wear;
+    if (bearing.moves_with_inertia)
+      options.inertia = std::make_shared<bearing::FilmInertia>(bearing.film, momentum_factor(bearing.oil_inertia));
     for (const Function& pressure : bearing.feature_pressures) {
       options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hersey/bearing/elastic_surface.h"
+#include "hersey/bearing/film_inertia.h"
 #include "hersey/bearing/film_observation.h"
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/bearing/wear.h"
@@ -45,8 +46,9 @@ struct BearingOptions {
   /// Thermal model of the film, whose temperatures are advanced at each accepted step; unset: an isothermal film at the
   /// model's temperature.
   std::optional<film::ThermalModel> thermal = {};
-  double growth = 0;                   ///< thermal change of the clearance of an isothermal film [m]
-  std::optional<WearModel> wear = {};  ///< of both surfaces, in time; unset: none
+  double growth = 0;                                ///< thermal change of the clearance of an isothermal film [m]
+  std::optional<WearModel> wear = {};               ///< of both surfaces, in time; unset: none
+  std::shared_ptr<const FilmInertia> inertia = {};  ///< of the oil; null: the film's forces are those without inertia
   /// Surfaces of elastic bodies; null: rigid. Their amplitudes come with the motion, the shell's before the journal's.
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
@@ -102,6 +104,9 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] std::string name_of_internal_residual() const override;
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }
   void persist(Archive& archive) override;
+  [[nodiscard]] double kinetic_energy(const mbd::RelativeMotion& motion) const override {
+    return options_.inertia ? options_.inertia->energy(motion) : 0;
+  }
 
   /// Returns film::FilmHeat::mean_heat_flow() of the cycle of the machine that ended with the step last accepted.
   const film::WallHeatFlow& mean_heat_flow();

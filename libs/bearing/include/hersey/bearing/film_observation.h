@@ -20,11 +20,14 @@ struct CumulativeOilBalance {
 
 /// Observation of one bearing at an accepted state.
 struct BearingObservation {
-  GapPosition position;                       ///< of the moving surface
-  Vector6 wrench_on_shell = Vector6::Zero();  ///< [moment about the bearing's origin; force], bearing frame
-  double power_into_bodies = 0;  ///< of wrench, forces on shapes and growing walls [W]; negative: the film takes power
-  double power_of_growth = 0;    ///< its part on walls that grow with their temperature [W]
-  double clearance = 0;          ///< radial, at the temperatures of the walls [m]
+  GapPosition position;  ///< of the moving surface
+  /// [moment about the bearing's origin; force], bearing frame, the oil's inertia included
+  Vector6 wrench_on_shell = Vector6::Zero();
+  /// Power of the wrench without inertia, of forces on shapes and of growing walls [W]; negative: the film takes power.
+  /// What inertia takes is kinetic energy of the machine.
+  double power_into_bodies = 0;
+  double power_of_growth = 0;  ///< its part on walls that grow with their temperature [W]
+  double clearance = 0;        ///< radial, at the temperatures of the walls [m]
   /// How far walls in bodies have grown outwards by temperature, their means over the nodes [m]; and the clearance with
   /// them (theory manual, thermal.64).
   double bore_growth = 0, journal_growth = 0, clearance_of_bodies = 0;

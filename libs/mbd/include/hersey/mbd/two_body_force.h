@@ -14,17 +14,21 @@ struct RelativeMotion {
   double dt = 0;                     ///< length of the step being solved [s]; 0: steady or instantaneous
   Pose X_AB;                         ///< pose of B in A
   Vector6 V_AB_A = Vector6::Zero();  ///< velocity of B relative to A at A's origin, in A's axes, [omega; v]
-  Eigen::VectorXd s, s_rate;         ///< amplitudes of the shapes of A's elastic body, then of B's, and their rates
+  /// Rate of V_AB_A as an observer on A sees it, in A's axes (theory manual eq. (mechanisms.29)).
+  Vector6 A_AB_A = Vector6::Zero();
+  Eigen::VectorXd s, s_rate;  ///< amplitudes of the shapes of A's elastic body, then of B's, and their rates
 };
 
 /// The wrench the force puts on B, at A's origin and in A's axes; on A acts its negative at the same point.
-/// Derivatives are with respect to a twist xi_A that moves B relative to A, dX_AB = xi^ X_AB at fixed V_AB_A, and to
-/// V_AB_A. A force that depends on amplitudes s of shapes also exerts generalised forces Q on them: its power is W .
-/// V_AB_A + Q . s_rate (theory manual eq. (flexible-bodies.25)).
+/// Derivatives are with respect to a twist xi_A that moves B relative to A, dX_AB = xi^ X_AB at fixed V_AB_A and
+/// A_AB_A, to V_AB_A and to A_AB_A. A force that depends on amplitudes s of shapes also exerts generalised forces Q on
+/// them: its power is W . V_AB_A + Q . s_rate (theory manual eq. (flexible-bodies.25)).
 struct ForceResponse {
   Vector6 W_B_A = Vector6::Zero();  ///< [tau; f] [N m; N]
   Matrix6 dW_dX = Matrix6::Zero();
   Matrix6 dW_dV = Matrix6::Zero();
+  /// Negative added inertia [kg; kg m; kg m^2], of which the wrench is an affine function; always computed.
+  Matrix6 dW_dA = Matrix6::Zero();
 
   /// Sum of the magnitudes of the forces whose resultant is the wrench; it scales the round-off of the wrench [N]; 0 if
   /// the wrench is no such resultant.
@@ -54,6 +58,10 @@ class TwoBodyForce : public solver::Condensed<RelativeMotion> {
 
   /// Returns the stored energy [J]; 0 if the force stores none.
   [[nodiscard]] virtual double stored_energy(const RelativeMotion&) const { return 0; }
+
+  /// Returns the kinetic energy of what the force moves along with the bodies [J], as the oil of a damper's film; 0 if
+  /// it has no inertia. The wrench contains the inertia forces.
+  [[nodiscard]] virtual double kinetic_energy(const RelativeMotion&) const { return 0; }
 
   /// Returns the power taken from the bodies that does not increase `stored_energy`, in general the dissipated power
   /// [W]. It is not computed from the wrench, because the energy balance compares both. 0 for forces that report their

@@ -308,6 +308,7 @@ struct Bearing {
   /// The surface of the journal's body, for a journal whose wall is that body (film::BodyJournal); else null.
   std::shared_ptr<const fem::FilmSurface> heated_journal;
   OilInertia oil_inertia = OilInertia::none;
+  bool moves_with_inertia = false;  ///< in a machine the motion feels that inertia (damper.15)
   std::optional<OperatingPoint> operating_point;
   SourcePosition position;
 };

@@ -121,7 +121,7 @@ std::vector<Key> journal_keys() {
   };
   keys.push_back(defaulted("oil_inertia", choice(oil_inertia_words), "none",
                            "Inertia of the oil as an added mass of the journal, which `hersey bearing` reports beside "
-                           "stiffness and damping."));
+                           "stiffness and damping; machines feel that of dampers which are the same all around."));
   keys.push_back(defaulted("shear_force", choice(shear_force_words), "full", "What shear does to the bodies."));
   for (Key& key : surface_keys({})) keys.push_back(std::move(key));
   return keys;

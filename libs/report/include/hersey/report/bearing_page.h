@@ -32,21 +32,27 @@ struct PageField {
   Eigen::VectorXd values;  ///< at the nodes, index i z.size() + j
 };
 
+/// One film with its nodes.
+struct PageFilm {
+  std::string name;                         ///< "inner"; empty: the only film of its bearing
+  std::string along = "phi", across = "z";  ///< names of the nodes' coordinates: "y" of a slider, "r" of a thrust
+  Eigen::VectorXd phi, z;                   ///< positions of the nodes along and across [rad, m]; "y": [m, m]
+  std::vector<double> arcs;                 ///< number of the arc on which each node of phi lies; empty: a whole bore
+  std::vector<PageField> fields;
+  std::vector<PageFeature> features;
+  double clearance = 0;                         ///< radial [m]
+  Eigen::Vector2d e = Eigen::Vector2d::Zero();  ///< position of the surface inside over that around it [m]
+};
+
 /// One operating point of a single bearing. Unsolved, it has a label, values and the reason why there is no solution.
 struct [[nodiscard]] PageSolution : Outcome {
   std::string label;  ///< label that distinguishes it from the others; empty if it is the only one
   std::vector<std::pair<std::string, std::string>> values;  ///< of the swept parameters, as written
   std::string remark;                                       ///< about its stability and the like
   std::vector<PageFigure> figures;
-  std::vector<PageFeature> features;
-  double clearance = 0;                            ///< radial [m]
-  Eigen::Vector2d e = Eigen::Vector2d::Zero();     ///< position of the journal [m]
   Eigen::Vector2d load = Eigen::Vector2d::Zero();  ///< on the journal [N]
   bool has_axis = true;                            ///< a journal: with clearance, position and load as vectors
-  std::string along = "phi", across = "z";  ///< names of the nodes' coordinates: "y" of a slider, "r" of a thrust
-  Eigen::VectorXd phi, z;                   ///< positions of the nodes along and across [rad, m]; "y": [m, m]
-  std::vector<double> arcs;                 ///< number of the arc on which each node of phi lies; empty: a whole bore
-  std::vector<PageField> fields;
+  std::vector<PageFilm> films;                     ///< one, or those of a floating ring: the inner first
 };
 
 /// Contents of the report of a single bearing.

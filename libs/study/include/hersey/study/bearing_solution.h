@@ -37,6 +37,8 @@ struct RingFilmState {
   Eigen::Vector2d e = Eigen::Vector2d::Zero();  ///< of what rotates in it, over what is around it, bearing axes [m]
   double clearance = 0;                         ///< radial [m]
   film::FilmObservables film;
+  film::FilmModel model;
+  film::FilmFields fields;  ///< at the nodes of the model's grid
 };
 
 /// The ring of a solved floating ring.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hersey/bearing/rigid_surfaces.h"
+#include "hersey/bearing/squeeze_film_damper.h"
 #include "hersey/film/film_solver.h"
 #include "interpret/bearings/kinds/film_reader.h"
 #include "interpret/bearings/kinds/journal_arcs.h"
@@ -223,14 +224,14 @@ std::optional<JournalPoint> operating_point_of(Context& context, const Value& be
 
 namespace {
 
-/// The added mass belongs to small motions of rigid surfaces. In a machine in motion the film's forces are those of oil
-/// without inertia.
+/// The added mass belongs to small motions of rigid surfaces. In a machine in motion the forces of a film that drags
+/// oil are those without inertia; a damper's kind decides for itself.
 void check_inertia(Context& context, const Value& value, const Bearing& bearing) {
   if (bearing.oil_inertia == OilInertia::none) return;
   const Value& inertia = *value.find("oil_inertia");
   if (bearing.shell_surface || bearing.journal_surface)
     context.fault(inertia, "inertia of the oil between surfaces that deform", "none, or rigid surfaces");
-  if (!bearing.shell.body.empty())
+  if (!bearing.shell.body.empty() && !bearing::is_damper(*bearing.kind))
     context.model.warnings.push_back(
         {inertia.position, inertia.path, "inertia of the oil in a machine, whose motion does not feel it",
          "`hersey bearing`, which reports the added mass", "add that mass to the journal's body"});

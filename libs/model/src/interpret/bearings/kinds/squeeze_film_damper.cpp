@@ -35,11 +35,26 @@ bool has_pressure(const film::FilmModel& film) {
                      [&](const auto& feature) { return feature.is_fed && is_above(feature.pressure); });
 }
 
+/// In a machine the motion feels the inertia of a film that is the same all around (damper.12).
+void read_inertia_in_motion(Context& context, const Value& value, Bearing& bearing) {
+  if (bearing.oil_inertia == OilInertia::none || bearing.shell.body.empty()) return;
+  const bool has_line = bearing.film.supply.kind != film::SupplyKind::none;
+  const std::string differs = has_line ? "a supply line" : difference_around(bearing);
+  bearing.moves_with_inertia = differs.empty();
+  const Value& inertia = *value.find("oil_inertia");
+  if (!differs.empty())
+    context.model.warnings.push_back({inertia.position, inertia.path,
+                                      "inertia of the oil in a bore with " + differs + ", which a motion does not feel",
+                                      "a bore that is the same all around, fed by full grooves or over its edges",
+                                      "add the mass that `hersey bearing` reports to the journal's body"});
+}
+
 }  // namespace
 
 void read_squeeze_film_damper(Context& context, const Value& value, Bearing& bearing) {
   bearing.kind = bearing::squeeze_film_damper_kind();
   read_journal(context, value, bearing);
+  read_inertia_in_motion(context, value, bearing);
 }
 
 void read_squeeze_film_damper_point(Context& context, const Value& bearing_value, Bearing& bearing) {
