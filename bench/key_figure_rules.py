@@ -47,6 +47,7 @@ COMMANDS = {
     "lemon_bore/model": [("bearing",)],
     "lobed_bores/model": [("bearing",)],
     "lobed_bores/partial_arc": [("bearing",)],
+    "oil_circuit/model": [("run", "simulation.duration=10ms")],
     "oil_whirl/flexible": [("run", "simulation.duration=20ms")],
     "oil_whirl/model": [("run", "simulation.duration=0.1s")],
     "oil_whirl/steady": [("run", "speed=9000rpm")],

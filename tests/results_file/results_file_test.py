@@ -36,6 +36,7 @@ RUNS = {
     "examples/plane_slider/carriage.yaml": ["--set", "simulation.duration=2ms", "--set",
                                             "simulation.cycle={period: 1 ms, most: 2}"],
     "examples/tilting_pads/model.yaml": [],
+    "oil_circuit": ["--set", "simulation.duration=2ms"],
     "tests/results_file/thrust.yaml": [],
     "tests/results_file/every_line.yaml": ["--step-error", "--set", "simulation.duration=0.5ms"],
 }

@@ -75,12 +75,9 @@ Flow DisplacementPump::flow(double drop, const Oil& /*oil*/, double speed) const
 
 Flow PumpCurve::flow(double drop, const Oil& /*oil*/, double /*speed*/) const {
   const double rise = -drop;
-  std::size_t k = 1;
-  while (k + 1 < points.size() && points[k].first < rise) ++k;
-  const auto& [rise_a, flow_a] = points[k - 1];
-  const auto& [rise_b, flow_b] = points[k];
-  const double by_rise = (flow_b - flow_a) / (rise_b - rise_a);
-  return {flow_a + by_rise * (rise - rise_a), -by_rise};
+  double by_rise = 0;
+  curve->gradient({&rise, 1}, {&by_rise, 1});
+  return {curve->value({&rise, 1}), -by_rise};
 }
 
 Flow GivenFlow::flow(double /*drop*/, const Oil& /*oil*/, double /*speed*/) const { return {rate, 0}; }

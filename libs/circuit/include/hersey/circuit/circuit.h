@@ -68,7 +68,8 @@ class Circuit {
   /// @throws ContractError for elements between nodes, or on shafts, that do not exist
   explicit Circuit(Network network);
 
-  [[nodiscard]] const Network& network() const { return network_; }
+  [[nodiscard]] const Network& network() const { return network_; }  ///< as given
+  /// Number of nodes.
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(network_.nodes.size()); }
 
   /// Returns the flow through an element, from its first node to its second.

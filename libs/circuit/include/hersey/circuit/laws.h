@@ -1,11 +1,10 @@
 #pragma once
 
-#include <string_view>
-#include <utility>
+#include <memory>
 #include <variant>
-#include <vector>
 
 #include "hersey/circuit/oil.h"
+#include "hersey/core/scalar_function.h"
 
 /// Laws of elements: flow over drop of pressure. A new one is a struct like these and an alternative of Law.
 namespace hersey::circuit {
@@ -60,10 +59,9 @@ struct DisplacementPump {
   [[nodiscard]] Flow flow(double drop, const Oil& oil, double speed) const;
 };
 
-/// A pump whose flow over the rise of pressure has been measured at one speed: straight lines between the points, and
-/// beyond them.
+/// A pump whose flow over the rise of pressure has been measured.
 struct PumpCurve {
-  std::vector<std::pair<double, double>> points;  ///< rise [Pa], ascending, and flow [m^3/s], nowhere ascending; >= 2
+  std::shared_ptr<const ScalarFunction> curve;  ///< flow [m^3/s] of the rise [Pa], nowhere ascending; never null
   /// Returns the flow under a drop of pressure [Pa], the negative of its rise, and its slope.
   [[nodiscard]] Flow flow(double drop, const Oil& oil, double speed) const;
 };

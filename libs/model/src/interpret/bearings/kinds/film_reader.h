@@ -47,6 +47,7 @@ class FilmReader {
   [[nodiscard]] const Lubricant* lubricant() const { return lubricant_; }
 
  private:
+  void read_port(const Value& node, const Value* pressure, film::SurfaceFeature& feature);
   void read_turbulence();
   void check_turbulence(const Value& turbulence);
   void read_roughness();
