@@ -131,11 +131,11 @@ class Network(unittest.TestCase):
             path = os.path.join(folder, "model.yaml")
             with open(path, "w", encoding="utf-8") as file:
                 file.write(model())
-            results = os.path.join(folder, "run.h5")
-            done = subprocess.run([HERSEY, "run", path, "--output", results], capture_output=True, text=True, check=False)
+            output = os.path.join(folder, "run")
+            done = subprocess.run([HERSEY, "run", path, "--output", output], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             pressures, flows = solution()
-            with h5py.File(results) as file:
+            with h5py.File(os.path.join(output, "results.h5")) as file:
                 for name, expected in zip(UNKNOWN, pressures):
                     self.assertLess(abs(file[f"circuit/pressure_{name}"][-1] - expected), 1e-8 * expected, name)
                 for name, expected in flows.items():
