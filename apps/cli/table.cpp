@@ -45,7 +45,9 @@ std::string heading_of(const SummaryRow& row) {
   if (row.group == "run") return row.run;
   if (row.group == "modes") return "small motions";
   if (row.group == "computing") return "computing time";
-  if (row.group == "cycles" || row.group == "thermal network" || row.group.starts_with("contact ")) return row.group;
+  if (row.group == "cycles" || row.group == "thermal network" || row.group == "circuit" ||
+      row.group.starts_with("contact "))
+    return row.group;
   return "bearing " + row.group;
 }
 

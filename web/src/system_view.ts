@@ -56,6 +56,7 @@ export class SystemView {
       const things = run.children(group).filter((thing) => run.growingIn(`${group}/${thing}`).length > 0);
       if (things.length > 0) this.element.append(section(title, false, (body) => things.forEach((thing) => this.further(body, `${group}/${thing}`))));
     }
+    if (run.growingIn("/circuit").length > 0) this.element.append(section("Oil circuit", alone, (body) => this.further(body, "/circuit")));
     if (run.growingIn("/thermal").length > 0) this.element.append(section("Thermal network", false, (body) => this.further(body, "/thermal")));
     if (alone) solution();
     if (run.model) this.element.append(h("details", {}, h("summary", {}, "Model as it was run"), h("pre", { class: "model", tabindex: 0, role: "region", "aria-label": "Model file" }, run.model)));

@@ -336,6 +336,8 @@ const std::vector<Dimension>& dimensions() {
       {"N.m.s/rad", "a torsional damping", "0.1 N.m.s/rad", {"N.m.s/rad"}, 1e21},
       {"m^3/s", "a flow", "0.5 l/min", {"m^3/s", "l/min", "mm^3/s"}, 1e9},
       {"Pa.s/m^3", "a flow resistance", "3e11 Pa.s/m^3", {"Pa.s/m^3", "bar.min/l"}, 1e25},
+      {"m^3/s/Pa", "a flow over pressure", "12 l/min/bar", {"m^3/s/Pa", "l/min/bar"}, 1e9},
+      {"m^3/Pa", "a volume over pressure", "1 mm^3/bar", {"m^3/Pa", "mm^3/bar", "cm^3/bar"}, 1e12},
       {"s/m", "an inverse velocity", "0.5 s/m", {"s/m", "s/mm"}, 1e12},
       {"Hz", "a frequency", "50 Hz", {"Hz", "kHz", "1/s"}, 1e12},
       {"K", "a temperature", "60 degC", {"degC", "K"}, 1e6},

@@ -67,6 +67,7 @@ class Summary {
     convergence_rows();
     bearing_rows();
     thermal_rows();
+    circuit_rows();
     contact_rows();
     run_rows();
     return std::move(rows_);
@@ -224,6 +225,14 @@ class Summary {
     add_rows(run::quantities_of(path_), {Statistic::mean});
     add_rows(run::quantities_of(path_), {Statistic::at_end});
     add_rows(run::quantities_of(path_), {Statistic::largest_in_size});
+  }
+
+  void circuit_rows() {
+    using Statistic = SummaryEntry::Statistic;
+    if (!reader_.has("/circuit/balance_error")) return;
+    group_ = "circuit";
+    path_ = "/circuit/";
+    add_rows(run::quantities_of(path_), {Statistic::smallest, Statistic::mean, Statistic::largest_in_size});
   }
 
   void contact_rows() {

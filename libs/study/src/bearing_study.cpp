@@ -492,6 +492,11 @@ bearing::OperatingPoint operating_point_of(const model::Bearing& bearing) {
                            ""});
   }
   for (std::size_t f = 0; f < bearing.feature_pressures.size(); ++f) {
+    const std::string path = "bearings." + bearing.name + ".features." + bearing.film.features[f].name;
+    if (model::node_of_feature(bearing, f))
+      throw InputError(Fault{
+          bearing.position, path, "a feed of the circuit, which is solved with the whole machine",
+          "`hersey run`, with `analysis: steady` for a steady motion, or a `pressure` in place of `circuit`", ""});
     const model::Function& pressure = bearing.feature_pressures[f];
     if (pressure.is_constant()) continue;
     throw InputError(Fault{pressure.position, pressure.path, "a pressure that varies",

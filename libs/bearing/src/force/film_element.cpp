@@ -103,8 +103,8 @@ film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, con
 }
 
 film::CondensedFilm& FilmElement::condense(const std::vector<film::MotionDirection>& directions,
-                                           const Eigen::MatrixXd& openings) {
-  reynolds_.condense(directions, openings, condensed_);
+                                           const Eigen::MatrixXd& openings, film::PortFlows flows) {
+  reynolds_.condense(directions, openings, condensed_, flows);
   is_linearised_ = true;
   return condensed_;
 }

@@ -42,7 +42,8 @@ class FilmElement {
   [[nodiscard]] film::FilmDomain linearise(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters);
   /// Forces after the film's increment with their derivatives by each parameter (bearing.10), from the last
   /// linearisation; u follows the parameters from now on.
-  film::CondensedFilm& condense(const std::vector<film::MotionDirection>& directions, const Eigen::MatrixXd& openings);
+  film::CondensedFilm& condense(const std::vector<film::MotionDirection>& directions, const Eigen::MatrixXd& openings,
+                                film::PortFlows flows = film::PortFlows::left_out);
   struct Forces {
     Vector6 wrench_on_shell;
     Eigen::VectorXd Q;  ///< on shapes

@@ -54,10 +54,16 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
       exchange_(std::make_unique<WrenchExchange>(options.acceleration, options.relaxation, deforming_->amplitudes(),
                                                  model.R)),
       gap_parameter_count_(gap_->parameters().size()),
-      parameters_(Eigen::VectorXd::Zero(gap_parameter_count_ + 2 * deforming_->amplitudes())),
+      parameters_(Eigen::VectorXd::Zero(gap_parameter_count_ + 2 * deforming_->amplitudes() + port_count())),
       directions_(static_cast<std::size_t>(parameters_.size())),
+      port_pressures_(Eigen::VectorXd::Constant(port_count(), model.p_cav)),
       accepted_s_(Eigen::VectorXd::Zero(deforming_->amplitudes())) {
   if (options.wear) wearing_ = add_shape(std::make_unique<WearingSurfaces>(film_->model(), *options.wear), shapes_);
+  HERSEY_REQUIRE(port_count() == 0 || options.coupling == Coupling::monolithic, "a circuit in one Newton system");
+  for (Eigen::Index k = 0; k < port_count(); ++k)
+    directions_[directions_.size() - static_cast<std::size_t>(port_count() - k)].port_pressure =
+        Eigen::VectorXd::Unit(static_cast<Eigen::Index>(model.features.size()),
+                              static_cast<Eigen::Index>(options_.circuit_ports[static_cast<std::size_t>(k)]));
 }
 
 FilmForce::~FilmForce() = default;
@@ -73,7 +79,7 @@ void FilmForce::evaluate_surfaces(const mbd::RelativeMotion& motion) {
   HERSEY_REQUIRE(motion.s.size() == deforming_->amplitudes(), "the amplitudes of both surfaces' bodies");
   parameters_.head(gap_parameter_count_) = gap_->parameters();
   parameters_.segment(gap_parameter_count_, motion.s.size()) = motion.s;
-  parameters_.tail(motion.s.size()) = motion.s_rate;
+  parameters_.segment(gap_parameter_count_ + motion.s.size(), motion.s.size()) = motion.s_rate;
   const GapKinematics::Turning turning = gap_->turning();
   for (const auto& shape : shapes_) shape->add_to(motion, turning, surfaces_);
   set_supply_pressures(motion.t);
@@ -88,6 +94,26 @@ void FilmForce::set_supply_pressures(double t) {
   for (std::size_t f = 0; f < pressures.size(); ++f) {
     surfaces_.feature_pressure[static_cast<Eigen::Index>(f)] = pressures[f]->value({&t, 1});
   }
+  set_port_pressures(port_pressures_);
+}
+
+void FilmForce::follow(const mbd::RelativeMotion& motion) {
+  evaluate_surfaces(motion);
+  has_followed_ = true;
+}
+
+Eigen::VectorXd FilmForce::change_of_parameters(const Eigen::VectorXd& from) const {
+  Eigen::VectorXd change = surface_parameters() - from;
+  for (Eigen::Index k = 0; k < gap_parameter_count_; ++k)
+    if (gap_->is_angle(k)) change[k] = std::remainder(change[k], 2 * std::numbers::pi);
+  return change;
+}
+
+void FilmForce::set_port_pressures(const Eigen::VectorXd& p) {
+  port_pressures_ = p;
+  parameters_.tail(port_count()) = p;
+  for (Eigen::Index k = 0; k < port_count(); ++k)
+    surfaces_.feature_pressure[static_cast<Eigen::Index>(options_.circuit_ports[static_cast<std::size_t>(k)])] = p[k];
 }
 
 // Smallest gap between the surfaces as their bodies deform, without the liner.
@@ -137,7 +163,8 @@ void FilmForce::begin_step(const mbd::RelativeMotion& start, double dt) {
 void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, mbd::ForceResponse& response) {
   response.set_zero(deforming_->amplitudes());
   film_->discard_oil_balance();
-  evaluate_surfaces(motion);
+  if (!has_followed_) evaluate_surfaces(motion);
+  has_followed_ = false;
   if (!domain_error_.empty()) return;
   const bool is_start = motion.dt == 0;
   if (is_start) {
@@ -174,20 +201,51 @@ void FilmForce::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& respo
   if (const film::FilmDomain domain = film_->linearise(surfaces_, parameters_); !domain.is_inside())
     return report(domain);
   internal_residual_ = film_->reynolds().residual().relative;
-  if (want_tangent)
+  if (want_tangent || port_count() > 0)
     condense_film(response);
   else
     increment_film(response);
 }
 
-// The journal takes the negative of the wrench that the shell takes.
 void FilmForce::condense_film(mbd::ForceResponse& response) {
-  const Eigen::Index m = deforming_->amplitudes();
   for (Eigen::Index k = 0; k < gap_parameter_count_; ++k) directions_[static_cast<std::size_t>(k)] = gap_->direction(k);
   std::copy(deforming_->directions().begin(), deforming_->directions().end(),
             directions_.begin() + gap_parameter_count_);
   deforming_->add_turning(gap_->turning(), directions_);
-  film::CondensedFilm& film = film_->condense(directions_, deforming_->openings());
+  condensed_ = &film_->condense(directions_, deforming_->openings(),
+                                port_count() > 0 ? film::PortFlows::included : film::PortFlows::left_out);
+  if (port_count() == 0) respond(response);
+}
+
+// Flows through features that a circuit does not feed are of no concern to it.
+FilmForce::PortAnswer FilmForce::port_answer() const {
+  const Eigen::Index ports = port_count(), others = parameters_.size() - ports;
+  PortAnswer answer{Eigen::VectorXd(ports), Eigen::MatrixXd(ports, others), Eigen::MatrixXd(ports, ports)};
+  for (Eigen::Index k = 0; k < ports; ++k) {
+    const auto feature = static_cast<Eigen::Index>(options_.circuit_ports[static_cast<std::size_t>(k)]);
+    answer.flow[k] = condensed_->port_flow[feature];
+    answer.by_parameters.row(k) = condensed_->port_flow_by_s.row(feature).head(others);
+    answer.by_pressure.row(k) = condensed_->port_flow_by_s.row(feature).tail(ports);
+  }
+  return answer;
+}
+
+// (circuit.10)
+void FilmForce::complete(const Eigen::VectorXd& dp, const Eigen::MatrixXd& dp_by_parameters,
+                         mbd::ForceResponse& response) {
+  const Eigen::Index ports = port_count(), others = parameters_.size() - ports;
+  film::CondensedFilm& film = *condensed_;
+  film.wrench += film.wrench_by_s.rightCols(ports) * dp;
+  film.wrench_by_s.leftCols(others) += film.wrench_by_s.rightCols(ports) * dp_by_parameters;
+  film.Q += film.Q_by_s.rightCols(ports) * dp;
+  film.Q_by_s.leftCols(others) += film.Q_by_s.rightCols(ports) * dp_by_parameters;
+  respond(response);
+}
+
+// The journal takes the negative of the wrench that the shell takes.
+void FilmForce::respond(mbd::ForceResponse& response) {
+  const Eigen::Index m = deforming_->amplitudes();
+  film::CondensedFilm& film = *condensed_;
   response.W_B_A = -film.wrench;
   const auto by_journal = film.wrench_by_s.leftCols(gap_parameter_count_);
   response.dW_dX.noalias() = -by_journal * gap_->d_dX();
@@ -196,11 +254,11 @@ void FilmForce::condense_film(mbd::ForceResponse& response) {
   deforming_->add_turning_forces(gap_->turning(), film_->reynolds().forces().normal.value, film.Q_by_s);
   response.Q = film.Q;
   response.dW_ds = -film.wrench_by_s.middleCols(gap_parameter_count_, m);
-  response.dW_dr = -film.wrench_by_s.rightCols(m);
+  response.dW_dr = -film.wrench_by_s.middleCols(gap_parameter_count_ + m, m);
   response.dQ_dX.noalias() = film.Q_by_s.leftCols(gap_parameter_count_) * gap_->d_dX();
   response.dQ_dV.noalias() = film.Q_by_s.leftCols(gap_parameter_count_) * gap_->d_dV();
   response.dQ_ds = film.Q_by_s.middleCols(gap_parameter_count_, m);
-  response.dQ_dr = film.Q_by_s.rightCols(m);
+  response.dQ_dr = film.Q_by_s.middleCols(gap_parameter_count_ + m, m);
 }
 
 // Wrench and forces on shapes after the film's own increment (bearing.10), without derivatives.

@@ -33,6 +33,11 @@ MechanismParts::MechanismParts(MechanismSpec given)
   for (const CoordinateSpringSpec& spring : spec.springs) spring_columns.push_back(column_of(tree, spring.coordinate));
   for (const MechanismSpec::CoordinateForce& force : spec.coordinate_forces)
     coordinate_force_columns.push_back(column_of(tree, force.coordinate));
+  for (const MechanismSpec::Shared& shared : spec.shared) {
+    shared_columns.emplace_back();
+    for (const CoordinateRef& coordinate : shared.coordinates)
+      shared_columns.back().push_back(column_of(tree, coordinate));
+  }
   add_elastic_bodies();
   find_deforming_surfaces();
   release_redundant_rows();
@@ -344,13 +349,14 @@ Eigen::VectorXd Mechanism::position_scales() const {
 void Mechanism::begin_step(const State& start, double dt) {
   MechanismParts& m = *parts_;
   m.v_begun = start.v;
-  if (m.spec.forces.empty() && m.elastics.empty()) return;
+  if (!m.has_stateful_parts()) return;
   const Stopwatch all(m.timing.total);
   m.motion.update(start);
   m.read_elastic_bodies(start);
   m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.body().begin_step(elastic.motion(), dt); });
   const auto begin = [&](std::size_t i) { m.spec.forces[i].force->begin_step(m.relative_motion(i, start.t), dt); };
   m.for_each_force(std::cref(begin));
+  for (const MechanismSpec::Shared& shared : m.spec.shared) shared.unknowns->begin_step(dt);
 }
 
 bool Mechanism::is_step_consistent() {
@@ -372,15 +378,16 @@ void Mechanism::accept_step(const State& end) {
     const int k = m.coordinate_force_columns[i];
     m.spec.coordinate_forces[i].force->accept_step(end.t, end.q[m.q_of(k)], end.v[k]);
   }
-  if (m.spec.forces.empty() && m.elastics.empty() && m.redundancies.empty()) return;
+  if (!m.has_stateful_parts() && m.redundancies.empty()) return;
   m.motion.update_positions(end);
   m.watch_dropped_rows();
-  if (m.spec.forces.empty() && m.elastics.empty()) return;
+  if (!m.has_stateful_parts()) return;
   m.motion.update_velocities(end);
   m.motion.update_accelerations(end);
   m.read_elastic_bodies(end);
   m.hand_out_shape_forces(m.responses);
   m.for_each_elastic([&](ElasticAssembly& elastic) { elastic.body().accept_step(elastic.motion()); });
+  for (const MechanismSpec::Shared& shared : m.spec.shared) shared.unknowns->accept_step();
   m.accepted.resize(m.spec.forces.size());
   const auto accept = [&](std::size_t i) {
     const RelativeMotion relative = m.relative_motion(i, end.t);
@@ -471,6 +478,10 @@ void Mechanism::persist(Archive& archive) {
   for (const MechanismSpec::Force& force : m.spec.forces) {
     const Archive::Group group(archive, "force " + force.name);
     force.force->persist(archive);
+  }
+  for (const MechanismSpec::Shared& shared : m.spec.shared) {
+    const Archive::Group group(archive, shared.name);
+    shared.unknowns->persist(archive);
   }
   for (ElasticAssembly& elastic : m.elastics) {
     const Archive::Group group(archive, "body " + elastic.name());

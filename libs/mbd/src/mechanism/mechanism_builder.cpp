@@ -111,6 +111,12 @@ ForceId MechanismBuilder::add_force(std::string name, FrameId a, FrameId b, std:
   return append<ForceId>(spec_.forces, MechanismSpec::Force{std::move(name), a, b, std::move(force), surfaces});
 }
 
+void MechanismBuilder::add_shared_unknowns(std::string name, std::shared_ptr<SharedUnknowns> unknowns,
+                                           std::vector<CoordinateRef> coordinates) {
+  HERSEY_REQUIRE(unknowns != nullptr, "there are unknowns");
+  spec_.shared.push_back({std::move(name), std::move(unknowns), std::move(coordinates)});
+}
+
 LoadId MechanismBuilder::add_load(LoadSpec load) {
   HERSEY_REQUIRE(0 <= load.frame.index && load.frame.index < static_cast<int>(spec_.frames.size()), "the frame exists");
   for (const LoadTerm& term : load.terms) HERSEY_REQUIRE(term.magnitude != nullptr, "each term has a magnitude");

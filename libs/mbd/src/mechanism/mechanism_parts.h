@@ -45,8 +45,9 @@ struct MechanismParts {
   int nq = 0, nv = 0;  ///< coordinates of the tree, then own coordinates of elastic bodies
   std::vector<int> spring_columns;
   std::vector<int> coordinate_force_columns;
-  SparseMatrix pattern;             ///< pattern of the tangent with zero values
-  SparseMatrix constraint_pattern;  ///< pattern of G with zero values
+  std::vector<std::vector<int>> shared_columns;  ///< of the coordinates on which shared unknowns depend
+  SparseMatrix pattern;                          ///< pattern of the tangent with zero values
+  SparseMatrix constraint_pattern;               ///< pattern of G with zero values
 
   /// Indices in `elastics` of the bodies on whose deformation a two-body force depends; -1: none.
   struct Sides {
@@ -94,10 +95,15 @@ struct MechanismParts {
       visit(elastics[i]);
     }
   }
+  /// True if anything moves on with the steps that is no coordinate.
+  [[nodiscard]] bool has_stateful_parts() const {
+    return !spec.forces.empty() || !elastics.empty() || !spec.shared.empty();
+  }
   /// Calls visit(owner, part) for all that may condense unknowns; owner() is its name in messages.
   template <class Visit>
   void for_each_part(Visit visit) {
     for (const MechanismSpec::Force& force : spec.forces) visit([&] { return force.name; }, *force.force);
+    for (const MechanismSpec::Shared& shared : spec.shared) visit([&] { return shared.name; }, *shared.unknowns);
     for (const ElasticAssembly& elastic : elastics) visit([&] { return "body " + elastic.name(); }, elastic.body());
   }
   void make_patterns();
@@ -108,6 +114,7 @@ struct MechanismParts {
   void visit_surface_columns(std::size_t i, Visit visit) const;
   void read_elastic_bodies(const solver::State& state);
   void evaluate_two_body_forces(const Assembly& assembly, const solver::State& state);
+  void follow_shared(const Assembly& assembly, const solver::State& state);
   Eigen::VectorXd v_begun;  ///< velocities at the beginning of the step
   void add_inertia_and_elasticity(Assembly& assembly, const solver::State& state);
   void hand_out_shape_forces(const std::vector<ForceResponse>& of_forces);

@@ -92,8 +92,18 @@ void MechanismParts::evaluate_two_body_forces(const Assembly& assembly, const so
   const auto evaluate = [&](std::size_t i) {
     spec.forces[i].force->evaluate(relatives[i], want_tangent, responses[i]);
   };
+  follow_shared(assembly, state);
   for_each_force(std::cref(evaluate));
+  for (const MechanismSpec::Shared& shared : spec.shared) shared.unknowns->condense(responses);
   hand_out_shape_forces(responses);
+}
+
+void MechanismParts::follow_shared(const Assembly& assembly, const solver::State& state) {
+  for (std::size_t i = 0; i < spec.shared.size(); ++i) {
+    std::vector<double> rates;
+    for (const int column : shared_columns[i]) rates.push_back(state.v[column]);
+    spec.shared[i].unknowns->follow({state.t, assembly.stage.dt, relatives, rates});
+  }
 }
 
 void MechanismParts::hand_out_shape_forces(const std::vector<ForceResponse>& of_forces) {

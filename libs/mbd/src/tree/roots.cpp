@@ -31,6 +31,8 @@ std::vector<bool> joints_in_use(const MechanismSpec& spec) {
   for (const DriveSpec& d : spec.drives) use(d.coordinate);
   for (const CoordinateSpringSpec& s : spec.springs) use(s.coordinate);
   for (const MechanismSpec::CoordinateForce& f : spec.coordinate_forces) use(f.coordinate);
+  for (const MechanismSpec::Shared& s : spec.shared)
+    for (const CoordinateRef& coordinate : s.coordinates) use(coordinate);
   for (const CouplingSpec& c : spec.couplings) {
     use(c.output);
     for (const CouplingSpec::Term& term : c.terms) use(term.input);

@@ -106,6 +106,7 @@ class Builder {
     for (const Force& force : model_.forces) add_force(force);
     for (const Contact& contact : model_.contacts) add_contact(contact);
     for (const Bearing& bearing : model_.bearings) add_bearing(bearing);
+    if (model_.circuit) add_circuit(*model_.circuit);
     if (!model_.thermal.network.nodes.empty()) machine_.network.emplace(model_.thermal.network);
     machine_.grooves = model_.thermal.grooves;
     machine_.mechanism = mechanism_.finalise();
@@ -401,6 +402,7 @@ class Builder {
     for (const Function& pressure : bearing.feature_pressures) {
       options.feature_pressures.push_back(std::make_shared<OverTime>(pressure, model_.simulation));
     }
+    for (const CircuitPort& port : bearing.circuit_ports) options.circuit_ports.push_back(port.feature);
     BuiltBearing built;
     mbd::ForceSurfaces surfaces;
     if (bearing.shell_surface) {
@@ -418,6 +420,30 @@ class Builder {
     built.force = mechanism_.add_force("bearing " + bearing.name, frame(bearing.shell), frame(bearing.journal),
                                        built.bearing, surfaces);
     machine_.bearings.push_back(std::move(built));
+  }
+
+  void add_circuit(const OilCircuit& circuit) {
+    std::vector<bearing::CircuitFilm> films;
+    for (std::size_t i = 0; i < model_.bearings.size(); ++i) {
+      if (model_.bearings[i].circuit_ports.empty()) continue;
+      const BuiltBearing& built = machine_.bearings[i];
+      films.push_back({.film = built.bearing, .force = static_cast<std::size_t>(built.force.index), .nodes = {}});
+      for (const CircuitPort& port : model_.bearings[i].circuit_ports) films.back().nodes.push_back(port.node);
+    }
+    std::vector<std::shared_ptr<const ScalarFunction>> given;
+    for (const std::optional<Function>& pressure : circuit.pressures)
+      given.push_back(pressure ? std::make_shared<OverTime>(*pressure, model_.simulation) : nullptr);
+    std::vector<bearing::CircuitShaft> shafts;
+    std::vector<mbd::CoordinateRef> coordinates;
+    for (const CircuitShaft& shaft : circuit.shafts) {
+      shafts.push_back({.offset = shaft.speed, .factor = shaft.ratio});
+      if (!shaft.on) continue;
+      shafts.back().coordinate = coordinates.size();
+      coordinates.push_back(coordinate(*shaft.on));
+    }
+    machine_.circuit =
+        std::make_shared<bearing::OilCircuit>(circuit.network, std::move(films), std::move(given), std::move(shafts));
+    mechanism_.add_shared_unknowns("circuit", machine_.circuit, std::move(coordinates));
   }
 
   const Model& model_;

@@ -33,6 +33,8 @@ TypePtr root() {
           optional("contacts", contacts_format(), "Pairs of shapes that may touch."),
           optional("lubricants", lubricants_format(), "Oils that bearings refer to."),
           optional("thermal", thermal_network_format(), "Bodies and surroundings that the films' heat flows to."),
+          optional("circuit", circuit_format(),
+                   "The oil circuit that feeds films: pump, valves, galleries, drillings."),
           optional("bearings", bearings_format(), "Oil films: journal bearings, plane sliders and thrust bearings."),
           optional("simulation", simulation_format(), "Time span, step and solver settings.",
                    "**required** to simulate"),

@@ -18,7 +18,9 @@ namespace hersey::model {
 [[nodiscard]] TypePtr couplings_format();
 [[nodiscard]] TypePtr contacts_format();
 [[nodiscard]] TypePtr lubricants_format();
-TypePtr thermal_network_format();
+[[nodiscard]] TypePtr circuit_format();
+/// Key of a feature that a node of the circuit feeds.
+[[nodiscard]] Key circuit_node_key();
 [[nodiscard]] TypePtr bearings_format();
 [[nodiscard]] TypePtr thermal_format();
 [[nodiscard]] TypePtr thermal_network_format();

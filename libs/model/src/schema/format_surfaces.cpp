@@ -24,6 +24,7 @@ TypePtr features_format() {
           "Supply pressure; a function of time or of the rotation of `simulation.crank`. Where feeds touch, a supply "
           "line or an edge included, they need one pressure: what flows between two depends on the grid.",
           "not fed: a pocket of the given depth"),
+      circuit_node_key(),
       restrictor_key(),
       defaulted("depth", quantity("m", "0.5 mm", Range::not_negative()), "0 mm",
                 "By how much it widens the gap, and its friction falls; 0 leaves the gap as it is."),

@@ -44,6 +44,7 @@ StepRecord observe_step(const model::Machine& machine, const solver::State& stat
     record.contacts.push_back(in_ground(contact.contact->observe(motion), X_WA));
   }
   if (machine.network) record.network = machine.network->observables();
+  if (machine.circuit) record.circuit = machine.circuit->observation();
   record.power = power_balance(mechanism.spec(), record.mechanism, kinds);
   for (const bearing::BearingObservation& bearing : record.bearings)
     record.power.films -= bearing.film.power_taken() + bearing.power_of_growth;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hersey/bearing/film_force.h"
+#include "hersey/bearing/oil_circuit.h"
 #include "hersey/film/thermal_network.h"
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/observation.h"
@@ -26,6 +27,7 @@ struct StepRecord {
   std::vector<bearing::BearingObservation> bearings;
   std::vector<mbd::ContactObservation> contacts;  ///< in ground's axes
   film::NetworkObservables network;               ///< state of the thermal network; empty if there is none
+  bearing::CircuitObservation circuit;            ///< empty if there is none
   PowerBalance power;
 };
 

@@ -13,6 +13,7 @@
 #include "series/beam_record.h"
 #include "series/bearing_record.h"
 #include "series/body_record.h"
+#include "series/circuit_record.h"
 #include "series/contact_record.h"
 #include "series/effort_record.h"
 #include "series/flexible_record.h"
@@ -97,7 +98,7 @@ const std::vector<QuantityGroup>& result_quantities() {
     add(describe_work());
     add({describe_step_errors(), SystemRecord::describe(), CycleRecord::describe()});
     add(BearingRecord::describe());
-    add({ThermalRecord::describe()});
+    add({ThermalRecord::describe(), CircuitRecord::describe()});
     add({body_group(), shapes_of_bodies(), describe_ground(), describe_shapes("/ground/shapes/<s>/"), joint_group()});
     add(EffortRecord::describe());
     add({force_group(), ContactRecord::describe(), SurfaceLoadRecord::describe(), ModeRecord::describe()});

@@ -98,6 +98,7 @@ void Recorder::declare() {
     bearings_.emplace_back(BearingPlan{model_, model_.bearings[i], film.fields()}, film, writer_);
   }
   if (machine_.network) thermal_.emplace(model_, writer_);
+  if (model_.circuit) circuit_.emplace(*model_.circuit, writer_);
   cycle_maps_.emplace(model_, machine_, writer_);
   if (model_.simulation.cycle) cycles_.emplace(model_, writer_);
   write_geometry(model_, spec, hidden.joints, writer_);
@@ -116,6 +117,7 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].append(step.contacts[i]);
   for (std::size_t i = 0; i < bearings_.size(); ++i) bearings_[i].append(step.bearings[i]);
   if (thermal_) thermal_->append({model_, step.network});
+  if (circuit_) circuit_->append(step.circuit);
 }
 
 void Recorder::write_fields(const StepRecord& step) {

@@ -17,6 +17,7 @@
 #include "series/beam_record.h"
 #include "series/bearing_record.h"
 #include "series/body_record.h"
+#include "series/circuit_record.h"
 #include "series/contact_record.h"
 #include "series/effort_record.h"
 #include "series/flexible_record.h"
@@ -84,6 +85,7 @@ class Recorder {
   std::vector<ContactRecord> contacts_;
   std::vector<BearingRecord> bearings_;
   std::optional<ThermalRecord> thermal_;
+  std::optional<CircuitRecord> circuit_;
   std::optional<CycleMaps> cycle_maps_;
   std::optional<CycleRecord> cycles_;
   std::optional<ModeRecord> modes_;

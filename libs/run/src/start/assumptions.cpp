@@ -90,32 +90,34 @@ struct RestrictorDescription {
   }
 };
 
-std::string feed(const film::SurfaceFeature& feature) {
+std::string feed(const film::SurfaceFeature& feature, bool is_of_circuit) {
   if (!feature.is_fed) return ", not fed";
-  if (!feature.restrictor) return "";
+  if (!feature.restrictor) return is_of_circuit ? ", fed by the circuit" : "";
   const film::Restrictor& restrictor = *feature.restrictor;
   const std::string text = ", fed by " + std::visit(RestrictorDescription{restrictor.oil}, restrictor.law);
+  if (is_of_circuit) return text + " from the circuit";
   if (!restrictor.has_supply_pressure()) return text;
   return text + (restrictor.throttles() ? " from " : ", limited to ") +
          fmt::format("{:.4g} bar", 1e-5 * feature.pressure);
 }
 
-std::string described(const film::FilmModel& film, const film::SurfaceFeature& feature) {
+std::string described(const film::FilmModel& film, const film::SurfaceFeature& feature, bool is_of_circuit) {
   const std::string depth = feature.depth > 0 ? fmt::format(", {:.4g} um deep", 1e6 * feature.depth) : "";
   if (!film::is_round(film.surface))
     return fmt::format("{} in the pad at y = {:.4g} mm, z = {:.4g} mm, {:.4g} mm x {:.4g} mm{}{}",
                        std::visit(ShapeDescription{feature.is_fed}, feature.shape), 1e3 * film.R * feature.phi,
-                       1e3 * feature.z, 1e3 * film.R * feature.arc, 1e3 * feature.length, depth, feed(feature));
+                       1e3 * feature.z, 1e3 * film.R * feature.arc, 1e3 * feature.length, depth,
+                       feed(feature, is_of_circuit));
   if (bearing::is_on_annulus(film))
     return fmt::format("{} in the stator at {:.4g} deg, r = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
                        std::visit(ShapeDescription{feature.is_fed}, feature.shape),
                        feature.phi * 180 / std::numbers::pi, 1e3 * (film.R + feature.z),
-                       feature.arc * 180 / std::numbers::pi, 1e3 * feature.length, depth, feed(feature));
+                       feature.arc * 180 / std::numbers::pi, 1e3 * feature.length, depth, feed(feature, is_of_circuit));
   return fmt::format("{} in the {} at {:.4g} deg, z = {:.4g} mm, {:.4g} deg x {:.4g} mm{}{}",
                      std::visit(ShapeDescription{feature.is_fed}, feature.shape),
                      feature.surface == film::Surface::shell ? "shell" : "journal",
                      feature.phi * 180 / std::numbers::pi, 1e3 * feature.z, feature.arc * 180 / std::numbers::pi,
-                     1e3 * feature.length, depth, feed(feature));
+                     1e3 * feature.length, depth, feed(feature, is_of_circuit));
 }
 
 /// Text that follows the viscosity mu0 in its description. The code does not compile for a law that has no description
@@ -412,8 +414,9 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
   row(is_annulus ? "edge pressure inner" : "edge pressure left", edge(film, film.edge_left));
   row(is_annulus ? "edge pressure outer" : "edge pressure right", edge(film, film.edge_right));
   if (bearing.kind->has_axis()) row("supply", supply(film));
-  for (const film::SurfaceFeature& feature : film.features)
-    row(("feature " + feature.name).c_str(), described(film, feature));
+  for (std::size_t f = 0; f < film.features.size(); ++f)
+    row(("feature " + film.features[f].name).c_str(),
+        described(film, film.features[f], model::node_of_feature(bearing, f).has_value()));
   for (const auto& [name, text] : bearing.kind->description(film)) row(name.c_str(), text);
   if (bearing.kind->has_axis())
     row("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral){}", 1e6 * bearing::clearance(film),
@@ -469,6 +472,18 @@ std::pair<std::string, std::string> method(const model::Simulation& run) {
   return {"time integration", integration(run) + then};
 }
 
+Rows circuit_assumptions(const model::OilCircuit& circuit) {
+  Rows rows;
+  rows.emplace_back("circuit: oil", fmt::format("{}, {:.4g} mPa.s, {:.4g} kg/m^3 everywhere", circuit.lubricant,
+                                                1e3 * circuit.network.oil.mu, circuit.network.oil.density));
+  for (const circuit::Node& node : circuit.network.nodes)
+    if (node.storage)
+      rows.emplace_back("circuit: " + node.name,
+                        fmt::format("{:.4g} cm^3, {:.3g} % bubbles at ambient pressure, dissolved by Henry's law",
+                                    1e6 * node.storage->volume, 1e2 * node.storage->free_air));
+  return rows;
+}
+
 }  // namespace
 
 Rows assumptions(const model::Model& model) {
@@ -479,6 +494,8 @@ Rows assumptions(const model::Model& model) {
                                                        ? "monolithic: one Newton system, film condensed"
                                                        : "partitioned: wrench exchanged until film and bodies agree");
   }
+  if (model.circuit)
+    for (auto& row : circuit_assumptions(*model.circuit)) rows.push_back(std::move(row));
   rows.emplace_back(method(model.simulation));
   return rows;
 }

@@ -22,6 +22,12 @@ namespace {
 // Returns the key path of the first name in a message: "joint main, rotation" -> joints.main; "t = 0 s: bearing
 // big_end: ..." -> bearings.big_end.
 std::string path_of(const std::string& message) {
+  const std::string of_circuit = "circuit: ", of_pump = of_circuit + "pump ";
+  if (const std::size_t pump = message.find(of_pump); pump != std::string::npos) {
+    const std::size_t name = pump + of_pump.size();
+    return "circuit.elements." + message.substr(name, message.find(' ', name) - name);
+  }
+  if (message.find(of_circuit) != std::string::npos) return "circuit";
   const std::array<std::pair<const char*, const char*>, 6> sections{{{"joint ", "joints."},
                                                                      {"drive ", "drives."},
                                                                      {"coupling ", "couplings."},
@@ -84,6 +90,11 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
   if (summary.status == Status::domain_error && summary.message.find("do not face each other") != std::string::npos) {
     return {fault_at(model, summary.message, summary.message, "frames whose z-axes are those of bore and journal",
                      "turn the frame of the shell or of the journal, or the bodies by the joints' `initial` values")};
+  }
+  if (summary.status == Status::domain_error && path_of(summary.message).starts_with("circuit")) {
+    return {fault_at(
+        model, summary.message, summary.message, "pumps that turn forwards, and a way out for all oil that comes in",
+        "a negative `ratio` turns a pump the other way than its joint; a relief valve takes what is too much")};
   }
   if (summary.status == Status::domain_error && path_of(summary.message).starts_with("bodies.")) {
     return {fault_at(model, summary.message, summary.message,

@@ -64,7 +64,8 @@ Inputs::Inputs(model::Model& model) : plan_(model.simulation) {
       add(*followed.function, followed.unit, followed.text, Jump::of_force);
   for (model::Bearing& bearing : model.bearings)
     for (std::size_t f = 0; f < bearing.feature_pressures.size(); ++f)
-      if (bearing.film.features[f].is_fed && has_supply_pressure(bearing.film.features[f]))
+      if (bearing.film.features[f].is_fed && has_supply_pressure(bearing.film.features[f]) &&
+          !model::node_of_feature(bearing, f))
         add(bearing.feature_pressures[f], "Pa",
             fmt::format("pressure of {} in bearing {}", bearing.film.features[f].name, bearing.name), Jump::none);
   for (const Input& input : inputs_) infos_.push_back(input.info);

@@ -43,6 +43,9 @@ struct BearingOptions {
   bool starts_steady = false;
   /// Supply pressure over time of each groove, hole or pocket of the film model [Pa]; empty: constant, as in the model.
   std::vector<std::shared_ptr<const ScalarFunction>> feature_pressures = {};
+  /// Features of the film model whose pressure, or that before their restrictor, is not given but a circuit's: the
+  /// ports of the film, in this order. Monolithic only.
+  std::vector<std::size_t> circuit_ports = {};
   /// Thermal model of the film, whose temperatures are advanced at each accepted step; unset: an isothermal film at the
   /// model's temperature.
   std::optional<film::ThermalModel> thermal = {};
@@ -62,6 +65,8 @@ class WrenchExchange;
 
 /// An oil film between the surfaces of a shell frame A and of a journal frame B (theory manual, chapter bearing), whose
 /// gap is that of a GapKinematics. The surfaces are rigid, or belong to elastic bodies whose shapes move them.
+///
+/// Ports that a circuit feeds are parameters like those of the surfaces, after them.
 ///
 /// Monolithic: `evaluate` takes one Newton step of the film together with the bodies. The film's unknowns u follow the
 /// change of the surfaces since the last call through the last linearisation, u += du0 + (du/ds) (s - s_last), are
@@ -108,6 +113,33 @@ class FilmForce : public mbd::TwoBodyForce {
     return options_.inertia ? options_.inertia->energy(motion) : 0;
   }
 
+  // Ports that a circuit feeds. An evaluation then has three parts: follow() for all films of a circuit, their
+  // pressures, evaluate(), and complete() once the circuit has been condensed (OilCircuit).
+
+  /// Number of ports that a circuit feeds.
+  [[nodiscard]] Eigen::Index port_count() const { return static_cast<Eigen::Index>(options_.circuit_ports.size()); }
+  /// Evaluates the surfaces at a motion; evaluate() takes them from here.
+  void follow(const mbd::RelativeMotion& motion);
+  /// Returns the parameters that move the surfaces, pressures of ports apart, at the last evaluation of these.
+  [[nodiscard]] Eigen::VectorXd surface_parameters() const {
+    return parameters_.head(parameters_.size() - port_count());
+  }
+  /// Returns what has changed of them since they were `from`; angles by less than half a revolution.
+  [[nodiscard]] Eigen::VectorXd change_of_parameters(const Eigen::VectorXd& from) const;
+  /// Sets the pressures of the ports [Pa].
+  void set_port_pressures(const Eigen::VectorXd& p);
+  /// Oil that enters through each port after the film's increment [m^3/s], and its derivatives by surface_parameters()
+  /// and by the pressures of ports.
+  struct PortAnswer {
+    Eigen::VectorXd flow;
+    Eigen::MatrixXd by_parameters, by_pressure;
+  };
+  [[nodiscard]] PortAnswer port_answer() const;  ///< that of the last evaluation
+  /// Completes the response of the last evaluation.
+  /// @param dp  by which pressures of ports are to change [Pa]
+  /// @param dp_by_parameters  their derivatives by surface_parameters()
+  void complete(const Eigen::VectorXd& dp, const Eigen::MatrixXd& dp_by_parameters, mbd::ForceResponse& response);
+
   /// Returns film::FilmHeat::mean_heat_flow() of the cycle of the machine that ended with the step last accepted.
   const film::WallHeatFlow& mean_heat_flow();
   /// Calls film::FilmHeat::settle_walls() at the end of a cycle.
@@ -151,6 +183,7 @@ class FilmForce : public mbd::TwoBodyForce {
   void evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response);
   void evaluate_partitioned(mbd::ForceResponse& response);
   void condense_film(mbd::ForceResponse& response);
+  void respond(mbd::ForceResponse& response);
   void increment_film(mbd::ForceResponse& response);
 
   std::string name_;
@@ -169,6 +202,9 @@ class FilmForce : public mbd::TwoBodyForce {
   Eigen::Index gap_parameter_count_;
   Eigen::VectorXd parameters_;
   std::vector<film::MotionDirection> directions_;  // one per parameter
+  film::CondensedFilm* condensed_ = nullptr;       // of the last evaluation with derivatives
+  Eigen::VectorXd port_pressures_;                 // of ports that a circuit feeds
+  bool has_followed_ = false;                      // the surfaces are those of the evaluation to come
 
   // The state last accepted.
   film::SurfaceMotion accepted_surfaces_;

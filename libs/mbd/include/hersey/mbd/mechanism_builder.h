@@ -57,6 +57,9 @@ class MechanismBuilder {
   /// frame a and on the shapes of elastic bodies that carry these frames.
   ForceId add_force(std::string name, FrameId a, FrameId b, std::shared_ptr<TwoBodyForce> force,
                     const ForceSurfaces& surfaces = {});
+  /// Adds unknowns that some of the two-body forces share, and the coordinates on whose rates they depend.
+  void add_shared_unknowns(std::string name, std::shared_ptr<SharedUnknowns> unknowns,
+                           std::vector<CoordinateRef> coordinates = {});
   /// Adds a force or torque on a frame. @throws ContractError for a frame that does not exist or a term without
   /// magnitude
   LoadId add_load(LoadSpec load);

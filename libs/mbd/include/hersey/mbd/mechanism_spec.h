@@ -12,6 +12,7 @@
 #include "hersey/mbd/elastic_body.h"
 #include "hersey/mbd/joint.h"
 #include "hersey/mbd/load_axes.h"
+#include "hersey/mbd/shared_unknowns.h"
 #include "hersey/mbd/two_body_force.h"
 
 /// Specification of a mechanism: bodies, frames, joints, forces, drives.
@@ -170,6 +171,14 @@ struct MechanismSpec {
     ForceSurfaces surfaces;
   };
   std::vector<Force> forces;
+
+  /// Unknowns that some of the forces share, and the coordinates on whose rates they depend.
+  struct Shared {
+    std::string name;
+    std::shared_ptr<SharedUnknowns> unknowns;
+    std::vector<CoordinateRef> coordinates;
+  };
+  std::vector<Shared> shared;
 
   struct Elastic {
     std::string name;

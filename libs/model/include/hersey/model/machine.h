@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hersey/bearing/film_force.h"
+#include "hersey/bearing/oil_circuit.h"
 #include "hersey/film/thermal_network.h"
 #include "hersey/mbd/beam_segment.h"
 #include "hersey/mbd/contact.h"
@@ -70,8 +71,9 @@ struct Machine {
   std::unique_ptr<mbd::Mechanism> mechanism;
   std::vector<BuiltContact> contacts;
   std::vector<BuiltBearing> bearings;
-  std::optional<film::ThermalNetwork> network;  ///< of walls that are nodes; unset: the model has none
-  std::vector<Groove> grooves;                  ///< between films with temperatures
+  std::shared_ptr<bearing::OilCircuit> circuit;  ///< between their feeds; null: the model has none
+  std::optional<film::ThermalNetwork> network;   ///< of walls that are nodes; unset: the model has none
+  std::vector<Groove> grooves;                   ///< between films with temperatures
   std::vector<BuiltFlexible> flexibles;
   std::vector<BuiltSurfaceLoad> surface_loads;
   std::vector<BuiltBeam> beams;

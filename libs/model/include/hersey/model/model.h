@@ -31,6 +31,7 @@
 #include "hersey/model/force.h"
 #include "hersey/model/function.h"
 #include "hersey/model/names.h"
+#include "hersey/model/oil_circuit.h"
 #include "hersey/model/oil_validity.h"
 #include "hersey/model/study_settings.h"
 #include "hersey/solver/fixed_point_iteration.h"
@@ -299,6 +300,7 @@ struct Bearing {
   std::optional<double> permissible_pressure;  ///< permissible pressure of its lining [Pa]; unset: the usual value in
                                                ///< engines
   std::vector<Function> feature_pressures;     ///< of each of film.features [Pa], over time or the crank's rotation
+  std::vector<CircuitPort> circuit_ports;  ///< features that the circuit feeds, whose `feature_pressures` mean nothing
   film::FilmSolver solver = film::FilmSolver::newton;
   Coupling coupling;
   std::optional<fem::ElasticMaterial> shell_material, journal_material;
@@ -312,6 +314,13 @@ struct Bearing {
   std::optional<OperatingPoint> operating_point;
   SourcePosition position;
 };
+
+/// Index of the circuit's node that feeds a feature; unset: none does.
+[[nodiscard]] inline std::optional<std::size_t> node_of_feature(const Bearing& bearing, std::size_t feature) {
+  for (const CircuitPort& port : bearing.circuit_ports)
+    if (port.feature == feature) return port.node;
+  return std::nullopt;
+}
 
 struct Model;
 
@@ -444,6 +453,7 @@ struct Model {
   std::vector<Contact> contacts;
   std::vector<Lubricant> lubricants;
   Thermal thermal;
+  std::optional<OilCircuit> circuit;
   std::vector<Bearing> bearings;
   std::vector<Composite> composites;  ///< whose films are among the bearings if they are in the machine
   ThermalWalls thermal_walls = ThermalWalls::transient;

@@ -96,6 +96,9 @@ void read_flat_heat(Context& context, const Value& value, const WallKeys& walls,
 /// Features, grid and shape of a bearing whose size and cavitation have been read.
 void read_surfaces(Context& context, const Value& value, Bearing& bearing);
 
+/// Index of the node of the circuit that `name` names; reports one that is not there.
+[[nodiscard]] std::optional<std::size_t> circuit_node(Context& context, const Value& name);
+
 /// The surface in the table that `file` names, for a bearing of width L [m]; reports what is wrong with it.
 [[nodiscard]] std::optional<film::MeasuredShape> measured_shape_of(Context& context, const Value& file, double L);
 
@@ -168,6 +171,10 @@ void interpret_contacts(Context& context);
 void interpret_lubricants(Context& context);
 /// The section `thermal`. Before bearings.
 void interpret_thermal_network(Context& context);
+/// The section `circuit`. After lubricants, before bearings.
+void interpret_circuit(Context& context);
+/// Reports ports and nodes of the circuit that cannot be solved. After bearings and drives.
+void check_circuit(Context& context);
 void interpret_bearings(Context& context);
 /// Grooves between films. After bearings.
 void interpret_grooves(Context& context);

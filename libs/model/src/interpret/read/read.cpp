@@ -138,7 +138,9 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_contacts(context);
   interpret_lubricants(context);
   interpret_thermal_network(context);
+  interpret_circuit(context);
   interpret_bearings(context);
+  check_circuit(context);
   interpret_grooves(context);
   check_thermal_network(context);
   require_separate_faces(context);

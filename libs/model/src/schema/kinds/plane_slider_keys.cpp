@@ -40,6 +40,7 @@ TypePtr pad_features_format() {
       optional("pressure", function_format({"Pa"}, "20 bar"),
                "Supply pressure; a function of time or of the rotation of `simulation.crank`.",
                "not fed: a pocket of the given depth"),
+      circuit_node_key(),
       restrictor_key(),
       defaulted("depth", quantity("m", "0.5 mm", Range::not_negative()), "0 mm",
                 "By how much it widens the gap, and its friction falls; 0 leaves the gap as it is."),

@@ -169,9 +169,11 @@ void FilmReader::require_gauge_pressures() {
 
 void FilmReader::read_feed(const Value& value, film::SurfaceFeature& feature) {
   const Value* pressure = value.find("pressure");
-  feature.is_fed = pressure != nullptr;
-  if (pressure == nullptr && feature.depth == 0 && value.find("restrictor") == nullptr)
+  const Value* node = value.find("circuit");
+  feature.is_fed = pressure != nullptr || node != nullptr;
+  if (!feature.is_fed && feature.depth == 0 && value.find("restrictor") == nullptr)
     context_.fault_at_key(value, "neither 'pressure' nor 'depth'", "a pressure that feeds it, a depth, or both");
+  if (node != nullptr) read_port(*node, pressure, feature);
   bearing_.feature_pressures.push_back(pressure != nullptr ? function_of(context_, *pressure, "Pa")
                                                            : not_fed(value.path));
   const Function& given = bearing_.feature_pressures.back();
@@ -181,6 +183,18 @@ void FilmReader::read_feed(const Value& value, film::SurfaceFeature& feature) {
     require_above_cavitation(context_, constant, film_);
   }
   read_restrictor(context_, value, given, feature);
+}
+
+// The pressure of the feature is the film's lowest until the circuit has one.
+void FilmReader::read_port(const Value& node, const Value* pressure, film::SurfaceFeature& feature) {
+  feature.pressure = film_.p_cav;
+  if (pressure != nullptr) context_.fault(*pressure, "a pressure beside `circuit`, whose node has one", "one of both");
+  if (const auto found = circuit_node(context_, node))
+    bearing_.circuit_ports.push_back({.feature = bearing_.feature_pressures.size(), .node = *found});
+  if (value_.find("coupling") != nullptr && value_.find("coupling")->text == "partitioned")
+    context_.fault(*value_.find("coupling"),
+                   "`partitioned` with a feed of the circuit, which is solved together with the film",
+                   "coupling: monolithic");
 }
 
 Function FilmReader::not_fed(const std::string& path) const {

@@ -51,6 +51,7 @@ class FilmReader {
  private:
   /// True if the film has temperatures.
   [[nodiscard]] bool is_warm() const;
+  void read_port(const Value& node, const Value* pressure, film::SurfaceFeature& feature);
   void read_turbulence();
   void check_turbulence(const Value& turbulence);
   void read_roughness();

@@ -28,9 +28,15 @@ void read_restrictor(Context& context, const Value& value, const Function& press
   if (given == nullptr || given->broken || context.has_fault_in(given->path)) return;
   feature.restrictor = film::Restrictor{read_alternative(*given, restrictor_laws()), {}};
   const Value* supply = value.find("pressure");
+  const Value* node = value.find("circuit");
   auto* pump = std::get_if<film::ConstantFlow>(&feature.restrictor->law);
+  if (pump != nullptr && node != nullptr) {
+    context.fault(*given, "a pump of its own behind a node of the circuit",
+                  "a restrictor that throttles, or no `circuit`");
+    return;
+  }
   if (pump == nullptr) {
-    if (supply == nullptr)
+    if (supply == nullptr && node == nullptr)
       context.fault_at_key(*given, "a restrictor without a supply", "'pressure' of the supply before it",
                            "`restrictor: {type: constant_flow, flow: ...}` needs none");
     return;

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hersey/bearing/film_force.h"
+#include "hersey/circuit/circuit.h"
+#include "hersey/core/scalar_function.h"
+#include "hersey/mbd/shared_unknowns.h"
+
+namespace hersey::bearing {
+
+/// The film of a bearing in a circuit.
+struct CircuitFilm {
+  std::shared_ptr<FilmForce> film;
+  std::size_t force = 0;           ///< of the film in its mechanism
+  std::vector<std::size_t> nodes;  ///< at which each of its ports draws, in the order of BearingOptions::circuit_ports
+};
+
+/// A shaft whose speed is `offset` plus `factor` times the rate of a joint coordinate.
+struct CircuitShaft {
+  double offset = 0;                           ///< [rad/s]
+  double factor = 1;                           ///< [-]
+  std::optional<std::size_t> coordinate = {};  ///< of those on which the unknowns depend; unset: the speed is constant
+};
+
+/// What a circuit shows after a step.
+struct CircuitObservation {
+  Eigen::VectorXd pressures;  ///< of nodes [Pa]
+  Eigen::VectorXd flows;      ///< through elements [m^3/s]
+  Eigen::VectorXd drawn;      ///< by films from each node [m^3/s]
+  Eigen::VectorXd content;    ///< oil in each node that stores some [m^3]
+  Eigen::VectorXd speeds;     ///< of shafts [rad/s]
+  double balance_error = 0;   ///< largest imbalance of a node over the largest flow [-]
+  double power = 0;           ///< that pumps and other sources put into the oil [W]
+};
+
+/// A circuit of oil between films: the pressures of its nodes are unknowns that these films share.
+///
+/// An evaluation finds them with every film linear in pressures and surfaces (circuit.9), elements as they are. They
+/// then follow the surfaces of all films to the next evaluation (circuit.11), so that films, circuit and bodies are one
+/// Newton iteration.
+/// @verified_by oil_circuit_test.cpp
+class OilCircuit final : public mbd::SharedUnknowns {
+ public:
+  /// @param given  pressure over time of each node that has a given one, null for others
+  OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
+             std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts);
+
+  void begin_step(double dt) override;
+  void follow(const mbd::SharedMotion& motion) override;
+  void condense(std::span<mbd::ForceResponse> responses) override;
+  void accept_step() override;
+  [[nodiscard]] bool has_condensed_unknowns() const override { return true; }
+  [[nodiscard]] double internal_residual() const override { return worst_.over_largest_flow; }
+  [[nodiscard]] std::string name_of_internal_residual() const override {
+    return "node " + circuit_.network().nodes[worst_.node].name;
+  }
+  [[nodiscard]] std::string domain_error() const override { return domain_error_; }
+  void persist(Archive& archive) override;
+
+  [[nodiscard]] const circuit::Circuit& circuit() const { return circuit_; }  ///< without its films
+  /// Returns its figures at the step last accepted.
+  [[nodiscard]] const CircuitObservation& observation() const { return observation_; }
+
+ private:
+  void set_conditions(const mbd::SharedMotion& motion);
+  void refuse_backward_pumps();
+  void pass_pressures();
+  [[nodiscard]] circuit::Drawn drawn_by_films() const;
+  struct Imbalance {
+    double over_largest_flow = 0;  ///< of the worst node [-]
+    std::size_t node = 0;
+  };
+  /// Imbalance of nodes at pressures `p` where films draw `drawn`.
+  [[nodiscard]] Imbalance imbalance(const Eigen::VectorXd& p, const Eigen::VectorXd& drawn) const;
+
+  circuit::Circuit circuit_;
+  std::vector<CircuitFilm> films_;
+  std::vector<std::shared_ptr<const ScalarFunction>> given_;
+  std::vector<CircuitShaft> shafts_;
+  circuit::Conditions conditions_;
+
+  Eigen::VectorXd p_;                     // at the present evaluation
+  Eigen::VectorXd p_solved_;              // of the last condensation
+  std::vector<Eigen::VectorXd> at_;       // parameters of each film there
+  std::vector<Eigen::MatrixXd> p_by_at_;  // (nodes, parameters)
+  Eigen::VectorXd drawn_;
+  bool is_condensed_ = false;
+
+  Eigen::VectorXd p_start_;  // to which a rejected step returns; empty before the start
+  Imbalance worst_;          // at the pressures with which the films were evaluated last
+  std::string domain_error_;
+  CircuitObservation observation_;
+};
+
+}  // namespace hersey::bearing

@@ -1,0 +1,205 @@
+#include "hersey/bearing/oil_circuit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace hersey::bearing {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// Films and circuit in turn, each by exact derivatives of the other: five do, and more where films rupture anew.
+constexpr int kMostAtOnce = 20;
+constexpr double kBalancedAtOnce = 1e-12;  // of the largest flow: what films solved to 1e-10 leave after one increment
+
+}  // namespace
+
+OilCircuit::OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
+                       std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts)
+    : circuit_(std::move(network)),
+      films_(std::move(films)),
+      given_(std::move(given)),
+      shafts_(std::move(shafts)),
+      at_(films_.size()),
+      p_by_at_(films_.size()) {
+  conditions_.given.setZero(circuit_.size());
+  conditions_.speeds.setZero(static_cast<Index>(shafts_.size()));
+}
+
+void OilCircuit::begin_step(double /*dt*/) {
+  is_condensed_ = false;
+  if (p_start_.size() == 0) return;
+  p_ = p_start_;
+  conditions_.content = circuit_.content(p_start_);
+}
+
+void OilCircuit::set_conditions(const mbd::SharedMotion& motion) {
+  conditions_.dt = motion.dt;
+  for (std::size_t i = 0; i < given_.size(); ++i)
+    if (given_[i]) conditions_.given[static_cast<Index>(i)] = given_[i]->value({&motion.t, 1});
+  for (std::size_t k = 0; k < shafts_.size(); ++k) {
+    const CircuitShaft& shaft = shafts_[k];
+    conditions_.speeds[static_cast<Index>(k)] =
+        shaft.offset + (shaft.coordinate ? shaft.factor * motion.rates[*shaft.coordinate] : 0);
+  }
+}
+
+// A speed that round-off leaves of a shaft at rest does not count.
+void OilCircuit::refuse_backward_pumps() {
+  constexpr double kAtRest = 1e-6;  // rad/s, far below any motion that pumps
+  for (const circuit::Element& element : circuit_.network().elements) {
+    if (!std::holds_alternative<circuit::DisplacementPump>(element.law) || !element.shaft) continue;
+    const double speed = conditions_.speeds[static_cast<Index>(*element.shaft)];
+    if (speed >= -kAtRest) continue;
+    domain_error_ = fmt::format("pump {} turns backwards, at {:.4g} rpm", element.name, speed * 30 / std::numbers::pi);
+    return;
+  }
+}
+
+void OilCircuit::pass_pressures() {
+  for (const CircuitFilm& film : films_) {
+    VectorXd p(static_cast<Index>(film.nodes.size()));
+    for (std::size_t k = 0; k < film.nodes.size(); ++k)
+      p[static_cast<Index>(k)] = p_[static_cast<Index>(film.nodes[k])];
+    film.film->set_port_pressures(p);
+  }
+}
+
+// (circuit.11): p = p_solved + sum over films of dp/ds (s - s_last).
+void OilCircuit::follow(const mbd::SharedMotion& motion) {
+  domain_error_.clear();
+  set_conditions(motion);
+  refuse_backward_pumps();
+  if (p_.size() == 0) {
+    p_ = circuit_.start(conditions_);
+    if (VectorXd p = p_; circuit_.solve(conditions_, circuit_.nothing_drawn(), p).solved()) p_ = p;
+  }
+  for (const CircuitFilm& film : films_) film.film->follow(motion.motions[film.force]);
+  if (is_condensed_) {
+    p_ = p_solved_;
+    for (std::size_t f = 0; f < films_.size(); ++f)
+      if (films_[f].film->domain_error().empty()) p_ += p_by_at_[f] * films_[f].film->change_of_parameters(at_[f]);
+  }
+  for (Index i = 0; i < circuit_.size(); ++i)
+    if (circuit_.network().nodes[static_cast<std::size_t>(i)].is_given) p_[i] = conditions_.given[i];
+  pass_pressures();
+  // At an instant each evaluation solves films to their end. So it does the circuit with them, since who asks for a
+  // state at rest or in steady motion may evaluate it once.
+  for (int k = 0; motion.dt == 0 && k < kMostAtOnce; ++k) {
+    bool is_inside = domain_error_.empty();
+    for (const CircuitFilm& film : films_) {
+      mbd::ForceResponse response;
+      film.film->evaluate(motion.motions[film.force], true, response);
+      is_inside = is_inside && film.film->domain_error().empty();
+      film.film->follow(motion.motions[film.force]);
+    }
+    if (!is_inside) return;
+    const circuit::Drawn drawn = drawn_by_films();
+    if (imbalance(p_, drawn.flow).over_largest_flow <= kBalancedAtOnce) return;
+    if (VectorXd p = p_; circuit_.solve(conditions_, drawn, p).solved()) p_ = p;
+    pass_pressures();
+  }
+}
+
+circuit::Drawn OilCircuit::drawn_by_films() const {
+  circuit::Drawn drawn = circuit_.nothing_drawn();
+  drawn.p = p_;
+  for (const CircuitFilm& film : films_) {
+    const FilmForce::PortAnswer answer = film.film->port_answer();
+    for (std::size_t k = 0; k < film.nodes.size(); ++k) {
+      const auto row = static_cast<Index>(film.nodes[k]);
+      drawn.flow[row] += answer.flow[static_cast<Index>(k)];
+      for (std::size_t j = 0; j < film.nodes.size(); ++j)
+        drawn.by_p(row, static_cast<Index>(film.nodes[j])) +=
+            answer.by_pressure(static_cast<Index>(k), static_cast<Index>(j));
+    }
+  }
+  return drawn;
+}
+
+// What round-off makes of a balance does not count.
+OilCircuit::Imbalance OilCircuit::imbalance(const VectorXd& p, const VectorXd& drawn) const {
+  circuit::Circuit::Balance balance;
+  circuit_.evaluate(p, conditions_, balance);
+  const double scale = std::max(balance.largest_flow, drawn.lpNorm<Eigen::Infinity>());
+  Imbalance worst;
+  for (Index i = 0; i < circuit_.size(); ++i) {
+    if (circuit_.network().nodes[static_cast<std::size_t>(i)].is_given) continue;
+    const double surplus = std::abs(balance.surplus[i] - drawn[i]);
+    if (surplus <= worst.over_largest_flow * scale || surplus <= balance.round_off) continue;
+    worst = {surplus / scale, static_cast<std::size_t>(i)};
+  }
+  return worst;
+}
+
+void OilCircuit::condense(std::span<mbd::ForceResponse> responses) {
+  for (const CircuitFilm& film : films_)
+    if (!film.film->domain_error().empty()) return;
+  if (!domain_error_.empty()) return;
+  const circuit::Drawn drawn = drawn_by_films();
+  worst_ = imbalance(p_, drawn.flow);
+  VectorXd p = p_;
+  if (const circuit::CircuitSummary solved = circuit_.solve(conditions_, drawn, p); !solved.solved()) {
+    domain_error_ = solved.message;
+    return;
+  }
+  p_solved_ = p;
+  drawn_ = drawn.flow + drawn.by_p * (p - p_);
+  circuit::Circuit::Balance balance;
+  circuit_.evaluate(p, conditions_, balance);
+  MatrixXd by_p = balance.by_p - drawn.by_p;
+  circuit_.fix_given(by_p);
+  const Eigen::PartialPivLU<MatrixXd> factor(by_p);
+  for (std::size_t f = 0; f < films_.size(); ++f) {
+    const CircuitFilm& film = films_[f];
+    const FilmForce::PortAnswer answer = film.film->port_answer();
+    MatrixXd rhs = MatrixXd::Zero(circuit_.size(), answer.by_parameters.cols());
+    for (std::size_t k = 0; k < film.nodes.size(); ++k)
+      if (!circuit_.network().nodes[film.nodes[k]].is_given)
+        rhs.row(static_cast<Index>(film.nodes[k])) += answer.by_parameters.row(static_cast<Index>(k));
+    at_[f] = film.film->surface_parameters();
+    p_by_at_[f] = factor.solve(rhs);
+    VectorXd dp(static_cast<Index>(film.nodes.size()));
+    MatrixXd dp_by(dp.size(), rhs.cols());
+    for (std::size_t k = 0; k < film.nodes.size(); ++k) {
+      const auto node = static_cast<Index>(film.nodes[k]);
+      dp[static_cast<Index>(k)] = p[node] - p_[node];
+      dp_by.row(static_cast<Index>(k)) = p_by_at_[f].row(node);
+    }
+    film.film->complete(dp, dp_by, responses[film.force]);
+  }
+  is_condensed_ = true;
+}
+
+void OilCircuit::accept_step() {
+  p_start_ = is_condensed_ ? p_solved_ : p_;
+  observation_.pressures = p_start_;
+  observation_.flows = circuit_.flows(p_start_, conditions_);
+  observation_.drawn = drawn_;
+  observation_.content = circuit_.content(p_start_);
+  observation_.speeds = conditions_.speeds;
+  observation_.balance_error = imbalance(p_start_, drawn_).over_largest_flow;
+  // Work done on the oil between the ends of each element is lost in it, but where a source lifts it against pressure.
+  observation_.power = 0;
+  for (std::size_t e = 0; e < circuit_.network().elements.size(); ++e) {
+    const circuit::Element& element = circuit_.network().elements[e];
+    const double rise = p_start_[static_cast<Index>(element.to)] - p_start_[static_cast<Index>(element.from)];
+    observation_.power += std::max(0.0, observation_.flows[static_cast<Index>(e)] * rise);
+  }
+  is_condensed_ = false;
+}
+
+void OilCircuit::persist(Archive& archive) {
+  archive.io("pressures", p_start_);
+  archive.io("content", conditions_.content);  // at the start of the last step, whose end is evaluated again
+  if (archive.restores()) p_ = p_start_;
+}
+
+}  // namespace hersey::bearing

@@ -1,0 +1,172 @@
+#include "hersey/circuit/circuit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "hersey/core/contract.h"
+
+namespace hersey::circuit {
+namespace {
+
+// Imbalance over the largest flow with which a solution ends: round-off of a sum of a few flows.
+constexpr double kBalanced = 1e-13;
+// Round-off of a flow that follows from the difference of two pressures or of two contents.
+constexpr double kRoundOff = 8 * std::numeric_limits<double>::epsilon();
+// Imbalance that still passes for a solution where an increment no longer lessens it, over what it ends with otherwise:
+// valves at the point of opening.
+constexpr double kNearlyBalanced = 1e3;
+constexpr int kMostIterations = 100;  // monotone laws take about ten; valves that open add one each
+constexpr int kMostHalvings = 60;     // from the largest step down to one of 1e-9 Pa
+constexpr double kLargestStep = 1e9;  // Pa: beyond all pressures, where nothing yet leads away from a node
+// Conductances [m^3/(Pa s)] that keep increments bounded there, over the largest of the circuit and at least.
+constexpr double kLeastConductance = 1e-12, kNoConductance = 1e-12;
+
+}  // namespace
+
+Circuit::Circuit(Network network) : network_(std::move(network)) {
+  for (const Element& element : network_.elements)
+    HERSEY_REQUIRE(
+        element.from < network_.nodes.size() && element.to < network_.nodes.size() && element.from != element.to,
+        "elements between two nodes of the circuit");
+}
+
+// (circuit.2)
+double Circuit::drop(const Element& element, const Eigen::VectorXd& p, const Conditions& conditions) const {
+  const double speed = element.shaft ? conditions.speeds[static_cast<Eigen::Index>(*element.shaft)] : 0;
+  const double head =
+      0.5 * network_.oil.density * speed * speed * (element.r_to * element.r_to - element.r_from * element.r_from);
+  return p[static_cast<Eigen::Index>(element.from)] - p[static_cast<Eigen::Index>(element.to)] + head;
+}
+
+Flow Circuit::flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
+  const Element& of = network_.elements[element];
+  const double speed = of.shaft ? conditions.speeds[static_cast<Eigen::Index>(*of.shaft)] : 0;
+  const double over = drop(of, p, conditions);
+  return std::visit([&](const auto& law) { return law.flow(over, network_.oil, speed); }, of.law);
+}
+
+Eigen::VectorXd Circuit::flows(const Eigen::VectorXd& p, const Conditions& conditions) const {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(network_.elements.size()));
+  for (std::size_t e = 0; e < network_.elements.size(); ++e)
+    all[static_cast<Eigen::Index>(e)] = flow(e, p, conditions).value;
+  return all;
+}
+
+Eigen::VectorXd Circuit::content(const Eigen::VectorXd& p) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(size());
+  for (Eigen::Index i = 0; i < size(); ++i)
+    if (const auto& storage = network_.nodes[static_cast<std::size_t>(i)].storage)
+      all[i] = storage->content(p[i], network_.ambient).value;
+  return all;
+}
+
+// (circuit.1)
+void Circuit::evaluate(const Eigen::VectorXd& p, const Conditions& conditions, Balance& balance) const {
+  balance.surplus.setZero(size());
+  balance.by_p.setZero(size(), size());
+  balance.largest_flow = 0;
+  for (std::size_t e = 0; e < network_.elements.size(); ++e) {
+    const auto from = static_cast<Eigen::Index>(network_.elements[e].from),
+               to = static_cast<Eigen::Index>(network_.elements[e].to);
+    const Flow through = flow(e, p, conditions);
+    balance.surplus[from] -= through.value;
+    balance.surplus[to] += through.value;
+    balance.by_p(from, from) -= through.slope;
+    balance.by_p(from, to) += through.slope;
+    balance.by_p(to, from) += through.slope;
+    balance.by_p(to, to) -= through.slope;
+    balance.largest_flow = std::max(balance.largest_flow, std::abs(through.value));
+  }
+  balance.round_off = kRoundOff * (balance.by_p.cwiseAbs() * p.cwiseAbs()).maxCoeff();
+  if (conditions.dt <= 0) return;
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    const Node& node = network_.nodes[static_cast<std::size_t>(i)];
+    if (!node.storage || node.is_given) continue;
+    const Storage::Content content = node.storage->content(p[i], network_.ambient);
+    const double stored = (content.value - conditions.content[i]) / conditions.dt;
+    balance.surplus[i] -= stored;
+    balance.by_p(i, i) -= content.slope / conditions.dt;
+    balance.largest_flow = std::max(balance.largest_flow, std::abs(stored));
+    balance.round_off = std::max(balance.round_off, kRoundOff * content.value / conditions.dt);
+  }
+}
+
+void Circuit::fix_given(Eigen::MatrixXd& by_p) const {
+  const double largest = std::max(by_p.cwiseAbs().maxCoeff(), kNoConductance);
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    if (network_.nodes[static_cast<std::size_t>(i)].is_given) by_p.row(i).setZero();
+    by_p(i, i) -= (network_.nodes[static_cast<std::size_t>(i)].is_given ? 1 : kLeastConductance) * largest;
+  }
+}
+
+Drawn Circuit::nothing_drawn() const {
+  return {Eigen::VectorXd::Zero(size()), Eigen::MatrixXd::Zero(size(), size()), Eigen::VectorXd::Zero(size())};
+}
+
+Eigen::VectorXd Circuit::start(const Conditions& conditions) const {
+  double highest = 0;
+  for (Eigen::Index i = 0; i < size(); ++i)
+    if (network_.nodes[static_cast<std::size_t>(i)].is_given) highest = std::max(highest, conditions.given[i]);
+  for (const Element& element : network_.elements)
+    if (const auto* valve = std::get_if<ReliefValve>(&element.law))
+      highest = std::max(highest, valve->opening_pressure);
+  Eigen::VectorXd p = Eigen::VectorXd::Constant(size(), highest);
+  for (Eigen::Index i = 0; i < size(); ++i)
+    if (network_.nodes[static_cast<std::size_t>(i)].is_given) p[i] = conditions.given[i];
+  return p;
+}
+
+// Laws are monotone, so that a step along Newton's increment that is short enough always brings nodes nearer to
+// balance.
+CircuitSummary Circuit::solve(const Conditions& conditions, const Drawn& drawn, Eigen::VectorXd& p) const {
+  for (Eigen::Index i = 0; i < size(); ++i)
+    if (network_.nodes[static_cast<std::size_t>(i)].is_given) p[i] = conditions.given[i];
+  Balance balance;
+  double largest_flow = 0, tolerance = 0;
+  const auto surplus_at = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
+    evaluate(at, conditions, balance);
+    const Eigen::VectorXd taken = drawn.flow + drawn.by_p * (at - drawn.p);
+    largest_flow = std::max(balance.largest_flow, taken.lpNorm<Eigen::Infinity>());
+    tolerance = kBalanced * largest_flow + balance.round_off;
+    Eigen::VectorXd surplus = balance.surplus - taken;
+    for (Eigen::Index i = 0; i < size(); ++i)
+      if (network_.nodes[static_cast<std::size_t>(i)].is_given) surplus[i] = 0;
+    return surplus;
+  };
+  CircuitSummary summary;
+  Eigen::VectorXd surplus = surplus_at(p);
+  for (; summary.iterations < kMostIterations; ++summary.iterations) {
+    const double norm = surplus.norm();
+    if (norm <= tolerance) break;
+    Eigen::MatrixXd by_p = balance.by_p - drawn.by_p;
+    fix_given(by_p);
+    const Eigen::VectorXd step = by_p.partialPivLu().solve(-surplus);
+    double part = std::min(1.0, kLargestStep / step.lpNorm<Eigen::Infinity>());
+    Eigen::VectorXd next = p + part * step, surplus_next = surplus_at(next);
+    for (int k = 0; k < kMostHalvings && !(surplus_next.norm() < norm); ++k) {
+      part *= 0.5;
+      next = p + part * step;
+      surplus_next = surplus_at(next);
+    }
+    if (!(surplus_next.norm() < norm)) {
+      surplus = surplus_at(p);
+      break;
+    }
+    p = next, surplus = surplus_next;
+  }
+  Eigen::Index worst = 0;
+  const double largest = size() > 0 ? surplus.cwiseAbs().maxCoeff(&worst) : 0;
+  summary.residual = largest_flow > 0 ? largest / largest_flow : 0;
+  summary.set_solved(largest <= kNearlyBalanced * tolerance);
+  if (!summary.solved())
+    summary.message =
+        fmt::format("no balance of oil at node {}: {:.3g} mm3/s too much at {:.4g} bar",
+                    network_.nodes[static_cast<std::size_t>(worst)].name, 1e9 * surplus[worst], 1e-5 * p[worst]);
+  return summary;
+}
+
+}  // namespace hersey::circuit

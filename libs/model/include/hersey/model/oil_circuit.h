@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hersey/circuit/circuit.h"
+#include "hersey/core/input_error.h"
+#include "hersey/model/function.h"
+#include "hersey/model/names.h"
+
+namespace hersey::model {
+
+/// What rotates a pump, or a body with a drilling.
+struct CircuitShaft {
+  double speed = 0;                       ///< of a shaft that follows no coordinate [rad/s]
+  std::optional<CoordinateName> on = {};  ///< the coordinate whose rate, times `ratio`, is the speed
+  double ratio = 1;                       ///< [-]
+};
+
+/// The section `circuit`: the oil between the films' feeds.
+struct OilCircuit {
+  circuit::Network network;
+  std::vector<std::optional<Function>> pressures;  ///< of each node that has a given one [Pa], over time
+  std::vector<CircuitShaft> shafts;
+  std::string lubricant;
+  std::vector<SourcePosition> node_positions, element_positions;
+  SourcePosition position;
+
+  /// Index of the node called so; unset: there is none.
+  [[nodiscard]] std::optional<std::size_t> find_node(const std::string& name) const {
+    for (std::size_t k = 0; k < network.nodes.size(); ++k)
+      if (network.nodes[k].name == name) return k;
+    return std::nullopt;
+  }
+};
+
+/// A feature of a bearing that a node of the circuit feeds.
+struct CircuitPort {
+  std::size_t feature = 0;  ///< index in Bearing::film.features
+  std::size_t node = 0;     ///< index in OilCircuit::network.nodes
+};
+
+}  // namespace hersey::model
