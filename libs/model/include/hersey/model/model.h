@@ -294,9 +294,9 @@ struct Bearing {
   film::FilmModel film;  ///< complete: size, clearance, grid, lubricant, cavitation, supply, asperities, compliance
   Heat heat;             ///< none: one temperature
   std::optional<bearing::WallExpansion> expansion;  ///< of the walls, whatever heats the film; unset: they keep size
-  double growth = 0;     ///< of the clearance of a film with one given temperature: expansion at that [m]
-  std::optional<bearing::WearModel> wear;  ///< of both surfaces over a run; unset: none
-  OilValidity validity;  ///< of its oil
+  double growth = 0;  ///< of the clearance of a film with one given temperature: expansion at that [m]
+  std::optional<bearing::WearModel> wear;      ///< of both surfaces over a run; unset: none
+  OilValidity validity;                        ///< of its oil
   std::optional<double> permissible_pressure;  ///< permissible pressure of its lining [Pa]; unset: the usual value in
                                                ///< engines
   std::vector<Function> feature_pressures;     ///< of each of film.features [Pa], over time or the crank's rotation
