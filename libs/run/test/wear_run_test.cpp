@@ -15,21 +15,23 @@ namespace hersey::run {
 namespace wear_run_test {
 
 const std::string bush = R"(hersey: 1
-parameters: {turn: 0 deg, sense: 1, end: 60 ms, factor: 10000, k: 2e-15 1/Pa, of_journal: 0 1/Pa, lining: 20 um}
+parameters: {sense: 1, end: 60 ms, step: 0.5 ms, factor: 5000, k: 2e-15 1/Pa, of_journal: 0 1/Pa, lining: 20 um}
 lubricants: {oil: {viscosity: 30 mPa.s, density: 860 kg/m^3}}
-bodies: {shaft: {mass: 20 kg, inertia: {xx: 0.1 kg.m^2, yy: 0.1 kg.m^2, zz: 6e-3 kg.m^2}}}
-joints: {turning: {type: planar, between: [ground, shaft], axis: z, initial: {y: -28 um, rotation_rate: "120 rpm*${sense}"}}}
+bodies:
+  ground: {frames: {seat: {rotation: {axis: x, angle: 0.012 deg}}}}
+  shaft: {mass: 20 kg, inertia: {xx: 0.1 kg.m^2, yy: 0.1 kg.m^2, zz: 6e-3 kg.m^2}}
+joints: {turning: {type: planar, between: [ground, shaft], axis: z, initial: {x: "6.6 um*${sense}", y: -26.2 um, rotation_rate: "120 rpm*${sense}"}}}
 drives: {motor: {joint: turning, coordinate: rotation, speed: "120 rpm*${sense}"}}
 forces: {load: {type: force, body: shaft, direction: 0 -1 0, magnitude: 3 kN, axes: ground}}
 bearings:
-  bush: {shell: ground, journal: shaft, diameter: 50 mm, width: 25 mm, radial_clearance: 30 um, lubricant: oil,
+  bush: {shell: ground.seat, journal: shaft, diameter: 50 mm, width: 25 mm, radial_clearance: 30 um, lubricant: oil,
          grid: {circumferential: 60, axial: 5},
          asperities: {model: greenwood_tripp_fit, roughness: 0.8 um, elastic_factor: 3e-3, composite_modulus: 110 GPa,
                       friction: 0.1},
          supply: {line: 90 deg, pressure: 1 bar},
          wear: {shell: {coefficient: "${k}", lining: "${lining}"}, journal: {coefficient: "${of_journal}"},
                 acceleration: "${factor}", cycle: 5 ms}}
-simulation: {duration: "${end}", step: 0.5 ms}
+simulation: {duration: "${end}", step: "${step}"}
 )";
 
 class Run {
@@ -62,13 +64,14 @@ TEST_CASE("WornBush_ConservesItsOil") {
 
 // The film takes over what contact has carried.
 TEST_CASE("BushThatWears_RunsIn") {
-  const Run run({"end=120 ms"});
-  const std::vector<double> rate = run.series("wear_rate");
-  CHECK(rate.back() < 0.5 * rate.at(rate.size() / 6));
+  const Run run({});
+  const std::vector<double> rate = run.series("wear_rate"), film = run.series("h_min");
+  CHECK(rate.back() < 0.5 * rate.front());
+  CHECK(film.back() > 2 * film.front());
 }
 
 TEST_CASE("WornVolume_DoesNotDependOnTheAcceleration") {
-  const Run fast({"end=60 ms"}), slow({"end=120 ms", "factor=5000"});
+  const Run fast({"end=600 ms", "step=1 ms"}), slow({"end=1200 ms", "step=1 ms", "factor=2500"});
   const double volume = slow.last("worn_volume_fixed");
   CHECK(fast.last("worn_volume_fixed") == relative(volume).epsilon(0.02));  // issue: 2 % after running-in
   // What is said of the error is of its size.
@@ -90,9 +93,9 @@ TEST_CASE("Mirrored_BushesWearAlike") {
 }
 
 TEST_CASE("WornLining_EndsTheRun") {
-  const Run run({"lining=0.05 um"}, Status::failed);
+  const Run run({"lining=0.5 um"}, Status::failed);
   CHECK(run.message().find("bearing bush: the fixed surface has worn by") != std::string::npos);
-  CHECK(run.last("wear_fixed") > 5e-8);
+  CHECK(run.last("wear_fixed") > 5e-7);
 }
 
 }  // namespace wear_run_test
