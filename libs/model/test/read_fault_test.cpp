@@ -10,7 +10,7 @@ TEST_CASE("UnknownKey_NamesTheNearest") {
         "m.yaml:27:5: bearings.big_end: unknown key 'widht'; did you mean 'width'? expected shell, journal, diameter, "
         "width, radial_clearance, diametral_clearance, grid, edge_pressure, ambient_fill, thermal, supply, features, "
         "bore, arcs, shape, shell_surface, journal_surface, operating_point, oil_inertia, shear_force, roughness, "
-        "materials, "
+        "materials, wear, "
         "lubricant, "
         "pressures, "
         "cavitation, asperities, compliance, permissible_pressure, cavitated_shear, turbulence, solver, coupling or "

@@ -179,8 +179,6 @@ TEST_CASE("FaultsOfThrustBearings_AreToldByName") {
   CHECK(fault_with({bearing + "edge_pressure=closed"}).find("the pressure is given nowhere") != std::string::npos);
   CHECK(fault_with({point + "load=5 kN"}).find("keys 'load' and 'film_thickness' together") != std::string::npos);
   CHECK(fault_with({point + "speed=0 rpm"}).find("a runner at rest") != std::string::npos);
-  CHECK(fault_with({bearing + "thermal={model: film}"}).find("key 'thermal', which kind thrust does not have") !=
-        std::string::npos);
 }
 
 // On three grids, each half of the one before, the load changes by a quarter of what it did.
