@@ -94,7 +94,7 @@ class NewUser(unittest.TestCase):
         self.assertIn("twice as much oil flows through", self.page)
         self.assertAlmostEqual(second["side_flow"] / first["side_flow"], 2, delta=0.3)  # "twice", in words
         solution = report(os.path.join(self.folder, "build/tutorial/wider.html"))["bearing"]["solutions"][0]
-        self.assertAlmostEqual(solution["clearance"], 60e-6, delta=1e-12)  # round-off of the unit
+        self.assertAlmostEqual(solution["films"][0]["clearance"], 60e-6, delta=1e-12)  # round-off of the unit
 
 
 if __name__ == "__main__":
