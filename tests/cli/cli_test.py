@@ -918,7 +918,8 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
             with subprocess.Popen([HERSEY, *arguments, "--output", parts, *resume], stdout=subprocess.DEVNULL,
                                   stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True) as process:
                 try:
-                    process.wait(timeout=chance.uniform(0.1, 0.6 if kills > 1 else 0.4) * span if kills < 6 else 120)
+                    # Twice as fast as `span` has been, two runs would be killed all the same.
+                    process.wait(timeout=chance.uniform(0.1, 0.6 if kills > 1 else 0.25) * span if kills < 6 else 120)
                 except subprocess.TimeoutExpired:
                     process.kill()
                     kills += 1
