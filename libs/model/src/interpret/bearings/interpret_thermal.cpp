@@ -129,9 +129,10 @@ void read_supplies(Context& context, const Value& bearing, const film::FilmModel
   const Value* features = bearing.find("features");
   for (const film::SurfaceFeature& feature : film.features) {
     const Value* value = features != nullptr ? features->find(feature.name) : nullptr;  // a pad's step is a shape
-    const auto own = own_temperature(context, temperature_of(value));
-    if (own && !feature.is_fed)
-      context.fault(*value->find("temperature"), "a temperature of a pocket that nothing feeds",
+    const Value* const temperature = temperature_of(value);
+    const auto own = own_temperature(context, temperature);
+    if (own && temperature != nullptr && !feature.is_fed)
+      context.fault(*temperature, "a temperature of a pocket that nothing feeds",
                     "a `pressure` that feeds it, or no temperature: it holds the film's own oil");
     heat.T_features.push_back(own.value_or(all).T);
     heat.oil.features.push_back(own.value_or(all).node);

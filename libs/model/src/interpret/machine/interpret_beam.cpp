@@ -198,12 +198,14 @@ class BeamReader {
   void orient(const Value& value, Beam& beam) {
     const Vector3 first = (beam.nodes[1] - beam.nodes[0]).normalized();
     const bool along_z = std::abs(first.z()) > 1 - 1e-6;
-    const bool given = value.find("up") != nullptr;
-    const Vector3 up = given ? direction_of(context_, value, "up") : along_z ? Vector3::UnitX() : Vector3::UnitZ();
+    const Value* const given = value.find("up");
+    const Vector3 up = given != nullptr ? direction_of(context_, value, "up")
+                       : along_z        ? Vector3::UnitX()
+                                        : Vector3::UnitZ();
     for (std::size_t i = 1; i < beam.nodes.size(); ++i) {
       const Vector3 x = (beam.nodes[i] - beam.nodes[i - 1]).normalized(), y = up.cross(x);
       if (y.norm() < 1e-6) {
-        context_.fault_at_key(given ? *value.find("up") : value, "a beam that runs along the section's z-axis",
+        context_.fault_at_key(given != nullptr ? *given : value, "a beam that runs along the section's z-axis",
                               "a direction across the beam everywhere", "give another `up`");
         return;
       }
