@@ -10,10 +10,9 @@ namespace hersey::model {
 void FilmReader::read_wear() {
   const Value* wear = value_.find("wear");
   if (wear == nullptr || wear->broken) return;
-  if (film_.asperities.model == film::AsperityModel::none && value_.find("asperities")->given &&
-      context_.has_fault_in(value_.find("asperities")->path))
-    return;
-  if (film_.asperities.model == film::AsperityModel::none)
+  const Value* const asperities = value_.find("asperities");
+  const bool is_broken = asperities != nullptr && context_.has_fault_in(asperities->path);
+  if (film_.asperities.model == film::AsperityModel::none && !is_broken)
     context_.fault_at_key(*wear, "`wear` of surfaces that never touch", "`asperities` beside it",
                           "only contact of asperities wears");
   if (wear->find(surfaces_.moving) != nullptr && std::holds_alternative<film::Plane>(film_.surface))
