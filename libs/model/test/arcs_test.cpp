@@ -83,6 +83,17 @@ TEST_CASE("ArcsOneByOne_HaveClearancesAndEndsOfTheirOwn") {
   CHECK(film.ends[0].last.kind == film::EdgeKind::closed);
   CHECK(film.ends[1].first.ambient_fill == 0.5);
   CHECK(film.ends[1].last.ambient_fill == 1);
+  CHECK(!film.ends[1].last.flow);
+}
+
+TEST_CASE("OilThatReachesAnArc_IsThatOfItsEnd") {
+  const Model model =
+      read_text(with_bore("bore: {type: three_lobe, preload: 0.5, edge_flow: {leading: 0.6 L/min, trailing: 0 L/min}}"),
+                "m.yaml");
+  for (const film::PatchEnds& ends : model.bearings[0].film.ends) {
+    CHECK(ends.first.flow == doctest::Approx(1e-5));  // 0.6 L/min in m^3/s
+    CHECK(ends.last.flow == 0);
+  }
 }
 
 TEST_CASE("GrooveOpenToAnEdgeOfAnotherPressure_IsWarnedOf") {
@@ -115,6 +126,12 @@ TEST_CASE("BoresThatCannotBe_AreReported") {
               "a fill fraction in a groove");
   check_fault("bore: {type: three_lobe, preload: 0.5, ambient_fill: 0.5, edge_pressure: 1 bar}",
               "0.5 in a groove above the cavitation pressure");
+  check_fault("bore: {type: three_lobe, preload: 0.5, edge_flow: 1 L/min}\n    cavitation: reynolds",
+              "a flow to a film that does not conserve oil");
+  check_fault("bore: {type: three_lobe, preload: 0.5, edge_flow: 1 L/min, edge_pressure: 1 bar}",
+              "a flow to an edge that is not at the cavitation pressure");
+  check_fault("bore: {type: three_lobe, preload: 0.5, edge_flow: 1 L/min, ambient_fill: 0.5}",
+              "both 'edge_flow' and 'ambient_fill'");
   check_fault(
       "bore: {type: three_lobe, preload: 0.5}\n    features: {h: {shape: hole, angle: -30 deg, diameter: 20 mm, "
       "pressure: 1 bar}}",

@@ -107,5 +107,20 @@ TEST_CASE("PadThatNothingBalances_StandsAsideAndIsNamed") {
   CHECK(upper < 0.01 * found.numbers.load);
 }
 
+// Pads that could draw more than reaches them draw all of it, and carry less.
+TEST_CASE("StarvedPads_DrawAllTheirOil") {
+  const auto with_flow = [](const std::string& flow) { return solved_pads({"bearings.main.pads.edge_flow=" + flow}); };
+  const BearingSolution flooded = solved_pads({}), ample = with_flow("20 L/min"), starved = with_flow("2 L/min");
+  for (const char* key : {"eccentricity_ratio", "h_min", "p_max", "power_film", "pad_tilt_1"})
+    CHECK(figure_of_pads(ample, key) == doctest::Approx(figure_of_pads(flooded, key)).epsilon(2e-3));  // by half a cell
+  constexpr double given = 2e-3 / 60;
+  CHECK(figure_of_pads(flooded, "arc_flow_in_3") > 1.1 * given);
+  CHECK(figure_of_pads(starved, "arc_flow_in_3") == doctest::Approx(given).epsilon(1e-6));  // solved to 1e-8
+  CHECK(figure_of_pads(starved, "pad_force_3") < 0.95 * figure_of_pads(flooded, "pad_force_3"));
+  const BearingSolution mirrored = solved_pads({"bearings.main.pads.edge_flow=2 L/min", "s=-3000 rpm"});
+  for (const char* key : {"eccentricity_ratio", "h_min", "p_max", "power_film", "side_flow"})
+    CHECK(figure_of_pads(mirrored, key) == doctest::Approx(figure_of_pads(starved, key)).epsilon(1e-6));  // likewise
+}
+
 }  // namespace tilting_pad_study_test
 }  // namespace hersey::study

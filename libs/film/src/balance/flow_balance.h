@@ -192,6 +192,8 @@ class FlowBalance {
   [[nodiscard]] bool is_on_leaking_edge(int node) const { return edges_[node].kind == EdgeNode::Kind::leaking; }
   /// u at which an edge at p_cav is as full as its surroundings; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
+  /// Part of the flow that is given at the end of a patch which reaches this node [m^3/s].
+  [[nodiscard]] double given_flow(int node) const { return edges_[node].flow; }
   /// True on an edge at p_cav with oil outside: oil that comes in there fills the gap, whatever u is.
   [[nodiscard]] bool is_flooded(int node) const { return is_on_open_edge(node) && edges_[node].ambient == 0; }
   /// Returns the flow over the edge on which a node lies, of all flows over edges.
@@ -369,6 +371,7 @@ class FlowBalance {
     double u = 0;            ///< prescribed unknown, or that of the pressure behind a seal [Pa]
     double ambient = 0;      ///< ambient_unknown() [Pa]
     double seal = 0;         ///< of a seal: flow per pressure and fluidity [m^3] (damper.1)
+    double flow = 0;         ///< given_flow() [m^3/s]
   };
 
   /// Fraction of a full gap's entrained flow that crosses a face which the line cuts, with derivatives: by the fill
@@ -396,6 +399,7 @@ class FlowBalance {
   /// Oil entering by the row of this node [m^3/s].
   [[nodiscard]] double supply_of_row(int node) const;
   void lay_edges();
+  void spread_given_flows();
   void lay_faces();
   void lay_pattern();
   void find_supply(const SurfaceMotion& motion);

@@ -53,7 +53,9 @@ bool open_edge(const FilmModel& model, int node) {
 }
 
 double ambient_fill(const FilmModel& model, int node) {
-  return open_edge(model, node) ? edge_of_node(model, node)->ambient_fill : 0;
+  if (!open_edge(model, node)) return 0;
+  const Edge& edge = *edge_of_node(model, node);
+  return edge.flow ? 0 : edge.ambient_fill;
 }
 
 NodeLaw::NodeLaw(const FilmModel& model)

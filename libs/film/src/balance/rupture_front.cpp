@@ -53,7 +53,8 @@ class Fronts {
   void relax(int i, int j) {
     const int node = grid_.index(i, j);
     if (balance_.is_on_prescribed_edge(node) || balance_.is_on_supply(node)) return;
-    if (balance_.is_on_open_edge(node) && ambient_fill(balance_.model(), node) > 0) return;  // oil comes in there
+    if (balance_.is_on_open_edge(node) && (ambient_fill(balance_.model(), node) > 0 || balance_.given_flow(node) > 0))
+      return;  // oil comes in there
     const double storage_slope = balance_.nodes()[node].density * balance_.storage_by_content(node);
     Balance sum{balance_.storage(node) + storage_slope * (1 - balance_.nodes()[node].theta), storage_slope};
     for (const int f : balance_.faces_around(node))

@@ -178,7 +178,7 @@ FilmDomain Sor::enter_domain(const Eigen::VectorXd& inside, Eigen::VectorXd& u) 
 
 NodeRow Sor::row(int node) const {
   NodeRow r(storage_theta_[node]);
-  r.known = storage_known_[node];
+  r.known = storage_known_[node] - balance_.given_flow(node);
   if (balance_.is_on_leaking_edge(node)) {
     const double seal = balance_.seal_conductance(node);
     r.K += seal;

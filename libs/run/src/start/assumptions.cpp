@@ -32,6 +32,7 @@ std::string edge(const film::FilmModel& film, const film::Edge& at) {
     return fmt::format("a seal of leakage {:.4g}, behind which are {}", at.leakage, pressure(at.pressure));
   const double p = at.pressure, fill = at.ambient_fill;
   if (!film::cavitation_law(film).has_fill() || p > film.p_cav) return pressure(p);
+  if (at.flow) return pressure(p) + fmt::format(", which {:.4g} L/min of oil reach", 6e4 * *at.flow);
   if (fill == 0) return pressure(p) + ", in air: oil may leave, none comes in";
   return pressure(p) + fmt::format(", in {:.3g} of oil: the film draws it in where it would be emptier", fill);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <vector>
 
 #include "hersey/film/cavitation_law.h"
@@ -102,6 +103,9 @@ struct Edge {
   /// Fill fraction outside an edge at p_cav, from 0 (air) to 1 (oil); it counts only where oil is conserved [-].
   double ambient_fill = 0;
   double leakage = 0;  ///< kappa of a seal (damper.1), > 0; counts only where the edge leaks [-]
+  /// All the oil that reaches the end of a patch at p_cav, of which the film takes what it can (film.64), in place of
+  /// `ambient_fill`; counts only where oil is conserved [m^3/s], >= 0.
+  std::optional<double> flow = {};
 };
 
 /// The edges on the first and on the last line of a patch.
@@ -152,11 +156,12 @@ struct FilmModel {
 }
 
 /// Fraction of oil in what a film draws in over an edge: 1 above the cavitation pressure; a wall counts less than air,
-/// as does a seal, which only pressure passes [-].
+/// as does a seal, which only pressure passes; a given flow counts between air and oil [-].
 [[nodiscard]] inline double fill_outside(const FilmModel& model, const Edge& edge) {
   if (edge.kind == EdgeKind::closed) return -1;
   if (edge.kind == EdgeKind::leaking) return edge.pressure > model.p_cav ? 1 : -0.5;
-  return edge.pressure > model.p_cav ? 1 : edge.ambient_fill;
+  if (edge.pressure > model.p_cav) return 1;
+  return edge.flow ? 0.5 : edge.ambient_fill;
 }
 
 /// The edge on which a node lies; null between them. Where two meet, one with a pressure counts before a seal and this

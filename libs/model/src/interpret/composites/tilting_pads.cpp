@@ -254,7 +254,7 @@ class TiltingPads {
         if (is_key_of_each_pad(parts_.kind, own.key)) film.value.entries.push_back(own);
       if (const Node* journal = node_.find("journal")) film.value.find("journal")->position = journal->position;
       Node* arc = film.value.find("arcs")->find("pad");
-      for (const char* key : {"edge_pressure", "ambient_fill"}) {
+      for (const char* key : {"edge_pressure", "ambient_fill", "edge_flow"}) {
         const auto given = std::find_if(pads->entries.begin(), pads->entries.end(),
                                         [&](const Entry& entry) { return entry.key == key; });
         if (given != pads->entries.end()) arc->entries.push_back(*given);

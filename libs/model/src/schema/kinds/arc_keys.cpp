@@ -45,6 +45,13 @@ std::vector<Key> arc_end_keys() {
       optional("ambient_fill", both("a number from 0 to 1, or {leading, trailing}", "two fill fractions", fill),
                "Share of oil in a groove at the cavitation pressure, from which the film draws: 1 flooded, 0 air.",
                "1"),
+      optional(
+          "edge_flow",
+          both("a flow such as 0.4 L/min, or {leading, trailing}", "two flows",
+               quantity("m^3/s", "0.4 L/min", Range::not_negative())),
+          "All the oil that reaches the groove, at the cavitation pressure, before an arc: what the arc has no room "
+          "for is lost, and where it could draw more it is starved; in place of `ambient_fill`.",
+          "as much as the film draws"),
   };
 }
 

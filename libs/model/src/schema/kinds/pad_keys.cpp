@@ -69,8 +69,8 @@ bool is_key_of_each_pad(const std::string& kind, const std::string& key) {
   const std::vector<std::string> of_all{"lubricant",   "grid",      "edge_pressure", "ambient_fill",
                                         "shear_force", "roughness", "materials"},
       around_a_journal{"diameter", "width", "radial_clearance", "diametral_clearance", "thermal"},
-      below_a_collar{"inner_diameter",           "outer_diameter", "sense",  "shape",
-                     "reference_film_thickness", "temperature",    "thermal"};
+      below_a_collar{"inner_diameter", "outer_diameter",           "sense",       "shape",
+                     "edge_flow",      "reference_film_thickness", "temperature", "thermal"};
   const auto is_in = [&key](const std::vector<std::string>& keys) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
   };

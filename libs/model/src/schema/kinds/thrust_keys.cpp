@@ -178,6 +178,10 @@ std::vector<Key> thrust_keys() {
       defaulted("ambient_fill", sector_fills_format(), "1",
                 "Share of oil in what surrounds edges at the cavitation pressure and is drawn in there: 1 a flooded "
                 "bearing, 0 air."),
+      optional("edge_flow", quantity("m^3/s", "0.4 L/min", Range::not_negative()),
+               "All the oil that reaches each leading edge, at the cavitation pressure: what a pad has no room for is "
+               "lost, and where it could draw more it is starved; in place of the leading `ambient_fill`.",
+               "as much as the film draws"),
       optional("temperature", temperature("60 degC"), "Of the oil, where it has one temperature.",
                "that of the lubricant"),
       defaulted("thermal", flat_thermal_format({.fixed = "stator", .moving = "runner"}), "isothermal",

@@ -76,6 +76,17 @@ film::Edge FilmReader::edge_of(const Value& outside) {
   return {.pressure = outside.number};
 }
 
+void FilmReader::read_edge_flow(const Value& flow, film::Edge& edge) {
+  if (flow.broken) return;
+  edge.flow = flow.number;
+  if (edge.kind != film::EdgeKind::pressure || edge.pressure > film_.p_cav) {
+    context_.fault(flow, "a flow to an edge that is not at the cavitation pressure",
+                   "edge_pressure: that of `cavitation`, at which oil comes by itself");
+  } else if (!film::cavitation_law(film_).has_fill()) {
+    context_.fault(flow, "a flow to a film that does not conserve oil", "cavitation: mass_conserving, or no edge_flow");
+  }
+}
+
 /// No pressure lies below a vacuum. On the absolute scale a default of 0 would be one: edges have to be given.
 void FilmReader::read_pressure_scale() {
   film_.pressures = meaning_of(value_, "pressures", pressure_scale_words);

@@ -25,6 +25,8 @@ class FilmReader {
   void read_cavitation();
   /// Returns the edge with what lies outside it, a pressure or `closed`.
   [[nodiscard]] film::Edge edge_of(const Value& outside);
+  /// Reads all the oil that reaches an edge; reports edges that are not at the cavitation pressure.
+  void read_edge_flow(const Value& flow, film::Edge& edge);
   /// Reads roughness, asperities, compliance and wear, and reports materials that nothing uses.
   void read_contact();
   /// Reads the scale of pressures; reports those below a vacuum.

@@ -129,6 +129,11 @@ class ArcReader {
     for (film::Edge* edge : {&ends.first, &ends.last})
       if (edge->kind == film::EdgeKind::pressure) edge->ambient_fill = 1;
     of_both("ambient_fill", [&](const Value& v, film::Edge& edge) { read_fill(v, edge); });
+    of_both("edge_flow", [&](const Value& v, film::Edge& edge) { reader_.read_edge_flow(v, edge); });
+    const Value *flow = given(value, "edge_flow"), *fill = given(value, "ambient_fill");
+    if (flow != nullptr && fill != nullptr)
+      context_.fault_at_key(*flow, "both 'edge_flow' and 'ambient_fill'", "one of them",
+                            "the film draws from the groove what there is, or what reaches it");
     return ends;
   }
 

@@ -158,7 +158,12 @@ class ThrustReader {
       return outside;
     };
     // The runner comes in over the leading edge: the one with the smaller angle of pads made for a positive rotation.
-    const film::Edge leading = edge("leading"), trailing = edge("trailing");
+    film::Edge leading = edge("leading");
+    const film::Edge trailing = edge("trailing");
+    if (const Value* flow = given(value_, "edge_flow")) {
+      if (pads_.empty()) context_.fault(*flow, "a flow to the leading edges of a washer, which has none", "`pads`");
+      reader_.read_edge_flow(*flow, leading);
+    }
     film_.ends.assign(pads_.size(),
                       is_forward_ ? film::PatchEnds{leading, trailing} : film::PatchEnds{trailing, leading});
     film_.edge_left = edge("inner");
