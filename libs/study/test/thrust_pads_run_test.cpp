@@ -126,5 +126,18 @@ TEST_CASE("SettledThrustPads_AreThoseOfTheSteadyMotion") {
           relative(steady.number("bearings/main_pad_3/" + key)).epsilon(1e-3));  // what has not settled
 }
 
+// Where the shaft begins does not tell where it ends, nor whether it ends anywhere.
+TEST_CASE("SteadyMotion_DoesNotDependOnWhereTheShaftBegins") {
+  const auto film_from = [](const std::string& start) {
+    return Ran(machine(20e3, film_of("front", "positive", "")), {"joints.turning.initial.translation=" + start})
+        .number("bearings/front_pad_1/h_min");
+  };
+  const double reference = film_from("35 um");
+  for (const char* start : {"15 um", "25 um", "50 um", "80 um"}) {
+    CAPTURE(start);
+    CHECK(film_from(start) == relative(reference).epsilon(solved_for));
+  }
+}
+
 }  // namespace thrust_pads_run_test
 }  // namespace hersey::study

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -62,6 +63,7 @@ class ThrustPads {
   }
 
   [[nodiscard]] bool yields() const { return pivot_.text != "rigid"; }
+  [[nodiscard]] double sense() const { return value_.find("sense")->text == "negative" ? -1 : 1; }
   [[nodiscard]] bool is_line() const { return pivot_.find("form")->text == "line"; }
 
   void read_pads() {
@@ -81,6 +83,15 @@ class ThrustPads {
             fmt::format("between {:.4g} and {:.4g} mm", 1e3 * inner_, 1e3 * outer_));
   }
 
+  /// Tilt at which a pad begins: its leading edge opened by a quarter of a usual film, from where a film carries that
+  /// is not a uniform one [rad].
+  [[nodiscard]] double opening() const {
+    const double offset = number_of(pads_, "offset"), farther = std::max(offset, 1 - offset) * arc_;
+    // A stator may face against the axis about which the shaft rotates; its sense is then given.
+    return std::copysign(0.25, value_.find("sense")->given ? sense() : parts_.speed) * parts_.clearance /
+           (parts_.pivot_radius * std::sin(std::min(farther, 0.25 * two_pi)));
+  }
+
   void find_inertia() {
     inertia_ = sector_of_ring(inner_, outer_ - inner_, arc_, thickness_, number_of(pads_, "density"));
     if (const Value* mass = pads_.find("mass"); mass != nullptr) inertia_ = with_mass(inertia_, mass->number);
@@ -90,8 +101,7 @@ class ThrustPads {
     const std::string pad = fmt::format("{}_pad_{}", parts_.name, k + 1);
     parts_.pads.push_back(pad);
     // The offset counts from the leading edge.
-    const double sense = value_.find("sense")->text == "negative" ? -1 : 1;
-    const double angle = middle + sense * (number_of(pads_, "offset") - 0.5) * arc_;
+    const double angle = middle + sense() * (number_of(pads_, "offset") - 0.5) * arc_;
     parts_.pivot_angles.push_back(angle);
     // x of a pivot points along the radius, y around the axis.
     const std::string pivot =
@@ -101,8 +111,10 @@ class ThrustPads {
     add_body(pad, pivot, middle);
     std::string inboard = fmt::format("{}_carrier.pivot_{}", parts_.name, k + 1);
     if (yields()) inboard = add_seat(pad, inboard);
-    joints_ += fmt::format("  {0}_pivot: {{type: {1}, between: [{2}, {0}.pivot], axis: {3}}}\n", pad,
-                           is_line() ? "revolute" : "universal", inboard, is_line() ? "x" : "z");
+    joints_ +=
+        fmt::format("  {0}_pivot: {{type: {1}, between: [{2}, {0}.pivot], axis: {3}, initial: {{{4}: {5} rad}}}}\n",
+                    pad, is_line() ? "revolute" : "universal", inboard, is_line() ? "x" : "z",
+                    is_line() ? "rotation" : "rotation_1", opening());
     bearings_ += fmt::format(
         "  {0}:\n    kind: thrust\n    stator: {0}.face\n    runner: {1}\n"
         "    pads: {{count: 1, arc: {2} rad, angle: {3} rad}}\n",
