@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "table.h"
 
@@ -101,11 +102,37 @@ std::string bearings_text(const std::vector<SummaryRow>& rows) {
   return text;
 }
 
+bool is_of_films(const SummaryRow& row) { return row.group.starts_with("films of "); }
+
+/// Bearings of several films, a line each.
+std::string groups_text(const std::vector<SummaryRow>& rows) {
+  constexpr std::array<std::pair<const char*, const char*>, 5> columns{{{"smallest film of all", "MOFT"},
+                                                                        {"largest pressure of all films", "POFP"},
+                                                                        {"largest load on all films", "load"},
+                                                                        {"mean power loss in all films", "film loss"},
+                                                                        {"mean side flow of all films", "side flow"}}};
+  Lines lines;
+  std::string last;
+  for (const SummaryRow& of : rows) {
+    if (!is_of_films(of) || of.group == last) continue;
+    last = of.group;
+    if (lines.empty()) lines.push_back({"bearing"});
+    std::vector<std::string> line{of.group.substr(std::string("films of ").size())};
+    for (const auto& [name, heading] : columns) {
+      const SummaryRow* row = find(rows, of.group, name);
+      line.push_back(row == nullptr ? "-" : figure_text(row->value));
+      if (lines.size() == 1 && row != nullptr) lines.front().push_back(fmt::format("{} [{}]", heading, row->unit));
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines.empty() ? "" : "\nbearings of several films\n" + aligned(lines, 99);
+}
+
 std::string others_text(const std::vector<SummaryRow>& rows) {
   Lines lines;
   std::size_t left_out = 0;
   for (const SummaryRow& row : rows) {
-    if (row.group == "computing" || is_of_bearing(rows, row.group)) continue;
+    if (row.group == "computing" || is_of_films(row) || is_of_bearing(rows, row.group)) continue;
     if (lines.size() < kMostOthers) {
       lines.push_back({row.name, figure_text(row.value), row.unit, row.where});
     } else {
@@ -122,7 +149,7 @@ std::string screen_text(const std::vector<SummaryRow>& rows, const std::string& 
   std::string all = summary_text(rows);
   const bool fits = static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n')) <= kScreen;
   if (fits || bearings_of(rows).empty()) return all;
-  return worst_text(rows) + bearings_text(rows) + others_text(rows) +
+  return worst_text(rows) + bearings_text(rows) + groups_text(rows) + others_text(rows) +
          fmt::format("\n{} figures in all: {}\n", rows.size(), more);
 }
 

@@ -37,6 +37,7 @@ RUNS = {
                                             "simulation.cycle={period: 1 ms, most: 2}", "--set",
                                             "bearings.pad.thermal={model: film, supply_temperature: 40 degC}"],
     "examples/tilting_pads/model.yaml": [],
+    "tests/results_file/pads.yaml": [],
     "oil_circuit": ["--set", "simulation.duration=2ms"],
     "wear": ["--set", "simulation.duration=2ms"],
     "tests/results_file/thrust.yaml": [],

@@ -56,6 +56,8 @@ export class SystemView {
       const things = run.children(group).filter((thing) => run.growingIn(`${group}/${thing}`).length > 0);
       if (things.length > 0) this.element.append(section(title, false, (body) => things.forEach((thing) => this.further(body, `${group}/${thing}`))));
     }
+    const groups = run.children("/groups");
+    if (groups.length > 0) this.element.append(section("Bearings of several films", alone, (body) => groups.forEach((group) => this.further(body, `/groups/${group}`))));
     if (run.growingIn("/circuit").length > 0) this.element.append(section("Oil circuit", alone, (body) => this.further(body, "/circuit")));
     if (run.growingIn("/thermal").length > 0) this.element.append(section("Thermal network", false, (body) => this.further(body, "/thermal")));
     if (alone) solution();

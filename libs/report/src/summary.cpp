@@ -66,6 +66,7 @@ class Summary {
     mode_rows();
     convergence_rows();
     bearing_rows();
+    group_rows();
     thermal_rows();
     circuit_rows();
     contact_rows();
@@ -214,6 +215,15 @@ class Summary {
     const auto cold = reader_.number_attribute("/bearings/" + group_, "radial_clearance");
     if (cold && (reader_.has(path_ + "clearance") || reader_.has(path_ + "clearance_of_bodies")))
       add("radial clearance as given (cold)", 1e6 * *cold, "µm");
+  }
+
+  void group_rows() {
+    using Statistic = SummaryEntry::Statistic;
+    for (const std::string& bearing : reader_.children("/groups")) {
+      group_ = "films of " + bearing;
+      path_ = "/groups/" + bearing + "/";
+      add_rows(run::quantities_of("/groups/<g>/"), {Statistic::smallest, Statistic::largest, Statistic::mean});
+    }
   }
 
   void thermal_rows() {

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -86,6 +87,24 @@ TEST_CASE("PadsInAMachine_AreThoseByThemselvesAndWrittenByHand") {
     CHECK(by_hand.number("bearings/main_pad_2/" + key) ==
           relative(ran.number("bearings/main_pad_2/" + key)).epsilon(1e-9));  // the same equations
   CHECK(alone.state.film.patches.at(1).h_min == relative(ran.number("bearings/main_pad_2/h_min")).epsilon(solved_for));
+}
+
+// The films of a bearing are one bearing, too: together they carry what the shaft does.
+TEST_CASE("FilmsOfABearing_HaveFiguresTogether") {
+  const Ran found(machine(20e3, film_of("main", "positive", "")));
+  const std::vector<double> force = found.last("groups/main/force");
+  CHECK(force[2] == relative(20e3).epsilon(solved_for));
+  CHECK(std::abs(force[0]) + std::abs(force[1]) < solved_for * 20e3);
+  double power = 0, thinnest = 1, largest = 0;
+  for (int k = 1; k <= 3; ++k) {
+    const std::string pad = fmt::format("bearings/main_pad_{}/", k);
+    power += found.number(pad + "power_film");
+    thinnest = std::min(thinnest, found.number(pad + "h_min"));
+    largest = std::max(largest, found.number(pad + "p_max"));
+  }
+  CHECK(found.number("groups/main/power_film") == relative(power).epsilon(1e-12));  // round-off of sums
+  CHECK(found.number("groups/main/h_min") == thinnest);
+  CHECK(found.number("groups/main/p_max") == largest);
 }
 
 TEST_CASE("PadsOnBothSidesOfACollar_HoldItInTheMiddle") {

@@ -18,6 +18,7 @@
 #include "series/effort_record.h"
 #include "series/flexible_record.h"
 #include "series/geometry_record.h"
+#include "series/group_record.h"
 #include "series/joint_record.h"
 #include "series/mode_record.h"
 #include "series/surface_load_record.h"
@@ -98,7 +99,7 @@ const std::vector<QuantityGroup>& result_quantities() {
     add(describe_work());
     add({describe_step_errors(), SystemRecord::describe(), CycleRecord::describe()});
     add(BearingRecord::describe());
-    add({ThermalRecord::describe(), CircuitRecord::describe()});
+    add({GroupRecord::describe(), ThermalRecord::describe(), CircuitRecord::describe()});
     add({body_group(), shapes_of_bodies(), describe_ground(), describe_shapes("/ground/shapes/<s>/"), joint_group()});
     add(EffortRecord::describe());
     add({force_group(), ContactRecord::describe(), SurfaceLoadRecord::describe(), ModeRecord::describe()});

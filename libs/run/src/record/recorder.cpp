@@ -99,6 +99,8 @@ void Recorder::declare() {
   }
   if (machine_.network) thermal_.emplace(model_, writer_);
   if (model_.circuit) circuit_.emplace(*model_.circuit, writer_);
+  for (const model::Composite& composite : model_.composites)
+    if (GroupRecord::is_in(model_, composite)) groups_.emplace_back(model_, machine_, composite, writer_);
   cycle_maps_.emplace(model_, machine_, writer_);
   if (model_.simulation.cycle) cycles_.emplace(model_, writer_);
   write_geometry(model_, spec, hidden.joints, writer_);
@@ -118,6 +120,7 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   for (std::size_t i = 0; i < bearings_.size(); ++i) bearings_[i].append(step.bearings[i]);
   if (thermal_) thermal_->append({model_, step.network});
   if (circuit_) circuit_->append(step.circuit);
+  for (const GroupRecord& group : groups_) group.append(step);
 }
 
 void Recorder::write_fields(const StepRecord& step) {

@@ -21,6 +21,7 @@
 #include "series/contact_record.h"
 #include "series/effort_record.h"
 #include "series/flexible_record.h"
+#include "series/group_record.h"
 #include "series/joint_record.h"
 #include "series/mode_record.h"
 #include "series/surface_load_record.h"
@@ -86,6 +87,7 @@ class Recorder {
   std::vector<BearingRecord> bearings_;
   std::optional<ThermalRecord> thermal_;
   std::optional<CircuitRecord> circuit_;
+  std::vector<GroupRecord> groups_;  ///< bearings of several films
   std::optional<CycleMaps> cycle_maps_;
   std::optional<CycleRecord> cycles_;
   std::optional<ModeRecord> modes_;
