@@ -91,7 +91,7 @@ TEST_CASE("FieldOfAFace_IsItsMean") {
   const auto areas = faces.wrenches().bottomRows<3>().colwise().norm();
   double covered = 0;
   for (Eigen::Index f = 0; f < one.size(); ++f) {
-    CHECK(one[f] < 1 + round_off_of_sums);
+    CHECK(one[f] < 1 + 1e-5);  // the area on the cylinder over that of the parabola through its nodes
     CHECK(within[f] == doctest::Approx(7).epsilon(round_off_of_sums));
     covered += one[f] * areas[f];
   }

@@ -47,7 +47,9 @@ class BodyLoads {
   BodyLoads(const results::Reader& results, const model::Model& model, LoadRequest request);
   ~BodyLoads();
 
+  /// Name of the body.
   [[nodiscard]] const std::string& body() const;
+  /// Its mesh, in the body's axes.
   [[nodiscard]] const fem::Mesh& mesh() const;
   /// Names of the bearings, and the faces of each.
   [[nodiscard]] std::vector<std::pair<std::string, std::vector<fem::ElementFace>>> films() const;

@@ -41,18 +41,22 @@ class BodyStress {
   /// @throws InputError where there is no such body, or it has no amplitudes that say all of its deformation
   BodyStress(const results::Reader& results, const model::Model& model, const std::string& body);
 
+  /// Name of the body.
   [[nodiscard]] const std::string& body() const { return flexible_.name; }
+  /// Its mesh.
   [[nodiscard]] const fem::Mesh& mesh() const { return *flexible_.mesh; }
+  /// Number of shapes it moves in.
   [[nodiscard]] Eigen::Index shapes() const { return flexible_.shapes.cols(); }
   [[nodiscard]] const std::vector<double>& times() const { return times_; }  ///< [s], of the rows
   /// Returns displacements and stresses at a row of the results.
   [[nodiscard]] BodyStressAt at(std::size_t instant) const;
 
-  /// Goes through all instants once.
+  /// Largest stresses over the run.
   struct Envelope {
     std::vector<StressPeak> peaks;  ///< of every instant
     Eigen::VectorXd largest, when;  ///< largest equivalent stress of each node and its time [Pa, s]
   };
+  /// Goes through all instants once.
   [[nodiscard]] Envelope envelope() const;
 
  private:
