@@ -234,6 +234,7 @@ class LoadsTest(unittest.TestCase):
                       for name, values in re.findall(r"\*AMPLITUDE, NAME=(\S+)\n([^*]*)", text)}
         loads = re.findall(r"\*DLOAD, AMPLITUDE=(\S+)\n(\d+), P(\d), 1\.", text)
         self.assertEqual(len(loads), len(steps[0]))
+        self.assertIn("*STEP, NLGEOM", text)  # CalculiX would take a linear static step in one increment
         for name, element, face in loads:
             table = amplitudes[name]
             np.testing.assert_allclose(table[:, 0], self.times - self.times[0], rtol=DIGITS, atol=0)

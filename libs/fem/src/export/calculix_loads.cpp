@@ -81,9 +81,10 @@ class CalculixText {
     const auto intervals = static_cast<double>(std::max<std::size_t>(body_.instants.size() - 1, 1));
     const double length = end > begin ? end - begin : 1;
     add(text,
-        "** Quasi-static; for the body's own vibrations replace *STATIC, DIRECT by *DYNAMIC.\n"
+        "** Quasi-static: CalculiX takes a linear step in one go, one with NLGEOM by increments. For the body's own "
+        "vibrations replace *STATIC, DIRECT by *DYNAMIC.\n"
         "** The time 0 is {:.12g} s of the run.\n"
-        "*STEP, INC=1000000\n*STATIC, DIRECT\n{:.12g}, {:.12g}\n",
+        "*STEP, NLGEOM, INC=1000000\n*STATIC, DIRECT\n{:.12g}, {:.12g}\n",
         begin, length / intervals, length);
     for (std::size_t f = 0; f < body_.faces.size(); ++f)
       add(text, "*DLOAD, AMPLITUDE=FACE_{}\n{}, 1.\n", f + 1, load_on(f));
