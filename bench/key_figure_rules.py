@@ -66,6 +66,7 @@ COMMANDS = {
     "thrust_pads/shaft": [("run",)],
     "thrust_pads/tilting": [("bearing",), ("run",)],
     "tilting_pads/model": [("run",)],
+    "start_stop/model": [("run", "simulation.duration=0.3s", "simulation.tolerance=1e-10")],
     "wear/model": [("run", "simulation.duration=20ms")],
     "spinning_rod/model": [("run", "simulation.duration=10s")],
     "squeeze_film_damper/model": [("bearing",)],

@@ -25,16 +25,36 @@ struct RunArguments {
 /// @returns an ExitCode. @throws InputError, results::FileError.
 [[nodiscard]] int run_command(const RunArguments& arguments);
 
+/// Of `hersey export` with --loads.
+struct LoadsArguments {
+  std::string format;                 ///< calculix, nastran or vtkhdf; empty: no loads are asked for
+  std::string body;                   ///< empty: the only one with a mesh and a film
+  std::vector<std::string> bearings;  ///< empty: all on the body
+  std::vector<std::string> instants;  ///< times or crank angles, or `all`; empty: the last cycle
+  std::filesystem::path output;       ///< folder
+  std::string units = "mm";           ///< or si
+  std::vector<std::string> hold;      ///< as SolidArguments::hold
+  std::string mesh, length_unit = "m", youngs_modulus, poisson_ratio, density;  ///< of a body that is rigid in the run
+  std::string model_file;  ///< where it lies now; empty: as the results say
+};
+
 struct ExportArguments {
-  std::string model;
+  std::string file;  ///< a model, or results with --loads
   std::vector<std::string> overrides;
   std::filesystem::path fmu;
   int fmi = 2;  ///< version of the standard
+  LoadsArguments loads;
   bool force = false;
+  bool json = false;
 };
 
-/// `hersey export`: becomes the program that packs a model into an FMU. @returns an ExitCode where that is not there.
+/// `hersey export`: becomes the program that packs a model into an FMU, or writes the loads of a run for strength
+/// programs. @returns an ExitCode. @throws InputError, results::ReadError; std::runtime_error where a file cannot be
+/// written
 [[nodiscard]] int export_command(const ExportArguments& arguments);
+
+/// `hersey export --loads`.
+[[nodiscard]] int loads_command(const ExportArguments& arguments);
 
 struct CheckArguments {
   std::string model;
@@ -139,6 +159,12 @@ struct SolidArguments {
   std::string reference_temperature = "20degC";  ///< at which the mesh has its shape
   int count = 10;                                ///< natural modes
   std::filesystem::path vtu;                     ///< file to write for ParaView; empty: none
+  std::filesystem::path vtkhdf;                  ///< the same of stresses over a run
+  std::string body;                              ///< of results: whose stresses; empty: the only flexible one
+  std::vector<std::string> instants;             ///< of results: times or crank angles, or `all`; empty: the largest
+  int largest = 5;                               ///< instants of largest stress
+  std::string model_file;                        ///< of results: where it lies now; empty: as they say
+  bool force = false;
   bool json = false;
 };
 
@@ -147,9 +173,12 @@ struct SolidArguments {
 /// @throws InputError.
 [[nodiscard]] int modes_command(const SolidArguments& arguments);
 
-/// `hersey stress`: displacements and stresses under pressures, gravity and temperature. @returns an ExitCode. @throws
-/// InputError.
+/// `hersey stress`: displacements and stresses under pressures, gravity and temperature, or those of a flexible body
+/// over a run. @returns an ExitCode. @throws InputError, results::ReadError.
 [[nodiscard]] int stress_command(const SolidArguments& arguments);
+
+/// `hersey stress` of a results file.
+[[nodiscard]] int run_stress_command(const SolidArguments& arguments);
 
 struct OilArguments {
   std::string oil;                       ///< a grade, or a model file

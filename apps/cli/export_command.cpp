@@ -7,14 +7,22 @@
 
 #include "commands.h"
 #include "exit_code.h"
+#include "hersey/core/input_error.h"
 #include "standard_streams.h"
 
 namespace hersey::cli {
 
 // Another program does it: this one needs neither a library for archives nor that of the FMU.
 int export_command(const ExportArguments& arguments) {
-  std::vector<std::string> words{"hersey-fmu",           arguments.model, "--fmu",
-                                 arguments.fmu.string(), "--fmi",         std::to_string(arguments.fmi)};
+  if (!arguments.loads.format.empty()) return loads_command(arguments);
+  if (arguments.fmu.empty())
+    throw InputError(Fault{{"", 0, 0},
+                           "hersey export",
+                           "neither an FMU nor loads are asked for",
+                           "`--fmu FILE.fmu` with a model, or `--loads calculix|nastran|vtkhdf` with results",
+                           ""});
+  std::vector<std::string> words{"hersey-fmu",           arguments.file, "--fmu",
+                                 arguments.fmu.string(), "--fmi",        std::to_string(arguments.fmi)};
   for (const std::string& change : arguments.overrides) words.insert(words.end(), {"--set", change});
   if (arguments.force) words.emplace_back("--force");
   std::vector<char*> pointers;

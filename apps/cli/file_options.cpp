@@ -32,16 +32,50 @@ void add_oil(CLI::App& app, Commands& commands) {
   commands.push_back({command, [oil] { return oil_command(*oil); }});
 }
 
+void add_load_options(CLI::App& command, LoadsArguments& loads) {
+  const auto value = [&](const char* option, std::string& text, const char* what, const char* type) {
+    command.add_option(option, text, what)->type_name(type);
+  };
+  command
+      .add_option("--loads", loads.format,
+                  "Write the pressures of films on a body's mesh for a strength program, from results")
+      ->type_name("calculix|nastran|vtkhdf")
+      ->check(CLI::IsMember({"calculix", "nastran", "vtkhdf"}).description(""));
+  command.add_option("--output", loads.output, "Folder of the loads")->type_name("DIR");
+  value("--body", loads.body, "Whose loads (default: the only body with a mesh and a film)", "NAME");
+  repeatable(command.add_option("--bearing", loads.bearings, "Of this bearing only (default: of all on the body)")
+                 ->type_name("NAME"));
+  repeatable(command
+                 .add_option("--instant", loads.instants,
+                             "At the stored film nearest to this time or crank angle, or all (default: the last cycle)")
+                 ->type_name("12ms|370deg|all"));
+  command.add_option("--units", loads.units, "Of CalculiX and Nastran files: mm, N, t, MPa or SI (default: mm)")
+      ->type_name("mm|si")
+      ->check(CLI::IsMember({"mm", "si"}).description(""));
+  repeatable(
+      command.add_option("--hold", loads.hold, "Support: set of nodes that does not move, or SET:xz along some axes")
+          ->type_name("SET"));
+  value("--mesh", loads.mesh, "Mesh of a body that is rigid in the run, in the body's axes", "FILE");
+  value("--length-unit", loads.length_unit, "What one unit of that mesh is (default: m)", "mm");
+  value("--youngs-modulus", loads.youngs_modulus, "Young's modulus, instead of that mesh's", "210GPa");
+  value("--poisson-ratio", loads.poisson_ratio, "Poisson's ratio, instead of that mesh's", "0.3");
+  value("--density", loads.density, "Density, instead of that mesh's", "7850kg/m^3");
+  value("--model", loads.model_file, "Where the model file lies now, if it has moved since the run", "FILE");
+}
+
 void add_export(CLI::App& app, Commands& commands) {
   const auto exported = std::make_shared<ExportArguments>();
-  CLI::App* command = app.add_subcommand("export", "Write a model as an FMU, for co-simulation in other programs");
-  command->add_option("MODEL", exported->model, "Model file")->required();
-  command->add_option("--fmu", exported->fmu, "The FMU to write")->type_name("FILE.fmu")->required();
+  CLI::App* command =
+      app.add_subcommand("export", "Write a model as an FMU for co-simulation, or a run's loads for strength programs");
+  command->add_option("FILE", exported->file, "Model file; with --loads a results file")->required();
+  command->add_option("--fmu", exported->fmu, "The FMU to write")->type_name("FILE.fmu");
   command->add_option("--fmi", exported->fmi, "Version of the standard: 2 or 3 (default: 2)")
       ->type_name("2|3")
       ->check(CLI::IsMember({2, 3}).description(""));
   add_overrides(*command, exported->overrides);
-  command->add_flag("--force", exported->force, "Replace the FMU if it exists");
+  add_load_options(*command, exported->loads);
+  command->add_flag("--force", exported->force, "Replace what exists");
+  command->add_flag("--json", exported->json, "Print what loads were written as JSON");
   commands.push_back({command, [exported] { return export_command(*exported); }});
 }
 

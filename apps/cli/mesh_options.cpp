@@ -91,9 +91,10 @@ void add_reduce(CLI::App& app, Commands& commands) {
   commands.push_back({command, [reduce] { return reduce_command(*reduce); }});
 }
 
-CLI::App* add_solid_command(CLI::App& app, const char* name, const char* description, SolidArguments& solid) {
+CLI::App* add_solid_command(CLI::App& app, const char* name, const char* description, SolidArguments& solid,
+                            const char* what = "Mesh of solid elements: Gmsh, Abaqus, CalculiX, Nastran") {
   CLI::App* command = app.add_subcommand(name, description);
-  command->add_option("FILE", solid.file, "Mesh of solid elements: Gmsh, Abaqus, CalculiX, Nastran")->required();
+  command->add_option("FILE", solid.file, what)->required();
   const auto value = [&](const char* option, std::string& text, const char* what, const char* type) {
     command->add_option(option, text, what)->type_name(type);
   };
@@ -139,10 +140,29 @@ void add_heat_options(CLI::App& command, SolidArguments& solid) {
       ->type_name("20degC");
 }
 
+// Of stresses over a run.
+void add_run_options(CLI::App& command, SolidArguments& solid) {
+  command.add_option("--body", solid.body, "Of results: whose stresses (default: the only flexible body)")
+      ->type_name("NAME");
+  repeatable(command
+                 .add_option("--instant", solid.instants,
+                             "Of results: at the row nearest to this time or crank angle, or all (default: where the "
+                             "stress is largest)")
+                 ->type_name("12ms|370deg|all"));
+  command.add_option("--largest", solid.largest, "Of results: number of instants of largest stress (default: 5)")
+      ->check(CLI::Range(1, 1000));
+  command.add_option("--vtkhdf", solid.vtkhdf, "Of results: write stresses at these instants for ParaView")
+      ->type_name("FILE.vtkhdf");
+  command.add_option("--model", solid.model_file, "Of results: where the model file lies now, if it has moved")
+      ->type_name("FILE");
+  command.add_flag("--force", solid.force, "Replace that file if it exists");
+}
+
 void add_stress(CLI::App& app, Commands& commands) {
   const auto solid = std::make_shared<SolidArguments>();
-  CLI::App* command =
-      add_solid_command(app, "stress", "Displacements and stresses of an elastic body under constant loads", *solid);
+  CLI::App* command = add_solid_command(
+      app, "stress", "Displacements and stresses of an elastic body under constant loads, or over a run", *solid,
+      "Mesh of solid elements (Gmsh, Abaqus, CalculiX, Nastran), or results (.h5) of a run with a flexible body");
   repeatable(
       command
           ->add_option("--pressure", solid->pressure,
@@ -151,6 +171,7 @@ void add_stress(CLI::App& app, Commands& commands) {
           ->type_name("SURFACE=20MPa"));
   command->add_option("--gravity", solid->gravity, "Acceleration of gravity in m/s^2")->type_name("0,0,-9.81");
   add_heat_options(*command, *solid);
+  add_run_options(*command, *solid);
   commands.push_back({command, [solid] { return stress_command(*solid); }});
 }
 

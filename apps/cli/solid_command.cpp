@@ -12,6 +12,7 @@
 #include "hersey/fem/vtu_file.h"
 #include "hersey/film/temperature_law.h"
 #include "hersey/session/output_file.h"
+#include "run_stress.h"
 #include "solid_heat.h"
 #include "solid_setup.h"
 #include "standard_streams.h"
@@ -141,6 +142,8 @@ int modes_command(const SolidArguments& arguments) {
 }
 
 int stress_command(const SolidArguments& arguments) {
+  if (is_results_file(arguments.file)) return run_stress_command(arguments);
+  require_no_run_options(arguments);
   session::require_separate({{"--vtu", arguments.vtu}}, {arguments.file});
   const fem::ElasticBody body = solid_of(arguments, !arguments.gravity.empty());
   StressResult result{

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <utility>
 
 #include "hersey/core/version.h"
@@ -36,6 +37,8 @@ const std::vector<Attribute<HeaderPlan>>& header_attributes() {
       {"hersey_version", "", "of the program", [](const HeaderPlan& /*plan*/) { return std::string(version()); }},
       {"title", "", "of the model", [](const HeaderPlan& plan) { return plan.model.title; }},
       {"description", "", "of the model", [](const HeaderPlan& plan) { return plan.model.description; }},
+      {"model_file", "", "where the model file lay: meshes and tables that it names are sought beside it",
+       [](const HeaderPlan& plan) { return std::filesystem::absolute(plan.model.file).lexically_normal().string(); }},
       {"created", "", "time of the run (ISO 8601, UTC)", [](const HeaderPlan& /*plan*/) { return time_now(); }},
       {"study_parameters",
        "",
