@@ -32,13 +32,20 @@ std::vector<std::string> study_parameters(const HeaderPlan& plan) {
   return names;
 }
 
+/// Path from the folder of the results, so that both can be moved together; absolute where there is none.
+std::string model_file(const HeaderPlan& plan) {
+  const std::filesystem::path file = std::filesystem::absolute(plan.model.file);
+  if (plan.options.results.empty()) return file.lexically_normal().string();
+  return file.lexically_proximate(std::filesystem::absolute(plan.options.results).parent_path()).string();
+}
+
 const std::vector<Attribute<HeaderPlan>>& header_attributes() {
   static const std::vector<Attribute<HeaderPlan>> table{
       {"hersey_version", "", "of the program", [](const HeaderPlan& /*plan*/) { return std::string(version()); }},
       {"title", "", "of the model", [](const HeaderPlan& plan) { return plan.model.title; }},
       {"description", "", "of the model", [](const HeaderPlan& plan) { return plan.model.description; }},
-      {"model_file", "", "where the model file lay: meshes and tables that it names are sought beside it",
-       [](const HeaderPlan& plan) { return std::filesystem::absolute(plan.model.file).lexically_normal().string(); }},
+      {"model_file", "", "the model file, from the folder of these results: meshes and tables are sought beside it",
+       model_file},
       {"created", "", "time of the run (ISO 8601, UTC)", [](const HeaderPlan& /*plan*/) { return time_now(); }},
       {"study_parameters",
        "",

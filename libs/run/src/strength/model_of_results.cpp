@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -30,9 +31,11 @@ std::pair<std::vector<std::string>, std::string> overrides_and_text(const std::s
 }  // namespace
 
 model::Model model_of_results(const results::Reader& results, const std::string& model_file) {
-  const std::string file = model_file.empty() ? results.text_attribute("/", "model_file").value_or("") : model_file;
-  if (file.empty())
+  const std::string stored = results.text_attribute("/", "model_file").value_or("");
+  if (model_file.empty() && stored.empty())
     throw results::ReadError(results.path(), "it does not say where its model file lay; name it with --model FILE");
+  const std::filesystem::path folder = std::filesystem::path(results.path()).parent_path();
+  const std::string file = model_file.empty() ? (folder / stored).lexically_normal().string() : model_file;
   const auto [overrides, text] = overrides_and_text(results.text("/model"));
   return model::read_text(text, file, overrides);
 }
