@@ -35,7 +35,7 @@ TypePtr root() {
           optional("thermal", thermal_network_format(), "Bodies and surroundings that the films' heat flows to."),
           optional("circuit", circuit_format(),
                    "The oil circuit that feeds films: pump, valves, galleries, drillings."),
-          optional("bearings", bearings_format(), "Oil films: journal bearings, plane sliders and thrust bearings."),
+          optional("bearings", bearings_format(), "Oil films: journal bearings, plane sliders, thrust bearings, dampers and piston skirts."),
           optional("simulation", simulation_format(), "Time span, step and solver settings.",
                    "**required** to simulate"),
           defaulted("output", output_format(), "{}", "What is stored, and how often."),
