@@ -1,9 +1,15 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "hersey/bearing/skirt.h"
+#include "hersey/core/table_function.h"
+#include "hersey/core/two_pi.h"
 #include "kinds/skirt/skirt_gap.h"
 
 // A skirt's position in its liner, from the poses of both.
@@ -85,6 +91,57 @@ TEST_CASE("SkirtAlongItsLiner_KeepsItsGap") {
   REQUIRE(gap.evaluate(elsewhere, there).empty());
   CHECK(there.g[model.grid.index(3, 4)] - here.g[model.grid.index(3, 4)] ==
         doctest::Approx(-10e-6).epsilon(1e-3));  // as above
+}
+
+// An oval bore that narrows along the liner: the rate of the gap is that of the gap, derivatives are those of
+// differences, and a liner seen from its other end is the same liner.
+TEST_CASE("SkirtAlongADistortedLiner_HasTheRateOfItsGap") {
+  const film::FilmModel model = some_skirt();
+  const auto bore = [](double sense) {
+    LinerBore liner;
+    for (const double z : {0.03, 0.1}) {
+      std::vector<double> angles, openings;
+      for (int k = 0; k < 24; ++k) {
+        angles.push_back(2 * std::numbers::pi * k / 24);
+        openings.push_back(20e-6 * (1 - 5 * z) * (1 + 0.3 * std::cos(2 * angles.back() - sense * 0.8)));
+      }
+      liner.shape.z.push_back(sense * z);
+      liner.shape.openings.push_back(std::make_shared<TableFunction>(
+          angles, openings, TableFunction::Options{.interpolation = Interpolation::smooth, .period = two_pi}));
+    }
+    if (sense < 0) {
+      std::swap(liner.shape.z[0], liner.shape.z[1]);
+      std::swap(liner.shape.openings[0], liner.shape.openings[1]);
+    }
+    return liner;
+  };
+  const Eigen::VectorXd round = Eigen::VectorXd::Zero(model.grid.size());
+  SkirtGap gap(model, round, bore(1)), plain(model, round), turned(model, round, bore(-1));
+  film::SurfaceMotion here, there, cylinder;
+  mbd::RelativeMotion motion = some_motion();
+  motion.V_AB_A.head<2>().setZero();
+  REQUIRE(gap.evaluate(motion, here).empty());
+  REQUIRE(plain.evaluate(motion, cylinder).empty());
+  CHECK((here.g - cylinder.g).maxCoeff() > 10e-6);
+  constexpr double dt = 1e-7;
+  mbd::RelativeMotion later = motion;
+  // The bore's part of the rate.
+  later.X_AB.r.z() += dt * motion.V_AB_A[5];
+  REQUIRE(gap.evaluate(later, there).empty());
+  film::SurfaceMotion cylinder_there;
+  REQUIRE(plain.evaluate(later, cylinder_there).empty());
+  const Eigen::VectorXd of_bore = (there.g - cylinder_there.g - here.g + cylinder.g) / dt;
+  CHECK((of_bore - (here.g_rate - cylinder.g_rate)).norm() < 1e-4 * of_bore.norm());  // squares of the tilt
+  // Moved along it, the height is the last parameter.
+  REQUIRE(gap.evaluate(motion, here).empty());
+  const Eigen::Index height = gap.parameters().size() - 1;
+  CHECK(gap.d_dX()(height, 5) == doctest::Approx(-1).epsilon(1e-6));  // the square of the tilt
+  CHECK((gap.direction(height).g * motion.V_AB_A[5] * -1 - of_bore).norm() < 1e-4 * of_bore.norm());  // as above
+  mbd::RelativeMotion from_behind = motion;
+  from_behind.X_AB.R = motion.X_AB.R * rotation_exp({std::numbers::pi, 0, 0}).toRotationMatrix();
+  REQUIRE(turned.evaluate(from_behind, there).empty());
+  CHECK((there.g - here.g).norm() < 1e-14);                                // round-off of micrometres and centimetres
+  CHECK((there.g_rate - here.g_rate).norm() < 1e-9 * here.g_rate.norm());  // round-off
 }
 
 TEST_CASE("LinerAcrossTheSkirt_IsReported") {

@@ -61,7 +61,7 @@ double order(double coarse, double fine) { return std::log2(std::abs(coarse / fi
 // Its sides closed, a narrow skirt is Reynolds' taper (slider.8), whose inclination is the tilt: the film of the thrust
 // side narrows towards the edge that trails, that of the other side widens.
 TEST_CASE("NarrowSkirt_IsAPlaneSlider") {
-  constexpr double K = 1.2, h2 = 20e-6, V = 3, narrow = 0.02;
+  constexpr double K = 1.2, h2 = 20e-6, V = 3, narrow = 0.005;
   // Across the direction of the force the gap of an arc differs by its cosine, and so does the force.
   const double area = R * narrow * L, unit = 6 * mu * V * L * area / (h2 * h2), ln = std::log1p(K);
   const double exact_load = unit * (ln - 2 * K / (K + 2)) / (K * K);
@@ -76,8 +76,8 @@ TEST_CASE("NarrowSkirt_IsAPlaneSlider") {
     errors[static_cast<std::size_t>(k)] = {thrust.force / exact_load - 1, thrust.centre()};
     CHECK(load(state) == relative(thrust.force - antithrust.force).epsilon(1e-9));  // the same sums
   }
-  CHECK(std::abs(errors[1][0]) < 5e-4);            // (1/80)^2 times some two, and the cosine's narrow^2/24 = 2e-5
-  CHECK(order(errors[0][0], errors[1][0]) > 1.5);  // what the arc adds does not fall with the grid
+  CHECK(std::abs(errors[1][0]) < 5e-4);  // (1/80)^2 times some two, and the cosine's narrow^2/24 = 1e-6
+  CHECK(order(errors[0][0], errors[1][0]) > 1.8);
   // From the edge that leads, the top: the moment of the same pressure.
   const double behind = 1 - (K * (6 + K) - 2 * (3 + 2 * K) * ln) / (2 * K * ((2 + K) * ln - 2 * K));
   CHECK(errors[1][1] == relative((0.5 - behind) * L).epsilon(2e-3));  // a difference of numbers ten times as large
@@ -181,13 +181,21 @@ TEST_CASE("LargerSkirt_IsTheSameInItsOwnMeasures") {
   large.point.journal_speed /= 2;  // the same speed along the liner
   large.kind =
       std::make_shared<PistonSkirt>(std::vector<SkirtShape>{SkirtBarrel{barrel.top, barrel.bottom, 2 * barrel.apex}});
-  CHECK(load(large.solve()) == relative(8 * load(s.solve())).epsilon(1e-9));  // the film's tolerance
+  const SteadyState a = s.solve(), b = large.solve();
+  // Shear around the skirt pushes it across, too, by c/R of the pressure's part.
+  CHECK(sides(large, b)[0].force == relative(8 * sides(s, a)[0].force).epsilon(1e-9));  // the film's tolerance
+  CHECK(sides(large, b)[1].force == relative(8 * sides(s, a)[1].force).epsilon(1e-9));  // likewise
+  CHECK(load(b) == relative(8 * load(a)).epsilon(c / R));
 }
 
 // Stiffness and damping by offset and slope are differences of forces.
 TEST_CASE("SkirtCoefficients_MatchDifferences") {
-  const Skirt s = skirt({barrel, SkirtOvality{30e-6, 20e-6}}, 5, 14e-6, 20e-6, 9, 15);
+  Skirt s = skirt({barrel, SkirtOvality{30e-6, 20e-6}}, 5, 14e-6, 20e-6, 9, 15);
+  // Pressed from outside, so that no front leaps from node to node.
+  s.model.edge_left.pressure = s.model.edge_right.pressure = 5e6;
+  for (film::PatchEnds& ends : s.model.ends) ends.first.pressure = ends.last.pressure = 5e6;
   const SteadyState state = s.solve();
+  CHECK(state.film.cavitated_share == 0);
   const auto forces = [](const SteadyState& at) -> Eigen::Vector2d {
     return {-at.film.wrench_on_shell[3], -at.film.wrench_on_shell[1]};
   };
@@ -203,9 +211,9 @@ TEST_CASE("SkirtCoefficients_MatchDifferences") {
     const double h = k == 0 ? 1e-3 * c : 1e-3 * c / L, rate = h / 1e-3;  // a thousandth of the gap, in a millisecond
     const Eigen::Vector2d stiffness = (moved(k, h, false) - moved(k, -h, false)) / (2 * h);
     const Eigen::Vector2d damping = (moved(k, rate, true) - moved(k, -rate, true)) / (2 * rate);
-    constexpr double of_difference = 1e-4;  // the square of the step, times curvatures; a front may move between nodes
+    constexpr double of_difference = 1e-5;  // the square of the step, times the curvature of a power of the gap
     CHECK((state.coefficients.stiffness.block<2, 1>(0, k) - stiffness).norm() < of_difference * stiffness.norm());
-    CHECK((state.coefficients.damping.block<2, 1>(0, k) - damping).norm() < 10 * of_difference * damping.norm());
+    CHECK((state.coefficients.damping.block<2, 1>(0, k) - damping).norm() < of_difference * damping.norm());
   }
 }
 

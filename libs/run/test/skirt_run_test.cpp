@@ -16,7 +16,7 @@
 namespace hersey::run {
 namespace skirt_run_test {
 
-// Without gravity or gas force; 12 mm of rod stand for a slow engine's leaning one.
+// A rod without mass, so that the side force is that of gas force and piston alone; no gravity.
 const std::string piston = R"(hersey: 1
 lubricants:
   oil: {viscosity: 20 mPa.s, density: 850 kg/m^3}
@@ -93,22 +93,22 @@ TEST_CASE("SideForce_IsThatOfTheMechanism") {
     const double v = -r * std::sin(a) * omega - l * std::sin(lean) * lean_rate;
     const double acceleration = -r * std::cos(a) * omega * omega - l * std::cos(lean) * lean_rate * lean_rate -
                                 l * std::sin(lean) * lean_acceleration;
-    CHECK(speed[k] == doctest::Approx(v).epsilon(2e-3));  // the secondary motion's part
+    CHECK(speed[k] == doctest::Approx(v).epsilon(3e-4));  // squares of the secondary motion over the rod
     const double expected = (3000 + 0.4 * acceleration - friction[k]) * std::tan(lean);
     worst = std::max(worst, std::abs(side[k] - expected));
     largest = std::max(largest, expected);
   }
   CHECK(largest > 500);
-  CHECK(worst < 0.02 * largest);  // accelerations across the liner: micrometres in milliseconds
+  CHECK(worst < 1e-3 * largest);  // accelerations across the liner: micrometres in milliseconds
 }
 
-// The motion of steps a fifth as long: of second order, so that their difference is nearly the whole error.
+// Against steps a fifth and a tenth as long, whose difference from theirs is nearly the whole error.
 TEST_CASE("SecondaryMotion_ConvergesWithTheStep") {
   const auto at_end = [&](const std::string& step) {
     return series_of(piston, "offset_top", {"simulation.step=" + step, "simulation.duration=30 deg"}).back();
   };
   const double coarse = at_end("1 deg"), half = at_end("0.5 deg"), fine = at_end("0.1 deg");
-  CHECK(std::abs(half - fine) < 1e-2 * std::abs(fine));                  // of half a degree
+  CHECK(std::abs(half - fine) < 2e-2 * std::abs(fine));                  // of half a degree, from a start at rest
   CHECK(std::abs(half - fine) < 0.6 * std::abs(coarse - fine) + 1e-12);  // at least of first order; a picometre
 }
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,6 +31,16 @@ bool bears_side_force(const Solution& s) { return side_force_of(s) != 0; }
 /// What bears on the sides, found from the forces of the film's nodes.
 bearing::SkirtSide side_of(const Solution& s, std::size_t k) {
   return bearing::skirt_side_forces(s.model, s.state.film.normal_forces).at(k);
+}
+
+/// Index of the k-th side on which something bears.
+std::size_t bearing_side(const Solution& s, std::size_t k) { return side_of(s, 0).force > 0 ? k : 1; }
+
+std::vector<std::string> names_of_bearing_sides(const Solution& s) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < bearing::skirt_sides.size(); ++k)
+    if (side_of(s, k).force > 0) names.emplace_back(bearing::skirt_sides.at(k));
+  return names;
 }
 
 /// Power that the skirt puts into the film by its motion along and across the liner.
@@ -82,8 +91,8 @@ Group film_of_skirt() {
         {.each = names_of_sides}},
        {"centre_<side>",
         kMillimetre,
-        [](const Solution& s, std::size_t k) { return side_of(s, k).centre(); },
-        {.words = [](const Solution& /*s*/) { return std::string("nothing bears"); }, .each = names_of_sides}},
+        [](const Solution& s, std::size_t k) { return side_of(s, bearing_side(s, k)).centre(); },
+        {.each = names_of_bearing_sides}},
        {"skirt_moment", kNewtonMetre, [](const Solution& s) { return side_of(s, 0).moment - side_of(s, 1).moment; }}}};
 }
 

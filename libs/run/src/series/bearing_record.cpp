@@ -82,7 +82,7 @@ bearing::SkirtSide side_of_skirt(const BearingRow& row, std::size_t k) {
   return bearing::skirt_side_forces(*row.model, row.observation.film.normal_forces).at(k);
 }
 
-double skirt_side_force(const BearingRow& row) { return side_of_skirt(row, 0).force - side_of_skirt(row, 1).force; }
+double skirt_side_force(const BearingRow& row) { return -row.observation.wrench_on_shell[3]; }
 
 double friction_on_skirt(const BearingRow& row) {
   return bearing::skirt_friction(row.observation.wrench_on_shell, row.observation.position.tilt);

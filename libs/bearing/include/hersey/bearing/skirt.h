@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/coordinates.h"
 #include "hersey/film/gap_profile.h"
+#include "hersey/film/value_and_slope.h"
 
 namespace hersey::bearing {
 
@@ -50,17 +52,27 @@ struct SkirtTable {
 
 using SkirtShape = std::variant<SkirtBarrel, SkirtOvality, SkirtTable>;
 
+/// A liner whose bore differs from a cylinder, measured or computed hot, in the axes of its own frame.
+struct LinerBore {
+  film::MeasuredShape shape;
+  /// By how much it widens the gap at (phi [rad], z [m]) of the liner [m], and the slope of that along z [-]: straight
+  /// lines between the heights of the table, constant beyond them.
+  [[nodiscard]] film::ValueAndSlope at(double phi, double z) const;
+};
+
 /// Sides of a skirt, in the order of the patches of its film.
 inline constexpr std::array<std::string_view, 2> skirt_sides{"thrust", "antithrust"};
 
 /// A piston's skirt in its liner, with a film on the thrust side, about phi = 0, and one on the antithrust side, about
 /// phi = pi: two patches on film::Skirt. The skirt's frame has its origin on its axis at half of its length, x towards
 /// the thrust side and z along the axis towards the crown; the liner is a cylinder about the z-axis of its own frame,
-/// without an end. Choose it for the secondary motion of pistons and crossheads.
+/// without an end, unless it has a shape of its own. Choose it for the secondary motion of pistons and crossheads.
 class PistonSkirt final : public BearingKind {
  public:
-  /// @param shapes  they add up
-  explicit PistonSkirt(std::vector<SkirtShape> shapes = {}) : shapes_(std::move(shapes)) {}
+  /// @param shapes  of the skirt; they add up
+  /// @param liner  unset: a cylinder
+  explicit PistonSkirt(std::vector<SkirtShape> shapes = {}, std::optional<LinerBore> liner = {})
+      : shapes_(std::move(shapes)), liner_(std::move(liner)) {}
 
   [[nodiscard]] std::string name() const override { return "skirt"; }
   [[nodiscard]] bool has_axis() const override { return false; }
@@ -77,6 +89,7 @@ class PistonSkirt final : public BearingKind {
 
  private:
   std::vector<SkirtShape> shapes_;
+  std::optional<LinerBore> liner_;
 };
 
 /// Returns a grid for such a skirt.

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
+#include "hersey/bearing/clearance.h"
 #include "hersey/bearing/skirt.h"
 #include "hersey/core/contract.h"
 #include "kinds/skirt/skirt_coordinates.h"
@@ -22,6 +25,15 @@ double SkirtOvality::opening(const SkirtPosition& at) const {
 
 double SkirtTable::opening(const SkirtPosition& at) const { return shape.opening(at.phi, at.z, at.L).value; }
 
+film::ValueAndSlope LinerBore::at(double phi, double z) const {
+  const auto value = [&](std::size_t k) { return shape.openings[k]->value({&phi, 1}); };
+  const auto above = static_cast<std::size_t>(std::upper_bound(shape.z.begin(), shape.z.end(), z) - shape.z.begin());
+  if (above == 0) return {value(0), 0};
+  if (above == shape.z.size()) return {value(above - 1), 0};
+  const double low = value(above - 1), slope = (value(above) - low) / (shape.z[above] - shape.z[above - 1]);
+  return {low + slope * (z - shape.z[above - 1]), slope};
+}
+
 std::vector<std::pair<std::string, std::string>> PistonSkirt::description(const film::FilmModel& model) const {
   const film::Grid& grid = model.grid;
   HERSEY_REQUIRE(grid.patches.size() == skirt_sides.size(), "a skirt has two sides");
@@ -33,20 +45,24 @@ std::vector<std::pair<std::string, std::string>> PistonSkirt::description(const 
                           1e3 * model.L, 2e3 * model.R, to_degrees * (grid.phi(grid.patches[1] - 1) - grid.phi(0)),
                           to_degrees * (grid.phi(grid.n_phi - 1) - grid.phi(grid.patches[1]))));
   rows.emplace_back("clearance", fmt::format("{:.4g} um radial ({:.4g} um diametral), where the skirt is widest",
-                                             1e6 * model.c, 2e6 * model.c));
+                                             1e6 * clearance(model), 2e6 * clearance(model)));
   if (const Eigen::VectorXd d = opening(model); !d.isZero(0))
     rows.emplace_back("shape", fmt::format("the skirt lies back from a cylinder by {:.4g} to {:.4g} um",
                                            1e6 * d.minCoeff(), 1e6 * d.maxCoeff()));
+  if (liner_)
+    rows.emplace_back("liner",
+                      fmt::format("a measured bore of {} height(s), from z = {:.4g} to {:.4g} mm of its frame",
+                                  liner_->shape.z.size(), 1e3 * liner_->shape.z.front(), 1e3 * liner_->shape.z.back()));
   return rows;
 }
 
 std::unique_ptr<GapKinematics> PistonSkirt::gap(const film::FilmModel& model, bool moving_surface_deforms) const {
   HERSEY_REQUIRE(!moving_surface_deforms, "a liner is rigid");
-  return std::make_unique<SkirtGap>(model, opening(model));
+  return std::make_unique<SkirtGap>(model, opening(model), liner_);
 }
 
 std::unique_ptr<SteadyCoordinates> PistonSkirt::steady_coordinates(const film::FilmModel& model) const {
-  return std::make_unique<SkirtCoordinates>(model, opening(model));
+  return std::make_unique<SkirtCoordinates>(model, opening(model), liner_);
 }
 
 Eigen::VectorXd PistonSkirt::opening(const film::FilmModel& model) const {

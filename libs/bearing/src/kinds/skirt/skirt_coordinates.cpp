@@ -19,8 +19,9 @@ double sense_of_force(const OperatingPoint& point) { return point.load && (*poin
 
 }  // namespace
 
-SkirtCoordinates::SkirtCoordinates(const film::FilmModel& model, Eigen::VectorXd opening)
-    : model_(model), surfaces_(model, std::move(opening)), force_rows_(ForceRows::Zero(3, 6)) {
+SkirtCoordinates::SkirtCoordinates(const film::FilmModel& model, Eigen::VectorXd opening,
+                                   std::optional<LinerBore> liner)
+    : model_(model), surfaces_(model, std::move(opening), std::move(liner)), force_rows_(ForceRows::Zero(3, 6)) {
   // Of the skirt's own motion, so against what the film does to it: -F_x, -M_y, M_x (skirt.5).
   force_rows_(0, 3) = force_rows_(1, 1) = -1;
   force_rows_(2, 0) = 1;
@@ -34,7 +35,7 @@ film::SurfaceMotion SkirtCoordinates::surfaces(const OperatingPoint& point, cons
   liner.segment<2>(kTxRate) = -point.tilt_rate;
   liner[kAxialSpeed] = -model_.R * point.journal_speed;
   film::SurfaceMotion motion;
-  surfaces_.evaluate(liner, point.growth, 0, motion);
+  surfaces_.evaluate(liner, point.growth, 0, 1, motion);
   return motion;
 }
 

@@ -6,11 +6,12 @@
 namespace hersey::bearing {
 
 /// The single coordinate e_x of a skirt in its liner: how far the middle of its axis is off that of the liner towards
-/// the thrust side. OperatingPoint::journal_speed is the skirt's speed along z over R [rad/s].
+/// the thrust side, that middle at z = 0 of the liner. OperatingPoint::journal_speed is the skirt's speed along z over
+/// R [rad/s].
 class SkirtCoordinates final : public SteadyCoordinates {
  public:
   /// Keeps a reference to `model`. @param opening  as SkirtSurfaces
-  SkirtCoordinates(const film::FilmModel& model, Eigen::VectorXd opening);
+  SkirtCoordinates(const film::FilmModel& model, Eigen::VectorXd opening, std::optional<LinerBore> liner);
 
   [[nodiscard]] Index count() const override { return 1; }
   [[nodiscard]] const ForceRows& force_rows() const override { return force_rows_; }

@@ -10,7 +10,7 @@ namespace hersey::bearing {
 class SkirtGap final : public GapKinematics {
  public:
   /// As SkirtSurfaces.
-  SkirtGap(const film::FilmModel& model, Eigen::VectorXd opening);
+  SkirtGap(const film::FilmModel& model, Eigen::VectorXd opening, std::optional<LinerBore> liner = {});
 
   [[nodiscard]] std::string evaluate(const mbd::RelativeMotion& motion, film::SurfaceMotion& surfaces) override;
   [[nodiscard]] const film::MotionDirection& direction(Index parameter) const override {

@@ -20,6 +20,7 @@ class ShapeTable {
   ShapeTable(Context& context, const Value& file, const CsvTable& table)
       : context_(context), file_(file), table_(table) {}
 
+  /// @param L  width that the heights have to cover; 0: any heights
   /// @param sides  grid of patches that the angles have to cover; null: the whole circle
   [[nodiscard]] std::optional<film::MeasuredShape> shape(double L, const film::Grid* sides) {
     const std::optional<std::vector<double>> angle = column("angle", "rad"), z = column("z", "m"),
@@ -83,7 +84,7 @@ class ShapeTable {
     }
     const auto [low, high] = std::minmax_element(z.begin(), z.end());
     const bool covers = *low <= -0.5 * L * (1 - 1e-6) && *high >= 0.5 * L * (1 - 1e-6);
-    if (covers || rows_.size() == 1) return true;
+    if (covers || rows_.size() == 1 || L == 0) return true;
     context_.fault(file_, fmt::format("heights z from {:.4g} to {:.4g} mm", 1e3 * *low, 1e3 * *high),
                    fmt::format("the whole width, {:.4g} to {:.4g} mm, or a single z", -0.5e3 * L, 0.5e3 * L));
     return false;

@@ -99,6 +99,13 @@ std::vector<Key> skirt_keys() {
                 "skirt, 0 a dry liner."),
       optional("temperature", temperature("100 degC"), "Of the oil.", "that of the lubricant"),
       optional("shape", skirt_shape_format(), "What makes the skirt differ from a cylinder; all add up.", "a cylinder"),
+      optional("liner_shape",
+               object("a measured bore",
+                      {required("file", text("a file name", "liner.csv"),
+                                "CSV file beside the model with the columns angle, z and opening, in the axes of the "
+                                "liner's frame: an opening for every angle at every z; constant beyond these z.")}),
+               "How the liner differs from a cylinder, distorted or hot; by itself the skirt's middle is at its z = 0.",
+               "a cylinder"),
       optional("operating_point", skirt_point_format(),
                "Position and motion of the skirt by itself (`hersey bearing`); a simulation has its own.",
                "given on the command line"),

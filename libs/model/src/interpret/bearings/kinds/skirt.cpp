@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -93,7 +94,14 @@ class SkirtReader {
       for (const auto& [index, one] : shape->members)
         if (!one.broken) read_shape(one, shapes);
     }
-    bearing_.kind = std::make_shared<bearing::PistonSkirt>(std::move(shapes));
+    std::optional<bearing::LinerBore> liner;
+    const Value* bore = value_.find("liner_shape");
+    const Value* file = bore != nullptr && !bore->broken ? bore->find("file") : nullptr;
+    constexpr double any_height = 0;  // where in the liner the skirt will be is not known here
+    if (file != nullptr)
+      if (auto measured = measured_shape_of(context_, *file, any_height))
+        liner = bearing::LinerBore{std::move(*measured)};
+    bearing_.kind = std::make_shared<bearing::PistonSkirt>(std::move(shapes), std::move(liner));
   }
 
   void read_shape(const Value& value, std::vector<bearing::SkirtShape>& shapes) {
@@ -161,6 +169,15 @@ void read_side_position(Context& context, const Value& value, const Bearing& bea
     context.fault(*value.find("tilt"), "a tilt beside the offsets of both ends, which give it", "no tilt");
 }
 
+/// The smallest gap of the rigid surfaces there; with a side force, of a skirt that stands in the middle [m].
+double gap_at(const Bearing& bearing, const SkirtPoint& point) {
+  bearing::OperatingPoint at;
+  at.e = at.e_rate = bearing::Coordinates::Zero(1);
+  at.e[0] = 0.5 * (point.offset_top + point.offset_bottom);
+  at.tilt.x() = point.side_force ? point.tilt : (point.offset_top - point.offset_bottom) / bearing.film.L;
+  return bearing.kind->steady_coordinates(bearing.film)->smallest_gap(at, at.e);
+}
+
 }  // namespace
 
 void read_skirt(Context& context, const Value& value, Bearing& bearing) {
@@ -183,6 +200,12 @@ void read_skirt_point(Context& context, const Value& bearing_value, Bearing& bea
   if (is_smooth && point.speed == 0 && point.velocity_top + point.velocity_bottom == 0) {
     context.fault(*value->find("speed"), "a skirt whose middle is at rest, which moves no oil",
                   "a speed, velocities whose mean is not 0, or asperities");
+    return;
+  }
+  if (context.has_fault_in(bearing_value.path)) return;
+  if (gap_at(bearing, point) <= 0) {
+    context.fault_at_key(*value, "a skirt that touches the liner", "offsets or a tilt that leave a gap everywhere",
+                         "reduce them, or the shapes");
     return;
   }
   bearing.operating_point = point;
