@@ -53,6 +53,7 @@ COMMANDS = {
     "oil_whirl/model": [("run", "simulation.duration=0.1s")],
     "oil_whirl/steady": [("run", "speed=9000rpm")],
     "paper_big_end/model": [("run", "load=1000N", "clearance=0.034mm", "simulation.duration=2rev")],
+    "piston/floating_pin": [("run", "simulation.duration=10deg")],
     "piston/model": [("run", "simulation.duration=90deg")],
     "piston/skirt": [("bearing",)],
     "plane_slider/carriage": [("run",)],
