@@ -56,6 +56,7 @@ COMMANDS = {
     "piston/floating_pin": [("run", "simulation.duration=10deg")],
     "piston/model": [("run", "simulation.duration=90deg")],
     "piston/skirt": [("bearing",)],
+    "piston/valve_guide": [("run",)],
     "plane_slider/carriage": [("run",)],
     "plane_slider/model": [("bearing",)],
     "slider_crank/flexible_rod": [("run", "simulation.duration=40deg")],
