@@ -10,9 +10,9 @@ namespace {
 TypePtr skirt_shape_format() {
   const TypePtr drop = quantity("m", "30 um", Range::not_negative());
   return list(
-      "a list of deviations from a cylinder",
+      "a list of deviations of a skirt from a cylinder",
       variant(
-          "a deviation from a cylinder", "profile", {},
+          "a deviation of a skirt from a cylinder", "profile", {},
           {
               {"barrel",
                "two parabolas along the axis that meet where the skirt is widest",
