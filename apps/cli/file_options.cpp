@@ -96,8 +96,8 @@ void add_init(CLI::App& app, Commands& commands) {
       app.add_subcommand("init", "Write a commented model to begin with; alone: list the available ones");
   command->add_option(
       "TEMPLATE", init->model,
-      "bearing, hydrostatic, tilting_pads, thrust, tilting_thrust, floating_ring, damper, rotor, big_end, engine, "
-      "turbocharger or flexible_rod");
+      "bearing, hydrostatic, tilting_pads, thrust, tilting_thrust, floating_ring, damper, skirt, rotor, big_end, "
+      "engine, turbocharger or flexible_rod");
   command->add_option("NAME", init->name, "Name of the file to write (default: as the template)");
   commands.push_back({command, [init] { return init_command(*init); }});
 }

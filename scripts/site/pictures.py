@@ -232,6 +232,28 @@ def example_hot_bearing(program):
     return figure
 
 
+def example_piston(program):
+    """A cycle of a piston: where it is, what its two sides bear, and what it loses."""
+    results = program.run("piston", "examples/piston/model.yaml")
+    skirt = results["bearings/skirt"]
+    angle = numpy.degrees(3000 * 2 * math.pi / 60 * results["time"][:])
+    figure, axes = plot.subplots(1, 3, figsize=(10, 2.9))
+    axes[0].plot(angle, 1e6 * skirt["offset_top"][:], color=BLUE, label="top of the skirt")
+    axes[0].plot(angle, 1e6 * skirt["offset_bottom"][:], color=RED, label="bottom of the skirt")
+    axes[0].set(ylabel="towards the thrust side [um]")
+    axes[1].plot(angle, skirt["side_force"][:], color=BLUE, label="side force")
+    axes[1].plot(angle, 10 * skirt["skirt_friction"][:], color=RED, label="10 x friction force")
+    axes[1].set(ylabel="force [N]")
+    axes[2].plot(angle, 1e6 * skirt["h_min_thrust"][:], color=BLUE, label="thrust side")
+    axes[2].plot(angle, 1e6 * skirt["h_min_antithrust"][:], color=RED, label="antithrust side")
+    axes[2].set(ylabel="minimum film thickness [um]", ylim=(0, None))
+    for axis in axes:
+        axis.set(xlabel="crank angle [deg]", xlim=(0, 720), xticks=range(0, 721, 180))
+        axis.legend(frameon=False, fontsize=8)
+    figure.tight_layout()
+    return figure
+
+
 def paper_case(program):
     """Settled states of the reference's finest grid against the steady solution of the same bearing."""
     rows = [row for row in data("verification/data/paper_case.csv")
@@ -296,13 +318,14 @@ def frame_signs(_):
 
 
 DRAWN = (first_bearing, first_bearing_sweep, big_end, engine, flexible_rod, rotor, mesh, example_bearing_alone, report, example_hot_bearing,
-         paper_case, benchmarks, finite_360, bearing_signs, frame_signs)
+         example_piston, paper_case, benchmarks, finite_360, bearing_signs, frame_signs)
 SOURCES = {"first_bearing": ["docs/tutorial/first-bearing.md"], "first_bearing_sweep": ["docs/tutorial/first-bearing.md"],
            "big_end": ["examples/slider_crank/model.yaml"], "engine": ["examples/engine/model.yaml"],
            "flexible_rod": ["examples/slider_crank/flexible_rod.yaml", "examples/meshes/conrod.msh"],
            "rotor": ["examples/flexible_rotor/model.yaml"], "mesh": ["examples/meshes/conrod.msh"],
            "example_bearing_alone": ["examples/bearing_alone/model.yaml"], "report": ["examples/hot_bearing/model.yaml"],
            "example_hot_bearing": ["examples/hot_bearing/model.yaml"],
+           "example_piston": ["examples/piston/model.yaml", "examples/slider_crank/gas_pressure.csv"],
            "paper_case": ["verification/data/paper_case.csv"], "finite_360": ["verification/data/finite_360.csv"],
            "benchmarks": ["verification/data/four_bar_n2.csv", "verification/data/flyball_governor.csv"],
            "bearing_signs": ["scripts/site/signs.py"], "frame_signs": ["scripts/site/signs.py"]}

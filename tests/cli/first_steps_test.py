@@ -44,7 +44,7 @@ class FirstSteps(unittest.TestCase):
     def test_init_alone_lists_the_models(self):
         run = self.hersey("init")
         self.assertEqual(run.returncode, OK)
-        for name in ("bearing", "hydrostatic", "tilting_pads", "thrust", "tilting_thrust", "floating_ring", "damper", "rotor", "big_end", "engine", "turbocharger", "flexible_rod"):
+        for name in ("bearing", "hydrostatic", "tilting_pads", "thrust", "tilting_thrust", "floating_ring", "damper", "skirt", "rotor", "big_end", "engine", "turbocharger", "flexible_rod"):
             self.assertIn(f"\n  {name} ", run.stdout)
 
     def test_init_bearing_runs(self):
@@ -67,6 +67,9 @@ class FirstSteps(unittest.TestCase):
 
     def test_init_damper_runs(self):
         self.begin_and_run("damper")
+
+    def test_init_skirt_runs(self):
+        self.begin_and_run("skirt")
 
     def test_init_rotor_runs(self):
         self.begin_and_run("rotor", "0.5 ms")

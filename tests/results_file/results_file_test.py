@@ -39,6 +39,7 @@ RUNS = {
     "examples/tilting_pads/model.yaml": [],
     "tests/results_file/pads.yaml": [],
     "oil_circuit": ["--set", "simulation.duration=2ms"],
+    "piston": ["--set", "simulation.duration=2deg"],
     "wear": ["--set", "simulation.duration=2ms"],
     "tests/results_file/thrust.yaml": [],
     "tests/results_file/every_line.yaml": ["--step-error", "--set", "simulation.duration=0.5ms"],

@@ -247,7 +247,52 @@ const thrust: BearingKind = {
   coefficients: thrustMatrices,
 };
 
-const kinds = [journal, slider, thrust];
+const skirt: BearingKind = {
+  surface: surfaces.skirt,
+  title: "piston skirt",
+  tiles: [
+    ["h_min", "Minimum film thickness"],
+    ["p_max", "Peak film pressure"],
+    ["side_force", "Side force"],
+    ["skirt_friction", "Friction force"],
+    ["power_film", "Friction power"],
+  ],
+  sweep: (swept) => {
+    const { over } = swept;
+    return [
+      film(swept, [
+        { key: "h_min_thrust", label: "thrust side", unit: "µm", alone: true, dash: [6, 4] },
+        { key: "h_min_antithrust", label: "antithrust side", unit: "µm", alone: true, dash: [2, 3] },
+      ]),
+      {
+        name: "side-force",
+        caption: `Side force, and what both sides bear of it, ${over}.`,
+        left: { label: "force", unit: "N" },
+        curves: [
+          { key: "side_force", label: "side force", unit: "N" },
+          { key: "side_force_thrust", label: "thrust side", unit: "N", alone: true, dash: [6, 4] },
+          { key: "side_force_antithrust", label: "antithrust side", unit: "N", alone: true, dash: [2, 3] },
+        ],
+      },
+      pressure(swept),
+      { name: "friction-force", caption: `Friction force on the skirt, positive towards the crown, ${over}.`, left: { label: "friction force", unit: "N" }, curves: [{ key: "skirt_friction", label: "friction force", unit: "N" }] },
+      power(swept),
+    ];
+  },
+  columns: [
+    ["skirt_speed", "speed"],
+    ["side_force", "side force"],
+    ["offset_top", "offset top"],
+    ["offset_bottom", "offset bottom"],
+    ["h_min", "h min"],
+    ["p_max", "p max"],
+    ["skirt_friction", "friction"],
+    ["power_film", "power"],
+  ],
+  coefficients: () => null,
+};
+
+const kinds = [journal, slider, thrust, skirt];
 
 export function kindOf(bearing: BearingText): BearingKind {
   if (bearing.solutions.some(({ films }) => films.length > 1)) return ring;

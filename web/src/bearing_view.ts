@@ -228,6 +228,7 @@ export class BearingView {
         ...of("runner_tilt", "towards y", micrometrePerMetre, { column: 1, dash: [6, 4] }),
       ]);
     this.addSlides(of);
+    this.addSecondaryMotion(of);
     this.addFurther(shown);
   }
 
@@ -243,6 +244,24 @@ export class BearingView {
     this.add("sliding-speed", `Speed of the ${moving} along the ${held}’s y-axis.`, { label: "sliding speed", unit: "m/s", fromZero: true }, of("sliding_speed", "sliding speed", metrePerSecond));
     const bounds = [...of("rupture_y", "ruptures", millimetre, { points: true }), ...of("reformation_y", "re-forms", millimetre, { points: true })];
     this.add("rupture", `Where the film at mid-width ruptures and re-forms along ${whole}; gaps: it is whole.`, { label: "y", unit: "mm" }, bounds.some(({ y }) => Array.from(y).some((v) => v !== null && Number.isFinite(v))) ? bounds : []);
+  }
+
+  /** Of skirts. */
+  private addSecondaryMotion(of: (name: string, label: string, display: Display, extra?: Parameters<typeof curve>[4]) => Curve[]): void {
+    this.add("offsets", "How far the skirt’s axis is off that of the liner, towards the thrust side.", { label: "offset", unit: "µm" }, [
+      ...of("offset_top", "top of the skirt", micrometre),
+      ...of("offset_bottom", "bottom of the skirt", micrometre, { dash: [6, 4] }),
+    ]);
+    this.add("sides", "Smallest film thickness of both sides.", { label: "film thickness", unit: "µm", fromZero: true }, [
+      ...of("h_min_thrust", "thrust side", micrometre),
+      ...of("h_min_antithrust", "antithrust side", micrometre, { dash: [6, 4] }),
+    ]);
+    this.add("side-force", "Side force, and what film and contact of both sides bear.", { label: "force", unit: "N" }, [
+      ...of("side_force", "side force", newton),
+      ...of("side_force_thrust", "thrust side", newton, { dash: [6, 4] }),
+      ...of("side_force_antithrust", "antithrust side", newton, { dash: [2, 3] }),
+    ]);
+    this.add("skirt-friction", "Friction force on the skirt along the liner, positive towards the crown.", { label: "friction force", unit: "N" }, of("skirt_friction", "friction force", newton));
   }
 }
 

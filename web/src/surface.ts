@@ -49,6 +49,8 @@ export interface Surface {
   /** Captions of figures. */
   thickness: string;
   flow: string;
+  /** A series and figure that only films on it have, where its coordinates are those of another surface. */
+  mark?: string;
 }
 
 const z: Coordinate = { key: "z", figure: "z", symbol: "z", display: millimetre, digits: 3 };
@@ -99,8 +101,28 @@ const annulus: Surface = {
   flow: "Oil leaving over the inner and the outer edges and over leading and trailing edges of pads (negative: it comes in), and entering through holes and pockets.",
 };
 
-/** The first is taken where a file tells nothing. */
-export const surfaces = { bore, plane, annulus };
+const skirt: Surface = {
+  ...bore,
+  along: { ...bore.along, name: "angle" },
+  // Drawn a little wider than the skirt, so that the piston does not hide it.
+  point: (phi, height, { radius }) => [1.02 * radius * Math.cos(phi), 1.02 * radius * Math.sin(phi), height],
+  held: "skirt",
+  moving: "liner",
+  whole: "the skirt",
+  map: "both sides of the unwrapped skirt",
+  way: "around the skirt",
+  axes: "in its axes: x towards the thrust side, z towards the crown",
+  thickness: "Smallest film thickness of both sides, edges included, and at half of the skirt’s length.",
+  flow: "Oil leaving over the bottom (left) and the top edge (right) of the skirt (negative: it comes in).",
+  mark: "skirt_speed",
+};
+
+/** Those with a mark come before those whose coordinates they have; a bore is taken where a file tells nothing. */
+export const surfaces = { skirt, bore, plane, annulus };
+
+function has(mark: string | undefined, names: Set<string>): boolean {
+  return mark === undefined || names.has(mark);
+}
 
 function first(test: (surface: Surface) => boolean): Surface {
   return Object.values(surfaces).find(test) ?? bore;
@@ -109,13 +131,13 @@ function first(test: (surface: Surface) => boolean): Surface {
 /** By the coordinates that its places are given in. */
 export function surfaceOf(run: Run, bearing: string): Surface {
   const names = new Set(run.namesAfter(`/bearings/${bearing}/`));
-  return first((surface) => [surface.along, surface.across].every(({ key }) => names.has(`fields/${key}`) || names.has(`h_min_${key}`)));
+  return first((surface) => has(surface.mark, names) && [surface.along, surface.across].every(({ key }) => names.has(`fields/${key}`) || names.has(`h_min_${key}`)));
 }
 
 /** Likewise of a bearing by itself. */
 export function surfaceOfPage(bearing: BearingText): Surface {
   const known = new Set(bearing.solutions.flatMap(({ figures }) => figures.map(({ key }) => key)));
-  return first((surface) => [surface.along, surface.across].every(({ figure }) => known.has(`h_min_${figure}`)));
+  return first((surface) => has(surface.mark, known) && [surface.along, surface.across].every(({ figure }) => known.has(`h_min_${figure}`)));
 }
 
 /** "bearing angle φ". */

@@ -307,6 +307,11 @@ inline std::vector<State> states_on_surfaces() {
     s.motion.phi_supply = 1.5, s.motion.w_journal = 4;
     s.name = "annulus, sheared";
     states.push_back(s);
+    s = rough_state(Cavitation::mass_conserving, true, transient);
+    s.model.surface = Skirt{};
+    s.motion.w_journal = -6;
+    s.name = "skirt";
+    states.push_back(s);
     s = rough_state(Cavitation::mass_conserving, true, transient, pads);
     s.model.surface = Plane{};
     s.model.supply.kind = SupplyKind::none;

@@ -382,7 +382,7 @@ const std::vector<std::pair<std::string, std::vector<Group>>>& tables() {
       {"journal", journal_table()},         {"plane_slider", plane_slider_figures()},
       {"thrust", thrust_figures()},         {"squeeze_film_damper", squeeze_film_damper_figures()},
       {"tilting_pad", tilting_pad_table()}, {"tilting_pad_thrust", thrust_pad_figures()},
-      {"floating_ring", ring_table()}};
+      {"floating_ring", ring_table()},      {"skirt", skirt_figures()}};
   return all;
 }
 

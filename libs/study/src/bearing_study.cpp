@@ -468,6 +468,22 @@ bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model:
   return point;
 }
 
+// Both ends' offsets are one of the middle and a slope. Speeds are those of a surface with the skirt's radius.
+bearing::OperatingPoint steady_point(const model::Bearing& bearing, const model::SkirtPoint& given) {
+  bearing::OperatingPoint point{.journal_speed = given.speed / bearing.film.R};
+  point.e = point.e_rate = bearing::Coordinates::Zero(1);
+  if (given.side_force) {
+    point.load = bearing::Coordinates::Constant(1, *given.side_force);
+    point.tilt.x() = given.tilt;
+    return point;
+  }
+  point.e[0] = 0.5 * (given.offset_top + given.offset_bottom);
+  point.e_rate[0] = 0.5 * (given.velocity_top + given.velocity_bottom);
+  point.tilt.x() = (given.offset_top - given.offset_bottom) / bearing.film.L;
+  point.tilt_rate.x() = (given.velocity_top - given.velocity_bottom) / bearing.film.L;
+  return point;
+}
+
 }  // namespace
 
 void require_coefficients(const model::Bearing& bearing, ThermalCoefficients coefficients) {

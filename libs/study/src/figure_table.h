@@ -177,5 +177,7 @@ inline auto height(double film::FilmObservables::*z) {
 [[nodiscard]] std::vector<Group> thrust_pad_figures();
 /// The table of a squeeze-film damper.
 [[nodiscard]] std::vector<Group> squeeze_film_damper_figures();
+/// The table of a piston's skirt.
+[[nodiscard]] std::vector<Group> skirt_figures();
 
 }  // namespace hersey::study

@@ -13,7 +13,8 @@ std::span<const QuantityList> bearing_quantities() {
                                 QuantityList{"Journal bearings", journal_quantities()},
                                 QuantityList{"Plane sliders", plane_slider_quantities()},
                                 QuantityList{"Thrust bearings", thrust_quantities()},
-                                QuantityList{"Squeeze-film dampers", squeeze_film_damper_quantities()}};
+                                QuantityList{"Squeeze-film dampers", squeeze_film_damper_quantities()},
+                                QuantityList{"Piston skirts", skirt_quantities()}};
   return lists;
 }
 

@@ -5,6 +5,7 @@
 #include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/bearing_numbers.h"
 #include "hersey/bearing/phase_averaged_coefficients.h"
+#include "hersey/bearing/skirt.h"
 #include "hersey/film/grid_transfer.h"
 
 namespace hersey::bearing {
@@ -27,10 +28,13 @@ void add_temperatures(const SteadyState& state, Figures& f) {
   f.T_journal = observed.T_journal, f.T_film = observed.T_film_mean, f.T_side = observed.T_side;
 }
 
-/// Friction of a runner over its load: by its drag, on an annulus by its torque over the mean radius.
+/// Friction of a runner over its load: by its drag, on an annulus by its torque over the mean radius, of a skirt by its
+/// side force.
 double runner_friction(const film::FilmModel& model, const SteadyState& state) {
   if (std::holds_alternative<film::Annulus>(model.surface))
     return std::abs(state.film.torque_journal) / (model.R * state.load.norm());
+  if (std::holds_alternative<film::Skirt>(model.surface))
+    return std::abs(skirt_friction(state.film.wrench_on_shell, state.tilt)) / state.load.norm();
   return std::abs(state.film.wrench_on_shell[4] + state.tilt.x() * state.load[0]) / state.load.norm();
 }
 

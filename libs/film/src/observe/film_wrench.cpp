@@ -269,6 +269,7 @@ void FilmWrench::add_borders(const FlowBalance& balance) {
 // zero where p or d is uniform.
 void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradient) {
   const bool is_plane = std::holds_alternative<Plane>(model_.surface);
+  const bool is_skirt = std::holds_alternative<Skirt>(model_.surface);
   const bool is_annulus = std::holds_alternative<Annulus>(model_.surface);
   const Grid& grid = model_.grid;
   // Adds the contribution of the interval from node a to node b to the entry `row` of the wrench; `arm` is its width
@@ -287,7 +288,7 @@ void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradie
     by_opening_(row, a) += rise + contact;
     by_opening_(row, b) += rise - contact;
   };
-  constexpr int moment_x = 0, moment_z = 2, force_x = 3, force_y = 4, force_z = 5;
+  constexpr int moment_x = 0, moment_y = 1, moment_z = 2, force_x = 3, force_y = 4, force_z = 5;
   // On an annulus (film.63): e_phi is its mean over the interval, the difference of both ends' e_r over the angle.
   const auto add_on_annulus = [&](int i, int j, int next) {
     const int node = grid.index(i, j);
@@ -319,6 +320,10 @@ void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradie
       if (j + 1 >= grid.n_z) continue;
       add(force_z, node, node + 1, geometry_.weight_phi[i]);
       if (is_plane) add(moment_x, node, node + 1, model_.R * geometry_.phi[i] * geometry_.weight_phi[i]);
+      if (!is_skirt) continue;
+      const double lever = model_.R * geometry_.weight_phi[i];  // of a force along the axis, (skirt.6)
+      add(moment_x, node, node + 1, lever * lines_[static_cast<std::size_t>(i)].sine);
+      add(moment_y, node, node + 1, -lever * lines_[static_cast<std::size_t>(i)].cosine);
     }
   }
 }

@@ -45,6 +45,7 @@ struct BearingKindFormat {
 [[nodiscard]] std::vector<Key> floating_ring_keys();
 [[nodiscard]] std::vector<Key> thrust_keys();
 [[nodiscard]] std::vector<Key> squeeze_film_damper_keys();
+[[nodiscard]] std::vector<Key> skirt_keys();
 
 /// Keys of what pads that tilt stand on. @param common  those that every pivot has
 [[nodiscard]] TypePtr pivot_format(const std::vector<Key>& common);

@@ -227,6 +227,11 @@ const std::vector<BearingKindFormat>& bearing_kind_formats() {
        "a journal that orbits in a bore without rotating",
        {},
        squeeze_film_damper_keys()},
+      {"skirt",
+       "Piston skirt",
+       "the skirt of a piston or crosshead in its liner, with a film on either side",
+       {.fixed = "skirt", .of_fixed = "The skirt.", .moving = "liner", .of_moving = "The liner."},
+       skirt_keys()},
   };
   return kinds;
 }

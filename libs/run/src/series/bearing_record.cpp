@@ -8,6 +8,7 @@
 #include "hersey/bearing/film_coordinates.h"
 #include "hersey/bearing/quantities.h"
 #include "hersey/bearing/restricted_feeds.h"
+#include "hersey/bearing/skirt.h"
 #include "hersey/run/assumptions.h"
 #include "hersey/run/film_fields.h"
 #include "series/geometry_record.h"
@@ -60,6 +61,32 @@ bool has_ends(const BearingPlan& plan) { return !plan.bearing.film.ends.empty();
 bool is_annulus(const BearingPlan& plan) { return bearing::is_on_annulus(plan.bearing.film); }
 bool is_plane(const BearingPlan& plan) { return !film::is_round(plan.bearing.film.surface); }
 bool is_round(const BearingPlan& plan) { return !is_plane(plan); }
+bool is_skirt(const BearingPlan& plan) { return std::holds_alternative<film::Skirt>(plan.bearing.film.surface); }
+/// True of films between two cylinders.
+bool is_cylindrical(const BearingPlan& plan) { return has_axis(plan) || is_skirt(plan); }
+bool has_leading_ends(const BearingPlan& plan) { return has_ends(plan) && !is_skirt(plan); }
+
+/// Offset of a skirt's axis at one of its ends. @param end  1 at the top, -1 at the bottom
+auto skirt_offset(double end) {
+  return [end](const BearingRow& row) {
+    return row.observation.position.e[0] + 0.5 * end * row.model->L * row.observation.position.tilt.x();
+  };
+}
+
+std::vector<std::string> names_of_skirt_sides(const BearingPlan& plan) {
+  if (!is_skirt(plan)) return {};
+  return {bearing::skirt_sides.begin(), bearing::skirt_sides.end()};
+}
+
+bearing::SkirtSide side_of_skirt(const BearingRow& row, std::size_t k) {
+  return bearing::skirt_side_forces(*row.model, row.observation.film.normal_forces).at(k);
+}
+
+double skirt_side_force(const BearingRow& row) { return -row.observation.wrench_on_shell[3]; }
+
+double friction_on_skirt(const BearingRow& row) {
+  return bearing::skirt_friction(row.observation.wrench_on_shell, row.observation.position.tilt);
+}
 /// True of films whose rows have a z, not a radius.
 bool has_z(const BearingPlan& plan) { return !is_annulus(plan); }
 
@@ -190,7 +217,7 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
   static const std::string of_film_heat = "this and the following: of films with `thermal: {model: film}`";
   static const std::string per_angle = "four bytes a number";
   static const std::string of_plane = "of a plane slider", of_thrust = "of a thrust bearing",
-                           of_flat = "of a plane slider or a thrust bearing",
+                           of_skirt = "of a piston skirt", of_flat = "of a plane slider or a thrust bearing",
                            of_ends = "of a plane slider, of pads of a thrust bearing, or of a bore of arcs";
   static const QuantityTable<BearingRow, BearingPlan> table{
       line("h_min", of_film(&Film::h_min),
@@ -259,6 +286,41 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       line("speed", of_position(&bearing::GapPosition::speed), {.only = has_axis}),
       line("runner_speed", of_position(&bearing::GapPosition::speed), {.note = of_thrust, .only = is_annulus}),
       line("sliding_speed", of_position(&bearing::GapPosition::speed), {.note = of_plane, .only = is_plane}),
+      line("skirt_speed", of_position(&bearing::GapPosition::speed), {.note = of_skirt, .only = is_skirt}),
+      line("offset_top", skirt_offset(1),
+           {.note = of_skirt,
+            .only = is_skirt,
+            .summary_entries = {{Statistic::at_end, "offset at the skirt's top at the end", "µm"}}}),
+      line("offset_bottom", skirt_offset(-1),
+           {.note = of_skirt,
+            .only = is_skirt,
+            .summary_entries = {{Statistic::at_end, "offset at the skirt's bottom at the end", "µm"}}}),
+      line("skirt_tilt", of_position(&bearing::GapPosition::tilt), {.note = of_skirt, .only = is_skirt}),
+      line("side_force", skirt_side_force,
+           {.note = of_skirt,
+            .only = is_skirt,
+            .summary_entries = {{Statistic::largest_in_size, "largest side force", "N"}}}),
+      line("side_force_<side>", [](const BearingRow& row, std::size_t k) { return side_of_skirt(row, k).force; },
+           {.note = of_skirt, .each = names_of_skirt_sides}),
+      line("centre_<side>", [](const BearingRow& row, std::size_t k) { return side_of_skirt(row, k).centre(); },
+           {.note = of_skirt, .each = names_of_skirt_sides}),
+      line("h_min_<side>",
+           [](const BearingRow& row, std::size_t k) { return row.observation.film.patches.at(k).h_min; },
+           {.note = of_skirt,
+            .each = names_of_skirt_sides,
+            .summary_entries = {{Statistic::smallest, "minimum film thickness, <side> side", "µm"}}}),
+      line("p_max_<side>",
+           [](const BearingRow& row, std::size_t k) { return row.observation.film.patches.at(k).p_max; },
+           {.note = of_skirt, .each = names_of_skirt_sides}),
+      line("skirt_friction", friction_on_skirt,
+           {.note = of_skirt,
+            .only = is_skirt,
+            .summary_entries = {{Statistic::largest_in_size, "largest friction force on the skirt", "N"}}}),
+      line("skirt_friction_power",
+           [](const BearingRow& row) { return row.observation.film.power_film + row.observation.film.power_asperity; },
+           {.note = of_skirt,
+            .only = is_skirt,
+            .summary_entries = {{Statistic::mean, "mean friction power of the skirt", "W"}}}),
       line("power_film", of_film(&Film::power_film),
            {.summary_entries = {{Statistic::mean, "mean power loss in the film", "W"}}}),
       line("power_film_other_shear", of_film(&Film::power_film_other_shear),
@@ -283,11 +345,11 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       line("torque_stator", of_film(&Film::torque_shell), {.note = of_thrust, .only = is_annulus}),
       line("flow_leading", over_end(&Film::flow_first, &Film::flow_last),
            {.note = of_ends,
-            .only = has_ends,
+            .only = has_leading_ends,
             .summary_entries = {{Statistic::mean, "mean flow out over the leading end", "mm³/s"}}}),
       line("flow_trailing", over_end(&Film::flow_last, &Film::flow_first),
            {.note = of_ends,
-            .only = has_ends,
+            .only = has_leading_ends,
             .summary_entries = {{Statistic::mean, "mean flow out over the trailing end", "mm³/s"}}}),
       line("flow_inner", of_film(&Film::flow_left),
            {.note = of_thrust,
@@ -491,7 +553,7 @@ const std::vector<Constant<BearingPlan>>& film_nodes() {
        "[n_phi]",
        [](const BearingPlan& plan) { return film::arc_of_lines(plan.bearing.film.grid); },
        {},
-       {.note = "of a bore of arcs, or of pads of a thrust bearing",
+       {.note = "of a bore of arcs, of pads of a thrust bearing, or of a skirt",
         .only = [](const BearingPlan& plan) { return is_round(plan) && has_ends(plan); }}},
       {"fields/z", "m", "axial position of the nodes", "[n_z]", rows_of_nodes, {}, {.only = has_z}},
       {"fields/r",
@@ -524,7 +586,7 @@ const std::vector<Attribute<BearingPlan>>& bearing_attributes() {
     return all;
   };
   static const std::vector<Attribute<BearingPlan>> table{
-      {"radius", "m", "of the bore", of_model(&film::FilmModel::R), {.symbol = "R", .only = has_axis}},
+      {"radius", "m", "of the bore", of_model(&film::FilmModel::R), {.symbol = "R", .only = is_cylindrical}},
       {"length",
        "m",
        "of the pad along the sliding direction",
@@ -543,7 +605,7 @@ const std::vector<Attribute<BearingPlan>>& bearing_attributes() {
        "m",
        "of the bearing, as given (cold)",
        of_model(&film::FilmModel::c),
-       {.symbol = "c", .only = has_axis}},
+       {.symbol = "c", .only = is_cylindrical}},
       {"n_phi", "1", "nodes around", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_phi; }},
       {"n_z", "1", "nodes along", [](const BearingPlan& plan) { return plan.bearing.film.grid.n_z; }},
       {"<assumption>",

@@ -405,15 +405,24 @@ Rows bearing_assumptions(const model::Bearing& bearing) {
       film.pressures == film::PressureScale::absolute ? "absolute: 0 is a vacuum" : "gauge: 0 is the atmosphere");
   const film::Arcs* bore = film::arcs_of(film);
   const bool is_annulus = bearing::is_on_annulus(film);
-  // The pads of a thrust bearing lie between grooves of one condition.
-  for (std::size_t k = 0; k < (is_annulus ? std::min<std::size_t>(film.ends.size(), 1) : film.ends.size()); ++k) {
+  const bool is_skirt = std::holds_alternative<film::Skirt>(film.surface);
+  // The pads of a thrust bearing lie between grooves of one condition, as do the sides of a skirt.
+  const std::size_t different = bore != nullptr ? film.ends.size() : std::min<std::size_t>(film.ends.size(), 1);
+  if (is_skirt) row("edge pressure sides", edge(film, film.ends.front().first));
+  for (std::size_t k = 0; k < different && !is_skirt; ++k) {
     const std::string arc = bore != nullptr ? " of " + bore->arcs[k].name : "";
     const auto& [first, last] = film.ends[k];
     row(("edge pressure leading" + arc).c_str(), edge(film, bearing.kind->is_forward() ? first : last));
     row(("edge pressure trailing" + arc).c_str(), edge(film, bearing.kind->is_forward() ? last : first));
   }
-  row(is_annulus ? "edge pressure inner" : "edge pressure left", edge(film, film.edge_left));
-  row(is_annulus ? "edge pressure outer" : "edge pressure right", edge(film, film.edge_right));
+  row(is_annulus ? "edge pressure inner"
+      : is_skirt ? "edge pressure bottom"
+                 : "edge pressure left",
+      edge(film, film.edge_left));
+  row(is_annulus ? "edge pressure outer"
+      : is_skirt ? "edge pressure top"
+                 : "edge pressure right",
+      edge(film, film.edge_right));
   if (bearing.kind->has_axis()) row("supply", supply(film));
   for (std::size_t f = 0; f < film.features.size(); ++f)
     row(("feature " + film.features[f].name).c_str(),

@@ -32,6 +32,8 @@ struct Quantity {
 [[nodiscard]] std::span<const Quantity> thrust_quantities();
 /// Returns the quantities of squeeze-film dampers only.
 [[nodiscard]] std::span<const Quantity> squeeze_film_damper_quantities();
+/// Returns the quantities of piston skirts only.
+[[nodiscard]] std::span<const Quantity> skirt_quantities();
 
 /// Quantities that belong together, and the heading that the reference page gives them.
 struct QuantityList {

@@ -9,7 +9,7 @@ namespace hersey::film {
 
 /// Wrenches on the shell at the origin of a film's frame, [moment; force], of unit tractions at one point: along the
 /// normal that points from the film into the shell, along growing phi and along growing z. The three are right-handed
-/// (theory manual, film.58).
+/// (theory manual, film.58), but for a skirt, which is left-handed.
 struct UnitTractions {
   Vector6 normal, along, across;
 };
@@ -73,7 +73,21 @@ struct Annulus {
   }
 };
 
-using FilmSurface = std::variant<Cylinder, Plane, Annulus>;
+/// Around the axis z at the radius R with the film outside of it: a piston's skirt in its liner. The journal of a
+/// film's data is the liner around it; normals point to the axis.
+struct Skirt {
+  static constexpr bool closes = true, is_round = true;
+  /// Length per unit of phi over R [-].
+  [[nodiscard]] static double stretch(double /*R*/, double /*z*/) { return 1; }
+  /// Wrenches of unit tractions at (phi [rad], z [m]).
+  [[nodiscard]] static UnitTractions tractions(double R, const GridLine& line, double z) {
+    UnitTractions t = Cylinder::tractions(R, line, z);
+    t.normal = -t.normal;
+    return t;
+  }
+};
+
+using FilmSurface = std::variant<Cylinder, Plane, Annulus, Skirt>;
 
 /// True if phi and phi + 2 pi are the same line of the surface.
 [[nodiscard]] inline bool closes(const FilmSurface& surface) {

@@ -263,8 +263,19 @@ struct DamperPoint {
   SourcePosition position;
 };
 
+/// Conditions of a piston skirt without a machine: its position and motion in the liner. Either the offsets of both
+/// ends or a side force is given.
+struct SkirtPoint {
+  double speed = 0;                              ///< of the skirt along its z-axis [m/s]
+  double offset_top = 0, offset_bottom = 0;      ///< of the axis at both ends, towards the thrust side [m]
+  double velocity_top = 0, velocity_bottom = 0;  ///< at which these change [m/s]
+  std::optional<double> side_force;              ///< that presses the skirt towards the thrust side [N], not 0
+  double tilt = 0;                               ///< with a side force: slope of the skirt's axis towards it [-]
+  SourcePosition position;
+};
+
 /// Conditions of a single bearing without a machine, by its kind.
-using OperatingPoint = std::variant<JournalPoint, SliderPoint, ThrustPoint, DamperPoint>;
+using OperatingPoint = std::variant<JournalPoint, SliderPoint, ThrustPoint, DamperPoint, SkirtPoint>;
 
 /// How the inertia of a film's oil acts on its journal.
 enum class OilInertia {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
+#include <utility>
 
 #include "hersey/core/spelling.h"
 #include "hersey/core/two_pi.h"
@@ -18,7 +20,9 @@ class ShapeTable {
   ShapeTable(Context& context, const Value& file, const CsvTable& table)
       : context_(context), file_(file), table_(table) {}
 
-  [[nodiscard]] std::optional<film::MeasuredShape> shape(double L) {
+  /// @param L  width that the heights have to cover; 0: any heights
+  /// @param sides  grid of patches that the angles have to cover; null: the whole circle
+  [[nodiscard]] std::optional<film::MeasuredShape> shape(double L, const film::Grid* sides) {
     const std::optional<std::vector<double>> angle = column("angle", "rad"), z = column("z", "m"),
                                              opening = column("opening", "m");
     if (!angle || !z || !opening) return std::nullopt;
@@ -28,6 +32,7 @@ class ShapeTable {
       }
     }
     if (!is_complete(*angle, *z) || !is_within(*angle, *z, L)) return std::nullopt;
+    if (sides != nullptr && (!is_on_skirt(*z, L) || !covers_sides(*angle, *sides))) return std::nullopt;
     return as_shape();
   }
 
@@ -79,10 +84,44 @@ class ShapeTable {
     }
     const auto [low, high] = std::minmax_element(z.begin(), z.end());
     const bool covers = *low <= -0.5 * L * (1 - 1e-6) && *high >= 0.5 * L * (1 - 1e-6);
-    if (covers || rows_.size() == 1) return true;
+    if (covers || rows_.size() == 1 || L == 0) return true;
     context_.fault(file_, fmt::format("heights z from {:.4g} to {:.4g} mm", 1e3 * *low, 1e3 * *high),
                    fmt::format("the whole width, {:.4g} to {:.4g} mm, or a single z", -0.5e3 * L, 0.5e3 * L));
     return false;
+  }
+
+  /// A skirt's profile ends where the skirt does.
+  bool is_on_skirt(const std::vector<double>& z, double L) {
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      if (std::abs(z[k]) <= 0.5 * L * (1 + 1e-6)) continue;
+      (void)fault(k, fmt::format("z = {:.4g} mm, beyond the skirt's end", 1e3 * z[k]),
+                  fmt::format("z from {:.4g} to {:.4g} mm, from the middle of the skirt", -0.5e3 * L, 0.5e3 * L));
+      return false;
+    }
+    return true;
+  }
+
+  /// Between two sides lies an angle of the table, an end of a side at least: no side reaches into a gap of it.
+  bool covers_sides(const std::vector<double>& angle, const film::Grid& grid) {
+    constexpr double to_degrees = 180 / std::numbers::pi, same = 1e-6;
+    const auto is_between = [&](double from, double to) {
+      return std::any_of(angle.begin(), angle.end(), [&](double a) {
+        const double behind = std::fmod(std::fmod(a - from, two_pi) + two_pi, two_pi);
+        return behind <= to - from + same || behind >= two_pi - same;
+      });
+    };
+    const double first = grid.phi(0), first_ends = grid.phi(grid.patches[1] - 1), second = grid.phi(grid.patches[1]),
+                 second_ends = grid.phi(grid.n_phi - 1);
+    for (const auto& [from, to] : {std::pair(first_ends, second), std::pair(second_ends, first + two_pi)}) {
+      if (is_between(from, to)) continue;
+      context_.fault(file_,
+                     fmt::format("no angle from {:.4g} to {:.4g} deg, where both sides of the skirt end",
+                                 to_degrees * from, to_degrees * to),
+                     "angles that reach over both sides, their ends included",
+                     "angles count from the middle of the thrust side; the antithrust side is about 180 deg");
+      return false;
+    }
+    return true;
   }
 
   [[nodiscard]] film::MeasuredShape as_shape() const {
@@ -109,9 +148,10 @@ class ShapeTable {
 
 }  // namespace
 
-std::optional<film::MeasuredShape> measured_shape_of(Context& context, const Value& file, double L) {
+std::optional<film::MeasuredShape> measured_shape_of(Context& context, const Value& file, double L,
+                                                     const film::Grid* sides) {
   const std::optional<CsvTable> table = read_table_file(context, file);
-  return table ? ShapeTable(context, file, *table).shape(L) : std::nullopt;
+  return table ? ShapeTable(context, file, *table).shape(L, sides) : std::nullopt;
 }
 
 }  // namespace hersey::model

@@ -100,7 +100,8 @@ void read_surfaces(Context& context, const Value& value, Bearing& bearing);
 [[nodiscard]] std::optional<std::size_t> circuit_node(Context& context, const Value& name);
 
 /// The surface in the table that `file` names, for a bearing of width L [m]; reports what is wrong with it.
-[[nodiscard]] std::optional<film::MeasuredShape> measured_shape_of(Context& context, const Value& file, double L);
+[[nodiscard]] std::optional<film::MeasuredShape> measured_shape_of(Context& context, const Value& file, double L,
+                                                                   const film::Grid* sides = nullptr);
 
 /// Argument of a function that is neither time nor a joint coordinate: "length", in m.
 struct Argument {

@@ -302,6 +302,7 @@ void FilmReader::read_compliance() {
     context_.fault(*length,
                    fmt::format("{:.3g} m, {:.3g} times the {}", length->number, length->number / surfaces_.size,
                                (surfaces_.fixed == "shell"    ? "bearing's radius"
+                                : surfaces_.fixed == "skirt"  ? "skirt's radius"
                                 : surfaces_.fixed == "stator" ? "annulus' width"
                                                               : "pad's length")),
                    fmt::format("at most {:g} times that: columns represent a lining or a housing", kLongestColumn));

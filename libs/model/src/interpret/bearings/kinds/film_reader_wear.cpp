@@ -18,6 +18,9 @@ void FilmReader::read_wear() {
   if (wear->find(surfaces_.moving) != nullptr && std::holds_alternative<film::Plane>(film_.surface))
     context_.fault_at_key(*wear->find(surfaces_.moving), "wear of what slides over a plane pad",
                           "wear of the pad: of what passes it nobody knows how long it is");
+  if (wear->find(surfaces_.moving) != nullptr && std::holds_alternative<film::Skirt>(film_.surface))
+    context_.fault_at_key(*wear->find(surfaces_.moving), "wear of a liner, along which the skirt moves",
+                          "wear of the skirt: where on the liner it rubs is not followed");
   if (wear->find(surfaces_.fixed) == nullptr && wear->find(surfaces_.moving) == nullptr)
     context_.fault_at_key(*wear, "`wear` of no surface",
                           fmt::format("`{}` or `{}` or both", surfaces_.fixed, surfaces_.moving));

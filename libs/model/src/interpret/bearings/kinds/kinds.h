@@ -39,13 +39,19 @@ void read_squeeze_film_damper(Context& context, const Value& value, Bearing& bea
 void read_squeeze_film_damper_point(Context& context, const Value& value, Bearing& bearing);
 [[nodiscard]] ShortNames squeeze_film_damper_short_names(const Model& model, const Bearing& bearing);
 
+// A piston's skirt in its liner.
+void read_skirt(Context& context, const Value& value, Bearing& bearing);
+void read_skirt_point(Context& context, const Value& value, Bearing& bearing);
+[[nodiscard]] ShortNames skirt_short_names(const Model& model, const Bearing& bearing);
+
 /// All kinds.
 [[nodiscard]] inline std::vector<KindReader> bearing_kinds() {
   return {{"journal", read_journal, read_journal_point, journal_short_names},
           {"plane_slider", read_plane_slider, read_plane_slider_point, plane_slider_short_names},
           {"thrust", read_thrust, read_thrust_point, thrust_short_names},
           {"squeeze_film_damper", read_squeeze_film_damper, read_squeeze_film_damper_point,
-           squeeze_film_damper_short_names}};
+           squeeze_film_damper_short_names},
+          {"skirt", read_skirt, read_skirt_point, skirt_short_names}};
 }
 
 }  // namespace hersey::model
