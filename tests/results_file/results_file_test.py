@@ -38,6 +38,7 @@ RUNS = {
                                             "bearings.pad.thermal={model: film, supply_temperature: 40 degC}"],
     "examples/tilting_pads/model.yaml": [],
     "oil_circuit": ["--set", "simulation.duration=2ms"],
+    "examples/oil_circuit/passing_hole.yaml": ["--set", "simulation.duration=2ms"],
     "wear": ["--set", "simulation.duration=2ms"],
     "tests/results_file/thrust.yaml": [],
     "tests/results_file/every_line.yaml": ["--step-error", "--set", "simulation.duration=0.5ms"],

@@ -93,7 +93,11 @@ function network(nodes: Node[], elements: Element[]): SVGElement {
   const drawn = new Map<string, number>();
   svg.append(
     ...elements.flatMap((element) => link(element, places, line(element.flow), height, drawn)),
-    ...nodes.filter(({ drawn: flow }) => flow !== 0).flatMap((node) => intoFilms(node, places.get(node.name)!, line(node.drawn))),
+    ...nodes.filter(({ drawn: flow }) => flow !== 0).flatMap((node) => {
+      const place = places.get(node.name)!;
+      const isFreeAbove = !elements.some(({ from, to }) => from === node.name && places.get(to)!.y < place.y);
+      return intoFilms(node, place, line(node.drawn), isFreeAbove);
+    }),
     ...nodes.map((node) => nodeBox(node, places.get(node.name)!, Math.max(0, node.pressure / highest))),
   );
   return svg;
@@ -113,7 +117,7 @@ function link(element: Element, places: Map<string, Place>, width: number, heigh
     ? `M${start} ${a.y} Q${middle.x} ${middle.y} ${end} ${b.y}`
     : `M${a.x} ${a.y + box.height / 2} C${a.x} ${low} ${a.x} ${low} ${middle.x} ${low} S${b.x} ${low} ${b.x} ${b.y + box.height / 2}`;
   // Nearer to its later end, where lines from one node have come apart.
-  const label = forwards ? { x: 0.4 * start + 0.6 * end, y: 0.4 * a.y + 0.6 * b.y + 20 * nth } : { x: middle.x + 60 * nth, y: low };
+  const label = forwards ? { x: 0.4 * start + 0.6 * end, y: 0.4 * a.y + 0.6 * b.y + 20 * nth } : { x: a.x + 40 * nth, y: (a.y + box.height / 2 + low) / 2 };
   return [
     drawLine(d, width, { class: `graph-link circuit ${element.type}`, "data-element": element.name }),
     text(`${plain(element.name)}${element.flow < 0 ? " ◂" : ""}`, label.x, label.y - 5, "graph-label"),
@@ -121,13 +125,13 @@ function link(element: Element, places: Map<string, Place>, width: number, heigh
   ];
 }
 
-function intoFilms({ drawn }: Node, { x, y }: Place, width: number): SVGElement[] {
+function intoFilms({ drawn }: Node, { x, y }: Place, width: number, isFreeAbove: boolean): SVGElement[] {
   const [start, end] = [x + box.width / 2, x + box.width / 2 + 22];
   const tip = drawn > 0 ? `M${end} ${y - 6} L${end + 9} ${y} L${end} ${y + 6} Z` : `M${end + 9} ${y - 6} L${end} ${y} L${end + 9} ${y + 6} Z`;
   return [
     drawLine(`M${start} ${y} L${end} ${y}`, width, { class: "graph-link circuit" }),
     draw("path", { d: tip, class: "circuit-tip" }),
-    text(`${format(drawn, 3)} l/min`, end + 2, y - 9, "graph-kind"),
+    text(`${format(drawn, 3)} l/min`, start + 5, isFreeAbove ? y - 9 : y + 17, "graph-kind", "start"),
   ];
 }
 
