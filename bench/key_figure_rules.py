@@ -25,6 +25,7 @@ COMMANDS = {
     "engine/hot_isothermal": [("run", "simulation={crank: main, duration: 30 deg, step: 0.5 deg, spectral_radius: 0.8}")],
     "engine/inline_four": [("run", "simulation={crank: main, duration: 20 deg, step: 0.5 deg, spectral_radius: 0.8}")],
     "engine/model": [("run", "simulation={crank: main, duration: 60 deg, step: 0.5 deg, spectral_radius: 0.8}")],
+    "engine_oil/model": [("run", "simulation={crank: main, duration: 20 deg, step: 0.5 deg, spectral_radius: 0.8}")],
     "flexible_big_end/model": [("run", "load=1000N", "simulation.duration=0.25rev")],
     "flexible_rotor/campbell": [("run", "speed=4000rpm")],
     "flexible_rotor/films": [("run", "simulation.duration=20ms")],
@@ -49,6 +50,7 @@ COMMANDS = {
     "lobed_bores/partial_arc": [("bearing",)],
     # Reactions along free coordinates are what the iteration leaves: less than what counts as zero.
     "oil_circuit/model": [("run", "simulation.duration=4ms", "simulation.tolerance=1e-10")],
+    "oil_circuit/passing_hole": [("run", "simulation.duration=10ms", "simulation.tolerance=1e-10")],
     "oil_whirl/flexible": [("run", "simulation.duration=20ms")],
     "oil_whirl/model": [("run", "simulation.duration=0.1s")],
     "oil_whirl/steady": [("run", "speed=9000rpm")],

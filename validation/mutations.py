@@ -121,6 +121,8 @@ FAULTS = [
     Fault("circuit: a film does not answer to the circuit's pressures", "bearing/src/force/film_force.cpp",
           "film.wrench += film.wrench_by_s.rightCols(ports) * dp;", "film.wrench -= film.wrench_by_s.rightCols(ports) * dp;",
           r"^(bearing|run)\."),
+    Fault("circuit: a hole that passes a groove does not answer to the journal's angle", "bearing/src/force/oil_circuit.cpp",
+          "    add_passing_holes(f, p, rhs);\n", "", r"^(bearing|run)\."),
     Fault("bearing: force on the journal is that on the shell", "bearing/src/force/film_force.cpp",
           "response.W_B_A = -film.wrench;", "response.W_B_A = film.wrench;"),
     Fault("bearing: relative velocity along z off the centre", "bearing/src/kinds/journal/journal_kinematics.cpp",

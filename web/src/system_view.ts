@@ -1,6 +1,7 @@
 // Collapsible sections about the machine and the solution: mechanism, energy, solver, model file.
 
 import { BeamFigures, beamsOf } from "./beam_figures";
+import { circuitDrawings } from "./circuit_drawing";
 import type { Run } from "./data";
 import { figure, h, section } from "./dom";
 import { furtherFigures } from "./further_series";
@@ -58,7 +59,7 @@ export class SystemView {
     }
     const groups = run.children("/groups");
     if (groups.length > 0) this.element.append(section("Bearings of several films", alone, (body) => groups.forEach((group) => this.further(body, `/groups/${group}`))));
-    if (run.growingIn("/circuit").length > 0) this.element.append(section("Oil circuit", alone, (body) => this.further(body, "/circuit")));
+    if (run.growingIn("/circuit").length > 0) this.element.append(section("Oil circuit", alone, (body) => this.circuit(body)));
     if (run.growingIn("/thermal").length > 0) this.element.append(section("Thermal network", false, (body) => this.further(body, "/thermal")));
     if (alone) solution();
     if (run.model) this.element.append(h("details", {}, h("summary", {}, "Model as it was run"), h("pre", { class: "model", tabindex: 0, role: "region", "aria-label": "Model file" }, run.model)));
@@ -68,6 +69,11 @@ export class SystemView {
     this.time = time;
     for (const plot of this.plots) plot.mark(this.axis.at(time));
     this.beams?.show(time);
+  }
+
+  private circuit(body: HTMLElement): void {
+    body.append(...circuitDrawings(this.run));
+    this.further(body, "/circuit");
   }
 
   private beamFigures(body: HTMLElement): void {

@@ -118,5 +118,91 @@ TEST_CASE("FedFilm_IsThatOfThePressuresFound") {
   CHECK((response.W_B_A - wrench).norm() < 1e-9 * wrench.norm());  // films solved to 1e-12, one increment apart
 }
 
+// A journal's hole passes the lower groove's end, and feeds a bore that leads out of the journal.
+struct Passing {
+  std::shared_ptr<FilmForce> film;
+  OilCircuit circuit;
+  mbd::ForceResponse response;
+
+  static film::FilmModel model() {
+    film::FilmModel model = fed_film();
+    model.features = {{.name = "groove", .phi = 1.6, .arc = 2, .length = 0.006, .pressure = 0},
+                      {.name = "hole",
+                       .shape = film::Ellipse{},
+                       .surface = film::Surface::journal,
+                       .phi = 0.3,
+                       .arc = 0.15,
+                       .length = 0.0045,
+                       .pressure = 0}};
+    model.grid = {.n_phi = 48, .n_z = 13};
+    return model;
+  }
+  static std::shared_ptr<FilmForce> film_of() {
+    BearingOptions options;
+    options.starts_steady = true;
+    options.film.rtol = 1e-12;  // far below the differences taken here
+    for (int k = 0; k < 2; ++k) options.feature_pressures.push_back(std::make_shared<ConstantFunction>(0.0));
+    options.circuit_ports = {0, 1};
+    return std::make_shared<JournalBearing>("main", model(), options);
+  }
+  static circuit::Network network() {
+    return {.nodes = {{"supply", true}, {"groove"}, {"hole"}, {"pin", true}},
+            .elements = {{"branch", 0, 1, circuit::Drilling{.length = 0.05, .diameter = 2e-3}},
+                         {.name = "mouth", .from = 1, .to = 2, .law = circuit::HoleOverGroove{}, .hole = 0},
+                         {"crank", 2, 3, circuit::Drilling{.length = 0.07, .diameter = 2e-3}}},
+            .oil = {.mu = 0.012, .density = 850}};
+  }
+  Passing()
+      : film(film_of()),
+        circuit(network(), {{film, 0, {1, 2}}},
+                {std::make_shared<ConstantFunction>(kSupply), nullptr, nullptr, std::make_shared<ConstantFunction>(0)},
+                {}, {{0, model().features[1], model().features[0]}}) {}
+
+  // At an angle of the journal, turned there about the shell's axis from `from`.
+  static mbd::RelativeMotion turned(double angle, double from) {
+    mbd::RelativeMotion motion = motion_at(kPosition, kRate);
+    motion.X_AB.R = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
+    motion.X_AB.r = Eigen::AngleAxisd(angle - from, Vector3::UnitZ()) * kPosition;
+    return motion;
+  }
+  const mbd::ForceResponse& at(const mbd::RelativeMotion& motion) {
+    for (int k = 0; k < 40; ++k) {
+      circuit.follow({0, 0, {&motion, 1}, {}});
+      film->evaluate(motion, true, response);
+      circuit.condense({&response, 1});
+      REQUIRE_MESSAGE(circuit.domain_error().empty(), circuit.domain_error());
+      REQUIRE_MESSAGE(film->domain_error().empty(), film->domain_error());
+      if (circuit.internal_residual() < 1e-13) return response;  // of the largest flow
+    }
+    FAIL("no balance of film and circuit");
+    return response;
+  }
+  double through_the_hole(double angle) {
+    (void)at(turned(angle, angle));
+    circuit.accept_step();
+    return circuit.observation().flows[1];
+  }
+};
+
+// The groove's end, at 2.6 rad, is over the hole's middle at 2.3 rad of the journal.
+TEST_CASE("WrenchOfAPassingHole_HasTheDerivativesOfItsDifferences") {
+  Passing passing;
+  for (const double angle : {1.0, 2.28}) {  // rad: within the groove, and half way over its end
+    const mbd::ForceResponse response = passing.at(Passing::turned(angle, angle));
+    const double step = 1e-6;  // rad
+    const auto wrench = [&](double by) -> Vector6 { return passing.at(Passing::turned(angle + by, angle)).W_B_A; };
+    const Vector6 by_angle = (wrench(step) - wrench(-step)) / (2 * step);
+    CHECK((response.dW_dX.col(2) - by_angle).norm() < 1e-4 * by_angle.norm());  // rupture fronts bend it
+  }
+}
+
+TEST_CASE("PassingHole_IsFedOverTheGrooveOnly") {
+  Passing passing;
+  CHECK(passing.through_the_hole(1.3) > 1e-6);  // m^3/s: some 0.1 l/min
+  CHECK(passing.through_the_hole(4.5) == 0);    // over the land
+  CHECK(passing.circuit.observation().open_areas[0] == 0);
+  CHECK(passing.through_the_hole(2.375) < 2e-3 * passing.through_the_hole(1.3));  // all but shut
+}
+
 }  // namespace oil_circuit_test
 }  // namespace hersey::bearing

@@ -44,9 +44,11 @@ double Circuit::drop(const Element& element, const Eigen::VectorXd& p, const Con
 
 Flow Circuit::flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
   const Element& of = network_.elements[element];
-  const double speed = of.shaft ? conditions.speeds[static_cast<Eigen::Index>(*of.shaft)] : 0;
+  Setting setting;
+  if (of.shaft) setting.speed = conditions.speeds[static_cast<Eigen::Index>(*of.shaft)];
+  if (of.hole) setting.open_area = conditions.open_areas[static_cast<Eigen::Index>(*of.hole)];
   const double over = drop(of, p, conditions);
-  return std::visit([&](const auto& law) { return law.flow(over, network_.oil, speed); }, of.law);
+  return std::visit([&](const auto& law) { return law.flow(over, network_.oil, setting); }, of.law);
 }
 
 Eigen::VectorXd Circuit::flows(const Eigen::VectorXd& p, const Conditions& conditions) const {

@@ -32,7 +32,7 @@ Loss loss_of(const Drilling& bore, const Oil& oil, double v) {
 }  // namespace
 
 // The velocity of a loss is found by Newton's method within bounds: laminar flow alone is an upper one.
-Flow Drilling::flow(double drop, const Oil& oil, double /*speed*/) const {
+Flow Drilling::flow(double drop, const Oil& oil, const Setting& /*setting*/) const {
   constexpr double kSameVelocity = 4 * std::numeric_limits<double>::epsilon();
   constexpr int kMost = 200;  // 60 halvings reach round-off from any bounds; Newton's method takes five
   const double wanted = std::abs(drop), area = area_of(diameter);
@@ -49,7 +49,7 @@ Flow Drilling::flow(double drop, const Oil& oil, double /*speed*/) const {
 }
 
 // (circuit.5)
-Flow Orifice::flow(double drop, const Oil& oil, double /*speed*/) const {
+Flow Orifice::flow(double drop, const Oil& oil, const Setting& /*setting*/) const {
   const double jet = discharge_coefficient * area_of(diameter) * std::sqrt(2 / oil.density);
   const double creeping = std::pow(diameter, 3) / (24 * oil.mu);  // flow over drop
   const double transition = std::pow(jet / creeping, 2);
@@ -58,28 +58,41 @@ Flow Orifice::flow(double drop, const Oil& oil, double /*speed*/) const {
   return {jet * drop / root, jet / root * (1 - 0.5 * drop * drop / squares)};
 }
 
-Flow Resistance::flow(double drop, const Oil& /*oil*/, double /*speed*/) const {
+Flow Resistance::flow(double drop, const Oil& /*oil*/, const Setting& /*setting*/) const {
   return {drop / resistance, 1 / resistance};
 }
 
 // (circuit.6)
-Flow ReliefValve::flow(double drop, const Oil& /*oil*/, double /*speed*/) const {
+Flow ReliefValve::flow(double drop, const Oil& /*oil*/, const Setting& /*setting*/) const {
   if (drop <= opening_pressure) return {};
   return {conductance * (drop - opening_pressure), conductance};
 }
 
 // (circuit.7)
-Flow DisplacementPump::flow(double drop, const Oil& /*oil*/, double speed) const {
-  return {displacement * speed + leakage * drop, leakage};
+Flow DisplacementPump::flow(double drop, const Oil& /*oil*/, const Setting& setting) const {
+  return {displacement * setting.speed + leakage * drop, leakage};
 }
 
-Flow PumpCurve::flow(double drop, const Oil& /*oil*/, double /*speed*/) const {
+Flow PumpCurve::flow(double drop, const Oil& /*oil*/, const Setting& /*setting*/) const {
   const double rise = -drop;
   double by_rise = 0;
   curve->gradient({&rise, 1}, {&by_rise, 1});
   return {curve->value({&rise, 1}), -by_rise};
 }
 
-Flow GivenFlow::flow(double /*drop*/, const Oil& /*oil*/, double /*speed*/) const { return {rate, 0}; }
+// (circuit.13). What is open counts as a round hole of the same area.
+Flow HoleOverGroove::flow(double drop, const Oil& oil, const Setting& setting) const {
+  const double area = setting.open_area;
+  if (!(area > 0)) return {};
+  const double diameter = std::sqrt(4 * area / std::numbers::pi);
+  const double creeping = diameter * diameter * diameter / (24 * oil.mu);  // flow over drop
+  const double root =
+      discharge_coefficient * std::sqrt(2 / oil.density) * 6 * std::numbers::pi * oil.mu / diameter;  // of Delta_c
+  const double ratio = drop / (root * root), squares = 1 + ratio * ratio;
+  const double by_drop = creeping / std::sqrt(std::sqrt(squares));
+  return {by_drop * drop, by_drop * (1 - 0.5 * ratio * ratio / squares), by_drop * drop / area * (1 + 0.5 / squares)};
+}
+
+Flow GivenFlow::flow(double /*drop*/, const Oil& /*oil*/, const Setting& /*setting*/) const { return {rate, 0}; }
 
 }  // namespace hersey::circuit

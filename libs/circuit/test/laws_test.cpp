@@ -17,10 +17,12 @@ namespace hersey::circuit {
 namespace laws_test {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kOpenArea = 3e-6;  // m^2, of a hole of 2 mm that is nearly all open
 const Oil kOil{.mu = 0.01, .density = 860};
 
 Flow flow_of(const Law& law, double drop, double speed = 300) {
-  return std::visit([&](const auto& of) { return of.flow(drop, kOil, speed); }, law);
+  return std::visit(
+      [&](const auto& of) { return of.flow(drop, kOil, Setting{.speed = speed, .open_area = kOpenArea}); }, law);
 }
 
 const Drilling kRough{.length = 0.06, .diameter = 5e-3, .roughness = 2e-5, .loss_coefficient = 1.7};
@@ -45,7 +47,8 @@ std::vector<Law> laws() {
           ReliefValve{.opening_pressure = 4e5, .conductance = 2e-9},
           DisplacementPump{.displacement = 2e-6, .leakage = 3e-11},
           PumpCurve{std::make_shared<Falling>()},
-          GivenFlow{2e-4}};
+          GivenFlow{2e-4},
+          HoleOverGroove{.discharge_coefficient = 0.65}};
 }
 
 TEST_CASE("FlowOfEachLaw_HasTheSlopeOfItsDifference_WhichIsNowhereNegative") {
@@ -83,6 +86,25 @@ TEST_CASE("OrificeFlow_IsTorricellisAtLargeDropsAndSampsonsAtSmallOnes") {
   CHECK(flow_of(hole, large).value == doctest::Approx(0.7 * area * std::sqrt(2 * large / kOil.density)).epsilon(4e-9));
   // 1e-2/18 squared
   CHECK(flow_of(hole, small).value == doctest::Approx(std::pow(1.5e-3, 3) / (24 * kOil.mu) * small).epsilon(1e-6));
+}
+
+// Of a whole hole it is that hole's orifice; as it shuts the flow goes to nothing, with its slopes.
+TEST_CASE("HoleOverGroove_IsAnOrificeOfItsOpenArea") {
+  const HoleOverGroove hole{.discharge_coefficient = 0.65};
+  const auto open = [&](double drop, double area) { return hole.flow(drop, kOil, {.open_area = area}); };
+  for (const double drop : {-4e5, 1e-2, 20.0, 3e3, 2e5})  // Pa: creeping flow to a jet
+    for (const double diameter : {1e-4, 1.5e-3, 6e-3}) {
+      const double area = std::numbers::pi / 4 * diameter * diameter, step = 1e-5 * area;
+      const Flow orifice = Orifice{diameter, 0.65}.flow(drop, kOil, {}), flow = open(drop, area);
+      CHECK(flow.value == doctest::Approx(orifice.value).epsilon(64 * kEps));
+      CHECK(flow.slope == doctest::Approx(orifice.slope).epsilon(64 * kEps));
+      const double difference = (open(drop, area + step).value - open(drop, area - step).value) / (2 * step);
+      CHECK(flow.by_area == doctest::Approx(difference).epsilon(1e-8));  // of steps of 1e-5
+    }
+  CHECK(open(2e5, 0).value == 0);
+  CHECK(open(2e5, 0).slope == 0);
+  CHECK(open(2e5, 1e-18).value < 1e-18);      // of a hole of a nanometre: m^3/s
+  CHECK(open(2e5, 1e-300).by_area < 1e-100);  // as the square root of the area
 }
 
 TEST_CASE("Pumps_GiveTheirDisplacementLessWhatLeaks") {

@@ -119,5 +119,46 @@ TEST_CASE("FeedOfTheCircuit_IsNoPressureOfAPartitionedCoupling") {
                 "    lubricant: oil\n    coupling: {scheme: partitioned}\n    features:", "partitioned"));
 }
 
+// The mouth of the drilling as a hole of the journal that passes the groove.
+const std::string passing = edited(
+    edited(edited(text, "    hole: {}\n", "    hole: {}\n    pin: {pressure: 0 bar}\n"),
+           "    crank: {type: drilling, from: gallery, to: hole,",
+           "    mouth: {type: hole_over_groove, from: gallery, to: hole, bearing: main, hole: mouth, groove: bore}\n"
+           "    crank: {type: drilling, from: hole, to: pin,"),
+    "length: 50 mm, circuit: hole}",
+    "length: 50 mm, circuit: gallery}\n      mouth: {shape: hole, on: journal, diameter: 14 mm, circuit: hole}");
+
+bool reports_passing(const std::string& old, const std::string& replacement, const std::string& message) {
+  std::string faults;
+  try {
+    (void)read_text(edited(passing, old, replacement), "m.yaml");
+  } catch (const InputError& error) {
+    faults = error.what();
+  }
+  CAPTURE(faults);
+  CHECK(faults.find(message) != std::string::npos);
+  return faults.find(message) != std::string::npos;
+}
+
+TEST_CASE("HoleOverAGroove_IsReadWithItsFeatures") {
+  const Model model = read_text(passing, "m.yaml");
+  REQUIRE(model.circuit->holes.size() == 1);
+  CHECK(model.circuit->holes[0].of_bearing == 0);
+  CHECK(model.bearings[0].film.features[model.circuit->holes[0].hole_feature].name == "mouth");
+  CHECK(model.bearings[0].film.features[model.circuit->holes[0].groove_feature].name == "bore");
+  for (const Fault& warning : model.warnings) CHECK(warning.found.find("passes over") == std::string::npos);
+}
+
+TEST_CASE("FaultsOfAHoleOverAGroove_AreReportedByNameAndLine") {
+  CHECK(reports_passing("bearing: main,", "bearing: mian,",
+                        "m.yaml:20:71: circuit.elements.mouth.bearing: unknown bearing 'mian'"));
+  CHECK(reports_passing("hole: mouth,", "hole: moth,", "unknown feature 'moth' of bearing 'main'"));
+  CHECK(reports_passing("hole: mouth,", "hole: moth,", "did you mean 'mouth'?"));
+  CHECK(reports_passing("hole: mouth, groove: bore", "hole: bore, groove: mouth", "'bore', which is not round"));
+  CHECK(reports_passing("on: journal, diameter", "diameter", "in the same surface as 'mouth', which never passes it"));
+  CHECK(reports_passing("on: journal, diameter", "on: journal, z: 33 mm, diameter", "always passes"));
+  CHECK(reports_passing("to: hole, bearing", "to: sump, bearing", "'mouth' is fed by node 'hole'"));
+}
+
 }  // namespace oil_circuit_fault_test
 }  // namespace hersey::model

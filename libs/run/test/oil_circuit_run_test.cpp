@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -173,6 +174,44 @@ TEST_CASE("PumpThatTurnsBackwards_EndsTheRunWithItsName") {
     CHECK(std::string(error.what()).find("pump pump turns backwards") != std::string::npos);
     CHECK(std::string(error.what()).find("m.yaml:") != std::string::npos);
   }
+}
+
+// A hole of the journal that is over the groove for half of a turn feeds a bore that leads out of the journal.
+std::string passing(const std::string& more = "") {
+  const std::string circuit = R"(circuit:
+  lubricant: oil
+  nodes: {supply: {pressure: 3 bar}, groove: {}, mouth: {}, pin: {pressure: 0 bar}}
+  elements:
+    branch: {type: drilling, from: supply, to: groove, length: 60 mm, diameter: 4 mm, loss_coefficient: 1.5}
+    passing: {type: hole_over_groove, from: groove, to: mouth, bearing: main, hole: mouth, groove: groove}
+    crank: {type: drilling, from: mouth, to: pin, length: 70 mm, diameter: 2.5 mm, loss_coefficient: 2.5, radii: [30 mm, 55 mm], joint: turning}
+)";
+  std::string main = bearing("main", "40 um", "circuit: groove");
+  const std::string grid = "circumferential: 24, axial: 9";
+  main.replace(main.find(grid), grid.size(), "circumferential: 60, axial: 13");
+  return machine(circuit, main + "      mouth: {shape: hole, on: journal, diameter: 7 mm, circuit: mouth}\n" + more);
+}
+
+TEST_CASE("HoleThatPassesAGroove_IsFedContinuously_AndConservesOil") {
+  const auto largest_change = [](const char* step) {
+    const Ran run(passing(), {"simulation.duration=20 ms", std::string("simulation.step=") + step});
+    const std::vector<double> through = run.all("circuit/flow_passing"), open = run.all("circuit/open_area_passing");
+    double most = 0, change = 0, error = 0;
+    for (std::size_t k = 1; k < through.size(); ++k) {
+      most = std::max(most, through[k]);
+      change = std::max(change, std::abs(through[k] - through[k - 1]));
+      if (open[k] == 0) CHECK(through[k] == 0);
+    }
+    for (const double of_step : run.all("circuit/balance_error")) error = std::max(error, of_step);
+    CHECK(error < 1e-9);  // of the largest flow
+    CHECK(*std::min_element(open.begin(), open.end()) == 0);
+    CHECK(*std::max_element(open.begin(), open.end()) ==
+          doctest::Approx(std::numbers::pi / 4 * 49e-6).epsilon(1e3 * kEps));  // 7 mm, whole
+    return change / most;
+  };
+  const double coarse = largest_change("0.1 ms"), fine = largest_change("0.025 ms");
+  CHECK(fine < 0.5 * coarse);  // a jump would stay as large
+  CHECK(fine < 0.2);           // the hole passes the groove's end within 0.75 ms
 }
 
 }  // namespace oil_circuit_run_test

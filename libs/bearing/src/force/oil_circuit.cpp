@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "hersey/film/feature_overlap.h"
+
 namespace hersey::bearing {
 
 using Eigen::Index;
@@ -22,15 +24,19 @@ constexpr double kBalancedAtOnce = 1e-12;  // of the largest flow: what films so
 }  // namespace
 
 OilCircuit::OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
-                       std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts)
+                       std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts,
+                       std::vector<CircuitHole> holes)
     : circuit_(std::move(network)),
       films_(std::move(films)),
       given_(std::move(given)),
       shafts_(std::move(shafts)),
+      holes_(std::move(holes)),
+      area_by_angle_(holes_.size()),
       at_(films_.size()),
       p_by_at_(films_.size()) {
   conditions_.given.setZero(circuit_.size());
   conditions_.speeds.setZero(static_cast<Index>(shafts_.size()));
+  conditions_.open_areas.setZero(static_cast<Index>(holes_.size()));
 }
 
 void OilCircuit::begin_step(double /*dt*/) {
@@ -63,6 +69,28 @@ void OilCircuit::refuse_backward_pumps() {
   }
 }
 
+// (circuit.12), with the surfaces as they are.
+void OilCircuit::open_holes() {
+  for (std::size_t h = 0; h < holes_.size(); ++h) {
+    const FilmForce& film = *films_[holes_[h].film].film;
+    const film::FeatureOverlap open =
+        film::overlap_of(holes_[h].hole, holes_[h].groove, film.gap().turning().angle, film.model().R);
+    conditions_.open_areas[static_cast<Index>(h)] = open.area;
+    area_by_angle_[h] = open.slope;
+  }
+}
+
+void OilCircuit::add_passing_holes(std::size_t film, const VectorXd& p, MatrixXd& rhs) const {
+  const std::vector<circuit::Element>& elements = circuit_.network().elements;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (!elements[e].hole || holes_[*elements[e].hole].film != film) continue;
+    const double change = circuit_.flow(e, p, conditions_).by_area * area_by_angle_[*elements[e].hole];
+    const Index angle = films_[film].film->gap().turning().of_angle;
+    rhs(static_cast<Index>(elements[e].from), angle) += change;
+    rhs(static_cast<Index>(elements[e].to), angle) -= change;
+  }
+}
+
 void OilCircuit::pass_pressures() {
   for (const CircuitFilm& film : films_) {
     VectorXd p(static_cast<Index>(film.nodes.size()));
@@ -77,11 +105,12 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
   domain_error_.clear();
   set_conditions(motion);
   refuse_backward_pumps();
+  for (const CircuitFilm& film : films_) film.film->follow(motion.motions[film.force]);
+  open_holes();
   if (p_.size() == 0) {
     p_ = circuit_.start(conditions_);
     if (VectorXd p = p_; circuit_.solve(conditions_, circuit_.nothing_drawn(), p).solved()) p_ = p;
   }
-  for (const CircuitFilm& film : films_) film.film->follow(motion.motions[film.force]);
   if (is_condensed_) {
     p_ = p_solved_;
     for (std::size_t f = 0; f < films_.size(); ++f)
@@ -162,8 +191,10 @@ void OilCircuit::condense(std::span<mbd::ForceResponse> responses) {
     const FilmForce::PortAnswer answer = film.film->port_answer();
     MatrixXd rhs = MatrixXd::Zero(circuit_.size(), answer.by_parameters.cols());
     for (std::size_t k = 0; k < film.nodes.size(); ++k)
-      if (!circuit_.network().nodes[film.nodes[k]].is_given)
-        rhs.row(static_cast<Index>(film.nodes[k])) += answer.by_parameters.row(static_cast<Index>(k));
+      rhs.row(static_cast<Index>(film.nodes[k])) += answer.by_parameters.row(static_cast<Index>(k));
+    add_passing_holes(f, p, rhs);
+    for (std::size_t i = 0; i < circuit_.network().nodes.size(); ++i)
+      if (circuit_.network().nodes[i].is_given) rhs.row(static_cast<Index>(i)).setZero();
     at_[f] = film.film->surface_parameters();
     p_by_at_[f] = factor.solve(rhs);
     VectorXd dp(static_cast<Index>(film.nodes.size()));
@@ -185,6 +216,7 @@ void OilCircuit::accept_step() {
   observation_.drawn = drawn_;
   observation_.content = circuit_.content(p_start_);
   observation_.speeds = conditions_.speeds;
+  observation_.open_areas = conditions_.open_areas;
   observation_.balance_error = imbalance(p_start_, drawn_).over_largest_flow;
   // Work done on the oil between the ends of each element is lost in it, but where a source lifts it against pressure.
   observation_.power = 0;

@@ -496,11 +496,11 @@ void FlowBalance::balance_along(const MotionDirection& direction, Eigen::VectorX
   }
 }
 
-void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const {
+void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr, Eigen::VectorXd* port_flows) const {
   HERSEY_REQUIRE(direction.port_pressure.size() == 0 || direction.port_pressure.size() == port_count(),
                  "a change of pressure for each feature or none");
   balance_along(direction, dr);
-  if (!restricted_.empty()) direction_balance_ = dr;
+  if (!restricted_.empty() || port_flows != nullptr) direction_balance_ = dr;
   const bool gap = direction.g.size() != 0;
   for (const PrescribedNode& prescribed : prescribed_) {
     const int i = prescribed.node;
@@ -522,6 +522,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
   }
   for (const int node : prescribed_edge_nodes_) dr[node] = 0;
   if (!restricted_.empty()) find_restricted_along(direction, direction_balance_, dr);
+  if (port_flows != nullptr) find_port_flows_along(direction, direction_balance_, *port_flows);
 }
 
 }  // namespace hersey::film

@@ -103,7 +103,8 @@ class FlowBalance {
   void assemble_jacobian();
 
   /// Derivative of the residual along a direction, at fixed u.
-  void derivative(const MotionDirection& direction, Eigen::VectorXd& dr) const;
+  /// @param port_flows  if asked for: that of the flows through features, as find_port_flows_along(), for less work
+  void derivative(const MotionDirection& direction, Eigen::VectorXd& dr, Eigen::VectorXd* port_flows = nullptr) const;
 
   /// Change of the residual as flows accelerate at the rate at which they change with `du` (damper.6) [m^3 s].
   void inertia_residual(const Eigen::Ref<const Eigen::VectorXd>& du, double momentum_factor, Eigen::VectorXd& dr) const;

@@ -44,7 +44,7 @@ struct Reynolds::Impl {
   void solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
-  void find_port_flows(std::span<const MotionDirection> directions, PortFlows flows, CondensedFilm& film);
+  void find_port_flows(PortFlows flows, CondensedFilm& film);
   void set_up_multigrid();
   void solve_for_settling();
   void subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const;
@@ -57,7 +57,7 @@ struct Reynolds::Impl {
   PortBorder border;
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
-  Eigen::VectorXd rhs, answer, row_size, rest, correction;
+  Eigen::VectorXd rhs, answer, row_size, rest, correction, port_change;
   // Of the last condensation, n rows each: residual's derivative along the directions; then either the answer of each
   // output (six of the wrench, forces on shapes, flows of ports) to the residual, or the increment and the answers to
   // the directions.
@@ -224,9 +224,8 @@ void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, Conden
   }
 }
 
-// Flows through the ports at fixed u, or none.
-void Reynolds::Impl::find_port_flows(std::span<const MotionDirection> directions, PortFlows flows,
-                                     CondensedFilm& film) {
+// Flows through the ports, or none; their derivatives along directions are condense()'s.
+void Reynolds::Impl::find_port_flows(PortFlows flows, CondensedFilm& film) {
   if (flows == PortFlows::left_out) {
     port_flow_by_u.resize(balance.size(), 0);
     film.port_flow.resize(0);
@@ -236,10 +235,6 @@ void Reynolds::Impl::find_port_flows(std::span<const MotionDirection> directions
   balance.find_port_flows(film.port_flow);
   balance.find_port_flows_by_u(port_flow_by_u);
   film.port_flow_by_s.resize(film.port_flow.size(), residual_by_s.cols());
-  for (Eigen::Index k = 0; k < residual_by_s.cols(); ++k) {
-    balance.find_port_flows_along(directions[static_cast<std::size_t>(k)], rhs);
-    film.port_flow_by_s.col(k) = rhs;
-  }
 }
 
 Reynolds::Reynolds(const FilmModel& model, LinearSolver linear) : impl_(std::make_unique<Impl>(model, linear)) {}
@@ -324,11 +319,13 @@ void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen
   m.residual_by_s.resize(m.balance.size(), static_cast<Eigen::Index>(directions.size()));
   film.wrench_by_s.resize(6, m.residual_by_s.cols());
   film.Q_by_s.setZero(openings.cols(), m.residual_by_s.cols());
+  m.find_port_flows(flows, film);
   const bool contact_pushes = openings.cols() > 0 && !now.normal().by_g.isZero(0);
   for (Eigen::Index k = 0; k < m.residual_by_s.cols(); ++k) {
     const MotionDirection& direction = directions[static_cast<std::size_t>(k)];
-    m.balance.derivative(direction, m.rhs);
+    m.balance.derivative(direction, m.rhs, flows == PortFlows::included ? &m.port_change : nullptr);
     m.residual_by_s.col(k) = m.rhs;
+    if (flows == PortFlows::included) film.port_flow_by_s.col(k) = m.port_change;
     film.wrench_by_s.col(k) = now.along(direction);
     if (!contact_pushes || direction.g.size() == 0) continue;
     m.rhs = now.normal().by_g.cwiseProduct(direction.g);
@@ -336,7 +333,6 @@ void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen
   }
   film.wrench = now.total();
   film.Q.noalias() = openings.transpose() * now.normal().value;
-  m.find_port_flows(directions, flows, film);
   if (m.state.kind == LinearSolver::direct) {
     m.condense_by_adjoint(openings, film);
   } else {

@@ -424,9 +424,11 @@ class Builder {
 
   void add_circuit(const OilCircuit& circuit) {
     std::vector<bearing::CircuitFilm> films;
+    std::vector<std::size_t> film_of_bearing(model_.bearings.size());
     for (std::size_t i = 0; i < model_.bearings.size(); ++i) {
       if (model_.bearings[i].circuit_ports.empty()) continue;
       const BuiltBearing& built = machine_.bearings[i];
+      film_of_bearing[i] = films.size();
       films.push_back({.film = built.bearing, .force = static_cast<std::size_t>(built.force.index), .nodes = {}});
       for (const CircuitPort& port : model_.bearings[i].circuit_ports) films.back().nodes.push_back(port.node);
     }
@@ -441,8 +443,15 @@ class Builder {
       shafts.back().coordinate = coordinates.size();
       coordinates.push_back(coordinate(*shaft.on));
     }
-    machine_.circuit =
-        std::make_shared<bearing::OilCircuit>(circuit.network, std::move(films), std::move(given), std::move(shafts));
+    std::vector<bearing::CircuitHole> holes;
+    for (const CircuitHole& hole : circuit.holes) {
+      const std::vector<film::SurfaceFeature>& features = model_.bearings[hole.of_bearing].film.features;
+      holes.push_back({.film = film_of_bearing[hole.of_bearing],
+                       .hole = features[hole.hole_feature],
+                       .groove = features[hole.groove_feature]});
+    }
+    machine_.circuit = std::make_shared<bearing::OilCircuit>(circuit.network, std::move(films), std::move(given),
+                                                             std::move(shafts), std::move(holes));
     mechanism_.add_shared_unknowns("circuit", machine_.circuit, std::move(coordinates));
   }
 

@@ -22,6 +22,13 @@ std::vector<std::string> element_names(const model::OilCircuit& circuit) {
   return names;
 }
 
+std::vector<std::string> hole_names(const model::OilCircuit& circuit) {
+  std::vector<std::string> names(circuit.holes.size());
+  for (const circuit::Element& element : circuit.network.elements)
+    if (element.hole) names[*element.hole] = element.name;
+  return names;
+}
+
 bool has_sources(const model::OilCircuit& circuit) {
   for (const circuit::Element& element : circuit.network.elements)
     if (std::holds_alternative<circuit::DisplacementPump>(element.law) ||
@@ -29,6 +36,32 @@ bool has_sources(const model::OilCircuit& circuit) {
         std::holds_alternative<circuit::GivenFlow>(element.law))
       return true;
   return false;
+}
+
+/// The words of the model file.
+struct TypeOfLaw {
+  std::string operator()(const circuit::Drilling& /*law*/) const { return "drilling"; }
+  std::string operator()(const circuit::Orifice& /*law*/) const { return "orifice"; }
+  std::string operator()(const circuit::Resistance& /*law*/) const { return "resistance"; }
+  std::string operator()(const circuit::ReliefValve& /*law*/) const { return "relief_valve"; }
+  std::string operator()(const circuit::DisplacementPump& /*law*/) const { return "pump"; }
+  std::string operator()(const circuit::PumpCurve& /*law*/) const { return "pump_curve"; }
+  std::string operator()(const circuit::GivenFlow& /*law*/) const { return "flow"; }
+  std::string operator()(const circuit::HoleOverGroove& /*law*/) const { return "hole_over_groove"; }
+};
+
+const std::vector<Attribute<model::OilCircuit>>& circuit_attributes() {
+  static const std::vector<Attribute<model::OilCircuit>> table{
+      {"element_<element>",
+       "",
+       "type of this element, and its first and its second node",
+       [](const model::OilCircuit& circuit, std::size_t k) {
+         const circuit::Element& element = circuit.network.elements[k];
+         return std::vector{std::visit(TypeOfLaw{}, element.law), circuit.network.nodes[element.from].name,
+                            circuit.network.nodes[element.to].name};
+       },
+       {.each = element_names}}};
+  return table;
 }
 
 const QuantityTable<CircuitRow, model::OilCircuit>& circuit_quantities() {
@@ -56,6 +89,11 @@ const QuantityTable<CircuitRow, model::OilCircuit>& circuit_quantities() {
         .note = "an element of the model's `circuit`",
         .each = element_names,
         .summary_entries = {{CircuitStatistic::mean, "mean flow through <element>", "mm³/s"}}}},
+      {"open_area_<hole>",
+       "m^2",
+       "overlap of this hole with its groove",
+       [](const CircuitRow& row, std::size_t k) { return row.open_areas[static_cast<Eigen::Index>(k)]; },
+       {.symbol = "A", .note = "a `hole_over_groove` of the model's `circuit`", .each = hole_names}},
       {"stored", "m^3", "oil in all nodes with a volume", [](const CircuitRow& row) { return row.content.sum(); }},
       {"balance_error",
        "1",
@@ -74,11 +112,14 @@ const QuantityTable<CircuitRow, model::OilCircuit>& circuit_quantities() {
 }  // namespace
 
 CircuitRecord::CircuitRecord(const model::OilCircuit& circuit, results::Writer& writer)
-    : rows_(circuit_quantities(), "/circuit/", circuit, writer) {}
+    : rows_(circuit_quantities(), "/circuit/", circuit, writer) {
+  write_once(circuit_attributes(), "/circuit/", circuit, writer);
+}
 
 QuantityGroup CircuitRecord::describe() {
   QuantityGroup group{.path = "/circuit/", .heading = "of the oil circuit", .quantities = {}};
   run::describe(circuit_quantities(), "n", group);
+  run::describe(circuit_attributes(), "n", group);
   return group;
 }
 

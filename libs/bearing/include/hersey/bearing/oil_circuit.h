@@ -10,6 +10,7 @@
 #include "hersey/bearing/film_force.h"
 #include "hersey/circuit/circuit.h"
 #include "hersey/core/scalar_function.h"
+#include "hersey/film/surface_feature.h"
 #include "hersey/mbd/shared_unknowns.h"
 
 namespace hersey::bearing {
@@ -28,15 +29,22 @@ struct CircuitShaft {
   std::optional<std::size_t> coordinate = {};  ///< of those on which the unknowns depend; unset: the speed is constant
 };
 
+/// A hole of one surface of a bearing that passes over a groove of the other, an element of the circuit.
+struct CircuitHole {
+  std::size_t film = 0;  ///< whose surfaces they are: index in the circuit's films
+  film::SurfaceFeature hole, groove;
+};
+
 /// What a circuit shows after a step.
 struct CircuitObservation {
-  Eigen::VectorXd pressures;  ///< of nodes [Pa]
-  Eigen::VectorXd flows;      ///< through elements [m^3/s]
-  Eigen::VectorXd drawn;      ///< by films from each node [m^3/s]
-  Eigen::VectorXd content;    ///< oil in each node that stores some [m^3]
-  Eigen::VectorXd speeds;     ///< of shafts [rad/s]
-  double balance_error = 0;   ///< largest imbalance of a node over the largest flow [-]
-  double power = 0;           ///< that pumps and other sources put into the oil [W]
+  Eigen::VectorXd pressures;   ///< of nodes [Pa]
+  Eigen::VectorXd flows;       ///< through elements [m^3/s]
+  Eigen::VectorXd drawn;       ///< by films from each node [m^3/s]
+  Eigen::VectorXd content;     ///< oil in each node that stores some [m^3]
+  Eigen::VectorXd speeds;      ///< of shafts [rad/s]
+  Eigen::VectorXd open_areas;  ///< of holes over grooves [m^2]
+  double balance_error = 0;    ///< largest imbalance of a node over the largest flow [-]
+  double power = 0;            ///< that pumps and other sources put into the oil [W]
 };
 
 /// A circuit of oil between films: the pressures of its nodes are unknowns that these films share.
@@ -48,8 +56,10 @@ struct CircuitObservation {
 class OilCircuit final : public mbd::SharedUnknowns {
  public:
   /// @param given  pressure over time of each node that has a given one, null for others
+  /// @param holes  over grooves, in the order of circuit::Element::hole
   OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
-             std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts);
+             std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts,
+             std::vector<CircuitHole> holes = {});
 
   void begin_step(double dt) override;
   void follow(const mbd::SharedMotion& motion) override;
@@ -70,6 +80,9 @@ class OilCircuit final : public mbd::SharedUnknowns {
  private:
   void set_conditions(const mbd::SharedMotion& motion);
   void refuse_backward_pumps();
+  void open_holes();
+  /// Adds what the angle of a film's journal changes by the holes that pass its grooves, to columns of its parameters.
+  void add_passing_holes(std::size_t film, const Eigen::VectorXd& p, Eigen::MatrixXd& rhs) const;
   void pass_pressures();
   [[nodiscard]] circuit::Drawn drawn_by_films() const;
   struct Imbalance {
@@ -83,6 +96,8 @@ class OilCircuit final : public mbd::SharedUnknowns {
   std::vector<CircuitFilm> films_;
   std::vector<std::shared_ptr<const ScalarFunction>> given_;
   std::vector<CircuitShaft> shafts_;
+  std::vector<CircuitHole> holes_;
+  std::vector<double> area_by_angle_;  // of each hole [m^2/rad]
   circuit::Conditions conditions_;
 
   Eigen::VectorXd p_;                     // at the present evaluation

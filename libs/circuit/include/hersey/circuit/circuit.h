@@ -27,6 +27,7 @@ struct Element {
   std::size_t from = 0, to = 0;  ///< nodes; flows count from the one to the other
   Law law;
   std::optional<std::size_t> shaft = {};  ///< index in Conditions::speeds, of a pump or of a body with which it rotates
+  std::optional<std::size_t> hole = {};   ///< index in Conditions::open_areas, of a hole over a groove
   double r_from = 0, r_to = 0;  ///< distances of its ends from the axis about which it rotates (circuit.2) [m]
 };
 
@@ -40,9 +41,10 @@ struct Network {
 
 /// What a circuit's balance depends on beside its pressures.
 struct Conditions {
-  Eigen::VectorXd given;    ///< pressures of nodes whose pressure is given [Pa], shape (nodes); others mean nothing
-  Eigen::VectorXd speeds;   ///< of shafts [rad/s]
-  double dt = 0;            ///< length of the step [s]; 0: nodes store nothing, the flow is steady
+  Eigen::VectorXd given;   ///< pressures of nodes whose pressure is given [Pa], shape (nodes); others mean nothing
+  Eigen::VectorXd speeds;  ///< of shafts [rad/s]
+  Eigen::VectorXd open_areas = {};  ///< of holes over grooves [m^2]
+  double dt = 0;                    ///< length of the step [s]; 0: nodes store nothing, the flow is steady
   Eigen::VectorXd content;  ///< oil in each node at the start of the step [m^3], shape (nodes); unused for dt = 0
 };
 

@@ -23,7 +23,7 @@ struct Drilling {
   double loss_coefficient = 0;  ///< sum of those of its inlet, outlet and bends, by the velocity in the bore [-], >= 0
   Friction friction = Friction::churchill;
   /// Returns the flow under a drop of pressure [Pa] and its slope.
-  [[nodiscard]] Flow flow(double drop, const Oil& oil, double speed) const;
+  [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
 };
 
 /// A sharp-edged hole or a jet (circuit.5): Torricelli's flow at large drops, Sampson's creeping flow at small ones.
@@ -32,14 +32,14 @@ struct Orifice {
   double diameter = 1e-3;              ///< [m], > 0
   double discharge_coefficient = 0.7;  ///< of flow at large Reynolds numbers [-], in (0, 1]
   /// Returns the flow under a drop of pressure [Pa] and its slope.
-  [[nodiscard]] Flow flow(double drop, const Oil& oil, double speed) const;
+  [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
 };
 
 /// A flow in proportion to the drop of pressure: a filter, a cooler, a leak that has been measured.
 struct Resistance {
   double resistance = 1e9;  ///< [Pa s/m^3], > 0
   /// Returns the flow under a drop of pressure [Pa] and its slope.
-  [[nodiscard]] Flow flow(double drop, const Oil& oil, double speed) const;
+  [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
 };
 
 /// A valve that opens at a drop of pressure, the further the more this exceeds it (circuit.6).
@@ -47,7 +47,7 @@ struct ReliefValve {
   double opening_pressure = 4e5;  ///< [Pa], > 0
   double conductance = 2e-9;      ///< flow over what the drop exceeds that by [m^3/(Pa s)], > 0
   /// Returns the flow under a drop of pressure [Pa] and its slope.
-  [[nodiscard]] Flow flow(double drop, const Oil& oil, double speed) const;
+  [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
 };
 
 /// A pump that displaces a volume with each revolution, of which a part leaks back (circuit.7).
@@ -55,24 +55,34 @@ struct DisplacementPump {
   double displacement = 1e-6;  ///< volume per angle of its shaft [m^3/rad], > 0
   double leakage = 0;          ///< back through its gaps, over the rise of pressure [m^3/(Pa s)], >= 0
   /// Returns the flow under a drop of pressure [Pa], the negative of its rise, and its slope.
-  /// @param speed  of its shaft [rad/s]
-  [[nodiscard]] Flow flow(double drop, const Oil& oil, double speed) const;
+  /// @param setting  with the speed of its shaft
+  [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
 };
 
 /// A pump whose flow over the rise of pressure has been measured.
 struct PumpCurve {
   std::shared_ptr<const ScalarFunction> curve;  ///< flow [m^3/s] of the rise [Pa], nowhere ascending; never null
   /// Returns the flow under a drop of pressure [Pa], the negative of its rise, and its slope.
-  [[nodiscard]] Flow flow(double drop, const Oil& oil, double speed) const;
+  [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
 };
 
 /// A flow that nothing changes.
 struct GivenFlow {
   double rate = 1e-5;  ///< [m^3/s]
   /// Returns the flow and a slope of 0.
-  [[nodiscard]] Flow flow(double drop, const Oil& oil, double speed) const;
+  [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
 };
 
-using Law = std::variant<Drilling, Orifice, Resistance, ReliefValve, DisplacementPump, PumpCurve, GivenFlow>;
+/// A hole of one surface that passes over a groove of the other: an orifice as large as both overlap (circuit.13).
+/// Choose it where a drilling is fed only during a part of each revolution.
+struct HoleOverGroove {
+  double discharge_coefficient = 0.7;  ///< of flow at large Reynolds numbers [-], in (0, 1]
+  /// Returns the flow under a drop of pressure [Pa] and its slopes; none without overlap.
+  /// @param setting  with the area of the overlap
+  [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
+};
+
+using Law =
+    std::variant<Drilling, Orifice, Resistance, ReliefValve, DisplacementPump, PumpCurve, GivenFlow, HoleOverGroove>;
 
 }  // namespace hersey::circuit

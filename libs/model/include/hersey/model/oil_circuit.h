@@ -18,11 +18,19 @@ struct CircuitShaft {
   double ratio = 1;                       ///< [-]
 };
 
+/// A hole of one surface of a bearing that passes over a groove of the other, an element.
+struct CircuitHole {
+  std::string bearing, hole, groove;                 ///< names
+  std::size_t of_bearing = 0;                        ///< index in Model::bearings
+  std::size_t hole_feature = 0, groove_feature = 0;  ///< indices in Bearing::film.features
+};
+
 /// The section `circuit`: the oil between the films' feeds.
 struct OilCircuit {
   circuit::Network network;
   std::vector<std::optional<Function>> pressures;  ///< of each node that has a given one [Pa], over time
   std::vector<CircuitShaft> shafts;
+  std::vector<CircuitHole> holes;  ///< in the order of circuit::Element::hole
   std::string lubricant;
   std::vector<SourcePosition> node_positions, element_positions;
   SourcePosition position;

@@ -81,6 +81,12 @@ class CircuitReader {
     circuit::Element read{.name = name, .from = from.value_or(0), .to = to.value_or(0), .law = law_of(element)};
     const bool is_pump = element.text == "pump", rotates = element.find("radii") != nullptr;
     if (is_pump || rotates) read.shaft = shaft_of(element, is_pump);
+    if (element.text == "hole_over_groove") {
+      read.hole = circuit_.holes.size();
+      circuit_.holes.push_back({.bearing = text_of(element, "bearing"),
+                                .hole = text_of(element, "hole"),
+                                .groove = text_of(element, "groove")});
+    }
     if (rotates && element.find("radii")->members.size() == 2) {
       read.r_from = element.find("radii")->members[0].value.number;
       read.r_to = element.find("radii")->members[1].value.number;
@@ -108,6 +114,7 @@ class CircuitReader {
     if (type == "relief_valve") return valve_of(element);
     if (type == "pump")
       return circuit::DisplacementPump{number_of(element, "displacement") / two_pi, number_of(element, "leakage")};
+    if (type == "hole_over_groove") return circuit::HoleOverGroove{number_of(element, "discharge_coefficient")};
     if (type == "pump_curve")
       if (const Value* curve = element.find("flow"))
         return circuit::PumpCurve{function_of(context_, *curve, "m^3/s", {"rise", "Pa"}).value};
@@ -172,8 +179,10 @@ class NodeSets {
   std::vector<std::size_t> first_;
 };
 
-/// True if the flow of an element depends on pressures.
+/// True if the flow of an element depends on pressures, whatever the angles of shafts: a hole over a groove may be
+/// shut.
 bool relates_pressures(const circuit::Element& element) {
+  if (element.hole) return false;
   if (const auto* pump = std::get_if<circuit::DisplacementPump>(&element.law)) return pump->leakage > 0;
   return !std::holds_alternative<circuit::GivenFlow>(element.law);
 }

@@ -166,7 +166,8 @@ class SurfaceReader {
         if (film::overlap(feature, other))
           context_.fault_at_key(value, "overlaps " + name + ", which has another pressure",
                                 "the same constant pressure, or room between them");
-      } else if (std::abs(feature.z - other.z) < 0.5 * (feature.length + other.length)) {
+      } else if (std::abs(feature.z - other.z) < 0.5 * (feature.length + other.length) &&
+                 !joins_features(context_.model, bearing_.name, feature.name, other.name)) {
         warn_at_key(value, "passes over " + name + ", which has another pressure, as the journal rotates");
       }
     }

@@ -172,6 +172,11 @@ void interpret_contacts(Context& context);
 void interpret_lubricants(Context& context);
 /// The section `thermal`. Before bearings.
 void interpret_thermal_network(Context& context);
+/// True if a hole over a groove of the circuit joins two features of a bearing, in any order.
+[[nodiscard]] bool joins_features(const Model& model, const std::string& bearing, const std::string& a,
+                                  const std::string& b);
+/// Finds bearing, hole and groove of the circuit's holes over grooves; reports what cannot pass. After bearings.
+void find_passing_holes(Context& context);
 /// The section `circuit`. After lubricants, before bearings.
 void interpret_circuit(Context& context);
 /// Reports ports and nodes of the circuit that cannot be solved. After bearings and drives.

@@ -140,6 +140,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   interpret_thermal_network(context);
   interpret_circuit(context);
   interpret_bearings(context);
+  find_passing_holes(context);
   check_circuit(context);
   interpret_grooves(context);
   check_thermal_network(context);
