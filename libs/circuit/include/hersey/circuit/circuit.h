@@ -27,8 +27,8 @@ struct Element {
   std::size_t from = 0, to = 0;  ///< nodes; flows count from the one to the other
   Law law;
   std::optional<std::size_t> shaft = {};  ///< index in Conditions::speeds, of a pump or of a body with which it rotates
-  std::optional<std::size_t> hole = {};   ///< index in Conditions::open_areas, of a hole over a groove
-  double r_from = 0, r_to = 0;  ///< distances of its ends from the axis about which it rotates (circuit.2) [m]
+  double r_from = 0, r_to = 0;           ///< distances of its ends from the axis about which it rotates (circuit.2) [m]
+  std::optional<std::size_t> hole = {};  ///< index in Conditions::open_areas, of a hole over a groove
 };
 
 /// All data of a circuit. They are plain: what a Circuit asks of them is checked where a model is read.
