@@ -13,6 +13,9 @@ namespace {
 // Fraction of a control volume that may be left to the next one at the end of a step.
 constexpr double kLargestRedistributedOverfill = 0.02;
 
+// After so many iterations of film and bodies together the film is found by itself.
+constexpr int kIterationsToItsOwn = 12;
+
 // Films at the start of a run whose layers thin by their shear, and the change of viscosity with which they end.
 constexpr int kMostFirstFilms = 20;
 constexpr double kAsThin = 1e-6;
@@ -95,11 +98,23 @@ film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, con
     u_ = u_linearised_;
     domain = linearise(surfaces);
   }
+  const bool is_late = iterations_ > 0 && iterations_ % kIterationsToItsOwn == 0;
+  if (is_late && domain.is_inside() && reynolds_.residual().relative > options_.solve.rtol)
+    domain = find_by_itself(surfaces);
   if (!domain.is_inside()) return domain;
   parameters_linearised_ = parameters;
   u_linearised_ = u_;
   ++iterations_;
   return domain;
+}
+
+// Newton's iteration of film and bodies may switch the same nodes between full and cavitated for ever. The film by
+// itself has fallbacks that find it at the bodies' present motion, and from there the iteration goes on.
+film::FilmDomain FilmElement::find_by_itself(const film::SurfaceMotion& surfaces) {
+  Eigen::VectorXd film = u_;
+  const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, options_.solve, film);
+  if (summary.solved()) u_ = film;
+  return linearise(surfaces);
 }
 
 film::CondensedFilm& FilmElement::condense(const std::vector<film::MotionDirection>& directions,

@@ -98,6 +98,7 @@ class FilmElement {
   void persist_reynolds(Archive& archive) { reynolds_.persist(archive); }
 
  private:
+  [[nodiscard]] film::FilmDomain find_by_itself(const film::SurfaceMotion& surfaces);
   void follow(const Eigen::VectorXd& parameters);
   void compute_oil_balance(const film::SurfaceMotion& surfaces);
 
