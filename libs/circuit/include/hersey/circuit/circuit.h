@@ -43,8 +43,9 @@ struct Network {
 struct Conditions {
   Eigen::VectorXd given;   ///< pressures of nodes whose pressure is given [Pa], shape (nodes); others mean nothing
   Eigen::VectorXd speeds;  ///< of shafts [rad/s]
-  Eigen::VectorXd open_areas = {};  ///< of holes over grooves [m^2]
-  double dt = 0;                    ///< length of the step [s]; 0: nodes store nothing, the flow is steady
+  Eigen::VectorXd open_areas = {};   ///< of holes over grooves [m^2]
+  Eigen::VectorXd viscosities = {};  ///< of the oil in each element [Pa s]; empty: that of the circuit's oil
+  double dt = 0;                     ///< length of the step [s]; 0: nodes store nothing, the flow is steady
   Eigen::VectorXd content;  ///< oil in each node at the start of the step [m^3], shape (nodes); unused for dt = 0
 };
 
@@ -78,6 +79,9 @@ class Circuit {
   [[nodiscard]] Flow flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
   /// Returns the flows through all elements [m^3/s].
   [[nodiscard]] Eigen::VectorXd flows(const Eigen::VectorXd& p, const Conditions& conditions) const;
+  /// Returns what the oil loses on its way through an element, as heat [W], >= 0: flow times drop of pressure; in a
+  /// pump that of the leak.
+  [[nodiscard]] double dissipation(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
   /// Returns the oil in each node [m^3]; 0 in those that store none.
   [[nodiscard]] Eigen::VectorXd content(const Eigen::VectorXd& p) const;
 
