@@ -78,6 +78,44 @@ TEST_CASE("OilIsConserved_WhatThePumpGivesIsWhatPortsAndValveTake") {
 }
 
 // Nothing flows: the column in a rotating drilling bears the centrifugal head alone.
+// What pump and rotation put into the oil is dissipated in elements, or goes with the oil that is drawn.
+TEST_CASE("WorkOfTheSources_IsDissipatedInTheElements") {
+  for (const double omega : {0.0, 600.0}) {
+    CAPTURE(omega);
+    const Circuit circuit(engine());
+    const Conditions conditions = at_speed(circuit.network(), omega);
+    const Drawn drawn = ports(circuit);
+    Eigen::VectorXd p = circuit.start(conditions);
+    REQUIRE(circuit.solve(conditions, drawn, p).solved());
+    const Eigen::VectorXd Q = circuit.flows(p, conditions);
+    double dissipated = 0;
+    for (std::size_t e = 0; e < circuit.network().elements.size(); ++e)
+      dissipated += circuit.dissipation(e, p, conditions);
+    const double head = 0.5 * 860 * omega * omega * (0.055 * 0.055 - 0.03 * 0.03);
+    const double put_in = Q[0] * (p[1] - p[0]) + Q[4] * head, taken = p.dot(drawn.by_p * p);
+    CHECK(dissipated == doctest::Approx(put_in - taken).epsilon(kSolved));
+  }
+  // A leak of a pump dissipates by its square, a curve that was measured says nothing.
+  const Network pump{.nodes = {{"sump", true}, {"high", true}},
+                     .elements = {{"pump", 0, 1, DisplacementPump{2e-6, 3e-11}, 0}, {"flow", 0, 1, GivenFlow{1e-4}}}};
+  Conditions conditions = at_speed(pump, 300);
+  conditions.given[1] = 5e5;
+  const Circuit circuit(pump);
+  CHECK(circuit.dissipation(0, conditions.given, conditions) == doctest::Approx(3e-11 * 25e10).epsilon(4 * kEps));
+  CHECK(circuit.dissipation(1, conditions.given, conditions) == 0);
+}
+
+TEST_CASE("ElementsWithViscositiesOfTheirOwn_AreThoseOfAnOilThatHasThem") {
+  Network thick = engine();
+  thick.oil.mu = 0.025;
+  const Circuit own(engine()), circuit(thick);
+  Conditions conditions = at_speed(thick, 600);
+  const Eigen::VectorXd p = circuit.start(conditions) * 0.9;
+  const Eigen::VectorXd expected = circuit.flows(p, conditions);
+  conditions.viscosities = Eigen::VectorXd::Constant(5, 0.025);
+  CHECK(own.flows(p, conditions) == expected);
+}
+
 TEST_CASE("CentrifugalHead_IsExactWithoutFlow") {
   Network network{.nodes = {{"axis", true}, {"outlet"}},
                   .elements = {{"drilling", 0, 1, Drilling{}, 0, 0.03, 0.05}},

@@ -57,11 +57,12 @@ TEST_CASE("VolumeInAStream_WarmsAsAnExponential") {
 TEST_CASE("HeatThatACoolerTakes_IsWhatTheOilLoses") {
   const double rate = 120, remaining = 0.4;
   ThermalNetwork network({.nodes = {given(warm), oil(0, cold), given(cold)}, .paths = {}});
-  network.advance(0, {}, {{.from = 0, .to = 1, .kept = remaining * rate, .coolant = 2, .cooled = (1 - remaining) * rate}});
+  network.advance(0, {},
+                  {{.from = 0, .to = 1, .kept = remaining * rate, .coolant = 2, .cooled = (1 - remaining) * rate}});
   const double outlet = network.temperatures()[1];
-  CHECK(outlet == relative(cold + remaining * (warm - cold)).epsilon(8 * kEps));                       // round-off
-  CHECK(network.observables().by_oil[2] == relative(rate * (warm - outlet)).epsilon(64 * kEps));       // likewise
-  CHECK(std::abs(network.observables().by_oil[1]) < 64 * kEps * rate * warm);                          // likewise
+  CHECK(outlet == relative(cold + remaining * (warm - cold)).epsilon(8 * kEps));                  // round-off
+  CHECK(network.observables().by_oil[2] == relative(rate * (warm - outlet)).epsilon(64 * kEps));  // likewise
+  CHECK(std::abs(network.observables().by_oil[1]) < 64 * kEps * rate * warm);                     // likewise
 }
 
 TEST_CASE("HeatDissipatedOnTheWay_WarmsTheOil") {
@@ -71,7 +72,8 @@ TEST_CASE("HeatDissipatedOnTheWay_WarmsTheOil") {
   CHECK(network.temperatures()[1] - cold == relative(heat / rate).epsilon(1e-12));  // digits that 293 K leaves of 0.5 K
 }
 
-/// A hole in front of the pressure's hill, through which the film gives oil back to node 0; 1 takes what its sides lose.
+/// A hole in front of the pressure's hill, through which the film gives oil back to node 0; 1 takes what its sides
+/// lose.
 struct GivesBack {
   explicit GivesBack(double carry_over = 1) : model(small_bearing_with_hole(0.7, 24, 7)) {
     model.features[0].pressure = 1e5;
@@ -93,7 +95,8 @@ TEST_CASE("OilThatAFilmGivesBack_WarmsTheNodeItCameFrom") {
   FilmOverTime film(at.model, at.thermal, against);
   film.advance(0);
   const FilmTerminals terminals = terminals_of(at.thermal);
-  const Eigen::Index port = 2 + terminals.index_of_oil(at.thermal.oil.features[0]), sump = 2 + terminals.index_of_drain();
+  const Eigen::Index port = 2 + terminals.index_of_oil(at.thermal.oil.features[0]),
+                     sump = 2 + terminals.index_of_drain();
   const WallHeatFlow heat = film.heat.heat_flow();
   CHECK(heat.heat[port] > 0);
   CHECK(heat.heat[sump] > 0);

@@ -42,13 +42,13 @@ const std::string kThermal = R"(thermal:
 
 const std::string kNodes = R"(    sump: {pressure: 0 bar, temperature: {node: pan}}
     behind_pump: {}
-    gallery: {volume: 20 cm^3, compliance: 1 mm^3/bar}
+    gallery: {volume: 4 cm^3, compliance: 1 mm^3/bar}
     main_1: {}
     main_2: {}
 )";
 const std::string kNodesReversed = R"(    main_2: {}
     main_1: {}
-    gallery: {volume: 20 cm^3, compliance: 1 mm^3/bar}
+    gallery: {volume: 4 cm^3, compliance: 1 mm^3/bar}
     behind_pump: {}
     sump: {pressure: 0 bar, temperature: {node: pan}}
 )";
@@ -72,9 +72,9 @@ std::string bearing(const std::string& name, const std::string& clearance) {
     radial_clearance: )" +
          clearance + R"(
     lubricant: oil
-    grid: {circumferential: 24, axial: 7}
+    grid: {circumferential: 24, axial: 9}
     thermal: {model: film, layers: 3, supply_temperature: {node: pan}, drains_to: pan, shell: {wall: insulated},
-              journal: {wall: free, heat_capacity: 2 J/K}}
+              journal: {wall: free, heat_capacity: 0.2 J/K}}
     features:
       groove: {shape: circumferential_groove, angle: 90 deg, arc: 180 deg, length: 8 mm, circuit: )" +
          name + "}\n";
@@ -99,15 +99,14 @@ struct WarmRun {
   [[nodiscard]] double last(const std::string& series) const { return all(series).back(); }
 };
 
-const std::vector<std::string> kFigures{"circuit/temperature_sump",   "circuit/temperature_behind_pump",
-                                        "circuit/temperature_gallery", "circuit/temperature_main_1",
-                                        "circuit/pressure_gallery",   "circuit/flow_drilling",
-                                        "circuit/heat_cooler",        "bearings/main_1/T_max",
-                                        "bearings/main_2/h_min"};
+const std::vector<std::string> kFigures{
+    "circuit/temperature_sump",   "circuit/temperature_behind_pump", "circuit/temperature_gallery",
+    "circuit/temperature_main_1", "circuit/pressure_gallery",        "circuit/flow_drilling",
+    "circuit/heat_cooler",        "bearings/main_1/T_max",           "bearings/main_2/h_min"};
 
 TEST_CASE("HeatOfASettledMachine_GoesIntoCoolantAndSurroundings") {
   const WarmRun steady(machine(), {"simulation={analysis: steady}"});
-  const double made = steady.last("bearings/main_1/heat_power") + steady.last("bearings/main_2/heat_power") +
+  const double made = steady.last("bearings/main_1/heat_dissipated") + steady.last("bearings/main_2/heat_dissipated") +
                       steady.last("circuit/dissipated");
   CHECK(steady.last("circuit/heat_cooler") > 0.2 * made);
   // Temperatures are found to 1e-8 of their rise, the films' heat to 1e-5 of its equations.
@@ -119,7 +118,7 @@ TEST_CASE("HeatOfASettledMachine_GoesIntoCoolantAndSurroundings") {
 
 TEST_CASE("WarmCircuit_SettlesInItsSteadyMotion") {
   const WarmRun steady(machine(), {"simulation={analysis: steady}"}),
-      settled(machine(), {"simulation.duration=3 s", "simulation.step=2 ms"});
+      settled(machine(), {"simulation.duration=4 s", "simulation.step=4 ms"});
   for (const std::string& series : kFigures) {
     CAPTURE(series);
     CHECK(settled.last(series) == relative(steady.last(series)).epsilon(1e-3));  // what is left of the transient
@@ -132,10 +131,10 @@ TEST_CASE("HeatOfTheNodes_IsConservedInEachStep") {
   double worst = 0;
   for (const double error : run.all("thermal/heat_balance_error")) worst = std::max(worst, std::abs(error));
   CHECK(worst < 1e-10);  // round-off of sums of some hundred watts at 300 K
-  const double rho_c = 860 * 2000.0, capacity = rho_c * 20e-6;
+  const double rho_c = 860 * 2000.0, capacity = rho_c * 4e-6;
   const std::vector<double> t = run.all("time"), T = run.all("circuit/temperature_gallery"),
-                            before = run.all("circuit/temperature_behind_pump"), cooled = run.all("circuit/heat_cooler"),
-                            Q = run.all("circuit/flow_cooler");
+                            before = run.all("circuit/temperature_behind_pump"),
+                            cooled = run.all("circuit/heat_cooler"), Q = run.all("circuit/flow_cooler");
   for (std::size_t k = 1; k < t.size(); ++k) {
     const double gained = capacity * (T[k] - T[k - 1]) / (t[k] - t[k - 1]);
     const double dissipated = 1e8 * Q[k] * Q[k];  // in the cooler, whose drop is 1e8 Q
@@ -147,7 +146,8 @@ TEST_CASE("HeatOfTheNodes_IsConservedInEachStep") {
 }
 
 TEST_CASE("OrderOfNodes_IsOfNoConsequence") {
-  const WarmRun one(machine(), {"simulation.duration=2 ms"}), other(machine(kNodesReversed), {"simulation.duration=2 ms"});
+  const WarmRun one(machine(), {"simulation.duration=2 ms"}),
+      other(machine(kNodesReversed), {"simulation.duration=2 ms"});
   for (const std::string& series : kFigures) {
     CAPTURE(series);
     CHECK(other.last(series) == relative(one.last(series)).epsilon(1e-9));  // steps end at residuals of 1e-8
@@ -161,8 +161,10 @@ circuit:
   lubricant: oil
   nodes: {hot: {pressure: 2 bar, temperature: 90 degC}, cold: {pressure: 2 bar, temperature: 40 degC}, out: {pressure: 0 bar, temperature: 20 degC}}
   elements:
-    first: {type: drilling, )" + first + R"(, length: 80 mm, diameter: 2 mm, friction: laminar}
-    second: {type: drilling, )" + second + R"(, length: 80 mm, diameter: 2 mm, friction: laminar}
+    first: {type: drilling, )" +
+         first + R"(, length: 80 mm, diameter: 2 mm, friction: laminar}
+    second: {type: drilling, )" +
+         second + R"(, length: 80 mm, diameter: 2 mm, friction: laminar}
 simulation: {duration: 1 ms, step: 0.5 ms}
 )";
 }
@@ -178,7 +180,8 @@ TEST_CASE("ViscosityOfAnElement_IsThatOfTheOilThatFlowsIn") {
 
 // Oil whose heat nothing changes, in a circuit with temperatures and in one without.
 TEST_CASE("CircuitAtOneTemperature_IsOneWithoutTemperatures") {
-  const std::vector<std::string> large{"lubricants.oil.specific_heat=2e12 J/kg/K", "thermal.nodes.pan={fixed: 50 degC}"};
+  const std::vector<std::string> large{"lubricants.oil.specific_heat=1e12 J/kg/K",
+                                       "thermal.nodes.pan={fixed: 50 degC}"};
   std::string cold = machine();
   cold.replace(cold.find(", temperature: {node: pan}}\n    behind"), 27, "}");
   cold.replace(cold.find("type: cooler"), 12, "type: resistance");
@@ -187,7 +190,7 @@ TEST_CASE("CircuitAtOneTemperature_IsOneWithoutTemperatures") {
   for (const char* series : {"circuit/pressure_gallery", "circuit/flow_drilling", "circuit/drawn_main_2",
                              "bearings/main_1/p_max", "bearings/main_2/h_min"}) {
     CAPTURE(series);
-    CHECK(with.last(series) == relative(without.last(series)).epsilon(1e-8));  // 1e-9 of the oil's heat is made in it
+    CHECK(with.last(series) == relative(without.last(series)).epsilon(1e-8));  // heat of friction and losses warms this oil by 1e-7 K
   }
 }
 
