@@ -41,6 +41,7 @@ RUNS = {
     "oil_circuit": ["--set", "simulation.duration=2ms"],
     "piston": ["--set", "simulation.duration=2deg"],
     "examples/oil_circuit/passing_hole.yaml": ["--set", "simulation.duration=2ms"],
+    "examples/oil_circuit/warm.yaml": [],
     "wear": ["--set", "simulation.duration=2ms"],
     "tests/results_file/thrust.yaml": [],
     "tests/results_file/every_line.yaml": ["--step-error", "--set", "simulation.duration=0.5ms"],
