@@ -53,6 +53,15 @@ Flow Circuit::flow(std::size_t element, const Eigen::VectorXd& p, const Conditio
   return std::visit([&](const auto& law) { return law.flow(over, oil, setting); }, of.law);
 }
 
+// (circuit.17): friction takes the drop evenly along a straight bore.
+double Circuit::pressure_at_axis(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
+  const Element& of = network_.elements[element];
+  HERSEY_REQUIRE(of.passes_axis && of.shaft && of.r_from + of.r_to > 0, "a bore through the axis");
+  const double speed = conditions.speeds[static_cast<Eigen::Index>(*of.shaft)];
+  const double head = 0.5 * network_.oil.density * speed * speed * of.r_from * of.r_from;
+  return p[static_cast<Eigen::Index>(of.from)] - head - drop(of, p, conditions) * of.r_from / (of.r_from + of.r_to);
+}
+
 double Circuit::dissipation(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
   const Element& of = network_.elements[element];
   const double over = drop(of, p, conditions);

@@ -105,6 +105,36 @@ TEST_CASE("WorkOfTheSources_IsDissipatedInTheElements") {
   CHECK(circuit.dissipation(1, conditions.given, conditions) == 0);
 }
 
+// A drilling through the axis from a journal to a pin, at 500 rad/s: the oil has to be pressed inwards first.
+TEST_CASE("PressureAtTheAxis_IsThatOfTwoDrillingsThatMeetThere") {
+  const double omega = 500, inside = 0.5 * 860 * omega * omega * 0.03 * 0.03;
+  CHECK(inside == doctest::Approx(96750).epsilon(4 * kEps));  // of an independent program
+  const Drilling bore{.length = 0.08, .diameter = 4e-3, .friction = Friction::laminar};
+  Network whole{.nodes = {{"journal", true}, {"pin", true}},
+                .elements = {{"crank", 0, 1, bore, 0, 0.03, 0.05, true}},
+                .oil = {.mu = 0.01, .density = 860}};
+  Drilling first = bore, second = bore;
+  first.length = 0.03, second.length = 0.05;
+  const Network halves{.nodes = {{"journal", true}, {"pin", true}, {"axis"}},
+                       .elements = {{"in", 0, 2, first, 0, 0.03, 0}, {"out", 2, 1, second, 0, 0, 0.05}},
+                       .oil = whole.oil};
+  Conditions conditions = at_speed(whole, omega), of_halves = at_speed(halves, omega);
+  for (const double p_pin : {-1e5, 172000.0, 4e5}) {
+    conditions.given << 0, p_pin;
+    of_halves.given.head<2>() = conditions.given;
+    const Circuit one(whole), two(halves);
+    Eigen::VectorXd p = two.start(of_halves);
+    REQUIRE(two.solve(of_halves, two.nothing_drawn(), p).solved());
+    const double scale = std::abs(p_pin) + inside;
+    CHECK(std::abs(one.pressure_at_axis(0, conditions.given, conditions) - p[2]) < kSolved * scale);
+    std::swap(whole.elements[0].from, whole.elements[0].to);
+    std::swap(whole.elements[0].r_from, whole.elements[0].r_to);
+    CHECK(std::abs(Circuit(whole).pressure_at_axis(0, conditions.given, conditions) - p[2]) < kSolved * scale);
+    std::swap(whole.elements[0].from, whole.elements[0].to);
+    std::swap(whole.elements[0].r_from, whole.elements[0].r_to);
+  }
+}
+
 TEST_CASE("ElementsWithViscositiesOfTheirOwn_AreThoseOfAnOilThatHasThem") {
   Network thick = engine();
   thick.oil.mu = 0.025;

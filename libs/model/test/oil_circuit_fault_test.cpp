@@ -60,6 +60,14 @@ bool reports(const std::string& old, const std::string& replacement, const std::
   return faults.find(message) != std::string::npos;
 }
 
+TEST_CASE("DrillingThroughAnAxis_HasADistanceFromItAtEitherEnd") {
+  CHECK(reports("radii: [30 mm, 55 mm]}", "radii: [0 mm, 55 mm], course: through_axis}", "a drilling through an axis"));
+  const Model model =
+      read_text(edited(text, "radii: [30 mm, 55 mm]}", "radii: [30 mm, 55 mm], course: through_axis}"), "m.yaml");
+  CHECK(model.circuit->network.elements[2].passes_axis);
+  CHECK(!read_text(text, "m.yaml").circuit->network.elements[2].passes_axis);
+}
+
 TEST_CASE("CircuitWithTemperatures_NeedsThemWherePressuresAreGiven") {
   CHECK(reports("gallery: {volume: 200 cm^3, free_air: 0.03}", "gallery: {volume: 200 cm^3, temperature: 60 degC}",
                 "circuit.nodes.sump: a sump or supply without a temperature"));

@@ -125,7 +125,16 @@ TEST_CASE("WarmCircuit_SettlesInItsSteadyMotion") {
   }
 }
 
-// What warms the sump is what comes out of the pump's circuit and of the films: by the rows of the results alone.
+TEST_CASE("NodesOverCycles_SettleWhereTheSteadyMotionIs") {
+  const WarmRun steady(machine(), {"simulation={analysis: steady}"}),
+      settled(machine(), {"simulation={duration: 400 ms, step: 1 ms, cycle: {period: 10 ms, tolerance: 1e-5}}"});
+  for (const std::string& series : kFigures) {
+    CAPTURE(series);
+    CHECK(settled.last(series) == relative(steady.last(series)).epsilon(1e-3));  // what is left after the last cycle
+  }
+}
+
+// What warms a gallery is what flows into it: by the rows of the results alone.
 TEST_CASE("HeatOfTheNodes_IsConservedInEachStep") {
   const WarmRun run(machine(), {"simulation.duration=10 ms"});
   double worst = 0;
@@ -190,7 +199,8 @@ TEST_CASE("CircuitAtOneTemperature_IsOneWithoutTemperatures") {
   for (const char* series : {"circuit/pressure_gallery", "circuit/flow_drilling", "circuit/drawn_main_2",
                              "bearings/main_1/p_max", "bearings/main_2/h_min"}) {
     CAPTURE(series);
-    CHECK(with.last(series) == relative(without.last(series)).epsilon(1e-8));  // heat of friction and losses warms this oil by 1e-7 K
+    CHECK(with.last(series) ==
+          relative(without.last(series)).epsilon(1e-8));  // heat of friction and losses warms this oil by 1e-7 K
   }
 }
 

@@ -227,10 +227,24 @@ void OilCircuit::accept_step() {
     const double rise = p_start_[static_cast<Index>(element.to)] - p_start_[static_cast<Index>(element.from)];
     observation_.power += std::max(0.0, observation_.flows[static_cast<Index>(e)] * rise);
   }
+  observe_starvation();
   observation_.dissipated = 0;
   for (std::size_t e = 0; heat_ && e < circuit_.network().elements.size(); ++e)
     observation_.dissipated += circuit_.dissipation(e, p_start_, conditions_);
   is_condensed_ = false;
+}
+
+void OilCircuit::observe_starvation() {
+  observation_.starved.setZero(circuit_.size());
+  for (const CircuitFilm& film : films_)
+    for (const std::size_t node : film.nodes)
+      if (p_start_[static_cast<Index>(node)] < film.film->model().p_cav)
+        observation_.starved[static_cast<Index>(node)] = 1;
+  std::vector<double> at_axes;
+  for (std::size_t e = 0; e < circuit_.network().elements.size(); ++e)
+    if (circuit_.network().elements[e].passes_axis)
+      at_axes.push_back(circuit_.pressure_at_axis(e, p_start_, conditions_));
+  observation_.axis_pressures = Eigen::Map<const VectorXd>(at_axes.data(), static_cast<Index>(at_axes.size()));
 }
 
 void OilCircuit::persist(Archive& archive) {

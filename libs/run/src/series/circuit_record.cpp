@@ -42,6 +42,13 @@ std::vector<std::string> cooler_names(const model::OilCircuit& circuit) {
   return names;
 }
 
+std::vector<std::string> axis_names(const model::OilCircuit& circuit) {
+  std::vector<std::string> names;
+  for (const circuit::Element& element : circuit.network.elements)
+    if (element.passes_axis) names.push_back(element.name);
+  return names;
+}
+
 bool has_temperatures(const model::OilCircuit& circuit) { return circuit.temperatures.has_value(); }
 
 std::vector<std::string> hole_names(const model::OilCircuit& circuit) {
@@ -115,6 +122,20 @@ const QuantityTable<CircuitRow, model::OilCircuit>& circuit_quantities() {
        [](const CircuitRow& row, std::size_t k) { return row.drawn[static_cast<Eigen::Index>(k)]; },
        {.each = node_names,
         .summary_entries = {{CircuitStatistic::mean, "mean flow from <node> into films", "mm³/s"}}}},
+      {"starved_<node>",
+       "1",
+       "1 where the pressure of this node lies below the cavitation pressure of films that draw from it, else 0: films "
+       "then draw oil that is not there",
+       [](const CircuitRow& row, std::size_t k) { return row.starved[static_cast<Eigen::Index>(k)]; },
+       {.each = node_names, .summary_entries = {{CircuitStatistic::mean, "share of time in which <node> is starved"}}}},
+      {"axis_pressure_<drilling>",
+       "Pa",
+       "at the axis in this drilling, which passes it",
+       [](const CircuitRow& row, std::size_t k) { return row.axis_pressures[static_cast<Eigen::Index>(k)]; },
+       {.symbol = "p_a",
+        .note = "a `drilling` whose `course` is `through_axis`",
+        .each = axis_names,
+        .summary_entries = {{CircuitStatistic::smallest, "lowest pressure at the axis of <drilling>", "MPa"}}}},
       {"flow_<element>",
        "m^3/s",
        "through this element, from its first node to its second",

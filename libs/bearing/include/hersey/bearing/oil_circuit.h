@@ -57,6 +57,9 @@ struct CircuitObservation {
   /// Of nodes, after the step [K], and heat from the oil into the coolant of each cooler, in the order of elements [W];
   /// empty: the oil has one temperature.
   Eigen::VectorXd temperatures, cooled;
+  /// Of each node: 1 where its pressure lies below the cavitation pressure of films that draw from it, else 0; and the
+  /// pressure at the axis in each element that passes it, in their order [Pa].
+  Eigen::VectorXd starved, axis_pressures;
   double dissipated = 0;     ///< in elements, as far as it warms the oil [W]
   double balance_error = 0;  ///< largest imbalance of a node over the largest flow [-]
   double power = 0;          ///< that pumps and other sources put into the oil [W]
@@ -124,6 +127,7 @@ class OilCircuit final : public mbd::SharedUnknowns {
   /// Imbalance of nodes at pressures `p` where films draw `drawn`.
   [[nodiscard]] Imbalance imbalance(const Eigen::VectorXd& p, const Eigen::VectorXd& drawn) const;
   void update_viscosities();
+  void observe_starvation();
   void persist_heat(Archive& archive);
 
   circuit::Circuit circuit_;

@@ -28,6 +28,7 @@ struct Element {
   Law law;
   std::optional<std::size_t> shaft = {};  ///< index in Conditions::speeds, of a pump or of a body with which it rotates
   double r_from = 0, r_to = 0;           ///< distances of its ends from the axis about which it rotates (circuit.2) [m]
+  bool passes_axis = false;              ///< it is straight and leads from one side of the axis to the other
   std::optional<std::size_t> hole = {};  ///< index in Conditions::open_areas, of a hole over a groove
 };
 
@@ -79,6 +80,9 @@ class Circuit {
   [[nodiscard]] Flow flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
   /// Returns the flows through all elements [m^3/s].
   [[nodiscard]] Eigen::VectorXd flows(const Eigen::VectorXd& p, const Conditions& conditions) const;
+  /// Returns the pressure at the axis in an element that passes it (circuit.17) [Pa].
+  [[nodiscard]] double pressure_at_axis(std::size_t element, const Eigen::VectorXd& p,
+                                        const Conditions& conditions) const;
   /// Returns what the oil loses on its way through an element, as heat [W], >= 0: flow times drop of pressure; in a
   /// pump that of the leak.
   [[nodiscard]] double dissipation(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;

@@ -147,6 +147,8 @@ class CircuitReader {
       read.r_from = element.find("radii")->members[0].value.number;
       read.r_to = element.find("radii")->members[1].value.number;
     }
+    if (element.text == "drilling" && meaning_of(element, "course", course_words) == Course::through_axis)
+      read.passes_axis = passes_axis(element, read);
     if (!is_pump && !rotates && element.text == "drilling")
       for (const char* key : {"speed", "joint"})
         if (const Value* given = element.find(key))
@@ -157,6 +159,13 @@ class CircuitReader {
     read_coolant(name, element);
     circuit_.network.elements.push_back(std::move(read));
     circuit_.element_positions.push_back(element.key_position);
+  }
+
+  [[nodiscard]] bool passes_axis(const Value& element, const circuit::Element& read) {
+    if (read.r_from > 0 && read.r_to > 0) return true;
+    context_.fault(*element.find("course"), "a drilling through an axis without a distance from it at either end",
+                   "radii: [30 mm, 55 mm], above 0");
+    return false;
   }
 
   [[nodiscard]] circuit::Law law_of(const Value& element) {
