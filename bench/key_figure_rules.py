@@ -51,6 +51,8 @@ COMMANDS = {
     # Reactions along free coordinates are what the iteration leaves: less than what counts as zero.
     "oil_circuit/model": [("run", "simulation.duration=4ms", "simulation.tolerance=1e-10")],
     "oil_circuit/passing_hole": [("run", "simulation.duration=10ms", "simulation.tolerance=1e-10")],
+    "oil_circuit/twin_grooves": [("run",)],
+    "oil_circuit/warm": [("run",)],
     "oil_whirl/flexible": [("run", "simulation.duration=20ms")],
     "oil_whirl/model": [("run", "simulation.duration=0.1s")],
     "oil_whirl/steady": [("run", "speed=9000rpm")],

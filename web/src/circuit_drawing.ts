@@ -14,6 +14,8 @@ interface Node {
   /** Means of the run or of its last cycle [bar, l/min]. */
   pressure: number;
   drawn: number;
+  /** Mean [degC]; undefined where the oil has one temperature. */
+  temperature: number | undefined;
 }
 
 interface Element {
@@ -35,6 +37,7 @@ export function circuitDrawings(run: Run): HTMLElement[] {
     name,
     pressure: 10 * mean(run, `mean pressure of ${name}`),
     drawn: litrePerMinute * mean(run, `mean flow from ${name} into films`),
+    temperature: run.summary.find((row) => row.group === "circuit" && row.name === `mean temperature of ${name}`)?.value ?? undefined,
   }));
   const elements = run.namesAfter("/circuit/flow_").flatMap((name) => {
     const [type, from, to] = run.list("/circuit", `element_${name}`);
@@ -142,7 +145,7 @@ function nodeBox(node: Node, { x, y }: Place, share: number): SVGElement {
     draw("rect", place),
     draw("rect", { ...place, class: "circuit-pressure", "fill-opacity": (0.35 * share).toFixed(3) }),
     text(plain(node.name), x, y - 3, "graph-name"),
-    text(`${format(node.pressure, 3)} bar`, x, y + 12, "circuit-figure"),
+    text(`${format(node.pressure, 3)} bar${node.temperature === undefined ? "" : `, ${format(node.temperature, 3)} °C`}`, x, y + 12, "circuit-figure"),
   );
   return group;
 }

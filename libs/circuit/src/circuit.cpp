@@ -48,7 +48,26 @@ Flow Circuit::flow(std::size_t element, const Eigen::VectorXd& p, const Conditio
   if (of.shaft) setting.speed = conditions.speeds[static_cast<Eigen::Index>(*of.shaft)];
   if (of.hole) setting.open_area = conditions.open_areas[static_cast<Eigen::Index>(*of.hole)];
   const double over = drop(of, p, conditions);
-  return std::visit([&](const auto& law) { return law.flow(over, network_.oil, setting); }, of.law);
+  Oil oil = network_.oil;
+  if (conditions.viscosities.size() > 0) oil.mu = conditions.viscosities[static_cast<Eigen::Index>(element)];
+  return std::visit([&](const auto& law) { return law.flow(over, oil, setting); }, of.law);
+}
+
+// (circuit.17): friction takes the drop evenly along a straight bore.
+double Circuit::pressure_at_axis(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
+  const Element& of = network_.elements[element];
+  HERSEY_REQUIRE(of.passes_axis && of.shaft && of.r_from + of.r_to > 0, "a bore through the axis");
+  const double speed = conditions.speeds[static_cast<Eigen::Index>(*of.shaft)];
+  const double head = 0.5 * network_.oil.density * speed * speed * of.r_from * of.r_from;
+  return p[static_cast<Eigen::Index>(of.from)] - head - drop(of, p, conditions) * of.r_from / (of.r_from + of.r_to);
+}
+
+double Circuit::dissipation(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
+  const Element& of = network_.elements[element];
+  const double over = drop(of, p, conditions);
+  if (std::holds_alternative<GivenFlow>(of.law) || std::holds_alternative<PumpCurve>(of.law)) return 0;
+  if (const auto* pump = std::get_if<DisplacementPump>(&of.law)) return pump->leakage * over * over;
+  return std::max(0.0, flow(element, p, conditions).value * over);
 }
 
 Eigen::VectorXd Circuit::flows(const Eigen::VectorXd& p, const Conditions& conditions) const {

@@ -62,6 +62,15 @@ Flow Resistance::flow(double drop, const Oil& /*oil*/, const Setting& /*setting*
   return {drop / resistance, 1 / resistance};
 }
 
+Flow Cooler::flow(double drop, const Oil& /*oil*/, const Setting& /*setting*/) const {
+  return {drop / resistance, 1 / resistance};
+}
+
+// (circuit.15)
+double Cooler::remaining(double capacity_rate) const {
+  return capacity_rate > 0 ? std::exp(-conductance / capacity_rate) : 0;
+}
+
 // (circuit.6)
 Flow ReliefValve::flow(double drop, const Oil& /*oil*/, const Setting& /*setting*/) const {
   if (drop <= opening_pressure) return {};

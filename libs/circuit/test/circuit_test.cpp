@@ -78,6 +78,74 @@ TEST_CASE("OilIsConserved_WhatThePumpGivesIsWhatPortsAndValveTake") {
 }
 
 // Nothing flows: the column in a rotating drilling bears the centrifugal head alone.
+// What pump and rotation put into the oil is dissipated in elements, or goes with the oil that is drawn.
+TEST_CASE("WorkOfTheSources_IsDissipatedInTheElements") {
+  for (const double omega : {0.0, 600.0}) {
+    CAPTURE(omega);
+    const Circuit circuit(engine());
+    const Conditions conditions = at_speed(circuit.network(), omega);
+    const Drawn drawn = ports(circuit);
+    Eigen::VectorXd p = circuit.start(conditions);
+    REQUIRE(circuit.solve(conditions, drawn, p).solved());
+    const Eigen::VectorXd Q = circuit.flows(p, conditions);
+    double dissipated = 0;
+    for (std::size_t e = 0; e < circuit.network().elements.size(); ++e)
+      dissipated += circuit.dissipation(e, p, conditions);
+    const double head = 0.5 * 860 * omega * omega * (0.055 * 0.055 - 0.03 * 0.03);
+    const double put_in = Q[0] * (p[1] - p[0]) + Q[4] * head, taken = p.dot(drawn.by_p * p);
+    CHECK(dissipated == doctest::Approx(put_in - taken).epsilon(kSolved));
+  }
+  // A leak of a pump dissipates by its square, a curve that was measured says nothing.
+  const Network pump{.nodes = {{"sump", true}, {"high", true}},
+                     .elements = {{"pump", 0, 1, DisplacementPump{2e-6, 3e-11}, 0}, {"flow", 0, 1, GivenFlow{1e-4}}}};
+  Conditions conditions = at_speed(pump, 300);
+  conditions.given[1] = 5e5;
+  const Circuit circuit(pump);
+  CHECK(circuit.dissipation(0, conditions.given, conditions) == doctest::Approx(3e-11 * 25e10).epsilon(4 * kEps));
+  CHECK(circuit.dissipation(1, conditions.given, conditions) == 0);
+}
+
+// A drilling through the axis from a journal to a pin, at 500 rad/s: the oil has to be pressed inwards first.
+TEST_CASE("PressureAtTheAxis_IsThatOfTwoDrillingsThatMeetThere") {
+  const double omega = 500, inside = 0.5 * 860 * omega * omega * 0.03 * 0.03;
+  CHECK(inside == doctest::Approx(96750).epsilon(4 * kEps));  // of an independent program
+  const Drilling bore{.length = 0.08, .diameter = 4e-3, .friction = Friction::laminar};
+  Network whole{.nodes = {{"journal", true}, {"pin", true}},
+                .elements = {{"crank", 0, 1, bore, 0, 0.03, 0.05, true}},
+                .oil = {.mu = 0.01, .density = 860}};
+  Drilling first = bore, second = bore;
+  first.length = 0.03, second.length = 0.05;
+  const Network halves{.nodes = {{"journal", true}, {"pin", true}, {"axis"}},
+                       .elements = {{"in", 0, 2, first, 0, 0.03, 0}, {"out", 2, 1, second, 0, 0, 0.05}},
+                       .oil = whole.oil};
+  Conditions conditions = at_speed(whole, omega), of_halves = at_speed(halves, omega);
+  for (const double p_pin : {-1e5, 172000.0, 4e5}) {
+    conditions.given << 0, p_pin;
+    of_halves.given.head<2>() = conditions.given;
+    const Circuit one(whole), two(halves);
+    Eigen::VectorXd p = two.start(of_halves);
+    REQUIRE(two.solve(of_halves, two.nothing_drawn(), p).solved());
+    const double scale = std::abs(p_pin) + inside;
+    CHECK(std::abs(one.pressure_at_axis(0, conditions.given, conditions) - p[2]) < kSolved * scale);
+    std::swap(whole.elements[0].from, whole.elements[0].to);
+    std::swap(whole.elements[0].r_from, whole.elements[0].r_to);
+    CHECK(std::abs(Circuit(whole).pressure_at_axis(0, conditions.given, conditions) - p[2]) < kSolved * scale);
+    std::swap(whole.elements[0].from, whole.elements[0].to);
+    std::swap(whole.elements[0].r_from, whole.elements[0].r_to);
+  }
+}
+
+TEST_CASE("ElementsWithViscositiesOfTheirOwn_AreThoseOfAnOilThatHasThem") {
+  Network thick = engine();
+  thick.oil.mu = 0.025;
+  const Circuit own(engine()), circuit(thick);
+  Conditions conditions = at_speed(thick, 600);
+  const Eigen::VectorXd p = circuit.start(conditions) * 0.9;
+  const Eigen::VectorXd expected = circuit.flows(p, conditions);
+  conditions.viscosities = Eigen::VectorXd::Constant(5, 0.025);
+  CHECK(own.flows(p, conditions) == expected);
+}
+
 TEST_CASE("CentrifugalHead_IsExactWithoutFlow") {
   Network network{.nodes = {{"axis", true}, {"outlet"}},
                   .elements = {{"drilling", 0, 1, Drilling{}, 0, 0.03, 0.05}},

@@ -113,6 +113,18 @@ TEST_CASE("Pumps_GiveTheirDisplacementLessWhatLeaks") {
   CHECK(flow_of(PumpCurve{std::make_shared<Falling>()}, -3e5).value == doctest::Approx(4.55e-4).epsilon(4 * kEps));
 }
 
+// Coolers one behind the other share their conductance.
+TEST_CASE("CoolerOfSmallPieces_IsOneCooler") {
+  for (const double rate : {10.0, 300.0, 5000.0}) {  // W/K
+    const Cooler whole{.resistance = 1e8, .conductance = 250}, part{.resistance = 2.5e7, .conductance = 62.5};
+    CHECK(whole.remaining(rate) == doctest::Approx(std::pow(part.remaining(rate), 4)).epsilon(128 * kEps));
+    CHECK(flow_of(whole, 4e5).value == doctest::Approx(flow_of(part, 1e5).value).epsilon(4 * kEps));
+  }
+  const Cooler large{.conductance = 1e9};
+  CHECK(large.remaining(1) == 0);
+  CHECK(large.remaining(0) == 0);
+}
+
 TEST_CASE("ContentOfAStore_HasTheSlopeOfItsDifference_AndBubblesYieldAsAGas") {
   const Storage bubbly{.volume = 2e-4, .wall_compliance = 1e-13, .free_air = 0.05, .solubility = 0.09};
   for (const double p : {-9.5e4, -3e4, 0.0, 2e4, 5e5}) {  // Pa: little air, much, and all dissolved

@@ -60,6 +60,52 @@ bool reports(const std::string& old, const std::string& replacement, const std::
   return faults.find(message) != std::string::npos;
 }
 
+TEST_CASE("DrillingThroughAnAxis_HasADistanceFromItAtEitherEnd") {
+  CHECK(reports("radii: [30 mm, 55 mm]}", "radii: [0 mm, 55 mm], course: through_axis}", "a drilling through an axis"));
+  const Model model =
+      read_text(edited(text, "radii: [30 mm, 55 mm]}", "radii: [30 mm, 55 mm], course: through_axis}"), "m.yaml");
+  CHECK(model.circuit->network.elements[2].passes_axis);
+  CHECK(!read_text(text, "m.yaml").circuit->network.elements[2].passes_axis);
+}
+
+TEST_CASE("CircuitWithTemperatures_NeedsThemWherePressuresAreGiven") {
+  CHECK(reports("gallery: {volume: 200 cm^3, free_air: 0.03}", "gallery: {volume: 200 cm^3, temperature: 60 degC}",
+                "circuit.nodes.sump: a sump or supply without a temperature"));
+  CHECK(reports("sump: {pressure: 0 bar}", "sump: {pressure: 0 bar, temperature: {node: pan}}",
+                "unknown thermal node 'pan'"));
+  CHECK(
+      reports("    hole: {}\n  elements:",
+              "    hole: {}\n  elements:\n    cold: {type: cooler, from: gallery, to: sump, resistance: 1e10 Pa.s/m^3, "
+              "conductance: 5 W/K, coolant: 20 degC}",
+              "a cooler in a circuit whose oil has one temperature"));
+}
+
+TEST_CASE("TemperaturesOfACircuit_AreNodesOfTheThermalNetwork") {
+  const Model model =
+      read_text(edited(text, "sump: {pressure: 0 bar}", "sump: {pressure: 0 bar, temperature: 60 degC}"), "m.yaml");
+  REQUIRE(model.circuit->temperatures.has_value());
+  const CircuitTemperatures& all = *model.circuit->temperatures;
+  CHECK(all.nodes == std::vector<std::size_t>{0, 1, 2});
+  REQUIRE(all.added.size() == 3);
+  CHECK(all.added[0].is_fixed);
+  CHECK(all.added[1].heat_capacity == doctest::Approx(all.heat_capacity * 200e-6).epsilon(1e-14));  // a product
+  CHECK(all.added[2].heat_capacity == 0);
+  CHECK(all.T == std::vector<double>{333.15, 313.15, 313.15});  // others begin with that of the lubricant
+}
+
+TEST_CASE("HeatOfACircuitInSteadyMotion_NeedsAWayOut") {
+  std::string closed = edited(text, "simulation: {duration: 10 ms, step: 1 ms}",
+                              "simulation: {analysis: steady}\nthermal: {nodes: {pan: {heat_capacity: 1 kJ/K}}}");
+  closed = edited(closed, "sump: {pressure: 0 bar}", "sump: {pressure: 0 bar, temperature: {node: pan}}");
+  std::string faults;
+  try {
+    (void)read_text(closed, "m.yaml");
+  } catch (const InputError& error) {
+    faults = error.what();
+  }
+  CHECK(faults.find("oil whose heat reaches no surroundings") != std::string::npos);
+}
+
 TEST_CASE("Circuit_IsReadInUnitsOfItsLaws") {
   const Model model = read_text(text, "m.yaml");
   REQUIRE(model.circuit);

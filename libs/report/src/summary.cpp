@@ -242,7 +242,8 @@ class Summary {
     if (!reader_.has("/circuit/balance_error")) return;
     group_ = "circuit";
     path_ = "/circuit/";
-    add_rows(run::quantities_of(path_), {Statistic::smallest, Statistic::mean, Statistic::largest_in_size});
+    add_rows(run::quantities_of(path_),
+             {Statistic::smallest, Statistic::largest, Statistic::mean, Statistic::largest_in_size});
   }
 
   void contact_rows() {

@@ -129,6 +129,27 @@ TEST_CASE("OilOfACircuit_IsConservedOverTheRun") {
   CHECK(stored.back() != stored.front());
 }
 
+// A supply that sucks half of the time starves the bearing, and the summary says so.
+TEST_CASE("FeedFromANodeInTension_IsReportedWithItsTime") {
+  const std::string suction = R"~(circuit:
+  lubricant: oil
+  nodes: {supply: {pressure: {expression: "1e5*cos(2*pi*500*t)", unit: Pa}}, hole: {}}
+  elements: {pipe: {type: resistance, from: supply, to: hole, resistance: 1e6 Pa.s/m^3}}
+)~";
+  const Ran run(machine(suction, bearing("main", "45 um", "circuit: hole")), {"simulation.step=0.05 ms"});
+  const std::vector<double> starved = run.all("circuit/starved_hole"), p = run.all("circuit/pressure_hole");
+  for (std::size_t k = 0; k < p.size(); ++k) CHECK(starved[k] == (p[k] < 0 ? 1 : 0));
+  double time = 0;
+  for (std::size_t k = 1; k < starved.size(); ++k) time += starved[k] / static_cast<double>(starved.size() - 1);
+  CHECK(std::abs(time - 0.5) < 0.05);  // half of two whole periods of 40 steps
+  const auto is_of_feed = [](const std::string& warning) { return warning.find("node 'hole'") != std::string::npos; };
+  const std::vector<std::string>& warnings = run.summary.bearings.front().warnings;
+  CHECK(std::count_if(warnings.begin(), warnings.end(), is_of_feed) == 1);
+  const Ran fed(pumped());
+  for (const BearingSummary& summary : fed.summary.bearings)
+    for (const std::string& warning : summary.warnings) CHECK(warning.find("cavitation pressure") == std::string::npos);
+}
+
 // What a film takes over a step, as a mean, and what the circuit gives at the step's end differ by the film's
 // storage over the step.
 TEST_CASE("FlowsOfFilmsAndCircuit_AreTheSame_ToFirstOrderInTheStep") {

@@ -25,18 +25,20 @@ constexpr double kBalancedAtOnce = 1e-12;  // of the largest flow: what films so
 
 OilCircuit::OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
                        std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts,
-                       std::vector<CircuitHole> holes)
+                       std::vector<CircuitHole> holes, std::optional<CircuitHeat> heat)
     : circuit_(std::move(network)),
       films_(std::move(films)),
       given_(std::move(given)),
       shafts_(std::move(shafts)),
       holes_(std::move(holes)),
+      heat_(std::move(heat)),
       area_by_angle_(holes_.size()),
       at_(films_.size()),
       p_by_at_(films_.size()) {
   conditions_.given.setZero(circuit_.size());
   conditions_.speeds.setZero(static_cast<Index>(shafts_.size()));
   conditions_.open_areas.setZero(static_cast<Index>(holes_.size()));
+  if (heat_) set_temperatures(heat_->T);
 }
 
 void OilCircuit::begin_step(double /*dt*/) {
@@ -225,13 +227,31 @@ void OilCircuit::accept_step() {
     const double rise = p_start_[static_cast<Index>(element.to)] - p_start_[static_cast<Index>(element.from)];
     observation_.power += std::max(0.0, observation_.flows[static_cast<Index>(e)] * rise);
   }
+  observe_starvation();
+  observation_.dissipated = 0;
+  for (std::size_t e = 0; heat_ && e < circuit_.network().elements.size(); ++e)
+    observation_.dissipated += circuit_.dissipation(e, p_start_, conditions_);
   is_condensed_ = false;
+}
+
+void OilCircuit::observe_starvation() {
+  observation_.starved.setZero(circuit_.size());
+  for (const CircuitFilm& film : films_)
+    for (const std::size_t node : film.nodes)
+      if (p_start_[static_cast<Index>(node)] < film.film->model().p_cav)
+        observation_.starved[static_cast<Index>(node)] = 1;
+  std::vector<double> at_axes;
+  for (std::size_t e = 0; e < circuit_.network().elements.size(); ++e)
+    if (circuit_.network().elements[e].passes_axis)
+      at_axes.push_back(circuit_.pressure_at_axis(e, p_start_, conditions_));
+  observation_.axis_pressures = Eigen::Map<const VectorXd>(at_axes.data(), static_cast<Index>(at_axes.size()));
 }
 
 void OilCircuit::persist(Archive& archive) {
   archive.io("pressures", p_start_);
   archive.io("content", conditions_.content);  // at the start of the last step, whose end is evaluated again
   if (archive.restores()) p_ = p_start_;
+  if (heat_) persist_heat(archive);
 }
 
 }  // namespace hersey::bearing

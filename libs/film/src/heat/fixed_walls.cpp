@@ -62,15 +62,16 @@ OutsideOfMean HeatEquations::outside_of_mean(const CarryingFilm& film, const Hea
     const double replaced = is_supplied ? (1 - thermal_.carry_over) * film.balance.supplied_fraction(node) : 0;
     const double drawn = out < 0 ? -out * fresh_fraction(film, start, node) : 0;
     const double lost = out > 0 ? out * lost_fraction(film, start, node) : 0;
+    const Eigen::Index taker = is_supplied ? taker_of(supply) : -1;
     for (int l = 0; l < layers(); ++l) {
       const int row = system_.row(node, l);
       if (edges >= 0) mean.by(row, edges) += rc_ * drawn * width(l);
       if (const Eigen::Index oil = is_supplied ? oil_of(supply) : -1; oil >= 0)
         mean.by(row, oil) += rc_ * (fraction * width(l) + replaced * inflow_[row]);
-      if (drain < 0) continue;
-      if (lost > 0) take(drain, row, rc_ * lost * film.flows.leaving_fraction(node, l));
-      if (is_supplied && given < 0) take(drain, row, -rc_ * given * film.flows.leaving_fraction(node, l));
-      if (is_supplied) take(drain, row, rc_ * replaced * inflow_[row]);
+      if (drain >= 0 && lost > 0) take(drain, row, rc_ * lost * film.flows.leaving_fraction(node, l));
+      if (taker < 0) continue;
+      if (given < 0) take(taker, row, -rc_ * given * film.flows.leaving_fraction(node, l));
+      take(taker, row, rc_ * replaced * inflow_[row]);
     }
   }
   return mean;

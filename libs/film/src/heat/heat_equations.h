@@ -122,8 +122,15 @@ class HeatEquations {
   /// Of the oil that leaves over the edge at a node, the fraction that no film draws in again.
   [[nodiscard]] double lost_fraction(const CarryingFilm& film, const HeatState& state, int node) const;
   [[nodiscard]] double at_ring(const Eigen::VectorXd& outside) const;
-  /// Rows of layers and supplies whose oil leaves the film for good, with its heat per kelvin [W/K].
-  [[nodiscard]] std::vector<std::pair<int, double>> drained(const CarryingFilm& film, const HeatState& state) const;
+  /// Index of the node that takes what a supply removes from the film, among the nodes that are no walls; -1: none.
+  [[nodiscard]] Eigen::Index taker_of(int supply) const;
+  /// Oil that leaves the film for good into a node that is no wall.
+  struct Drained {
+    Eigen::Index into;
+    int row;      ///< of the layer or supply that it comes from
+    double rate;  ///< its heat per kelvin [W/K]
+  };
+  [[nodiscard]] std::vector<Drained> drained(const CarryingFilm& film, const HeatState& state) const;
 
   void assemble(const CarryingFilm& film, const HeatState& start);
   void add_storage(const CarryingFilm& film, const HeatState& start);

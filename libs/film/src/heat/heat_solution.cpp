@@ -125,22 +125,32 @@ HeatState HeatEquations::response_to_outside(Eigen::Index terminal) {
   return change;
 }
 
+Eigen::Index HeatEquations::taker_of(int supply) const {
+  const int feature = supply - (has_line() ? 1 : 0);
+  if (feature < 0 || thermal_.oil.features.empty()) return at_.index_of_drain();
+  const auto& node = thermal_.oil.features[static_cast<std::size_t>(feature)];
+  return node && node->takes_back ? oil_of(supply) : at_.index_of_drain();
+}
+
 // Oil leaves over the edges, into a supply that removes it, or to be replaced by a supply.
-std::vector<std::pair<int, double>> HeatEquations::drained(const CarryingFilm& film, const HeatState& state) const {
-  std::vector<std::pair<int, double>> oil;
-  for (int node = 0; node < model_.grid.size(); ++node) {
+std::vector<HeatEquations::Drained> HeatEquations::drained(const CarryingFilm& film, const HeatState& state) const {
+  std::vector<Drained> oil;
+  const Eigen::Index drain = at_.index_of_drain();
+  for (int node = 0; node < model_.grid.size() && drain >= 0; ++node) {
     const double out = film.balance.outflow(node);
     const double lost = out > 0 ? rc_ * out * lost_fraction(film, state, node) : 0;
     for (int l = 0; l < layers() && lost > 0; ++l)
-      oil.emplace_back(system_.row(node, l), lost * film.flows.leaving_fraction(node, l));
+      oil.push_back({drain, system_.row(node, l), lost * film.flows.leaving_fraction(node, l)});
   }
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(supplies());
   for (const SuppliedNode& supplied : supplied_nodes_) flow[supplied.supply] += supplied.flow;
   for (int s = 0; s < supplies(); ++s)
-    if (flow[s] < 0) oil.emplace_back(system_.size() + 1 + s, -rc_ * flow[s]);
+    if (flow[s] < 0 && taker_of(s) >= 0) oil.push_back({taker_of(s), system_.size() + 1 + s, -rc_ * flow[s]});
   for (const Renewal& renewal : renewals_) {
-    oil.emplace_back(renewal.row, renewal.heat);
-    oil.emplace_back(system_.size() + 1 + renewal.supply, -renewal.heat * renewal.mixed_fraction);
+    const Eigen::Index into = taker_of(renewal.supply);
+    if (into < 0) continue;
+    oil.push_back({into, renewal.row, renewal.heat});
+    oil.push_back({into, system_.size() + 1 + renewal.supply, -renewal.heat * renewal.mixed_fraction});
   }
   return oil;
 }
@@ -151,11 +161,10 @@ Eigen::VectorXd HeatEquations::into_outside(const CarryingFilm& film, const Heat
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(at_.outside());
   for (int i = 0; at_.ambient && i < model_.grid.n_phi; ++i)
     heat[at_.index_of_ambient()] += ring_.outside[i] * (state.shell[i] - state.outside[at_.index_of_ambient()]);
-  if (!at_.drain) return heat;
-  const double T = state.outside[at_.index_of_drain()];
-  for (const auto& [row, rate] : drained(film, state)) {
-    const int supply = row - system_.size() - 1;
-    heat[at_.index_of_drain()] += rate * ((supply >= 0 ? state.supplies[supply] : state.film[row]) - T);
+  for (const Drained& oil : drained(film, state)) {
+    const int supply = oil.row - system_.size() - 1;
+    const double T = supply >= 0 ? state.supplies[supply] : state.film[oil.row];
+    heat[oil.into] += oil.rate * (T - state.outside[oil.into]);
   }
   return heat;
 }

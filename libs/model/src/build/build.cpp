@@ -107,7 +107,7 @@ class Builder {
     for (const Contact& contact : model_.contacts) add_contact(contact);
     for (const Bearing& bearing : model_.bearings) add_bearing(bearing);
     if (model_.circuit) add_circuit(*model_.circuit);
-    if (!model_.thermal.network.nodes.empty()) machine_.network.emplace(model_.thermal.network);
+    add_network();
     machine_.grooves = model_.thermal.grooves;
     machine_.mechanism = mechanism_.finalise();
     return std::move(machine_);
@@ -422,6 +422,24 @@ class Builder {
     machine_.bearings.push_back(std::move(built));
   }
 
+  void add_network() {
+    film::ThermalNetworkModel network = model_.thermal.network;
+    if (model_.circuit && model_.circuit->temperatures)
+      for (const film::ThermalNode& node : model_.circuit->temperatures->added) network.nodes.push_back(node);
+    if (!network.nodes.empty()) machine_.network.emplace(std::move(network));
+  }
+
+  static std::optional<bearing::CircuitHeat> heat_of(const OilCircuit& circuit) {
+    if (!circuit.temperatures) return std::nullopt;
+    const CircuitTemperatures& given = *circuit.temperatures;
+    return bearing::CircuitHeat{
+        .heat_capacity = given.heat_capacity,
+        .law = given.law,
+        .nodes = given.nodes,
+        .coolants = given.coolants,
+        .T = Eigen::Map<const Eigen::VectorXd>(given.T.data(), static_cast<Eigen::Index>(given.T.size()))};
+  }
+
   void add_circuit(const OilCircuit& circuit) {
     std::vector<bearing::CircuitFilm> films;
     std::vector<std::size_t> film_of_bearing(model_.bearings.size());
@@ -451,7 +469,7 @@ class Builder {
                        .groove = features[hole.groove_feature]});
     }
     machine_.circuit = std::make_shared<bearing::OilCircuit>(circuit.network, std::move(films), std::move(given),
-                                                             std::move(shafts), std::move(holes));
+                                                             std::move(shafts), std::move(holes), heat_of(circuit));
     mechanism_.add_shared_unknowns("circuit", machine_.circuit, std::move(coordinates));
   }
 

@@ -1,6 +1,7 @@
 #include "schema/circuit_vocabulary.h"
 #include "schema/format.h"
 #include "schema/oil_laws.h"
+#include "schema/thermal_walls.h"
 
 namespace hersey::model {
 namespace {
@@ -23,6 +24,10 @@ TypePtr node_format() {
           optional("pressure", function_format({"Pa"}, "0 bar"),
                    "Of a sump or a supply, whose pressure is given; a function of time.",
                    "follows from the flows that meet in the node"),
+          optional("temperature", temperature_or_node("90 degC"),
+                   "Of its oil, which stays; or that of a node of the thermal network, a sump that the oil that flows "
+                   "into it warms. With one such node in the circuit the oil carries its heat along.",
+                   "of the oil that flows into it"),
           optional("volume", quantity("m^3", "300 cm^3", Range::positive()),
                    "Of oil in the node, which yields to pressure over time, as in a gallery.", "it stores nothing"),
           defaulted("compliance", quantity("m^3/Pa", "1 mm^3/bar", Range::not_negative()), "0 mm^3/bar",
@@ -52,7 +57,8 @@ std::vector<Variant> element_kinds() {
                    defaulted("friction", choice(friction_words), "churchill", "Of its wall."),
                    optional("radii", list("two radii", quantity("m", "30 mm", Range::not_negative()), 2),
                             "Distances of its ends, `from` and `to`, from the axis about which it rotates.",
-                            "it does not rotate")},
+                            "it does not rotate"),
+                   defaulted("course", choice(course_words), "one_side", "With `radii`: past the axis or not.")},
                   "Of the body with which it rotates")},
       {"orifice",
        "a sharp-edged hole or a jet: flow by the root of the drop of pressure",
@@ -60,9 +66,17 @@ std::vector<Variant> element_kinds() {
         defaulted("discharge_coefficient", number("0.7", {.low = 0, .high = 1, .low_open = true}), "0.7",
                   "Of flow at large Reynolds numbers.")}},
       {"resistance",
-       "a filter, a cooler or a leak that has been measured: flow in proportion to the drop of pressure",
+       "a filter or a leak that has been measured: flow in proportion to the drop of pressure",
        {required("resistance", quantity("Pa.s/m^3", "1e9 Pa.s/m^3", Range::positive()),
                  "Drop of pressure over the flow.")}},
+      {"cooler",
+       "a cooler: flow in proportion to the drop of pressure, and heat to a coolant",
+       {required("resistance", quantity("Pa.s/m^3", "1e9 Pa.s/m^3", Range::positive()),
+                 "Drop of pressure over the flow."),
+        required("conductance", quantity("W/K", "250 W/K", Range::positive()),
+                 "Heat from oil to coolant for each kelvin between them, of all of its surface."),
+        required("coolant", temperature_or_node("60 degC"),
+                 "Temperature of the coolant, or the node of the thermal network that it is.")}},
       {"relief_valve",
        "a valve that opens at a drop of pressure, in proportion to what exceeds it",
        {required("opening_pressure", quantity("Pa", "4 bar"), "Drop of pressure at which it opens."),
@@ -101,8 +115,10 @@ TypePtr circuit_format() {
   const TypePtr node = text("a node", "gallery");
   return object("an oil circuit",
                 {
-                    required("lubricant", reference(Refers::lubricant, "oil"), "Its oil, the same everywhere."),
-                    optional("temperature", temperature("90 degC"), "Of its oil.", "that of the lubricant"),
+                    required("lubricant", reference(Refers::lubricant, "oil"), "Its oil."),
+                    optional("temperature", temperature("90 degC"),
+                             "Of its oil; where nodes have temperatures, of the others at the start.",
+                             "that of the lubricant, or of the first node that has one"),
                     required("nodes", named("a mapping from names to nodes", node_format()),
                              "Where elements and feeds of films meet. `{}`: a junction."),
                     required("elements",

@@ -97,7 +97,7 @@ void Recorder::declare() {
     const bearing::FilmForce& film = *machine_.bearings[i].bearing;
     bearings_.emplace_back(BearingPlan{model_, model_.bearings[i], film.fields()}, film, writer_);
   }
-  if (machine_.network) thermal_.emplace(model_, writer_);
+  if (!model_.thermal.network.nodes.empty()) thermal_.emplace(model_, writer_);
   if (model_.circuit) circuit_.emplace(*model_.circuit, writer_);
   for (const model::Composite& composite : model_.composites)
     if (GroupRecord::is_in(model_, composite)) groups_.emplace_back(model_, machine_, composite, writer_);

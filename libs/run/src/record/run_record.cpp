@@ -33,11 +33,55 @@ void RunRecord::take(const StepRecord& step) {
   largest_power_ = std::max(largest_power_, step.power.largest());
   largest_error_ = std::max(largest_error_, std::abs(step.power.error()));
   for (std::size_t i = 0; i < extremes_.size(); ++i) extremes_[i].take(t, step.dt, step.bearings[i]);
+  if (model_.circuit) take_starvation(step);
   energy_.take(step);
   settled_ = settling_.settled(step);
   recorder_.gather(step);
   if (cycles_.ends(t)) end_cycle(t);
   write(step);
+}
+
+// An instant by itself, such as a steady motion, counts as all of the time.
+void RunRecord::take_starvation(const StepRecord& step) {
+  const bearing::CircuitObservation& circuit = step.circuit;
+  if (starved_time_.size() == 0 || (circuit_time_ == 0 && step.dt > 0)) {
+    starved_time_.setZero(circuit.starved.size());
+    lowest_pressure_ = circuit.pressures, lowest_at_axis_ = circuit.axis_pressures;
+  }
+  lowest_pressure_ = lowest_pressure_.cwiseMin(circuit.pressures);
+  lowest_at_axis_ = lowest_at_axis_.cwiseMin(circuit.axis_pressures);
+  if (step.dt > 0)
+    starved_time_ += step.dt * circuit.starved, circuit_time_ += step.dt;
+  else if (circuit_time_ == 0)
+    starved_time_ = circuit.starved;
+}
+
+std::vector<std::string> RunRecord::starvation_warnings(const model::Bearing& bearing) const {
+  std::vector<std::string> warnings;
+  if (!model_.circuit || starved_time_.size() == 0) return warnings;
+  const circuit::Network& network = model_.circuit->network;
+  for (const model::CircuitPort& port : bearing.circuit_ports) {
+    const auto node = static_cast<Eigen::Index>(port.node);
+    const double time = circuit_time_ > 0 ? starved_time_[node] / circuit_time_ : starved_time_[node];
+    if (time > 0)
+      warnings.push_back(fmt::format(
+          "feed '{}': node '{}' of the circuit lies below the cavitation pressure {:.3g} % of the time, down to {:.3g} "
+          "bar; the film then draws oil that is not there, which a `restrictor` of the feed prevents",
+          bearing.film.features[port.feature].name, network.nodes[port.node].name, 100 * time,
+          1e-5 * lowest_pressure_[node]));
+    Eigen::Index passing = 0;
+    for (const circuit::Element& element : network.elements) {
+      if (!element.passes_axis) continue;
+      const double lowest = lowest_at_axis_[passing++];
+      if (element.to != port.node || lowest >= bearing.film.p_cav) continue;
+      warnings.push_back(
+          fmt::format("feed '{}': in drilling '{}' the pressure at the axis falls to {:.3g} bar, below the cavitation "
+                      "pressure: its "
+                      "oil does not hold together there, and what it is said to carry is too much",
+                      bearing.film.features[port.feature].name, element.name, 1e-5 * lowest));
+    }
+  }
+  return warnings;
 }
 
 void RunRecord::end_cycle(double t) {
@@ -145,6 +189,7 @@ void RunRecord::summarise(Summary& summary) const {
       bearing.warnings.push_back(std::move(warning));
     for (std::string& warning : model::rotation_warnings(plan, bearing.turned, bearing.travelled))
       bearing.warnings.push_back(std::move(warning));
+    for (std::string& warning : starvation_warnings(plan)) bearing.warnings.push_back(std::move(warning));
     bearing.cavitated_shear = cavitated_shear(plan.film, bearing);
     summary.bearings.push_back(std::move(bearing));
   }
@@ -176,6 +221,11 @@ void RunRecord::persist(Archive& archive) {
   for (BearingExtremes& extremes : extremes_) {
     const Archive::Group group(archive, "extremes of " + extremes.name());
     extremes.persist(archive);
+  }
+  if (model_.circuit) {
+    const Archive::Group circuit(archive, "circuit");
+    archive.io("starved_time", starved_time_), archive.io("lowest_pressure", lowest_pressure_);
+    archive.io("lowest_at_axis", lowest_at_axis_), archive.io("time", circuit_time_);
   }
   {
     const Archive::Group energy(archive, "energy");

@@ -63,6 +63,8 @@ class RunRecord {
 
  private:
   void end_cycle(double t);
+  void take_starvation(const StepRecord& step);
+  [[nodiscard]] std::vector<std::string> starvation_warnings(const model::Bearing& bearing) const;
   void write(const StepRecord& step);
   [[nodiscard]] bool is_row_due(double t, double slack);
   [[nodiscard]] bool are_fields_due(double t, double slack);
@@ -75,6 +77,9 @@ class RunRecord {
   CycleConvergence cycles_;
   std::vector<BearingExtremes> extremes_;
   EnergyBalance energy_;
+  Eigen::VectorXd starved_time_, lowest_pressure_;  ///< of each node of the circuit [s, Pa]
+  Eigen::VectorXd lowest_at_axis_;                  ///< of each of its drillings through an axis [Pa]
+  double circuit_time_ = 0;                         ///< [s]
   int steps_ = 0, newton_iterations_ = 0;
   std::vector<StepErrors> step_errors_;  ///< errors for each bearing, if requested
   double step_error_ = 0;                ///< largest of a step

@@ -4,6 +4,8 @@
 #include <variant>
 #include <vector>
 
+#include "hersey/film/temperature_law.h"
+
 namespace hersey::run {
 namespace {
 
@@ -21,6 +23,33 @@ std::vector<std::string> element_names(const model::OilCircuit& circuit) {
   for (const circuit::Element& element : circuit.network.elements) names.push_back(element.name);
   return names;
 }
+
+std::vector<std::string> warm_node_names(const model::OilCircuit& circuit) {
+  return circuit.temperatures ? node_names(circuit) : std::vector<std::string>{};
+}
+
+/// Indices of coolers among the elements.
+std::vector<std::size_t> coolers(const model::OilCircuit& circuit) {
+  std::vector<std::size_t> indices;
+  for (std::size_t e = 0; e < circuit.network.elements.size(); ++e)
+    if (std::holds_alternative<circuit::Cooler>(circuit.network.elements[e].law)) indices.push_back(e);
+  return indices;
+}
+
+std::vector<std::string> cooler_names(const model::OilCircuit& circuit) {
+  std::vector<std::string> names;
+  for (const std::size_t e : coolers(circuit)) names.push_back(circuit.network.elements[e].name);
+  return names;
+}
+
+std::vector<std::string> axis_names(const model::OilCircuit& circuit) {
+  std::vector<std::string> names;
+  for (const circuit::Element& element : circuit.network.elements)
+    if (element.passes_axis) names.push_back(element.name);
+  return names;
+}
+
+bool has_temperatures(const model::OilCircuit& circuit) { return circuit.temperatures.has_value(); }
 
 std::vector<std::string> hole_names(const model::OilCircuit& circuit) {
   std::vector<std::string> names(circuit.holes.size());
@@ -43,6 +72,7 @@ struct TypeOfLaw {
   std::string operator()(const circuit::Drilling& /*law*/) const { return "drilling"; }
   std::string operator()(const circuit::Orifice& /*law*/) const { return "orifice"; }
   std::string operator()(const circuit::Resistance& /*law*/) const { return "resistance"; }
+  std::string operator()(const circuit::Cooler& /*law*/) const { return "cooler"; }
   std::string operator()(const circuit::ReliefValve& /*law*/) const { return "relief_valve"; }
   std::string operator()(const circuit::DisplacementPump& /*law*/) const { return "pump"; }
   std::string operator()(const circuit::PumpCurve& /*law*/) const { return "pump_curve"; }
@@ -75,12 +105,37 @@ const QuantityTable<CircuitRow, model::OilCircuit>& circuit_quantities() {
         .each = node_names,
         .summary_entries = {{CircuitStatistic::mean, "mean pressure of <node>", "MPa"},
                             {CircuitStatistic::smallest, "lowest pressure of <node>", "MPa"}}}},
+      {"temperature_<node>",
+       "degC",
+       "temperature of the oil of this node",
+       [](const CircuitRow& row, std::size_t k) {
+         return row.temperatures[static_cast<Eigen::Index>(k)] - film::zero_celsius;
+       },
+       {.symbol = "T_i",
+        .note = "of a `circuit` whose nodes have temperatures",
+        .each = warm_node_names,
+        .summary_entries = {{CircuitStatistic::mean, "mean temperature of <node>", "°C"},
+                            {CircuitStatistic::largest, "highest temperature of <node>", "°C"}}}},
       {"drawn_<node>",
        "m^3/s",
        "by films from this node, negative where they give oil back",
        [](const CircuitRow& row, std::size_t k) { return row.drawn[static_cast<Eigen::Index>(k)]; },
        {.each = node_names,
         .summary_entries = {{CircuitStatistic::mean, "mean flow from <node> into films", "mm³/s"}}}},
+      {"starved_<node>",
+       "1",
+       "1 where the pressure of this node lies below the cavitation pressure of films that draw from it, else 0: films "
+       "then draw oil that is not there",
+       [](const CircuitRow& row, std::size_t k) { return row.starved[static_cast<Eigen::Index>(k)]; },
+       {.each = node_names, .summary_entries = {{CircuitStatistic::mean, "share of time in which <node> is starved"}}}},
+      {"axis_pressure_<drilling>",
+       "Pa",
+       "at the axis in this drilling, which passes it",
+       [](const CircuitRow& row, std::size_t k) { return row.axis_pressures[static_cast<Eigen::Index>(k)]; },
+       {.symbol = "p_a",
+        .note = "a `drilling` whose `course` is `through_axis`",
+        .each = axis_names,
+        .summary_entries = {{CircuitStatistic::smallest, "lowest pressure at the axis of <drilling>", "MPa"}}}},
       {"flow_<element>",
        "m^3/s",
        "through this element, from its first node to its second",
@@ -94,6 +149,18 @@ const QuantityTable<CircuitRow, model::OilCircuit>& circuit_quantities() {
        "overlap of this hole with its groove",
        [](const CircuitRow& row, std::size_t k) { return row.open_areas[static_cast<Eigen::Index>(k)]; },
        {.symbol = "A", .note = "a `hole_over_groove` of the model's `circuit`", .each = hole_names}},
+      {"heat_<cooler>",
+       "W",
+       "from the oil into the coolant of this cooler",
+       [](const CircuitRow& row, std::size_t k) { return row.cooled[static_cast<Eigen::Index>(k)]; },
+       {.note = "a `cooler` of the model's `circuit`",
+        .each = cooler_names,
+        .summary_entries = {{CircuitStatistic::mean, "mean heat from the oil in <cooler>", "W"}}}},
+      {"dissipated",
+       "W",
+       "that warms the oil on its way through elements: flow times drop of pressure, and leaks of pumps",
+       &CircuitRow::dissipated,
+       {.only = has_temperatures}},
       {"stored", "m^3", "oil in all nodes with a volume", [](const CircuitRow& row) { return row.content.sum(); }},
       {"balance_error",
        "1",

@@ -484,8 +484,15 @@ std::pair<std::string, std::string> method(const model::Simulation& run) {
 
 Rows circuit_assumptions(const model::OilCircuit& circuit) {
   Rows rows;
-  rows.emplace_back("circuit: oil", fmt::format("{}, {:.4g} mPa.s, {:.4g} kg/m^3 everywhere", circuit.lubricant,
-                                                1e3 * circuit.network.oil.mu, circuit.network.oil.density));
+  if (circuit.temperatures)
+    rows.emplace_back(
+        "circuit: oil",
+        fmt::format("{}, {:.4g} kg/m^3, carries {:.4g} kJ/m^3/K along; in each element as "
+                    "viscous as it flows in, by the temperatures of the step before",
+                    circuit.lubricant, circuit.network.oil.density, 1e-3 * circuit.temperatures->heat_capacity));
+  else
+    rows.emplace_back("circuit: oil", fmt::format("{}, {:.4g} mPa.s, {:.4g} kg/m^3 everywhere", circuit.lubricant,
+                                                  1e3 * circuit.network.oil.mu, circuit.network.oil.density));
   for (const circuit::Node& node : circuit.network.nodes)
     if (node.storage)
       rows.emplace_back("circuit: " + node.name,

@@ -59,6 +59,7 @@ Outcome MachineRun::step(double limit) {
     return no_answer<Outcome>(step.message + (is_advised ? "" : record_.thin_films()));
   }
   if (model_.thermal_walls == model::ThermalWalls::transient) warm_bodies(machine_, step.dt);
+  if (model_.thermal_walls == model::ThermalWalls::cycle_mean) average_streams(machine_, step.dt);
   mix_grooves(machine_);
   record(step);
   for (const std::string& why : {thermal_failure(machine_), wear_failure(machine_)})

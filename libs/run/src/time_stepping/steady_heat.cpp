@@ -30,6 +30,9 @@ constexpr std::array kRestraints{Restraint{15, 0.3}, Restraint{30, 0.1}, Restrai
 // Times that temperatures at which no motion is found are halved towards the last ones at which one was.
 constexpr int kMostHalvings = 12;
 
+// Between which the circuit's oil stays on the way to a solution [K]: laws of viscosity mean nothing far beyond.
+constexpr double kColdestNode = 200, kHottestNode = 600;
+
 class WarmSearch {
  public:
   WarmSearch(model::Machine& machine, solver::State& state, const solver::EquilibriumOptions& options)
@@ -39,10 +42,11 @@ class WarmSearch {
         mixing_(solver::Acceleration::quasi_newton, 1, kAlternationsKept) {
     for (const model::BuiltBearing& built : machine.bearings)
       if (built.bearing->heat() != nullptr) films_.push_back(built.bearing.get());
+    if (machine.circuit && machine.circuit->heat() != nullptr) circuit_ = machine.circuit.get();
   }
 
   solver::EquilibriumSummary run() {
-    if (films_.empty()) return solver::find_equilibrium(*machine_.mechanism, state_, options_);
+    if (films_.empty() && circuit_ == nullptr) return solver::find_equilibrium(*machine_.mechanism, state_, options_);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(temperatures().size()), last;
     int iterations = 0, halvings = 0;
     for (int k = 0; k < kMostAlternations; ++k) {
@@ -73,13 +77,18 @@ class WarmSearch {
   }
 
  private:
-  /// Of all films, one after the other.
+  /// Of all films, one after the other, and of the circuit.
   [[nodiscard]] Eigen::VectorXd temperatures() const {
     Eigen::VectorXd all;
     for (const bearing::FilmForce* film : films_) {
       const Eigen::VectorXd own = film->temperatures();
       all.conservativeResize(all.size() + own.size());
       all.tail(own.size()) = own;
+    }
+    if (circuit_ != nullptr) {
+      const Eigen::VectorXd rise = circuit_->observation().temperatures - circuit_->heat()->T;
+      all.conservativeResize(all.size() + rise.size());
+      all.tail(rise.size()) = rise;
     }
     return all;
   }
@@ -91,6 +100,9 @@ class WarmSearch {
       film->set_temperatures(x.segment(first, count));
       first += count;
     }
+    if (circuit_ == nullptr) return;
+    const auto within_trials = [](double T) { return std::clamp(T, kColdestNode, kHottestNode); };
+    circuit_->set_temperatures((circuit_->heat()->T + x.tail(circuit_->circuit().size())).unaryExpr(within_trials));
   }
 
   /// What cold films have made, reduced as their oil thins.
@@ -109,6 +121,7 @@ class WarmSearch {
   solver::State& state_;
   solver::EquilibriumOptions options_;
   std::vector<bearing::FilmForce*> films_;
+  bearing::OilCircuit* circuit_ = nullptr;  // with temperatures
   solver::FixedPointIteration mixing_;
 };
 

@@ -18,9 +18,15 @@ void warm_bodies(model::Machine& machine, double dt) {
     films.push_back({film::terminals_of(heat->thermal()), heat->heat_flow()});
     warmed.push_back(built.bearing.get());
   }
-  machine.network->advance(dt, films);
+  const bool has_warm_circuit = machine.circuit && machine.circuit->heat() != nullptr;
+  machine.network->advance(dt, films, has_warm_circuit ? machine.circuit->streams() : std::vector<film::OilStream>{});
   for (std::size_t i = 0; i < films.size(); ++i)
     warmed[i]->move_walls(machine.network->walls(films[i].at, films[i].heat_flow.T));
+  if (has_warm_circuit) machine.circuit->follow_temperatures(machine.network->temperatures());
+}
+
+void average_streams(model::Machine& machine, double dt) {
+  if (machine.circuit && machine.circuit->heat() != nullptr) machine.circuit->add_streams_to_mean(dt);
 }
 
 void mix_grooves(model::Machine& machine) {
@@ -50,7 +56,11 @@ void settle_walls(model::Machine& machine) {
     films.push_back({film::terminals_of(heat->thermal()), built.bearing->mean_heat_flow()});
     warm.push_back(built.bearing.get());
   }
-  if (machine.network) machine.network->advance(0, films);
+  const bool has_warm_circuit = machine.circuit && machine.circuit->heat() != nullptr;
+  if (machine.network)
+    machine.network->advance(0, films,
+                             has_warm_circuit ? machine.circuit->mean_streams() : std::vector<film::OilStream>{});
+  if (has_warm_circuit) machine.circuit->follow_temperatures(machine.network->temperatures());
   for (std::size_t i = 0; i < films.size(); ++i) {
     const Eigen::VectorXd& T = films[i].heat_flow.T;
     warm[i]->settle_walls(machine.network ? machine.network->walls(films[i].at, T) : T);

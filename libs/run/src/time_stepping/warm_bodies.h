@@ -7,9 +7,12 @@
 namespace hersey::run {
 
 /// Advances, after an accepted step of length dt [s], the lumped bodies of the thermal network by the heat that all
-/// films gave them over it, and sets the films' walls to their temperatures (theory manual, thermal.47). Does nothing
-/// without a network.
+/// films gave them over it, and by the oil of a circuit, and sets the films' walls and the circuit's nodes to their
+/// temperatures (theory manual, thermal.47). Does nothing without a network.
 void warm_bodies(model::Machine& machine, double dt);
+
+/// Adds the oil between nodes of a circuit with temperatures in a step of `dt` [s] to the means of a cycle.
+void average_streams(model::Machine& machine, double dt);
 
 /// Mixes the oil in grooves between films, by their flows at the state last accepted, and gives it to the films that
 /// draw it (theory manual, thermal.68). Does nothing without grooves.

@@ -11,6 +11,8 @@
 #include "hersey/circuit/circuit.h"
 #include "hersey/core/scalar_function.h"
 #include "hersey/film/surface_feature.h"
+#include "hersey/film/temperature_law.h"
+#include "hersey/film/thermal_network.h"
 #include "hersey/mbd/shared_unknowns.h"
 
 namespace hersey::bearing {
@@ -35,6 +37,15 @@ struct CircuitHole {
   film::SurfaceFeature hole, groove;
 };
 
+/// Temperatures of a circuit's oil: each node is one of a thermal network (theory manual, circuit.14).
+struct CircuitHeat {
+  double heat_capacity = 0;                ///< of the oil, per volume [J/(m^3 K)], > 0
+  film::TemperatureLaw law;                ///< its viscosity
+  std::vector<std::size_t> nodes = {};     ///< in the network, of each node of the circuit
+  std::vector<std::size_t> coolants = {};  ///< in the network, of each element; of no account but to coolers
+  Eigen::VectorXd T = {};                  ///< of each node of the circuit at the start [K]
+};
+
 /// What a circuit shows after a step.
 struct CircuitObservation {
   Eigen::VectorXd pressures;   ///< of nodes [Pa]
@@ -43,8 +54,15 @@ struct CircuitObservation {
   Eigen::VectorXd content;     ///< oil in each node that stores some [m^3]
   Eigen::VectorXd speeds;      ///< of shafts [rad/s]
   Eigen::VectorXd open_areas;  ///< of holes over grooves [m^2]
-  double balance_error = 0;    ///< largest imbalance of a node over the largest flow [-]
-  double power = 0;            ///< that pumps and other sources put into the oil [W]
+  /// Of nodes, after the step [K], and heat from the oil into the coolant of each cooler, in the order of elements [W];
+  /// empty: the oil has one temperature.
+  Eigen::VectorXd temperatures, cooled;
+  /// Of each node: 1 where its pressure lies below the cavitation pressure of films that draw from it, else 0; and the
+  /// pressure at the axis in each element that passes it, in their order [Pa].
+  Eigen::VectorXd starved, axis_pressures;
+  double dissipated = 0;     ///< in elements, as far as it warms the oil [W]
+  double balance_error = 0;  ///< largest imbalance of a node over the largest flow [-]
+  double power = 0;          ///< that pumps and other sources put into the oil [W]
 };
 
 /// A circuit of oil between films: the pressures of its nodes are unknowns that these films share.
@@ -57,9 +75,10 @@ class OilCircuit final : public mbd::SharedUnknowns {
  public:
   /// @param given  pressure over time of each node that has a given one, null for others
   /// @param holes  over grooves, in the order of circuit::Element::hole
+  /// @param heat  unset: the oil has the one temperature of the network's oil
   OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
              std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts,
-             std::vector<CircuitHole> holes = {});
+             std::vector<CircuitHole> holes = {}, std::optional<CircuitHeat> heat = {});
 
   void begin_step(double dt) override;
   void follow(const mbd::SharedMotion& motion) override;
@@ -77,6 +96,22 @@ class OilCircuit final : public mbd::SharedUnknowns {
   /// Returns its figures at the step last accepted.
   [[nodiscard]] const CircuitObservation& observation() const { return observation_; }
 
+  // Temperatures move after a step has been accepted, and stay over the next one.
+
+  /// Null: the oil has one temperature.
+  [[nodiscard]] const CircuitHeat* heat() const { return heat_ ? &*heat_ : nullptr; }
+  /// Returns the oil between nodes in the step last accepted, as streams of a thermal network.
+  [[nodiscard]] std::vector<film::OilStream> streams() const;
+  /// Adds these streams over a step of `dt` [s] to the means of a cycle.
+  void add_streams_to_mean(double dt);
+  /// Returns the means since the last call.
+  [[nodiscard]] std::vector<film::OilStream> mean_streams();
+  /// Takes the temperatures of its nodes from those of the network [K]; elements have the viscosity of the oil that
+  /// flows into them.
+  void follow_temperatures(const Eigen::VectorXd& T_network);
+  /// Sets the temperatures of its nodes [K].
+  void set_temperatures(const Eigen::VectorXd& T);
+
  private:
   void set_conditions(const mbd::SharedMotion& motion);
   void refuse_backward_pumps();
@@ -91,12 +126,16 @@ class OilCircuit final : public mbd::SharedUnknowns {
   };
   /// Imbalance of nodes at pressures `p` where films draw `drawn`.
   [[nodiscard]] Imbalance imbalance(const Eigen::VectorXd& p, const Eigen::VectorXd& drawn) const;
+  void update_viscosities();
+  void observe_starvation();
+  void persist_heat(Archive& archive);
 
   circuit::Circuit circuit_;
   std::vector<CircuitFilm> films_;
   std::vector<std::shared_ptr<const ScalarFunction>> given_;
   std::vector<CircuitShaft> shafts_;
   std::vector<CircuitHole> holes_;
+  std::optional<CircuitHeat> heat_;
   std::vector<double> area_by_angle_;  // of each hole [m^2/rad]
   circuit::Conditions conditions_;
 
@@ -111,6 +150,9 @@ class OilCircuit final : public mbd::SharedUnknowns {
   Imbalance worst_;          // at the pressures with which the films were evaluated last
   std::string domain_error_;
   CircuitObservation observation_;
+
+  std::vector<film::OilStream> sum_;  // of streams times the lengths of their steps; empty before the first
+  double sum_of_steps_ = 0;           // [s]
 };
 
 }  // namespace hersey::bearing

@@ -28,6 +28,7 @@ struct Element {
   Law law;
   std::optional<std::size_t> shaft = {};  ///< index in Conditions::speeds, of a pump or of a body with which it rotates
   double r_from = 0, r_to = 0;           ///< distances of its ends from the axis about which it rotates (circuit.2) [m]
+  bool passes_axis = false;              ///< it is straight and leads from one side of the axis to the other
   std::optional<std::size_t> hole = {};  ///< index in Conditions::open_areas, of a hole over a groove
 };
 
@@ -43,8 +44,9 @@ struct Network {
 struct Conditions {
   Eigen::VectorXd given;   ///< pressures of nodes whose pressure is given [Pa], shape (nodes); others mean nothing
   Eigen::VectorXd speeds;  ///< of shafts [rad/s]
-  Eigen::VectorXd open_areas = {};  ///< of holes over grooves [m^2]
-  double dt = 0;                    ///< length of the step [s]; 0: nodes store nothing, the flow is steady
+  Eigen::VectorXd open_areas = {};   ///< of holes over grooves [m^2]
+  Eigen::VectorXd viscosities = {};  ///< of the oil in each element [Pa s]; empty: that of the circuit's oil
+  double dt = 0;                     ///< length of the step [s]; 0: nodes store nothing, the flow is steady
   Eigen::VectorXd content;  ///< oil in each node at the start of the step [m^3], shape (nodes); unused for dt = 0
 };
 
@@ -78,6 +80,12 @@ class Circuit {
   [[nodiscard]] Flow flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
   /// Returns the flows through all elements [m^3/s].
   [[nodiscard]] Eigen::VectorXd flows(const Eigen::VectorXd& p, const Conditions& conditions) const;
+  /// Returns the pressure at the axis in an element that passes it (circuit.17) [Pa].
+  [[nodiscard]] double pressure_at_axis(std::size_t element, const Eigen::VectorXd& p,
+                                        const Conditions& conditions) const;
+  /// Returns what the oil loses on its way through an element, as heat [W], >= 0: flow times drop of pressure; in a
+  /// pump that of the leak.
+  [[nodiscard]] double dissipation(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
   /// Returns the oil in each node [m^3]; 0 in those that store none.
   [[nodiscard]] Eigen::VectorXd content(const Eigen::VectorXd& p) const;
 

@@ -35,11 +35,22 @@ struct Orifice {
   [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
 };
 
-/// A flow in proportion to the drop of pressure: a filter, a cooler, a leak that has been measured.
+/// A flow in proportion to the drop of pressure: a filter, a leak that has been measured.
 struct Resistance {
   double resistance = 1e9;  ///< [Pa s/m^3], > 0
   /// Returns the flow under a drop of pressure [Pa] and its slope.
   [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
+};
+
+/// A cooler: to the flow a resistance, to the heat a conductance to a coolant of one temperature (circuit.15).
+struct Cooler {
+  double resistance = 1e9;   ///< [Pa s/m^3], > 0
+  double conductance = 100;  ///< from oil to coolant, of all of its surface [W/K], > 0
+  /// Returns the flow under a drop of pressure [Pa] and its slope.
+  [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
+  /// Returns the part of the oil's excess over the coolant that is left at the outlet [-], of oil with the rate rho c Q
+  /// of heat capacity [W/K].
+  [[nodiscard]] double remaining(double capacity_rate) const;
 };
 
 /// A valve that opens at a drop of pressure, the further the more this exceeds it (circuit.6).
@@ -82,7 +93,7 @@ struct HoleOverGroove {
   [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
 };
 
-using Law =
-    std::variant<Drilling, Orifice, Resistance, ReliefValve, DisplacementPump, PumpCurve, GivenFlow, HoleOverGroove>;
+using Law = std::variant<Drilling, Orifice, Resistance, ReliefValve, DisplacementPump, PumpCurve, GivenFlow,
+                         HoleOverGroove, Cooler>;
 
 }  // namespace hersey::circuit

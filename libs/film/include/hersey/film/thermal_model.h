@@ -30,6 +30,9 @@ struct NetworkNode {
   double T = 293.15;      ///< at the start [K]
   std::size_t node = 0;   ///< index in the network
   std::string name = {};  ///< of that node
+  /// Oil that flows back from the film into what it came through warms this node, as a node of an oil circuit; false:
+  /// it goes to the drain.
+  bool takes_back = false;
 };
 
 /// A shell that is a ring around the film: heat is conducted around it and through it to its surroundings

@@ -17,6 +17,8 @@ struct ThermalNode {
   double heat_capacity = 0;  ///< [J/K], > 0 of a body; of no account to a balance without time
   double T = 293.15;         ///< at the start [K]
   bool is_fixed = false;     ///< surroundings: T is given
+  /// A node of an oil circuit: without heat capacity it has the temperature of the oil that flows into it.
+  bool is_oil = false;
 };
 
 /// A conductance between two nodes.
@@ -24,6 +26,17 @@ struct ThermalPath {
   std::string name;
   std::size_t a = 0, b = 0;  ///< nodes
   double conductance = 0;    ///< [W/K], >= 0
+};
+
+/// Oil that flows from one node into another and takes its heat along, through a cooler or not (theory manual,
+/// circuit.14, circuit.15). Of the rate rho c Q of its heat capacity a part comes as warm as the node it leaves, the
+/// other as cold as the coolant.
+struct OilStream {
+  std::size_t from = 0, to = 0;  ///< nodes
+  double kept = 0;               ///< part of rho c Q at the temperature of `from` [W/K], >= 0
+  std::size_t coolant = 0;       ///< node; of no account to a stream without `cooled`
+  double cooled = 0;             ///< part of rho c Q at the temperature of `coolant` [W/K], >= 0
+  double heat = 0;               ///< dissipated on the way [W], >= 0
 };
 
 struct ThermalNetworkModel {
@@ -41,7 +54,9 @@ struct FilmAtNodes {
 struct NetworkObservables {
   Eigen::VectorXd T;     ///< of the nodes [K]
   Eigen::VectorXd heat;  ///< from films into each node
-  double exchanged = 0;  ///< sum of what passes between films and nodes, whichever way
+  /// That oil between nodes brings each: of what flows in, over what it has itself; from what flows through a cooler.
+  Eigen::VectorXd by_oil = {};
+  double exchanged = 0;  ///< sum of what passes between films and nodes, and by oil between nodes, whichever way
   double to_fixed = 0;   ///< into surroundings
   double stored = 0;     ///< rate of the bodies' heat
   /// Imbalance of (thermal.49) over the largest of these powers [-].
@@ -66,8 +81,8 @@ class ThermalNetwork {
 
   /// Advances the temperatures implicitly over a step of length dt [s] with the heat that all films exchange with the
   /// nodes. dt = 0 takes them to a steady balance, in which bodies without a path to a film or to surroundings keep
-  /// their temperatures.
-  void advance(double dt, const std::vector<FilmAtNodes>& films);
+  /// their temperatures. @param streams  of oil between nodes, constant over the step
+  void advance(double dt, const std::vector<FilmAtNodes>& films, const std::vector<OilStream>& streams = {});
 
   /// Returns the present temperatures at a film's terminals, in the order of WallHeatFlow [K]; those of `otherwise`
   /// where a wall is no node.
@@ -80,7 +95,8 @@ class ThermalNetwork {
   void persist(Archive& archive);
 
  private:
-  void observe(double dt, const Eigen::VectorXd& change, const std::vector<FilmAtNodes>& films);
+  void observe(double dt, const Eigen::VectorXd& change, const std::vector<FilmAtNodes>& films,
+               const std::vector<OilStream>& streams);
 
   ThermalNetworkModel model_;
   NetworkObservables observables_;

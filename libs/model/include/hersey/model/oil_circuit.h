@@ -6,6 +6,8 @@
 
 #include "hersey/circuit/circuit.h"
 #include "hersey/core/input_error.h"
+#include "hersey/film/temperature_law.h"
+#include "hersey/film/thermal_network.h"
 #include "hersey/model/function.h"
 #include "hersey/model/names.h"
 
@@ -25,6 +27,17 @@ struct CircuitHole {
   std::size_t hole_feature = 0, groove_feature = 0;  ///< indices in Bearing::film.features
 };
 
+/// Temperatures of the circuit's oil. Its nodes are nodes of the thermal network: one of the model, or one added behind
+/// these.
+struct CircuitTemperatures {
+  double heat_capacity = 0;                   ///< of the oil, per volume [J/(m^3 K)]
+  film::TemperatureLaw law;                   ///< its viscosity
+  std::vector<film::ThermalNode> added = {};  ///< behind the network's own, in this order
+  std::vector<std::size_t> nodes = {};        ///< in the network, of each node of the circuit
+  std::vector<std::size_t> coolants = {};     ///< in the network, of each element; 0 but of coolers
+  std::vector<double> T = {};                 ///< of each node of the circuit at the start [K]
+};
+
 /// The section `circuit`: the oil between the films' feeds.
 struct OilCircuit {
   circuit::Network network;
@@ -32,6 +45,7 @@ struct OilCircuit {
   std::vector<CircuitShaft> shafts;
   std::vector<CircuitHole> holes;  ///< in the order of circuit::Element::hole
   std::string lubricant;
+  std::optional<CircuitTemperatures> temperatures;  ///< unset: the oil has one temperature
   std::vector<SourcePosition> node_positions, element_positions;
   SourcePosition position;
 

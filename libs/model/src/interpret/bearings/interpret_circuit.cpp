@@ -23,12 +23,21 @@ class CircuitReader {
 
   void read() {
     circuit_.position = value_.key_position;
+    find_first_temperature();
     read_oil();
     for (const auto& [name, node] : section(value_, "nodes")) read_node(name, node);
     for (const auto& [name, element] : section(value_, "elements")) read_element(name, element);
   }
 
  private:
+  /// The oil carries heat along where a node has a temperature.
+  void find_first_temperature() {
+    for (const auto& [name, node] : section(value_, "nodes")) {
+      const auto own = own_temperature(context_, node.find("temperature"));
+      if (own && !circuit_.temperatures) circuit_.temperatures.emplace(), T_first_ = own->T;
+    }
+  }
+
   void read_oil() {
     const Value* name = value_.find("lubricant");
     if (name == nullptr) return;
@@ -37,15 +46,61 @@ class CircuitReader {
     for (const Lubricant& lubricant : context_.model.lubricants) {
       if (lubricant.name != name->text) continue;
       const Value* given = value_.find("temperature");
-      const std::optional<double> T =
+      std::optional<double> T =
           given != nullptr && !given->broken ? std::optional(given->number) : lubricant.temperature;
+      if (!T) T = T_first_;
       if (!T && film::depends_on_temperature(lubricant.data.temperature_law))
         context_.fault_at_key(
             value_, "an oil '" + lubricant.name + "' whose viscosity falls with temperature, and no temperature",
             "a `temperature` of the lubricant or of this circuit");
       const film::Lubricant oil = T ? film::at_temperature(lubricant.data, *T) : lubricant.data;
       circuit_.network.oil = {.mu = oil.mu0, .density = oil.density};
+      if (!circuit_.temperatures) continue;
+      circuit_.temperatures->heat_capacity = oil.density * oil.specific_heat;
+      circuit_.temperatures->law = oil.temperature_law;
+      if (!film::depends_on_temperature(oil.temperature_law))
+        circuit_.temperatures->law = film::FixedViscosity{oil.mu0};
+      T_start_ = T.value_or(T_start_);
     }
+  }
+
+  /// Index of a temperature in the thermal network: of the node that it is, or of one added behind all others.
+  [[nodiscard]] std::size_t network_index(const OwnTemperature& own, const std::string& name) {
+    if (own.node) return own.node->node;
+    return added({.name = name, .T = own.T, .is_fixed = true});
+  }
+
+  std::size_t added(film::ThermalNode node) {
+    circuit_.temperatures->added.push_back(std::move(node));
+    return context_.model.thermal.network.nodes.size() + circuit_.temperatures->added.size() - 1;
+  }
+
+  void read_temperature(const Value& node, const circuit::Node& read) {
+    if (!circuit_.temperatures) return;
+    CircuitTemperatures& all = *circuit_.temperatures;
+    const Value* given = node.find("temperature");
+    if (given == nullptr && read.is_given) {
+      context_.fault_at_key(node, "a sump or supply without a temperature, in a circuit whose nodes have some",
+                            "a `temperature` of its own, or that of a node of `thermal`");
+    }
+    const auto own = own_temperature(context_, given);
+    all.T.push_back(own ? own->T : T_start_);
+    const double volume = read.storage ? read.storage->volume : 0;
+    all.nodes.push_back(
+        own ? network_index(*own, read.name)
+            : added({.name = read.name, .heat_capacity = all.heat_capacity * volume, .T = T_start_, .is_oil = true}));
+  }
+
+  void read_coolant(const std::string& name, const Value& element) {
+    const Value* coolant = element.text == "cooler" ? element.find("coolant") : nullptr;
+    if (!circuit_.temperatures) {
+      if (coolant != nullptr)
+        context_.fault_at_key(element, "a cooler in a circuit whose oil has one temperature",
+                              "a `temperature` of the nodes that have a pressure, or a `resistance`");
+      return;
+    }
+    const auto own = own_temperature(context_, coolant);
+    circuit_.temperatures->coolants.push_back(own ? network_index(*own, name) : 0);
   }
 
   void read_node(const std::string& name, const Value& node) {
@@ -62,6 +117,7 @@ class CircuitReader {
                                       .bulk_modulus = number_of(node, "bulk_modulus"),
                                       .free_air = number_of(node, "free_air"),
                                       .solubility = number_of(node, "solubility")};
+    read_temperature(node, read);
     circuit_.network.nodes.push_back(std::move(read));
     circuit_.node_positions.push_back(node.key_position);
   }
@@ -91,6 +147,8 @@ class CircuitReader {
       read.r_from = element.find("radii")->members[0].value.number;
       read.r_to = element.find("radii")->members[1].value.number;
     }
+    if (element.text == "drilling" && meaning_of(element, "course", course_words) == Course::through_axis)
+      read.passes_axis = passes_axis(element, read);
     if (!is_pump && !rotates && element.text == "drilling")
       for (const char* key : {"speed", "joint"})
         if (const Value* given = element.find(key))
@@ -98,8 +156,16 @@ class CircuitReader {
                                 "radii: [30 mm, 55 mm], or no rotation");
     if (!from || !to) return;
     if (*from == *to) return context_.fault(*element.find("to"), "an element from a node to itself", "two nodes");
+    read_coolant(name, element);
     circuit_.network.elements.push_back(std::move(read));
     circuit_.element_positions.push_back(element.key_position);
+  }
+
+  [[nodiscard]] bool passes_axis(const Value& element, const circuit::Element& read) {
+    if (read.r_from > 0 && read.r_to > 0) return true;
+    context_.fault(*element.find("course"), "a drilling through an axis without a distance from it at either end",
+                   "radii: [30 mm, 55 mm], above 0");
+    return false;
   }
 
   [[nodiscard]] circuit::Law law_of(const Value& element) {
@@ -111,6 +177,7 @@ class CircuitReader {
     if (type == "orifice")
       return circuit::Orifice{number_of(element, "diameter"), number_of(element, "discharge_coefficient")};
     if (type == "resistance") return circuit::Resistance{number_of(element, "resistance")};
+    if (type == "cooler") return circuit::Cooler{number_of(element, "resistance"), number_of(element, "conductance")};
     if (type == "relief_valve") return valve_of(element);
     if (type == "pump")
       return circuit::DisplacementPump{number_of(element, "displacement") / two_pi, number_of(element, "leakage")};
@@ -166,6 +233,8 @@ class CircuitReader {
   Context& context_;
   const Value& value_;
   OilCircuit& circuit_;
+  std::optional<double> T_first_;  // of the first node that has one
+  double T_start_ = 0;             // of nodes without a temperature of their own
 };
 
 /// Nodes between which pressures are related, as sets with one representative each.

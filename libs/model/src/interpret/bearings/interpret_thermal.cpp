@@ -116,6 +116,19 @@ const Value* temperature_of(const Value* supply) {
   return supply == nullptr || supply->broken ? nullptr : supply->find("temperature");
 }
 
+/// Node of the thermal network that a feed's node of the circuit is; none where the circuit's oil has one temperature.
+std::optional<film::NetworkNode> node_of_circuit(const Context& context, const Value* feature) {
+  const std::optional<OilCircuit>& circuit = context.model.circuit;
+  const Value* name = feature != nullptr ? feature->find("circuit") : nullptr;
+  if (name == nullptr || !circuit || !circuit->temperatures) return std::nullopt;
+  const auto found = circuit->find_node(name->text);
+  if (!found) return std::nullopt;
+  return film::NetworkNode{.T = circuit->temperatures->T[*found],
+                           .node = circuit->temperatures->nodes[*found],
+                           .name = name->text,
+                           .takes_back = true};
+}
+
 /// Where oil comes from and goes to, and how warm it comes.
 void read_supplies(Context& context, const Value& bearing, const film::FilmModel& film, film::ThermalModel& heat) {
   const Value& thermal = *bearing.find("thermal");
@@ -134,8 +147,11 @@ void read_supplies(Context& context, const Value& bearing, const film::FilmModel
     if (own && temperature != nullptr && !feature.is_fed)
       context.fault(*temperature, "a temperature of a pocket that nothing feeds",
                     "a `pressure` that feeds it, or no temperature: it holds the film's own oil");
-    heat.T_features.push_back(own.value_or(all).T);
-    heat.oil.features.push_back(own.value_or(all).node);
+    const auto of_circuit = node_of_circuit(context, value);
+    if (of_circuit && temperature != nullptr)
+      context.fault(*temperature, "a temperature of a feed whose node of the circuit has one", "one of both");
+    heat.T_features.push_back(of_circuit ? of_circuit->T : own.value_or(all).T);
+    heat.oil.features.push_back(of_circuit ? of_circuit : own.value_or(all).node);
   }
   if (const Value* drain = thermal.find("drains_to"); drain != nullptr && !drain->broken)
     heat.oil.drain = network_node(context, *drain);

@@ -82,7 +82,16 @@ void check_thermal_network(Context& context) {
     const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat);
     if (heat == nullptr) continue;
     for (const auto& [terminal, node] : film::terminals_of(*heat).nodes())
-      is_met[static_cast<std::size_t>(node)] = true;
+      if (static_cast<std::size_t>(node) < is_met.size()) is_met[static_cast<std::size_t>(node)] = true;
+  }
+  if (context.model.circuit && context.model.circuit->temperatures) {
+    const CircuitTemperatures& of_circuit = *context.model.circuit->temperatures;
+    for (const std::size_t node : of_circuit.nodes)
+      if (node < is_met.size()) is_met[node] = true;
+    for (std::size_t e = 0; e < of_circuit.coolants.size(); ++e)
+      if (std::holds_alternative<circuit::Cooler>(context.model.circuit->network.elements[e].law) &&
+          of_circuit.coolants[e] < is_met.size())
+        is_met[of_circuit.coolants[e]] = true;
   }
   for (std::size_t k = 0; k < is_met.size(); ++k) {
     if (is_met[k]) continue;

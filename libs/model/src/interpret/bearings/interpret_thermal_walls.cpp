@@ -18,6 +18,23 @@ void require_way_out_of_drains(Context& context) {
   }
 }
 
+/// Neither does a node of the circuit's oil, nor anything in steady motion.
+void require_way_out_of_circuit(Context& context) {
+  const std::optional<OilCircuit>& circuit = context.model.circuit;
+  if (!circuit || !circuit->temperatures) return;
+  const film::ThermalNetworkModel& network = context.model.thermal.network;
+  for (const film::ThermalNode& node : circuit->temperatures->added)
+    if (node.is_fixed) return;
+  for (const std::size_t node : circuit->temperatures->nodes)
+    if (node < network.nodes.size() && film::reaches_surroundings(network, node)) return;
+  context.faults.push_back(
+      {circuit->position, "circuit",
+       "oil whose heat reaches no surroundings: neither a node nor a coolant keeps its temperature",
+       "a path from the sump to a node with a `fixed` temperature, a cooler, or a node with a "
+       "`temperature` of its own",
+       ""});
+}
+
 }  // namespace
 
 void interpret_thermal_walls(Context& context) {
@@ -32,6 +49,8 @@ void interpret_thermal_walls(Context& context) {
                     "'transient' or 'frozen', or a `simulation.cycle`");
   }
   if (model.thermal_walls == ThermalWalls::cycle_mean) require_way_out_of_drains(context);
+  if (model.thermal_walls == ThermalWalls::cycle_mean || !model.simulation.has_duration())
+    require_way_out_of_circuit(context);
   if (model.thermal_walls == ThermalWalls::transient) return;
   for (Bearing& bearing : model.bearings)
     if (auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) heat->walls = film::WallMotion::fixed;
