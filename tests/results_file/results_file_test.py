@@ -41,7 +41,7 @@ RUNS = {
     "oil_circuit": ["--set", "simulation.duration=2ms"],
     "piston": ["--set", "simulation.duration=2deg"],
     "examples/oil_circuit/passing_hole.yaml": ["--set", "simulation.duration=2ms"],
-    "wear": ["--set", "simulation.duration=2ms"],
+    "wear": ["--set", "simulation.duration=2ms", "--set", "bearings.bush.wear.running_in={roughness: 0.3 um, depth: 0.5 um}"],
     "tests/results_file/thrust.yaml": [],
     "tests/results_file/every_line.yaml": ["--step-error", "--set", "simulation.duration=0.5ms"],
 }
