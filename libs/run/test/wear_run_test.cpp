@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -126,6 +127,25 @@ TEST_CASE("Mirrored_BushesRunInAlike") {
   const Run one({"end=20 ms"}, Status::completed, text), mirrored({"end=20 ms", "sense=-1"}, Status::completed, text);
   CHECK(one.last("roughness_least") < 8e-7);                                                     // [m], at first
   CHECK(mirrored.last("roughness_mean") == relative(one.last("roughness_mean")).epsilon(1e-6));  // solved for
+}
+
+TEST_CASE("ResumedRunningIn_IsTheSame") {
+  const model::Model model = model::read_text(with_running_in("0.3 um", "0.3 um"), "m.yaml", {"end=20 ms"});
+  const TemporaryDirectory folder;
+  const Summary whole = simulate(model, {.results = folder / "whole.h5"});
+  REQUIRE(whole.status == Status::completed);
+  std::atomic<bool> stop{false};
+  int taken = 0;
+  Options part{.results = folder / "parts.h5", .stop = &stop};
+  part.on_progress = [&](const Progress&) { stop = ++taken > 15; };  // of 40 steps
+  REQUIRE(simulate(model, part).status == Status::stopped);
+  const Summary resumed = simulate(model, {.results = folder / "parts.h5", .resume = true});
+  REQUIRE(resumed.status == Status::completed);
+  const results::Reader a(whole.results), b(resumed.results);
+  for (const char* name : {"roughness_mean", "roughness_least", "worn_volume_fixed", "h_min", "power_asperity"}) {
+    const std::string dataset = std::string("/bearings/bush/") + name;
+    CHECK(a.read(dataset).values == b.read(dataset).values);
+  }
 }
 
 TEST_CASE("WornLining_EndsTheRun") {
