@@ -76,6 +76,7 @@ COMMANDS = {
     "tilting_pads/model": [("run",)],
     "start_stop/model": [("run", "simulation.duration=0.3s", "simulation.tolerance=1e-10")],
     "wear/model": [("run", "simulation.duration=20ms")],
+    "wear/scatter": [("run", "doublings=0", "run_in_roughness=0.3um", "simulation.duration=20ms")],
     "spinning_rod/model": [("run", "simulation.duration=10s")],
     "squeeze_film_damper/model": [("bearing",)],
     "squeeze_film_damper/rotor": [("run", "simulation.duration=20ms")],

@@ -43,7 +43,8 @@ RUNS = {
     "examples/oil_circuit/passing_hole.yaml": ["--set", "simulation.duration=2ms", "--set",
                                                 "circuit.elements.crank.course=through_axis"],
     "examples/oil_circuit/warm.yaml": [],
-    "wear": ["--set", "simulation.duration=2ms"],
+    "wear": ["--set", "simulation.duration=2ms", "--set",
+             "bearings.bush.wear.running_in={roughness: 0.3 um, depth: 0.5 um}"],
     "tests/results_file/thrust.yaml": [],
     "tests/results_file/every_line.yaml": ["--step-error", "--set", "simulation.duration=0.5ms"],
 }

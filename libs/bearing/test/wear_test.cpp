@@ -123,6 +123,50 @@ TEST_CASE("AccelerationError_IsHalfTheChangeOfCycles") {
         doctest::Approx(0.5 * (before / 2 - (surfaces.observe().fixed_volume - before))));
 }
 
+// At a constant rate of wear sigma - sigma_end falls exponentially with the sliding distance, at each place by what
+// both surfaces have worn there.
+TEST_CASE("Roughness_RunsInExponentiallyWithSlidingDistance") {
+  const film::FilmModel model = bore();
+  constexpr double ratio = 0.4, depth = 0.5e-6, v = 7.5, dt = 0.1;
+  WearingSurfaces surfaces(model, {.fixed = {k}, .moving = {k / 2}, .running_in = RunningIn{ratio, depth}});
+  const auto half_loaded = contact(model, [](double phi) { return phi > 0 ? p0 : 0.0; });
+  surfaces.wear_off(half_loaded, sliding(v), 0);
+  CHECK(surfaces.roughness_ratio() == Eigen::VectorXd::Ones(model.grid.size()));
+  for (int step = 1; step <= 300; ++step) {
+    surfaces.wear_off(half_loaded, sliding(v), dt);
+    if (step % 100 != 0) continue;
+    const double distance = v * dt * step, worn = k * p0 * distance, of_moving = surfaces.moving()[0];
+    const auto expected = [&](double w) { return ratio + (1 - ratio) * std::exp(-(w + of_moving) / depth); };
+    const Eigen::VectorXd found = surfaces.roughness_ratio();
+    CHECK(found[900 * model.grid.n_z] == doctest::Approx(expected(worn)).epsilon(1e-12));  // round-off of 300 sums
+    CHECK(found[2700 * model.grid.n_z] == doctest::Approx(expected(0)).epsilon(1e-12));    // likewise
+    CHECK(surfaces.observe().roughness_least == found.minCoeff());
+  }
+}
+
+// The film sees over a step the roughness of the wear that opens its gap at the step's end.
+TEST_CASE("RoughnessOfAStep_IsThatOfItsGap") {
+  const film::FilmModel model = bore();
+  WearingSurfaces surfaces(model,
+                           {.fixed = {k}, .moving = {}, .running_in = RunningIn{0.5, 1e-6}, .acceleration = 1e5});
+  const auto even = contact(model, [](double) { return p0; });
+  const auto film = [&](double dt) {
+    film::SurfaceMotion at = sliding(0);
+    at.g = at.g_rate = Eigen::VectorXd::Zero(model.grid.size());
+    surfaces.begin_step(dt);
+    surfaces.add_to({}, {}, at);
+    return std::pair{at.g[0], at.roughness_ratio[0]};
+  };
+  constexpr double dt = 1e-4;  // [s], the step
+  surfaces.wear_off(even, sliding(7.5), 0);
+  CHECK(film(dt) == std::pair{0.0, 1.0});
+  surfaces.accept_step(dt);
+  surfaces.wear_off(even, sliding(7.5), dt);
+  const auto [gap, ratio] = film(dt);
+  CHECK(gap > 0);
+  CHECK(ratio == doctest::Approx(0.5 + 0.5 * std::exp(-gap / 1e-6)));  // the depth of running in
+}
+
 TEST_CASE("WornLining_IsNamedWithItsDepth") {
   const film::FilmModel model = bore();
   WearingSurfaces surfaces(model, {.fixed = {k, 2e-6}, .moving = {}, .acceleration = 1e5});

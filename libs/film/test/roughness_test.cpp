@@ -198,6 +198,37 @@ TEST_CASE("RoughTimeSteps_ConserveOil") {
   CHECK(smallest < 3 * m.roughness.composite_sigma());  // asperities have touched
 }
 
+// Half the roughness in the surfaces' motion, or in the model, with the summits' elastic factor.
+TEST_CASE("RoughnessRatio_IsAFilmOfThatRoughness") {
+  FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = {48, 9}};
+  m.supply = {SupplyKind::widest_gap, 0, 0};
+  m.compliance = 4e-13;
+  m.asperities = {AsperityModel::greenwood_tripp_exact, 2e-6, 3e-3, 57e9, 0.1, 1e-6};
+  m.roughness = rough({1.5e-6, 3}, {1.3e-6, 0.5});
+  FilmModel smoother = m;
+  constexpr double ratio = 0.5;
+  for (double* given :
+       {&smoother.asperities.sigma, &smoother.asperities.elastic_factor, &smoother.asperities.mean_summit_height,
+        &smoother.roughness.shell.sigma, &smoother.roughness.journal.sigma})
+    *given *= ratio;
+  const Journal journal = turning(m, 0.96, 374);
+  SurfaceMotion run_in = surfaces(m, journal);
+  run_in.roughness_ratio = Eigen::VectorXd::Constant(m.grid.size(), ratio);
+  const SolvedFilm expected = solve_cold(smoother, journal), stays = solve_cold(m, journal);
+  REQUIRE(expected.summary.solved());
+  REQUIRE(expected.observed.force_asperity.norm() > 0);
+  CHECK((stays.wrench - expected.wrench).norm() > 0.01 * expected.wrench.norm());  // roughness counts there
+  for (const FilmSolver solver : {FilmSolver::newton, FilmSolver::multigrid}) {
+    const SolvedFilm found = solve_cold(m, run_in, journal.e, {.solver = solver});
+    REQUIRE(found.summary.solved());
+    constexpr double solved_for = 1e-8;  // the film is solved to 1e-10 of its largest flow
+    CHECK((found.wrench - expected.wrench).norm() < solved_for * expected.wrench.norm());
+    CHECK((found.fields.p_asperity - expected.fields.p_asperity).norm() <
+          solved_for * expected.fields.p_asperity.norm());
+    CHECK(found.observed.power_asperity == doctest::Approx(expected.observed.power_asperity).epsilon(solved_for));
+  }
+}
+
 TEST_CASE("RoughSor_AgreesWithNewton") {
   FilmModel m{.R = 0.0225, .L = 0.0156, .c = 34e-6, .grid = {48, 9}};
   m.supply = {SupplyKind::widest_gap, 0, 0};

@@ -32,6 +32,18 @@ TEST_CASE("WearByWorkOfFriction_IsThatOfItsCoefficient") {
   CHECK(wear->fixed.coefficient == doctest::Approx(0.1 / 5e13));
 }
 
+TEST_CASE("RunningIn_IsReadAsRatioOfRoughness") {
+  const std::string text = edited(kBush, "cycle: 40 ms", "running_in: {roughness: 0.2 um, depth: 0.5 um}");
+  const auto run_in = read_text(text, "m.yaml").bearings.front().wear->running_in;
+  REQUIRE(run_in);
+  CHECK(run_in->ratio == doctest::Approx(0.25));
+  CHECK(run_in->depth == doctest::Approx(0.5e-6));
+  CHECK_FALSE(read_text(kBush, "m.yaml").bearings.front().wear->running_in);
+  const std::string fault = faults_of(edited(text, "roughness: 0.2 um", "roughness: 2 um"));
+  CHECK(fault.find("run in from 0.8 um to 2 um") != std::string::npos);
+  CHECK(fault.find("at most `asperities.roughness`") != std::string::npos);
+}
+
 TEST_CASE("FaultsOfWear_SayWhatItNeeds") {
   const std::string asperities =
       "         asperities: {model: greenwood_tripp_fit, roughness: 0.8 um, elastic_factor: 3e-3, composite_modulus: "

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -90,6 +91,61 @@ TEST_CASE("WearWithoutCoefficient_ChangesNoBit") {
 TEST_CASE("Mirrored_BushesWearAlike") {
   const Run one({"end=20 ms"}), mirrored({"end=20 ms", "sense=-1"});
   CHECK(mirrored.last("worn_volume_fixed") == relative(one.last("worn_volume_fixed")).epsilon(1e-6));  // solved for
+}
+
+/// The bush whose roughness wears to a given one.
+std::string with_running_in(const std::string& roughness, const std::string& depth) {
+  std::string text = bush;
+  const std::string before = "cycle: 5 ms";
+  text.insert(text.find(before), "running_in: {roughness: " + roughness + ", depth: " + depth + "}, ");
+  return text;
+}
+
+TEST_CASE("SurfacesThatRunIn_RubLess_AndWearLess") {
+  const std::string text = with_running_in("0.3 um", "0.3 um");
+  const Run stays({}), run_in({}, Status::completed, text);
+  CHECK(run_in.last("roughness_least") < 6e-7);  // of 0.8 um at the start
+  CHECK(run_in.last("roughness_mean") > run_in.last("roughness_least"));
+  CHECK(run_in.last("power_asperity") < 0.9 * stays.last("power_asperity"));
+  CHECK(run_in.last("worn_volume_fixed") < stays.last("worn_volume_fixed"));
+  constexpr double of_oil = 1e-9;
+  CHECK(std::abs(run_in.last("oil_unexplained")) < of_oil * run_in.last("oil_through_flow"));
+}
+
+TEST_CASE("RoughnessThatEndsAsItBegins_OrDoesNotWear_ChangesNoBit") {
+  const Run stays({"end=10 ms"}), same({"end=10 ms"}, Status::completed, with_running_in("0.8 um", "0.3 um"));
+  const Run none({"end=10 ms", "k=0 1/Pa"}),
+      not_worn({"end=10 ms", "k=0 1/Pa"}, Status::completed, with_running_in("0.3 um", "0.3 um"));
+  for (const char* name : {"h_min", "p_max", "power_film", "power_asperity", "wear_fixed"}) {
+    CHECK(stays.series(name) == same.series(name));
+    CHECK(none.series(name) == not_worn.series(name));
+  }
+}
+
+TEST_CASE("Mirrored_BushesRunInAlike") {
+  const std::string text = with_running_in("0.3 um", "0.3 um");
+  const Run one({"end=20 ms"}, Status::completed, text), mirrored({"end=20 ms", "sense=-1"}, Status::completed, text);
+  CHECK(one.last("roughness_least") < 8e-7);                                                     // [m], at first
+  CHECK(mirrored.last("roughness_mean") == relative(one.last("roughness_mean")).epsilon(1e-6));  // solved for
+}
+
+TEST_CASE("ResumedRunningIn_IsTheSame") {
+  const model::Model model = model::read_text(with_running_in("0.3 um", "0.3 um"), "m.yaml", {"end=20 ms"});
+  const TemporaryDirectory folder;
+  const Summary whole = simulate(model, {.results = folder / "whole.h5"});
+  REQUIRE(whole.status == Status::completed);
+  std::atomic<bool> stop{false};
+  int taken = 0;
+  Options part{.results = folder / "parts.h5", .stop = &stop};
+  part.on_progress = [&](const Progress&) { stop = ++taken > 15; };  // of 40 steps
+  REQUIRE(simulate(model, part).status == Status::stopped);
+  const Summary resumed = simulate(model, {.results = folder / "parts.h5", .resume = true});
+  REQUIRE(resumed.status == Status::completed);
+  const results::Reader a(whole.results), b(resumed.results);
+  for (const char* name : {"roughness_mean", "roughness_least", "worn_volume_fixed", "h_min", "power_asperity"}) {
+    const std::string dataset = std::string("/bearings/bush/") + name;
+    CHECK(a.read(dataset).values == b.read(dataset).values);
+  }
 }
 
 TEST_CASE("WornLining_EndsTheRun") {

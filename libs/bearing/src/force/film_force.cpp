@@ -410,6 +410,8 @@ film::FilmFields FilmForce::fields() const {
   if (options_.shell_surface) fields.d_shell = deforming_->shell_displacement(accepted_s_);
   if (options_.journal_surface) fields.d_journal = deforming_->journal_displacement(accepted_s_);
   if (wearing_ != nullptr) fields.worn_fixed = wearing_->fixed(), fields.worn_moving = wearing_->moving();
+  if (wearing_ != nullptr && options_.wear->running_in)
+    fields.roughness = model().asperities.sigma * wearing_->roughness_ratio();
   return fields;
 }
 

@@ -83,6 +83,14 @@ void WearingSurfaces::add_to(const mbd::RelativeMotion& /*motion*/, const GapKin
   add_to_shell(now_.head(area_.size()), surfaces);
   add_to_journal(-at_nodes(now_.tail(around_.size())), surfaces);
   surfaces.g_rate += opening(rate_);
+  if (wear_.running_in) surfaces.roughness_ratio = roughness(now_);
+}
+
+// (wear.6)
+VectorXd WearingSurfaces::roughness(const VectorXd& depths) const {
+  const RunningIn& run_in = *wear_.running_in;
+  return opening(depths).unaryExpr(
+      [&](double worn) { return 1 + (1 - run_in.ratio) * std::expm1(-worn / run_in.depth); });
 }
 
 double WearingSurfaces::power(const VectorXd& normal_forces) const { return opening(rate_).dot(normal_forces); }
@@ -121,6 +129,10 @@ WearObservation WearingSurfaces::observe() const {
                         .moving_depth = of_moving.maxCoeff(),
                         .moving_volume = of_moving.dot(around_),
                         .acceleration_error = error_};
+  if (wear_.running_in) {
+    const VectorXd ratio = roughness(worn_);
+    shown.roughness_least = ratio.minCoeff(), shown.roughness_mean = ratio.dot(area_) / area_.sum();
+  }
   if (sliding_pressure_.size() > 0)
     shown.rate = (wear_.fixed.coefficient + wear_.moving.coefficient) * sliding_pressure_.dot(area_);
   return shown;

@@ -32,11 +32,15 @@ class WearingSurfaces : public SurfaceShape {
   /// Worn depths at the nodes [m]: of the fixed surface, and of the moving one, the same all around.
   [[nodiscard]] Eigen::VectorXd fixed() const { return worn_.head(area_.size()); }
   [[nodiscard]] Eigen::VectorXd moving() const { return at_nodes(worn_.tail(around_.size())); }
+  /// Ratio of roughness to that at the start, at the nodes, of surfaces that run in [-].
+  [[nodiscard]] Eigen::VectorXd roughness_ratio() const { return roughness(worn_); }
   [[nodiscard]] WearObservation observe() const;
   /// Names a lining that has been worn off; empty where there is none.
   [[nodiscard]] std::string failure() const;
 
  private:
+  /// Ratio of roughness to that at the start, at the nodes, where both surfaces have worn by depths [m].
+  [[nodiscard]] Eigen::VectorXd roughness(const Eigen::VectorXd& depths) const;
   /// Values of rows at their nodes.
   [[nodiscard]] Eigen::VectorXd at_nodes(const Eigen::VectorXd& rows) const;
   /// Depths of both surfaces together at the nodes.

@@ -34,7 +34,7 @@ void FlowBalance::evaluate_cell(int i, const SurfaceMotion& motion) {
     return;
   }
   const double h = motion.g[i] - dt_ * motion.g_rate[i] + w_start_[i];
-  const ValueAndSlope from = rough_law_.mean(h);
+  const ValueAndSlope from = rough_law_.mean(h, motion.roughness_at(i));
   cell.start = from.value + excesses_[i] - dt_ * rate_excesses_[i];
   cell.start_slope = from.slope;
   const double least = !has_start_gap_ ? 0 : least_start * gap_start_[i];

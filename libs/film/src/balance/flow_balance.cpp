@@ -219,6 +219,8 @@ void FlowBalance::take_history(const FilmHistory& history) {
 void FlowBalance::take_motion(const SurfaceMotion& motion) {
   const int n = size();
   HERSEY_REQUIRE(motion.g.size() == n && motion.g_rate.size() == n, "gap and rate of shape (grid.size())");
+  HERSEY_REQUIRE(motion.roughness_ratio.size() == 0 || motion.roughness_ratio.size() == n,
+                 "a roughness for each node or none");
   const auto features = static_cast<Eigen::Index>(model_.features.size());
   HERSEY_REQUIRE(motion.feature_pressure.size() == 0 || motion.feature_pressure.size() == features,
                  "a pressure for each feature or none");
@@ -289,14 +291,15 @@ FilmDomain FlowBalance::evaluate_nodes(const SurfaceMotion& motion, const Eigen:
   if (const FilmDomain domain = check_unknowns(model_, u); !domain.is_inside()) return domain;
   for (int i = 0; i < size(); ++i) {
     const Sliding& sliding = sliding_[static_cast<std::size_t>(i % model_.grid.n_z)];
+    const double roughness = motion.roughness_at(i);
     if (is_layered())
-      law_.evaluate(motion.g[i], u[i], i, sliding, node_viscosity(viscosity_, i), nodes_[i]);
+      law_.evaluate(motion.g[i], u[i], i, sliding, roughness, node_viscosity(viscosity_, i), nodes_[i]);
     else
-      law_.evaluate(motion.g[i], u[i], i, sliding, nodes_[i]);
+      law_.evaluate(motion.g[i], u[i], i, sliding, roughness, nodes_[i]);
     if (!std::isfinite(nodes_[i].h) || !std::isfinite(motion.g_rate[i])) return {FilmDomain::Violation::not_finite, i};
     if (nodes_[i].h <= 0) return {FilmDomain::Violation::closed, i};
     if (freezes_deformation_) w_start_[i] = nodes_[i].w;
-    rough_[i] = rough_law_.state(nodes_[i].h);
+    rough_[i] = rough_law_.state(nodes_[i].h, roughness);
     if (is_layered()) skew(viscosity_.skew[i], nodes_[i].h, rough_[i]);
     evaluate_cell(i, motion);
     balance_[i] = storage(i);

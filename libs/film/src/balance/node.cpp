@@ -65,11 +65,11 @@ NodeLaw::NodeLaw(const FilmModel& model)
       contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus),
       uniform_{model.lubricant.mu0, model.lubricant.mu0, 1, model.lubricant.mu0} {}
 
-void NodeLaw::evaluate(double g, double u, int at, const Sliding& sliding, const NodeViscosity& viscosity,
-                       Node& node) const {
+void NodeLaw::evaluate(double g, double u, int at, const Sliding& sliding, double roughness,
+                       const NodeViscosity& viscosity, Node& node) const {
   node = {};
   pressure_and_fill(u, at, node);
-  film_thickness(g, node);
+  film_thickness(g, roughness, node);
   rheology(viscosity, sliding, node);
 }
 
@@ -170,23 +170,23 @@ void NodeLaw::thin(const Sliding& sliding, double log_slope, Node& node) const {
   node.mu_h = -node.mu_rate / node.h;
 }
 
-void NodeLaw::film_thickness(double g, Node& node) const {
+void NodeLaw::film_thickness(double g, double roughness, Node& node) const {
   const double C = model_.compliance, pressed = node.wall - pressure_at_rest(model_);
   // h - g - C (p + p_a(h)) = 0 is increasing and concave in h: Newton's method from the left side rises to the root. A
   // root above zero is not sought below zero, where asperities would be compressed beyond their height.
   node.h = g + C * pressed;
   if (node.h < 0 && C > 0) {
-    contact(0, node);
+    contact(0, roughness, node);
     if (node.h + C * node.asperity > 0) node.h = 0;
   }
-  contact(node.h, node);
+  contact(node.h, roughness, node);
   double slope = 1 - C * node.asperity_h;
   if (C > 0 && node.asperity > 0) {
     for (int i = 0; i < 50; ++i) {
       const double excess = node.h - g - C * (pressed + node.asperity);
       const double step = -excess / slope;
       node.h += step;
-      contact(node.h, node);
+      contact(node.h, roughness, node);
       slope = 1 - C * node.asperity_h;
       if (std::abs(step) <= 1e-15 * model_.c) break;
     }
@@ -196,15 +196,18 @@ void NodeLaw::film_thickness(double g, Node& node) const {
   node.w = C * (pressed + node.asperity);
 }
 
-void NodeLaw::contact(double h, Node& node) const {
+// Summits that run in keep their number per area and the product of number, radius and height: K goes with the height
+// (wear.7).
+void NodeLaw::contact(double h, double roughness, Node& node) const {
   const Asperities& a = model_.asperities;
   if (a.model == AsperityModel::none) return;
   // A film of h <= 0 is closed and has no pressure; the caller decides what follows.
-  const double H = (std::max(h, 0.0) - a.mean_summit_height) / a.sigma;
+  const double sigma = roughness * a.sigma, scale = roughness * contact_scale_;
+  const double H = (std::max(h, 0.0) - roughness * a.mean_summit_height) / sigma;
   const ValueAndSlope F =
       a.model == AsperityModel::greenwood_tripp_fit ? greenwood_tripp_fit(H) : greenwood_tripp_exact(H);
-  node.asperity = contact_scale_ * F.value;
-  node.asperity_h = contact_scale_ * F.slope / a.sigma;
+  node.asperity = scale * F.value;
+  node.asperity_h = scale * F.slope / sigma;
 }
 
 }  // namespace hersey::film

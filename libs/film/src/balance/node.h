@@ -91,17 +91,18 @@ class NodeLaw {
   explicit NodeLaw(const FilmModel& model);
 
   /// Evaluates a node at rest with undeformed gap g [m] and unknown u [Pa]. The caller handles h <= 0.
-  [[nodiscard]] Node state(double g, double u, int node) const {
+  /// @param roughness  over the model's [-]: SurfaceMotion::roughness_at
+  [[nodiscard]] Node state(double g, double u, int node, double roughness) const {
     Node state;
-    evaluate(g, u, node, {}, state);
+    evaluate(g, u, node, {}, roughness, state);
     return state;
   }
   /// Evaluates a node that slides.
-  void evaluate(double g, double u, int node, const Sliding& sliding, Node& state) const {
-    evaluate(g, u, node, sliding, uniform_, state);
+  void evaluate(double g, double u, int node, const Sliding& sliding, double roughness, Node& state) const {
+    evaluate(g, u, node, sliding, roughness, uniform_, state);
   }
   /// Evaluates a node whose oil has a viscosity of its own.
-  void evaluate(double g, double u, int node, const Sliding& sliding, const NodeViscosity& viscosity,
+  void evaluate(double g, double u, int node, const Sliding& sliding, double roughness, const NodeViscosity& viscosity,
                 Node& state) const;
 
  private:
@@ -110,8 +111,8 @@ class NodeLaw {
   void thin(const Sliding& sliding, double log_slope, Node& node) const;
   void add_turbulence(const Sliding& sliding, double log_slope, Node& node) const;
   static void set_flow(const Sliding& sliding, const Fluidity& along, const Fluidity& across, Node& node);
-  void film_thickness(double g, Node& node) const;
-  void contact(double h, Node& node) const;
+  void film_thickness(double g, double roughness, Node& node) const;
+  void contact(double h, double roughness, Node& node) const;
 
   const FilmModel& model_;
   const CavitationLaw& cavitation_;

@@ -25,9 +25,10 @@ class RoughGapLaw {
   explicit RoughGapLaw(const Roughness& roughness);
 
   [[nodiscard]] bool is_smooth() const { return sigma_ == 0; }
-  [[nodiscard]] RoughGap state(double h) const;
+  /// @param roughness  over that of the model [-], > 0
+  [[nodiscard]] RoughGap state(double h, double roughness = 1) const;
   /// Returns the mean gap [m] at a distance h of the mean planes [m], which may be negative, and its slope.
-  [[nodiscard]] ValueAndSlope mean(double h) const;
+  [[nodiscard]] ValueAndSlope mean(double h, double roughness = 1) const;
 
  private:
   struct Direction {

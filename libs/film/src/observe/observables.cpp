@@ -237,9 +237,9 @@ FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, cons
       sliding = sliding_of(along * (motion.u_journal - motion.u_shell), motion.w_journal - motion.w_shell);
     }
     if (is_turbulent && viscosity.fluidity.size() != 0)
-      law.evaluate(motion.g[i], u[i], i, sliding, node_viscosity(viscosity, i), nodes[i]);
+      law.evaluate(motion.g[i], u[i], i, sliding, motion.roughness_at(i), node_viscosity(viscosity, i), nodes[i]);
     else
-      law.evaluate(motion.g[i], u[i], i, sliding, nodes[i]);
+      law.evaluate(motion.g[i], u[i], i, sliding, motion.roughness_at(i), nodes[i]);
   }
   FilmFields fields = fields_of(nodes);
   if (!is_turbulent) return fields;

@@ -13,6 +13,7 @@ CoarseFilm coarsened(const FilmModel& model, const SurfaceMotion& motion, const 
   coarse.u = to_coarse(u).unaryExpr([fill](double value) { return value < 0 ? fill * value : value; });
   coarse.motion.g = to_coarse(motion.g);
   coarse.motion.g_rate = to_coarse(motion.g_rate);
+  if (motion.roughness_ratio.size() != 0) coarse.motion.roughness_ratio = to_coarse(motion.roughness_ratio);
   coarse.motion.shell_opening.resize(0);  // affects forces only
   if (history.viscosity.fluidity.size() != 0) {
     coarse.history.viscosity = {to_coarse(history.viscosity.fluidity), to_coarse(history.viscosity.shear_fluidity),

@@ -68,7 +68,9 @@ double step_length(const FilmModel& model, const SurfaceMotion& motion, const Ei
   double step_length = 1;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     const int node = static_cast<int>(i);
-    const Node before = law.state(motion.g[i], u[i], node), after = law.state(motion.g[i], u[i] + du[i], node);
+    const double roughness = motion.roughness_at(i);
+    const Node before = law.state(motion.g[i], u[i], node, roughness),
+               after = law.state(motion.g[i], u[i] + du[i], node, roughness);
     const double exponent = log_viscosity_ratio(oil, after.p).value - log_viscosity_ratio(oil, before.p).value;
     const double relative = std::max(std::abs(exponent), C * std::abs(after.p - before.p) / before.h);
     if (relative > largest_change) step_length = std::min(step_length, largest_change / relative);

@@ -140,11 +140,18 @@ TypePtr wear_format(const SurfaceKeys& surfaces) {
                                    optional("lining", quantity("m", "20 um", Range::positive()),
                                             "Depth that may wear off; a run ends there.", "no end")}),
       {"coefficient", "energy_density"});
+  const TypePtr running_in =
+      object("running in of the roughness",
+             {required("roughness", quantity("m", "0.4 um", Range::positive()),
+                       "Composite rms height that the asperities wear to, at most `asperities.roughness`."),
+              required("depth", quantity("m", "0.5 um", Range::positive()),
+                       "Worn off both surfaces together where a share 1/e of the change is still to come.")});
   return object("wear",
                 {optional(surfaces.fixed, surface, "Of the fixed surface, place by place.", "none"),
                  optional(surfaces.moving, surface, "Of the moving surface, evenly around.", "none"),
                  defaulted("acceleration", number("1000", {.low = 0, .high = 1e9, .low_open = true}), "1",
                            "Times that wear counts: one cycle stands for as many."),
+                 optional("running_in", running_in, "Roughness that follows wear, place by place.", "it stays"),
                  optional("cycle", quantity("s", "40 ms", Range::positive()),
                           "After which loads repeat: for the uncertainty by the acceleration.", "not estimated")});
 }

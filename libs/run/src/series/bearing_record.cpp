@@ -155,10 +155,16 @@ bool wears(const BearingPlan& plan) { return plan.bearing.wear.has_value(); }
 
 bool wears_by_cycles(const BearingPlan& plan) { return wears(plan) && plan.bearing.wear->cycle > 0; }
 
+bool runs_in(const BearingPlan& plan) { return wears(plan) && plan.bearing.wear->running_in.has_value(); }
+
 using Wear = bearing::WearObservation;
 
 auto of_wear(double Wear::*member) {
   return [member](const BearingRow& row) { return *row.observation.wear.*member; };
+}
+
+auto roughness_of(double Wear::*ratio) {
+  return [ratio](const BearingRow& row) { return row.model->asperities.sigma * *row.observation.wear.*ratio; };
 }
 
 using Heat = film::HeatObservables;
@@ -405,6 +411,12 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
            {.note = "with `wear.cycle`",
             .only = wears_by_cycles,
             .summary_entries = {{Statistic::at_end, "uncertainty of the worn volume by its acceleration", "mm³"}}}),
+      line("roughness_mean", roughness_of(&Wear::roughness_mean),
+           {.note = "this and the following: with `wear.running_in`",
+            .only = runs_in,
+            .summary_entries = {{Statistic::at_end, "mean roughness at the end", "µm"}}}),
+      line("roughness_least", roughness_of(&Wear::roughness_least),
+           {.only = runs_in, .summary_entries = {{Statistic::at_end, "smallest roughness at the end", "µm"}}}),
       line("cavitated_share", of_film(&Film::cavitated_share)),
       line("rupture_angle", of_film(&Film::rupture_angle),
            {.note = "with the flow, of its widest cavity", .only = is_round}),

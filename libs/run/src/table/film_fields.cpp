@@ -36,6 +36,8 @@ const std::vector<FilmField>& film_fields() {
        "", of_wear},
       {"moving_wear", "m", "depth worn off the moving surface", "wear of the moving surface", "um", 1e6,
        &F::worn_moving, "", of_wear},
+      {"roughness", "m", "composite rms roughness of the asperities", "roughness of the asperities", "um", 1e6,
+       &F::roughness, "sigma", "of bearings with `wear.running_in`"},
       temperature("temperature", "oil temperature", "temperature of the oil, mean over the thickness", &F::T, "T"),
       temperature("shell_temperature", "shell temperature", "temperature of the shell's surface, or of pads' faces",
                   &F::T_shell, "T_S"),

@@ -11,21 +11,29 @@ struct SurfaceWear {
   double lining = std::numeric_limits<double>::infinity();  ///< depth that may wear off before the run ends [m], > 0
 };
 
+/// Roughness that follows wear: it tends to that of surfaces which have run in (theory manual, wear.6).
+struct RunningIn {
+  double ratio = 1;  ///< of the roughness in the end to that at the start [-], in (0, 1]
+  double depth = 1;  ///< worn off both surfaces where 1/e of the change is still to come [m], > 0
+};
+
 /// Wear of both surfaces of a bearing. The fixed one wears node by node; the moving one passes the contact with all of
 /// its circumference, and wears evenly around.
 struct WearModel {
   SurfaceWear fixed, moving;
-  double acceleration = 1;  ///< times that wear counts, > 0: a cycle stands for as many
-  double cycle = 0;         ///< after which loads repeat, for the error of an acceleration [s]; 0: unknown
+  std::optional<RunningIn> running_in = {};  ///< of their roughness; unset: it stays
+  double acceleration = 1;                   ///< times that wear counts, > 0: a cycle stands for as many
+  double cycle = 0;  ///< after which loads repeat, for the error of an acceleration [s]; 0: unknown
 };
 
 /// Figures of the wear since the start of a run, all of its acceleration included.
 struct WearObservation {
-  double fixed_depth = 0;    ///< largest worn depth of the fixed surface [m]
-  double fixed_volume = 0;   ///< worn off it [m^3]
-  double moving_depth = 0;   ///< largest of the moving surface [m]
-  double moving_volume = 0;  ///< [m^3]
-  double rate = 0;           ///< volume worn off both per time, without acceleration [m^3/s]
+  double fixed_depth = 0;                          ///< largest worn depth of the fixed surface [m]
+  double fixed_volume = 0;                         ///< worn off it [m^3]
+  double moving_depth = 0;                         ///< largest of the moving surface [m]
+  double moving_volume = 0;                        ///< [m^3]
+  double roughness_least = 1, roughness_mean = 1;  ///< ratio of roughness to that at the start, over the film [-]
+  double rate = 0;                                 ///< volume worn off both per time, without acceleration [m^3/s]
   /// Uncertainty of the worn volume by the acceleration: half of how much the wear of each cycle differs from that of
   /// the one before, over all cycles [m^3] (theory manual, wear.5).
   double acceleration_error = 0;

@@ -216,6 +216,12 @@ struct SurfaceMotion {
   double phi_supply = 0;                  ///< where the supply line is now [rad]; ignored without one
   double phi_journal = 0;                 ///< rotation of the journal over the grid [rad]; moves the journal's features
   Eigen::VectorXd feature_pressure = {};  ///< pressure of each feature [Pa], at least p_cav counts; empty: the model's
+  /// Roughness of both surfaces over that of the model, as they run in [-], > 0, shape (grid.size()); empty: 1.
+  Eigen::VectorXd roughness_ratio = {};
+  /// Returns that ratio at a node.
+  [[nodiscard]] double roughness_at(Eigen::Index node) const {
+    return roughness_ratio.size() == 0 ? 1 : roughness_ratio[node];
+  }
 };
 
 /// Viscosities of an oil whose temperature varies over the film, at the cavitation pressure: integrals over the layers

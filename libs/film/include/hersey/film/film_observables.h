@@ -24,6 +24,8 @@ struct FilmFields {
   Eigen::VectorXd d_shell, d_journal;
   /// Depth worn off both surfaces [m]; empty where they do not wear. The bearing fills them in.
   Eigen::VectorXd worn_fixed, worn_moving;
+  /// Composite rms roughness of asperities that run in [m]; empty where it stays. The bearing fills it in.
+  Eigen::VectorXd roughness;
   /// Temperatures: mean over the thickness, of both surfaces, of the hottest layer [K]; empty without. FilmHeat fills
   /// them in (TemperatureFields).
   Eigen::VectorXd T, T_shell, T_journal, T_hottest;

@@ -62,6 +62,7 @@ class FilmReader {
   void read_compliance();
   void read_wear();
   bearing::SurfaceWear wear_of(const Value& wear, const std::string& surface);
+  bearing::RunningIn running_in_of(const Value& run_in);
   void require_use_of_materials();
   std::optional<double> composite_modulus_of(const Value& parent);
 

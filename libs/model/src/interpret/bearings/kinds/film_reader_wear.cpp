@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <variant>
 
 #include "interpret/bearings/kinds/film_reader.h"
@@ -29,6 +30,20 @@ void FilmReader::read_wear() {
                                      .moving = wear_of(*wear, surfaces_.moving),
                                      .acceleration = number_of(*wear, "acceleration"),
                                      .cycle = cycle != nullptr && !cycle->broken ? cycle->number : 0};
+  if (const Value* run_in = wear->find("running_in"); run_in != nullptr && !run_in->broken)
+    bearing_.wear->running_in = running_in_of(*run_in);
+}
+
+bearing::RunningIn FilmReader::running_in_of(const Value& run_in) {
+  bearing::RunningIn read;
+  if (context_.has_fault_in(run_in.path) || film_.asperities.model == film::AsperityModel::none) return read;
+  const double end = number_of(run_in, "roughness"), start = film_.asperities.sigma;
+  if (end > start)
+    context_.fault(*run_in.find("roughness"),
+                   fmt::format("surfaces that run in from {:.4g} um to {:.4g} um", 1e6 * start, 1e6 * end),
+                   fmt::format("at most `asperities.roughness`, {:.4g} um", 1e6 * start),
+                   "surfaces that get rougher as they wear are not modelled");
+  return {.ratio = std::min(end / start, 1.0), .depth = number_of(run_in, "depth")};
 }
 
 bearing::SurfaceWear FilmReader::wear_of(const Value& wear, const std::string& surface) {
