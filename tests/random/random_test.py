@@ -13,6 +13,10 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
+import fitted_machines  # noqa: E402
+import fitted_parts  # noqa: E402
+import fitted_rotor  # noqa: E402
+import model_text  # noqa: E402
 import random_models  # noqa: E402
 import rotor_bearings  # noqa: E402
 
@@ -57,6 +61,12 @@ class RandomModels(unittest.TestCase):
                 ending, text, findings, _ = rotor_bearings.examine(HERSEY, "1", name, os.path.abspath("random-models"))
                 self.assertEqual((ending, findings), ("answer", []), text)
 
+    def test_machines_with_circuits_skirts_and_wear(self):
+        for name in [f"{kind}-{k}" for kind in fitted_machines.KINDS for k in range(2)]:
+            with self.subTest(name):
+                ending, text, findings, _ = fitted_machines.examine(HERSEY, "1", name, os.path.abspath("random-models"))
+                self.assertEqual((ending, findings), ("answer", []), text)
+
     def test_machines_0_to_4(self):
         self.fulfil("machine", 0, 5)
 
@@ -68,6 +78,37 @@ class RandomModels(unittest.TestCase):
 
     def test_machines_15_to_19(self):
         self.fulfil("machine", 15, 5)
+
+
+class TheChecksOfFittedMachines(unittest.TestCase):
+    """Machines that are not the same are found out."""
+
+    def test_a_thinner_oil_is_another_machine(self):
+        self.assert_found(lambda model: model["lubricants"]["oil"].update(viscosity="19.9 mPa.s"), mu=20e-3)
+
+    def test_a_drilling_a_hundredth_longer_is_another_circuit(self):
+        def lengthen(model):
+            for way in fitted_parts.ways(model["circuit"]):
+                entry = model["circuit"]["elements"][way]
+                for key in entry.keys() & {"length", "resistance", "diameter"}:
+                    value, unit = entry[key].split()
+                    entry[key] = f"{1.01 * float(value)} {unit}"
+        self.assert_found(lengthen)
+
+    def assert_found(self, alter, **given):
+        import copy
+        import random
+        import tempfile
+
+        case = fitted_rotor.Rotor(random.Random("altered"))
+        vars(case).update(given)
+        model = case.model()
+        altered = copy.deepcopy(model)
+        alter(altered)
+        with tempfile.TemporaryDirectory() as folder:
+            _, one = fitted_machines.solved(HERSEY, model_text.yaml(model), folder, "model")
+            _, other = fitted_machines.solved(HERSEY, model_text.yaml(altered), folder, "altered")
+        self.assertNotEqual(fitted_machines.differences(one, other, fitted_parts.Writing(altered)), [])
 
 
 class TheChecks(unittest.TestCase):

@@ -58,6 +58,28 @@ std::array<SkirtSide, 2> sides(const Skirt& s, const SteadyState& state) {
 
 double order(double coarse, double fine) { return std::log2(std::abs(coarse / fine)); }
 
+// A skirt in the middle that only rocks squeezes a film of constant thickness at the rate t' z: without a cavity, which
+// the pressure outside prevents, its sides resist with the moment mu t' L^5 b/(60 c^3) each.
+TEST_CASE("SkirtThatOnlyRocks_IsASqueezedFilm") {
+  constexpr double rate = 0.5, narrow = 0.005, outside = 1e6;  // peaks reach half of the pressure outside
+  const double exact = 2 * mu * rate * std::pow(L, 5) * R * narrow / (60 * std::pow(c, 3));
+  std::array<double, 2> errors{};
+  for (const int k : {0, 1}) {
+    const int rows = k == 0 ? 21 : 41;
+    Skirt s = skirt({}, 0, 0, 0, 4, rows);
+    s.model.grid = skirt_grid(narrow, narrow, 4, rows);
+    s.model.edge_left.pressure = s.model.edge_right.pressure = outside;
+    for (film::PatchEnds& ends : s.model.ends) ends.first.kind = ends.last.kind = film::EdgeKind::closed;
+    s.point.tilt_rate.x() = rate;
+    const SteadyState state = s.solve();
+    errors[static_cast<std::size_t>(k)] = std::abs(state.film.wrench_on_shell[1]) / exact - 1;
+    CHECK(std::abs(load(state)) < 1e-6 * exact / L);  // both sides alike; solved to 1e-8
+  }
+  // The pressure is a cubic, which central differences solve exactly; its moment, a quartic, is summed by parabolas.
+  CHECK(std::abs(errors[0]) < 5e-4);  // (1/20)^4 times some 80
+  CHECK(std::abs(errors[1]) < 3e-5);  // a sixteenth
+}
+
 // Its sides closed, a narrow skirt is Reynolds' taper (slider.8), whose inclination is the tilt: the film of the thrust
 // side narrows towards the edge that trails, that of the other side widens.
 TEST_CASE("NarrowSkirt_IsAPlaneSlider") {

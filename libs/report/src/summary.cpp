@@ -31,9 +31,10 @@ struct SiUnit {
 };
 
 SiUnit si_of(const std::string& unit) {
-  constexpr std::array<SiUnit, 12> known{{{"°C", "degC", 1, 1},
+  constexpr std::array<SiUnit, 13> known{{{"°C", "degC", 1, 1},
                                           {"µm", "m", 1e-6, 1e6},
                                           {"MPa", "Pa", 1e6, 1e-6},
+                                          {"bar", "Pa", 1e5, 1e-5},
                                           {"N·mm", "N.m", 1e-3, 1e3},
                                           {"mm³/s", "m^3/s", 1e-9, 1e9},
                                           {"mm³", "m^3", 1e-9, 1e9},

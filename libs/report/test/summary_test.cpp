@@ -87,10 +87,14 @@ void write_cycles(const std::filesystem::path& path, double complete, double con
   const std::string bearing = "/bearings/big_end/", cycles = bearing + "cycles/fields/";
   const results::Series time = writer.series("/time", 1, "s", "test series");
   const std::vector<std::pair<std::string, double>> rows{
-      {"begin", 0.02},          {"end", 0.04},        {"complete", complete}, {"energy_film", 3},
-      {"energy_asperity", 0.5}, {"power_film", 150},  {"power_asperity", 25}, {"moft", 2e-6},
-      {"moft_time", 0.03},      {"moft_phi", 0.5},    {"moft_z", 1e-3},       {"contact", contact},
-      {"contact_time", 0.025},  {"contact_phi", 1.5}, {"contact_z", 0}};
+      {"begin", 0.02},          {"end", 0.04},
+      {"complete", complete},   {"energy_film", 3},
+      {"energy_asperity", 0.5}, {"power_film", 150},
+      {"power_asperity", 25},   {"moft", 2e-6},
+      {"moft_time", 0.03},      {"moft_phi", 0.5},
+      {"moft_z", 1e-3},         {"contact", contact},
+      {"contact_time", 0.025},  {"contact_phi", 1.5},
+      {"contact_z", 0},         {"friction_mean_effective_pressure", 7000}};
   writer.constant(bearing + "fields/phi", std::vector<double>{0, 1.5, 3}, "rad", "bearing angle");
   writer.constant(bearing + "fields/z", std::vector<double>{-0.01, 0.01}, "m", "axial position");
   for (const auto& [name, value] : rows) {
@@ -118,6 +122,9 @@ TEST_CASE("LastCycle_HasItsLossesAndLoads") {
   CHECK(moft.value == doctest::Approx(2).epsilon(round_off));
   CHECK(moft.where == "t = 30 ms, φ = 28.6°, z = 1.00 mm");
   CHECK(find(rows, "largest contact pressure, last cycle").value == doctest::Approx(80).epsilon(round_off));
+  const SummaryRow& friction = find(rows, "friction mean effective pressure of the skirt, last cycle");
+  CHECK(friction.value == doctest::Approx(0.07).epsilon(round_off));
+  CHECK(friction.unit == "bar");
   const SummaryRow& wear = find(rows, "largest wear load, last cycle");
   CHECK(wear.value == doctest::Approx(7).epsilon(round_off));
   CHECK(wear.unit == "W/mm²");

@@ -45,6 +45,23 @@ TEST_CASE("JointAcrossItsBearing_IsWarnedOf") {
   CHECK(axis_warnings_of(constrained("0 0.02 1")).size() == 1);
 }
 
+TEST_CASE("RodThatAPlaneKeepsInItsGuide_IsNotWarnedOf") {
+  const auto valve = [](const std::string& axis, const std::string& rates) {
+    return R"(hersey: 1
+lubricants: {oil: {viscosity: 10 mPa.s}}
+bodies: {valve: {mass: 60 g, inertia: {xx: 5e-5 kg.m^2, yy: 5e-5 kg.m^2, zz: 5e-5 kg.m^2}}}
+joints: {plane: {type: planar, between: [ground, valve], axis: )" +
+           axis + ", initial: {" + rates + R"(}}}
+bearings:
+  guide: {shell: ground, journal: valve, diameter: 6 mm, width: 40 mm, radial_clearance: 20 um, lubricant: oil}
+simulation: {duration: 10 ms, step: 0.05 ms}
+)";
+  };
+  CHECK(axis_warnings_of(valve("y", "x_rate: 0 m/s")).empty());
+  CHECK(axis_warnings_of(valve("0 0.707 0.707", "x_rate: 0 m/s")).size() == 1);  // rotates half across
+  CHECK(axis_warnings_of(valve("y", "rotation_rate: 1000 rpm")).size() == 1);    // strikes the guide
+}
+
 TEST_CASE("JournalThatRotatesAcrossItsBearing_IsWarnedOf") {
   // No joint connects pin and rod; the pin's hinge on ground rotates it about x.
   const std::vector<std::string> warnings =

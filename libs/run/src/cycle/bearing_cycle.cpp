@@ -1,5 +1,8 @@
 #include "cycle/bearing_cycle.h"
 
+#include <algorithm>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 #include "hersey/core/contract.h"
@@ -15,11 +18,17 @@ void persist_extreme(Archive& archive, const char* name, FilmExtreme& extreme) {
 
 }  // namespace
 
+double BearingCycle::friction_mean_effective_pressure(double R) const {
+  if (stroke() <= 0) return std::numeric_limits<double>::quiet_NaN();
+  return (energy_film + energy_asperity) / (std::numbers::pi * R * R * stroke());
+}
+
 void CycleSums::take(double t, const bearing::BearingObservation& observation, const film::FilmFields& fields) {
   const film::FilmObservables& film = observation.film;
   Sample next{.power_film = film.power_film,
               .power_asperity = film.power_asperity,
               .sliding_speed = film.sliding_speed,
+              .speed = observation.position.speed,
               .contact = fields.p_asperity,
               .moft = {film.h_min, t, film.h_min_phi, film.h_min_z},
               .pofp = {film.p_max, t, film.p_max_phi, film.p_max_z},
@@ -67,6 +76,8 @@ void CycleSums::begin(double t) {
 void CycleSums::integrate(double dt, const Sample& next) {
   cycle_.energy_film += 0.5 * dt * (last_.power_film + next.power_film);
   cycle_.energy_asperity += 0.5 * dt * (last_.power_asperity + next.power_asperity);
+  cycle_.way += 0.5 * dt * (last_.speed + next.speed);
+  cycle_.lowest = std::min(cycle_.lowest, cycle_.way), cycle_.highest = std::max(cycle_.highest, cycle_.way);
   cycle_.mean_contact += 0.5 * dt * (last_.contact + next.contact);
   cycle_.wear_load += 0.5 * dt * (last_.contact * last_.sliding_speed + next.contact * next.sliding_speed);
 }
@@ -100,6 +111,7 @@ void CycleSums::persist(Archive& archive) {
   BearingCycle& c = cycle_;
   archive.io("is_begun", is_begun_), archive.io("begin", c.begin), archive.io("end", c.end);
   archive.io("energy_film", c.energy_film), archive.io("energy_asperity", c.energy_asperity);
+  archive.io("way", c.way), archive.io("lowest", c.lowest), archive.io("highest", c.highest);
   persist_extreme(archive, "moft", c.moft), persist_extreme(archive, "pofp", c.pofp);
   persist_extreme(archive, "contact", c.contact), persist_extreme(archive, "hottest", c.hottest);
   archive.io("wall_correction", c.walls.largest), archive.io("wall_rise", c.walls.rise);
@@ -108,7 +120,8 @@ void CycleSums::persist(Archive& archive) {
   archive.io("p_max", c.p_max), archive.io("t_p_max", c.t_p_max);
   const Archive::Group group(archive, "last");
   archive.io("power_film", last_.power_film), archive.io("power_asperity", last_.power_asperity);
-  archive.io("sliding_speed", last_.sliding_speed), archive.io("contact", last_.contact);
+  archive.io("sliding_speed", last_.sliding_speed), archive.io("speed", last_.speed);
+  archive.io("contact", last_.contact);
   persist_extreme(archive, "moft", last_.moft), persist_extreme(archive, "pofp", last_.pofp);
   persist_extreme(archive, "hottest", last_.hottest);
   archive.io("wall_correction", last_.walls.largest), archive.io("wall_rise", last_.walls.rise);

@@ -21,6 +21,8 @@ struct BearingCycle {
   double begin = 0, end = 0;       ///< [s]
   double energy_film = 0;          ///< viscous dissipation [J]
   double energy_asperity = 0;      ///< boundary friction [J]
+  double way = 0;                  ///< of a skirt along its liner, from where it was at the begin [m]
+  double lowest = 0, highest = 0;  ///< extremes of `way` [m]
   FilmExtreme moft, pofp;          ///< minimum oil film thickness [m], peak oil film pressure [Pa]
   FilmExtreme contact;             ///< largest contact pressure of a node [Pa]
   FilmExtreme hottest;             ///< hottest oil [K]; 0 K of a film without temperatures
@@ -30,6 +32,10 @@ struct BearingCycle {
   Eigen::VectorXd h_min, t_h_min;  ///< smallest film thickness [m] and when [s]
   Eigen::VectorXd p_max, t_p_max;  ///< largest film pressure [Pa] and when [s]
   [[nodiscard]] double duration() const { return end - begin; }
+  [[nodiscard]] double stroke() const { return highest - lowest; }
+
+  /// Friction mean effective pressure (skirt.11) of a skirt in a liner of radius R [Pa]; NaN of one that does not move.
+  [[nodiscard]] double friction_mean_effective_pressure(double R) const;
 };
 
 /// Gathers a bearing's accepted states into cycles. Integrals over time are by the trapezoidal rule.
@@ -53,6 +59,7 @@ class CycleSums {
  private:
   struct Sample {
     double power_film = 0, power_asperity = 0, sliding_speed = 0;
+    double speed = 0;  // of a journal [rad/s], along a straight way [m/s]
     Eigen::VectorXd contact;
     FilmExtreme moft, pofp, hottest;
     film::WallCorrection walls;

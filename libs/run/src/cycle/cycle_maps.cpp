@@ -1,6 +1,7 @@
 #include "cycle/cycle_maps.h"
 
 #include <string>
+#include <variant>
 
 #include "hersey/bearing/film_coordinates.h"
 
@@ -20,6 +21,7 @@ auto of_cycle(Member member) {
 bool is_of_plane(const model::Bearing& bearing) { return !film::is_round(bearing.film.surface); }
 bool is_of_annulus(const model::Bearing& bearing) { return bearing::is_on_annulus(bearing.film); }
 bool has_axial_place(const model::Bearing& bearing) { return !is_of_annulus(bearing); }
+bool is_of_skirt(const model::Bearing& bearing) { return std::holds_alternative<film::Skirt>(bearing.film.surface); }
 bool is_of_angle(const model::Bearing& bearing) { return !is_of_plane(bearing); }
 
 /// Energy over the cycle's duration.
@@ -107,6 +109,19 @@ const CycleTable& cycle_quantities() {
           mean_power(&C::energy_asperity),
           {.summary_entries = {
                {Statistic::at_end, "mean power loss in asperity contact", "W", false, Only::of_a_cycle}}}}});
+    lines.insert(lines.end(),
+                 {{"stroke",
+                   "m",
+                   "way between the skirt's extreme places along the liner",
+                   of_cycle(&C::stroke),
+                   {.note = "this and the following: of `kind: skirt`", .only = is_of_skirt}},
+                  {"friction_mean_effective_pressure",
+                   "Pa",
+                   "energy lost in film and contact of the skirt over the displaced volume",
+                   [](const CycleRow& row) { return row.cycle.friction_mean_effective_pressure(row.radius); },
+                   {.only = is_of_skirt,
+                    .summary_entries = {{Statistic::at_end, "friction mean effective pressure of the skirt", "bar",
+                                         false, Only::of_a_cycle}}}}});
     add_extreme("contact", "Pa", "largest contact pressure of a node", &C::contact,
                 {Statistic::at_end, "largest contact pressure", "MPa", true, Only::with_contact}, lines);
     const auto of_hot_film = [](const model::Bearing& bearing) {

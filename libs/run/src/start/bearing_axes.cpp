@@ -57,6 +57,7 @@ class AxisCheck {
     for (const mbd::JointSpec& joint : spec_.joints) {
       if (!mbd::rotates_about_one_axis(joint.type) || !joins(joint, shell, journal)) continue;
       const double angle = std::acos(std::min(1.0, std::abs(in_ground(joint.inboard, joint.axis).dot(axis))));
+      if (slides_along(joint, angle, most)) continue;
       if (angle > most) return warnings.push_back(across(bearing, joint.name, angle));
     }
     const Vector3 relative = start_.bodies[journal].omega - start_.bodies[shell].omega;
@@ -70,6 +71,12 @@ class AxisCheck {
     const std::size_t in = groups_.of(RigidGroups::body_of(spec_, joint.inboard));
     const std::size_t out = groups_.of(RigidGroups::body_of(spec_, joint.outboard));
     return std::minmax(in, out) == std::minmax(groups_.of(a), groups_.of(b));
+  }
+
+  /// True of a planar joint whose plane contains the bearing's axis: along it a rod slides through its guide, in which
+  /// it rocks.
+  static bool slides_along(const mbd::JointSpec& joint, double angle, double most) {
+    return joint.type == mbd::JointType::planar && std::abs(angle - 0.5 * std::numbers::pi) <= most;
   }
 
   [[nodiscard]] Vector3 in_ground(mbd::FrameId frame, const Vector3& direction) const {
