@@ -86,7 +86,7 @@ void WearingSurfaces::add_to(const mbd::RelativeMotion& /*motion*/, const GapKin
   if (wear_.running_in) surfaces.roughness_ratio = roughness(now_);
 }
 
-// (wear.6)
+// (wear.5)
 VectorXd WearingSurfaces::roughness(const VectorXd& depths) const {
   const RunningIn& run_in = *wear_.running_in;
   return opening(depths).unaryExpr(

@@ -197,7 +197,7 @@ void NodeLaw::film_thickness(double g, double roughness, Node& node) const {
 }
 
 // Summits that run in keep their number per area and the product of number, radius and height: K goes with the height
-// (wear.7).
+// (wear.6).
 void NodeLaw::contact(double h, double roughness, Node& node) const {
   const Asperities& a = model_.asperities;
   if (a.model == AsperityModel::none) return;

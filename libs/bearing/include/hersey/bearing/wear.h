@@ -11,7 +11,7 @@ struct SurfaceWear {
   double lining = std::numeric_limits<double>::infinity();  ///< depth that may wear off before the run ends [m], > 0
 };
 
-/// Roughness that follows wear: it tends to that of surfaces which have run in (theory manual, wear.6).
+/// Roughness that follows wear: it tends to that of surfaces which have run in (theory manual, wear.5).
 struct RunningIn {
   double ratio = 1;  ///< of the roughness in the end to that at the start [-], in (0, 1]
   double depth = 1;  ///< worn off both surfaces where 1/e of the change is still to come [m], > 0
@@ -35,7 +35,7 @@ struct WearObservation {
   double roughness_least = 1, roughness_mean = 1;  ///< ratio of roughness to that at the start, over the film [-]
   double rate = 0;                                 ///< volume worn off both per time, without acceleration [m^3/s]
   /// Uncertainty of the worn volume by the acceleration: half of how much the wear of each cycle differs from that of
-  /// the one before, over all cycles [m^3] (theory manual, wear.5).
+  /// the one before, over all cycles [m^3] (theory manual, wear.7).
   double acceleration_error = 0;
 };
 
