@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "hersey/run/quantities.h"
+#include "lift_off.h"
 #include "run_names.h"
 
 namespace hersey::report {
@@ -31,7 +34,7 @@ struct SiUnit {
 };
 
 SiUnit si_of(const std::string& unit) {
-  constexpr std::array<SiUnit, 13> known{{{"°C", "degC", 1, 1},
+  constexpr std::array<SiUnit, 14> known{{{"°C", "degC", 1, 1},
                                           {"µm", "m", 1e-6, 1e6},
                                           {"MPa", "Pa", 1e6, 1e-6},
                                           {"bar", "Pa", 1e5, 1e-5},
@@ -43,7 +46,8 @@ SiUnit si_of(const std::string& unit) {
                                           {"µs", "s", 1e-6, 1e6},
                                           {"mJ", "J", 1e-3, 1e3},
                                           {"%", "", 1e-2, 1e2},
-                                          {"W/mm²", "W/m^2", 1e6, 1e-6}}};
+                                          {"W/mm²", "W/m^2", 1e6, 1e-6},
+                                          {"rpm", "rad/s", std::numbers::pi / 30, 30 / std::numbers::pi}}};
   const auto* const found =
       std::find_if(known.begin(), known.end(), [&](const SiUnit& candidate) { return candidate.unit == unit; });
   return found == known.end() ? SiUnit{unit.c_str(), unit.c_str(), 1, 1} : *found;
@@ -86,6 +90,7 @@ class Summary {
       add_rows(quantities, {Statistic::mean, Statistic::integral});
       add_rows(quantities, {Statistic::at_end});
       given_clearance();
+      lift_off_rows();
       add_rows(quantities, {Statistic::largest_in_size});
       film_energy_error();
       step_error_rows();
@@ -362,6 +367,27 @@ class Summary {
     add_rows(run::quantities_of("/"), {SummaryEntry::Statistic::largest});
     if (!rejected.empty() && rejected.back() > 0) add("rejected steps", rejected.back(), "");
     if (!drift.empty()) add("largest constraint drift", *std::max_element(drift.begin(), drift.end()), "");
+  }
+
+  /// Adds the speeds at which the film lifts a journal off its asperities and lets it down again.
+  void lift_off_rows() {
+    const std::vector<double> asperities = sizes(values("force_asperity")), load = sizes(values("force"));
+    std::vector<double> contact(std::min(asperities.size(), load.size()));
+    for (std::size_t k = 0; k < contact.size(); ++k) contact[k] = load[k] > 0 ? asperities[k] / load[k] : 0;
+    const LiftOffs found = find_lift_offs(values("speed"), contact);
+    const auto row = [&](const char* name, const std::optional<LiftOff>& at) {
+      if (at) add(name, si_of("rpm").per_si * at->speed, "rpm", instant(at->row));
+    };
+    row("lift-off speed, from where asperities carry less than 5 %", found.lift_off);
+    row("touch-down speed, from where asperities carry more than 5 %", found.touch_down);
+  }
+
+  /// Returns the magnitudes of vectors with three components.
+  static std::vector<double> sizes(const std::vector<double>& vectors) {
+    std::vector<double> lengths;
+    for (std::size_t k = 0; k + 2 < vectors.size(); k += 3)
+      lengths.push_back(std::hypot(vectors[k], vectors[k + 1], vectors[k + 2]));
+    return lengths;
   }
 
   /// Compares the energy that the bodies put into a film by its forces with the film's integrals.
