@@ -22,7 +22,8 @@ LiftOffs find_lift_offs(const std::vector<double>& speed, const std::vector<doub
   const auto [least, most] = std::minmax_element(speed.begin(), speed.end());
   const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
   const auto [slowest, fastest] = std::minmax_element(speed.begin(), speed.end(), smaller);
-  if (*least * *most < 0 || std::abs(*slowest) >= kSlow * std::abs(*fastest)) return found;
+  const bool swings = std::min(-*least, *most) > kSlow * std::abs(*fastest);
+  if (swings || std::abs(*slowest) >= kSlow * std::abs(*fastest)) return found;
   for (std::size_t k = 1; k < rows; ++k) {
     const double before = contact[k - 1] - lifted_off, after = contact[k] - lifted_off;
     if ((before < 0) == (after < 0)) continue;

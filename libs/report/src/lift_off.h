@@ -20,8 +20,9 @@ struct LiftOffs {
 /// Part of the load that asperities carry when a journal is taken to be lifted off [-].
 inline constexpr double lifted_off = 0.05;
 
-/// Finds them in the rows of a run in which a journal starts or stops: its speed does not change sign, and is somewhere
-/// below a tenth of the largest. There are none in any other run, such as of a rod that swings about its pin.
+/// Finds them in the rows of a run in which a journal starts or stops: its speed is somewhere below a tenth of the
+/// largest, and nowhere above that in the other sense. There are none in any other run, such as of a rod that swings
+/// about its pin.
 /// @param speed  of the journal in its shell [rad/s]
 /// @param contact  part of the load that asperities carry in each row [-]
 [[nodiscard]] LiftOffs find_lift_offs(const std::vector<double>& speed, const std::vector<double>& contact);

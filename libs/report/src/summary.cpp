@@ -103,8 +103,13 @@ class Summary {
     for (const QuantityInfo& quantity : quantities)
       for (const SummaryEntry& summary_entry : quantity.summary_entries)
         if (std::find(ways.begin(), ways.end(), summary_entry.statistic) != ways.end())
-          for (const std::string& name : names_in_file(quantity.name))
-            add_rows(filled_in(quantity.name, name), filled_in(summary_entry.name, name), summary_entry);
+          for (const std::string& name : names_in_file(quantity.name)) {
+            const std::string series = filled_in(quantity.name, name);
+            const auto is_it = [&](const QuantityInfo& other) { return other.name == series; };
+            // `h_min_phi` is a quantity itself, no side of `h_min_<side>`.
+            if (name.empty() || std::ranges::none_of(quantities, is_it))
+              add_rows(series, filled_in(summary_entry.name, name), summary_entry);
+          }
   }
 
   void add_rows(const std::string& series, const std::string& name, const SummaryEntry& summary_entry) {

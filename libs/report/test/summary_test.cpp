@@ -38,6 +38,13 @@ TEST_CASE("Extremes_HaveInstantAndLocation") {
   CHECK(pofp.where == "t = 4 ms, crank 72.0°");
 }
 
+TEST_CASE("PlaceOfAnExtreme_IsNoSideOfASkirt") {
+  for (const SummaryRow& row : summary_of({})) {
+    CAPTURE(row.name);
+    CHECK(!row.name.ends_with(" side"));
+  }
+}
+
 TEST_CASE("Load_IsTheLongestForceVector") {
   CHECK(find(summary_of({}), "largest load").value == doctest::Approx(50).epsilon(round_off));
 }
