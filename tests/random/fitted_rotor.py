@@ -80,8 +80,8 @@ class Rotor:
     def writings(self):
         model = self.model()
         yield "reordered", Writing(parts.backwards(model, ("bodies",), ("bearings",), ("circuit", "nodes"), ("circuit", "elements")))
-        # By quarters: whether damping ends a motion within the first step counts by coordinate (integrator.9).
-        yield "turned", Writing(self.model(turn=self.rng.choice([90, 180, 270])))
+        # By whole numbers of grid lines, of 24 and of 36 around, which stay where they are.
+        yield "turned", Writing(self.model(turn=30 * self.rng.randint(1, 11)))
         if "joint" not in self.circuit["elements"].get("pump", {}):  # a pump that turned backwards would be another machine
             yield "mirrored", Writing(self.model(mirror=-1))
         yield "turned_ways", parts.turned_ways(model)

@@ -5,10 +5,9 @@
 #include <Eigen/SparseQR>
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <set>
 
-#include "hersey/solver/sparse_lu.h"
+#include "sparse_kkt.h"
 
 namespace hersey::solver {
 namespace {
@@ -19,13 +18,6 @@ using Eigen::VectorXd;
 
 // Dependencies of exact geometry show up at round-off; ill-conditioned but independent rows stay well above this.
 constexpr double kRankThreshold = 1e-10;
-// Inertia of a motion relative to those of the coordinates in it: below, it has none.
-constexpr double kNoInertia = 1e-12;
-// If all pivots of an elimination exceed this, there is no such motion.
-constexpr double kSoundCondition = 1e-11;
-// Motions of more inertia than this have some, by an estimate that is right to a factor of a few.
-constexpr double kLeastInertia = 100 * kNoInertia;
-
 MatrixXd normalised_rows(const MatrixXd& G) {
   MatrixXd scaled = G;
   for (Index i = 0; i < G.rows(); ++i)
@@ -33,26 +25,11 @@ MatrixXd normalised_rows(const MatrixXd& G) {
   return scaled;
 }
 
-/// 1/sqrt(M_kk): coordinates of unit inertia. Those without inertia get the largest of the others' scales.
-VectorXd inertia_scales(const MatrixXd& M) {
-  const VectorXd diagonal = M.diagonal();
-  VectorXd s = VectorXd::Ones(M.rows());
-  double largest_scale = 0;
-  for (Index k = 0; k < s.size(); ++k) {
-    if (!(diagonal[k] > 0)) continue;
-    s[k] = 1 / std::sqrt(diagonal[k]);
-    largest_scale = std::max(largest_scale, s[k]);
-  }
-  for (Index k = 0; k < s.size() && largest_scale > 0; ++k)
-    if (!(diagonal[k] > 0)) s[k] = largest_scale;
-  return s;
-}
-
 /// Solves  M x + G^T l = a,  G x = b  for x and l, M semidefinite and G of full row rank, in the null space of G.
 class NullSpaceSolver {
  public:
   NullSpaceSolver(const MatrixXd& M, const MatrixXd& G)
-      : s_(inertia_scales(M)), row_scale_(VectorXd::Ones(G.rows())), inertia_(M.rows() - G.rows()) {
+      : s_(inertia_scales(M.diagonal())), row_scale_(VectorXd::Ones(G.rows())), inertia_(M.rows() - G.rows()) {
     const Index n = M.rows(), constraints = G.rows();
     M_s_ = s_.asDiagonal() * M * s_.asDiagonal();
     MatrixXd G_s = G * s_.asDiagonal();
@@ -117,67 +94,6 @@ class NullSpaceSolver {
   MatrixXd M_s_, constrained_, free_, R_;
   Eigen::ColPivHouseholderQR<MatrixXd> qr_;
   Eigen::SelfAdjointEigenSolver<MatrixXd> inertia_;
-};
-
-/// Scaled to unit inertia and rows of unit length, factorised once.
-class SparseKkt {
- public:
-  SparseKkt(const Equations::SparseMatrix& S, Index nv) : S_(S), scale_(S.rows()) {
-    VectorXd diagonal = VectorXd::Zero(nv), norm = VectorXd::Zero(S.rows() - nv);
-    for (Index k = 0; k < nv; ++k) diagonal[k] = S.coeff(k, k);
-    scale_.head(nv) = inertia_scales(diagonal.asDiagonal());
-    for (Index column = 0; column < nv; ++column)
-      for (Equations::SparseMatrix::InnerIterator entry(S, column); entry; ++entry)
-        if (entry.row() >= nv) norm[entry.row() - nv] += std::pow(entry.value() * scale_[column], 2);
-    for (Index i = 0; i < norm.size(); ++i) scale_[nv + i] = norm[i] > 0 ? 1 / std::sqrt(norm[i]) : 1;
-    Equations::SparseMatrix scaled = scale_.asDiagonal() * S * scale_.asDiagonal();
-    scaled.makeCompressed();
-    lu_.analyse(scaled);
-    factorised_ = lu_.factorise({scaled.valuePtr(), static_cast<std::size_t>(scaled.nonZeros())});
-  }
-
-  [[nodiscard]] bool sound() const { return factorised_ && lu_.reciprocal_condition() > kSoundCondition; }
-
-  /// True if every motion that the rows allow has inertia. The condition estimate decreases with the length of a chain
-  /// and is then not conclusive; the criterion is the least inertia in the null space, 1/|A|, by a few powers of A: y
-  /// -> x,  M x + G^T l = y,  G x = 0.
-  [[nodiscard]] bool all_motions_have_inertia(Index nv) const {
-    if (!factorised_ || sound()) return factorised_;
-    VectorXd y = VectorXd::Zero(scale_.size());
-    std::minstd_rand random;  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same start each time
-    std::uniform_real_distribution<double> part(-1, 1);
-    for (Index k = 0; k < nv; ++k) y[k] = part(random);
-    double largest = 0;
-    for (int power = 0; power < 8; ++power) {
-      y.head(nv).normalize();
-      y.tail(y.size() - nv).setZero();
-      lu_.solve({y.data(), static_cast<std::size_t>(y.size())});
-      largest = std::max(largest, y.head(nv).norm());
-      if (largest * kLeastInertia > 1) return false;
-    }
-    return true;
-  }
-
-  /// Solves S x = b, refined; false where that leaves more than round-off.
-  /// @pre the matrix could be factorised
-  [[nodiscard]] bool solve(const VectorXd& b, VectorXd& x) const {
-    x = VectorXd::Zero(b.size());
-    VectorXd r = b;
-    for (int pass = 0; pass < 3; ++pass) {
-      VectorXd dx = scale_.cwiseProduct(r);
-      lu_.solve({dx.data(), static_cast<std::size_t>(dx.size())});
-      x += scale_.cwiseProduct(dx);
-      r = b - S_ * x;
-    }
-    return x.allFinite() &&
-           scale_.cwiseProduct(r).norm() <= 1e-10 * (scale_.cwiseProduct(b).norm() + x.cwiseQuotient(scale_).norm());
-  }
-
- private:
-  const Equations::SparseMatrix& S_;
-  VectorXd scale_;
-  SparseLu lu_;
-  bool factorised_ = false;
 };
 
 }  // namespace

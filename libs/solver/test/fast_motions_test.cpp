@@ -73,6 +73,42 @@ TEST_CASE("SlowMotion_StartsAsItIs") {
   CHECK(!settle_fast_motions(undamped, s, 10));
 }
 
+/// A mass in the plane that a damper along `angle` and another across it brake, drawn by a force of its own direction,
+/// both turned by `turn`, in coordinates of which the second is in other units.
+bool starts_settled(double turn, double along, double across, double force, double unit = 1) {
+  const Eigen::Rotation2Dd R(turn);
+  const Eigen::Matrix2d U = Eigen::Vector2d(1, unit).asDiagonal();
+  const Eigen::Matrix2d C = U * R * Eigen::Vector2d(along, across).asDiagonal() * R.toRotationMatrix().transpose() * U;
+  const Eigen::VectorXd f = U * (R * Eigen::Vector2d(std::cos(force), std::sin(force)));
+  test::SeveralCoordinates e(U * U);
+  e.force = [=](const auto&, const auto& v, double) -> Eigen::VectorXd { return C * v - f; };
+  e.force_by_v = [=](const auto&, const auto&, double) -> Eigen::MatrixXd { return C; };
+  const State s = e.at(Eigen::Vector2d::Zero());
+  e.begin_step(s, 1);
+  return settle_fast_motions(e, s, 1).has_value();
+}
+
+TEST_CASE("Start_DoesNotDependOnTheDirectionOfAxes") {
+  for (const double force : {0.01, 0.8, 1.56}) {
+    for (const double unit : {1.0, 1e3}) {
+      for (int turn = 0; turn < 12; ++turn) {
+        CAPTURE(turn);
+        CAPTURE(force);
+        CAPTURE(unit);
+        const auto settled = [&](double along, double across) {
+          return starts_settled(0.1 + 0.3 * turn, along, across, force, unit);
+        };
+        CHECK(settled(1000, 1));
+        CHECK(settled(60, 9));
+        CHECK(settled(60, 0));
+        CHECK(!settled(40, 1));
+        CHECK(!settled(40, 40));
+        CHECK(!settled(9, 0));
+      }
+    }
+  }
+}
+
 TEST_CASE("FastMotion_SettlesWhereForcesBalance") {
   // Damping that grows with speed, as of a turbulent film: v + v^3 balances 2 at 1.
   test::OneCoordinate e;
