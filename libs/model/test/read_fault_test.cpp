@@ -13,7 +13,7 @@ TEST_CASE("UnknownKey_NamesTheNearest") {
         "materials, wear, "
         "lubricant, "
         "pressures, "
-        "cavitation, asperities, compliance, permissible_pressure, cavitated_shear, turbulence, solver, coupling or "
+        "cavitation, initial_fill, asperities, compliance, permissible_pressure, cavitated_shear, turbulence, solver, coupling or "
         "kind");
 }
 
@@ -37,6 +37,9 @@ TEST_CASE("UnphysicalPressures_AreReported") {
   CHECK(with("    cavitation: reynolds\n    ambient_fill: 0.5\n") ==
         "m.yaml:31:5: bearings.big_end.ambient_fill: a fill fraction outside a film that has none inside; expected "
         "cavitation: mass_conserving, or no ambient_fill");
+  CHECK(with("    cavitation: reynolds\n    initial_fill: 0.5\n") ==
+        "m.yaml:31:5: bearings.big_end.initial_fill: a dry start of a film that does not conserve oil; expected "
+        "cavitation: mass_conserving, or no initial_fill");
   CHECK(with("    ambient_fill: 1.5\n").find(">= 0 and <= 1") != std::string::npos);
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kLargestRedistributedOverfill = 0.02;
 
 // After so many iterations of film and bodies together the film is found by itself.
-constexpr int kIterationsToItsOwn = 12;
+constexpr int kCommonIterations = 12;
 
 // Films at the start of a run whose layers thin by their shear, and the change of viscosity with which they end.
 constexpr int kMostFirstFilms = 20;
@@ -47,7 +47,7 @@ FilmElement::FilmElement(const film::FilmModel& model, Options options)
 
 film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
   history_.dt = options_.initial_dt;
-  history_.theta.setOnes();
+  history_.theta.setConstant(options_.initial_fill);
   history_.w.resize(0);
   history_.density.setOnes(u_.size());
   history_.gap.resize(0);
@@ -98,7 +98,7 @@ film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, con
     u_ = u_linearised_;
     domain = linearise(surfaces);
   }
-  const bool is_late = iterations_ > 0 && iterations_ % kIterationsToItsOwn == 0;
+  const bool is_late = iterations_ > 0 && iterations_ % kCommonIterations == 0;
   if (is_late && domain.is_inside() && reynolds_.residual().relative > options_.solve.rtol)
     domain = find_by_itself(surfaces);
   if (!domain.is_inside()) return domain;

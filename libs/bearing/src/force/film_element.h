@@ -23,7 +23,8 @@ class FilmElement {
  public:
   struct Options {
     film::FilmSolveOptions solve;
-    double initial_dt;  ///< the film at the start follows from a gap that was full this long before [s], > 0
+    double initial_dt;        ///< the film at the start follows from a gap filled this long before [s], > 0
+    double initial_fill = 1;  ///< share of that gap which was oil [-]
     std::optional<film::ThermalModel> thermal;  ///< unset: an isothermal film at the model's temperature
     std::vector<Eigen::Index> angles;           ///< parameters that are the same after a whole revolution
   };

@@ -46,6 +46,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
       gap_(std::move(gap)),
       film_(std::make_unique<FilmElement>(model, FilmElement::Options{.solve = options.film,
                                                                       .initial_dt = options.initial_dt,
+                                                                      .initial_fill = options.initial_fill,
                                                                       .thermal = options.thermal,
                                                                       .angles = angles_of(*gap_)})),
       thermal_(add_shape(std::make_unique<ThermalSurfaces>(film_->model(), film_->heat(), options.growth), shapes_)),
@@ -184,7 +185,10 @@ void FilmForce::evaluate(const mbd::RelativeMotion& motion, bool want_tangent, m
   // The film's forces above are those of the present motion; inertia adds to them and has no unknowns.
   if (domain_error_.empty() && options_.inertia) options_.inertia->add(motion, want_tangent, response);
   // A prediction of a step that exchanges forces has no film yet.
-  if (domain_error_.empty() && (is_monolithic || exchange_->exchanges() > 0)) response.summed = summed_forces();
+  if (domain_error_.empty() && (is_monolithic || exchange_->exchanges() > 0)) {
+    response.summed = summed_forces();
+    response.arm = std::min(model().R, model().L);
+  }
 }
 
 // Sum of the pressure forces, and of those that the flows would build up which balance in a film without pressure.

@@ -14,7 +14,7 @@ using Eigen::Index;
 
 void ForceResponse::set_zero(Index amplitudes) {
   W_B_A.setZero();
-  summed = 0;
+  summed = arm = 0;
   dW_dX.setZero();
   dW_dV.setZero();
   dW_dA.setZero();

@@ -6,11 +6,11 @@ namespace {
 // Share of the sum of force magnitudes that counts as a magnitude of their resultant, whose round-off is 1e-15 of it.
 constexpr double kSummedShare = 1e-6;
 
-/// Returns the magnitude of a wrench about ground's origin whose forces act near a point.
-Vector6 sizes(const Vector6& W, double summed, const Vector3& at) {
+/// Returns the magnitude of a wrench about ground's origin whose forces act around a point.
+Vector6 sizes(const Vector6& W, const ForceResponse& response, const Vector3& at) {
   Vector6 size = W.cwiseAbs();
-  size.head<3>().array() += kSummedShare * summed * at.norm();
-  size.tail<3>().array() += kSummedShare * summed;
+  size.head<3>().array() += kSummedShare * response.summed * (at.norm() + response.arm);
+  size.tail<3>().array() += kSummedShare * response.summed;
   return size;
 }
 
@@ -60,7 +60,7 @@ void compute_directions(const Tree& tree, const TreeMotion& motion, const solver
 void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& response) {
   const TreeMotion& motion = assembly.motion;
   const Pose X_WA = motion.pose(pair.a);
-  const Vector6 W = moved_force(X_WA, response.W_B_A), size = sizes(W, response.summed, X_WA.r);
+  const Vector6 W = moved_force(X_WA, response.W_B_A), size = sizes(W, response, X_WA.r);
   for (const SignedColumn& row : pair.columns) {
     const Vector6& J = motion.J(row.column);
     assembly.add_residual(row.column, -row.sign * J.dot(W), magnitude(J, size));

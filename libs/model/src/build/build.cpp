@@ -387,6 +387,7 @@ class Builder {
     options.relaxation = bearing.coupling.relaxation;
     options.film.solver = bearing.solver;
     options.initial_dt = model_.simulation.step;
+    options.initial_fill = bearing.initial_fill;
     options.starts_steady = !model_.simulation.has_duration();
     if (const auto* heat = std::get_if<film::ThermalModel>(&bearing.heat)) {
       options.thermal = *heat;

@@ -181,6 +181,9 @@ std::vector<Key> shared_bearing_keys() {
       defaulted("pressures", choice(pressure_scale_words), "gauge",
                 "The scale on which all pressures of this bearing are given and reported."),
       defaulted("cavitation", cavitation_format(), "mass_conserving", "Where the film would be under tension."),
+      defaulted("initial_fill", number("0.1", {.low = 0, .high = 1}), "1",
+                "Share of the gap that is oil as a run begins, where no feed fills it: below 1 a dry start. Needs "
+                "`cavitation: mass_conserving`."),
       defaulted("asperities", asperities_format(), "none", "Contact of rough surfaces."),
       defaulted("compliance", compliance_format(), "rigid", "Elastic deformation of both surfaces."),
       optional("permissible_pressure", quantity("Pa", "60 MPa", Range::positive()),

@@ -35,7 +35,8 @@ struct BearingOptions {
   /// The film's own solver: initial film, and every film solve of a partitioned coupling. `multigrid` also solves the
   /// linear systems of a monolithic one.
   film::FilmSolveOptions film;
-  double initial_dt = 1e-4;  ///< the film at the start follows from a gap that was full this long before [s], > 0
+  double initial_dt = 1e-4;  ///< the film at the start follows from a gap filled this long before [s], > 0
+  double initial_fill = 1;   ///< share of that gap which was oil [-], in [0, 1]; below 1 with conserved mass only
   /// With motion.dt = 0, solve the steady film of the surfaces' present motion instead of that of a freshly filled gap:
   /// for machines at rest or in steady motion, and for small motions about it. A partitioned coupling is monolithic
   /// there. Temperatures of a `thermal` film do not move with those motions: a steady state of both is found by turns,

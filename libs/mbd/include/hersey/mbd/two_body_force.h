@@ -33,6 +33,7 @@ struct ForceResponse {
   /// Sum of the magnitudes of the forces whose resultant is the wrench; it scales the round-off of the wrench [N]; 0 if
   /// the wrench is no such resultant.
   double summed = 0;
+  double arm = 0;  ///< length of their arms about the origin of frame A, around which they act [m]
 
   Eigen::VectorXd Q;                                      ///< shape (amplitudes) [N m; N]
   Eigen::Matrix<double, 6, Eigen::Dynamic> dW_ds, dW_dr;  ///< derivatives by amplitudes and by their rates

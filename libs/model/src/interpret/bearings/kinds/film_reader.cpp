@@ -60,6 +60,10 @@ void FilmReader::read_cavitation() {
   if (cavitation == nullptr || cavitation->broken) return;
   film_.p_cav = number_of(*cavitation, "pressure");
   film_.cavitation = meaning_of(*cavitation, cavitation_words);
+  bearing_.initial_fill = number_of(value_, "initial_fill");
+  if (bearing_.initial_fill < 1 && !film::cavitation_law(film_).has_fill())
+    context_.fault_at_key(*value_.find("initial_fill"), "a dry start of a film that does not conserve oil",
+                          "cavitation: mass_conserving, or no initial_fill");
 }
 
 film::Edge FilmReader::edge_of(const Value& outside) {

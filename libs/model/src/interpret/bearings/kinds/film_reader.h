@@ -22,7 +22,7 @@ class FilmReader {
   /// Sets the names and the size before the keys of surfaces are read.
   void set_surfaces(SurfaceNames surfaces);
   void read_lubricant();
-  void read_cavitation();
+  void read_cavitation();  ///< and the oil with which a run begins
   /// Returns the edge with what lies outside it, a pressure or `closed`.
   [[nodiscard]] film::Edge edge_of(const Value& outside);
   /// Reads all the oil that reaches an edge; reports edges that are not at the cavitation pressure.
