@@ -13,7 +13,8 @@ TEST_CASE("UnknownKey_NamesTheNearest") {
         "materials, wear, "
         "lubricant, "
         "pressures, "
-        "cavitation, initial_fill, asperities, compliance, permissible_pressure, cavitated_shear, turbulence, solver, coupling or "
+        "cavitation, initial_fill, asperities, compliance, permissible_pressure, cavitated_shear, turbulence, solver, "
+        "coupling or "
         "kind");
 }
 
