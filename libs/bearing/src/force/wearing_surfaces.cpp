@@ -9,6 +9,7 @@
 #include "hersey/bearing/shapes_at_rest.h"
 #include "hersey/core/two_pi.h"
 #include "hersey/film/film_surface.h"
+#include "hersey/film/nodal_field.h"
 
 namespace hersey::bearing {
 
@@ -16,26 +17,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Lengths of the control volumes around, half-way to the neighbours of each line on its patch, at the radius 1 [rad].
-VectorXd widths_around(const film::Grid& grid) {
-  VectorXd width = VectorXd::Zero(grid.n_phi);
-  for (int i = 0; i < grid.n_phi; ++i) {
-    const int next = grid.next(i);
-    if (next < 0) continue;
-    const double step = grid.phi(next) - grid.phi(i) + (next > i ? 0 : two_pi);
-    width[i] += step / 2, width[next] += step / 2;
-  }
-  return width;
-}
-
-/// The same along the axis, over the width.
-VectorXd widths_along(const film::Grid& grid) {
-  VectorXd width = VectorXd::Zero(grid.n_z);
-  for (int j = 0; j + 1 < grid.n_z; ++j) {
-    const double step = grid.z_over_L(j + 1) - grid.z_over_L(j);
-    width[j] += step / 2, width[j + 1] += step / 2;
-  }
-  return width;
+/// Angle that the film covers around [rad]: 2 pi, or the sum of its patches.
+double covered_angle(const film::Grid& grid) {
+  double covered = 0;
+  for (int i = 0; i < grid.n_phi; ++i)
+    if (const int next = grid.next(i); next >= 0) covered += grid.phi(next) - grid.phi(i) + (next > i ? 0 : two_pi);
+  return covered;
 }
 
 }  // namespace
@@ -43,19 +30,15 @@ VectorXd widths_along(const film::Grid& grid) {
 WearingSurfaces::WearingSurfaces(const film::FilmModel& model, const WearModel& wear)
     : model_(model),
       wear_(wear),
-      area_(model.grid.size()),
+      area_(film::NodalField(model).weights()),
       around_(model.grid.n_z),
       worn_(VectorXd::Zero(model.grid.size() + model.grid.n_z)),
       start_(worn_),
       now_(worn_),
       rate_(worn_) {
   const film::Grid& grid = model.grid;
-  const VectorXd width = widths_around(grid), height = model.L * widths_along(grid);
-  for (int j = 0; j < grid.n_z; ++j) {
-    const double length = model.R * film::stretch(model.surface, model.R, model.L * grid.z_over_L(j));
-    around_[j] = two_pi * length * height[j];
-    for (int i = 0; i < grid.n_phi; ++i) area_[grid.index(i, j)] = width[i] * length * height[j];
-  }
+  const double whole = two_pi / covered_angle(grid);
+  around_ = whole * Eigen::Map<const Eigen::MatrixXd>(area_.data(), grid.n_z, grid.n_phi).rowwise().sum();
 }
 
 VectorXd WearingSurfaces::at_nodes(const VectorXd& rows) const {

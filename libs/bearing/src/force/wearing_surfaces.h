@@ -50,7 +50,7 @@ class WearingSurfaces : public SurfaceShape {
 
   const film::FilmModel& model_;
   WearModel wear_;
-  Eigen::VectorXd area_;    ///< of the nodes [m^2]
+  Eigen::VectorXd area_;    ///< weights of the nodes in integrals, with which the film's forces are summed [m^2]
   Eigen::VectorXd around_;  ///< area of the whole moving surface that passes a row [m^2], shape (n_z)
   /// Depths of the fixed surface at the nodes, then of the moving one on the rows [m]: worn off until the end of the
   /// step accepted last, and by which the gap is wider at the start and the end of a step; the latter's rate [m/s].
