@@ -47,7 +47,8 @@ def band(name, runs, unit):
     begin, end = max(time[0] for time, _ in runs), min(time[-1] for time, _ in runs)
     time = np.linspace(begin, end, INSTANTS)
     values = np.array([np.interp(time, *run) for run in runs]) / unit["si"]
-    return {"key": name[: -len(ENDING)], "name": unit["name"], "unit": unit["unit"], "runs": len(runs),
+    text = unit["name"].removesuffix(" at the end").rstrip(",")
+    return {"key": name[: -len(ENDING)], "name": text, "unit": unit["unit"], "runs": len(runs),
             "time": time.tolist(), "mean": values.mean(axis=0).tolist(),
             "percentiles": {str(p): np.percentile(values, p, axis=0).tolist() for p in PERCENTILES}}
 
