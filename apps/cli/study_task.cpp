@@ -153,6 +153,7 @@ class Task {
     if (si == "m") return "um";
     if (si == "Pa") return "MPa";
     if (si == "1") return "";
+    if (si == "m^3") return "mm^3";
     if (si == "m^3/s") return "mm^3/s";
     return si;
   }
@@ -160,7 +161,7 @@ class Task {
   static double display_size(const std::string& si) {
     if (si == "m") return 1e-6;
     if (si == "Pa") return 1e6;
-    if (si == "m^3/s") return 1e-9;
+    if (si == "m^3" || si == "m^3/s") return 1e-9;
     return 1;
   }
 

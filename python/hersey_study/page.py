@@ -6,7 +6,8 @@ import os
 import subprocess
 import sys
 
-from . import spectra, statistics
+from . import courses, spectra, statistics
+from .study import is_drawn
 
 # A page with more runs than this is no page; statistics see all of them.
 MOST_RUNS_SHOWN = 5000
@@ -25,6 +26,8 @@ def finish(study, results, args):
     data = page_data(settings, results, summary, study.folder)
     if study.search:
         data["search"] = study.search
+    if data.get("bands"):
+        courses.write_table(study.folder.file("bands.csv"), data["bands"])
     study.folder.write_json("results.json", data)
     page = study.folder.file("study.html")
     command = [settings["program"], "study-page", study.folder.file("results.json"), page]
@@ -91,6 +94,8 @@ def page_data(settings, results, summary, folder):
         data["campbell"] = spectra.campbell(results)
     if settings["diagram"] == "run_up":
         data["run_up"] = spectra.run_up(results, folder)
+    if settings["analysis"] == "simulation" and is_drawn(settings):
+        data["bands"] = courses.bands(results, folder)
     return plain(data)
 
 

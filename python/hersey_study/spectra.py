@@ -20,20 +20,28 @@ def campbell(results):
             "unit": results.settings["parameters"][0]["unit"], "rows": rows}
 
 
-def series_of(file, name):
-    """A series of a results file and its times: 'bearings.main.eccentricity.x'."""
+def series_in(file, name):
+    """A series of a results file and its times: 'bearings.main.eccentricity.x'. None where there is no such series."""
     parts = name.split(".")
     column = 0
     if parts[-1] in "xyz" and len(parts[-1]) == 1:
         column = "xyz".index(parts.pop())
     path = "/".join(parts)
-    if path not in file:
+    if path not in file or not hasattr(file[path], "shape"):
+        return None
+    values = file[path][:]
+    return file["time"][: len(values)], values if values.ndim == 1 else values[:, column]
+
+
+def series_of(file, name):
+    """The same, of a series that a study names for its spectrum."""
+    found = series_in(file, name)
+    if found is None:
         from .study import StudyError
 
         raise StudyError(f"spectrum_of '{name}': results have no such series; expected one of docs/results-file.md, "
                          "such as bearings.main.eccentricity.x")
-    values = file[path][:]
-    return file["time"][: len(values)], values if values.ndim == 1 else values[:, column]
+    return found
 
 
 def spectrum(time, values):

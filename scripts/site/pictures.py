@@ -254,6 +254,48 @@ def example_piston(program):
     return figure
 
 
+def example_start_stop(program):
+    """A start and a stop: what carries the load over the speed, and what wears off meanwhile."""
+    results = program.run("start_stop", "examples/start_stop/model.yaml")
+    bush, time = results["bearings/bush"], results["time"][:]
+    speed = 30 / math.pi * bush["speed"][:]
+    contact = numpy.linalg.norm(bush["force_asperity"][:], axis=1)
+    figure, axes = plot.subplots(1, 3, figsize=(10, 2.9))
+    axes[0].plot(time, speed, color=GREY)
+    axes[0].set(xlabel="time [s]", ylabel="speed [rpm]")
+    up = time < 1
+    axes[1].semilogy(speed[up], contact[up], color=BLUE, label="on the way up")
+    axes[1].semilogy(speed[~up], contact[~up], color=RED, label="on the way down")
+    axes[1].axhline(0.05 * 2000, color=GREY, linewidth=0.8, linestyle="--", label="5 % of the load")
+    axes[1].set(xlabel="speed [rpm]", ylabel="asperities carry [N]", xlim=(0, 300), ylim=(1, None))
+    axes[1].legend(frameon=False, fontsize=8)
+    axes[2].plot(time, 1e9 * bush["worn_volume_fixed"][:], color=BLUE)
+    axes[2].set(xlabel="time [s]", ylabel="worn by 1000 cycles [mm3]", ylim=(0, None))
+    figure.tight_layout()
+    return figure
+
+
+def example_running_in(program):
+    """A bush that runs in, with a roughness that stays and one that wears off."""
+    figure, axes = plot.subplots(1, 3, figsize=(10, 2.9))
+    for name, settings, colour, label in (("stays", (), GREY, "roughness stays"),
+                                          ("falls", ("bearings.bush.wear.running_in={roughness: 0.3 um, depth: 0.5 um}",), BLUE, "roughness runs in")):
+        results = program.run(name, "examples/wear/model.yaml", *settings)
+        bush, hours = results["bearings/bush"], 5000 * results["time"][:] / 3600
+        axes[0].semilogy(hours, bush["power_asperity"][:], color=colour, label=label)
+        axes[1].plot(hours, 1e9 * bush["worn_volume_fixed"][:], color=colour)
+        worn, phi, z = bush["fields/fixed_wear"][-1], bush["fields/phi"][:], bush["fields/z"][:]
+        line = worn.max(axis=1).argmax()
+        axes[2].plot(1e3 * z, 1e6 * worn[line], color=colour, label=f"at {math.degrees(phi[line]):.0f} deg")
+    axes[0].set(xlabel="hours of running", ylabel="friction of contact [W]")
+    axes[0].legend(frameon=False, fontsize=8)
+    axes[1].set(xlabel="hours of running", ylabel="worn volume [mm3]", ylim=(0, None))
+    axes[2].set(xlabel="along the axis [mm]", ylabel="worn depth in the end [um]", ylim=(0, None))
+    axes[2].legend(frameon=False, fontsize=8)
+    figure.tight_layout()
+    return figure
+
+
 def paper_case(program):
     """Settled states of the reference's finest grid against the steady solution of the same bearing."""
     rows = [row for row in data("verification/data/paper_case.csv")
@@ -318,7 +360,7 @@ def frame_signs(_):
 
 
 DRAWN = (first_bearing, first_bearing_sweep, big_end, engine, flexible_rod, rotor, mesh, example_bearing_alone, report, example_hot_bearing,
-         example_piston, paper_case, benchmarks, finite_360, bearing_signs, frame_signs)
+         example_piston, example_start_stop, example_running_in, paper_case, benchmarks, finite_360, bearing_signs, frame_signs)
 SOURCES = {"first_bearing": ["docs/tutorial/first-bearing.md"], "first_bearing_sweep": ["docs/tutorial/first-bearing.md"],
            "big_end": ["examples/slider_crank/model.yaml"], "engine": ["examples/engine/model.yaml"],
            "flexible_rod": ["examples/slider_crank/flexible_rod.yaml", "examples/meshes/conrod.msh"],
@@ -326,6 +368,7 @@ SOURCES = {"first_bearing": ["docs/tutorial/first-bearing.md"], "first_bearing_s
            "example_bearing_alone": ["examples/bearing_alone/model.yaml"], "report": ["examples/hot_bearing/model.yaml"],
            "example_hot_bearing": ["examples/hot_bearing/model.yaml"],
            "example_piston": ["examples/piston/model.yaml", "examples/slider_crank/gas_pressure.csv"],
+           "example_start_stop": ["examples/start_stop/model.yaml"], "example_running_in": ["examples/wear/model.yaml"],
            "paper_case": ["verification/data/paper_case.csv"], "finite_360": ["verification/data/finite_360.csv"],
            "benchmarks": ["verification/data/four_bar_n2.csv", "verification/data/flyball_governor.csv"],
            "bearing_signs": ["scripts/site/signs.py"], "frame_signs": ["scripts/site/signs.py"]}

@@ -330,6 +330,41 @@ class Studies(unittest.TestCase):
             with open(os.path.join(self.out, record["report"]), encoding="utf-8") as file:
                 self.assertIn("A mass of 2 kg on a guide", file.read())
 
+    def bands(self, keep):
+        model = self.path("scattering.yaml")
+        with open(model, "w", encoding="utf-8") as file:
+            file.write(SHAKEN + "  plan: halton\n  samples: 24\n  parameters: {rate: {distribution: uniform, low: 1, high: 3}}\n"
+                       f"  outputs: [joints.guide.coordinates.end, joints.guide.coordinates.max]\n  keep: {keep}\n")
+        run = self.study(model)
+        self.assertEqual(run.returncode, OK, run.stderr)
+        return self.results()
+
+    def test_bands_over_time_are_those_of_the_closed_form(self):
+        data = self.bands("results")
+        (band,) = data["bands"]  # an end has a course, a maximum has none
+        self.assertEqual(band["key"], "joints.guide.coordinates")
+        self.assertEqual(band["runs"], 24)
+        figure = next(f for f in data["figures"] if f["key"] == "joints.guide.coordinates.end")
+        for p, course in band["percentiles"].items():
+            self.assertAlmostEqual(course[-1] / figure["scatter"]["percentiles"][p], 1, delta=1e-9)  # round-off
+        self.assertAlmostEqual(band["mean"][-1] / figure["scatter"]["mean"], 1, delta=1e-9)  # likewise
+        # x = F/(m omega^2) (1 - cos(omega t)) of each run; the unit of lengths is 1 um.
+        omegas = [2 * math.pi * run["inputs"][0] for run in data["runs"]]
+        largest = max(band["percentiles"]["95"])
+        for k in range(0, len(band["time"]), 10):
+            exact = sorted(1e6 * 50 / w**2 * (1 - math.cos(w * band["time"][k])) for w in omegas)
+            self.assertLess(abs(band["mean"][k] - sum(exact) / len(exact)), 2e-4 * largest)  # by steps of 1 ms
+            self.assertLess(abs(band["percentiles"]["50"][k] - (exact[11] + exact[12]) / 2), 2e-4 * largest)  # likewise
+            self.assertLessEqual(band["percentiles"]["5"][k], band["percentiles"]["95"][k])
+        with open(os.path.join(self.out, "bands.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for row, time_, middle in zip(rows, band["time"], band["percentiles"]["50"]):
+            self.assertAlmostEqual(float(row["time [s]"]), time_, delta=1e-9)  # ten digits
+            self.assertAlmostEqual(float(row["joints.guide.coordinates 50 % [um]"]), middle, delta=1e-9 * largest)  # likewise
+
+    def test_bands_need_results_files(self):
+        self.assertEqual(self.bands("figures")["bands"], [])
+
     def test_campbell_has_the_natural_frequencies(self):
         model = self.path("sprung.yaml")
         with open(model, "w", encoding="utf-8") as file:

@@ -17,6 +17,9 @@ const fieldKinds = ({ held, moving }: Surface): FieldKind[] => [
   { key: "thickness", label: "Film thickness", display: micrometre },
   { key: "fill", label: "Fill fraction", display: percent },
   { key: "asperity_pressure", label: "Asperity pressure", display: megapascal },
+  { key: "fixed_wear", label: "Depth worn off the fixed surface", display: micrometre },
+  { key: "moving_wear", label: "Depth worn off the moving surface", display: micrometre },
+  { key: "roughness", label: "Roughness of the asperities", display: micrometre },
   { key: "shell_displacement", label: `${capital(held)} displacement`, display: micrometre },
   { key: "journal_displacement", label: `${capital(moving)} displacement`, display: micrometre },
 ];

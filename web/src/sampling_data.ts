@@ -76,7 +76,20 @@ export interface StudyText {
   /** Runs that none other beats. */
   best: string[];
   campbell?: Rows & { rows: { x: number; run: string; frequency: (number | null)[]; damping_ratio: (number | null)[] }[] };
+  /** How the runs scatter over time: of each series whose end is a figure. */
+  bands?: Band[];
   run_up?: Rows & { series: string; rows: { x: number; run: string; frequency: number[]; amplitude: number[] }[] };
+}
+
+/** Mean and percentiles of a series over the runs, at even times [s]. */
+export interface Band {
+  key: string;
+  name: string;
+  unit: string;
+  runs: number;
+  time: number[];
+  mean: number[];
+  percentiles: { "5": number[]; "50": number[]; "95": number[] };
 }
 
 /** One column of numbers over the runs. */

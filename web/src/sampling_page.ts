@@ -1,10 +1,12 @@
 // The page of `hersey study`: what the study says in a table, its figures, and the run that is clicked.
 
+import { bandOverTime } from "./band_plot";
 import { drawingButtons, figure, h, segmented } from "./dom";
 import { themeButton } from "./header";
 import { histogram, indices, parallelCoordinates, paretoFront, progress, response, scatterMatrix, tornado } from "./sampling_figures";
 import { shortName, type StudyText } from "./sampling_data";
 import { campbell, studyWaterfall } from "./speed_diagrams";
+import { capital } from "./summary_table";
 import { format, shownUnit, typeset, withUnit } from "./units";
 
 const mostRows = 500;
@@ -127,6 +129,10 @@ function figures(study: StudyText, pick: (i: number) => void): HTMLElement[] {
   const isDrawn = ["sobol", "halton", "latin_hypercube"].includes(study.plan);
   if (isDrawn && scattered.length)
     list.push(choosable("histogram", "Figure", scattered.map((k) => names[k]!), (i) => ({ caption: `${study.figures[scattered[i]!]!.name}: how often, with its 5th, 50th and 95th percentile.`, plot: histogram(study, scattered[i]!) })));
+  if (study.bands?.length) {
+    const { bands } = study;
+    list.push(choosable("bands", "Series", bands.map((one) => shortName(one.key)), (i) => ({ caption: `${capital(bands[i]!.name)} over time: median, mean (dashed), and the band between the 5th and 95th percentile of ${bands[i]!.runs} runs.`, plot: bandOverTime(bands[i]!) })));
+  }
   const modelled = study.figures.flatMap((f, k) => (f.surrogate ? [k] : []));
   if (modelled.length) {
     const ofModelled = (kind: string, caption: (name: string) => string, draw: typeof indices) =>

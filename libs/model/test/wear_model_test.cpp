@@ -44,6 +44,16 @@ TEST_CASE("RunningIn_IsReadAsRatioOfRoughness") {
   CHECK(fault.find("at most `asperities.roughness`") != std::string::npos);
 }
 
+TEST_CASE("WearAroundAJournal_IsReadAndPadsHaveNone") {
+  const std::string local =
+      edited(kBush, "acceleration: 1000", "journal: {coefficient: 1e-17 1/Pa, around: local}, acceleration: 1000");
+  CHECK(read_text(local, "m.yaml").bearings.front().wear->around == bearing::WearAround::local);
+  CHECK(read_text(edited(local, ", around: local", ""), "m.yaml").bearings.front().wear->around ==
+        bearing::WearAround::even);
+  CHECK(faults_of(edited(local, "around: local", "around: crank")).find("even or local") != std::string::npos);
+  CHECK(faults_of(edited(kBush, "lining: 20 um", "around: local")).find("unknown key 'around'") != std::string::npos);
+}
+
 TEST_CASE("FaultsOfWear_SayWhatItNeeds") {
   const std::string asperities =
       "         asperities: {model: greenwood_tripp_fit, roughness: 0.8 um, elastic_factor: 3e-3, composite_modulus: "

@@ -215,7 +215,7 @@ void FilmForce::condense_film(mbd::ForceResponse& response) {
   for (Eigen::Index k = 0; k < gap_parameter_count_; ++k) directions_[static_cast<std::size_t>(k)] = gap_->direction(k);
   std::copy(deforming_->directions().begin(), deforming_->directions().end(),
             directions_.begin() + gap_parameter_count_);
-  deforming_->add_turning(gap_->turning(), directions_);
+  for (const auto& shape : shapes_) shape->add_turning(gap_->turning(), directions_);
   condensed_ = &film_->condense(directions_, deforming_->openings(),
                                 port_count() > 0 ? film::PortFlows::included : film::PortFlows::left_out);
   if (port_count() == 0) respond(response);

@@ -9,6 +9,7 @@
 #include "hersey/bearing/shapes_at_rest.h"
 #include "hersey/core/two_pi.h"
 #include "hersey/film/film_surface.h"
+#include "hersey/film/nodal_field.h"
 
 namespace hersey::bearing {
 
@@ -16,26 +17,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Lengths of the control volumes around, half-way to the neighbours of each line on its patch, at the radius 1 [rad].
-VectorXd widths_around(const film::Grid& grid) {
-  VectorXd width = VectorXd::Zero(grid.n_phi);
-  for (int i = 0; i < grid.n_phi; ++i) {
-    const int next = grid.next(i);
-    if (next < 0) continue;
-    const double step = grid.phi(next) - grid.phi(i) + (next > i ? 0 : two_pi);
-    width[i] += step / 2, width[next] += step / 2;
-  }
-  return width;
-}
-
-/// The same along the axis, over the width.
-VectorXd widths_along(const film::Grid& grid) {
-  VectorXd width = VectorXd::Zero(grid.n_z);
-  for (int j = 0; j + 1 < grid.n_z; ++j) {
-    const double step = grid.z_over_L(j + 1) - grid.z_over_L(j);
-    width[j] += step / 2, width[j + 1] += step / 2;
-  }
-  return width;
+/// Angle that the film covers around [rad]: 2 pi, or the sum of its patches.
+double covered_angle(const film::Grid& grid) {
+  double covered = 0;
+  for (int i = 0; i < grid.n_phi; ++i)
+    if (const int next = grid.next(i); next >= 0) covered += grid.phi(next) - grid.phi(i) + (next > i ? 0 : two_pi);
+  return covered;
 }
 
 }  // namespace
@@ -43,25 +30,33 @@ VectorXd widths_along(const film::Grid& grid) {
 WearingSurfaces::WearingSurfaces(const film::FilmModel& model, const WearModel& wear)
     : model_(model),
       wear_(wear),
-      area_(model.grid.size()),
+      area_(film::NodalField(model).weights()),
       around_(model.grid.n_z),
-      worn_(VectorXd::Zero(model.grid.size() + model.grid.n_z)),
+      ring_(wear.around == WearAround::local ? std::optional(JournalRing(model.grid)) : std::nullopt),
+      worn_(VectorXd::Zero(model.grid.size() + (ring_ ? ring_->size() : model.grid.n_z))),
       start_(worn_),
       now_(worn_),
       rate_(worn_) {
   const film::Grid& grid = model.grid;
-  const VectorXd width = widths_around(grid), height = model.L * widths_along(grid);
-  for (int j = 0; j < grid.n_z; ++j) {
-    const double length = model.R * film::stretch(model.surface, model.R, model.L * grid.z_over_L(j));
-    around_[j] = two_pi * length * height[j];
-    for (int i = 0; i < grid.n_phi; ++i) area_[grid.index(i, j)] = width[i] * length * height[j];
-  }
+  const double whole = two_pi / covered_angle(grid);
+  around_ = whole * Eigen::Map<const Eigen::MatrixXd>(area_.data(), grid.n_z, grid.n_phi).rowwise().sum();
 }
 
-VectorXd WearingSurfaces::at_nodes(const VectorXd& rows) const {
+VectorXd WearingSurfaces::at_rows(const VectorXd& rows) const {
   VectorXd values(area_.size());
   for (Eigen::Index node = 0; node < values.size(); ++node) values[node] = rows[node % rows.size()];
   return values;
+}
+
+VectorXd WearingSurfaces::moving_at_nodes(const VectorXd& depths) const {
+  return ring_ ? ring_->at_nodes(of_moving(depths)) : at_rows(of_moving(depths));
+}
+
+VectorXd WearingSurfaces::moving() const {
+  if (!ring_) return at_rows(of_moving(worn_));
+  JournalRing unturned = *ring_;
+  unturned.turn(0);
+  return unturned.at_nodes(of_moving(worn_));
 }
 
 void WearingSurfaces::begin_step(double dt) {
@@ -78,12 +73,25 @@ void WearingSurfaces::accept_step(double dt) {
   over_ = dt;
 }
 
-void WearingSurfaces::add_to(const mbd::RelativeMotion& /*motion*/, const GapKinematics::Turning& /*turning*/,
+void WearingSurfaces::add_to(const mbd::RelativeMotion& /*motion*/, const GapKinematics::Turning& turning,
                              film::SurfaceMotion& surfaces) {
+  if (ring_) ring_->turn(turning.angle);
   add_to_shell(now_.head(area_.size()), surfaces);
-  add_to_journal(-at_nodes(now_.tail(around_.size())), surfaces);
+  add_to_journal(-moving_at_nodes(now_), surfaces);
   surfaces.g_rate += opening(rate_);
+  if (ring_) surfaces.g_rate += turning.speed * ring_->by_angle(of_moving(now_));  // (wear.9)
   if (wear_.running_in) surfaces.roughness_ratio = roughness(now_);
+}
+
+void WearingSurfaces::add_turning(const GapKinematics::Turning& turning,
+                                  std::vector<film::MotionDirection>& of_parameters) const {
+  if (!ring_) return;
+  film::MotionDirection &angle = of_parameters[static_cast<std::size_t>(turning.of_angle)],
+                        &speed = of_parameters[static_cast<std::size_t>(turning.of_speed)];
+  const VectorXd slope = ring_->by_angle(of_moving(now_));
+  add_field(slope, angle.g);
+  add_field(ring_->by_angle(of_moving(rate_)) + turning.speed * ring_->by_angle_twice(of_moving(now_)), angle.g_rate);
+  add_field(slope / turning.radius, speed.g_rate);
 }
 
 // (wear.5)
@@ -94,6 +102,18 @@ VectorXd WearingSurfaces::roughness(const VectorXd& depths) const {
 }
 
 double WearingSurfaces::power(const VectorXd& normal_forces) const { return opening(rate_).dot(normal_forces); }
+
+// (wear.3), (wear.8)
+VectorXd WearingSurfaces::moving_depths(const VectorXd& work) const {
+  const Eigen::Index n_z = around_.size();
+  const VectorXd amounts = work.cwiseProduct(area_);
+  VectorXd depths = ring_ ? ring_->collected(amounts) : amounts;
+  const Eigen::Index lines = depths.size() / n_z;
+  Eigen::Map<Eigen::MatrixXd> by_row(depths.data(), n_z, lines);
+  if (!ring_) return by_row.rowwise().sum().cwiseQuotient(around_);
+  by_row.array().colwise() /= around_.array() / static_cast<double>(lines);
+  return depths;
+}
 
 void WearingSurfaces::wear_off(const VectorXd& p_asperity, const film::SurfaceMotion& surfaces, double dt) {
   const film::Grid& grid = model_.grid;
@@ -106,10 +126,7 @@ void WearingSurfaces::wear_off(const VectorXd& p_asperity, const film::SurfaceMo
   if (dt > 0) {
     const VectorXd work = 0.5 * wear_.acceleration * dt * (sliding_pressure_ + slid);  // [Pa m]
     worn_.head(area_.size()) += wear_.fixed.coefficient * work;
-    for (int node = 0; node < grid.size(); ++node) {
-      const int row = node % grid.n_z;
-      worn_[grid.size() + row] += wear_.moving.coefficient * work[node] * area_[node] / around_[row];
-    }
+    worn_.tail(worn_.size() - area_.size()) += wear_.moving.coefficient * moving_depths(work);
     volume_of_cycle_ += (wear_.fixed.coefficient + wear_.moving.coefficient) * work.dot(area_);
     of_cycle_ += dt;
     constexpr double round_off_of_steps = 1e-9;  // of a cycle that ends with a step
@@ -122,12 +139,18 @@ void WearingSurfaces::wear_off(const VectorXd& p_asperity, const film::SurfaceMo
   sliding_pressure_ = std::move(slid);
 }
 
+double WearingSurfaces::moving_volume() const {
+  const VectorXd depths = of_moving(worn_);
+  const Eigen::Index lines = depths.size() / around_.size();
+  return Eigen::Map<const Eigen::MatrixXd>(depths.data(), around_.size(), lines).rowwise().mean().dot(around_);
+}
+
 WearObservation WearingSurfaces::observe() const {
-  const auto of_fixed = worn_.head(area_.size()), of_moving = worn_.tail(around_.size());
+  const auto of_fixed = worn_.head(area_.size());
   WearObservation shown{.fixed_depth = of_fixed.maxCoeff(),
                         .fixed_volume = of_fixed.dot(area_),
-                        .moving_depth = of_moving.maxCoeff(),
-                        .moving_volume = of_moving.dot(around_),
+                        .moving_depth = moving().maxCoeff(),
+                        .moving_volume = moving_volume(),
                         .acceleration_error = error_};
   if (wear_.running_in) {
     const VectorXd ratio = roughness(worn_);
@@ -145,7 +168,7 @@ std::string WearingSurfaces::failure() const {
                                              surface, 1e6 * depth, 1e6 * wear.lining);
   };
   std::string fixed = worn_through("fixed", worn_.head(area_.size()).maxCoeff(), wear_.fixed);
-  return !fixed.empty() ? fixed : worn_through("moving", worn_.tail(around_.size()).maxCoeff(), wear_.moving);
+  return !fixed.empty() ? fixed : worn_through("moving", moving().maxCoeff(), wear_.moving);
 }
 
 void WearingSurfaces::persist(Archive& archive) {

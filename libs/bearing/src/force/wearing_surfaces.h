@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "force/journal_ring.h"
 #include "gap/surface_shape.h"
 #include "hersey/bearing/wear.h"
 #include "hersey/film/film_model.h"
@@ -19,6 +22,8 @@ class WearingSurfaces : public SurfaceShape {
   void accept_step(double dt) override;
   void add_to(const mbd::RelativeMotion& motion, const GapKinematics::Turning& turning,
               film::SurfaceMotion& surfaces) override;
+  void add_turning(const GapKinematics::Turning& turning,
+                   std::vector<film::MotionDirection>& of_parameters) const override;
   [[nodiscard]] bool changes_gap() const override { return true; }
   [[nodiscard]] double power(const Eigen::VectorXd& normal_forces) const override;
   void persist(Archive& archive) override;
@@ -29,9 +34,10 @@ class WearingSurfaces : public SurfaceShape {
   /// @param dt  length of the step [s]; 0: the start of a run
   void wear_off(const Eigen::VectorXd& p_asperity, const film::SurfaceMotion& surfaces, double dt);
 
-  /// Worn depths at the nodes [m]: of the fixed surface, and of the moving one, the same all around.
+  /// Worn depths at the nodes [m]: of the fixed surface, and of the moving one, where a journal that wears by place has
+  /// the angles of the nodes in its own axes.
   [[nodiscard]] Eigen::VectorXd fixed() const { return worn_.head(area_.size()); }
-  [[nodiscard]] Eigen::VectorXd moving() const { return at_nodes(worn_.tail(around_.size())); }
+  [[nodiscard]] Eigen::VectorXd moving() const;
   /// Ratio of roughness to that at the start, at the nodes, of surfaces that run in [-].
   [[nodiscard]] Eigen::VectorXd roughness_ratio() const { return roughness(worn_); }
   [[nodiscard]] WearObservation observe() const;
@@ -42,18 +48,30 @@ class WearingSurfaces : public SurfaceShape {
   /// Ratio of roughness to that at the start, at the nodes, where both surfaces have worn by depths [m].
   [[nodiscard]] Eigen::VectorXd roughness(const Eigen::VectorXd& depths) const;
   /// Values of rows at their nodes.
-  [[nodiscard]] Eigen::VectorXd at_nodes(const Eigen::VectorXd& rows) const;
+  [[nodiscard]] Eigen::VectorXd at_rows(const Eigen::VectorXd& rows) const;
+  /// Depths of the moving surface among those of both.
+  [[nodiscard]] auto of_moving(const Eigen::VectorXd& depths) const {
+    return depths.tail(depths.size() - area_.size());
+  }
+  /// These at the nodes, as the journal is turned.
+  [[nodiscard]] Eigen::VectorXd moving_at_nodes(const Eigen::VectorXd& depths) const;
   /// Depths of both surfaces together at the nodes.
   [[nodiscard]] Eigen::VectorXd opening(const Eigen::VectorXd& depths) const {
-    return depths.head(area_.size()) + at_nodes(depths.tail(around_.size()));
+    return depths.head(area_.size()) + moving_at_nodes(depths);
   }
+  [[nodiscard]] double moving_volume() const;  ///< worn off it [m^3]
+  /// Depths over the coefficient, on the rows or the ring, that contact pressure times sliding distance at the nodes
+  /// [Pa m] wears off the moving surface.
+  [[nodiscard]] Eigen::VectorXd moving_depths(const Eigen::VectorXd& work) const;
 
   const film::FilmModel& model_;
   WearModel wear_;
-  Eigen::VectorXd area_;    ///< of the nodes [m^2]
+  Eigen::VectorXd area_;    ///< weights of the nodes in integrals, with which the film's forces are summed [m^2]
   Eigen::VectorXd around_;  ///< area of the whole moving surface that passes a row [m^2], shape (n_z)
-  /// Depths of the fixed surface at the nodes, then of the moving one on the rows [m]: worn off until the end of the
-  /// step accepted last, and by which the gap is wider at the start and the end of a step; the latter's rate [m/s].
+  std::optional<JournalRing> ring_;  ///< of a journal that wears by place
+  /// Depths of the fixed surface at the nodes, then of the moving one on the rows or the ring [m]: worn off until the
+  /// end of the step accepted last, and by which the gap is wider at the start and the end of a step; the latter's rate
+  /// [m/s].
   Eigen::VectorXd worn_, start_, now_, rate_;
   Eigen::VectorXd sliding_pressure_;           ///< contact pressure times sliding speed at the step's start [Pa m/s]
   double over_ = 0;                            ///< length of the step before [s]

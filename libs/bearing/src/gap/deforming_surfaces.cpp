@@ -86,17 +86,11 @@ void DeformingSurfaces::add_displacements(const VectorXd& s, const VectorXd& s_r
 void DeformingSurfaces::add_turning(const GapKinematics::Turning& turning,
                                     std::vector<film::MotionDirection>& of_parameters) const {
   if (!journal_) return;
-  const auto add = [](VectorXd& to, const VectorXd& field) {
-    if (to.size() == 0)
-      to = field;
-    else
-      to += field;
-  };
   film::MotionDirection &angle = of_parameters[static_cast<std::size_t>(turning.of_angle)],
                         &speed = of_parameters[static_cast<std::size_t>(turning.of_speed)];
-  add(angle.g, by_angle_);
-  add(angle.g_rate, rate_by_angle_);
-  add(speed.g_rate, by_angle_ / turning.radius);
+  add_field(by_angle_, angle.g);
+  add_field(rate_by_angle_, angle.g_rate);
+  add_field(by_angle_ / turning.radius, speed.g_rate);
 }
 
 void DeformingSurfaces::add_turning_forces(const GapKinematics::Turning& turning, const VectorXd& normal_forces,

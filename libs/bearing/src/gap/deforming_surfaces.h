@@ -47,7 +47,8 @@ class DeformingSurfaces : public SurfaceShape {
   [[nodiscard]] const std::vector<film::MotionDirection>& directions() const { return directions_; }
 
   /// Adds to the directions of the gap's parameters that the journal's deformation rotates with the journal.
-  void add_turning(const GapKinematics::Turning& turning, std::vector<film::MotionDirection>& of_parameters) const;
+  void add_turning(const GapKinematics::Turning& turning,
+                   std::vector<film::MotionDirection>& of_parameters) const override;
   /// Adds the same to the derivative of forces on amplitudes with the journal's angle, a column of `Q_by_s`.
   void add_turning_forces(const GapKinematics::Turning& turning, const Eigen::VectorXd& normal_forces,
                           Eigen::MatrixXd& Q_by_s) const;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <vector>
 
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/core/archive.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_response.h"
 #include "hersey/mbd/two_body_force.h"
 
 namespace hersey::bearing {
@@ -26,6 +28,9 @@ class SurfaceShape {
   /// @param turning  rotation of B's surface over the film's grid
   virtual void add_to(const mbd::RelativeMotion& motion, const GapKinematics::Turning& turning,
                       film::SurfaceMotion& surfaces) = 0;
+  /// Adds to the directions of the gap's parameters that the shape rotates with the journal.
+  virtual void add_turning(const GapKinematics::Turning& /*turning*/,
+                           std::vector<film::MotionDirection>& /*of_parameters*/) const {}
   /// True if the gap at the nodes differs from that of the rigid surfaces: its smallest is then one at a node.
   [[nodiscard]] virtual bool changes_gap() const = 0;
 
@@ -36,5 +41,13 @@ class SurfaceShape {
   /// Saves or restores what the next step starts from.
   virtual void persist(Archive& /*archive*/) {}
 };
+
+/// Adds a field at the nodes to one of a direction, in which an empty one means zero.
+inline void add_field(const Eigen::VectorXd& field, Eigen::VectorXd& to) {
+  if (to.size() == 0)
+    to = field;
+  else
+    to += field;
+}
 
 }  // namespace hersey::bearing

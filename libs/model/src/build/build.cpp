@@ -416,8 +416,10 @@ class Builder {
       surfaces.b = machine_.flexibles[flexible_called(bearing.journal.body)].elastic;
       built.journal = kept_.at(&*bearing.journal_surface);
     }
-    built.bearing = std::make_shared<bearing::FilmForce>(
-        bearing.name, bearing.film, bearing.kind->gap(bearing.film, options.journal_surface != nullptr), options);
+    const bool journal_changes =
+        options.journal_surface != nullptr || (bearing.wear && bearing.wear->around == bearing::WearAround::local);
+    built.bearing = std::make_shared<bearing::FilmForce>(bearing.name, bearing.film,
+                                                         bearing.kind->gap(bearing.film, journal_changes), options);
     built.force = mechanism_.add_force("bearing " + bearing.name, frame(bearing.shell), frame(bearing.journal),
                                        built.bearing, surfaces);
     machine_.bearings.push_back(std::move(built));

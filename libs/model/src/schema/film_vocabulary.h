@@ -96,6 +96,14 @@ inline constexpr Vocabulary<film::Surface, 2> profile_surface_words{{
     {film::Surface::journal, "journal", "the journal: it rotates with it"},
 }};
 
+inline constexpr Vocabulary<bearing::WearAround, 2> wear_around_words{{
+    {bearing::WearAround::even, "even",
+     "evenly: it turns often under loads that do not turn with it, and all of it passes the contact"},
+    {bearing::WearAround::local, "local",
+     "place by place in its own axes: crank pins, whose load comes at the same angles of the crank, and journals that "
+     "swing"},
+}};
+
 inline constexpr Vocabulary<solver::Acceleration, 3> acceleration_words{{
     {solver::Acceleration::quasi_newton, "quasi_newton",
      "the interface's Jacobian is learnt from the steps taken (IQN-ILS)"},

@@ -132,14 +132,21 @@ TypePtr materials_format(const SurfaceKeys& surfaces) {
 }
 
 TypePtr wear_format(const SurfaceKeys& surfaces) {
-  const TypePtr surface = with_exactly_one(
-      object("wear of a surface", {optional("coefficient", quantity("1/Pa", "1e-16 1/Pa", Range::not_negative()),
-                                            "Archard's: worn depth over contact pressure and sliding distance, k/H."),
-                                   optional("energy_density", quantity("J/m^3", "1e13 J/m^3", Range::positive()),
-                                            "Fleischer's: work of friction that wears off a volume."),
-                                   optional("lining", quantity("m", "20 um", Range::positive()),
-                                            "Depth that may wear off; a run ends there.", "no end")}),
-      {"coefficient", "energy_density"});
+  const std::vector<Key> of_surface{optional("coefficient", quantity("1/Pa", "1e-16 1/Pa", Range::not_negative()),
+                                             "Archard's: worn depth over contact pressure and sliding distance, k/H."),
+                                    optional("energy_density", quantity("J/m^3", "1e13 J/m^3", Range::positive()),
+                                             "Fleischer's: work of friction that wears off a volume."),
+                                    optional("lining", quantity("m", "20 um", Range::positive()),
+                                             "Depth that may wear off; a run ends there.", "no end")};
+  const auto one_law = [](TypePtr surface) { return with_exactly_one(surface, {"coefficient", "energy_density"}); };
+  const TypePtr fixed = one_law(object("wear of a surface", of_surface));
+  TypePtr moving = fixed;
+  if (std::string_view(surfaces.moving) == "journal") {
+    std::vector<Key> of_journal = of_surface;
+    of_journal.push_back(
+        defaulted("around", choice(wear_around_words), "even", "Where around the journal the contact wears it."));
+    moving = one_law(object("wear of the journal", of_journal));
+  }
   const TypePtr running_in =
       object("running in of the roughness",
              {required("roughness", quantity("m", "0.4 um", Range::positive()),
@@ -147,8 +154,11 @@ TypePtr wear_format(const SurfaceKeys& surfaces) {
               required("depth", quantity("m", "0.5 um", Range::positive()),
                        "Worn off both surfaces together where a share 1/e of the change is still to come.")});
   return object("wear",
-                {optional(surfaces.fixed, surface, "Of the fixed surface, place by place.", "none"),
-                 optional(surfaces.moving, surface, "Of the moving surface, evenly around.", "none"),
+                {optional(surfaces.fixed, fixed, "Of the fixed surface, place by place.", "none"),
+                 optional(surfaces.moving, moving,
+                          moving == fixed ? "Of the moving surface, evenly around."
+                                          : "Of the moving surface, evenly around or place by place.",
+                          "none"),
                  defaulted("acceleration", number("1000", {.low = 0, .high = 1e9, .low_open = true}), "1",
                            "Times that wear counts: one cycle stands for as many."),
                  optional("running_in", running_in, "Roughness that follows wear, place by place.", "it stays"),

@@ -17,10 +17,16 @@ struct RunningIn {
   double depth = 1;  ///< worn off both surfaces where 1/e of the change is still to come [m], > 0
 };
 
-/// Wear of both surfaces of a bearing. The fixed one wears node by node; the moving one passes the contact with all of
-/// its circumference, and wears evenly around.
+/// Where around a moving surface wears.
+enum class WearAround {
+  even,   ///< evenly: all of its circumference passes the contact, many times while either changes
+  local,  ///< place by place in a journal's own axes: a load that turns with it, or a journal that swings
+};
+
+/// Wear of both surfaces of a bearing. The fixed one wears node by node.
 struct WearModel {
   SurfaceWear fixed, moving;
+  WearAround around = WearAround::even;      ///< of the moving one; `local`: a journal
   std::optional<RunningIn> running_in = {};  ///< of their roughness; unset: it stays
   double acceleration = 1;                   ///< times that wear counts, > 0: a cycle stands for as many
   double cycle = 0;  ///< after which loads repeat, for the error of an acceleration [s]; 0: unknown

@@ -30,6 +30,8 @@ void FilmReader::read_wear() {
                                      .moving = wear_of(*wear, surfaces_.moving),
                                      .acceleration = number_of(*wear, "acceleration"),
                                      .cycle = cycle != nullptr && !cycle->broken ? cycle->number : 0};
+  if (const Value* moving = wear->find(surfaces_.moving); moving != nullptr && moving->find("around") != nullptr)
+    bearing_.wear->around = meaning_of(*moving, "around", wear_around_words);
   if (const Value* run_in = wear->find("running_in"); run_in != nullptr && !run_in->broken)
     bearing_.wear->running_in = running_in_of(*run_in);
 }
