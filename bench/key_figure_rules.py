@@ -60,6 +60,7 @@ COMMANDS = {
     "piston/floating_pin": [("run", "simulation.duration=10deg")],
     "piston/model": [("run", "simulation.duration=90deg")],
     "piston/skirt": [("bearing",)],
+    "piston/starved": [("bearing",)],
     "piston/valve_guide": [("run",)],
     "plane_slider/carriage": [("run",)],
     "plane_slider/model": [("bearing",)],
