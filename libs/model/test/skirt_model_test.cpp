@@ -79,8 +79,8 @@ TEST_CASE("OilOfASkirt_IsReadAsLayersOfBothEdges") {
   CHECK(both.edge_left.ambient_fill == 1);
   CHECK(both.ends[1].first.ambient_fill == 1);
   const film::FilmModel one = film_with("oil: 20 um");
-  CHECK(one.edge_right.layer == 20e-6);
-  CHECK(one.edge_left.layer == 20e-6);
+  CHECK(one.edge_right.layer.value_or(0) == doctest::Approx(20e-6));
+  CHECK(one.edge_left.layer.value_or(0) == doctest::Approx(20e-6));
   CHECK(one.ends[0].last.ambient_fill == 0);
   const film::FilmModel flooded = film_with("oil: flooded");
   CHECK_FALSE(flooded.edge_right.layer.has_value());
