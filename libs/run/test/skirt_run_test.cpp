@@ -173,11 +173,12 @@ TEST_CASE("StarvedSkirt_IsBalancedAndTheSameHoweverCoupled") {
   const results::Reader reader(summary.results);
   const std::vector<double> starved = series(reader, "starved_share"), scraped = series(reader, "flow_scraped"),
                             speed = series(reader, "skirt_speed"), bottom = series(reader, "flow_left");
-  // On its way up the skirt runs dry, since 4 um fill no more than 8 um of a gap; on its way down it does not.
+  // On its way up one side of the skirt runs dry, since 4 um fill no more than some 8 um of a gap; on its way down none
+  // does.
   CHECK(speed.back() > 0);
-  CHECK(starved.back() > 0.95);
+  CHECK(starved.back() > 0.5);
   CHECK(speed[90] < 0);
-  CHECK(starved[90] < 0.6);
+  CHECK(starved[90] < 0.05);
   for (std::size_t k = 1; k < speed.size(); ++k) {
     CHECK(scraped[k] >= -1e-15);  // round-off of m^3/s beside 1e-5
     const double brought = 25e-6 * std::max(-speed[k], 0.0) * 2 * 80 * std::numbers::pi / 180 * 0.0375;
