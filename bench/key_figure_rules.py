@@ -59,6 +59,7 @@ COMMANDS = {
     "paper_big_end/model": [("run", "load=1000N", "clearance=0.034mm", "simulation.duration=2rev")],
     "piston/floating_pin": [("run", "simulation.duration=10deg")],
     "piston/model": [("run", "simulation.duration=90deg")],
+    "piston/rings": [("run", "simulation.duration=90deg", "simulation.cycle.period=90deg")],
     "piston/skirt": [("bearing",)],
     "piston/starved": [("bearing",)],
     "piston/valve_guide": [("run",)],
