@@ -53,7 +53,10 @@ std::string pressures_of(const film::FilmModel& film) {
   }
   const auto fill = [&](const char* name, const film::Edge& edge) {
     const bool is_open = edge.kind == film::EdgeKind::pressure && edge.pressure <= film.p_cav;
-    if (is_open && edge.ambient_fill == 1) text += fmt::format(", {} one flooded", name);
+    if (is_open && edge.layer)
+      text += fmt::format(", {} one with a layer of {:.4g} um of oil", name, 1e6 * *edge.layer);
+    else if (is_open && edge.ambient_fill == 1)
+      text += fmt::format(", {} one flooded", name);
     if (is_open && edge.ambient_fill > 0 && edge.ambient_fill < 1)
       text += fmt::format(", {} one in {:.3g} of oil", name, edge.ambient_fill);
   };

@@ -39,7 +39,7 @@ RUNS = {
     "examples/tilting_pads/model.yaml": [],
     "tests/results_file/pads.yaml": [],
     "oil_circuit": ["--set", "simulation.duration=2ms"],
-    "piston": ["--set", "simulation.duration=2deg"],
+    "examples/piston/rings.yaml": ["--set", "simulation.duration=2deg", "--set", "simulation.cycle.period=1deg"],
     "examples/oil_circuit/passing_hole.yaml": ["--set", "simulation.duration=2ms", "--set",
                                                 "circuit.elements.crank.course=through_axis"],
     "examples/oil_circuit/warm.yaml": [],

@@ -71,6 +71,34 @@ TEST_CASE("Skirt_IsReadWithItsTwoSides") {
   CHECK(starved.bearings[0].film.ends[1].last.ambient_fill == 0.5);
 }
 
+TEST_CASE("OilOfASkirt_IsReadAsLayersOfBothEdges") {
+  const auto film_with = [](const std::string& line) { return read_text(with_line(line), "m.yaml").bearings[0].film; };
+  const film::FilmModel both = film_with("oil: {top: 3 um, bottom: flooded, sides: flooded}");
+  CHECK(both.edge_right.layer == 3e-6);
+  CHECK_FALSE(both.edge_left.layer.has_value());
+  CHECK(both.edge_left.ambient_fill == 1);
+  CHECK(both.ends[1].first.ambient_fill == 1);
+  const film::FilmModel one = film_with("oil: 20 um");
+  CHECK(one.edge_right.layer.value_or(0) == doctest::Approx(20e-6));
+  CHECK(one.edge_left.layer.value_or(0) == doctest::Approx(20e-6));
+  CHECK(one.ends[0].last.ambient_fill == 0);
+  const film::FilmModel flooded = film_with("oil: flooded");
+  CHECK_FALSE(flooded.edge_right.layer.has_value());
+  CHECK(flooded.ends[0].last.ambient_fill == 1);
+}
+
+TEST_CASE("OilOfASkirtThatCannotBe_IsReported") {
+  const auto says = [](const std::string& line, const std::string& text) {
+    const std::string faults = faults_of(with_line(line));
+    CAPTURE(faults);
+    CHECK(faults.find(text) != std::string::npos);
+  };
+  says("oil: 3 um\n    ambient_fill: 0.5", "both 'oil' and 'ambient_fill'; expected one of them");
+  says("oil: {top: 3 um, bottom: 5 um}\n    edge_pressure: 1 bar",
+       "a layer of oil before an edge that is not at the cavitation pressure");
+  says("oil: 3 um\n    cavitation: reynolds", "a layer of oil before a film that does not conserve oil");
+}
+
 TEST_CASE("PositionsOfSkirtsThatCannotBe_AreReported") {
   CHECK(faults_of(skirt) == "no fault");
   const std::string at = "m.yaml:10:";
@@ -84,7 +112,9 @@ TEST_CASE("PositionsOfSkirtsThatCannotBe_AreReported") {
   CHECK(faults_of(with_point("{speed: -8 m/s, offset_top: 1 um, offset_bottom: 1 um, tilt: 1 mrad}"))
             .find("a tilt beside the offsets") != std::string::npos);
   CHECK(faults_of(with_point("{speed: 0 m/s, offset_top: 1 um, offset_bottom: 1 um}"))
-            .find("a skirt whose middle is at rest") != std::string::npos);
+            .find("a skirt at rest, which moves no oil") != std::string::npos);
+  CHECK(faults_of(with_point("{speed: 0 m/s, offset_top: 1 um, offset_bottom: 1 um, velocity_top: 1 mm/s, "
+                             "velocity_bottom: -1 mm/s}")) == "no fault");
   CHECK(faults_of(with_point("{speed: -8 m/s, offset_top: 50 um, offset_bottom: 10 um}")).starts_with(at));
   CHECK(faults_of(with_point("{speed: -8 m/s, offset_top: 50 um, offset_bottom: 10 um}"))
             .find("a skirt that touches the liner") != std::string::npos);

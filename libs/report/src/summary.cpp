@@ -75,6 +75,7 @@ class Summary {
     thermal_rows();
     circuit_rows();
     contact_rows();
+    ring_rows();
     run_rows();
     return std::move(rows_);
   }
@@ -268,6 +269,17 @@ class Summary {
     }
   }
 
+  void ring_rows() {
+    using Statistic = SummaryEntry::Statistic;
+    const std::vector<QuantityInfo> quantities = run::quantities_of("/forces/<f>/");
+    for (const std::string& force : reader_.children("/forces")) {
+      group_ = "ring " + force;
+      path_ = "/forces/" + force + "/";
+      if (reader_.has(path_ + "radial_load"))
+        add_rows(quantities, {Statistic::largest, Statistic::largest_in_size, Statistic::mean});
+    }
+  }
+
   void run_rows() {
     group_ = "run";
     path_ = "/";
@@ -332,6 +344,8 @@ class Summary {
       add(fmt::format("cycle {}: change from the one before", i + 1), 100 * change[i], "%",
           fmt::format("ended at t = {:.4g} s", end[i]));
     if (!change.empty()) add("cycles", static_cast<double>(change.size()), "");
+    if (const std::vector<double> p_f = values("friction_mean_effective_pressure"); !p_f.empty())
+      add("friction mean effective pressure of films and rings", 1e-5 * p_f.back(), "bar");
   }
 
   void mode_rows() {

@@ -112,6 +112,8 @@ Group friction_figures_of_skirt() {
            power_not_explained(put_in_by_skirt)}};
 }
 
+bool meets_layers(const Solution& s) { return s.model.edge_left.layer || s.model.edge_right.layer; }
+
 Group oil_of_skirt() {
   using Film = film::FilmObservables;
   return {"oil",
@@ -119,7 +121,9 @@ Group oil_of_skirt() {
            {"flow_bottom", kFlow, film(&Film::flow_left)},
            {"oil_volume", kVolume, film(&Film::oil_volume)},
            mass_balance_error(),
-           {"cavitated_share", kNone, film(&Film::cavitated_share)}}};
+           {"cavitated_share", kNone, film(&Film::cavitated_share)},
+           {"starved_share", kNone, film(&Film::starved_share), {.only = meets_layers}},
+           {"flow_scraped", kFlow, film(&Film::flow_scraped), {.only = meets_layers}}}};
 }
 
 /// Derivatives by the offset of the skirt's middle and by its slope towards the thrust side.

@@ -3,7 +3,7 @@
 namespace hersey::bearing {
 
 film::FilmModel scaled_for(film::FilmModel model, const OperatingPoint& point) {
-  const double omega = point.film_speed(clearance(model));
+  const double omega = point.film_speed(clearance(model), model.L);
   if (omega > 0) model.fill_speed = omega;
   return model;
 }

@@ -170,7 +170,7 @@ SteadyState SteadySearch::state() {
 bool SteadySearch::carries_no_load() {
   const film::FilmFields fields = film::film_fields(model_, film_.surfaces(e_, x_), film_.film_of(x_));
   const double scale =
-      model_.lubricant.mu0 * point_.film_speed(clearance(model_)) * std::pow(model_.R / clearance(model_), 2);
+      model_.lubricant.mu0 * point_.film_speed(clearance(model_), model_.L) * std::pow(model_.R / clearance(model_), 2);
   return fields.p.maxCoeff() - fields.p.minCoeff() <= 1e-9 * scale &&
          model_.asperities.model == film::AsperityModel::none;
 }

@@ -39,7 +39,7 @@ SteadySummary find_total_coefficients(const film::FilmModel& model, const Steady
   here.load.reset();
   here.e = state.e;
   const double step = kStep * std::max(state.film.h_min, 0.01 * clearance(model));
-  const double frequency = here.film_speed(clearance(model));
+  const double frequency = here.film_speed(clearance(model), model.L);
   const std::unique_ptr<SteadyCoordinates> coordinates = state.kind->steady_coordinates(model);
   const SteadyCoordinates::ForceRows& rows = coordinates->force_rows();
   here.e_rate.conservativeResizeLike(Coordinates::Zero(here.e.size()));

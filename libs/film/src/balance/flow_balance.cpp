@@ -20,6 +20,7 @@ void check(const FilmModel& m) {
     HERSEY_REQUIRE(0 <= edge.ambient_fill && edge.ambient_fill <= 1, "fill lies between 0 and 1");
     HERSEY_REQUIRE(edge.kind != EdgeKind::leaking || edge.leakage > 0, "a seal that leaks has a leakage");
     HERSEY_REQUIRE(edge.flow.value_or(0) >= 0, "oil that reaches an edge does not leave it");
+    HERSEY_REQUIRE(edge.layer.value_or(0) >= 0, "a layer of oil has a thickness");
   }
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.supply.pressure >= m.p_cav, "supply lies at or above p_cav");
   HERSEY_REQUIRE(m.supply.kind == SupplyKind::none || m.grid.closes(), "a supply line has film on both sides");
@@ -95,26 +96,10 @@ void FlowBalance::lay_edges() {
       at.is_corner = (grid.begins_patch(i) ? ends.first : ends.last).kind == EdgeKind::pressure;
     }
     if (at.kind == EdgeNode::Kind::prescribed) prescribed_edge_nodes_.push_back(node);
+    at.has_layer = at.kind == EdgeNode::Kind::open && !at.of_patch && edge->layer;
+    if (at.has_layer) at.layer = *edge->layer * geometry_.width_phi[i] * geometry_.stretch[j];
   }
   if (!grid.closes()) spread_given_flows();
-}
-
-// Along the end of a patch the oil comes evenly, over each node's width of the nodes that belong to it (film.64).
-void FlowBalance::spread_given_flows() {
-  const Grid& grid = model_.grid;
-  for (int i = 0; i < grid.n_phi; ++i) {
-    if (!grid.is_end(i)) continue;
-    const PatchEnds& ends = model_.ends[static_cast<std::size_t>(grid.patch_of(i))];
-    const Edge& end = grid.begins_patch(i) ? ends.first : ends.last;
-    const auto takes = [&](int j) {
-      const EdgeNode& at = edges_[grid.index(i, j)];
-      return at.of_patch && at.kind == EdgeNode::Kind::open;
-    };
-    double width = 0;
-    for (int j = 0; j < grid.n_z; ++j) width += takes(j) ? geometry_.width_z[j] : 0;
-    for (int j = 0; end.flow && j < grid.n_z; ++j)
-      if (takes(j)) edges_[grid.index(i, j)].flow = *end.flow * geometry_.width_z[j] / width;
-  }
 }
 
 void FlowBalance::lay_faces() {
@@ -314,7 +299,7 @@ int FlowBalance::phase_node(int node) const {
 }
 
 // A row has a term beside its balance: the slack of p >= p_cav, or on an open edge the outflow or inflow. Of a given
-// flow (film.64) what the film has no room for leaves at once.
+// flow (film.64) or layer (film.65) what the film has no room for leaves at once.
 double FlowBalance::slack(int node) const {
   if (!is_on_open_edge(node)) return D0_ * cavitation_.slack(u_[node]).value;
   return D0_ * (std::max(u_[node], 0.0) + std::min(u_[node] - ambient_unknown(node), 0.0)) - given_flow(node);
@@ -497,6 +482,7 @@ void FlowBalance::balance_along(const MotionDirection& direction, Eigen::VectorX
     dr[node] += leaks.rate * sliding.rate + leaks.rotation * sliding.rotation;
     if (gap) dr[node] += leaks.g * direction.g[node];
   }
+  if (direction.w_journal != 0) bring_layers_along(direction.w_journal, dr);
 }
 
 void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr, Eigen::VectorXd* port_flows) const {

@@ -193,8 +193,10 @@ class FlowBalance {
   [[nodiscard]] bool is_on_leaking_edge(int node) const { return edges_[node].kind == EdgeNode::Kind::leaking; }
   /// u at which an edge at p_cav is as full as its surroundings; -infinity where nothing comes in [Pa].
   [[nodiscard]] double ambient_unknown(int node) const { return edges_[node].ambient; }
-  /// Part of the flow that is given at the end of a patch which reaches this node [m^3/s].
-  [[nodiscard]] double given_flow(int node) const { return edges_[node].flow; }
+  /// Oil that is given at this node: of a flow to the end of its patch, or by a layer on the journal [m^3/s].
+  [[nodiscard]] double given_flow(int node) const { return edges_[node].flow + layer_flow(node); }
+  [[nodiscard]] double layer_flow(int node) const;  ///< part of given_flow() that a layer brings (film.65) [m^3/s]
+  [[nodiscard]] bool brings_layer(int node) const;  ///< true if a layer, however thin, comes in over this node's edge
   /// True on an edge at p_cav with oil outside: oil that comes in there fills the gap, whatever u is.
   [[nodiscard]] bool is_flooded(int node) const { return is_on_open_edge(node) && edges_[node].ambient == 0; }
   /// Returns the flow over the edge on which a node lies, of all flows over edges.
@@ -372,7 +374,9 @@ class FlowBalance {
     double u = 0;            ///< prescribed unknown, or that of the pressure behind a seal [Pa]
     double ambient = 0;      ///< ambient_unknown() [Pa]
     double seal = 0;         ///< of a seal: flow per pressure and fluidity [m^3] (damper.1)
-    double flow = 0;         ///< given_flow() [m^3/s]
+    double flow = 0;         ///< part of the flow given at the end of a patch [m^3/s]
+    bool has_layer = false;  ///< a layer comes in here where the journal runs inwards
+    double layer = 0;        ///< its thickness times the node's width [m^2]
   };
 
   /// Fraction of a full gap's entrained flow that crosses a face which the line cuts, with derivatives: by the fill
@@ -396,6 +400,7 @@ class FlowBalance {
   }
   /// Flow along the side of a patch to its corner [m^3/s].
   [[nodiscard]] double flow_along_side(int node) const;
+  [[nodiscard]] double inward_speed(int node) const;       ///< of the journal's surface over an edge z = +-L/2 [m/s]
   [[nodiscard]] std::size_t face_at_edge(int node) const;  ///< face from the node to the next one from the edge
   /// Oil entering by the row of this node [m^3/s].
   [[nodiscard]] double supply_of_row(int node) const;
@@ -458,6 +463,8 @@ class FlowBalance {
     return direction_sliding_[static_cast<std::size_t>(node % model_.grid.n_z)];
   }
   [[nodiscard]] int slot_to_other(const PrescribedNode& prescribed) const;
+  /// Adds the change of what layers bring with the journal's speed.
+  void bring_layers_along(double w_journal, Eigen::VectorXd& dr) const;
   void add_turning_pockets(const MotionDirection& direction, Eigen::VectorXd& dr) const;
   [[nodiscard]] double pocket_edge_speed(std::size_t f,
                                          const PocketFlowTube& flow_tube) const;  ///< of the edges of a pocket [m/s]

@@ -55,7 +55,7 @@ bool open_edge(const FilmModel& model, int node) {
 double ambient_fill(const FilmModel& model, int node) {
   if (!open_edge(model, node)) return 0;
   const Edge& edge = *edge_of_node(model, node);
-  return edge.flow ? 0 : edge.ambient_fill;
+  return edge.gives_oil() ? 0 : edge.ambient_fill;
 }
 
 NodeLaw::NodeLaw(const FilmModel& model)

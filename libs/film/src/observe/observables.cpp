@@ -145,6 +145,25 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
   o.mass_balance_error = scale > 0 ? std::abs(error) / scale : 0;
 }
 
+/// What layers of oil on the journal leave empty and what they leave behind (film.66).
+void observe_layers(const FlowBalance& balance, FilmObservables& o) {
+  const Grid& grid = balance.model().grid;
+  double total = 0;
+  for (int k = 0; k < balance.size(); ++k) total += balance.area(k);
+  for (int i = 0; i < grid.n_phi; ++i) {
+    for (const int edge : {0, grid.n_z - 1}) {
+      const int node = grid.index(i, edge), inwards = edge == 0 ? 1 : -1;
+      if (!balance.brings_layer(node)) continue;
+      o.flow_scraped += balance.layer_flow(node) + balance.outflow(node);
+      for (int j = edge; j >= 0 && j < grid.n_z; j += inwards) {
+        const double cavitated = balance.cavitated_fraction(grid.index(i, j));
+        if (cavitated == 0) break;
+        o.starved_share += balance.area(grid.index(i, j)) * cavitated / total;
+      }
+    }
+  }
+}
+
 /// Regimes of the flow by the numbers at the nodes, each with the area of its control volume (turbulence.15).
 void observe_regimes(const FlowBalance& balance, FilmObservables& o) {
   const FilmModel& model = balance.model();
@@ -290,6 +309,7 @@ FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& 
   observe_forces(balance, wrench, e, tilt, o);
   o.normal_forces = wrench.normal().value;
   observe_oil(balance, motion, o);
+  observe_layers(balance, o);
   observe_regimes(balance, o);
   observe_patches(balance, fields, motion.phi_journal, o);
   const Cavity cavity = widest_cavity(balance, u, motion.u_shell + motion.u_journal < 0);

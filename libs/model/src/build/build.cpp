@@ -304,6 +304,13 @@ class Builder {
       mechanism_.add_coordinate_force(name, coordinate(law.on), law.made());
   }
 
+  void add(const std::string& name, const PistonRing& ring) {
+    mbd::PistonRing::Data data = ring.data;
+    if (ring.gas) data.gas = std::make_shared<OverTime>(*ring.gas, model_.simulation);
+    const auto made = std::make_shared<mbd::PistonRing>(std::move(data));
+    machine_.rings.push_back({name, mechanism_.add_force(name, frame(ring.from), frame(ring.to), made), made});
+  }
+
   void add(const std::string& name, const CoordinateSpring& spring) {
     mechanism_.add_spring({.name = name,
                            .coordinate = coordinate(spring.on),

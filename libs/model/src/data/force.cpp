@@ -15,6 +15,8 @@ void visit_functions(T& data, const std::string& name, Take take) {
   } else if constexpr (std::is_same_v<Data, SurfaceLoad>) {
     for (auto& function : data.functions)
       take(function, data.is_pressure ? "Pa" : "N", (data.is_pressure ? "pressure " : "force ") + name);
+  } else if constexpr (std::is_same_v<Data, PistonRing>) {
+    if (data.gas) take(*data.gas, "Pa", "gas pressure of ring " + name);
   } else if constexpr (std::is_same_v<Data, SpeedControl>) {
     take(data.speed, speed_unit(data.on.coordinate), "wanted speed of " + name);
   }

@@ -21,6 +21,7 @@
 #include "series/group_record.h"
 #include "series/joint_record.h"
 #include "series/mode_record.h"
+#include "series/ring_record.h"
 #include "series/surface_load_record.h"
 #include "series/system_record.h"
 #include "series/thermal_record.h"
@@ -54,6 +55,7 @@ QuantityGroup joint_group() {
 QuantityGroup force_group() {
   QuantityGroup group{.path = "/forces/<f>/", .heading = "of a force between two bodies", .quantities = {}};
   describe_link(group);
+  RingRecord::describe(group);
   return group;
 }
 

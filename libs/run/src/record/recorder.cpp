@@ -70,7 +70,7 @@ std::vector<std::size_t> indices_of_shown(const std::vector<bool>& hidden) {
 
 Recorder::Recorder(const model::Model& model, const model::Machine& machine, const solver::State& start,
                    const Options& options, bool resumes)
-    : model_(model), machine_(machine), writer_(writer_of(model, options, resumes)) {
+    : model_(model), machine_(machine), writer_(writer_of(model, options, resumes)), friction_sums_(machine) {
   write_header(model, machine, start, options, writer_);
   declare();
   writer_.flush();
@@ -93,6 +93,7 @@ void Recorder::declare() {
   surface_loads_.emplace(machine_, writer_);
   for (const model::BuiltBeam& beam : machine_.beams) beams_.emplace_back(model_, machine_, beam, writer_);
   for (const model::Contact& contact : model_.contacts) contacts_.emplace_back(contact, writer_);
+  for (const model::BuiltRing& ring : machine_.rings) rings_.emplace_back(ring, writer_);
   for (std::size_t i = 0; i < model_.bearings.size(); ++i) {
     const bearing::FilmForce& film = *machine_.bearings[i].bearing;
     bearings_.emplace_back(BearingPlan{model_, model_.bearings[i], film.fields()}, film, writer_);
@@ -117,6 +118,7 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   surface_loads_->append(observation);
   for (const BeamRecord& beam : beams_) beam.append(observation);
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].append(step.contacts[i]);
+  for (const RingRecord& ring : rings_) ring.append(observation);
   for (std::size_t i = 0; i < bearings_.size(); ++i) bearings_[i].append(step.bearings[i]);
   if (thermal_) thermal_->append({model_, step.network});
   if (circuit_) circuit_->append(step.circuit);
@@ -141,6 +143,10 @@ void Recorder::persist(Archive& archive, const std::filesystem::path& results) {
   {
     const Archive::Group group(archive, "cycles");
     cycle_maps_->persist(archive);
+  }
+  {
+    const Archive::Group group(archive, "rings");
+    friction_sums_.persist(archive);
   }
   if (!archive.restores() || results.empty()) return;
   std::vector<std::pair<std::string, std::size_t>> rows;

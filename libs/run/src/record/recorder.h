@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cycle/cycle_maps.h"
+#include "cycle/engine_friction.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/results/writer.h"
@@ -24,6 +25,7 @@
 #include "series/group_record.h"
 #include "series/joint_record.h"
 #include "series/mode_record.h"
+#include "series/ring_record.h"
 #include "series/surface_load_record.h"
 #include "series/system_record.h"
 #include "series/thermal_record.h"
@@ -47,9 +49,16 @@ class Recorder {
   void write_row(const StepRecord& step, const EnergySummary& energy);
   void write_fields(const StepRecord& step);
   /// Adds an accepted step to the bearings' maps and losses over a cycle.
-  void gather(const StepRecord& step) { cycle_maps_->take(step.mechanism.t, step.bearings); }
+  void gather(const StepRecord& step) {
+    cycle_maps_->take(step.mechanism.t, step.bearings);
+    friction_sums_.take(step.mechanism);
+  }
   /// A cycle of the machine ends with the step last gathered.
-  std::vector<BearingCycle> close_cycle() { return cycle_maps_->close(); }
+  std::vector<BearingCycle> close_cycle() {
+    std::vector<BearingCycle> cycles = cycle_maps_->close();
+    friction_ = friction_sums_.close(cycles);
+    return cycles;
+  }
   /// Small motions about `state`.
   void write_modes(const solver::State& state, const solver::Modes& found) { modes_->append(state, found); }
   void flush_if_due() { writer_.flush_if_due(); }
@@ -60,7 +69,7 @@ class Recorder {
   /// @throws results::ReadError if these have fewer
   void persist(Archive& archive, const std::filesystem::path& results);
   /// Writes the difference between the cycle that ended at `t` and the one before: CycleChange::value.
-  void write_cycle(double t, double change) const { cycles_->append(t, change); }
+  void write_cycle(double t, double change) const { cycles_->append({t, change, friction_}); }
   /// Reserves space for the data that `finish` writes, so that it does not change the structure of the file: a program
   /// killed then leaves a readable file. To be called before the first row.
   /// @param work  of zero steps
@@ -84,11 +93,14 @@ class Recorder {
   std::optional<SurfaceLoadRecord> surface_loads_;
   std::vector<BeamRecord> beams_;
   std::vector<ContactRecord> contacts_;
+  std::vector<RingRecord> rings_;
   std::vector<BearingRecord> bearings_;
   std::optional<ThermalRecord> thermal_;
   std::optional<CircuitRecord> circuit_;
   std::vector<GroupRecord> groups_;  ///< bearings of several films
   std::optional<CycleMaps> cycle_maps_;
+  EngineFrictionSums friction_sums_;
+  EngineFriction friction_;  ///< of the cycle last closed
   std::optional<CycleRecord> cycles_;
   std::optional<ModeRecord> modes_;
 };

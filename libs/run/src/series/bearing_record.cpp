@@ -66,6 +66,10 @@ bool is_skirt(const BearingPlan& plan) { return std::holds_alternative<film::Ski
 bool is_cylindrical(const BearingPlan& plan) { return has_axis(plan) || is_skirt(plan); }
 bool has_leading_ends(const BearingPlan& plan) { return has_ends(plan) && !is_skirt(plan); }
 
+bool meets_layers(const BearingPlan& plan) {
+  return plan.bearing.film.edge_left.layer || plan.bearing.film.edge_right.layer;
+}
+
 /// Offset of a skirt's axis at one of its ends. @param end  1 at the top, -1 at the bottom
 auto skirt_offset(double end) {
   return [end](const BearingRow& row) {
@@ -418,6 +422,15 @@ const QuantityTable<BearingRow, BearingPlan>& bearing_quantities() {
       line("roughness_least", roughness_of(&Wear::roughness_least),
            {.only = runs_in, .summary_entries = {{Statistic::at_end, "smallest roughness at the end", "µm"}}}),
       line("cavitated_share", of_film(&Film::cavitated_share)),
+      line("starved_share", of_film(&Film::starved_share),
+           {.note = "of a piston skirt with layers of `oil` on its liner",
+            .only = meets_layers,
+            .summary_entries = {{Statistic::mean, "mean starved share of the skirt's area"},
+                                {Statistic::largest, "largest starved share of the skirt's area"}}}),
+      line("flow_scraped", of_film(&Film::flow_scraped),
+           {.note = "likewise",
+            .only = meets_layers,
+            .summary_entries = {{Statistic::mean, "mean flow of oil scraped off the liner", "mm³/s"}}}),
       line("rupture_angle", of_film(&Film::rupture_angle),
            {.note = "with the flow, of its widest cavity", .only = is_round}),
       line("reformation_angle", of_film(&Film::reformation_angle), {.only = is_round}),

@@ -167,6 +167,21 @@ const QuantityTable<CycleRecord::Row, model::Model>& CycleRecord::table() {
        "friction loss, over the larger",
        &Row::change,
        {.note = "NaN in the first cycle"}},
+      {"fields/friction_energy",
+       "J",
+       "lost in all films, their contact, and piston rings",
+       part(&Row::friction, &EngineFriction::energy),
+       {.note = "this and the following: where a bearing is a `skirt`", .only = displaces}},
+      {"fields/displaced_volume",
+       "m^3",
+       "between the extreme places of all skirts in their liners",
+       part(&Row::friction, &EngineFriction::volume),
+       {.only = displaces}},
+      {"fields/friction_mean_effective_pressure",
+       "Pa",
+       "the former over the latter",
+       [](const Row& row) { return row.friction.mean_effective_pressure(); },
+       {.only = displaces}},
   };
   return table;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cycle/engine_friction.h"
 #include "hersey/model/model.h"
 #include "hersey/run/summary.h"
 #include "observation/step_record.h"
@@ -30,15 +31,16 @@ class CycleRecord {
  public:
   /// @pre the model has cycles
   CycleRecord(const model::Model& model, results::Writer& writer);
-  /// @param t       end of the cycle
-  /// @param change  CycleChange::value
-  void append(double t, double change) const { rows_.append({t, change}); }
+  /// A cycle that has ended.
+  struct Row {
+    double t = 0;       ///< its end [s]
+    double change = 0;  ///< CycleChange::value
+    EngineFriction friction;
+  };
+  void append(const Row& row) const { rows_.append(row); }
   [[nodiscard]] static QuantityGroup describe();
 
  private:
-  struct Row {
-    double t = 0, change = 0;
-  };
   [[nodiscard]] static const QuantityTable<Row, model::Model>& table();
   QuantityRows<Row, model::Model> rows_;
 };

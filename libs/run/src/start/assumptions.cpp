@@ -33,6 +33,9 @@ std::string edge(const film::FilmModel& film, const film::Edge& at) {
   const double p = at.pressure, fill = at.ambient_fill;
   if (!film::cavitation_law(film).has_fill() || p > film.p_cav) return pressure(p);
   if (at.flow) return pressure(p) + fmt::format(", which {:.4g} L/min of oil reach", 6e4 * *at.flow);
+  if (at.layer)
+    return pressure(p) +
+           fmt::format(", into which the surface that runs in brings a layer of {:.4g} um of oil", 1e6 * *at.layer);
   if (fill == 0) return pressure(p) + ", in air: oil may leave, none comes in";
   return pressure(p) + fmt::format(", in {:.3g} of oil: the film draws it in where it would be emptier", fill);
 }

@@ -29,10 +29,13 @@ bool counts_on_crank(const model::Model& model) {
     return std::any_of(function.variables.begin(), function.variables.end(),
                        [](const model::Variable& variable) { return variable.kind != model::Variable::Kind::time; });
   };
-  for (const model::Force& force : model.forces)
+  for (const model::Force& force : model.forces) {
     if (const auto* load = force.as<model::SurfaceLoad>();
         load != nullptr && std::any_of(load->functions.begin(), load->functions.end(), counts))
       return true;
+    if (const auto* ring = force.as<model::PistonRing>(); ring != nullptr && ring->gas && counts(*ring->gas))
+      return true;
+  }
   for (const model::Bearing& bearing : model.bearings)
     if (std::any_of(bearing.feature_pressures.begin(), bearing.feature_pressures.end(), counts)) return true;
   return false;

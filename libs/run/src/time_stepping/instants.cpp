@@ -96,14 +96,16 @@ std::vector<double> kinks(const model::Model& model, const mbd::MechanismSpec& s
       if (motion) collector.add(term.magnitude.get(), *motion);
     }
   }
-  for (const model::Bearing& bearing : model.bearings) {
-    for (const model::Function& pressure : bearing.feature_pressures) {
-      if (pressure.variables.empty()) continue;
-      const bool is_time = pressure.variables.front().kind == model::Variable::Kind::time;
-      if (is_time) collector.add(pressure.value.get(), time);
-      if (!is_time && run.crank) collector.add(pressure.value.get(), {run.crank->initial_angle, run.crank->speed});
-    }
-  }
+  const auto add_pressure = [&](const model::Function& pressure) {
+    if (pressure.variables.empty()) return;
+    const bool is_time = pressure.variables.front().kind == model::Variable::Kind::time;
+    if (is_time) collector.add(pressure.value.get(), time);
+    if (!is_time && run.crank) collector.add(pressure.value.get(), {run.crank->initial_angle, run.crank->speed});
+  };
+  for (const model::Bearing& bearing : model.bearings)
+    for (const model::Function& pressure : bearing.feature_pressures) add_pressure(pressure);
+  for (const model::Force& force : model.forces)
+    if (const auto* ring = force.as<model::PistonRing>(); ring != nullptr && ring->gas) add_pressure(*ring->gas);
   return collector.times();
 }
 

@@ -37,9 +37,9 @@ struct OperatingPoint {
   /// Sum of both speeds in the axes of the film, which drags the oil [rad/s].
   [[nodiscard]] double entraining_speed() const { return journal_speed + shell_speed - 2 * whirl_speed; }
   /// Speed by which the fill fraction is scaled: the entraining speed, or twice the speed of the eccentricity ratio if
-  /// that is larger, as it counts in Reynolds' equation [rad/s].
-  [[nodiscard]] double film_speed(double c) const {
-    return std::max(std::abs(entraining_speed()), 2 * e_rate.norm() / c);
+  /// that is larger, in the middle or by the tilt at the ends of a width L, as it counts in Reynolds' equation [rad/s].
+  [[nodiscard]] double film_speed(double c, double L) const {
+    return std::max(std::abs(entraining_speed()), 2 * std::max(e_rate.norm(), 0.5 * L * tilt_rate.norm()) / c);
   }
 };
 

@@ -106,6 +106,12 @@ struct Edge {
   /// All the oil that reaches the end of a patch at p_cav, of which the film takes what it can (film.64), in place of
   /// `ambient_fill`; counts only where oil is conserved [m^3/s], >= 0.
   std::optional<double> flow = {};
+  /// Thickness of the oil that sticks to the journal's surface where it runs in over this edge z = -L/2 or +L/2 at
+  /// p_cav: all the oil there is, of which the film takes what it can (film.65), in place of `ambient_fill`; counts
+  /// only where oil is conserved [m], >= 0. Choose it where a surface has been wiped before, as a liner by an oil ring.
+  std::optional<double> layer = {};
+  /// True if the oil that comes is given, instead of what the film draws from its surroundings.
+  [[nodiscard]] bool gives_oil() const { return flow || layer; }
 };
 
 /// The edges on the first and on the last line of a patch.
@@ -156,12 +162,12 @@ struct FilmModel {
 }
 
 /// Fraction of oil in what a film draws in over an edge: 1 above the cavitation pressure; a wall counts less than air,
-/// as does a seal, which only pressure passes; a given flow counts between air and oil [-].
+/// as does a seal, which only pressure passes; a given flow or layer counts between air and oil [-].
 [[nodiscard]] inline double fill_outside(const FilmModel& model, const Edge& edge) {
   if (edge.kind == EdgeKind::closed) return -1;
   if (edge.kind == EdgeKind::leaking) return edge.pressure > model.p_cav ? 1 : -0.5;
   if (edge.pressure > model.p_cav) return 1;
-  return edge.flow ? 0.5 : edge.ambient_fill;
+  return edge.gives_oil() ? 0.5 : edge.ambient_fill;
 }
 
 /// The edge on which a node lies; null between them. Where two meet, one with a pressure counts before a seal and this

@@ -87,6 +87,10 @@ struct FilmObservables {
   double laminar_share = 1, transition_share = 0, turbulent_share = 0;
   double cavitated_share =
       0;  ///< fraction of the area with theta < 1 or (other models) p <= p_cav without film action [-]
+  /// Fraction of the area between the edges z = -L/2 and +L/2 over which a layer of oil comes in and where the film is
+  /// full for the first time behind them (film.66): what the film lacks because too little oil comes [-].
+  double starved_share = 0;
+  double flow_scraped = 0;  ///< oil of layers that finds no room below the edge where it comes in [m^3/s] (film.66)
 };
 
 }  // namespace hersey::film

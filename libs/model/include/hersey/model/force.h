@@ -10,6 +10,7 @@
 #include "hersey/fem/mesh.h"
 #include "hersey/mbd/bushing.h"
 #include "hersey/mbd/coordinate_laws.h"
+#include "hersey/mbd/piston_ring.h"
 #include "hersey/mbd/spring_damper.h"
 #include "hersey/model/function.h"
 #include "hersey/model/names.h"
@@ -58,6 +59,13 @@ struct Bushing {
   }
 };
 
+/// Friction of a piston ring, `from` the liner `to` the piston.
+struct PistonRing {
+  FrameName from, to;
+  mbd::PistonRing::Data data;   ///< `gas` apart
+  std::optional<Function> gas;  ///< pressure [Pa], over time or the crank's rotation
+};
+
 struct JointFriction {
   CoordinateName on;
   double coulomb = 0;           ///< [N m] or [N], >= 0
@@ -95,7 +103,8 @@ struct SurfaceLoad {
 /// One entry of `forces`.
 struct Force {
   std::string name;
-  std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, JointFriction, SpeedControl> data;
+  std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, PistonRing, JointFriction, SpeedControl>
+      data;
   SourcePosition position;
 
   /// Data of the force if it is a T, null otherwise.

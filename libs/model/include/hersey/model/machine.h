@@ -57,6 +57,13 @@ struct BuiltSurfaceLoad {
   std::size_t first = 0, count = 0;
 };
 
+/// A piston ring of a machine, a force between two bodies.
+struct BuiltRing {
+  std::string name;
+  mbd::ForceId force;
+  std::shared_ptr<const mbd::PistonRing> ring;
+};
+
 /// A beam of a machine.
 struct BuiltBeam {
   std::string name;
@@ -76,6 +83,7 @@ struct Machine {
   std::vector<Groove> grooves;                   ///< between films with temperatures
   std::vector<BuiltFlexible> flexibles;
   std::vector<BuiltSurfaceLoad> surface_loads;
+  std::vector<BuiltRing> rings;
   std::vector<BuiltBeam> beams;
 };
 

@@ -335,9 +335,12 @@ void check_functions_of_crank(Context& context) {
   for (const Bearing& bearing : context.model.bearings)
     for (const Function& pressure : bearing.feature_pressures)
       require_function_of_crank(context, pressure, "a pressure");
-  for (const Force& force : context.model.forces)
+  for (const Force& force : context.model.forces) {
     if (const auto* load = force.as<SurfaceLoad>())
       for (const Function& function : load->functions) require_function_of_crank(context, function, "a load on a mesh");
+    if (const auto* ring = force.as<PistonRing>(); ring != nullptr && ring->gas)
+      require_function_of_crank(context, *ring->gas, "a gas pressure");
+  }
 }
 
 void check_table_ranges(Context& context) {

@@ -152,6 +152,10 @@ void require_facing_surfaces(Context& context, const Value& value, const Bearing
 /// A pressure or force on the mesh of a flexible body.
 [[nodiscard]] SurfaceLoad surface_load_of(Context& context, const Value& value);
 
+/// Keys of a piston ring, and the ring that they describe; reports a curve of friction that is negative somewhere.
+[[nodiscard]] std::vector<Key> piston_ring_keys();
+[[nodiscard]] PistonRing piston_ring_of(Context& context, const Value& value);
+
 /// Returns the beam described by `beam` of `body`, none if there is no such key, and attaches `frames` to its nodes.
 /// Reports faults of its axis, section and frames.
 [[nodiscard]] std::optional<Beam> beam_of(Context& context, const Value& body, std::vector<Frame>& frames);

@@ -61,6 +61,28 @@ TypePtr skirt_edges_format(const TypePtr& edge, const std::string& what) {
                                              })});
 }
 
+TypePtr skirt_oil_format() {
+  const TypePtr layer = or_word(quantity("m", "5 um", Range::not_negative()),
+                                {{"flooded", "the liner there lies in oil: the film draws in what it can"}});
+  return any_of(
+      "the thickness of a layer of oil on the liner, `flooded`, or {top, bottom, sides}",
+      {layer,
+       object(
+           "the oil that each edge meets",
+           {
+               required("top", layer,
+                        "Layer on the liner that the edge next to the crown runs into on its way up: what the oil "
+                        "ring has left."),
+               required("bottom", layer,
+                        "Layer that the other edge runs into on its way down: what the crankcase has thrown onto the "
+                        "liner."),
+               defaulted("sides",
+                         choice({{"dry", "no oil comes in there"},
+                                 {"flooded", "beside the arcs there is oil that the film draws in"}}),
+                         "dry", "Ends of both sides' arcs."),
+           })});
+}
+
 }  // namespace
 
 std::vector<Key> skirt_keys() {
@@ -97,6 +119,11 @@ std::vector<Key> skirt_keys() {
       defaulted("ambient_fill", skirt_edges_format(number("0.5", {.low = 0, .high = 1}), "a number from 0 to 1"), "1",
                 "Fraction of oil in what surrounds edges at the cavitation pressure and is drawn in there: 1 a flooded "
                 "skirt, 0 a dry liner."),
+      optional("oil", skirt_oil_format(),
+               "Oil on the liner before the skirt, in place of `ambient_fill`: a layer brings its thickness times the "
+               "skirt's speed over the edge that leads. What finds no room is scraped off, and where it does not fill "
+               "the gap the skirt is starved.",
+               "as `ambient_fill` says"),
       optional("temperature", temperature("100 degC"), "Of the oil.", "that of the lubricant"),
       optional("shape", skirt_shape_format(), "What makes the skirt differ from a cylinder; all add up.", "a cylinder"),
       optional("liner_shape",

@@ -86,6 +86,39 @@ class SkirtReader {
     film_.ends.assign(bearing::skirt_sides.size(), {.first = sides, .last = sides});
     film_.edge_left = edge("bottom");
     film_.edge_right = edge("top");
+    if (const Value* oil = content("oil"); oil != nullptr && !oil->broken) read_oil(*oil);
+  }
+
+  /// Reads the oil on the liner: of each edge a layer, or all that the film draws in.
+  void read_oil(const Value& oil) {
+    const Value* fills = value_.find("ambient_fill");
+    if (fills != nullptr && fills->given) {
+      context_.fault_at_key(*value_.find("oil"), "both 'oil' and 'ambient_fill'", "one of them",
+                            "a layer on the liner brings so much per way, a fill is drawn in as the film asks for it");
+      return;
+    }
+    const bool is_of_each = oil.type->kind == Type::Kind::object;
+    const Value *top = is_of_each ? oil.find("top") : &oil, *bottom = is_of_each ? oil.find("bottom") : &oil;
+    if (top == nullptr || bottom == nullptr || top->broken || bottom->broken) return;
+    read_layer(*top, film_.edge_right);
+    read_layer(*bottom, film_.edge_left);
+    const Value* sides = oil.find("sides");
+    const bool is_flooded = sides != nullptr ? sides->text == "flooded" : oil.text == "flooded";
+    for (film::PatchEnds& ends : film_.ends)
+      for (film::Edge* edge : {&ends.first, &ends.last})
+        if (edge->kind == film::EdgeKind::pressure) edge->ambient_fill = is_flooded ? 1 : 0;
+  }
+
+  void read_layer(const Value& oil, film::Edge& edge) {
+    if (oil.text == "flooded") return;
+    edge.layer = oil.number;
+    if (edge.kind != film::EdgeKind::pressure || edge.pressure > film_.p_cav) {
+      context_.fault(oil, "a layer of oil before an edge that is not at the cavitation pressure",
+                     "edge_pressure: that of `cavitation`, at which nothing but the layer comes in, or `flooded`");
+    } else if (!film::cavitation_law(film_).has_fill()) {
+      context_.fault(oil, "a layer of oil before a film that does not conserve oil",
+                     "cavitation: mass_conserving, or `flooded`");
+    }
   }
 
   void read_shapes() {
@@ -197,9 +230,8 @@ void read_skirt_point(Context& context, const Value& bearing_value, Bearing& bea
   read_side_position(context, *value, bearing, point);
   if (context.has_fault_in(value->path)) return;
   const bool is_smooth = bearing.film.asperities.model == film::AsperityModel::none;
-  if (is_smooth && point.speed == 0 && point.velocity_top + point.velocity_bottom == 0) {
-    context.fault(*value->find("speed"), "a skirt whose middle is at rest, which moves no oil",
-                  "a speed, velocities whose mean is not 0, or asperities");
+  if (is_smooth && point.speed == 0 && point.velocity_top == 0 && point.velocity_bottom == 0) {
+    context.fault(*value->find("speed"), "a skirt at rest, which moves no oil", "a speed, velocities, or asperities");
     return;
   }
   if (context.has_fault_in(bearing_value.path)) return;
