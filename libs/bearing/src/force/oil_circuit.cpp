@@ -21,12 +21,22 @@ namespace {
 constexpr int kMostAtOnce = 20;
 constexpr double kBalancedAtOnce = 1e-12;  // of the largest flow: what films solved to 1e-10 leave after one increment
 
+// Nodes at which films draw cavitate with these, and are as empty where their entries are equal (circuit.20).
+circuit::Network with_cavities_of_films(circuit::Network network, const std::vector<CircuitFilm>& films) {
+  for (auto film = films.rbegin(); film != films.rend(); ++film) {
+    const film::FilmModel& model = film->film->model();
+    for (const std::size_t node : film->nodes)
+      network.nodes[node].fill_scale = film::fill_scale(model), network.nodes[node].p_cav = model.p_cav;
+  }
+  return network;
+}
+
 }  // namespace
 
 OilCircuit::OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
                        std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts,
                        std::vector<CircuitHole> holes, std::optional<CircuitHeat> heat)
-    : circuit_(std::move(network)),
+    : circuit_(with_cavities_of_films(std::move(network), films)),
       films_(std::move(films)),
       given_(std::move(given)),
       shafts_(std::move(shafts)),
@@ -93,11 +103,20 @@ void OilCircuit::add_passing_holes(std::size_t film, const VectorXd& p, MatrixXd
   }
 }
 
+// (circuit.20)
+double OilCircuit::port_scale(const CircuitFilm& film, std::size_t node) const {
+  const bool has_pressure = circuit_.state(node, p_[static_cast<Index>(node)]).p_slope > 0;
+  return !has_pressure ? film::fill_scale(film.film->model()) / circuit_.fill_scale(node) : 1;
+}
+
 void OilCircuit::pass_pressures() {
   for (const CircuitFilm& film : films_) {
     VectorXd p(static_cast<Index>(film.nodes.size()));
-    for (std::size_t k = 0; k < film.nodes.size(); ++k)
-      p[static_cast<Index>(k)] = p_[static_cast<Index>(film.nodes[k])];
+    for (std::size_t k = 0; k < film.nodes.size(); ++k) {
+      const circuit::NodeState there = circuit_.state(film.nodes[k], p_[static_cast<Index>(film.nodes[k])]);
+      const double lack = (1 - there.fill) * film::fill_scale(film.film->model());
+      p[static_cast<Index>(k)] = std::max(there.p, film.film->model().p_cav) - lack;
+    }
     film.film->set_port_pressures(p);
   }
 }
@@ -149,7 +168,7 @@ circuit::Drawn OilCircuit::drawn_by_films() const {
       drawn.flow[row] += answer.flow[static_cast<Index>(k)];
       for (std::size_t j = 0; j < film.nodes.size(); ++j)
         drawn.by_p(row, static_cast<Index>(film.nodes[j])) +=
-            answer.by_pressure(static_cast<Index>(k), static_cast<Index>(j));
+            port_scale(film, film.nodes[j]) * answer.by_pressure(static_cast<Index>(k), static_cast<Index>(j));
     }
   }
   return drawn;
@@ -203,8 +222,9 @@ void OilCircuit::condense(std::span<mbd::ForceResponse> responses) {
     MatrixXd dp_by(dp.size(), rhs.cols());
     for (std::size_t k = 0; k < film.nodes.size(); ++k) {
       const auto node = static_cast<Index>(film.nodes[k]);
-      dp[static_cast<Index>(k)] = p[node] - p_[node];
-      dp_by.row(static_cast<Index>(k)) = p_by_at_[f].row(node);
+      const double scale = port_scale(film, film.nodes[k]);
+      dp[static_cast<Index>(k)] = scale * (p[node] - p_[node]);
+      dp_by.row(static_cast<Index>(k)) = scale * p_by_at_[f].row(node);
     }
     film.film->complete(dp, dp_by, responses[film.force]);
   }
@@ -213,7 +233,8 @@ void OilCircuit::condense(std::span<mbd::ForceResponse> responses) {
 
 void OilCircuit::accept_step() {
   p_start_ = is_condensed_ ? p_solved_ : p_;
-  observation_.pressures = p_start_;
+  observation_.pressures = circuit_.pressures(p_start_);
+  observation_.fills = circuit_.fills(p_start_);
   observation_.flows = circuit_.flows(p_start_, conditions_);
   observation_.drawn = drawn_;
   observation_.content = circuit_.content(p_start_);
@@ -224,22 +245,18 @@ void OilCircuit::accept_step() {
   observation_.power = 0;
   for (std::size_t e = 0; e < circuit_.network().elements.size(); ++e) {
     const circuit::Element& element = circuit_.network().elements[e];
-    const double rise = p_start_[static_cast<Index>(element.to)] - p_start_[static_cast<Index>(element.from)];
+    const double rise = observation_.pressures[static_cast<Index>(element.to)] -
+                        observation_.pressures[static_cast<Index>(element.from)];
     observation_.power += std::max(0.0, observation_.flows[static_cast<Index>(e)] * rise);
   }
-  observe_starvation();
+  observe_axes();
   observation_.dissipated = 0;
   for (std::size_t e = 0; heat_ && e < circuit_.network().elements.size(); ++e)
     observation_.dissipated += circuit_.dissipation(e, p_start_, conditions_);
   is_condensed_ = false;
 }
 
-void OilCircuit::observe_starvation() {
-  observation_.starved.setZero(circuit_.size());
-  for (const CircuitFilm& film : films_)
-    for (const std::size_t node : film.nodes)
-      if (p_start_[static_cast<Index>(node)] < film.film->model().p_cav)
-        observation_.starved[static_cast<Index>(node)] = 1;
+void OilCircuit::observe_axes() {
   std::vector<double> at_axes;
   for (std::size_t e = 0; e < circuit_.network().elements.size(); ++e)
     if (circuit_.network().elements[e].passes_axis)

@@ -119,6 +119,9 @@ TypePtr circuit_format() {
                     optional("temperature", temperature("90 degC"),
                              "Of its oil; where nodes have temperatures, of the others at the start.",
                              "that of the lubricant, or of the first node that has one"),
+                    defaulted("cavitation_pressure", quantity("Pa", "-0.5 bar"), "-1.01325 bar",
+                              "At which oil ceases to fill nodes from which no film draws: the vacuum, or where air "
+                              "comes out of it. Nodes of films have that of the films."),
                     required("nodes", named("a mapping from names to nodes", node_format()),
                              "Where elements and feeds of films meet. `{}`: a junction."),
                     required("elements",

@@ -57,15 +57,14 @@ struct CircuitObservation {
   /// Of nodes, after the step [K], and heat from the oil into the coolant of each cooler, in the order of elements [W];
   /// empty: the oil has one temperature.
   Eigen::VectorXd temperatures, cooled;
-  /// Of each node: 1 where its pressure lies below the cavitation pressure of films that draw from it, else 0; and the
-  /// pressure at the axis in each element that passes it, in their order [Pa].
-  Eigen::VectorXd starved, axis_pressures;
-  double dissipated = 0;     ///< in elements, as far as it warms the oil [W]
-  double balance_error = 0;  ///< largest imbalance of a node over the largest flow [-]
-  double power = 0;          ///< that pumps and other sources put into the oil [W]
+  Eigen::VectorXd fills;           ///< fraction of each node that is oil [-]; below 1 only at the cavitation pressure
+  Eigen::VectorXd axis_pressures;  ///< at the axis in each element that passes it, in their order [Pa]
+  double dissipated = 0;           ///< in elements, as far as it warms the oil [W]
+  double balance_error = 0;        ///< largest imbalance of a node over the largest flow [-]
+  double power = 0;                ///< that pumps and other sources put into the oil [W]
 };
 
-/// A circuit of oil between films: the pressures of its nodes are unknowns that these films share.
+/// A circuit of oil between films: the pressures of its nodes, or their fills, are unknowns that these films share.
 ///
 /// An evaluation finds them with every film linear in pressures and surfaces (circuit.9), elements as they are. They
 /// then follow the surfaces of all films to the next evaluation (circuit.11), so that films, circuit and bodies are one
@@ -119,6 +118,8 @@ class OilCircuit final : public mbd::SharedUnknowns {
   /// Adds what the angle of a film's journal changes by the holes that pass its grooves, to columns of its parameters.
   void add_passing_holes(std::size_t film, const Eigen::VectorXd& p, Eigen::MatrixXd& rhs) const;
   void pass_pressures();
+  /// Change of the pressure that a film's port is given with its node's entry of pressures.
+  [[nodiscard]] double port_scale(const CircuitFilm& film, std::size_t node) const;
   [[nodiscard]] circuit::Drawn drawn_by_films() const;
   struct Imbalance {
     double over_largest_flow = 0;  ///< of the worst node [-]
@@ -127,7 +128,7 @@ class OilCircuit final : public mbd::SharedUnknowns {
   /// Imbalance of nodes at pressures `p` where films draw `drawn`.
   [[nodiscard]] Imbalance imbalance(const Eigen::VectorXd& p, const Eigen::VectorXd& drawn) const;
   void update_viscosities();
-  void observe_starvation();
+  void observe_axes();
   void persist_heat(Archive& archive);
 
   circuit::Circuit circuit_;

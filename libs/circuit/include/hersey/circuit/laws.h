@@ -68,6 +68,8 @@ struct DisplacementPump {
   /// Returns the flow under a drop of pressure [Pa], the negative of its rise, and its slope.
   /// @param setting  with the speed of its shaft
   [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
+  /// Returns the part of it that its gaps let pass, back where it lifts oil against pressure.
+  [[nodiscard]] Flow leak(double drop) const { return {leakage * drop, leakage}; }
 };
 
 /// A pump whose flow over the rise of pressure has been measured.
