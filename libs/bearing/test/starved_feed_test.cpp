@@ -71,14 +71,15 @@ struct Starved {
   }
 };
 
+const Vector3 kPosition(12e-6, -18e-6, 0), kSpin(0, 0, 300);  // m, rad/s
+
+// The journal's centre at `e` moves at `rate` where it is at kPosition; a twist has the velocity at the shell's origin.
 mbd::RelativeMotion motion_at(const Vector3& e, const Vector3& rate) {
   mbd::RelativeMotion motion;
   motion.X_AB.r = e;
-  motion.V_AB_A << 0, 0, 300, rate;
+  motion.V_AB_A << kSpin, rate - kSpin.cross(kPosition);
   return motion;
 }
-
-const Vector3 kPosition(12e-6, -18e-6, 0);
 
 double taken_from_a_full_groove() {
   Starved ample(1e-3, 1e-3);  // m^3/s: far more than the film takes, and a drain that leaves it little pressure

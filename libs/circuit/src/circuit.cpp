@@ -20,6 +20,7 @@ constexpr double kRoundOff = 8 * std::numeric_limits<double>::epsilon();
 // valves at the point of opening.
 constexpr double kNearlyBalanced = 1e3;
 constexpr int kMostIterations = 100;      // monotone laws take about ten; valves that open add one each
+constexpr double kNoAnswer = 1e-9;        // change of the imbalance, over itself, that counts as none
 constexpr int kMostHalvings = 60;         // from the largest step down to one of 1e-9 Pa
 constexpr double kLargestPressure = 1e9;  // Pa: beyond all pressures, where nothing yet leads away from a node
 // Conductances [m^3/(Pa s)] that keep increments bounded there, over the largest of the circuit and at least.
@@ -244,10 +245,12 @@ CircuitSummary Circuit::solve(const Conditions& conditions, const Drawn& drawn, 
     for (Eigen::Index i = 0; i < size(); ++i)
       if (p[i] <= empty[i] && surplus[i] == 0) by_p.row(i) = by_p(i, i) * Eigen::RowVectorXd::Unit(size(), i);
     const Eigen::VectorXd step = by_p.partialPivLu().solve(-surplus);
-    double part = 1;
+    // Where nodes without oil part others, nothing answers at first: the part of the step is sought beyond that.
+    double part = 1, too_far = 1, not_yet = 0;
     Eigen::VectorXd next = within(p + part * step), surplus_next = surplus_at(next);
     for (int k = 0; k < kMostHalvings && !(surplus_next.lpNorm<1>() < norm); ++k) {
-      part *= 0.5;
+      (k > 0 && surplus_next.lpNorm<1>() < (1 + kNoAnswer) * norm ? not_yet : too_far) = part;
+      part = 0.5 * (not_yet + too_far);
       next = within(p + part * step);
       surplus_next = surplus_at(next);
     }

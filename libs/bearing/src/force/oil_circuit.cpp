@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 namespace {
 
 // Films and circuit in turn, each by exact derivatives of the other: five do, and more where films rupture anew.
-constexpr int kMostAtOnce = 20;
+constexpr int kMostAtOnce = 40;
 constexpr double kBalancedAtOnce = 1e-12;  // of the largest flow: what films solved to 1e-10 leave after one increment
 
 // Nodes at which films draw cavitate with these, and are as empty where their entries are equal (circuit.20).
@@ -153,7 +153,7 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
     if (!is_inside) return;
     const circuit::Drawn drawn = drawn_by_films();
     if (imbalance(p_, drawn.flow).over_largest_flow <= kBalancedAtOnce) return;
-    if (VectorXd p = p_; circuit_.solve(conditions_, drawn, p).solved()) p_ = p;
+    if (VectorXd p = p_; solve(drawn, p).solved()) p_ = p;
     pass_pressures();
   }
 }
@@ -172,6 +172,28 @@ circuit::Drawn OilCircuit::drawn_by_films() const {
     }
   }
   return drawn;
+}
+
+// A film that gets too little oil to build up pressure loses none: its flow does not answer to the fill, and the linear
+// film has no balance with what comes. Then the fill is to rise by a part at a time until the film answers.
+circuit::CircuitSummary OilCircuit::solve(const circuit::Drawn& drawn, VectorXd& p) const {
+  constexpr double kFillAtATime = 0.1;
+  const VectorXd start = p;
+  circuit::CircuitSummary summary = circuit_.solve(conditions_, drawn, p);
+  if (summary.solved()) return summary;
+  circuit::Circuit::Balance balance;
+  circuit_.evaluate(p_, conditions_, balance);
+  circuit::Drawn answering = drawn;
+  answering.flow = drawn.flow + drawn.by_p * (p_ - drawn.p), answering.p = p_;
+  for (const CircuitFilm& film : films_)
+    for (const std::size_t node : film.nodes) {
+      const auto i = static_cast<Index>(node);
+      if (circuit_.state(node, p_[i]).p_slope == 0)
+        answering.by_p(i, i) += balance.largest_flow / (kFillAtATime * circuit_.fill_scale(node));
+    }
+  p = start;
+  if (const circuit::CircuitSummary slow = circuit_.solve(conditions_, answering, p); slow.solved()) return slow;
+  return summary;
 }
 
 // What round-off makes of a balance does not count.
@@ -196,7 +218,7 @@ void OilCircuit::condense(std::span<mbd::ForceResponse> responses) {
   const circuit::Drawn drawn = drawn_by_films();
   worst_ = imbalance(p_, drawn.flow);
   VectorXd p = p_;
-  if (const circuit::CircuitSummary solved = circuit_.solve(conditions_, drawn, p); !solved.solved()) {
+  if (const circuit::CircuitSummary solved = solve(drawn, p); !solved.solved()) {
     domain_error_ = solved.message;
     return;
   }

@@ -121,6 +121,8 @@ class OilCircuit final : public mbd::SharedUnknowns {
   /// Change of the pressure that a film's port is given with its node's entry of pressures.
   [[nodiscard]] double port_scale(const CircuitFilm& film, std::size_t node) const;
   [[nodiscard]] circuit::Drawn drawn_by_films() const;
+  /// Finds the pressures at which the circuit gives what linear films draw.
+  [[nodiscard]] circuit::CircuitSummary solve(const circuit::Drawn& drawn, Eigen::VectorXd& p) const;
   struct Imbalance {
     double over_largest_flow = 0;  ///< of the worst node [-]
     std::size_t node = 0;
