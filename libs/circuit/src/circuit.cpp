@@ -107,6 +107,21 @@ Through Circuit::flow(std::size_t element, const Eigen::VectorXd& p, const Condi
   return through;
 }
 
+// (circuit.21), and (circuit.22): the oil's moment of momentum grows by omega r^2 on its way outwards.
+double Circuit::torque(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
+  const Element& of = network_.elements[element];
+  if (!of.shaft) return 0;
+  if (const auto* pump = std::get_if<DisplacementPump>(&of.law)) {
+    const NodeState from = state(of.from, p[static_cast<Eigen::Index>(of.from)]);
+    const double rise = state(of.to, p[static_cast<Eigen::Index>(of.to)]).p - from.p;
+    const double ideal = from.fill * pump->displacement * rise;
+    return rise > 0 ? ideal / pump->mechanical_efficiency : ideal * pump->mechanical_efficiency;
+  }
+  const double speed = conditions.speeds[static_cast<Eigen::Index>(*of.shaft)];
+  return network_.oil.density * flow(element, p, conditions).value * speed *
+         (of.r_to * of.r_to - of.r_from * of.r_from);
+}
+
 // (circuit.17): friction takes the drop evenly along a straight bore.
 double Circuit::pressure_at_axis(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
   const Element& of = network_.elements[element];

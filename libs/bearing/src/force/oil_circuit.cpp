@@ -286,6 +286,15 @@ void OilCircuit::observe_axes() {
   observation_.axis_pressures = Eigen::Map<const VectorXd>(at_axes.data(), static_cast<Index>(at_axes.size()));
 }
 
+double OilCircuit::torque_on(std::size_t shaft) const {
+  const VectorXd& p = is_condensed_ ? p_solved_ : p_start_;
+  if (p.size() == 0) return 0;
+  double torque = 0;
+  for (std::size_t e = 0; e < circuit_.network().elements.size(); ++e)
+    if (circuit_.network().elements[e].shaft == shaft) torque += circuit_.torque(e, p, conditions_);
+  return -shafts_[shaft].factor * torque;
+}
+
 void OilCircuit::persist(Archive& archive) {
   archive.io("pressures", p_start_);
   archive.io("content", conditions_.content);  // at the start of the last step, whose end is evaluated again

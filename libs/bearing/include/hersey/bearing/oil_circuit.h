@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hersey/bearing/film_force.h"
@@ -13,6 +14,7 @@
 #include "hersey/film/surface_feature.h"
 #include "hersey/film/temperature_law.h"
 #include "hersey/film/thermal_network.h"
+#include "hersey/mbd/coordinate_force.h"
 #include "hersey/mbd/shared_unknowns.h"
 
 namespace hersey::bearing {
@@ -95,6 +97,10 @@ class OilCircuit final : public mbd::SharedUnknowns {
   /// Returns its figures at the step last accepted.
   [[nodiscard]] const CircuitObservation& observation() const { return observation_; }
 
+  /// Returns the torque that the circuit puts on the coordinate of a shaft [N m] (circuit.21, circuit.22), at the
+  /// evaluation or the accepted step last made; 0 before the first.
+  [[nodiscard]] double torque_on(std::size_t shaft) const;
+
   // Temperatures move after a step has been accepted, and stay over the next one.
 
   /// Null: the oil has one temperature.
@@ -156,6 +162,26 @@ class OilCircuit final : public mbd::SharedUnknowns {
 
   std::vector<film::OilStream> sum_;  // of streams times the lengths of their steps; empty before the first
   double sum_of_steps_ = 0;           // [s]
+};
+
+/// Torque of a circuit's pump, or of a bore that rotates, on the coordinate that turns it; the oil takes its power.
+///
+/// It follows pressures and flows of each evaluation; how they answer to motions of films and shaft is left out of the
+/// tangent.
+/// @verified_by shaft_torque_test.cpp
+class CircuitTorque final : public mbd::CoordinateForce {
+ public:
+  /// @param shaft  of the circuit; it follows this force's coordinate
+  CircuitTorque(std::shared_ptr<const OilCircuit> circuit, std::size_t shaft)
+      : circuit_(std::move(circuit)), shaft_(shaft) {}
+  [[nodiscard]] mbd::CoordinateEffort evaluate(double /*t*/, double /*position*/, double /*rate*/) const override {
+    return {.value = circuit_->torque_on(shaft_)};
+  }
+  [[nodiscard]] bool is_source() const override { return true; }
+
+ private:
+  std::shared_ptr<const OilCircuit> circuit_;
+  std::size_t shaft_;
 };
 
 }  // namespace hersey::bearing

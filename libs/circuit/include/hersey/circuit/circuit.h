@@ -111,6 +111,9 @@ class Circuit {
   [[nodiscard]] Through flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
   /// Returns the flows through all elements [m^3/s].
   [[nodiscard]] Eigen::VectorXd flows(const Eigen::VectorXd& p, const Conditions& conditions) const;
+  /// Returns the torque that an element takes from its shaft [N m]: that of a pump (circuit.21), or of a bore that
+  /// rotates (circuit.22); 0 without a shaft.
+  [[nodiscard]] double torque(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
   /// Returns the pressure at the axis in an element that passes it (circuit.17) [Pa].
   [[nodiscard]] double pressure_at_axis(std::size_t element, const Eigen::VectorXd& p,
                                         const Conditions& conditions) const;

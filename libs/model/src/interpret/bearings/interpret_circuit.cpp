@@ -181,7 +181,8 @@ class CircuitReader {
     if (type == "cooler") return circuit::Cooler{number_of(element, "resistance"), number_of(element, "conductance")};
     if (type == "relief_valve") return valve_of(element);
     if (type == "pump")
-      return circuit::DisplacementPump{number_of(element, "displacement") / two_pi, number_of(element, "leakage")};
+      return circuit::DisplacementPump{number_of(element, "displacement") / two_pi, number_of(element, "leakage"),
+                                       number_of(element, "mechanical_efficiency")};
     if (type == "hole_over_groove") return circuit::HoleOverGroove{number_of(element, "discharge_coefficient")};
     if (type == "pump_curve")
       if (const Value* curve = element.find("flow"))
