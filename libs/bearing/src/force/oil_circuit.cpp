@@ -21,6 +21,8 @@ namespace {
 constexpr int kMostAtOnce = 40;
 constexpr double kBalancedAtOnce = 1e-12;  // of the largest flow: what films solved to 1e-10 leave after one increment
 
+constexpr double kNoBalanceAtOnce = 1e-9;  // of the largest flow: what machines' iterations leave, and more
+
 // Nodes at which films draw cavitate with these, and are as empty where their entries are equal (circuit.20).
 circuit::Network with_cavities_of_films(circuit::Network network, const std::vector<CircuitFilm>& films) {
   for (auto film = films.rbegin(); film != films.rend(); ++film) {
@@ -51,9 +53,9 @@ OilCircuit::OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
   if (heat_) set_temperatures(heat_->T);
 }
 
-void OilCircuit::begin_step(double /*dt*/) {
+void OilCircuit::begin_step(double dt) {
   is_condensed_ = false;
-  if (p_start_.size() == 0) return;
+  if (p_start_.size() == 0 || dt == 0) return;  // a state without a step before it has no start
   p_ = p_start_;
   conditions_.content = circuit_.content(p_start_);
 }
@@ -137,11 +139,16 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
     for (std::size_t f = 0; f < films_.size(); ++f)
       if (films_[f].film->domain_error().empty()) p_ += p_by_at_[f] * films_[f].film->change_of_parameters(at_[f]);
   }
-  for (Index i = 0; i < circuit_.size(); ++i)
-    if (circuit_.network().nodes[static_cast<std::size_t>(i)].is_given) p_[i] = conditions_.given[i];
+  for (Index i = 0; i < circuit_.size(); ++i) {
+    const circuit::Node& node = circuit_.network().nodes[static_cast<std::size_t>(i)];
+    const double empty = node.p_cav - circuit_.fill_scale(static_cast<std::size_t>(i));
+    p_[i] = node.is_given ? conditions_.given[i] : std::max(p_[i], empty);
+  }
   pass_pressures();
   // At an instant each evaluation solves films to their end. So it does the circuit with them, since who asks for a
   // state at rest or in steady motion may evaluate it once.
+  VectorXd p_before = p_;
+  double left = 1;
   for (int k = 0; motion.dt == 0 && k < kMostAtOnce; ++k) {
     bool is_inside = domain_error_.empty();
     for (const CircuitFilm& film : films_) {
@@ -150,12 +157,22 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
       is_inside = is_inside && film.film->domain_error().empty();
       film.film->follow(motion.motions[film.force]);
     }
-    if (!is_inside) return;
+    if (!is_inside && k == 0) return;
+    // A film that has no solution where its fill was sought may have one nearer to where it had.
+    if (!is_inside) {
+      p_ = 0.5 * (p_ + p_before);
+      pass_pressures();
+      continue;
+    }
+    p_before = p_;
     const circuit::Drawn drawn = drawn_by_films();
-    if (imbalance(p_, drawn.flow).over_largest_flow <= kBalancedAtOnce) return;
+    left = imbalance(p_, drawn.flow).over_largest_flow;
+    if (left <= kBalancedAtOnce) return;
     if (VectorXd p = p_; solve(drawn, p).solved()) p_ = p;
     pass_pressures();
   }
+  if (motion.dt == 0 && left > kNoBalanceAtOnce)
+    domain_error_ = fmt::format("no balance of circuit and films: {:.2g} of the largest flow is left", left);
 }
 
 circuit::Drawn OilCircuit::drawn_by_films() const {
@@ -175,9 +192,9 @@ circuit::Drawn OilCircuit::drawn_by_films() const {
 }
 
 // A film that gets too little oil to build up pressure loses none: its flow does not answer to the fill, and the linear
-// film has no balance with what comes. Then the fill is to rise by a part at a time until the film answers.
+// film has no balance with what comes. Then its fill is to rise by a part at a time until the film answers.
 circuit::CircuitSummary OilCircuit::solve(const circuit::Drawn& drawn, VectorXd& p) const {
-  constexpr double kFillAtATime = 0.1;
+  constexpr double kFillAtATime = 0.2;  // halved, it takes twice as long; doubled, films that answer are passed over
   const VectorXd start = p;
   circuit::CircuitSummary summary = circuit_.solve(conditions_, drawn, p);
   if (summary.solved()) return summary;
@@ -188,8 +205,8 @@ circuit::CircuitSummary OilCircuit::solve(const circuit::Drawn& drawn, VectorXd&
   for (const CircuitFilm& film : films_)
     for (const std::size_t node : film.nodes) {
       const auto i = static_cast<Index>(node);
-      if (circuit_.state(node, p_[i]).p_slope == 0)
-        answering.by_p(i, i) += balance.largest_flow / (kFillAtATime * circuit_.fill_scale(node));
+      const double least = std::abs(balance.surplus[i]) / (kFillAtATime * circuit_.fill_scale(node));
+      if (circuit_.state(node, p_[i]).p_slope == 0) answering.by_p(i, i) = std::max(answering.by_p(i, i), least);
     }
   p = start;
   if (const circuit::CircuitSummary slow = circuit_.solve(conditions_, answering, p); slow.solved()) return slow;
