@@ -183,7 +183,9 @@ void Circuit::evaluate(const Eigen::VectorXd& p, const Conditions& conditions, B
     balance.by_p(to, to) += through.by_to;
     balance.largest_flow = std::max(balance.largest_flow, std::abs(through.value));
   }
-  balance.round_off = kRoundOff * (balance.by_p.cwiseAbs() * p.cwiseAbs()).maxCoeff();
+  // Pressures are exact to round-off of the absolute ones: flows that cease do not count beyond.
+  const Eigen::VectorXd absolute = p.cwiseAbs().array() + network_.ambient;
+  balance.round_off = kRoundOff * (balance.by_p.cwiseAbs() * absolute).maxCoeff();
   if (conditions.dt <= 0) return;
   for (Eigen::Index i = 0; i < size(); ++i) {
     const Node& node = network_.nodes[static_cast<std::size_t>(i)];

@@ -236,7 +236,7 @@ TEST_CASE("HoleThatPassesAGroove_IsFedContinuously_AndConservesOil") {
           doctest::Approx(std::numbers::pi / 4 * 49e-6).epsilon(1e3 * kEps));  // 7 mm, whole
     return change / most;
   };
-  const double coarse = largest_change("0.1 ms"), fine = largest_change("0.025 ms");
+  const double coarse = largest_change("0.1 ms"), fine = largest_change("0.02 ms");
   CHECK(fine < 0.5 * coarse);  // a jump would stay as large
   CHECK(fine < 0.2);           // the hole passes the groove's end within 0.75 ms
 }
