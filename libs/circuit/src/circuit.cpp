@@ -19,11 +19,26 @@ constexpr double kRoundOff = 8 * std::numeric_limits<double>::epsilon();
 // Imbalance that still passes for a solution where an increment no longer lessens it, over what it ends with otherwise:
 // valves at the point of opening.
 constexpr double kNearlyBalanced = 1e3;
-constexpr int kMostIterations = 100;  // monotone laws take about ten; valves that open add one each
-constexpr int kMostHalvings = 60;     // from the largest step down to one of 1e-9 Pa
-constexpr double kLargestStep = 1e9;  // Pa: beyond all pressures, where nothing yet leads away from a node
+constexpr int kMostIterations = 100;      // monotone laws take about ten; valves that open add one each
+constexpr double kNoAnswer = 1e-9;        // change of the imbalance, over itself, that counts as none
+constexpr int kMostHalvings = 60;         // from the largest step down to one of 1e-9 Pa
+constexpr double kLargestPressure = 1e9;  // Pa: beyond all pressures, where nothing yet leads away from a node
 // Conductances [m^3/(Pa s)] that keep increments bounded there, over the largest of the circuit and at least.
 constexpr double kLeastConductance = 1e-12, kNoConductance = 1e-12;
+// Below this part of an increment slower ones are tried, too: where nodes empty or fill, flows bend.
+constexpr double kSmallPart = 1.0 / 64;
+// Slower increments have the Jacobian with its diagonal so many times larger, each ten times slower than the last.
+constexpr double kFirstSlower = 1e-3, kSlowest = 1e9;
+
+// (circuit.19)
+void carry(const Flow& full, const NodeState& from, const NodeState& to, Through& through) {
+  const NodeState& upstream = full.value < 0 ? to : from;
+  through.value += upstream.fill * full.value;
+  through.by_from += upstream.fill * full.slope * from.p_slope;
+  through.by_to -= upstream.fill * full.slope * to.p_slope;
+  (full.value < 0 ? through.by_to : through.by_from) += upstream.fill_slope * full.value;
+  through.by_area += upstream.fill * full.by_area;
+}
 
 }  // namespace
 
@@ -32,6 +47,35 @@ Circuit::Circuit(Network network) : network_(std::move(network)) {
     HERSEY_REQUIRE(
         element.from < network_.nodes.size() && element.to < network_.nodes.size() && element.from != element.to,
         "elements between two nodes of the circuit");
+  for (const Node& node : network_.nodes) {
+    HERSEY_REQUIRE(node.fill_scale > 0, "a scale of the fill");
+    if (!node.storage) {
+      fill_scales_.push_back(node.fill_scale);
+      continue;
+    }
+    const Storage::Content full = node.storage->content(node.p_cav, network_.ambient);
+    fill_scales_.push_back(full.value / full.slope);  // with which the content has no bend there
+  }
+}
+
+// (circuit.18)
+NodeState Circuit::state(std::size_t node, double p) const {
+  const double p_cav = network_.nodes[node].p_cav;
+  if (network_.nodes[node].is_given || p >= p_cav) return {.p = p};
+  const double by_p = 1 / fill_scales_[node];
+  return {.p = p_cav, .p_slope = 0, .fill = std::max(0.0, 1 + (p - p_cav) * by_p), .fill_slope = by_p};
+}
+
+Eigen::VectorXd Circuit::pressures(const Eigen::VectorXd& p) const {
+  Eigen::VectorXd all(size());
+  for (Eigen::Index i = 0; i < size(); ++i) all[i] = state(static_cast<std::size_t>(i), p[i]).p;
+  return all;
+}
+
+Eigen::VectorXd Circuit::fills(const Eigen::VectorXd& p) const {
+  Eigen::VectorXd all(size());
+  for (Eigen::Index i = 0; i < size(); ++i) all[i] = state(static_cast<std::size_t>(i), p[i]).fill;
+  return all;
 }
 
 // (circuit.2)
@@ -39,10 +83,11 @@ double Circuit::drop(const Element& element, const Eigen::VectorXd& p, const Con
   const double speed = element.shaft ? conditions.speeds[static_cast<Eigen::Index>(*element.shaft)] : 0;
   const double head =
       0.5 * network_.oil.density * speed * speed * (element.r_to * element.r_to - element.r_from * element.r_from);
-  return p[static_cast<Eigen::Index>(element.from)] - p[static_cast<Eigen::Index>(element.to)] + head;
+  return state(element.from, p[static_cast<Eigen::Index>(element.from)]).p -
+         state(element.to, p[static_cast<Eigen::Index>(element.to)]).p + head;
 }
 
-Flow Circuit::flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
+Through Circuit::flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
   const Element& of = network_.elements[element];
   Setting setting;
   if (of.shaft) setting.speed = conditions.speeds[static_cast<Eigen::Index>(*of.shaft)];
@@ -50,7 +95,31 @@ Flow Circuit::flow(std::size_t element, const Eigen::VectorXd& p, const Conditio
   const double over = drop(of, p, conditions);
   Oil oil = network_.oil;
   if (conditions.viscosities.size() > 0) oil.mu = conditions.viscosities[static_cast<Eigen::Index>(element)];
-  return std::visit([&](const auto& law) { return law.flow(over, oil, setting); }, of.law);
+  const NodeState from = state(of.from, p[static_cast<Eigen::Index>(of.from)]),
+                  to = state(of.to, p[static_cast<Eigen::Index>(of.to)]);
+  Through through;
+  if (const auto* pump = std::get_if<DisplacementPump>(&of.law)) {
+    carry({.value = pump->displacement * setting.speed}, from, to, through);
+    carry(pump->leak(over), from, to, through);
+  } else {
+    carry(std::visit([&](const auto& law) { return law.flow(over, oil, setting); }, of.law), from, to, through);
+  }
+  return through;
+}
+
+// (circuit.21), and (circuit.22): the oil's moment of momentum grows by omega r^2 on its way outwards.
+double Circuit::torque(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
+  const Element& of = network_.elements[element];
+  if (!of.shaft) return 0;
+  if (const auto* pump = std::get_if<DisplacementPump>(&of.law)) {
+    const NodeState from = state(of.from, p[static_cast<Eigen::Index>(of.from)]);
+    const double rise = state(of.to, p[static_cast<Eigen::Index>(of.to)]).p - from.p;
+    const double ideal = from.fill * pump->displacement * rise;
+    return rise > 0 ? ideal / pump->mechanical_efficiency : ideal * pump->mechanical_efficiency;
+  }
+  const double speed = conditions.speeds[static_cast<Eigen::Index>(*of.shaft)];
+  return network_.oil.density * flow(element, p, conditions).value * speed *
+         (of.r_to * of.r_to - of.r_from * of.r_from);
 }
 
 // (circuit.17): friction takes the drop evenly along a straight bore.
@@ -59,14 +128,18 @@ double Circuit::pressure_at_axis(std::size_t element, const Eigen::VectorXd& p, 
   HERSEY_REQUIRE(of.passes_axis && of.shaft && of.r_from + of.r_to > 0, "a bore through the axis");
   const double speed = conditions.speeds[static_cast<Eigen::Index>(*of.shaft)];
   const double head = 0.5 * network_.oil.density * speed * speed * of.r_from * of.r_from;
-  return p[static_cast<Eigen::Index>(of.from)] - head - drop(of, p, conditions) * of.r_from / (of.r_from + of.r_to);
+  return state(of.from, p[static_cast<Eigen::Index>(of.from)]).p - head -
+         drop(of, p, conditions) * of.r_from / (of.r_from + of.r_to);
 }
 
 double Circuit::dissipation(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const {
   const Element& of = network_.elements[element];
   const double over = drop(of, p, conditions);
   if (std::holds_alternative<GivenFlow>(of.law) || std::holds_alternative<PumpCurve>(of.law)) return 0;
-  if (const auto* pump = std::get_if<DisplacementPump>(&of.law)) return pump->leakage * over * over;
+  if (const auto* pump = std::get_if<DisplacementPump>(&of.law)) {
+    const std::size_t upstream = over < 0 ? of.to : of.from;
+    return state(upstream, p[static_cast<Eigen::Index>(upstream)]).fill * pump->leak(over).value * over;
+  }
   return std::max(0.0, flow(element, p, conditions).value * over);
 }
 
@@ -80,9 +153,17 @@ Eigen::VectorXd Circuit::flows(const Eigen::VectorXd& p, const Conditions& condi
 Eigen::VectorXd Circuit::content(const Eigen::VectorXd& p) const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(size());
   for (Eigen::Index i = 0; i < size(); ++i)
-    if (const auto& storage = network_.nodes[static_cast<std::size_t>(i)].storage)
-      all[i] = storage->content(p[i], network_.ambient).value;
+    if (network_.nodes[static_cast<std::size_t>(i)].storage)
+      all[i] = content_of(static_cast<std::size_t>(i), p[i]).value;
   return all;
+}
+
+// What is lost at the cavitation pressure leaves the node filled in part (circuit.18).
+Storage::Content Circuit::content_of(std::size_t node, double p) const {
+  const Node& of = network_.nodes[node];
+  const NodeState there = state(node, p);
+  const Storage::Content full = of.storage->content(there.p, network_.ambient);
+  return {there.fill * full.value, there.p_slope * full.slope + there.fill_slope * full.value};
 }
 
 // (circuit.1)
@@ -93,21 +174,23 @@ void Circuit::evaluate(const Eigen::VectorXd& p, const Conditions& conditions, B
   for (std::size_t e = 0; e < network_.elements.size(); ++e) {
     const auto from = static_cast<Eigen::Index>(network_.elements[e].from),
                to = static_cast<Eigen::Index>(network_.elements[e].to);
-    const Flow through = flow(e, p, conditions);
+    const Through through = flow(e, p, conditions);
     balance.surplus[from] -= through.value;
     balance.surplus[to] += through.value;
-    balance.by_p(from, from) -= through.slope;
-    balance.by_p(from, to) += through.slope;
-    balance.by_p(to, from) += through.slope;
-    balance.by_p(to, to) -= through.slope;
+    balance.by_p(from, from) -= through.by_from;
+    balance.by_p(from, to) -= through.by_to;
+    balance.by_p(to, from) += through.by_from;
+    balance.by_p(to, to) += through.by_to;
     balance.largest_flow = std::max(balance.largest_flow, std::abs(through.value));
   }
-  balance.round_off = kRoundOff * (balance.by_p.cwiseAbs() * p.cwiseAbs()).maxCoeff();
+  // Pressures are exact to round-off of the absolute ones: flows that cease do not count beyond.
+  const Eigen::VectorXd absolute = p.cwiseAbs().array() + network_.ambient;
+  balance.round_off = kRoundOff * (balance.by_p.cwiseAbs() * absolute).maxCoeff();
   if (conditions.dt <= 0) return;
   for (Eigen::Index i = 0; i < size(); ++i) {
     const Node& node = network_.nodes[static_cast<std::size_t>(i)];
     if (!node.storage || node.is_given) continue;
-    const Storage::Content content = node.storage->content(p[i], network_.ambient);
+    const Storage::Content content = content_of(static_cast<std::size_t>(i), p[i]);
     const double stored = (content.value - conditions.content[i]) / conditions.dt;
     balance.surplus[i] -= stored;
     balance.by_p(i, i) -= content.slope / conditions.dt;
@@ -130,6 +213,7 @@ Drawn Circuit::nothing_drawn() const {
 
 Eigen::VectorXd Circuit::start(const Conditions& conditions) const {
   double highest = 0;
+  for (const Node& node : network_.nodes) highest = std::max(highest, node.p_cav);
   for (Eigen::Index i = 0; i < size(); ++i)
     if (network_.nodes[static_cast<std::size_t>(i)].is_given) highest = std::max(highest, conditions.given[i]);
   for (const Element& element : network_.elements)
@@ -141,11 +225,21 @@ Eigen::VectorXd Circuit::start(const Conditions& conditions) const {
   return p;
 }
 
-// Laws are monotone, so that a step along Newton's increment that is short enough always brings nodes nearer to
-// balance.
+// Laws are monotone, so that a step along Newton's increment that is short enough brings nodes nearer to balance. Where
+// flows bend it may not; but what leaves a node arrives at others, so that increments along the surplus alone, the
+// limit of slower ones, always lessen the sum of imbalances. A node without oil gives none: what a linear film still
+// draws there does not count.
 CircuitSummary Circuit::solve(const Conditions& conditions, const Drawn& drawn, Eigen::VectorXd& p) const {
-  for (Eigen::Index i = 0; i < size(); ++i)
-    if (network_.nodes[static_cast<std::size_t>(i)].is_given) p[i] = conditions.given[i];
+  Eigen::VectorXd empty(size());
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    const Node& node = network_.nodes[static_cast<std::size_t>(i)];
+    if (node.is_given) p[i] = conditions.given[i];
+    empty[i] = node.is_given ? p[i] : node.p_cav - fill_scales_[static_cast<std::size_t>(i)];
+  }
+  const auto within = [&empty](const Eigen::VectorXd& at) -> Eigen::VectorXd {
+    return at.cwiseMin(kLargestPressure).cwiseMax(empty);
+  };
+  p = within(p);
   Balance balance;
   double largest_flow = 0, tolerance = 0;
   const auto surplus_at = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
@@ -155,38 +249,48 @@ CircuitSummary Circuit::solve(const Conditions& conditions, const Drawn& drawn, 
     tolerance = kBalanced * largest_flow + balance.round_off;
     Eigen::VectorXd surplus = balance.surplus - taken;
     for (Eigen::Index i = 0; i < size(); ++i)
-      if (network_.nodes[static_cast<std::size_t>(i)].is_given) surplus[i] = 0;
+      if (network_.nodes[static_cast<std::size_t>(i)].is_given || (at[i] <= empty[i] && surplus[i] < 0)) surplus[i] = 0;
     return surplus;
   };
   CircuitSummary summary;
   Eigen::VectorXd surplus = surplus_at(p);
   for (; summary.iterations < kMostIterations; ++summary.iterations) {
-    const double norm = surplus.norm();
-    if (norm <= tolerance) break;
+    const double norm = surplus.lpNorm<1>();
+    if (surplus.norm() <= tolerance) break;
     Eigen::MatrixXd by_p = balance.by_p - drawn.by_p;
     fix_given(by_p);
+    for (Eigen::Index i = 0; i < size(); ++i)
+      if (p[i] <= empty[i] && surplus[i] == 0) by_p.row(i) = by_p(i, i) * Eigen::RowVectorXd::Unit(size(), i);
     const Eigen::VectorXd step = by_p.partialPivLu().solve(-surplus);
-    double part = std::min(1.0, kLargestStep / step.lpNorm<Eigen::Infinity>());
-    Eigen::VectorXd next = p + part * step, surplus_next = surplus_at(next);
-    for (int k = 0; k < kMostHalvings && !(surplus_next.norm() < norm); ++k) {
-      part *= 0.5;
-      next = p + part * step;
+    // Where nodes without oil part others, nothing answers at first: the part of the step is sought beyond that.
+    double part = 1, too_far = 1, not_yet = 0;
+    Eigen::VectorXd next = within(p + part * step), surplus_next = surplus_at(next);
+    for (int k = 0; k < kMostHalvings && !(surplus_next.lpNorm<1>() < norm); ++k) {
+      (k > 0 && surplus_next.lpNorm<1>() < (1 + kNoAnswer) * norm ? not_yet : too_far) = part;
+      part = 0.5 * (not_yet + too_far);
+      next = within(p + part * step);
       surplus_next = surplus_at(next);
     }
-    if (!(surplus_next.norm() < norm)) {
+    const Eigen::VectorXd diagonal = by_p.diagonal();
+    for (double slower = kFirstSlower; part < kSmallPart && slower <= kSlowest; slower *= 10) {
+      by_p.diagonal() = (1 + slower) * diagonal;
+      const Eigen::VectorXd other = within(p + by_p.partialPivLu().solve(-surplus)), surplus_there = surplus_at(other);
+      if (surplus_there.lpNorm<1>() < surplus_next.lpNorm<1>()) next = other, surplus_next = surplus_there;
+    }
+    if (!(surplus_next.lpNorm<1>() < norm)) {
       surplus = surplus_at(p);
       break;
     }
-    p = next, surplus = surplus_next;
+    p = next, surplus = surplus_at(p);
   }
   Eigen::Index worst = 0;
   const double largest = size() > 0 ? surplus.cwiseAbs().maxCoeff(&worst) : 0;
   summary.residual = largest_flow > 0 ? largest / largest_flow : 0;
   summary.set_solved(largest <= kNearlyBalanced * tolerance);
   if (!summary.solved())
-    summary.message =
-        fmt::format("no balance of oil at node {}: {:.3g} mm3/s too much at {:.4g} bar",
-                    network_.nodes[static_cast<std::size_t>(worst)].name, 1e9 * surplus[worst], 1e-5 * p[worst]);
+    summary.message = fmt::format("no balance of oil at node {}: {:.3g} mm3/s too much at {:.4g} bar",
+                                  network_.nodes[static_cast<std::size_t>(worst)].name, 1e9 * surplus[worst],
+                                  1e-5 * state(static_cast<std::size_t>(worst), p[worst]).p);
   return summary;
 }
 

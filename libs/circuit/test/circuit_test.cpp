@@ -115,9 +115,10 @@ TEST_CASE("PressureAtTheAxis_IsThatOfTwoDrillingsThatMeetThere") {
                 .oil = {.mu = 0.01, .density = 860}};
   Drilling first = bore, second = bore;
   first.length = 0.03, second.length = 0.05;
-  const Network halves{.nodes = {{"journal", true}, {"pin", true}, {"axis"}},
-                       .elements = {{"in", 0, 2, first, 0, 0.03, 0}, {"out", 2, 1, second, 0, 0, 0.05}},
-                       .oil = whole.oil};
+  const Network halves{
+      .nodes = {{"journal", true}, {"pin", true}, {.name = "axis", .p_cav = -1e6}},  // Pa: an unbroken column
+      .elements = {{"in", 0, 2, first, 0, 0.03, 0}, {"out", 2, 1, second, 0, 0, 0.05}},
+      .oil = whole.oil};
   Conditions conditions = at_speed(whole, omega), of_halves = at_speed(halves, omega);
   for (const double p_pin : {-1e5, 172000.0, 4e5}) {
     conditions.given << 0, p_pin;

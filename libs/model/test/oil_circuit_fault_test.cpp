@@ -124,6 +124,38 @@ TEST_CASE("Circuit_IsReadInUnitsOfItsLaws") {
   CHECK(model.bearings[0].film.features[0].is_fed);
 }
 
+TEST_CASE("CircuitAndPump_HaveTheirCavitationPressureAndEfficiency") {
+  const Model model = read_text(edited(edited(text, "  nodes:", "  cavitation_pressure: -0.4 bar\n  nodes:"),
+                                       "ratio: 0.5}", "ratio: 0.5, mechanical_efficiency: 0.8}"),
+                                "m.yaml");
+  CHECK(model.circuit->network.nodes[1].p_cav == doctest::Approx(-4e4));
+  CHECK(std::get<circuit::DisplacementPump>(model.circuit->network.elements[0].law).mechanical_efficiency == 0.8);
+  const Model usual = read_text(text, "m.yaml");
+  CHECK(usual.circuit->network.nodes[1].p_cav == -circuit::standard_atmosphere);
+  CHECK(std::get<circuit::DisplacementPump>(usual.circuit->network.elements[0].law).mechanical_efficiency == 1);
+  CHECK(reports("ratio: 0.5}", "ratio: 0.5, mechanical_efficiency: 1.2}", "mechanical_efficiency"));
+}
+
+// Two films on one node cavitate together.
+TEST_CASE("FilmsOnOneNode_HaveOneCavitationPressure") {
+  const std::string second = R"(  other:
+    shell: ground
+    journal: rotor
+    diameter: 100 mm
+    width: 80 mm
+    radial_clearance: 50 um
+    lubricant: oil
+    cavitation: {pressure: -0.9 bar}
+    features:
+      bore: {shape: axial_groove, arc: 30 deg, length: 50 mm, circuit: hole}
+simulation:)";
+  CHECK(reports(
+      "simulation:", second,
+      "bearings.other: a cavitation pressure of -0.9 bar, and 0 bar of bearing 'main' on the same node 'hole'"));
+  const std::string elsewhere = edited(second, "circuit: hole", "circuit: gallery");
+  CHECK(faults_with("simulation:", elsewhere).empty());
+}
+
 TEST_CASE("FaultsOfACircuit_AreReportedByNameAndLine") {
   CHECK(reports("circuit: hole", "circuit: hol",
                 "m.yaml:29:72: bearings.main.features.bore.circuit: unknown node 'hol' of the circuit"));

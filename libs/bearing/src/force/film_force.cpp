@@ -29,6 +29,12 @@ std::vector<Eigen::Index> angles_of(const GapKinematics& gap) {
   return angles;
 }
 
+// What a circuit feeds may lack oil.
+film::FilmModel with_circuit_ports(film::FilmModel model, const std::vector<std::size_t>& ports) {
+  for (const std::size_t feature : ports) model.features[feature].may_lack_oil = true;
+  return model;
+}
+
 // Adds a shape to a film's list. @returns the shape
 template <class Shape>
 Shape* add_shape(std::unique_ptr<Shape> shape, std::vector<std::unique_ptr<SurfaceShape>>& shapes) {
@@ -44,11 +50,12 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
     : name_(std::move(name)),
       options_(options),
       gap_(std::move(gap)),
-      film_(std::make_unique<FilmElement>(model, FilmElement::Options{.solve = options.film,
-                                                                      .initial_dt = options.initial_dt,
-                                                                      .initial_fill = options.initial_fill,
-                                                                      .thermal = options.thermal,
-                                                                      .angles = angles_of(*gap_)})),
+      film_(std::make_unique<FilmElement>(with_circuit_ports(model, options.circuit_ports),
+                                          FilmElement::Options{.solve = options.film,
+                                                               .initial_dt = options.initial_dt,
+                                                                .initial_fill = options.initial_fill,
+                                                               .thermal = options.thermal,
+                                                               .angles = angles_of(*gap_)})),
       thermal_(add_shape(std::make_unique<ThermalSurfaces>(film_->model(), film_->heat(), options.growth), shapes_)),
       deforming_(add_shape(std::make_unique<DeformingSurfaces>(model, options.shell_surface, options.journal_surface),
                            shapes_)),
@@ -221,7 +228,8 @@ void FilmForce::condense_film(mbd::ForceResponse& response) {
   if (port_count() == 0) respond(response);
 }
 
-// Flows through features that a circuit does not feed are of no concern to it.
+// Flows through features that a circuit does not feed are of no concern to it. A film without a fill fraction draws
+// full oil, of which a circuit that lacks some gives its fill (circuit.19).
 FilmForce::PortAnswer FilmForce::port_answer() const {
   const Eigen::Index ports = port_count(), others = parameters_.size() - ports;
   PortAnswer answer{Eigen::VectorXd(ports), Eigen::MatrixXd(ports, others), Eigen::MatrixXd(ports, ports)};
@@ -230,6 +238,13 @@ FilmForce::PortAnswer FilmForce::port_answer() const {
     answer.flow[k] = condensed_->port_flow[feature];
     answer.by_parameters.row(k) = condensed_->port_flow_by_s.row(feature).head(others);
     answer.by_pressure.row(k) = condensed_->port_flow_by_s.row(feature).tail(ports);
+    const double u = port_pressures_[k] - model().p_cav;
+    if (film::cavitation_law(model()).has_fill() || u >= 0 || answer.flow[k] <= 0) continue;
+    const double fill = 1 + u / film::fill_scale(model());
+    answer.by_parameters.row(k) *= fill;
+    answer.by_pressure.row(k) *= fill;
+    answer.by_pressure(k, k) += answer.flow[k] / film::fill_scale(model());
+    answer.flow[k] *= fill;
   }
   return answer;
 }

@@ -18,15 +18,27 @@ using Eigen::VectorXd;
 namespace {
 
 // Films and circuit in turn, each by exact derivatives of the other: five do, and more where films rupture anew.
-constexpr int kMostAtOnce = 20;
+constexpr int kMostAtOnce = 40;
 constexpr double kBalancedAtOnce = 1e-12;  // of the largest flow: what films solved to 1e-10 leave after one increment
+
+constexpr double kNoBalanceAtOnce = 1e-9;  // of the largest flow: what machines' iterations leave, and more
+
+// Nodes at which films draw cavitate with these, and are as empty where their entries are equal (circuit.20).
+circuit::Network with_cavities_of_films(circuit::Network network, const std::vector<CircuitFilm>& films) {
+  for (auto film = films.rbegin(); film != films.rend(); ++film) {
+    const film::FilmModel& model = film->film->model();
+    for (const std::size_t node : film->nodes)
+      network.nodes[node].fill_scale = film::fill_scale(model), network.nodes[node].p_cav = model.p_cav;
+  }
+  return network;
+}
 
 }  // namespace
 
 OilCircuit::OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
                        std::vector<std::shared_ptr<const ScalarFunction>> given, std::vector<CircuitShaft> shafts,
                        std::vector<CircuitHole> holes, std::optional<CircuitHeat> heat)
-    : circuit_(std::move(network)),
+    : circuit_(with_cavities_of_films(std::move(network), films)),
       films_(std::move(films)),
       given_(std::move(given)),
       shafts_(std::move(shafts)),
@@ -41,9 +53,9 @@ OilCircuit::OilCircuit(circuit::Network network, std::vector<CircuitFilm> films,
   if (heat_) set_temperatures(heat_->T);
 }
 
-void OilCircuit::begin_step(double /*dt*/) {
+void OilCircuit::begin_step(double dt) {
   is_condensed_ = false;
-  if (p_start_.size() == 0) return;
+  if (p_start_.size() == 0 || dt == 0) return;  // a state without a step before it has no start
   p_ = p_start_;
   conditions_.content = circuit_.content(p_start_);
 }
@@ -93,11 +105,20 @@ void OilCircuit::add_passing_holes(std::size_t film, const VectorXd& p, MatrixXd
   }
 }
 
+// (circuit.20)
+double OilCircuit::port_scale(const CircuitFilm& film, std::size_t node) const {
+  const bool has_pressure = circuit_.state(node, p_[static_cast<Index>(node)]).p_slope > 0;
+  return !has_pressure ? film::fill_scale(film.film->model()) / circuit_.fill_scale(node) : 1;
+}
+
 void OilCircuit::pass_pressures() {
   for (const CircuitFilm& film : films_) {
     VectorXd p(static_cast<Index>(film.nodes.size()));
-    for (std::size_t k = 0; k < film.nodes.size(); ++k)
-      p[static_cast<Index>(k)] = p_[static_cast<Index>(film.nodes[k])];
+    for (std::size_t k = 0; k < film.nodes.size(); ++k) {
+      const circuit::NodeState there = circuit_.state(film.nodes[k], p_[static_cast<Index>(film.nodes[k])]);
+      const double lack = (1 - there.fill) * film::fill_scale(film.film->model());
+      p[static_cast<Index>(k)] = std::max(there.p, film.film->model().p_cav) - lack;
+    }
     film.film->set_port_pressures(p);
   }
 }
@@ -118,11 +139,16 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
     for (std::size_t f = 0; f < films_.size(); ++f)
       if (films_[f].film->domain_error().empty()) p_ += p_by_at_[f] * films_[f].film->change_of_parameters(at_[f]);
   }
-  for (Index i = 0; i < circuit_.size(); ++i)
-    if (circuit_.network().nodes[static_cast<std::size_t>(i)].is_given) p_[i] = conditions_.given[i];
+  for (Index i = 0; i < circuit_.size(); ++i) {
+    const circuit::Node& node = circuit_.network().nodes[static_cast<std::size_t>(i)];
+    const double empty = node.p_cav - circuit_.fill_scale(static_cast<std::size_t>(i));
+    p_[i] = node.is_given ? conditions_.given[i] : std::max(p_[i], empty);
+  }
   pass_pressures();
   // At an instant each evaluation solves films to their end. So it does the circuit with them, since who asks for a
   // state at rest or in steady motion may evaluate it once.
+  VectorXd p_before = p_;
+  double left = 1;
   for (int k = 0; motion.dt == 0 && k < kMostAtOnce; ++k) {
     bool is_inside = domain_error_.empty();
     for (const CircuitFilm& film : films_) {
@@ -131,12 +157,22 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
       is_inside = is_inside && film.film->domain_error().empty();
       film.film->follow(motion.motions[film.force]);
     }
-    if (!is_inside) return;
+    if (!is_inside && k == 0) return;
+    // A film that has no solution where its fill was sought may have one nearer to where it had.
+    if (!is_inside) {
+      p_ = 0.5 * (p_ + p_before);
+      pass_pressures();
+      continue;
+    }
+    p_before = p_;
     const circuit::Drawn drawn = drawn_by_films();
-    if (imbalance(p_, drawn.flow).over_largest_flow <= kBalancedAtOnce) return;
-    if (VectorXd p = p_; circuit_.solve(conditions_, drawn, p).solved()) p_ = p;
+    left = imbalance(p_, drawn.flow).over_largest_flow;
+    if (left <= kBalancedAtOnce) return;
+    if (VectorXd p = p_; solve(drawn, p).solved()) p_ = p;
     pass_pressures();
   }
+  if (motion.dt == 0 && left > kNoBalanceAtOnce)
+    domain_error_ = fmt::format("no balance of circuit and films: {:.2g} of the largest flow is left", left);
 }
 
 circuit::Drawn OilCircuit::drawn_by_films() const {
@@ -149,10 +185,32 @@ circuit::Drawn OilCircuit::drawn_by_films() const {
       drawn.flow[row] += answer.flow[static_cast<Index>(k)];
       for (std::size_t j = 0; j < film.nodes.size(); ++j)
         drawn.by_p(row, static_cast<Index>(film.nodes[j])) +=
-            answer.by_pressure(static_cast<Index>(k), static_cast<Index>(j));
+            port_scale(film, film.nodes[j]) * answer.by_pressure(static_cast<Index>(k), static_cast<Index>(j));
     }
   }
   return drawn;
+}
+
+// A film that gets too little oil to build up pressure loses none: its flow does not answer to the fill, and the linear
+// film has no balance with what comes. Then its fill is to rise by a part at a time until the film answers.
+circuit::CircuitSummary OilCircuit::solve(const circuit::Drawn& drawn, VectorXd& p) const {
+  constexpr double kFillAtATime = 0.2;  // halved, it takes twice as long; doubled, films that answer are passed over
+  const VectorXd start = p;
+  circuit::CircuitSummary summary = circuit_.solve(conditions_, drawn, p);
+  if (summary.solved()) return summary;
+  circuit::Circuit::Balance balance;
+  circuit_.evaluate(p_, conditions_, balance);
+  circuit::Drawn answering = drawn;
+  answering.flow = drawn.flow + drawn.by_p * (p_ - drawn.p), answering.p = p_;
+  for (const CircuitFilm& film : films_)
+    for (const std::size_t node : film.nodes) {
+      const auto i = static_cast<Index>(node);
+      const double least = std::abs(balance.surplus[i]) / (kFillAtATime * circuit_.fill_scale(node));
+      if (circuit_.state(node, p_[i]).p_slope == 0) answering.by_p(i, i) = std::max(answering.by_p(i, i), least);
+    }
+  p = start;
+  if (const circuit::CircuitSummary slow = circuit_.solve(conditions_, answering, p); slow.solved()) return slow;
+  return summary;
 }
 
 // What round-off makes of a balance does not count.
@@ -177,7 +235,7 @@ void OilCircuit::condense(std::span<mbd::ForceResponse> responses) {
   const circuit::Drawn drawn = drawn_by_films();
   worst_ = imbalance(p_, drawn.flow);
   VectorXd p = p_;
-  if (const circuit::CircuitSummary solved = circuit_.solve(conditions_, drawn, p); !solved.solved()) {
+  if (const circuit::CircuitSummary solved = solve(drawn, p); !solved.solved()) {
     domain_error_ = solved.message;
     return;
   }
@@ -203,8 +261,9 @@ void OilCircuit::condense(std::span<mbd::ForceResponse> responses) {
     MatrixXd dp_by(dp.size(), rhs.cols());
     for (std::size_t k = 0; k < film.nodes.size(); ++k) {
       const auto node = static_cast<Index>(film.nodes[k]);
-      dp[static_cast<Index>(k)] = p[node] - p_[node];
-      dp_by.row(static_cast<Index>(k)) = p_by_at_[f].row(node);
+      const double scale = port_scale(film, film.nodes[k]);
+      dp[static_cast<Index>(k)] = scale * (p[node] - p_[node]);
+      dp_by.row(static_cast<Index>(k)) = scale * p_by_at_[f].row(node);
     }
     film.film->complete(dp, dp_by, responses[film.force]);
   }
@@ -213,7 +272,8 @@ void OilCircuit::condense(std::span<mbd::ForceResponse> responses) {
 
 void OilCircuit::accept_step() {
   p_start_ = is_condensed_ ? p_solved_ : p_;
-  observation_.pressures = p_start_;
+  observation_.pressures = circuit_.pressures(p_start_);
+  observation_.fills = circuit_.fills(p_start_);
   observation_.flows = circuit_.flows(p_start_, conditions_);
   observation_.drawn = drawn_;
   observation_.content = circuit_.content(p_start_);
@@ -224,27 +284,32 @@ void OilCircuit::accept_step() {
   observation_.power = 0;
   for (std::size_t e = 0; e < circuit_.network().elements.size(); ++e) {
     const circuit::Element& element = circuit_.network().elements[e];
-    const double rise = p_start_[static_cast<Index>(element.to)] - p_start_[static_cast<Index>(element.from)];
+    const double rise = observation_.pressures[static_cast<Index>(element.to)] -
+                        observation_.pressures[static_cast<Index>(element.from)];
     observation_.power += std::max(0.0, observation_.flows[static_cast<Index>(e)] * rise);
   }
-  observe_starvation();
+  observe_axes();
   observation_.dissipated = 0;
   for (std::size_t e = 0; heat_ && e < circuit_.network().elements.size(); ++e)
     observation_.dissipated += circuit_.dissipation(e, p_start_, conditions_);
   is_condensed_ = false;
 }
 
-void OilCircuit::observe_starvation() {
-  observation_.starved.setZero(circuit_.size());
-  for (const CircuitFilm& film : films_)
-    for (const std::size_t node : film.nodes)
-      if (p_start_[static_cast<Index>(node)] < film.film->model().p_cav)
-        observation_.starved[static_cast<Index>(node)] = 1;
+void OilCircuit::observe_axes() {
   std::vector<double> at_axes;
   for (std::size_t e = 0; e < circuit_.network().elements.size(); ++e)
     if (circuit_.network().elements[e].passes_axis)
       at_axes.push_back(circuit_.pressure_at_axis(e, p_start_, conditions_));
   observation_.axis_pressures = Eigen::Map<const VectorXd>(at_axes.data(), static_cast<Index>(at_axes.size()));
+}
+
+double OilCircuit::torque_on(std::size_t shaft) const {
+  const VectorXd& p = is_condensed_ ? p_solved_ : p_start_;
+  if (p.size() == 0) return 0;
+  double torque = 0;
+  for (std::size_t e = 0; e < circuit_.network().elements.size(); ++e)
+    if (circuit_.network().elements[e].shaft == shaft) torque += circuit_.torque(e, p, conditions_);
+  return -shafts_[shaft].factor * torque;
 }
 
 void OilCircuit::persist(Archive& archive) {

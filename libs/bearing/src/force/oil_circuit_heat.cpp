@@ -35,7 +35,7 @@ std::vector<film::OilStream> OilCircuit::streams() const {
                    .kept = kept,
                    .coolant = heat_->coolants[e],
                    .cooled = rate - kept,
-                   .heat = circuit_.dissipation(e, observation_.pressures, conditions_)});
+                   .heat = circuit_.dissipation(e, p_start_, conditions_)});
   }
   return all;
 }

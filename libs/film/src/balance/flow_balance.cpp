@@ -507,7 +507,7 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
         k += t.k_g_other * direction.g[prescribed.other] + t.k_bend * direction_bends_[line_face(prescribed)];
     }
     dr[i] += k * above;
-    dr[i] += t.k * (draws_along(prescribed, direction) - port_along(prescribed.feature, prescribed.u, direction));
+    dr[i] += t.k * (draws_along(prescribed, direction) - supply_along(prescribed, direction));
   }
   for (const int node : prescribed_edge_nodes_) dr[node] = 0;
   if (!restricted_.empty()) find_restricted_along(direction, direction_balance_, dr);

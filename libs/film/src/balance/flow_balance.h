@@ -125,6 +125,7 @@ class FlowBalance {
     double supply = 0;  ///< pressure before the restrictor above p_cav [Pa]
     /// True if u is a pressure; else the recess lacks oil.
     bool has_pressure = true;
+    double by_supply = 1;  ///< d supply/d (pressure of the port) [-]
   };
   [[nodiscard]] const std::vector<RestrictedPort>& restricted_ports() const { return restricted_; }
   /// Derivatives by u of the rows of restricted ports, `rows` of shape (n, restricted), and of all other rows by u of
@@ -297,6 +298,7 @@ class FlowBalance {
     int feature = -1;           ///< index of the feature; -1: the line
     double u = 0;               ///< u of the supply [Pa]
     double by_port = 0;         ///< d u/d (u of the restricted port) [-]
+    double by_supply = 0;       ///< d u/d (pressure of the port) [-]
     bool is_main = false;       ///< node of a restricted port
     double centrality = 0;      ///< feature: 1 - distance from its centre over half its size (CoveredNode) [-]
     int other = -1;             ///< line: the node on its other side
@@ -455,8 +457,12 @@ class FlowBalance {
   [[nodiscard]] double draws_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
   /// Features of the model, each of which is a port; through one that is not fed flows nothing.
   [[nodiscard]] Eigen::Index port_count() const { return static_cast<Eigen::Index>(model_.features.size()); }
-  /// Change of the u of a supply with the pressure of its port.
+  /// Change of the pressure of a feature, which counts up to `u` above p_cav, with the pressure of its port.
   [[nodiscard]] double port_along(int feature, double u, const MotionDirection& direction) const;
+  /// Change of what a row draws from its supply, with the pressure of its port [Pa].
+  [[nodiscard]] double supply_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
+  /// u of a feature whose supply has no oil [Pa]; 0 where supplies are full.
+  [[nodiscard]] double lowest_supply(int feature) const;
   /// Change of the balances of all nodes with the surfaces, flows towards a supply line apart.
   void balance_along(const MotionDirection& direction, Eigen::VectorXd& db) const;
   [[nodiscard]] const SlidingChange& sliding_along(int node) const {

@@ -71,7 +71,7 @@ void FlowBalance::find_restricted_along(const MotionDirection& direction, const 
   for (const RestrictedPort& port : restricted_) {
     dr[port.node] = change[port.feature];
     if (direction.port_pressure.size() == 0) continue;
-    dr[port.node] -= restrictor_flow(port).slope * direction.port_pressure[port.feature];
+    dr[port.node] -= restrictor_flow(port).slope * port.by_supply * direction.port_pressure[port.feature];
   }
 }
 

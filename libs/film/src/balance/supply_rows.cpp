@@ -172,7 +172,10 @@ void FlowBalance::prescribe(const PrescribedNode& prescribed, bool only_oil) {
     nodes.emplace_back();
   }
   nodes[index] = prescribed;
-  if (is_on_open_edge(prescribed.node)) nodes[index].u = nodes[index].by_port = 0;
+  if (!is_on_open_edge(prescribed.node)) return;
+  if (nodes[index].u > 0) nodes[index].by_supply = 0;
+  nodes[index].u = nodes[index].by_port != 0 ? 0 : std::min(nodes[index].u, 0.0);
+  nodes[index].by_port = 0;
 }
 
 // The line cuts the flow tubes between two columns of nodes. Each side is connected to it by the part of the flow tube
@@ -222,18 +225,21 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
     if (!feature.is_fed) continue;
     const auto index = static_cast<Eigen::Index>(f);
     const double pressure = motion.feature_pressure.size() == 0 ? feature.pressure : motion.feature_pressure[index];
-    double u = std::max(0.0, pressure - model_.p_cav);
+    double u = std::max(lowest_supply(static_cast<int>(f)), pressure - model_.p_cav);
     covered_.clear();
     cover(model_, geometry_, feature, motion.phi_journal, covered_);
     const int main = feature.restrictor ? main_node(covered_) : -1;
     const bool has_pressure = main < 0 || u_[main] >= 0 || cavitation_.has_tension();
     if (main >= 0) {
       u = has_pressure || cavitation_.has_fill() ? u_[main] : 0;
+      const double supply = pressure - model_.p_cav;
+      const bool is_without = feature.may_lack_oil && supply < 0;
       restricted_.push_back({.feature = static_cast<int>(f),
                              .node = main,
                              .u = u,
-                             .supply = pressure - model_.p_cav,
-                             .has_pressure = has_pressure});
+                             .supply = is_without ? 0 : supply,
+                             .has_pressure = has_pressure,
+                             .by_supply = is_without ? 0.0 : 1.0});
     }
     feature_u_[f] = u;
     for (const CoveredNode& node : covered_) {
@@ -251,6 +257,7 @@ void FlowBalance::find_supply(const SurfaceMotion& motion) {
                  .feature = static_cast<int>(f),
                  .u = u,
                  .by_port = main >= 0 && (has_pressure || cavitation_.has_fill()) ? 1.0 : 0.0,
+                 .by_supply = !feature.restrictor && u > lowest_supply(static_cast<int>(f)) ? 1.0 : 0.0,
                  .is_main = is_main,
                  .centrality = node.centrality});
     }
@@ -448,11 +455,26 @@ double FlowBalance::draws_along(const PrescribedNode& prescribed, const MotionDi
   return (prescribed.draws_line * direction.phi_supply + prescribed.draws_journal * direction.phi_journal) * u;
 }
 
-// At p_cav a supply gives nothing more, however low its pressure is; on an edge in air its pressure cannot rise. Behind
-// a restrictor the supply's pressure acts on the balance of the port only.
+// A circuit that has too little oil fills the feature in part (film.22); other supplies are full. Behind a restrictor
+// the recess has a fill of its own.
+double FlowBalance::lowest_supply(int feature) const {
+  const SurfaceFeature& of = model_.features[static_cast<std::size_t>(feature)];
+  return of.may_lack_oil && !of.restrictor && cavitation_.has_fill() ? -fill_scale(model_) : 0;
+}
+
+// At p_cav a supply has no pressure to lose; on an edge in air its pressure cannot rise. Behind a restrictor the
+// supply's pressure acts on the balance of the port only.
 double FlowBalance::port_along(int feature, double u, const MotionDirection& direction) const {
   if (feature >= 0 && model_.features[static_cast<std::size_t>(feature)].restrictor) return 0;
   return feature < 0 || direction.port_pressure.size() == 0 || u <= 0 ? 0 : direction.port_pressure[feature];
+}
+
+// As excess().
+double FlowBalance::supply_along(const PrescribedNode& prescribed, const MotionDirection& direction) const {
+  if (prescribed.by_supply == 0 || direction.port_pressure.size() == 0) return 0;
+  if (u_[prescribed.node] > 0 && only_fills(prescribed.node)) return 0;
+  const double fraction = prescribed.u < 0 ? draws(prescribed.node) : 1;
+  return fraction * prescribed.by_supply * direction.port_pressure[prescribed.feature];
 }
 
 int FlowBalance::slot_to_other(const PrescribedNode& prescribed) const {

@@ -110,6 +110,7 @@ void observe_features(const FlowBalance& balance, const SurfaceMotion& motion, F
     o.pressure_features[f] = model.p_cav + (cavitation_law(model).has_tension() ? u : std::max(u, 0.0));
     if (!feature.restrictor || feature.restrictor->has_supply_pressure())
       o.pressure_supplies[f] = motion.feature_pressure.size() == 0 ? feature.pressure : motion.feature_pressure[f];
+    if (feature.may_lack_oil) o.pressure_supplies[f] = std::max(o.pressure_supplies[f], model.p_cav);
   }
 }
 

@@ -481,6 +481,10 @@ class Builder {
     machine_.circuit = std::make_shared<bearing::OilCircuit>(circuit.network, std::move(films), std::move(given),
                                                              std::move(shafts), std::move(holes), heat_of(circuit));
     mechanism_.add_shared_unknowns("circuit", machine_.circuit, std::move(coordinates));
+    for (const circuit::Element& element : circuit.network.elements)
+      if (element.shaft && circuit.shafts[*element.shaft].on)
+        mechanism_.add_coordinate_force("circuit_" + element.name, coordinate(*circuit.shafts[*element.shaft].on),
+                                        std::make_shared<bearing::CircuitTorque>(machine_.circuit, *element.shaft));
   }
 
   const Model& model_;

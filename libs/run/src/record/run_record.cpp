@@ -45,15 +45,16 @@ void RunRecord::take(const StepRecord& step) {
 void RunRecord::take_starvation(const StepRecord& step) {
   const bearing::CircuitObservation& circuit = step.circuit;
   if (starved_time_.size() == 0 || (circuit_time_ == 0 && step.dt > 0)) {
-    starved_time_.setZero(circuit.starved.size());
-    lowest_pressure_ = circuit.pressures, lowest_at_axis_ = circuit.axis_pressures;
+    starved_time_.setZero(circuit.fills.size());
+    lowest_fill_ = circuit.fills, lowest_at_axis_ = circuit.axis_pressures;
   }
-  lowest_pressure_ = lowest_pressure_.cwiseMin(circuit.pressures);
+  lowest_fill_ = lowest_fill_.cwiseMin(circuit.fills);
   lowest_at_axis_ = lowest_at_axis_.cwiseMin(circuit.axis_pressures);
+  const Eigen::VectorXd starved = (circuit.fills.array() < 1).cast<double>();
   if (step.dt > 0)
-    starved_time_ += step.dt * circuit.starved, circuit_time_ += step.dt;
+    starved_time_ += step.dt * starved, circuit_time_ += step.dt;
   else if (circuit_time_ == 0)
-    starved_time_ = circuit.starved;
+    starved_time_ = starved;
 }
 
 std::vector<std::string> RunRecord::starvation_warnings(const model::Bearing& bearing) const {
@@ -65,10 +66,10 @@ std::vector<std::string> RunRecord::starvation_warnings(const model::Bearing& be
     const double time = circuit_time_ > 0 ? starved_time_[node] / circuit_time_ : starved_time_[node];
     if (time > 0)
       warnings.push_back(fmt::format(
-          "feed '{}': node '{}' of the circuit lies below the cavitation pressure {:.3g} % of the time, down to {:.3g} "
-          "bar; the film then draws oil that is not there, which a `restrictor` of the feed prevents",
+          "feed '{}': node '{}' of the circuit gets less oil {:.3g} % of the time than films and elements would take: "
+          "it lies at the cavitation pressure, filled down to {:.3g} %",
           bearing.film.features[port.feature].name, network.nodes[port.node].name, 100 * time,
-          1e-5 * lowest_pressure_[node]));
+          100 * lowest_fill_[node]));
     Eigen::Index passing = 0;
     for (const circuit::Element& element : network.elements) {
       if (!element.passes_axis) continue;
@@ -224,7 +225,7 @@ void RunRecord::persist(Archive& archive) {
   }
   if (model_.circuit) {
     const Archive::Group circuit(archive, "circuit");
-    archive.io("starved_time", starved_time_), archive.io("lowest_pressure", lowest_pressure_);
+    archive.io("starved_time", starved_time_), archive.io("lowest_fill", lowest_fill_);
     archive.io("lowest_at_axis", lowest_at_axis_), archive.io("time", circuit_time_);
   }
   {

@@ -77,9 +77,9 @@ class RunRecord {
   CycleConvergence cycles_;
   std::vector<BearingExtremes> extremes_;
   EnergyBalance energy_;
-  Eigen::VectorXd starved_time_, lowest_pressure_;  ///< of each node of the circuit [s, Pa]
-  Eigen::VectorXd lowest_at_axis_;                  ///< of each of its drillings through an axis [Pa]
-  double circuit_time_ = 0;                         ///< [s]
+  Eigen::VectorXd starved_time_, lowest_fill_;  ///< of each node of the circuit [s, -]
+  Eigen::VectorXd lowest_at_axis_;              ///< of each of its drillings through an axis [Pa]
+  double circuit_time_ = 0;                     ///< [s]
   int steps_ = 0, newton_iterations_ = 0;
   std::vector<StepErrors> step_errors_;  ///< errors for each bearing, if requested
   double step_error_ = 0;                ///< largest of a step

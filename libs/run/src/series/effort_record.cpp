@@ -65,10 +65,12 @@ std::vector<QuantityGroup> EffortRecord::describe() {
     run::describe(table, "n", described);
     return described;
   };
-  return {group("/drives/<d>/", "of a drive", of_drives()),
-          group("/couplings/<c>/", "of a coupling of coordinates", of_couplings()),
-          group("/joint_forces/<f>/", "of friction, speed control and springs with a function, on their coordinate",
-                of_forces())};
+  return {
+      group("/drives/<d>/", "of a drive", of_drives()),
+      group("/couplings/<c>/", "of a coupling of coordinates", of_couplings()),
+      group("/joint_forces/<f>/",
+            "of friction, speed control, springs with a function, pumps and rotating drillings, on their coordinate",
+            of_forces())};
 }
 
 }  // namespace hersey::run

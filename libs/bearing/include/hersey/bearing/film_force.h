@@ -127,7 +127,7 @@ class FilmForce : public mbd::TwoBodyForce {
   }
   /// Returns what has changed of them since they were `from`; angles by less than half a revolution.
   [[nodiscard]] Eigen::VectorXd change_of_parameters(const Eigen::VectorXd& from) const;
-  /// Sets the pressures of the ports [Pa].
+  /// Sets the pressures of the ports [Pa]; below p_cav they say by (film.5) how full the oil is that comes there.
   void set_port_pressures(const Eigen::VectorXd& p);
   /// Oil that enters through each port after the film's increment [m^3/s], and its derivatives by surface_parameters()
   /// and by the pressures of ports.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hersey/bearing/film_force.h"
@@ -13,6 +14,7 @@
 #include "hersey/film/surface_feature.h"
 #include "hersey/film/temperature_law.h"
 #include "hersey/film/thermal_network.h"
+#include "hersey/mbd/coordinate_force.h"
 #include "hersey/mbd/shared_unknowns.h"
 
 namespace hersey::bearing {
@@ -57,15 +59,14 @@ struct CircuitObservation {
   /// Of nodes, after the step [K], and heat from the oil into the coolant of each cooler, in the order of elements [W];
   /// empty: the oil has one temperature.
   Eigen::VectorXd temperatures, cooled;
-  /// Of each node: 1 where its pressure lies below the cavitation pressure of films that draw from it, else 0; and the
-  /// pressure at the axis in each element that passes it, in their order [Pa].
-  Eigen::VectorXd starved, axis_pressures;
-  double dissipated = 0;     ///< in elements, as far as it warms the oil [W]
-  double balance_error = 0;  ///< largest imbalance of a node over the largest flow [-]
-  double power = 0;          ///< that pumps and other sources put into the oil [W]
+  Eigen::VectorXd fills;           ///< fraction of each node that is oil [-]; below 1 only at the cavitation pressure
+  Eigen::VectorXd axis_pressures;  ///< at the axis in each element that passes it, in their order [Pa]
+  double dissipated = 0;           ///< in elements, as far as it warms the oil [W]
+  double balance_error = 0;        ///< largest imbalance of a node over the largest flow [-]
+  double power = 0;                ///< that pumps and other sources put into the oil [W]
 };
 
-/// A circuit of oil between films: the pressures of its nodes are unknowns that these films share.
+/// A circuit of oil between films: the pressures of its nodes, or their fills, are unknowns that these films share.
 ///
 /// An evaluation finds them with every film linear in pressures and surfaces (circuit.9), elements as they are. They
 /// then follow the surfaces of all films to the next evaluation (circuit.11), so that films, circuit and bodies are one
@@ -96,6 +97,10 @@ class OilCircuit final : public mbd::SharedUnknowns {
   /// Returns its figures at the step last accepted.
   [[nodiscard]] const CircuitObservation& observation() const { return observation_; }
 
+  /// Returns the torque that the circuit puts on the coordinate of a shaft [N m] (circuit.21, circuit.22), at the
+  /// evaluation or the accepted step last made; 0 before the first.
+  [[nodiscard]] double torque_on(std::size_t shaft) const;
+
   // Temperatures move after a step has been accepted, and stay over the next one.
 
   /// Null: the oil has one temperature.
@@ -119,7 +124,11 @@ class OilCircuit final : public mbd::SharedUnknowns {
   /// Adds what the angle of a film's journal changes by the holes that pass its grooves, to columns of its parameters.
   void add_passing_holes(std::size_t film, const Eigen::VectorXd& p, Eigen::MatrixXd& rhs) const;
   void pass_pressures();
+  /// Change of the pressure that a film's port is given with its node's entry of pressures.
+  [[nodiscard]] double port_scale(const CircuitFilm& film, std::size_t node) const;
   [[nodiscard]] circuit::Drawn drawn_by_films() const;
+  /// Finds the pressures at which the circuit gives what linear films draw.
+  [[nodiscard]] circuit::CircuitSummary solve(const circuit::Drawn& drawn, Eigen::VectorXd& p) const;
   struct Imbalance {
     double over_largest_flow = 0;  ///< of the worst node [-]
     std::size_t node = 0;
@@ -127,7 +136,7 @@ class OilCircuit final : public mbd::SharedUnknowns {
   /// Imbalance of nodes at pressures `p` where films draw `drawn`.
   [[nodiscard]] Imbalance imbalance(const Eigen::VectorXd& p, const Eigen::VectorXd& drawn) const;
   void update_viscosities();
-  void observe_starvation();
+  void observe_axes();
   void persist_heat(Archive& archive);
 
   circuit::Circuit circuit_;
@@ -153,6 +162,26 @@ class OilCircuit final : public mbd::SharedUnknowns {
 
   std::vector<film::OilStream> sum_;  // of streams times the lengths of their steps; empty before the first
   double sum_of_steps_ = 0;           // [s]
+};
+
+/// Torque of a circuit's pump, or of a bore that rotates, on the coordinate that turns it; the oil takes its power.
+///
+/// It follows pressures and flows of each evaluation; how they answer to motions of films and shaft is left out of the
+/// tangent.
+/// @verified_by shaft_torque_test.cpp
+class CircuitTorque final : public mbd::CoordinateForce {
+ public:
+  /// @param shaft  of the circuit; it follows this force's coordinate
+  CircuitTorque(std::shared_ptr<const OilCircuit> circuit, std::size_t shaft)
+      : circuit_(std::move(circuit)), shaft_(shaft) {}
+  [[nodiscard]] mbd::CoordinateEffort evaluate(double /*t*/, double /*position*/, double /*rate*/) const override {
+    return {.value = circuit_->torque_on(shaft_)};
+  }
+  [[nodiscard]] bool is_source() const override { return true; }
+
+ private:
+  std::shared_ptr<const OilCircuit> circuit_;
+  std::size_t shaft_;
 };
 
 }  // namespace hersey::bearing

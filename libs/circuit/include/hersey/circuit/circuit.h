@@ -19,6 +19,11 @@ struct Node {
   std::string name;
   bool is_given = false;                ///< its pressure is given: a sump, the surroundings, a supply
   std::optional<Storage> storage = {};  ///< what it stores over time; unset: nothing
+  /// By how much its entry of pressures lies below the cavitation pressure where it is empty [Pa], > 0: a scale without
+  /// influence on the solution. Nodes that store oil have their own.
+  double fill_scale = 1e5;
+  /// At which oil ceases to fill it [Pa]: that of films that draw there, elsewhere the vacuum.
+  double p_cav = -standard_atmosphere;
 };
 
 /// What lies between two nodes.
@@ -38,6 +43,21 @@ struct Network {
   std::vector<Element> elements;
   Oil oil;
   double ambient = standard_atmosphere;  ///< absolute pressure where pressures of the circuit are 0 [Pa]
+};
+
+/// Pressure and fill of a node (circuit.18), with derivatives by its entry of pressures.
+struct NodeState {
+  double p = 0;  ///< [Pa]
+  double p_slope = 1;
+  double fill = 1;        ///< fraction of the node that is oil [-]
+  double fill_slope = 0;  ///< [1/Pa]
+};
+
+/// Flow of oil through an element and its derivatives.
+struct Through {
+  double value = 0;               ///< from its first node to its second [m^3/s]
+  double by_from = 0, by_to = 0;  ///< by the entries of pressures of its nodes [m^3/(Pa s)]
+  double by_area = 0;             ///< by the open area of a hole over a groove [m/s]
 };
 
 /// What a circuit's balance depends on beside its pressures.
@@ -65,7 +85,9 @@ struct [[nodiscard]] CircuitSummary : Outcome {
 
 /// Balance of a circuit at each node, with exact derivatives, and its solution by Newton's method.
 ///
-/// Pressures are a vector over all nodes. Rows of nodes with a given pressure are those of that pressure: no balance.
+/// Pressures are a vector over all nodes, one entry each. A node whose pressure is not given cannot have one below the
+/// cavitation pressure: an entry below it is none, but says how far the node is filled (circuit.18), see state(). Rows
+/// of nodes with a given pressure are those of that pressure: no balance.
 /// @verified_by circuit_test.cpp
 class Circuit {
  public:
@@ -76,10 +98,22 @@ class Circuit {
   /// Number of nodes.
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(network_.nodes.size()); }
 
-  /// Returns the flow through an element, from its first node to its second.
-  [[nodiscard]] Flow flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
+  /// Returns pressure and fill of a node where its entry of pressures is `p`.
+  [[nodiscard]] NodeState state(std::size_t node, double p) const;
+  /// Returns the entry below the cavitation pressure at which the node is empty, less that pressure, > 0 [Pa].
+  [[nodiscard]] double fill_scale(std::size_t node) const { return fill_scales_[node]; }
+  /// Returns the pressures of all nodes [Pa].
+  [[nodiscard]] Eigen::VectorXd pressures(const Eigen::VectorXd& p) const;
+  /// Returns how far each node is filled [-].
+  [[nodiscard]] Eigen::VectorXd fills(const Eigen::VectorXd& p) const;
+
+  /// Returns the flow of oil through an element (circuit.19).
+  [[nodiscard]] Through flow(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
   /// Returns the flows through all elements [m^3/s].
   [[nodiscard]] Eigen::VectorXd flows(const Eigen::VectorXd& p, const Conditions& conditions) const;
+  /// Returns the torque that an element takes from its shaft [N m]: that of a pump (circuit.21), or of a bore that
+  /// rotates (circuit.22); 0 without a shaft.
+  [[nodiscard]] double torque(std::size_t element, const Eigen::VectorXd& p, const Conditions& conditions) const;
   /// Returns the pressure at the axis in an element that passes it (circuit.17) [Pa].
   [[nodiscard]] double pressure_at_axis(std::size_t element, const Eigen::VectorXd& p,
                                         const Conditions& conditions) const;
@@ -103,7 +137,7 @@ class Circuit {
   /// @param p  where to begin; on return the solution
   [[nodiscard]] CircuitSummary solve(const Conditions& conditions, const Drawn& drawn, Eigen::VectorXd& p) const;
   /// Returns pressures from which to begin: those that are given, and elsewhere the highest of these and of relief
-  /// valves.
+  /// valves, nowhere below the cavitation pressure.
   [[nodiscard]] Eigen::VectorXd start(const Conditions& conditions) const;
 
   /// Returns nothing drawn.
@@ -113,8 +147,10 @@ class Circuit {
 
  private:
   [[nodiscard]] double drop(const Element& element, const Eigen::VectorXd& p, const Conditions& conditions) const;
+  [[nodiscard]] Storage::Content content_of(std::size_t node, double p) const;
 
   Network network_;
+  std::vector<double> fill_scales_;
 };
 
 }  // namespace hersey::circuit

@@ -65,9 +65,13 @@ struct ReliefValve {
 struct DisplacementPump {
   double displacement = 1e-6;  ///< volume per angle of its shaft [m^3/rad], > 0
   double leakage = 0;          ///< back through its gaps, over the rise of pressure [m^3/(Pa s)], >= 0
+  /// Displacement times rise of pressure over the torque of its shaft [-], in (0, 1].
+  double mechanical_efficiency = 1;
   /// Returns the flow under a drop of pressure [Pa], the negative of its rise, and its slope.
   /// @param setting  with the speed of its shaft
   [[nodiscard]] Flow flow(double drop, const Oil& oil, const Setting& setting) const;
+  /// Returns the part of it that its gaps let pass, back where it lifts oil against pressure.
+  [[nodiscard]] Flow leak(double drop) const { return {leakage * drop, leakage}; }
 };
 
 /// A pump whose flow over the rise of pressure has been measured.

@@ -52,7 +52,10 @@ struct SurfaceFeature {
   double length = 1e-3;                    ///< whole extent along the axis [m], > 0
   double pressure = 0;                     ///< [Pa]; SurfaceMotion::feature_pressure overrides it
   bool is_fed = true;                      ///< without it the pressure means nothing
-  double depth = 0;                        ///< [m], >= 0
+  /// A circuit feeds it, which may have too little oil: below p_cav `pressure` is none, but p_cav + u, u < 0, says by
+  /// (film.5) how full the feature is. Otherwise a supply below p_cav counts as one at p_cav.
+  bool may_lack_oil = false;
+  double depth = 0;  ///< [m], >= 0
   /// Through which it is fed: `pressure` is then the supply's, before the restrictor, and the pressure in the feature
   /// an unknown of the film. Unset: the feature has the pressure of its supply.
   std::optional<Restrictor> restrictor = {};

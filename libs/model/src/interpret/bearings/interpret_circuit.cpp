@@ -117,6 +117,7 @@ class CircuitReader {
                                       .bulk_modulus = number_of(node, "bulk_modulus"),
                                       .free_air = number_of(node, "free_air"),
                                       .solubility = number_of(node, "solubility")};
+    read.p_cav = number_of(value_, "cavitation_pressure");
     read_temperature(node, read);
     circuit_.network.nodes.push_back(std::move(read));
     circuit_.node_positions.push_back(node.key_position);
@@ -180,7 +181,8 @@ class CircuitReader {
     if (type == "cooler") return circuit::Cooler{number_of(element, "resistance"), number_of(element, "conductance")};
     if (type == "relief_valve") return valve_of(element);
     if (type == "pump")
-      return circuit::DisplacementPump{number_of(element, "displacement") / two_pi, number_of(element, "leakage")};
+      return circuit::DisplacementPump{number_of(element, "displacement") / two_pi, number_of(element, "leakage"),
+                                       number_of(element, "mechanical_efficiency")};
     if (type == "hole_over_groove") return circuit::HoleOverGroove{number_of(element, "discharge_coefficient")};
     if (type == "pump_curve")
       if (const Value* curve = element.find("flow"))
@@ -284,8 +286,30 @@ std::optional<std::size_t> circuit_node(Context& context, const Value& name) {
   return std::nullopt;
 }
 
+namespace {
+
+/// The oil of a node ceases to fill it where it ceases to fill the films that draw there.
+void require_one_cavitation_pressure(Context& context) {
+  std::vector<const Bearing*> first(context.model.circuit->network.nodes.size(), nullptr);
+  for (const Bearing& bearing : context.model.bearings)
+    for (const CircuitPort& port : bearing.circuit_ports) {
+      const Bearing*& other = first[port.node];
+      if (other == nullptr) other = &bearing;
+      if (bearing.film.p_cav == other->film.p_cav) continue;
+      context.faults.push_back(
+          {bearing.position, "bearings." + bearing.name,
+           fmt::format("a cavitation pressure of {:.4g} bar, and {:.4g} bar of bearing '{}' on the same node '{}'",
+                       1e-5 * bearing.film.p_cav, 1e-5 * other->film.p_cav, other->name,
+                       context.model.circuit->network.nodes[port.node].name),
+           "one cavitation pressure of all bearings on a node, or a node for each", ""});
+    }
+}
+
+}  // namespace
+
 void check_circuit(Context& context) {
   if (!context.model.circuit || !context.faults.empty()) return;  // names may be undefined
+  require_one_cavitation_pressure(context);
   const OilCircuit& circuit = *context.model.circuit;
   const std::vector<circuit::Node>& nodes = circuit.network.nodes;
   std::vector<bool> has_element(nodes.size(), false), has_port(nodes.size(), false), has_level(nodes.size(), false);
