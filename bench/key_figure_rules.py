@@ -76,6 +76,7 @@ COMMANDS = {
     "thrust_pads/shaft": [("run",)],
     "thrust_pads/tilting": [("bearing",), ("run",)],
     "tilting_pads/model": [("run",)],
+    "start_stop/dry": [("run", "simulation.duration=0.2s")],
     "start_stop/model": [("run", "simulation.duration=0.3s", "simulation.tolerance=1e-10")],
     "wear/model": [("run", "simulation.duration=20ms")],
     "wear/scatter": [("run", "doublings=0", "run_in_roughness=0.3um", "simulation.duration=20ms")],
