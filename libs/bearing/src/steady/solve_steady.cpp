@@ -20,9 +20,9 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   const bool is_fed = std::any_of(model.features.begin(), model.features.end(), [](const auto& f) { return f.is_fed; });
   const bool has_pressure = is_fed || film::cavitation_law(model).bears_tension() ||
                             model.edge_left.pressure > model.p_cav || model.edge_right.pressure > model.p_cav;
-  HERSEY_REQUIRE(
-      point.film_speed(clearance(model), model.L) > 0 || model.asperities.model != film::AsperityModel::none || has_pressure,
-      "speeds that move oil in the gap, a feed or another pressure, or asperities");
+  HERSEY_REQUIRE(point.film_speed(clearance(model), model.L) > 0 ||
+                     model.asperities.model != film::AsperityModel::none || has_pressure,
+                 "speeds that move oil in the gap, a feed or another pressure, or asperities");
   HERSEY_REQUIRE(initial_gap(model, point, options) > 0, "a journal inside its bore");
   if (options.thermal) return solve_with_heat(model, point, options, state);
   SteadySearch search(model, point, options);
