@@ -67,10 +67,11 @@ TEST_CASE("JournalRing_TurnedByALine_IsShiftedByIt") {
   const film::FilmModel model = bore();
   JournalRing ring(model.grid);
   const Eigen::VectorXd values = wave(ring, 3), before = ring.at_nodes(values);
+  constexpr double round_off = 1e-12;
   ring.turn(2 * pi / 120);
   const Eigen::VectorXd after = ring.at_nodes(values);
-  CHECK((after.segment(3, after.size() - 3) - before.head(before.size() - 3)).lpNorm<Eigen::Infinity>() < 1e-12);
-  CHECK((after.head(3) - before.tail(3)).lpNorm<Eigen::Infinity>() < 1e-12);  // both: round-off
+  CHECK((after.segment(3, after.size() - 3) - before.head(before.size() - 3)).lpNorm<Eigen::Infinity>() < round_off);
+  CHECK((after.head(3) - before.tail(3)).lpNorm<Eigen::Infinity>() < round_off);
 }
 
 constexpr double k = 1e-16, p0 = 8e6, omega = 300, half = 20 * pi / 180;
