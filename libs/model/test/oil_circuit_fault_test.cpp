@@ -145,7 +145,7 @@ TEST_CASE("FilmsOnOneNode_HaveOneCavitationPressure") {
     width: 80 mm
     radial_clearance: 50 um
     lubricant: oil
-    cavitation: {pressure: -0.9 bar}
+    cavitation: {model: mass_conserving, pressure: -0.9 bar}
     features:
       bore: {shape: axial_groove, arc: 30 deg, length: 50 mm, circuit: hole}
 simulation:)";

@@ -77,6 +77,9 @@ struct Ran {
   }
 };
 
+constexpr double kConserved = 1e-9;        // of the largest flow, which machines' steps leave
+constexpr double kCubicMillimetre = 1e-9;  // m^3
+
 const std::string kSteady = "simulation={analysis: steady}";
 
 double taken(const Ran& run) { return run.last("circuit/drawn_main_1") + run.last("circuit/drawn_main_2"); }
@@ -84,25 +87,25 @@ double taken(const Ran& run) { return run.last("circuit/drawn_main_1") + run.las
 // Pump, films and sides of films have the same oil, in steady motion and at every step.
 TEST_CASE("BearingsOnASmallPump_TakeWhatItGives") {
   const double want = taken(Ran(machine(3500), {kSteady}));  // just enough: they lie near the cavitation pressure
-  CHECK(want == doctest::Approx(3500e-9).epsilon(1e-9));     // of the largest flow, as below
-  for (const double flow : {350.0, 1000.0}) {                // mm^3/s: a tenth, and a third
+  CHECK(want == doctest::Approx(3500 * kCubicMillimetre).epsilon(kConserved));
+  for (const double flow : {350.0, 1000.0}) {  // mm^3/s: a tenth, and a third
     CAPTURE(flow);
     const Ran steady(machine(flow), {kSteady});
-    CHECK(taken(steady) == doctest::Approx(1e-9 * flow).epsilon(1e-9));
+    CHECK(taken(steady) == doctest::Approx(kCubicMillimetre * flow).epsilon(kConserved));
     for (const std::string name : {"main_1", "main_2"}) {
       const double drawn = steady.last("circuit/drawn_" + name), fill = steady.last("circuit/fill_" + name);
       CHECK(steady.last("bearings/" + name + "/flow_left") + steady.last("bearings/" + name + "/flow_right") ==
-            doctest::Approx(drawn).epsilon(1e-9));
-      CHECK(steady.last("bearings/" + name + "/flow_feature_groove") == doctest::Approx(drawn).epsilon(1e-9));
+            doctest::Approx(drawn).epsilon(kConserved));
+      CHECK(steady.last("bearings/" + name + "/flow_feature_groove") == doctest::Approx(drawn).epsilon(kConserved));
       CHECK(steady.last("circuit/pressure_" + name) == 0);
       CHECK(fill > 0);
       CHECK(fill < 1);
     }
     const Ran run(machine(flow), {"simulation.duration=20 ms"});
-    CHECK(run.largest("circuit/balance_error") < 1e-9);
+    CHECK(run.largest("circuit/balance_error") < kConserved);
     const std::vector<double> drawn_1 = run.all("circuit/drawn_main_1"), drawn_2 = run.all("circuit/drawn_main_2");
     for (std::size_t k = 0; k < drawn_1.size(); ++k)
-      CHECK(drawn_1[k] + drawn_2[k] == doctest::Approx(1e-9 * flow).epsilon(1e-9));
+      CHECK(drawn_1[k] + drawn_2[k] == doctest::Approx(kCubicMillimetre * flow).epsilon(kConserved));
   }
 }
 
@@ -134,8 +137,8 @@ TEST_CASE("GalleryThatIsLeft_GivesItsOilToTheBearings") {
                             drawn_2 = run.all("circuit/drawn_main_2");
   double came_in = 0;
   for (std::size_t k = 1; k < t.size(); ++k) came_in += (t[k] - t[k - 1]) * (pump[k] - drawn_1[k] - drawn_2[k]);
-  CHECK(std::abs(stored.back() - stored.front() - came_in) < 1e-9 * stored.front());
-  CHECK(run.largest("circuit/balance_error") < 1e-9);
+  CHECK(std::abs(stored.back() - stored.front() - came_in) < kConserved * stored.front());
+  CHECK(run.largest("circuit/balance_error") < kConserved);
 }
 
 }  // namespace starved_run_test
