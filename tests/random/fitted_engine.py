@@ -27,6 +27,7 @@ class Engine:
         self.steps = rng.choice([20, 40])
         self.skirt = self.skirt_keys()
         self.has_wear = "wear" in self.skirt
+        self.rings = self.ring_keys() if rng.random() < 0.4 else {}
         self.big_end, self.circuit = None, None
         if self.has_big_end:
             self.big_end = self.big_end_keys()
@@ -43,15 +44,26 @@ class Engine:
                   "apex": f"{rng.uniform(-0.1, 0.1) * bore:.5g} mm"},
                  {"profile": "ovality", "top": f"{rng.uniform(0, 0.8) * bore:.5g} um", "bottom": f"{rng.uniform(0, 0.8) * bore:.5g} um"}]
         keys["shape"] = shape
-        if rng.random() < 0.4:
+        brings_layers = keys["cavitation"] == "mass_conserving" and rng.random() < 0.4
+        if brings_layers:
+            layers = [f"{rng.uniform(0.1, 1) * clearance:.4g} um" for _ in range(2)]
+            keys["oil"] = {"top": layers[0], "bottom": rng.choice([layers[1], "flooded"]), "sides": rng.choice(["dry", "flooded"])}
+        elif rng.random() < 0.4:
             keys["ambient_fill"] = rng.choice([0.5, {"top": 0.3, "bottom": 1, "sides": 0.8}])
-        if rng.random() < 0.4:
+        if not brings_layers and rng.random() < 0.4:
             keys["edge_pressure"] = rng.choice(["0.2 bar", {"top": "0.3 bar", "bottom": "0 bar", "sides": "closed"}])
         if rng.random() < 0.7:
             keys["asperities"] = parts.asperities(rng)
             if rng.random() < 0.6:
                 keys["wear"] = parts.wear(rng, "skirt", None)
         return keys
+
+    def ring_keys(self):
+        rng = self.rng
+        return {f"ring_{k}": {"type": "piston_ring", "between": ["ground.liner", "piston.skirt"], "bore": f"{self.bore} mm",
+                              "height": f"{0.02 * self.bore:.4g} mm", "tension": f"{rng.uniform(0.05, 0.4) * self.bore:.4g} N",
+                              "gas": f"{rng.choice([0, 2, 20])} bar", "friction": rng.choice([0.05, 0.12]), "viscosity": f"{1e3 * self.mu} mPa.s"}
+                for k in range(rng.choice([1, 2]))}
 
     def big_end_keys(self):
         rng = self.rng
@@ -101,7 +113,7 @@ class Engine:
                  "bodies": bodies, "joints": joints,
                  "drives": {"motor": {"joint": "main", "coordinate": "rotation", "speed": f"{speed} rpm"}},
                  "forces": {"gas": {"type": "force", "body": "piston", "direction": turned(0, -1, "").strip(),
-                                    "magnitude": f"{self.gas!r} N", "axes": "ground"}},
+                                    "magnitude": f"{self.gas!r} N", "axes": "ground"}, **self.rings},
                  "bearings": {"skirt": skirt},
                  "simulation": {"duration": f"{self.steps / abs(self.speed) / 6 * 1e3!r} ms", "step": f"{1 / abs(self.speed) / 6 * 1e3!r} ms",
                                 "spectral_radius": 0.8}}
@@ -114,7 +126,7 @@ class Engine:
 
     def writings(self):
         model = self.model()
-        order = [("bodies",), ("joints",), ("bearings",), ("bearings", "skirt", "shape")]
+        order = [("bodies",), ("joints",), ("forces",), ("bearings",), ("bearings", "skirt", "shape")]
         yield "reordered", Writing(parts.backwards(model, *order, *([("circuit", "nodes"), ("circuit", "elements")] if self.circuit else [])))
         yield "turned", Writing(self.model(turn=self.rng.uniform(-180, 180)))
         yield "liner_moved", Writing(self.model(shift=self.shift))

@@ -45,6 +45,8 @@ def wear(rng, fixed, moving):
     for surface, is_worn in zip((fixed, moving), both):
         if is_worn:
             entry[surface] = {"coefficient": f"{10 ** rng.uniform(-16, -14):.4g} 1/Pa"}
+    if moving in entry and rng.random() < 0.5:
+        entry[moving]["around"] = "local"
     return entry
 
 
@@ -91,7 +93,7 @@ def circuit(rng, feeds, joint):
         element(rng, net, "filter", "supply", "gallery")
     else:
         net["nodes"]["sump"] = {"pressure": "0 bar"}
-        net["elements"]["pump"] = {"type": "pump", "from": "sump", "to": "gallery", "displacement": f"{rng.uniform(0.2, 2):.4g} cm^3",
+        net["elements"]["pump"] = {"type": "pump", "from": "sump", "to": "gallery", "displacement": f"{rng.choice([1, 1, 0.02]) * rng.uniform(0.2, 2):.4g} cm^3",
                                    "leakage": f"{rng.uniform(0.1, 1):.4g} l/min/bar", **joint}
         net["elements"]["relief"] = {"type": "relief_valve", "from": "gallery", "to": "sump",
                                      "opening_pressure": f"{rng.uniform(1, 4):.4g} bar", "conductance": "2 l/min/bar"}
@@ -139,4 +141,6 @@ def film(rng, around, along):
         keys["compliance"] = {"model": "column", "composite_modulus": "100 GPa", "length": "2 mm"}
     if rng.random() < 0.3:
         keys["cavitated_shear"] = "full"
+    if keys["cavitation"] == "mass_conserving" and rng.random() < 0.3:
+        keys["initial_fill"] = rng.choice([0, 0.2, 0.7])
     return keys | {"grid": around | along}

@@ -1,7 +1,5 @@
 #include "hersey/circuit/circuit.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,23 +10,11 @@
 namespace hersey::circuit {
 namespace {
 
-// Imbalance over the largest flow with which a solution ends: round-off of a sum of a few flows.
-constexpr double kBalanced = 1e-13;
 // Round-off of a flow that follows from the difference of two pressures or of two contents.
 constexpr double kRoundOff = 8 * std::numeric_limits<double>::epsilon();
-// Imbalance that still passes for a solution where an increment no longer lessens it, over what it ends with otherwise:
-// valves at the point of opening.
-constexpr double kNearlyBalanced = 1e3;
-constexpr int kMostIterations = 100;      // monotone laws take about ten; valves that open add one each
-constexpr double kNoAnswer = 1e-9;        // change of the imbalance, over itself, that counts as none
-constexpr int kMostHalvings = 60;         // from the largest step down to one of 1e-9 Pa
-constexpr double kLargestPressure = 1e9;  // Pa: beyond all pressures, where nothing yet leads away from a node
-// Conductances [m^3/(Pa s)] that keep increments bounded there, over the largest of the circuit and at least.
+// Conductances [m^3/(Pa s)] that keep increments bounded where nothing yet leads away from a node, over the largest of
+// the circuit and at least.
 constexpr double kLeastConductance = 1e-12, kNoConductance = 1e-12;
-// Below this part of an increment slower ones are tried, too: where nodes empty or fill, flows bend.
-constexpr double kSmallPart = 1.0 / 64;
-// Slower increments have the Jacobian with its diagonal so many times larger, each ten times slower than the last.
-constexpr double kFirstSlower = 1e-3, kSlowest = 1e9;
 
 // (circuit.19)
 void carry(const Flow& full, const NodeState& from, const NodeState& to, Through& through) {
@@ -223,75 +209,6 @@ Eigen::VectorXd Circuit::start(const Conditions& conditions) const {
   for (Eigen::Index i = 0; i < size(); ++i)
     if (network_.nodes[static_cast<std::size_t>(i)].is_given) p[i] = conditions.given[i];
   return p;
-}
-
-// Laws are monotone, so that a step along Newton's increment that is short enough brings nodes nearer to balance. Where
-// flows bend it may not; but what leaves a node arrives at others, so that increments along the surplus alone, the
-// limit of slower ones, always lessen the sum of imbalances. A node without oil gives none: what a linear film still
-// draws there does not count.
-CircuitSummary Circuit::solve(const Conditions& conditions, const Drawn& drawn, Eigen::VectorXd& p) const {
-  Eigen::VectorXd empty(size());
-  for (Eigen::Index i = 0; i < size(); ++i) {
-    const Node& node = network_.nodes[static_cast<std::size_t>(i)];
-    if (node.is_given) p[i] = conditions.given[i];
-    empty[i] = node.is_given ? p[i] : node.p_cav - fill_scales_[static_cast<std::size_t>(i)];
-  }
-  const auto within = [&empty](const Eigen::VectorXd& at) -> Eigen::VectorXd {
-    return at.cwiseMin(kLargestPressure).cwiseMax(empty);
-  };
-  p = within(p);
-  Balance balance;
-  double largest_flow = 0, tolerance = 0;
-  const auto surplus_at = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
-    evaluate(at, conditions, balance);
-    const Eigen::VectorXd taken = drawn.flow + drawn.by_p * (at - drawn.p);
-    largest_flow = std::max(balance.largest_flow, taken.lpNorm<Eigen::Infinity>());
-    tolerance = kBalanced * largest_flow + balance.round_off;
-    Eigen::VectorXd surplus = balance.surplus - taken;
-    for (Eigen::Index i = 0; i < size(); ++i)
-      if (network_.nodes[static_cast<std::size_t>(i)].is_given || (at[i] <= empty[i] && surplus[i] < 0)) surplus[i] = 0;
-    return surplus;
-  };
-  CircuitSummary summary;
-  Eigen::VectorXd surplus = surplus_at(p);
-  for (; summary.iterations < kMostIterations; ++summary.iterations) {
-    const double norm = surplus.lpNorm<1>();
-    if (surplus.norm() <= tolerance) break;
-    Eigen::MatrixXd by_p = balance.by_p - drawn.by_p;
-    fix_given(by_p);
-    for (Eigen::Index i = 0; i < size(); ++i)
-      if (p[i] <= empty[i] && surplus[i] == 0) by_p.row(i) = by_p(i, i) * Eigen::RowVectorXd::Unit(size(), i);
-    const Eigen::VectorXd step = by_p.partialPivLu().solve(-surplus);
-    // Where nodes without oil part others, nothing answers at first: the part of the step is sought beyond that.
-    double part = 1, too_far = 1, not_yet = 0;
-    Eigen::VectorXd next = within(p + part * step), surplus_next = surplus_at(next);
-    for (int k = 0; k < kMostHalvings && !(surplus_next.lpNorm<1>() < norm); ++k) {
-      (k > 0 && surplus_next.lpNorm<1>() < (1 + kNoAnswer) * norm ? not_yet : too_far) = part;
-      part = 0.5 * (not_yet + too_far);
-      next = within(p + part * step);
-      surplus_next = surplus_at(next);
-    }
-    const Eigen::VectorXd diagonal = by_p.diagonal();
-    for (double slower = kFirstSlower; part < kSmallPart && slower <= kSlowest; slower *= 10) {
-      by_p.diagonal() = (1 + slower) * diagonal;
-      const Eigen::VectorXd other = within(p + by_p.partialPivLu().solve(-surplus)), surplus_there = surplus_at(other);
-      if (surplus_there.lpNorm<1>() < surplus_next.lpNorm<1>()) next = other, surplus_next = surplus_there;
-    }
-    if (!(surplus_next.lpNorm<1>() < norm)) {
-      surplus = surplus_at(p);
-      break;
-    }
-    p = next, surplus = surplus_at(p);
-  }
-  Eigen::Index worst = 0;
-  const double largest = size() > 0 ? surplus.cwiseAbs().maxCoeff(&worst) : 0;
-  summary.residual = largest_flow > 0 ? largest / largest_flow : 0;
-  summary.set_solved(largest <= kNearlyBalanced * tolerance);
-  if (!summary.solved())
-    summary.message = fmt::format("no balance of oil at node {}: {:.3g} mm3/s too much at {:.4g} bar",
-                                  network_.nodes[static_cast<std::size_t>(worst)].name, 1e9 * surplus[worst],
-                                  1e-5 * state(static_cast<std::size_t>(worst), p[worst]).p);
-  return summary;
 }
 
 }  // namespace hersey::circuit

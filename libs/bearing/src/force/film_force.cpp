@@ -53,7 +53,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
       film_(std::make_unique<FilmElement>(with_circuit_ports(model, options.circuit_ports),
                                           FilmElement::Options{.solve = options.film,
                                                                .initial_dt = options.initial_dt,
-                                                                .initial_fill = options.initial_fill,
+                                                               .initial_fill = options.initial_fill,
                                                                .thermal = options.thermal,
                                                                .angles = angles_of(*gap_)})),
       thermal_(add_shape(std::make_unique<ThermalSurfaces>(film_->model(), film_->heat(), options.growth), shapes_)),

@@ -89,7 +89,7 @@ class SkirtReader {
     if (const Value* oil = content("oil"); oil != nullptr && !oil->broken) read_oil(*oil);
   }
 
-  /// Reads the oil on the liner: of each edge a layer, or all that the film draws in.
+  /// Reads the oil on the liner: of each edge a layer, theory manual eq. (skirt.12), or all that the film draws in.
   void read_oil(const Value& oil) {
     const Value* fills = value_.find("ambient_fill");
     if (fills != nullptr && fills->given) {
