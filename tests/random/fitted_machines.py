@@ -98,10 +98,10 @@ def is_figure(name):
 
 def differences(one, other, writing):
     """Of the series of `one` from those of `other` under the writing's names and signs."""
+    if max(one.rejected, other.rejected) > 0:
+        return []  # round-off may have decided whether a step was rejected, and with that about the steps after it
     if not np.array_equal(one.time.shape, other.time.shape):
         return [f"{len(one.time)} and {len(other.time)} rows"]
-    if max(one.rejected, other.rejected) > 0:
-        return []  # round-off may have decided about the steps after a rejected one
     found = []
     for name in filter(is_figure, one.series):
         key, sign = writing.name(name)

@@ -110,6 +110,18 @@ TEST_CASE("BearingsOnASmallPump_TakeWhatItGives") {
 }
 
 // Less oil, less film: the journal sinks.
+TEST_CASE("DryBearingsOnASmallPump_StartWithWhatItGives") {
+  for (const double flow : {350.0, 1000.0, 9000.0}) {
+    CAPTURE(flow);
+    const Ran run(machine(flow),
+                  {"simulation.duration=2 ms", "bearings.main_1.initial_fill=0", "bearings.main_2.initial_fill=0.2"});
+    CHECK(run.largest("circuit/balance_error") < kConserved);
+    const std::vector<double> drawn_1 = run.all("circuit/drawn_main_1"), drawn_2 = run.all("circuit/drawn_main_2");
+    for (std::size_t k = 0; k < drawn_1.size(); ++k)
+      CHECK(drawn_1[k] + drawn_2[k] == doctest::Approx(kCubicMillimetre * flow).epsilon(kConserved));
+  }
+}
+
 TEST_CASE("JournalOnASmallPump_RunsCloserToTheShell") {
   double before = 1;
   for (const double flow : {5000.0, 2000.0, 1000.0, 350.0}) {  // mm^3/s

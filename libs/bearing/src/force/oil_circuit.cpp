@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -18,7 +19,10 @@ using Eigen::VectorXd;
 namespace {
 
 // Films and circuit in turn, each by exact derivatives of the other: five do, and more where films rupture anew.
-constexpr int kMostAtOnce = 40;
+constexpr int kMostAtOnce = 80;
+// Between two fills of which one does not answer, increments would lead from one to the other: they are halved unless
+// they bring circuit and films nearer to balance.
+constexpr double kNearer = 0.95, kLeastPart = 1.0 / 64;
 constexpr double kBalancedAtOnce = 1e-12;  // of the largest flow: what films solved to 1e-10 leave after one increment
 
 constexpr double kNoBalanceAtOnce = 1e-9;  // of the largest flow: what machines' iterations leave, and more
@@ -148,7 +152,7 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
   // At an instant each evaluation solves films to their end. So it does the circuit with them, since who asks for a
   // state at rest or in steady motion may evaluate it once.
   VectorXd p_before = p_;
-  double left = 1;
+  double left = 1, before = std::numeric_limits<double>::max(), part = 1;
   for (int k = 0; motion.dt == 0 && k < kMostAtOnce; ++k) {
     bool is_inside = domain_error_.empty();
     for (const CircuitFilm& film : films_) {
@@ -166,9 +170,12 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
     }
     p_before = p_;
     const circuit::Drawn drawn = drawn_by_films();
-    left = imbalance(p_, drawn.flow).over_largest_flow;
+    const Imbalance worst = imbalance(p_, drawn.flow);
+    left = worst.over_largest_flow;
     if (left <= kBalancedAtOnce) return;
-    if (VectorXd p = p_; solve(drawn, p).solved()) p_ = p;
+    part = worst.flow < kNearer * before ? std::min(1.0, 2 * part) : std::max(kLeastPart, part / 2);
+    before = worst.flow;
+    if (VectorXd p = p_; solve(drawn, p).solved()) p_ += part * (p - p_);
     pass_pressures();
   }
   if (motion.dt == 0 && left > kNoBalanceAtOnce)
@@ -223,7 +230,7 @@ OilCircuit::Imbalance OilCircuit::imbalance(const VectorXd& p, const VectorXd& d
     if (circuit_.network().nodes[static_cast<std::size_t>(i)].is_given) continue;
     const double surplus = std::abs(balance.surplus[i] - drawn[i]);
     if (surplus <= worst.over_largest_flow * scale || surplus <= balance.round_off) continue;
-    worst = {surplus / scale, static_cast<std::size_t>(i)};
+    worst = {surplus / scale, static_cast<std::size_t>(i), surplus};
   }
   return worst;
 }

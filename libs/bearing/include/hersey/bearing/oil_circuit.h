@@ -132,6 +132,7 @@ class OilCircuit final : public mbd::SharedUnknowns {
   struct Imbalance {
     double over_largest_flow = 0;  ///< of the worst node [-]
     std::size_t node = 0;
+    double flow = 0;  ///< of the worst node [m^3/s]
   };
   /// Imbalance of nodes at pressures `p` where films draw `drawn`.
   [[nodiscard]] Imbalance imbalance(const Eigen::VectorXd& p, const Eigen::VectorXd& drawn) const;
