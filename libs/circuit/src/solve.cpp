@@ -45,7 +45,7 @@ class Balancing {
     move_to(start);
   }
 
-  [[nodiscard]] bool balanced() const { return surplus_.norm() <= tolerance_; }
+  [[nodiscard]] bool is_balanced() const { return surplus_.norm() <= tolerance_; }
 
   /// Takes one increment; returns false if none lessens the imbalances.
   bool improve() {
@@ -141,7 +141,7 @@ class Balancing {
 CircuitSummary Circuit::solve(const Conditions& conditions, const Drawn& drawn, Eigen::VectorXd& p) const {
   CircuitSummary summary;
   Balancing balancing(*this, conditions, drawn, p);
-  while (summary.iterations < kMostIterations && !balancing.balanced() && balancing.improve()) ++summary.iterations;
+  while (summary.iterations < kMostIterations && !balancing.is_balanced() && balancing.improve()) ++summary.iterations;
   p = balancing.p();
   balancing.describe(summary);
   return summary;
