@@ -128,13 +128,19 @@ std::string groups_text(const std::vector<SummaryRow>& rows) {
   return lines.empty() ? "" : "\nbearings of several films\n" + aligned(lines, 99);
 }
 
+/// Name of a figure; with that of its ring or contact, of which a machine has several.
+std::string name_on_screen(const SummaryRow& row) {
+  const bool is_one_of_several = row.group.starts_with("ring ") || row.group.starts_with("contact ");
+  return is_one_of_several ? row.group + ": " + row.name : row.name;
+}
+
 std::string others_text(const std::vector<SummaryRow>& rows) {
   Lines lines;
   std::size_t left_out = 0;
   for (const SummaryRow& row : rows) {
     if (row.group == "computing" || is_of_films(row) || is_of_bearing(rows, row.group)) continue;
     if (lines.size() < kMostOthers) {
-      lines.push_back({row.name, figure_text(row.value), row.unit, row.where});
+      lines.push_back({name_on_screen(row), figure_text(row.value), row.unit, row.where});
     } else {
       ++left_out;
     }

@@ -11,21 +11,19 @@ const QuantityTable<RingRecord::Row, model::BuiltRing>& RingRecord::table() {
        "friction force on the piston along the liner's z-axis",
        &Row::friction_force,
        {.note = "this and the following: of a `piston_ring`",
-        .summary_entries = {{.statistic = SummaryEntry::Statistic::largest_in_size,
-                             .name = "largest friction force of the ring",
-                             .unit = "N"}}}},
+        .summary_entries =
+            {{.statistic = SummaryEntry::Statistic::largest_in_size, .name = "largest friction force", .unit = "N"}}}},
       {"radial_load",
        "N",
        "by which tension and gas press the whole ring against the liner",
        &Row::radial_load,
        {.summary_entries =
-            {{.statistic = SummaryEntry::Statistic::largest, .name = "largest radial load of the ring", .unit = "N"}}}},
+            {{.statistic = SummaryEntry::Statistic::largest, .name = "largest radial load", .unit = "N"}}}},
       {"friction_power",
        "W",
        "taken by the ring's friction",
        &Row::power,
-       {.summary_entries =
-            {{.statistic = SummaryEntry::Statistic::mean, .name = "mean friction power of the ring", .unit = "W"}}}},
+       {.summary_entries = {{.statistic = SummaryEntry::Statistic::mean, .name = "mean friction power", .unit = "W"}}}},
   };
   return table;
 }
