@@ -29,9 +29,9 @@ constexpr double kNoBalanceAtOnce = 1e-9;  // of the largest flow: what machines
 
 // Nodes at which films draw cavitate with these, and are as empty where their entries are equal (circuit.20).
 circuit::Network with_cavities_of_films(circuit::Network network, const std::vector<CircuitFilm>& films) {
-  for (auto film = films.rbegin(); film != films.rend(); ++film) {
-    const film::FilmModel& model = film->film->model();
-    for (const std::size_t node : film->nodes)
+  for (std::size_t f = films.size(); f-- > 0;) {
+    const film::FilmModel& model = films[f].film->model();
+    for (const std::size_t node : films[f].nodes)
       network.nodes[node].fill_scale = film::fill_scale(model), network.nodes[node].p_cav = model.p_cav;
   }
   return network;

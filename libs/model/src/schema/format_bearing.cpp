@@ -138,7 +138,9 @@ TypePtr wear_format(const SurfaceKeys& surfaces) {
                                              "Fleischer's: work of friction that wears off a volume."),
                                     optional("lining", quantity("m", "20 um", Range::positive()),
                                              "Depth that may wear off; a run ends there.", "no end")};
-  const auto one_law = [](TypePtr surface) { return with_exactly_one(surface, {"coefficient", "energy_density"}); };
+  const auto one_law = [](const TypePtr& surface) {
+    return with_exactly_one(surface, {"coefficient", "energy_density"});
+  };
   const TypePtr fixed = one_law(object("wear of a surface", of_surface));
   TypePtr moving = fixed;
   if (std::string_view(surfaces.moving) == "journal") {
