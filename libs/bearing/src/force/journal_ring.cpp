@@ -13,18 +13,20 @@ namespace {
 
 /// Lines at equal angles around a whole circumference, as far apart as the grid's on average.
 Index lines_around(const film::Grid& grid) {
-  double covered = 0;
   Index intervals = 0;
-  for (int i = 0; i < grid.n_phi; ++i) {
-    const int next = grid.next(i);
-    if (next < 0) continue;
-    covered += grid.phi(next) - grid.phi(i) + (next > i ? 0 : two_pi);
-    ++intervals;
-  }
-  return static_cast<Index>(std::lround(static_cast<double>(intervals) * two_pi / covered));
+  for (int i = 0; i < grid.n_phi; ++i)
+    if (grid.next(i) >= 0) ++intervals;
+  return static_cast<Index>(std::lround(static_cast<double>(intervals) * two_pi / covered_angle(grid)));
 }
 
 }  // namespace
+
+double covered_angle(const film::Grid& grid) {
+  double covered = 0;
+  for (int i = 0; i < grid.n_phi; ++i)
+    if (const int next = grid.next(i); next >= 0) covered += grid.phi(next) - grid.phi(i) + (next > i ? 0 : two_pi);
+  return covered;
+}
 
 JournalRing::JournalRing(const film::Grid& grid)
     : grid_(grid),

@@ -8,6 +8,9 @@
 
 namespace hersey::bearing {
 
+/// Returns the angle that a film covers around: 2 pi, or the sum of its patches [rad].
+[[nodiscard]] double covered_angle(const film::Grid& grid);
+
 /// Values on a journal in its own axes: on lines at equal angles, each with the film's rows, and between the lines as
 /// quadratic splines, which are smooth enough for the rate of a gap that they pass (theory manual, wear.8, wear.9).
 class JournalRing {

@@ -149,11 +149,15 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
     p_[i] = node.is_given ? conditions_.given[i] : std::max(p_[i], empty);
   }
   pass_pressures();
-  // At an instant each evaluation solves films to their end. So it does the circuit with them, since who asks for a
-  // state at rest or in steady motion may evaluate it once.
+  if (motion.dt == 0) balance_with_films(motion);
+}
+
+// At an instant each evaluation solves films to their end. So it does the circuit with them, since who asks for a state
+// at rest or in steady motion may evaluate it once.
+void OilCircuit::balance_with_films(const mbd::SharedMotion& motion) {
   VectorXd p_before = p_;
   double left = 1, before = std::numeric_limits<double>::max(), part = 1;
-  for (int k = 0; motion.dt == 0 && k < kMostAtOnce; ++k) {
+  for (int k = 0; k < kMostAtOnce; ++k) {
     bool is_inside = domain_error_.empty();
     for (const CircuitFilm& film : films_) {
       mbd::ForceResponse response;
@@ -178,7 +182,7 @@ void OilCircuit::follow(const mbd::SharedMotion& motion) {
     if (VectorXd p = p_; solve(drawn, p).solved()) p_ += part * (p - p_);
     pass_pressures();
   }
-  if (motion.dt == 0 && left > kNoBalanceAtOnce)
+  if (left > kNoBalanceAtOnce)
     domain_error_ = fmt::format("no balance of circuit and films: {:.2g} of the largest flow is left", left);
 }
 

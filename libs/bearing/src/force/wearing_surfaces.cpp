@@ -15,17 +15,7 @@ namespace hersey::bearing {
 
 using Eigen::VectorXd;
 
-namespace {
-
-/// Angle that the film covers around [rad]: 2 pi, or the sum of its patches.
-double covered_angle(const film::Grid& grid) {
-  double covered = 0;
-  for (int i = 0; i < grid.n_phi; ++i)
-    if (const int next = grid.next(i); next >= 0) covered += grid.phi(next) - grid.phi(i) + (next > i ? 0 : two_pi);
-  return covered;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 WearingSurfaces::WearingSurfaces(const film::FilmModel& model, const WearModel& wear)
     : model_(model),

@@ -8,6 +8,15 @@
 #include "hersey/core/contract.h"
 
 namespace hersey::mbd {
+namespace {
+
+/// Speed of the ring along the liner [m/s].
+double sliding_speed(const RelativeMotion& motion) {
+  const Vector3 omega = motion.V_AB_A.head<3>();
+  return (motion.V_AB_A.tail<3>() + omega.cross(motion.X_AB.r)).z();
+}
+
+}  // namespace
 
 PistonRing::PistonRing(Data data) : data_(std::move(data)) {
   HERSEY_REQUIRE(data_.bore > 0 && data_.height > 0, "a ring has a bore and a face");
@@ -38,8 +47,7 @@ PistonRing::Friction PistonRing::friction(double speed, double t) const {
 void PistonRing::evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) {
   const Vector3& r = motion.X_AB.r;
   const Vector3 omega = motion.V_AB_A.head<3>(), axis = Vector3::UnitZ();
-  const double speed = (motion.V_AB_A.tail<3>() + omega.cross(r)).z();
-  const Friction friction = this->friction(speed, motion.t);
+  const Friction friction = this->friction(sliding_speed(motion), motion.t);
   const Vector3 f = -friction.force * axis;
   response = ForceResponse{};
   response.W_B_A << r.cross(f), f;
@@ -57,8 +65,7 @@ void PistonRing::evaluate(const RelativeMotion& motion, bool want_tangent, Force
 }
 
 double PistonRing::lost_power(const RelativeMotion& motion) const {
-  const Vector3 omega = motion.V_AB_A.head<3>();
-  const double speed = (motion.V_AB_A.tail<3>() + omega.cross(motion.X_AB.r)).z();
+  const double speed = sliding_speed(motion);
   return friction(speed, motion.t).force * speed;
 }
 

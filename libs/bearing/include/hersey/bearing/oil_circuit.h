@@ -126,6 +126,8 @@ class OilCircuit final : public mbd::SharedUnknowns {
   void pass_pressures();
   /// Change of the pressure that a film's port is given with its node's entry of pressures.
   [[nodiscard]] double port_scale(const CircuitFilm& film, std::size_t node) const;
+  /// Solves films and circuit in turn until all nodes give what films draw.
+  void balance_with_films(const mbd::SharedMotion& motion);
   [[nodiscard]] circuit::Drawn drawn_by_films() const;
   /// Finds the pressures at which the circuit gives what linear films draw.
   [[nodiscard]] circuit::CircuitSummary solve(const circuit::Drawn& drawn, Eigen::VectorXd& p) const;
