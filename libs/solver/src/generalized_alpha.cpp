@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "fast_motions.h"
@@ -32,12 +33,23 @@ constexpr double kOtherLength = 0.01;
 /// Largest ratio of successive residuals for which old factors are kept.
 constexpr double kFastEnough = 0.05;
 
+/// A residual that is expected below this many times its tolerance is found without the tangent: it ends the step as a
+/// rule.
+constexpr double kLooksSolved = 10;
+
 /// Share of the prediction's residual at which a step chosen by its error is solved: the error of the prediction is
 /// three times the estimated error, so that a third of a percent of the latter remains.
 constexpr double kOfPrediction = 1e-3;
 
 /// The largest residual left in this way, relative to the terms balanced.
 constexpr double kLargestLeft = 1e-7;
+
+/// True if one more step of Newton's method will solve the equations, since each leaves in proportion to the square of
+/// the residual (theory manual, after integrator.20).
+bool looks_solved(double last, double now) {
+  const double nearer = now / last;
+  return std::isfinite(last) && now * nearer * nearer < kLooksSolved;
+}
 
 }  // namespace
 
@@ -324,8 +336,10 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   // Factors serve as long as they bring the residual down fast (theory manual, integrator.20). Condensed unknowns move
   // with each tangent and need their own.
   const bool may_keep_factors = !equations.has_condensed_unknowns();
+  const bool may_end_without_tangent = may_keep_factors || !equations.needs_tangent();
   w.enough = is_chosen ? std::min(kOfPrediction * w.worst_row, kLargestLeft / options_.rtol) : 0;
   bool keeps_factors = false;
+  double last = std::numeric_limits<double>::infinity();  // the residual one iteration ago
   for (;;) {
     const bool may_go_on = summary.iterations < options_.max_iterations;
     if (w.is_solved(keeps_factors && may_go_on ? kWithOldFactors : 1)) {
@@ -344,7 +358,9 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     const double before = w.worst();
     if (!(keeps_factors || w.factorise(equations.nv())) || !w.solve_increment(equations.nv()))
       return fail(StepStatus::singular, "the equations are singular here; worst equation: " + w.worst_name(equations));
-    if (!w.move(equations, state, options_, !may_keep_factors)) return fail(StepStatus::domain_error, w.why_outside);
+    const bool with_tangent = !(may_end_without_tangent && (may_keep_factors || looks_solved(last, before)));
+    last = before;
+    if (!w.move(equations, state, options_, with_tangent)) return fail(StepStatus::domain_error, w.why_outside);
     keeps_factors = may_keep_factors && w.worst() < kFastEnough * before;
   }
 

@@ -16,6 +16,9 @@ constexpr double kLargestRedistributedOverfill = 0.02;
 // After so many iterations of film and bodies together the film is found by itself.
 constexpr int kCommonIterations = 12;
 
+// A step this many times as long as the last one begins with the film that it left.
+constexpr double kFurthestPrediction = 2;
+
 // Films at the start of a run whose layers thin by their shear, and the change of viscosity with which they end.
 constexpr int kMostFirstFilms = 20;
 constexpr double kAsThin = 1e-6;
@@ -35,7 +38,7 @@ void persist_history(Archive& archive, film::FilmHistory& history) {
 FilmElement::FilmElement(const film::FilmModel& model, Options options)
     : options_(std::move(options)), reynolds_(model, film::linear_solver_of(options_.solve.solver)) {
   const int n = model.grid.size();
-  u_ = u_start_ = du_ = Eigen::VectorXd::Zero(n);
+  u_ = u_start_ = u_before_ = du_ = Eigen::VectorXd::Zero(n);
   history_.theta = Eigen::VectorXd::Ones(n);
   history_.w = Eigen::VectorXd::Zero(n);
   if (options_.thermal) {
@@ -46,6 +49,7 @@ FilmElement::FilmElement(const film::FilmModel& model, Options options)
 }
 
 film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
+  is_at_accepted_ = false;
   history_.dt = options_.initial_dt;
   history_.theta.setConstant(options_.initial_fill);
   history_.w.resize(0);
@@ -66,6 +70,7 @@ film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
 }
 
 film::FilmSolveSummary FilmElement::solve_steady(const film::SurfaceMotion& surfaces) {
+  is_at_accepted_ = false;
   history_.dt = 0;
   history_.phi_journal = surfaces.phi_journal;
   if (heat_) history_.viscosity = heat_->viscosity();
@@ -76,9 +81,21 @@ film::FilmSolveSummary FilmElement::solve_steady(const film::SurfaceMotion& surf
 void FilmElement::begin_step(double dt) {
   history_ = history_start_;
   history_.dt = dt;
-  u_ = u_start_;
-  is_linearised_ = false;
+  u_ = predicted(dt);
+  is_linearised_ = is_at_accepted_ = false;
   iterations_ = 0;
+}
+
+// Unknowns go on as over the last step, but for those that switch between full and cavitated.
+Eigen::VectorXd FilmElement::predicted(double dt) const {
+  Eigen::VectorXd u = u_start_;
+  if (dt == 0 || dt_before_ == 0 || dt > kFurthestPrediction * dt_before_) return u;
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    const double next = u[i] + dt / dt_before_ * (u[i] - u_before_[i]);
+    const bool switches = (u[i] < 0) != (next < 0) || (u[i] < 0) != (u_before_[i] < 0);
+    if (!switches) u[i] = next;
+  }
+  return film::check_unknowns(model(), u).is_inside() ? u : u_start_;
 }
 
 // u += du0 + U (s - s_last): the film's part of the Newton increment the bodies have just taken.
@@ -126,10 +143,33 @@ film::CondensedFilm& FilmElement::condense(const std::vector<film::MotionDirecti
 
 FilmElement::Forces FilmElement::increment(const Eigen::MatrixXd& openings) {
   reynolds_.newton_increment(du_);
-  const film::NormalForces& normal = reynolds_.forces().normal;
   is_linearised_ = false;
-  return {.wrench_on_shell = reynolds_.forces().wrench_on_shell + reynolds_.forces().wrench_by_u * du_,
-          .Q = openings.transpose() * (normal.value + normal.by_u.cwiseProduct(du_))};
+  return forces_after(du_, openings);
+}
+
+FilmElement::Forces FilmElement::forces_after(const Eigen::VectorXd& du, const Eigen::MatrixXd& openings) const {
+  const film::FilmForces forces = reynolds_.forces();
+  return {.wrench_on_shell = forces.wrench_on_shell + forces.wrench_by_u * du,
+          .Q = openings.transpose() * (forces.normal.value + forces.normal.by_u.cwiseProduct(du))};
+}
+
+film::FilmDomain FilmElement::follow_on_chord(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters,
+                                              const Eigen::MatrixXd& openings, Forces& forces) {
+  film::FilmDomain domain{film::FilmDomain::Violation::not_finite, -1};
+  if (is_linearised_ && reynolds_.linear_solver().has_factor) {
+    follow(parameters);
+    domain = reynolds_.chord_increment(surfaces, history_, u_, du_);
+    is_linearised_ = false;
+    if (domain.is_inside()) {
+      ++iterations_;
+      forces = forces_after(du_, openings);
+      return domain;
+    }
+    u_ = u_linearised_;
+  }
+  domain = linearise(surfaces, parameters);
+  if (domain.is_inside()) forces = increment(openings);
+  return domain;
 }
 
 film::FilmSolveSummary FilmElement::solve(const film::SurfaceMotion& surfaces) {
@@ -141,6 +181,7 @@ film::FilmSolveSummary FilmElement::solve(const film::SurfaceMotion& surfaces) {
 }
 
 film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces) {
+  is_at_accepted_ = false;
   return reynolds_.linearise(surfaces, history_, u_);
 }
 
@@ -165,7 +206,7 @@ void FilmElement::compute_oil_balance(const film::SurfaceMotion& surfaces) {
 
 // The next step starts from the oil there is, which is what was there before and what has come in since. Temperatures
 // follow the film by a step, so that its derivatives are those of what is solved.
-void FilmElement::accept_step(const film::SurfaceMotion& surfaces) {
+void FilmElement::accept_step(const film::SurfaceMotion& surfaces, bool is_evaluated) {
   history_accepted_ = history_;
   const bool is_step = has_started_;
   if (is_step) {
@@ -178,13 +219,16 @@ void FilmElement::accept_step(const film::SurfaceMotion& surfaces) {
     heat_->advance(surfaces, history_, u_);
     history_start_.viscosity = heat_->viscosity();
   }
-  const film::FilmFields fields = film::film_fields(model(), surfaces, u_);
+  is_at_accepted_ = is_step && is_evaluated;
+  const film::FilmFields fields = is_at_accepted_ ? reynolds_.fields() : film::film_fields(model(), surfaces, u_);
   history_start_.w = fields.w;
   history_start_.density = fields.density;
   history_start_.theta = oil_.of_step().content.cwiseQuotient(fields.density);
   history_start_.gap = oil_.of_step().gap;
   history_start_.phi_journal = surfaces.phi_journal;
   if (is_step) oil_.accumulate(history_.dt);
+  u_before_ = is_step ? u_start_ : u_;
+  dt_before_ = is_step ? history_.dt : 0;
   u_start_ = u_;
   is_linearised_ = false;
 }
@@ -192,7 +236,9 @@ void FilmElement::accept_step(const film::SurfaceMotion& surfaces) {
 film::FilmObservables FilmElement::observe(const film::SurfaceMotion& accepted, const Eigen::Vector2d& e,
                                            const Eigen::Vector2d& tilt) const {
   film::FilmObservables film = heat_ ? heat_->film(accepted, e, u_start_, tilt)
-                                     : film::observe_film(model(), accepted, history_accepted_, e, u_start_, tilt);
+                               : is_at_accepted_
+                                   ? reynolds_.observe(accepted, e, u_start_, tilt)
+                                   : film::observe_film(model(), accepted, history_accepted_, e, u_start_, tilt);
   film.oil_volume = oil_.of_run().volume;
   // A film that bears tension has no past: its flows are those of the pressure that acts, at the end of the step.
   if (!film::cavitation_law(model()).has_tension()) {
@@ -203,7 +249,9 @@ film::FilmObservables FilmElement::observe(const film::SurfaceMotion& accepted, 
 }
 
 film::FilmFields FilmElement::fields(const film::SurfaceMotion& accepted) const {
-  film::FilmFields fields = film::film_fields(model(), accepted, u_start_, history_accepted_.viscosity);
+  film::FilmFields fields = is_at_accepted_
+                                ? reynolds_.fields()
+                                : film::film_fields(model(), accepted, u_start_, history_accepted_.viscosity);
   if (film::cavitation_law(model()).has_fill() && history_start_.theta.size() == u_.size())
     fields.theta = history_start_.theta.cwiseMax(0.0).cwiseMin(1.0);
   fields.depth = film::mean_depth(model(), accepted.phi_journal);
@@ -220,7 +268,8 @@ void FilmElement::persist(Archive& archive) {
   }
   archive.io("started", has_started_);
   archive.io("u", u_start_);
-  if (archive.restores()) u_ = u_start_;
+  archive.io("u_before", u_before_), archive.io("dt_before", dt_before_);
+  if (archive.restores()) u_ = u_start_, is_at_accepted_ = false;
 }
 
 void FilmElement::persist_step(Archive& archive) { persist_history(archive, history_); }

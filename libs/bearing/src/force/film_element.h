@@ -51,6 +51,10 @@ class FilmElement {
   };
   /// The same forces without derivatives; u does not follow.
   [[nodiscard]] Forces increment(const Eigen::MatrixXd& openings);
+  /// The same at surfaces that have moved with `parameters`, after u has followed these: where the step has been
+  /// linearised already, on the factor that this has left.
+  [[nodiscard]] film::FilmDomain follow_on_chord(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters,
+                                                 const Eigen::MatrixXd& openings, Forces& forces);
 
   /// Solves the film at fixed surfaces. Films that do not converge have no fallback: the step is rather shortened.
   [[nodiscard]] film::FilmSolveSummary solve(const film::SurfaceMotion& surfaces);
@@ -63,7 +67,8 @@ class FilmElement {
   /// film.15). If a film with the change of the gap over the step exists, u is that film on return.
   [[nodiscard]] bool is_step_consistent(const film::SurfaceMotion& surfaces);
   /// Accepts the film at the end of a step, or at the start of a run: oil, temperatures and history move on.
-  void accept_step(const film::SurfaceMotion& surfaces);
+  /// @param is_evaluated  true if the film was last evaluated at these very surfaces
+  void accept_step(const film::SurfaceMotion& surfaces, bool is_evaluated);
   /// The film is evaluated anew.
   void reset_linearisation() { is_linearised_ = false; }
   /// Discards the oil balance of the step, which belongs to an earlier evaluation of the film.
@@ -100,6 +105,8 @@ class FilmElement {
 
  private:
   [[nodiscard]] film::FilmDomain find_by_itself(const film::SurfaceMotion& surfaces);
+  [[nodiscard]] Eigen::VectorXd predicted(double dt) const;
+  [[nodiscard]] Forces forces_after(const Eigen::VectorXd& du, const Eigen::MatrixXd& openings) const;
   void follow(const Eigen::VectorXd& parameters);
   void compute_oil_balance(const film::SurfaceMotion& surfaces);
 
@@ -117,13 +124,16 @@ class FilmElement {
 
   // State to which a rejected step returns.
   Eigen::VectorXd u_start_;
+  Eigen::VectorXd u_before_;  // a step of dt_before_ earlier; at the start of a run the same
+  double dt_before_ = 0;
   film::FilmHistory history_;           // of the step being solved
   film::FilmHistory history_start_;     // what the next step starts from
   film::FilmHistory history_accepted_;  // of the step accepted last
 
   OilBalance oil_;
   bool has_started_ = false;
-  bool has_step_oil_ = false;  // oil_ belongs to the film evaluated last
+  bool has_step_oil_ = false;    // oil_ belongs to the film evaluated last
+  bool is_at_accepted_ = false;  // reynolds_ stands at the state accepted last
 };
 
 }  // namespace hersey::bearing

@@ -35,6 +35,23 @@ film::FilmModel with_circuit_ports(film::FilmModel model, const std::vector<std:
   return model;
 }
 
+bool same_field(const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return a.size() == b.size() && a == b; }
+
+// True if a film between surfaces that move like the one is that between those that move like the other, bit by bit.
+bool same_film(const film::SurfaceMotion& a, const film::SurfaceMotion& b) {
+  const bool fields =
+      same_field(a.g, b.g) && same_field(a.g_rate, b.g_rate) && same_field(a.shell_opening, b.shell_opening) &&
+      same_field(a.feature_pressure, b.feature_pressure) && same_field(a.roughness_ratio, b.roughness_ratio);
+  return fields && a.u_shell == b.u_shell && a.u_journal == b.u_journal && a.w_shell == b.w_shell &&
+         a.w_journal == b.w_journal && a.phi_supply == b.phi_supply && a.phi_journal == b.phi_journal;
+}
+
+// The journal takes the negative of the wrench that the shell takes.
+void respond_without_derivatives(const FilmElement::Forces& forces, mbd::ForceResponse& response) {
+  response.W_B_A = -forces.wrench_on_shell;
+  response.Q = forces.Q;
+}
+
 // Adds a shape to a film's list. @returns the shape
 template <class Shape>
 Shape* add_shape(std::unique_ptr<Shape> shape, std::vector<std::unique_ptr<SurfaceShape>>& shapes) {
@@ -209,13 +226,17 @@ double FilmForce::summed_forces() const {
 // The film's rows of (bearing.8): with them condensed the bodies' Newton iteration is that of both together
 // (bearing.7).
 void FilmForce::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
+  if (!want_tangent && port_count() == 0) {
+    FilmElement::Forces forces;
+    const film::FilmDomain domain = film_->follow_on_chord(surfaces_, parameters_, deforming_->openings(), forces);
+    if (!domain.is_inside()) return report(domain);
+    internal_residual_ = film_->reynolds().residual().relative;
+    return respond_without_derivatives(forces, response);
+  }
   if (const film::FilmDomain domain = film_->linearise(surfaces_, parameters_); !domain.is_inside())
     return report(domain);
   internal_residual_ = film_->reynolds().residual().relative;
-  if (want_tangent || port_count() > 0)
-    condense_film(response);
-  else
-    increment_film(response);
+  condense_film(response);
 }
 
 void FilmForce::condense_film(mbd::ForceResponse& response) {
@@ -280,13 +301,6 @@ void FilmForce::respond(mbd::ForceResponse& response) {
   response.dQ_dr = film.Q_by_s.middleCols(gap_parameter_count_ + m, m);
 }
 
-// Wrench and forces on shapes after the film's own increment (bearing.10), without derivatives.
-void FilmForce::increment_film(mbd::ForceResponse& response) {
-  FilmElement::Forces forces = film_->increment(deforming_->openings());
-  response.W_B_A = -forces.wrench_on_shell;
-  response.Q = std::move(forces.Q);
-}
-
 void FilmForce::evaluate_partitioned(mbd::ForceResponse& response) {
   internal_residual_ = 1;
   if (exchange_->has_response()) {
@@ -299,7 +313,7 @@ void FilmForce::evaluate_partitioned(mbd::ForceResponse& response) {
     }
     // One more Newton increment: the exchange would otherwise see the film's tolerance as a change of the wrench.
     if (const film::FilmDomain domain = film_->linearise(surfaces_); !domain.is_inside()) return report(domain);
-    increment_film(response);
+    respond_without_derivatives(film_->increment(deforming_->openings()), response);
     film_->take_increment();
     internal_residual_ = exchange_->correct(response);
   }
@@ -316,13 +330,15 @@ void FilmForce::accept_step(const mbd::RelativeMotion& end) {
   const bool is_step = film_->has_started();
   mbd::RelativeMotion solved = end;
   solved.dt = is_step ? film_->dt() : 0;
+  accepted_surfaces_ = surfaces_;
   evaluate_surfaces(solved);
+  const bool is_evaluated = same_film(surfaces_, accepted_surfaces_);
   accepted_surfaces_ = surfaces_;
   accepted_s_ = end.s;
   accepted_iterations_ = film_->iterations();
   accepted_exchanges_ = exchange_->exchanges();
   if (is_step) gap_->end_step(end);
-  film_->accept_step(surfaces_);
+  film_->accept_step(surfaces_, is_evaluated);
   for (const auto& shape : shapes_) shape->accept_step(film_->dt());
   if (wearing_ != nullptr)
     wearing_->wear_off(film_->fields(accepted_surfaces_).p_asperity, accepted_surfaces_, is_step ? film_->dt() : 0);

@@ -264,24 +264,16 @@ FlowBalance::Speeds FlowBalance::speeds_along(std::size_t f, const MotionDirecti
          faces_[f].stretch;
 }
 
-double FlowBalance::flow_along(std::size_t f, const MotionDirection& direction) const {
-  const Face& face = faces_[f];
+double FlowBalance::flow_along_speeds(std::size_t f, const MotionDirection& direction) const {
   const FaceFlow& flow = flows_[f];
-  const bool z = axial(f);
-  const Speeds speeds = speeds_along(f, direction);
   double q = 0;
-  if (speeds.mean != 0 || speeds.half_slip != 0) {
+  if (const Speeds speeds = speeds_along(f, direction); speeds.mean != 0 || speeds.half_slip != 0) {
     const auto [full, little] = carried_at(f, speeds);
     const EntrainedFlow carried = flow.carried(upstream(f).theta);
     q += flow.density * (carried.full * full + carried.little * little);
   }
-  const bool gap = direction.g.size() != 0;
-  if (gap) {
-    q += flow.q_h_a * nodes_[face.a].h_g * direction.g[face.a] + flow.q_h_b * nodes_[face.b].h_g * direction.g[face.b];
-    if (!z) q += flow.q_bend * direction_bends_[static_cast<Eigen::Index>(f)];
-    q += flow.q_excess * direction_excesses_[flow.couette >= 0 ? face.a : face.b];
-  }
-  return q + flow.q_journal * direction.phi_journal;
+  const auto along = [&](int node) { return flow_of(node, f).along(sliding_along(node)); };
+  return q + 0.5 * flow.q_fluidity * (along(faces_[f].a) + along(faces_[f].b));
 }
 
 }  // namespace hersey::film

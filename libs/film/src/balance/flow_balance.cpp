@@ -245,6 +245,7 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   take_history(history);
   take_motion(motion);
   u_ = u;
+  by_surfaces_.is_found = false;
   find_supply(motion);
   if (const FilmDomain domain = evaluate_nodes(motion, u); !domain.is_inside()) return domain;
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
@@ -442,47 +443,6 @@ void FlowBalance::assemble_jacobian() {
     if (prescribed.other >= 0) values_[slot_to_other(prescribed)] += t.k_u_other * above;
   }
   for (const int node : prescribed_edge_nodes_) values_[diagonal_slot_[node]] = D0_;
-}
-
-void FlowBalance::balance_along(const MotionDirection& direction, Eigen::VectorXd& dr) const {
-  const int n = size();
-  const bool gap = direction.g.size() != 0, rate = direction.g_rate.size() != 0;
-  HERSEY_REQUIRE(!gap || direction.g.size() == n, "direction of shape (grid.size()) or empty");
-  HERSEY_REQUIRE(!rate || direction.g_rate.size() == n, "direction of shape (grid.size()) or empty");
-  dr.setZero(n);
-  if (gap) {
-    interpolation_.bends(direction.g, direction_bends_);
-    interpolation_.excesses(direction.g, direction_excesses_);
-  }
-  if (rate) interpolation_.excesses(direction.g_rate, direction_rate_excesses_);
-  for (int i = 0; i < n; ++i) {
-    if (gap) dr[i] += storage_g(i) * direction.g[i] + storage_excess(i) * direction_excesses_[i];
-    if (rate) dr[i] += storage_g_rate(i) * direction.g_rate[i] + storage_excess_rate(i) * direction_rate_excesses_[i];
-  }
-  if (relief_.has_pockets()) add_turning_pockets(direction, dr);
-  const bool speeds =
-      direction.u_shell != 0 || direction.u_journal != 0 || direction.w_shell != 0 || direction.w_journal != 0;
-  const bool rotates = direction.phi_journal != 0 && relief_.has_pockets();
-  direction_sliding_.assign(static_cast<std::size_t>(model_.grid.n_z), {});
-  for (int j = 0; speeds && j < model_.grid.n_z; ++j)
-    direction_sliding_[static_cast<std::size_t>(j)] = change_of_sliding(direction, j);
-  for (std::size_t f = 0; (gap || speeds || rotates) && f < faces_.size(); ++f) {
-    double q = flow_along(f, direction);
-    if (speeds) {
-      const auto along = [&](int node) { return flow_of(node, f).along(sliding_along(node)); };
-      q += 0.5 * flows_[f].q_fluidity * (along(faces_[f].a) + along(faces_[f].b));
-    }
-    const bool cut = is_cut(f);
-    if (!cut || !has_line_row(faces_[f].a)) dr[faces_[f].a] += q;
-    if (!cut || !has_line_row(faces_[f].b)) dr[faces_[f].b] -= q;
-  }
-  for (const int node : leaking_edge_nodes_) {
-    const SealFlow leaks = seal_flow(node);
-    const SlidingChange& sliding = sliding_along(node);
-    dr[node] += leaks.rate * sliding.rate + leaks.rotation * sliding.rotation;
-    if (gap) dr[node] += leaks.g * direction.g[node];
-  }
-  if (direction.w_journal != 0) bring_layers_along(direction.w_journal, dr);
 }
 
 void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& dr, Eigen::VectorXd* port_flows) const {

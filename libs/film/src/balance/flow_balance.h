@@ -358,6 +358,21 @@ class FlowBalance {
     int from = 0;                 ///< upstream
   };
 
+  /// Change of the flow over a face by the gap at its nodes, by bend, excess at the node upstream and phi_journal, and
+  /// whether it counts in the rows of both nodes.
+  struct FlowBySurfaces {
+    int a = 0, b = 0, from = 0;
+    bool leaves_a = true, enters_b = true;
+    double g_a = 0, g_b = 0, bend = 0, excess = 0, journal = 0;
+  };
+
+  /// Changes of storage and flows with the surfaces at the state last evaluated.
+  struct BySurfaces {
+    bool is_found = false;
+    Eigen::VectorXd storage_g, storage_excess, storage_rate, storage_excess_rate;  ///< shape (n)
+    std::vector<FlowBySurfaces> flows;                                             ///< over the faces
+  };
+
   /// Speeds across a face: mean of both surfaces, half their difference, the journal's [m/s].
   struct Speeds {
     double mean = 0, half_slip = 0, journal = 0;
@@ -465,6 +480,9 @@ class FlowBalance {
   [[nodiscard]] double lowest_supply(int feature) const;
   /// Change of the balances of all nodes with the surfaces, flows towards a supply line apart.
   void balance_along(const MotionDirection& direction, Eigen::VectorXd& db) const;
+  void find_changes_by_surfaces() const;
+  void add_storage_along(const MotionDirection& direction, Eigen::VectorXd& dr) const;
+  void add_flows_along(const MotionDirection& direction, bool slides, Eigen::VectorXd& dr) const;
   [[nodiscard]] const SlidingChange& sliding_along(int node) const {
     return direction_sliding_[static_cast<std::size_t>(node % model_.grid.n_z)];
   }
@@ -489,8 +507,8 @@ class FlowBalance {
   }
   /// Change of a row's sliding with the surfaces' speeds.
   [[nodiscard]] SlidingChange change_of_sliding(const MotionDirection& direction, int j) const;
-  /// Change of the flow over face f with the surfaces.
-  [[nodiscard]] double flow_along(std::size_t f, const MotionDirection& direction) const;
+  /// Change of the flow over face f with the speeds of the surfaces.
+  [[nodiscard]] double flow_along_speeds(std::size_t f, const MotionDirection& direction) const;
   [[nodiscard]] const PrescribedNode* prescribed_at(int node) const;
   [[nodiscard]] const PrescribedNode* supplied_at(int node) const;
   [[nodiscard]] Tie tie(const PrescribedNode& prescribed) const;
@@ -578,6 +596,7 @@ class FlowBalance {
   Eigen::VectorXd bends_, excesses_, rate_excesses_;  ///< bends of the gap, excesses of the gap and of its rate
   mutable Eigen::VectorXd direction_bends_, direction_excesses_, direction_rate_excesses_;
   mutable Eigen::VectorXd direction_balance_;
+  mutable BySurfaces by_surfaces_;
   mutable std::vector<SlidingChange> direction_sliding_;  ///< of the rows
   std::vector<Cell> cells_;
   std::vector<int> flow_tube_of_;         ///< pocket flow tube of every face; -1: none

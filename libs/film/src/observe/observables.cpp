@@ -225,7 +225,7 @@ void observe_forces(const FlowBalance& balance, const FilmWrench& wrench, const 
   o.torque_journal_other_shear = torque_on_journal(on_shell + wrench.more_of_other_shear(balance), e, tilt);
 }
 
-FilmFields fields_of(const std::vector<Node>& nodes) {
+FilmFields fields_of(const std::vector<Node>& nodes, bool is_turbulent) {
   const auto n = static_cast<Eigen::Index>(nodes.size());
   FilmFields fields;
   for (auto* field : {&fields.p, &fields.theta, &fields.density, &fields.h, &fields.w, &fields.p_asperity})
@@ -239,6 +239,9 @@ FilmFields fields_of(const std::vector<Node>& nodes) {
     fields.w[i] = node.w;
     fields.p_asperity[i] = node.asperity;
   }
+  if (!is_turbulent) return fields;
+  fields.reynolds.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) fields.reynolds[i] = nodes[i].reynolds;
   return fields;
 }
 
@@ -261,11 +264,11 @@ FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, cons
     else
       law.evaluate(motion.g[i], u[i], i, sliding, motion.roughness_at(i), nodes[i]);
   }
-  FilmFields fields = fields_of(nodes);
-  if (!is_turbulent) return fields;
-  fields.reynolds.resize(u.size());
-  for (int i = 0; i < u.size(); ++i) fields.reynolds[i] = nodes[i].reynolds;
-  return fields;
+  return fields_of(nodes, is_turbulent);
+}
+
+FilmFields fields_of(const FlowBalance& balance) {
+  return fields_of(balance.nodes(), balance.model().turbulence.counts());
 }
 
 Eigen::VectorXd mean_depth(const FilmModel& model, double phi_journal) {
@@ -295,7 +298,7 @@ FilmModel with_torque(FilmModel model) {
 FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& wrench, const SurfaceMotion& motion,
                                   const Eigen::Vector2d& e, const Eigen::VectorXd& u, const Eigen::Vector2d& tilt) {
   const FilmModel& model = balance.model();
-  const FilmFields fields = fields_of(balance.nodes());
+  const FilmFields fields = fields_of(balance.nodes(), false);
 
   FilmObservables o;
   observe_features(balance, motion, o);

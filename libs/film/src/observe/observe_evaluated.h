@@ -13,6 +13,9 @@ namespace hersey::film {
                                                 const SurfaceMotion& motion, const Eigen::Vector2d& e,
                                                 const Eigen::VectorXd& u, const Eigen::Vector2d& tilt);
 
+/// Returns film_fields() of a film whose `balance` has been evaluated already.
+[[nodiscard]] FilmFields fields_of(const FlowBalance& balance);
+
 /// The model whose friction is observed: torques of shear are shown where they do not act, too.
 [[nodiscard]] FilmModel with_torque(FilmModel model);
 

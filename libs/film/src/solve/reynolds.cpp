@@ -33,6 +33,7 @@ struct Reynolds::Impl {
   Impl(const FilmModel& model, LinearSolver chosen) : balance(model), wrench(model) { state.kind = chosen; }
 
   void factorise();
+  void take_speeds(const SurfaceMotion& motion);
   [[nodiscard]] bool is_finite() const;
   void find_row_sizes();
   [[nodiscard]] bool factorise_shifted(double shift);
@@ -63,7 +64,8 @@ struct Reynolds::Impl {
   // the directions.
   Eigen::MatrixXd residual_by_s, adjoint, answers, port_flow_by_u;
   Eigen::VectorXd condensed_residual, increment;
-  SurfaceMotion speeds;  // without gap and rate
+  SurfaceMotion speeds;    // without gap and rate
+  bool evaluated = false;  // `balance` has the state of the last evaluation, which was inside the domain
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
   bool condensed = false;
 };
@@ -72,6 +74,12 @@ bool Reynolds::Impl::is_finite() const {
   const auto values = balance.values();
   return balance.residual().allFinite() &&
          std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+void Reynolds::Impl::take_speeds(const SurfaceMotion& motion) {
+  speeds.u_shell = motion.u_shell, speeds.u_journal = motion.u_journal;
+  speeds.w_shell = motion.w_shell, speeds.w_journal = motion.w_journal;
+  speeds.shell_opening = motion.shell_opening;
 }
 
 void Reynolds::Impl::find_row_sizes() {
@@ -251,17 +259,14 @@ LinearSolverState Reynolds::linear_solver() const {
 }
 
 FilmDomain Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
-  impl_->linearised = impl_->summed = false;
+  impl_->linearised = impl_->summed = impl_->evaluated = false;
   if (const FilmDomain domain = impl_->balance.evaluate(motion, history, u); !domain.is_inside()) return domain;
   impl_->balance.assemble_jacobian();
   impl_->border.take(impl_->balance);
   if (!impl_->is_finite()) return {FilmDomain::Violation::not_finite, -1};
   impl_->factorised = impl_->set_up = impl_->condensed = false;
-  SurfaceMotion& speeds = impl_->speeds;
-  speeds.u_shell = motion.u_shell, speeds.u_journal = motion.u_journal;
-  speeds.w_shell = motion.w_shell, speeds.w_journal = motion.w_journal;
-  speeds.shell_opening = motion.shell_opening;
-  impl_->linearised = true;
+  impl_->take_speeds(motion);
+  impl_->linearised = impl_->evaluated = true;
   return {};
 }
 
@@ -277,11 +282,17 @@ FilmForces Reynolds::forces() const {
 
 FilmObservables Reynolds::observe(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
                                   const Eigen::Vector2d& tilt) const {
-  if (impl_->balance.model().shear_force != ShearForce::none)
+  HERSEY_REQUIRE(impl_->evaluated, "linearise() or settle() comes first");
+  if (impl_->linearised && impl_->balance.model().shear_force != ShearForce::none)
     return observe_evaluated(impl_->balance, impl_->summed_wrench(), motion, e, u, tilt);
   FilmWrench wrench(with_torque(impl_->balance.model()));
   wrench.evaluate(impl_->balance, motion, false);
   return observe_evaluated(impl_->balance, wrench, motion, e, u, tilt);
+}
+
+FilmFields Reynolds::fields() const {
+  HERSEY_REQUIRE(impl_->evaluated, "linearise() or settle() comes first");
+  return fields_of(impl_->balance);
 }
 
 void Reynolds::newton_increment(Eigen::VectorXd& du, const IncrementOptions& options) {
@@ -296,11 +307,14 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.linearised && m.factorised, "a linearisation with a factor");
   (void)m.summed_wrench();
+  m.evaluated = false;
   const FilmDomain domain = m.balance.evaluate(motion, history, u);
   if (!domain.is_inside()) {
     m.linearised = m.summed = m.factorised = m.set_up = false;
     return domain;
   }
+  m.evaluated = true;
+  m.take_speeds(motion);
   m.wrench.evaluate(m.balance, m.speeds, false);
   du = -m.balance.residual();
   m.solve_directly(du);
@@ -406,7 +420,8 @@ Eigen::MatrixXd Reynolds::inertia(const Eigen::MatrixXd& du_by_rate, double mome
 
 void Reynolds::persist(Archive& archive) {
   impl_->lu.persist(archive);
-  if (archive.restores()) impl_->linearised = impl_->factorised = impl_->set_up = impl_->condensed = false;
+  if (archive.restores())
+    impl_->linearised = impl_->evaluated = impl_->factorised = impl_->set_up = impl_->condensed = false;
 }
 
 // The factor of the last linearisation leads the defect nearly where it belongs, refinement the rest of the way.
@@ -451,6 +466,7 @@ void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, c
   m.solve_for_settling();
   m.balance.settle(m.answer, oil);
   m.linearised = m.summed = m.factorised = m.set_up = false;
+  m.evaluated = true;
 }
 
 void respond(Reynolds& film, std::span<const MotionDirection> directions, Eigen::MatrixXd& du,

@@ -406,6 +406,12 @@ bool Mechanism::has_condensed_unknowns() const {
   return any;
 }
 
+bool Mechanism::needs_tangent() const {
+  bool any = false;
+  parts_->for_each_part([&](const auto& /*owner*/, const auto& part) { any = any || part.needs_tangent(); });
+  return any;
+}
+
 double Mechanism::internal_residual() const {
   double worst = 0;
   parts_->for_each_part(

@@ -106,6 +106,7 @@ class FilmForce : public mbd::TwoBodyForce {
     return options_.coupling == Coupling::monolithic || options_.starts_steady;
   }
   [[nodiscard]] bool has_condensed_unknowns() const override { return true; }
+  [[nodiscard]] bool needs_tangent() const override { return !is_monolithic_step_; }
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override;
   [[nodiscard]] std::string domain_error() const override { return domain_error_; }
@@ -185,7 +186,6 @@ class FilmForce : public mbd::TwoBodyForce {
   void evaluate_partitioned(mbd::ForceResponse& response);
   void condense_film(mbd::ForceResponse& response);
   void respond(mbd::ForceResponse& response);
-  void increment_film(mbd::ForceResponse& response);
 
   std::string name_;
   BearingOptions options_;

@@ -80,10 +80,12 @@ class Reynolds {
   /// respond() has the answers, the wrench changes by wrench_by_u * du and the partial derivative.
   [[nodiscard]] FilmForces forces() const;
 
-  /// observe_film() of the state last linearised, for the cost of sums alone, since nothing is evaluated again:
-  /// `motion` and `u` are those of linearise().
+  /// observe_film() of the state last linearised or settled, for the cost of sums alone, since nothing is evaluated
+  /// again: `motion` and `u` are those of linearise() or settle().
   [[nodiscard]] FilmObservables observe(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
                                         const Eigen::Vector2d& tilt) const;
+  /// film_fields() of that state, as cheaply.
+  [[nodiscard]] FilmFields fields() const;
 
   /// du = -J^{-1} residual, the Newton increment of the film at fixed surfaces: to solve a film by itself. Where the
   /// surfaces move with bodies, condense() and follow() take their place.

@@ -40,6 +40,7 @@ class Mechanism final : public solver::Equations {
   [[nodiscard]] bool is_step_consistent() override;
   void accept_step(const solver::State& end) override;
   [[nodiscard]] bool has_condensed_unknowns() const override;
+  [[nodiscard]] bool needs_tangent() const override;
   [[nodiscard]] double internal_residual() const override;
   [[nodiscard]] std::string name_of_internal_residual() const override;
   [[nodiscard]] std::string domain_error() const override;

@@ -62,6 +62,7 @@ class NodalBody final : public ModalBody {
   void begin_step(const ElasticMotion& start, double dt) override;
   void accept_step(const ElasticMotion& end) override;
   [[nodiscard]] bool has_condensed_unknowns() const override { return true; }
+  [[nodiscard]] bool needs_tangent() const override { return true; }
   [[nodiscard]] double internal_residual() const override { return internal_residual_; }
   [[nodiscard]] std::string name_of_internal_residual() const override { return "equations of the nodes"; }
   [[nodiscard]] std::string domain_error() const override { return failure_; }

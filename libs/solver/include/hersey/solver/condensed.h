@@ -17,6 +17,9 @@ class CondensedPart {
   /// new values.
   [[nodiscard]] virtual bool has_condensed_unknowns() const { return false; }
 
+  /// True if condensed unknowns move only where the tangent is evaluated: residuals without it say nothing then.
+  [[nodiscard]] virtual bool needs_tangent() const { return false; }
+
   /// Returns the largest relative residual of the condensed equations at the last evaluation; 0 if there are none.
   [[nodiscard]] virtual double internal_residual() const { return 0; }
 
