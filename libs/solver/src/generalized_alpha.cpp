@@ -60,7 +60,8 @@ struct GeneralizedAlpha::Workspace {
   AlphaParameters parameters;
   bool started = false;
   double last_dt = 0;
-  VectorXd a;  ///< algorithmic acceleration at the last accepted state
+  VectorXd a;         ///< algorithmic acceleration at the last accepted state
+  VectorXd a_before;  ///< a step earlier; empty: the last step was the first, or of another length
 
   // One step
   State trial;
@@ -84,6 +85,8 @@ struct GeneralizedAlpha::Workspace {
 
   void choose_start(Equations& equations, const State& state, double dt);
   void predict(double dt);
+  void begin_iteration(bool is_chosen);
+  void keep_acceleration(VectorXd next);
   void set_trial(Equations& equations, const State& state, const VectorXd& at);
   bool assemble(Equations& equations, const GeneralizedAlphaOptions& options, bool with_tangent = true);
   void measure(Equations& equations, const GeneralizedAlphaOptions& options);
@@ -113,6 +116,7 @@ void GeneralizedAlpha::Workspace::choose_start(Equations& equations, const State
   if (!stage.fresh) return;
   if (std::optional<SettledStart> settled = settle_fast_motions(equations, state, dt)) start = std::move(*settled);
   a = start.vdot;
+  a_before.resize(0);
   last_dt = dt;
   equations.begin_step(state, dt);
 }
@@ -131,6 +135,24 @@ void GeneralizedAlpha::Workspace::predict(double dt) {
   stage.k = 1;
   stage.c = gamma / (beta * dt);
   stage.m = (1 - alpha_m) / ((1 - alpha_f) * beta * dt * dt);
+}
+
+/// The iteration begins with the algorithmic acceleration going on as over the last step of this length: films, whose
+/// gaps are differences of large motions, are then near their end. The error of steps chosen by it refers to the
+/// prediction itself.
+void GeneralizedAlpha::Workspace::begin_iteration(bool is_chosen) {
+  dq = dq_predicted;
+  if (is_chosen || a_before.size() == 0 || std::abs(stage.dt - last_dt) > kOtherLength * last_dt) return;
+  dq += parameters.beta * stage.dt * stage.dt * (a - a_before);
+}
+
+/// Accepts the algorithmic acceleration of a step.
+void GeneralizedAlpha::Workspace::keep_acceleration(VectorXd next) {
+  if (std::abs(stage.dt - last_dt) > kOtherLength * last_dt)
+    a_before.resize(0);
+  else
+    a_before = a;
+  a = std::move(next);
 }
 
 /// Sets the trial state with the increment of position `at`.
@@ -209,12 +231,11 @@ bool GeneralizedAlpha::Workspace::solve_increment(Index nv) {
   return increment.allFinite();
 }
 
-/// Assembles at the predicted state; the step is shortened until the equations accept it.
+/// Assembles where the iteration begins; the step is shortened until the equations accept it.
 bool GeneralizedAlpha::Workspace::enter_domain(Equations& equations, const State& state,
                                                const GeneralizedAlphaOptions& options) {
   trial.t = state.t + stage.dt;
   trial.lambda = state.lambda;
-  dq = dq_predicted;
   for (int halvings = 0;; ++halvings) {
     set_trial(equations, state, dq);
     if (assemble(equations, options)) return true;
@@ -324,6 +345,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
   equations.begin_step(state, dt);
   w.choose_start(equations, state, dt);
   w.predict(dt);
+  w.begin_iteration(is_chosen);
 
   const auto fail = [&](StepStatus status, const std::string& why) {
     summary.status = status;
@@ -369,7 +391,7 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     w.estimate_error();
     if (!is_accurate(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
   }
-  w.a = w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt);
+  w.keep_acceleration(w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt));
   if (is_chosen && has_factors_of_constraints)
     w.end_on_constraints(equations);
   else if (options_.returns_to_constraints && has_factors_of_constraints &&
@@ -390,6 +412,7 @@ void GeneralizedAlpha::persist(Archive& archive) {
   archive.io("fresh", w.stage.fresh);
   archive.io("last_dt", w.last_dt);
   archive.io("a", w.a);
+  archive.io("a_before", w.a_before);
   archive.io("analysed", w.analysed);
   const Archive::Group group(archive, "lu");
   w.lu.persist(archive);

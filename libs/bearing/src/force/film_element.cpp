@@ -86,15 +86,10 @@ void FilmElement::begin_step(double dt) {
   iterations_ = 0;
 }
 
-// Unknowns go on as over the last step, but for those that switch between full and cavitated.
+// Unknowns go on as over the last step. Nodes may switch between full and cavitated on the way: most that do, switch.
 Eigen::VectorXd FilmElement::predicted(double dt) const {
-  Eigen::VectorXd u = u_start_;
-  if (dt == 0 || dt_before_ == 0 || dt > kFurthestPrediction * dt_before_) return u;
-  for (Eigen::Index i = 0; i < u.size(); ++i) {
-    const double next = u[i] + dt / dt_before_ * (u[i] - u_before_[i]);
-    const bool switches = (u[i] < 0) != (next < 0) || (u[i] < 0) != (u_before_[i] < 0);
-    if (!switches) u[i] = next;
-  }
+  if (dt == 0 || dt_before_ == 0 || dt > kFurthestPrediction * dt_before_) return u_start_;
+  const Eigen::VectorXd u = u_start_ + dt / dt_before_ * (u_start_ - u_before_);
   return film::check_unknowns(model(), u).is_inside() ? u : u_start_;
 }
 
