@@ -137,19 +137,22 @@ def nastran_cards(path):
     return cards
 
 
-def ring_mesh(path, inner, outer, width, around=48, along=4):
-    """Hexahedra in one layer about the z-axis with the set of nodes `bore` or `skin` on each side, lengths in mm."""
+def ring_mesh(path, inner, outer, width, around=48, along=4, begin=0):
+    """Hexahedra in one layer about the z-axis with the sets of nodes `inside` and `outside`, lengths in mm; numbers begin at the line `begin`."""
     def label(layer, i, k):
         return 1 + layer + 2 * ((i % around) + around * k)
 
     lines = ["*NODE"]
     for k, i, layer in itertools.product(range(along + 1), range(around), range(2)):
-        phi, r = 2 * math.pi * i / around, (inner, outer)[layer]
+        phi, r = 2 * math.pi * (i + begin) / around, (inner, outer)[layer]
         lines.append(f"{label(layer, i, k)}, {r * math.cos(phi):.12g}, {r * math.sin(phi):.12g}, {width * (k / along - 0.5):.12g}")
     lines.append("*ELEMENT, TYPE=C3D8, ELSET=all")
     for n, (k, i) in enumerate(itertools.product(range(along), range(around))):
         corners = [label(a, i + b, z) for z in (k, k + 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
         lines.append(", ".join(map(str, [n + 1] + corners)))
+    for layer, name in enumerate(("inside", "outside")):
+        lines.append(f"*NSET, NSET={name}")
+        lines += [str(label(layer, i, k)) for k, i in itertools.product(range(along + 1), range(around))]
     with open(path, "w", encoding="ascii") as file:
         file.write("\n".join(lines) + "\n")
 
