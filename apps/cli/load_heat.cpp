@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hersey/core/input_error.h"
+#include "hersey/model/wall_conduction.h"
 #include "option_value.h"
 #include "solid_heat.h"
 
@@ -38,18 +39,21 @@ double constant_of(const char* option, const std::string& text, const char* unit
   return value;
 }
 
-/// Of the model; null: the body conducts no heat there.
-const model::BodyHeat* heat_in_model(const model::Model& model, const std::string& name) {
+/// The body in the model if it conducts heat there; else null.
+const model::Body* conducting_in_model(const model::Model& model, const std::string& name) {
   for (const model::Body& body : model.bodies)
-    if (body.name == name && body.flexible && body.flexible->heat) return &*body.flexible->heat;
+    if (body.name == name && body.flexible && body.flexible->heat) return &body;
   return nullptr;
 }
 
 /// What cools the body, and nodes of given temperature: by the options, else by the model.
-fem::ThermalSurroundings surroundings_for(const LoadsArguments& asked, const model::BodyHeat* of_model,
-                                          const run::BodyLoads& loads) {
+fem::ThermalSurroundings surroundings_for(const LoadsArguments& asked, const model::Model& model,
+                                          const model::Body* of_model, const run::BodyLoads& loads) {
   if (asked.temperature.empty() && asked.cooling.empty())
-    return of_model == nullptr ? fem::ThermalSurroundings() : of_model->surroundings;
+    return of_model == nullptr ? fem::ThermalSurroundings() : model::surroundings_of(model, *of_model);
+  for (const std::string& text : asked.temperature)
+    if (text.find('=') == std::string::npos)
+      refuse_load_heat("--temperature", "'" + text + "'", "a set and a value, SET=80degC");
   SolidArguments solid;
   solid.temperature = asked.temperature, solid.cooling = asked.cooling;
   return surroundings_of(solid, loads.mesh());
@@ -100,7 +104,7 @@ std::optional<LoadHeat> heat_of_loads(const LoadsArguments& asked, const model::
                                       const run::BodyLoads& loads, const std::vector<std::size_t>& chosen,
                                       std::size_t materials) {
   const char* option = heat_option(asked);
-  const model::BodyHeat* of_model = heat_in_model(model, loads.body());
+  const model::Body* of_model = conducting_in_model(model, loads.body());
   if (option != nullptr && asked.format == "vtkhdf")
     refuse_load_heat(option, "'vtkhdf' is written", "--loads calculix or nastran",
                      "the surfaces' temperatures are in the .vtkhdf file without it");
@@ -123,7 +127,10 @@ std::optional<LoadHeat> heat_of_loads(const LoadsArguments& asked, const model::
         "a mesh whose parts have common nodes");
   LoadHeat heat;
   fem::BodyTemperatures& to_write = heat.temperatures;
-  if (of_model != nullptr) to_write.material = of_model->material, to_write.T_reference = of_model->T_reference;
+  if (of_model != nullptr) {
+    const model::BodyHeat& given = *of_model->flexible->heat;
+    to_write.material = given.material, to_write.T_reference = given.T_reference;
+  }
   if (!asked.conductivity.empty())
     to_write.material.conductivity =
         constant_of("--conductivity", asked.conductivity, "W/m/K", "a conductivity such as 46W/m/K", false);
@@ -132,7 +139,7 @@ std::optional<LoadHeat> heat_of_loads(const LoadsArguments& asked, const model::
         constant_of("--expansion", asked.expansion, "1/K", "a coefficient of expansion such as 12e-6 1/K", true);
   if (!asked.reference_temperature.empty())
     to_write.T_reference = in_si("--reference-temperature", asked.reference_temperature, "K");
-  fem::ThermalSurroundings surroundings = surroundings_for(asked, of_model, loads);
+  fem::ThermalSurroundings surroundings = surroundings_for(asked, model, of_model, loads);
   spare_films(loads, surroundings.cooled);
   to_write.cooled = std::move(surroundings.cooled);
   for (const fem::PrescribedNodes& set : surroundings.prescribed)

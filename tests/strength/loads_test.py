@@ -138,7 +138,8 @@ def nastran_cards(path):
 
 
 def ring_mesh(path, inner, outer, width, around=48, along=4, begin=0):
-    """Hexahedra in one layer about the z-axis with the sets of nodes `inside` and `outside`, lengths in mm; numbers begin at the line `begin`."""
+    """Hexahedra in one layer about the z-axis lengths in mm, with the sets of nodes `inside` and `outside` and three of one node at one end;
+    numbers begin at the line `begin`."""
     def label(layer, i, k):
         return 1 + layer + 2 * ((i % around) + around * k)
 
@@ -153,6 +154,8 @@ def ring_mesh(path, inner, outer, width, around=48, along=4, begin=0):
     for layer, name in enumerate(("inside", "outside")):
         lines.append(f"*NSET, NSET={name}")
         lines += [str(label(layer, i, k)) for k, i in itertools.product(range(along + 1), range(around))]
+    for name, i in (("here", 0), ("across", around // 2), ("beside", around // 4)):
+        lines += [f"*NSET, NSET={name}", str(label(0, i, 0))]
     with open(path, "w", encoding="ascii") as file:
         file.write("\n".join(lines) + "\n")
 

@@ -292,6 +292,102 @@ class WarmFilmTest(unittest.TestCase):
                 self.assertAlmostEqual(theirs[node][0] / T, 1, delta=1e-5)  # six digits of the .frd file
 
 
+    @unittest.skipUnless(CCX, "CalculiX (ccx) is not installed")
+    def test_uniform_temperature_expands_the_body_in_calculix(self):
+        supports = ["--hold", "here", "--hold", "across:yz", "--hold", "beside:z"]  # six, that let it grow
+        moved = {}
+        for name, options in (("cold", []), ("warm", ["--conductivity", "46W/m/K", "--expansion", "12e-6 1/K"])):
+            out = self.export("expands_" + name, "--instant", "1ms", "--instant", "2ms", *supports, *options, body="shaft", mesh="shaft", results=self.of["even"])
+            moved[name] = frd_fields(calculix(out, "shaft_steps"), "DISP")
+            history = frd_fields(calculix(out, "shaft_history"), "DISP")
+            largest = max(np.abs(list(moved[name][-1].values())).max(), 0.01)  # mm
+            for node, u in moved[name][-1].items():  # without NLGEOM and with it: strains of 6e-4 and small rotations
+                np.testing.assert_allclose(history[-1][node], u, rtol=0, atol=2e-3 * largest)
+        nodes = loads.CalculixMesh(os.path.join(out, "shaft_mesh.inp")).nodes
+        for cold, warm in zip(moved["cold"], moved["warm"]):
+            for node, x in nodes.items():
+                growth = 12e-6 * (70 - 20) * (x - nodes[1])
+                # mm: six digits of 30 um, twice
+                np.testing.assert_allclose(np.subtract(warm[node], cold[node]), growth, rtol=0, atol=1e-7)
+
+
+class ConductingBodyTest(unittest.TestCase):
+    """The pedestal of examples/hot_pedestal under a shaft that turns, until its cycles repeat themselves."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        text = text_of(ROOT, "examples/hot_pedestal/model.yaml").replace("../meshes/", "")
+        for old, new in (("between: [ground, shaft]}", "between: [ground, shaft], initial: {rotation_rate: 3000 rpm}}\n\n"
+                          "drives:\n  motor: {joint: turn, coordinate: rotation, speed: 3000 rpm}\n\n"
+                          "forces:\n  weight: {type: force, body: shaft, components: [0 N, -3 kN, 0 N], axes: ground}"),
+                         ("circumferential: 60, axial: 13", "circumferential: 40, axial: 9"),
+                         ("{duration: 1 ms, step: 0.1 ms}", "{step: 0.2 ms, cycle: {period: 20 ms}}\noutput: {fields_every: 2 ms}")):
+            assert old in text
+            text = text.replace(old, new)
+        shutil.copy(os.path.join(ROOT, "examples/meshes/bearing_housing.msh"), cls.folder)
+        with open(os.path.join(cls.folder, "model.yaml"), "w", encoding="utf-8") as file:
+            file.write(text)
+        hersey("run", os.path.join(cls.folder, "model.yaml"), "--output", cls.folder)
+        cls.results = os.path.join(cls.folder, "results.h5")
+        cls.out = os.path.join(cls.folder, "loads")
+        cls.said = json.loads(hersey("export", cls.results, "--loads", "calculix", "--hold", "foot", "--output", cls.out, "--json"))
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_heat_is_that_of_the_run(self):
+        with h5py.File(self.results) as f:
+            film = f["bearings/main"]
+            last = f["time"][:] > film["cycles/fields/begin"][-1]
+            heat, body = np.mean(film["heat_to_shell"][last]), film["T_body_max"][-1]
+            self.assertGreater(film["cycles/fields/complete"][-1], 0)
+        heat_of = self.said["temperatures"]
+        # From its surface's temperature alone: the mesh under a film that gives as much everywhere along its width, and
+        # a body that waits for the mean of a cycle.
+        self.assertAlmostEqual(heat_of["heat_from_films"] / heat, 1, delta=0.01)
+        self.assertAlmostEqual(heat_of["warmest"], body, delta=0.2)
+        self.assertAlmostEqual(heat_of["coldest"], 30, delta=1e-9 * 303)  # K: the foot's, in round-off
+
+    def test_mean_over_curved_faces_is_the_films(self):
+        file = os.path.join(self.out, "pedestal_mesh.inp")
+        mean = mean_on_cylinder(loads.CalculixMesh(file), surface_of(file, "film_main"), boundary(os.path.join(self.out, "pedestal_heat.inp")))
+        with h5py.File(self.results) as f:
+            film = f["bearings/main"]
+            begin, end = film["cycles/fields/begin"][-1], film["cycles/fields/end"][-1]
+            times = film["fields/time"][:]
+            expected = mean_of_film(film, "shell_temperature", (times > begin - 1e-6) & (times < end + 1e-6))  # s: of steps of 0.2 ms
+        self.assertLess(abs(mean - expected), AS_FILM * expected)
+
+    def test_options_stand_in_place_of_the_model(self):
+        out = os.path.join(self.folder, "other")
+        hersey("export", self.results, "--loads", "calculix", "--output", out, "--conductivity", "40W/m/K", "--expansion", "0 1/K",
+               "--cooling", "foot=500W/m^2/K:30degC")
+        mesh = text_of(out, "pedestal_mesh.inp")
+        self.assertEqual(lines_below(os.path.join(out, "pedestal_mesh.inp"), "*CONDUCTIVITY"), [["40"]])
+        self.assertNotIn("*EXPANSION", mesh)
+        self.assertNotIn("*TEMPERATURE", text_of(out, "pedestal_steps.inp"))
+        fixed = boundary(os.path.join(self.out, "pedestal_heat.inp"))
+        free = boundary(os.path.join(out, "pedestal_heat.inp"))
+        self.assertEqual({fixed[node] for node in fixed.keys() - free.keys()}, {30})
+        cooled = {line[3] for line in lines_below(os.path.join(out, "pedestal_heat.inp"), "*FILM")}
+        self.assertEqual(cooled, {"0.5"})
+
+    def test_faces_of_films_are_not_cooled(self):
+        film = set(surface_of(os.path.join(self.out, "pedestal_mesh.inp"), "film_main"))
+        cooled = {(int(line[0]), int(line[1][1:])) for line in lines_below(os.path.join(self.out, "pedestal_heat.inp"), "*FILM")}
+        self.assertGreater(len(cooled), len(film))
+        self.assertFalse(film & cooled)
+
+    @unittest.skipUnless(CCX, "CalculiX (ccx) is not installed")
+    def test_calculix_finds_the_same_temperatures_in_a_body(self):
+        ours = temperatures(os.path.join(self.out, "pedestal_temperatures.inp"))
+        theirs = frd_fields(calculix(self.out, "pedestal_heat"), "NDTEMP")[-1]
+        for node, T in ours.items():
+            self.assertAlmostEqual(theirs[node][0] / T, 1, delta=1e-5)  # six digits of the .frd file
+
+
 def calculix(folder, job):
     done = subprocess.run([CCX, job], cwd=folder, capture_output=True, text=True, timeout=600, stdin=subprocess.DEVNULL)
     assert done.returncode == 0 and "*ERROR" not in done.stdout, done.stdout[-2000:]
