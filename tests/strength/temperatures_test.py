@@ -301,8 +301,8 @@ class WarmFilmTest(unittest.TestCase):
             moved[name] = frd_fields(calculix(out, "shaft_steps"), "DISP")
             history = frd_fields(calculix(out, "shaft_history"), "DISP")
             largest = max(np.abs(list(moved[name][-1].values())).max(), 0.01)  # mm
-            for node, u in moved[name][-1].items():  # without NLGEOM and with it: strains of 6e-4 and small rotations
-                np.testing.assert_allclose(history[-1][node], u, rtol=0, atol=2e-3 * largest)
+            for node, u in moved[name][-1].items():  # without NLGEOM and with it: strains of 6e-4, and three nodes that bear the load
+                np.testing.assert_allclose(history[-1][node], u, rtol=0, atol=5e-3 * largest)
         nodes = loads.CalculixMesh(os.path.join(out, "shaft_mesh.inp")).nodes
         for cold, warm in zip(moved["cold"], moved["warm"]):
             for node, x in nodes.items():
