@@ -420,6 +420,23 @@ class RigidBodiesTest(unittest.TestCase):
                 self.assertLessEqual(np.linalg.norm(reaction[:2] + expected[:2]), AS_FILM * size)
 
 
+class NodalBodyTest(unittest.TestCase):
+    """A body whose results have no amplitudes of shapes."""
+
+    def test_stress_of_a_nodal_body_says_what_to_write(self):
+        with tempfile.TemporaryDirectory() as folder:
+            text = text_of(ROOT, "examples/flexible_big_end/model.yaml")
+            text = text[:text.index("study:")].replace("../meshes/", "").replace("duration: 20 rev", "duration: 5 deg")
+            text = re.sub(r" *settle:.*\n| *modes: 10\n", "", text).replace("form: modal", "form: nodal")
+            shutil.copy(os.path.join(ROOT, "examples/meshes/conrod.msh"), folder)
+            with open(os.path.join(folder, "model.yaml"), "w", encoding="utf-8") as file:
+                file.write(text)
+            hersey("run", os.path.join(folder, "model.yaml"), "--output", folder)
+            said = hersey("stress", os.path.join(folder, "results.h5"), expect=2)
+            self.assertIn("body rod is `form: nodal`", said)
+            self.assertIn("`output: {meshes_at: [370 deg]}`", said)
+
+
 def rotation(q):
     w, x, y, z = q
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
