@@ -168,6 +168,8 @@ FAULTS = [
           "s.dN.row(a) = (4 * b.L[a] - 1) * b.dL.row(a);", "s.dN.row(a) = (4 * b.L[a] - 2) * b.dL.row(a);"),
     Fault("fem: mass without the element's size", "fem/src/element/solid_element.cpp",
           "m.noalias() += weight * J.determinant() * shape.N", "m.noalias() += weight * (J.determinant() / J.determinant()) * shape.N"),
+    Fault("fem: film temperatures without the film's mean", "fem/src/surface/face_temperatures.cpp",
+          "return T.array() + mean_of_film - mean(T);", "return T.array() + mean_of_film;"),
     Fault("fem: shift of the natural modes", "fem/src/reduction/vibration.cpp",
           "const double omega_squared = shift + 1 / lanczos.theta[k];",
           "const double omega_squared = 1 / lanczos.theta[k];"),

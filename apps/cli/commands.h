@@ -35,7 +35,9 @@ struct LoadsArguments {
   std::string units = "mm";           ///< or si
   std::vector<std::string> hold;      ///< as SolidArguments::hold
   std::string mesh, length_unit = "m", youngs_modulus, poisson_ratio, density;  ///< of a body that is rigid in the run
-  std::string model_file;  ///< where it lies now; empty: as the results say
+  std::string conductivity, expansion, reference_temperature;  ///< of a warm body; empty: as the model says
+  std::vector<std::string> temperature, cooling;               ///< as SolidArguments have them
+  std::string model_file;                                      ///< where it lies now; empty: as the results say
 };
 
 struct ExportArguments {

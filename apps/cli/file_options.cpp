@@ -60,6 +60,17 @@ void add_load_options(CLI::App& command, LoadsArguments& loads) {
   value("--youngs-modulus", loads.youngs_modulus, "Young's modulus, instead of that mesh's", "210GPa");
   value("--poisson-ratio", loads.poisson_ratio, "Poisson's ratio, instead of that mesh's", "0.3");
   value("--density", loads.density, "Density, instead of that mesh's", "7850kg/m^3");
+  value("--conductivity", loads.conductivity,
+        "Write temperatures, too: of heat conduction between the films' surfaces and what cools the body (default: "
+        "that of the body's `heat` in the model)",
+        "46W/m/K");
+  value("--expansion", loads.expansion, "Linear thermal expansion, for temperatures that strain the body", "12e-6 1/K");
+  value("--reference-temperature", loads.reference_temperature,
+        "At which the body has the shape of its mesh (default: 20degC)", "20degC");
+  repeatable(command.add_option("--temperature", loads.temperature, "Temperature of a set's nodes, as the films' are")
+                 ->type_name("SET=80degC"));
+  repeatable(command.add_option("--cooling", loads.cooling, "Heat transfer from a surface to what is at a temperature")
+                 ->type_name("SURFACE=80W/m^2/K:20degC"));
   value("--model", loads.model_file, "Where the model file lies now, if it has moved since the run", "FILE");
 }
 

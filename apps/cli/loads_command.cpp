@@ -19,6 +19,7 @@
 #include "hersey/run/model_of_results.h"
 #include "hersey/session/output_file.h"
 #include "instant_option.h"
+#include "load_heat.h"
 #include "run_stress.h"
 #include "solid_setup.h"
 
@@ -119,11 +120,14 @@ void write_faces(const Path& path, const run::BodyLoads& loads, const std::vecto
 }
 
 /// The files that a format has, the table first.
-std::vector<Path> files_of(const LoadsArguments& loads, const std::string& body) {
+std::vector<Path> files_of(const LoadsArguments& loads, const std::string& body, bool is_warm) {
   std::vector<Path> files{loads.output / (body + "_loads.csv")};
   if (loads.format == "calculix")
     for (const char* part : {"_mesh.inp", "_steps.inp", "_history.inp"}) files.push_back(loads.output / (body + part));
+  if (loads.format == "calculix" && is_warm)
+    for (const char* part : {"_heat.inp", "_temperatures.inp"}) files.push_back(loads.output / (body + part));
   if (loads.format == "nastran") files.push_back(loads.output / (body + ".bdf"));
+  if (loads.format == "nastran" && is_warm) files.push_back(loads.output / (body + "_heat.bdf"));
   if (loads.format == "vtkhdf") files.push_back(loads.output / (body + ".vtkhdf"));
   return files;
 }
@@ -159,8 +163,14 @@ Worst worst_of(const std::vector<run::BodyLoadsAt>& instants) {
   return worst;
 }
 
+nlohmann::json json_of(const LoadHeat& heat) {
+  nlohmann::json films = nlohmann::json::object();
+  for (const run::FilmTemperatures::Surface& film : heat.films) films[film.bearing] = film.mean;
+  return {{"films", films}, {"heat_from_films", heat.film_heat}, {"coldest", heat.coldest}, {"warmest", heat.warmest}};
+}
+
 void print_json(const run::BodyLoads& loads, const std::vector<run::BodyLoadsAt>& instants,
-                const std::vector<Path>& files) {
+                const std::optional<LoadHeat>& heat, const std::vector<Path>& files) {
   const Worst worst = worst_of(instants);
   nlohmann::json document{{"body", loads.body()},
                           {"faces", loads.faces().size()},
@@ -177,14 +187,27 @@ void print_json(const run::BodyLoads& loads, const std::vector<run::BodyLoadsAt>
                             {"off_force", "1"},
                             {"off_moment", "1"},
                             {"shear_left_out", "N"}}}};
+  if (heat) {
+    document["temperatures"] = json_of(*heat);
+    document["units"]["temperatures"] = {
+        {"films", "degC"}, {"heat_from_films", "W"}, {"coldest", "degC"}, {"warmest", "degC"}};
+  }
   for (const auto& [name, faces] : loads.films()) document["bearings"].push_back(name);
   for (const run::BodyLoadsAt& at : instants) document["instants"].push_back(at.time);
   for (const Path& file : files) document["files"].push_back(file.string());
   fmt::print("{}\n", document.dump(2));
 }
 
+void print_heat(const LoadHeat& heat) {
+  for (const run::FilmTemperatures::Surface& film : heat.films)
+    fmt::print("surface           {}, {:.5g} degC: mean over surface and time\n", film.bearing, film.mean);
+  fmt::print("body              {:.5g} to {:.5g} degC, {:.4g} W from its films{}\n", heat.coldest, heat.warmest,
+             heat.film_heat,
+             heat.temperatures.cooled.empty() ? "; no surface cools it: --cooling SURFACE=80W/m^2/K:20degC" : "");
+}
+
 void print_text(const run::BodyLoads& loads, const std::vector<run::BodyLoadsAt>& instants,
-                const std::vector<Path>& files) {
+                const std::optional<LoadHeat>& heat, const std::vector<Path>& files) {
   const Worst worst = worst_of(instants);
   fmt::print("body              {}, {} nodes\n", loads.body(), loads.mesh().nodes.size());
   for (const auto& [name, faces] : loads.films()) fmt::print("film              {}, {} faces\n", name, faces.size());
@@ -192,6 +215,7 @@ void print_text(const run::BodyLoads& loads, const std::vector<run::BodyLoadsAt>
              instants.front().time * to_millisecond, instants.back().time * to_millisecond);
   fmt::print("largest pressure  {:.5g} MPa on a face, t = {:.6g} ms\n", worst.pressure * to_megapascal,
              worst.at_time * to_millisecond);
+  if (heat) print_heat(*heat);
   fmt::print("off the film      force {:.1e}, moment {:.1e} of the force times half the width, at most\n",
              worst.off_force, worst.off_moment);
   fmt::print("left out          shear, at most {:.4g} N; what else loads the body: joints, gravity, inertia\n",
@@ -216,17 +240,20 @@ int loads_command(const ExportArguments& arguments) {
   for (const std::size_t k : chosen) instants.push_back(loads.at(k));
   SolidArguments solid;
   solid.hold = asked.hold;
+  const std::vector<fem::SolidMaterial>& materials = given ? given->materials : materials_of(model, loads.body());
+  const std::optional<LoadHeat> heat = heat_of_loads(asked, model, loads, chosen, materials.size());
   fem::LoadedBody body{.name = loads.body(),
                        .mesh = loads.mesh(),
-                       .materials = given ? given->materials : materials_of(model, loads.body()),
+                       .materials = materials,
                        .fixed_dofs = fixed_dofs_of(solid, loads.mesh()),
                        .films = {},
                        .faces = loads.faces(),
                        .instants = {}};
+  if (heat) body.heat = heat->temperatures;
   for (const auto& [name, faces] : loads.films()) body.films["film_" + name] = faces;
   for (const run::BodyLoadsAt& at : instants) body.instants.push_back({at.time, name_of(at), at.pressure});
 
-  const std::vector<Path> files = files_of(asked, loads.body());
+  const std::vector<Path> files = files_of(asked, loads.body(), heat.has_value());
   prepare(arguments, files, model);
   write_file(files.front(), {table_text(instants)});
   const fem::FileUnits units = asked.units == "si" ? fem::FileUnits::si : fem::FileUnits::millimetres;
@@ -234,9 +261,9 @@ int loads_command(const ExportArguments& arguments) {
   if (asked.format == "nastran") fem::write_nastran_loads(asked.output, body, units);
   if (asked.format == "vtkhdf") write_faces(files.back(), loads, instants);
   if (arguments.json)
-    print_json(loads, instants, files);
+    print_json(loads, instants, heat, files);
   else
-    print_text(loads, instants, files);
+    print_text(loads, instants, heat, files);
   return kOk;
 }
 

@@ -84,10 +84,7 @@ bool is_uniform(const std::vector<std::string>& temperatures) {
 
 /// Temperatures by conduction, and where the heat goes.
 void conduct(const SolidArguments& arguments, const fem::ElasticBody& body, SolidHeat& heat) {
-  fem::ThermalSurroundings surroundings;
-  for (const std::string& text : arguments.temperature)
-    surroundings.prescribed.push_back(nodes_at_temperature(body.mesh, text));
-  for (const std::string& text : arguments.cooling) surroundings.cooled.push_back(cooled_faces(body.mesh, text));
+  const fem::ThermalSurroundings surroundings = surroundings_of(arguments, body.mesh);
   const Eigen::VectorXd into = heat_into(body.mesh, arguments.heat);
   fem::HeatConduction conduction(body.mesh, heat.materials, surroundings, body.integration);
   const solver::FactorSummary summary = conduction.factorise();
@@ -112,6 +109,14 @@ double heat_constant(const char* option, const std::string& text, const char* un
 }
 
 }  // namespace
+
+fem::ThermalSurroundings surroundings_of(const SolidArguments& arguments, const fem::Mesh& mesh) {
+  fem::ThermalSurroundings surroundings;
+  for (const std::string& text : arguments.temperature)
+    surroundings.prescribed.push_back(nodes_at_temperature(mesh, text));
+  for (const std::string& text : arguments.cooling) surroundings.cooled.push_back(cooled_faces(mesh, text));
+  return surroundings;
+}
 
 std::optional<SolidHeat> heat_of(const SolidArguments& arguments, const fem::ElasticBody& body) {
   const bool conducts = !arguments.cooling.empty() || !arguments.heat.empty();

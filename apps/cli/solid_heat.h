@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "hersey/fem/elastic_body.h"
+#include "hersey/fem/heat_conduction.h"
 #include "hersey/fem/thermal_material.h"
 
 namespace hersey::cli {
@@ -22,6 +23,9 @@ struct SolidHeat {
   };
   std::vector<Leaving> leaving;
 };
+
+/// Returns what --temperature SET=80degC and --cooling name. @throws InputError: unknown surfaces, values that are none
+[[nodiscard]] fem::ThermalSurroundings surroundings_of(const SolidArguments& arguments, const fem::Mesh& mesh);
 
 /// Returns the temperatures that --temperature, --cooling and --heat cause by steady conduction; none if no option
 /// concerns heat.

@@ -137,19 +137,25 @@ def nastran_cards(path):
     return cards
 
 
-def ring_mesh(path, inner, outer, width, around=48, along=4):
-    """Hexahedra in one layer about the z-axis with the set of nodes `bore` or `skin` on each side, lengths in mm."""
+def ring_mesh(path, inner, outer, width, around=48, along=4, begin=0):
+    """Hexahedra in one layer about the z-axis lengths in mm, with the sets of nodes `inside` and `outside` and three of one node at one end;
+    numbers begin at the line `begin`."""
     def label(layer, i, k):
         return 1 + layer + 2 * ((i % around) + around * k)
 
     lines = ["*NODE"]
     for k, i, layer in itertools.product(range(along + 1), range(around), range(2)):
-        phi, r = 2 * math.pi * i / around, (inner, outer)[layer]
+        phi, r = 2 * math.pi * (i + begin) / around, (inner, outer)[layer]
         lines.append(f"{label(layer, i, k)}, {r * math.cos(phi):.12g}, {r * math.sin(phi):.12g}, {width * (k / along - 0.5):.12g}")
     lines.append("*ELEMENT, TYPE=C3D8, ELSET=all")
     for n, (k, i) in enumerate(itertools.product(range(along), range(around))):
         corners = [label(a, i + b, z) for z in (k, k + 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
         lines.append(", ".join(map(str, [n + 1] + corners)))
+    for layer, name in enumerate(("inside", "outside")):
+        lines.append(f"*NSET, NSET={name}")
+        lines += [str(label(layer, i, k)) for k, i in itertools.product(range(along + 1), range(around))]
+    for name, i in (("here", 0), ("across", around // 2), ("beside", around // 4)):
+        lines += [f"*NSET, NSET={name}", str(label(0, i, 0))]
     with open(path, "w", encoding="ascii") as file:
         file.write("\n".join(lines) + "\n")
 
@@ -412,6 +418,23 @@ class RigidBodiesTest(unittest.TestCase):
                 self.assertLessEqual(np.linalg.norm(shell_wrench[:2] - expected[:2]), AS_FILM * size)
                 reaction = R @ shaft_wrench[:3]
                 self.assertLessEqual(np.linalg.norm(reaction[:2] + expected[:2]), AS_FILM * size)
+
+
+class NodalBodyTest(unittest.TestCase):
+    """A body whose results have no amplitudes of shapes."""
+
+    def test_stress_of_a_nodal_body_says_what_to_write(self):
+        with tempfile.TemporaryDirectory() as folder:
+            text = text_of(ROOT, "examples/flexible_big_end/model.yaml")
+            text = text[:text.index("study:")].replace("../meshes/", "").replace("duration: 20 rev", "duration: 5 deg")
+            text = re.sub(r" *settle:.*\n| *modes: 10\n", "", text).replace("form: modal", "form: nodal")
+            shutil.copy(os.path.join(ROOT, "examples/meshes/conrod.msh"), folder)
+            with open(os.path.join(folder, "model.yaml"), "w", encoding="utf-8") as file:
+                file.write(text)
+            hersey("run", os.path.join(folder, "model.yaml"), "--output", folder)
+            said = hersey("stress", os.path.join(folder, "results.h5"), expect=2)
+            self.assertIn("body rod is `form: nodal`", said)
+            self.assertIn("`output: {meshes_at: [370 deg]}`", said)
 
 
 def rotation(q):

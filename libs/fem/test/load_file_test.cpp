@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/skin.h"
@@ -75,6 +76,67 @@ TEST_CASE("WrittenMeshes_AreReadBack_InBothUnits") {
       CHECK(calculix.node_sets.at("top") == mesh.node_sets.at("top"));
       check_same(mesh, read_mesh(folder / "ring.bdf", length));
     }
+}
+
+/// The ring warm in its bore and cooled outside, by two surroundings of which one lies on every other face alone.
+BodyTemperatures warm(const Mesh& mesh) {
+  const std::vector<ElementFace>& outside = mesh.surfaces.at("outside");
+  BodyTemperatures heat{.material = {.conductivity = 46, .expansion = 12e-6},
+                        .T_reference = 293.15,
+                        .prescribed = {},
+                        .cooled = {{outside, 80, 293.15}, {{}, 20, 318.15}},
+                        .T = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(mesh.nodes.size()), 343.15),
+                        .source = "a test"};
+  for (std::size_t f = 0; f < outside.size(); f += 2) heat.cooled[1].faces.push_back(outside[f]);
+  for (const int node : mesh.node_sets.at("bore")) heat.prescribed[node] = 343.15;
+  return heat;
+}
+
+std::size_t count_of(const std::vector<std::string>& lines, const std::string& beginning) {
+  return static_cast<std::size_t>(
+      std::count_if(lines.begin(), lines.end(), [&](const std::string& line) { return line.starts_with(beginning); }));
+}
+
+TEST_CASE("FilesOfWarmBodies_AreReadBack_AndNameEveryCooledFaceOnce") {
+  for (const ElementType type : {ElementType::tet4, ElementType::tet10, ElementType::wedge15, ElementType::hex20}) {
+    CAPTURE(name_of(type));
+    const TemporaryDirectory folder;
+    const Mesh mesh = ring_mesh(type, Ring{.cells = {1, 12, 2}});
+    LoadedBody body = loaded(mesh, steel);
+    body.heat = warm(mesh);
+    write_calculix_loads(folder / ".", body, FileUnits::si);
+    write_nastran_loads(folder / ".", body, FileUnits::si);
+    check_same(mesh, read_mesh(folder / "ring_mesh.inp", 1));
+    check_same(mesh, read_mesh(folder / "ring.bdf", 1));
+    const std::size_t cooled = mesh.surfaces.at("outside").size(), fixed = mesh.node_sets.at("bore").size();
+    const std::vector<std::string> inp = lines_of(folder / "ring_heat.inp"), bdf = lines_of(folder / "ring_heat.bdf");
+    const auto first = std::find(inp.begin(), inp.end(), "*FILM") + 1;
+    CHECK(std::find(first, inp.end(), "*NODE FILE") - first == static_cast<std::ptrdiff_t>(cooled));
+    // Faces with both: 100 W/(m^2 K) at (80 * 20 + 20 * 45)/100 degC.
+    const auto has_both = [](const std::string& line) { return line.ends_with(", 25, 100"); };
+    const auto has_one = [](const std::string& line) { return line.ends_with(", 20, 80"); };
+    CHECK(std::count_if(first, inp.end(), has_both) == static_cast<std::ptrdiff_t>((cooled + 1) / 2));
+    CHECK(std::count_if(first, inp.end(), has_one) == static_cast<std::ptrdiff_t>(cooled / 2));
+    CHECK(count_of(bdf, "CHBDYG") == cooled);
+    CHECK(count_of(bdf, "CONV") == cooled);
+    CHECK(count_of(bdf, "SPOINT") == 2);
+    CHECK(count_of(bdf, "SPC*") == fixed + 2);
+    CHECK(count_of(lines_of(folder / "ring.bdf"), "TEMP*") == mesh.nodes.size());
+    // Surface elements have the nodes of their faces, numbers of their own.
+    std::size_t f = 0;
+    std::vector<ElementFace> faces = mesh.surfaces.at("outside");
+    std::sort(faces.begin(), faces.end(),
+              [](ElementFace a, ElementFace b) { return std::pair(a.element, a.face) < std::pair(b.element, b.face); });
+    for (std::size_t i = 0; i + 1 < bdf.size(); ++i) {
+      if (!bdf[i].starts_with("CHBDYG")) continue;
+      const std::vector<int> nodes = nodes_of(mesh, faces[f++]);
+      CHECK(std::stol(bdf[i].substr(8, 8)) == static_cast<long>(mesh.elements.size() + f));
+      CHECK(bdf[i].substr(24, 8) == "   AREA" + std::to_string(nodes.size()));
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        CHECK(std::stol(bdf[i + 1].substr(8 + 8 * a, 8)) == mesh.node_labels[static_cast<std::size_t>(nodes[a])]);
+    }
+    CHECK(f == cooled);
+  }
 }
 
 TEST_CASE("NastranFaces_AreNamedByTheirCorners") {

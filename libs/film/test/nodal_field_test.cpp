@@ -64,5 +64,24 @@ TEST_CASE("FieldOutsideOfPatches_IsZero") {
   for (const double phi : {0.0, 0.49, 1.51, 1.99, 3.01, 6.0}) CHECK(field.at(one, phi, 0) == 0);
 }
 
+TEST_CASE("FieldBesideTheFilm_GoesOn") {
+  const FilmModel film = [] {
+    FilmModel model = on_grid(patch_grid({{.from = 0.5, .to = 1.5, .lines = 8}, {.from = 2, .to = 3, .lines = 8}}, 5));
+    model.ends.resize(2);
+    return model;
+  }();
+  const NodalField field(film);
+  const Eigen::VectorXd values = nodal(film, [](double phi, double z) { return 3 * phi + 70 * z; });
+  for (const double z : {-0.5 * film.L, 0.1 * film.L, 0.5 * film.L}) {
+    for (const double phi : {0.5, 0.7, 1.5, 1.6, 1.9, 2.0, 2.7, 3.0})  // linear over the gap, too
+      CHECK(field.continued(values, phi, z) == doctest::Approx(3 * phi + 70 * z).epsilon(round_off));
+    for (const double phi : {0.7, 2.7}) CHECK(field.continued(values, phi, z) == field.at(values, phi, z));
+    // From the last line at 3 to the first at 0.5 of the next revolution.
+    CHECK(field.continued(values, (3 + 0.5 + 2 * pi) / 2, z) == doctest::Approx(3 * 1.75 + 70 * z).epsilon(round_off));
+  }
+  CHECK(field.continued(values, 1, film.L) == field.at(values, 1, film.L / 2));
+  CHECK(field.continued(values, 1, -film.L) == field.at(values, 1, -film.L / 2));
+}
+
 }  // namespace nodal_field_test
 }  // namespace hersey::film

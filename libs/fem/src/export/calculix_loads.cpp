@@ -1,4 +1,5 @@
-// Dhondt, CalculiX CrunchiX USER'S MANUAL 2.20: *DLOAD, *AMPLITUDE, *ELASTIC, *STEP. Fields have at most 20 characters.
+// Dhondt, CalculiX CrunchiX USER'S MANUAL 2.20: *DLOAD, *AMPLITUDE, *ELASTIC, *STEP, *HEAT TRANSFER,
+// *FILM, *TEMPERATURE. Fields have at most 20 characters.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -58,7 +59,9 @@ class CalculixText {
   [[nodiscard]] std::string steps() const {
     std::string text = start("a static step for each instant");
     for (const LoadInstant& instant : body_.instants) {
-      add(text, "** {}\n*STEP\n*STATIC\n*DLOAD, OP=NEW\n", instant.name);
+      add(text, "** {}\n*STEP\n*STATIC\n", instant.name);
+      if (is_strained_by_heat(body_)) text += "*TEMPERATURE\n" + include("temperatures");
+      text += "*DLOAD, OP=NEW\n";
       for (std::size_t f = 0; f < body_.faces.size(); ++f)
         add(text, "{}, {:.12g}\n", load_on(f), scale_.pressure * instant.pressures[static_cast<Eigen::Index>(f)]);
       text += output;
@@ -80,15 +83,42 @@ class CalculixText {
     }
     const auto intervals = static_cast<double>(std::max<std::size_t>(body_.instants.size() - 1, 1));
     const double length = end > begin ? end - begin : 1;
+    if (is_strained_by_heat(body_)) add(text, "*AMPLITUDE, NAME=WARM\n0., 1., {:.12g}, 1.\n", length);
     add(text,
         "** Quasi-static: CalculiX takes a linear step in one go, one with NLGEOM by increments. For the body's own "
         "vibrations replace *STATIC, DIRECT by *DYNAMIC.\n"
         "** The time 0 is {:.12g} s of the run.\n"
         "*STEP, NLGEOM, INC=1000000\n*STATIC, DIRECT\n{:.12g}, {:.12g}\n",
         begin, length / intervals, length);
+    if (is_strained_by_heat(body_)) text += "*TEMPERATURE, AMPLITUDE=WARM\n" + include("temperatures");
     for (std::size_t f = 0; f < body_.faces.size(); ++f)
       add(text, "*DLOAD, AMPLITUDE=FACE_{}\n{}, 1.\n", f + 1, load_on(f));
     return text + output;
+  }
+
+  /// Temperatures of all nodes, the lines of a *TEMPERATURE.
+  [[nodiscard]] std::string temperatures() const {
+    std::string text = heading("temperatures [degC] of its nodes, steady: " + body_.heat->source);
+    for (std::size_t n = 0; n < body_.mesh.nodes.size(); ++n)
+      add(text, "{}, {:.12g}\n", body_.mesh.node_labels[n], in_celsius(body_.heat->T[static_cast<Eigen::Index>(n)]));
+    return text;
+  }
+
+  [[nodiscard]] std::string heat() const {
+    const BodyTemperatures& heat = *body_.heat;
+    std::string text = heading("steady conduction of heat, temperatures in degC, heat in " +
+                               std::string(units_ == FileUnits::si ? "W" : "N.mm/s (mW)"));
+    add(text, "** Temperatures of nodes: {}.\n", heat.source);
+    text += include("mesh") + initial_temperature() + "*STEP\n*HEAT TRANSFER, STEADY STATE\n*BOUNDARY\n";
+    for (const auto& [node, T] : heat.prescribed) add(text, "{}, 11, 11, {:.12g}\n", label_of(node), in_celsius(T));
+    const std::vector<CooledFace> cooled = cooled_faces_once(heat.cooled);
+    if (cooled.empty())
+      text += "** No surface was named that cools: add *FILM here, or write the files with --cooling.\n";
+    if (!cooled.empty()) text += "*FILM\n";
+    for (const CooledFace& face : cooled)
+      add(text, "{}, F{}, {:.12g}, {:.12g}\n", body_.mesh.elements[static_cast<std::size_t>(face.face.element)].label,
+          face.face.face + 1, in_celsius(face.T_ambient), scale_.transfer * face.transfer);
+    return text + "*NODE FILE\nNT, RFL\n*EL FILE\nHFL\n*END STEP\n";
   }
 
  private:
@@ -99,13 +129,22 @@ class CalculixText {
     fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
   }
 
-  [[nodiscard]] std::string heading(const char* what) const {
+  [[nodiscard]] std::string heading(const std::string& what) const {
     return fmt::format("** Body {}: {}. Units: {}.\n", body_.name, what,
                        units_ == FileUnits::si ? "m, N, kg, s, Pa" : "mm, N, t, s, MPa");
   }
 
+  [[nodiscard]] std::string include(const char* part) const {
+    return fmt::format("*INCLUDE, INPUT={}_{}.inp\n", calculix_name(body_.name), part);
+  }
+
+  [[nodiscard]] std::string initial_temperature() const {
+    return fmt::format("*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, {:.12g}\n", in_celsius(body_.heat->T_reference));
+  }
+
   [[nodiscard]] std::string start(const char* what) const {
-    std::string text = heading(what) + fmt::format("*INCLUDE, INPUT={}_mesh.inp\n", calculix_name(body_.name));
+    std::string text = heading(what) + include("mesh");
+    if (is_strained_by_heat(body_)) text += initial_temperature();
     if (body_.fixed_dofs.empty())
       text += "** No support was named: add *BOUNDARY here, or write the files with --hold SET.\n";
     return text;
@@ -204,6 +243,10 @@ class CalculixText {
         text += '\n';
       }
       if (material.density > 0) add(text, "*DENSITY\n{:.12g}\n", scale_.density * material.density);
+      if (body_.heat) add(text, "*CONDUCTIVITY\n{:.12g}\n", scale_.conductivity * body_.heat->material.conductivity);
+      if (is_strained_by_heat(body_))
+        add(text, "*EXPANSION, ZERO={:.12g}\n{:.12g}\n", in_celsius(body_.heat->T_reference),
+            body_.heat->material.expansion);
       add(text, "*ELSET, ELSET=OF_MATERIAL_{}\n", m + 1);
       add_list(text, labels_of_elements(elements[m]));
       add(text, "*SOLID SECTION, ELSET=OF_MATERIAL_{0}, MATERIAL=MATERIAL_{0}\n", m + 1);
@@ -224,6 +267,10 @@ void write_calculix_loads(const Path& folder, const LoadedBody& body, FileUnits 
   if (!body.instants.empty()) {
     files.emplace_back(folder / (name + "_steps.inp"), text.steps());
     files.emplace_back(folder / (name + "_history.inp"), text.history());
+  }
+  if (body.heat) {
+    files.emplace_back(folder / (name + "_heat.inp"), text.heat());
+    files.emplace_back(folder / (name + "_temperatures.inp"), text.temperatures());
   }
   for (const auto& [path, content] : files) {
     try {

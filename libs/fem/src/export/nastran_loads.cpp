@@ -1,14 +1,17 @@
-// MSC Nastran Quick Reference Guide: large fields of 16 characters, PLOAD4, SPC1, MPC, MAT1, MAT9, PSOLID.
+// MSC Nastran Quick Reference Guide: large fields of 16 characters, PLOAD4, SPC1, MPC, MAT1, MAT9, PSOLID; of heat
+// CHBDYG, CONV, MAT4, NLPARM, PCONV, SPC, SPOINT, TEMP, TEMPD.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 #include <stdexcept>
 
 #include "element/element_kind.h"
 #include "export/file_scale.h"
 #include "hersey/core/write_file.h"
+#include "hersey/fem/skin.h"
 
 namespace hersey::fem {
 namespace {
@@ -52,6 +55,29 @@ class NastranText {
     for (const MeshTie& tie : body_.mesh.ties) add_tie(text, tie);
     for (std::size_t k = 0; k < body_.instants.size(); ++k)
       add_loads(text, static_cast<long>(k) + 1, body_.instants[k]);
+    if (is_strained_by_heat(body_)) add_temperatures(text);
+    return text + "ENDDATA\n";
+  }
+
+  [[nodiscard]] std::string heat() const {
+    std::string text = fmt::format(
+        "$ Body {}: steady conduction of heat, temperatures in degC. Units: {}.\n"
+        "$ Temperatures of grid points: {}.\n"
+        "SOL 153\nCEND\nANALYSIS = HEAT\nTHERMAL = ALL\nFLUX = ALL\nSPCFORCES = ALL\nSPC = 1\nNLPARM = 1\n"
+        "TEMPERATURE(INITIAL) = 2\nBEGIN BULK\n",
+        body_.name, units_ == FileUnits::si ? "m, W, K" : "mm, mW, K", body_.heat->source);
+    add_small(text, "NLPARM", {"1"});
+    add_large(text, "TEMPD", {"2", real(in_celsius(body_.heat->T_reference))});
+    add_nodes(text);
+    add_elements(text);
+    for (std::size_t m = 0; m < body_.materials.size(); ++m) {
+      const std::string id = integer(static_cast<long>(m) + 1);
+      add_small(text, "PSOLID", {id, id});
+      add_large(text, "MAT4", {id, real(scale_.conductivity * body_.heat->material.conductivity)});
+    }
+    for (const auto& [node, T] : body_.heat->prescribed)
+      add_large(text, "SPC", {"1", integer(label_of(node)), "", real(in_celsius(T))});
+    add_cooling(text);
     return text + "ENDDATA\n";
   }
 
@@ -66,6 +92,9 @@ class NastranText {
     else
       text += "SPC = 1\n";
     if (!body_.mesh.ties.empty()) text += "MPC = 1\n";
+    if (is_strained_by_heat(body_))
+      text += fmt::format("$ Temperatures [degC], steady: {}.\nTEMPERATURE(LOAD) = {}\n", body_.heat->source,
+                          temperature_set());
     text += "DISPLACEMENT = ALL\nSTRESS = ALL\n";
     for (std::size_t k = 0; k < body_.instants.size(); ++k)
       text += fmt::format("SUBCASE {0}\n  LABEL = {1}\n  LOAD = {0}\n", k + 1, body_.instants[k].name);
@@ -101,14 +130,23 @@ class NastranText {
       add_small(text, "PSOLID", {id, id});
       const std::string density = material.density > 0 ? real(scale_.density * material.density) : "";
       if (const auto constants = as_isotropic(material)) {
-        add_large(text, "MAT1",
-                  {id, real(scale_.pressure * constants->youngs_modulus), "", real(constants->poisson_ratio), density});
+        Fields fields{id, real(scale_.pressure * constants->youngs_modulus), "", real(constants->poisson_ratio),
+                      density};
+        if (is_strained_by_heat(body_))
+          fields.insert(fields.end(),
+                        {real(body_.heat->material.expansion), real(in_celsius(body_.heat->T_reference))});
+        add_large(text, "MAT1", fields);
         continue;
       }
       Fields fields{id};  // xx, yy, zz, xy, yz, zx as here
       for (int row = 0; row < 6; ++row)
         for (int column = row; column < 6; ++column) fields.push_back(real(scale_.pressure * material.D(row, column)));
       fields.push_back(density);
+      if (is_strained_by_heat(body_)) {
+        for (const bool along : {true, true, true, false, false, false})
+          fields.push_back(along ? real(body_.heat->material.expansion) : "");
+        fields.push_back(real(in_celsius(body_.heat->T_reference)));
+      }
       add_large(text, "MAT9", fields);
     }
   }
@@ -140,6 +178,50 @@ class NastranText {
       add_large(text, "PLOAD4",
                 {integer(id), integer(element.label),
                  real(scale_.pressure * instant.pressures[static_cast<Eigen::Index>(f)]), "", "", "", first, second});
+    }
+  }
+
+  /// Set of the temperatures, beside those of the loads.
+  [[nodiscard]] std::size_t temperature_set() const { return body_.instants.size() + 1; }
+
+  void add_temperatures(std::string& text) const {
+    for (std::size_t n = 0; n < body_.mesh.nodes.size(); ++n)
+      add_large(text, "TEMP",
+                {std::to_string(temperature_set()), integer(body_.mesh.node_labels[n]),
+                 real(in_celsius(body_.heat->T[static_cast<Eigen::Index>(n)]))});
+  }
+
+  /// A surface element and its convection for each cooled face, a scalar point for each temperature of surroundings.
+  void add_cooling(std::string& text) const {
+    const Mesh& mesh = body_.mesh;
+    std::map<double, long> materials, points;  // of coefficients and of surroundings' temperatures
+    long element = 0;
+    for (const Element& other : mesh.elements) element = std::max(element, other.label);
+    const long last_node = *std::max_element(mesh.node_labels.begin(), mesh.node_labels.end());
+    const std::vector<CooledFace> cooled = cooled_faces_once(body_.heat->cooled);
+    if (cooled.empty())
+      text += "$ No surface was named that cools: add CONV here, or write the files with --cooling.\n";
+    for (const CooledFace& face : cooled) {
+      const auto number = [](std::map<double, long>& of, double value, long before) {
+        return of.try_emplace(value, before + static_cast<long>(of.size()) + 1);
+      };
+      const auto [material, is_new_material] =
+          number(materials, face.transfer, static_cast<long>(body_.materials.size()));
+      const auto [point, is_new_point] = number(points, face.T_ambient, last_node);
+      const std::string id = integer(material->second), ambient = integer(point->second);
+      if (is_new_material) {
+        add_large(text, "MAT4", {id, "", "", "", real(scale_.transfer * face.transfer)});
+        add_small(text, "PCONV", {id, id});
+      }
+      if (is_new_point) {
+        add_small(text, "SPOINT", {ambient});
+        add_large(text, "SPC", {"1", ambient, "", real(in_celsius(face.T_ambient))});
+      }
+      const std::vector<int> nodes = nodes_of(mesh, face.face);
+      Fields fields{integer(++element), "", fmt::format("AREA{}", nodes.size()), "", "", "", "", ""};
+      for (const int node : nodes) fields.push_back(integer(label_of(node)));
+      add_small(text, "CHBDYG", fields);
+      add_small(text, "CONV", {integer(element), id, "", "", ambient});
     }
   }
 
@@ -176,12 +258,15 @@ class NastranText {
 }  // namespace
 
 void write_nastran_loads(const Path& folder, const LoadedBody& body, FileUnits units) {
-  const Path path = folder / (body.name + ".bdf");
-  const std::string text = NastranText(body, units).text();
-  try {
-    write_file(path, {text});
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+  const NastranText text(body, units);
+  std::vector<std::pair<Path, std::string>> files{{folder / (body.name + ".bdf"), text.text()}};
+  if (body.heat) files.emplace_back(folder / (body.name + "_heat.bdf"), text.heat());
+  for (const auto& [path, content] : files) {
+    try {
+      write_file(path, {content});
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+    }
   }
 }
 

@@ -13,6 +13,25 @@
 #include "hersey/fem/heated_surface.h"
 
 namespace hersey::model {
+
+fem::ThermalSurroundings surroundings_of(const Model& model, const Body& body) {
+  fem::ThermalSurroundings surroundings = body.flexible->heat->surroundings;
+  if (!body.flexible->heat->rest) return surroundings;
+  std::set<std::pair<int, int>> films;
+  const auto take = [&](const fem::FilmSurface& film) {
+    for (const fem::ElementFace face : film.faces) films.emplace(face.element, face.face);
+  };
+  for (const Bearing& bearing : model.bearings) {
+    if (bearing.shell.body == body.name && bearing.heated_shell) take(*bearing.heated_shell);
+    if (bearing.journal.body == body.name && bearing.heated_journal) take(*bearing.heated_journal);
+  }
+  for (const DeformingSurface* surface : surfaces_on(model, body)) take(*surface->surface);
+  std::erase_if(surroundings.cooled[*body.flexible->heat->rest].faces, [&](fem::ElementFace face) {
+    return films.count({face.element, face.face}) > 0;
+  });
+  return surroundings;
+}
+
 namespace {
 
 using Eigen::MatrixXd;
@@ -34,25 +53,6 @@ MatrixXd at_nodes(const SurfaceFunctions& functions, const film::FilmModel& film
     for (const SurfaceTerm& term : terms) psi(node, term.index) = term.value;
   }
   return psi;
-}
-
-/// Cooled faces of a body, without the faces of films in its remaining surface.
-fem::ThermalSurroundings surroundings_of(const Model& model, const Body& body) {
-  fem::ThermalSurroundings surroundings = body.flexible->heat->surroundings;
-  if (!body.flexible->heat->rest) return surroundings;
-  std::set<std::pair<int, int>> films;
-  const auto take = [&](const fem::FilmSurface& film) {
-    for (const fem::ElementFace face : film.faces) films.emplace(face.element, face.face);
-  };
-  for (const Bearing& bearing : model.bearings) {
-    if (bearing.shell.body == body.name && bearing.heated_shell) take(*bearing.heated_shell);
-    if (bearing.journal.body == body.name && bearing.heated_journal) take(*bearing.heated_journal);
-  }
-  for (const DeformingSurface* surface : surfaces_on(model, body)) take(*surface->surface);
-  std::erase_if(surroundings.cooled[*body.flexible->heat->rest].faces, [&](fem::ElementFace face) {
-    return films.count({face.element, face.face}) > 0;
-  });
-  return surroundings;
 }
 
 std::vector<double> angles_of(const film::Grid& grid) {

@@ -1,4 +1,4 @@
-// Films of a finished run on the faces of a body's mesh, (film-surface.9) to (film-surface.12).
+// Films of a finished run on the faces of a body's mesh, (film-surface.9) to (film-surface.15).
 #include "hersey/run/body_loads.h"
 
 #include <fmt/format.h>
@@ -9,9 +9,11 @@
 #include <utility>
 #include <variant>
 
+#include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/fem/face_pressures.h"
+#include "hersey/fem/face_temperatures.h"
 #include "hersey/fem/film_surface.h"
 #include "hersey/film/nodal_field.h"
 #include "hersey/run/model_of_results.h"
@@ -84,6 +86,17 @@ std::size_t row_at(const std::vector<double>& times, double time) {
   return row;
 }
 
+/// What each instant counts in a mean over the time from the first to the last, by the trapezoidal rule; one of a
+/// single instant.
+std::vector<double> weights_over_time(const std::vector<double>& times) {
+  const double length = times.back() - times.front();
+  if (!(length > 0)) return std::vector<double>(times.size(), 1.0 / static_cast<double>(times.size()));
+  std::vector<double> weights(times.size(), 0);
+  for (std::size_t k = 0; k + 1 < times.size(); ++k)
+    for (const std::size_t end : {k, k + 1}) weights[end] += (times[k + 1] - times[k]) / (2 * length);
+  return weights;
+}
+
 }  // namespace
 
 struct BodyLoads::Film {
@@ -92,10 +105,15 @@ struct BodyLoads::Film {
   std::string group;              ///< of the results
   std::string inboard, outboard;  ///< bodies of both frames in the results
   Matrix3 of_shell, of_journal;   ///< axes of the bearing's frames in these bodies
-  Pose X;                         ///< the film's axes on this body in the body's
   film::NodalField nodes;
   fem::FacePressures on_faces;
-  std::vector<Index> faces;  ///< indices among all faces
+  fem::FilmCylinder cylinder;  ///< its X: the film's axes on this body in the body's
+  std::vector<Index> faces;    ///< indices among all faces
+
+  /// Field of the body's own side in the results.
+  [[nodiscard]] std::string temperature_field() const {
+    return group + "fields/" + (is_shell ? "shell_temperature" : "journal_temperature");
+  }
 
   /// The angle by which the mesh of a journal has rotated against the film.
   [[nodiscard]] double turned(const results::Reader& results, std::size_t row) const {
@@ -195,9 +213,9 @@ void BodyLoads::add_film(const model::Bearing& bearing, bool is_shell) {
             .outboard = results_.text_attribute(group, "outboard").value_or(bearing.journal.body),
             .of_shell = pose_of_frame(model_, bearing.shell).R,
             .of_journal = pose_of_frame(model_, bearing.journal).R,
-            .X = cylinder.X,
             .nodes = film::NodalField(bearing.film),
             .on_faces = fem::FacePressures(*mesh_, faces, cylinder),
+            .cylinder = cylinder,
             .faces = {}};
   for (const fem::ElementFace& face : faces) {
     const auto same = [&](const fem::ElementFace& other) {
@@ -225,16 +243,17 @@ std::vector<std::pair<std::string, std::vector<fem::ElementFace>>> BodyLoads::fi
   return films;
 }
 
-std::vector<std::size_t> BodyLoads::last_cycle() const {
+std::optional<std::pair<double, double>> BodyLoads::cycle() const {
   const std::string cycles = films_.front().group + "cycles/fields/";
-  double begin = times_.empty() ? 0 : times_.front(), end = times_.empty() ? 0 : times_.back();
-  if (results_.has(cycles + "complete")) {
-    const std::vector<double> complete = results_.read(cycles + "complete").values;
-    if (!complete.empty() && complete.back() == 1) {
-      begin = results_.read(cycles + "begin").values.back();
-      end = results_.read(cycles + "end").values.back();
-    }
-  }
+  if (!results_.has(cycles + "complete")) return std::nullopt;
+  const std::vector<double> complete = results_.read(cycles + "complete").values;
+  if (complete.empty() || complete.back() != 1) return std::nullopt;
+  return std::pair(results_.read(cycles + "begin").values.back(), results_.read(cycles + "end").values.back());
+}
+
+std::vector<std::size_t> BodyLoads::last_cycle() const {
+  const auto [begin, end] =
+      cycle().value_or(std::pair(times_.empty() ? 0 : times_.front(), times_.empty() ? 0 : times_.back()));
   const double slack = 1e-9 * std::abs(end);  // round-off of times
   std::vector<std::size_t> instants;
   for (std::size_t k = 0; k < times_.size(); ++k)
@@ -279,14 +298,14 @@ void BodyLoads::add(const Film& film, std::size_t instant, BodyLoadsAt& loads) c
     loads.off_force = std::max(loads.off_force, off.tail<3>().norm() / force);
     loads.off_moment = std::max(loads.off_moment, off.head<3>().norm() / (force * film.bearing->film.L / 2));
   }
-  loads.film += moved_force(film.X, wrench);
-  loads.mapped += moved_force(film.X, mapped);
+  loads.film += moved_force(film.cylinder.X, wrench);
+  loads.mapped += moved_force(film.cylinder.X, mapped);
   loads.shear += vector_at(results_, film.group + "force_shear", row).norm();
-  const char* temperature = film.is_shell ? "shell_temperature" : "journal_temperature";
-  const bool is_warm = results_.has(film.group + "fields/" + temperature);
+  const bool is_warm = results_.has(film.temperature_field());
   VectorXd of_surface;
   if (is_warm) {
-    of_surface = film.on_faces.means_within(on_mesh(field(temperature)));
+    of_surface =
+        film.on_faces.means_within(on_mesh(field(film.is_shell ? "shell_temperature" : "journal_temperature")));
     if (loads.temperature.size() == 0) loads.temperature.setConstant(static_cast<Index>(faces_.size()), std::nan(""));
   }
   for (std::size_t f = 0; f < film.faces.size(); ++f) {
@@ -311,6 +330,64 @@ BodyLoadsAt BodyLoads::at(std::size_t instant) const {
     loads.angular_velocity = to_body * vector_at(results_, group + "angular_velocity", row);
   }
   return loads;
+}
+
+struct BodyLoads::NodalMeans {
+  double mean = 0;  ///< over the film's surface [degC]
+  std::vector<int> nodes;
+  VectorXd T;  ///< [degC]
+};
+
+BodyLoads::NodalMeans BodyLoads::nodal_means(const Film& film, const std::vector<std::size_t>& instants,
+                                             const std::vector<double>& weights) const {
+  std::vector<VectorXd> fields;  // weighted by time
+  std::vector<double> turned;
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    const std::vector<double> values = results_.read_rows(film.temperature_field(), instants[k], 1).values;
+    const VectorXd weighted = weights[k] * Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+    const double angle = film.turned(results_, rows_.at(instants[k]));
+    if (!fields.empty() && angle == turned.back())
+      fields.back() += weighted;  // a mesh that does not rotate against its film, a shell's
+    else
+      fields.push_back(weighted), turned.push_back(angle);
+  }
+  const fem::FilmField over_time = [&](double phi, double z) {  // (film-surface.15)
+    double T = 0;
+    for (std::size_t k = 0; k < fields.size(); ++k) T += film.nodes.continued(fields[k], phi + turned[k], z);
+    return T;
+  };
+  NodalMeans means;
+  for (const VectorXd& field : fields) means.mean += film.nodes.weights().dot(field) / film.nodes.weights().sum();
+  std::vector<fem::ElementFace> faces;
+  for (const Index face : film.faces) faces.push_back(faces_[static_cast<std::size_t>(face)]);
+  const fem::FaceTemperatures on_nodes(*mesh_, faces, film.cylinder);
+  means.nodes = on_nodes.nodes();
+  means.T = on_nodes.of(over_time, means.mean);
+  return means;
+}
+
+FilmTemperatures BodyLoads::mean_temperatures(const std::vector<std::size_t>& instants) const {
+  HERSEY_REQUIRE(!instants.empty() && std::is_sorted(instants.begin(), instants.end()), "instants in their order");
+  std::vector<double> times;
+  for (const std::size_t k : instants) times.push_back(times_.at(k));
+  const std::vector<double> weights = weights_over_time(times);
+  FilmTemperatures found;
+  std::map<int, std::pair<double, int>> sums;  // of temperatures at a node, and their number
+  for (const Film& film : films_) {
+    if (!results_.has(film.temperature_field())) continue;
+    const NodalMeans means = nodal_means(film, instants, weights);
+    found.surfaces.push_back({film.bearing->name, means.mean});
+    for (std::size_t a = 0; a < means.nodes.size(); ++a) {
+      auto& [sum, count] = sums[means.nodes[a]];
+      sum += means.T[static_cast<Index>(a)], ++count;
+    }
+  }
+  found.T.resize(static_cast<Index>(sums.size()));
+  for (const auto& [node, sum] : sums) {
+    found.T[static_cast<Index>(found.nodes.size())] = sum.first / sum.second;
+    found.nodes.push_back(node);
+  }
+  return found;
 }
 
 }  // namespace hersey::run

@@ -39,7 +39,9 @@ const model::Body& flexible_called(const model::Model& model, const std::string&
   if (found->flexible->nodal)
     refuse_stress(fmt::format("body {} is `form: nodal`: results hold no amplitudes that say all of its deformation",
                               found->name),
-                  "a body with `form: modal`", "or the times under `output.meshes_at`, which writes its stresses");
+                  "a body with `form: modal`",
+                  "or add `output: {meshes_at: [370 deg]}` to the model: its run then writes the stresses at these "
+                  "times beside the results");
   if (found->flexible->mesh->elements.empty())
     refuse_stress(fmt::format("body {} has no elements to which stresses belong", found->name),
                   "a body made of a mesh with elements");

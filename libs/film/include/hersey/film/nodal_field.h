@@ -23,7 +23,21 @@ class NodalField {
   /// film's width and outside of its patches.
   [[nodiscard]] double at(const Eigen::VectorXd& values, double phi, double z) const;
 
+  /// Returns the field as at() does on the film, and its continuation beside the film: constant beyond the width,
+  /// linear around between the last line of a patch and the first of the next. For temperatures, which do not end with
+  /// a film.
+  [[nodiscard]] double continued(const Eigen::VectorXd& values, double phi, double z) const;
+
  private:
+  /// Cell of the grid that contains an angle, or the gap behind line `i`.
+  struct Interval {
+    int i = 0, next = 0;   ///< lines; next: the first line after a gap
+    double s = 0;          ///< from `i` to `next`, 0 to 1
+    double from_line = 0;  ///< angle behind line i [rad]
+  };
+  [[nodiscard]] Interval around(double phi) const;
+  [[nodiscard]] double on_line(const Eigen::VectorXd& values, int i, double z) const;
+
   Grid grid_;
   Eigen::VectorXd phi_, z_, weights_;
 };

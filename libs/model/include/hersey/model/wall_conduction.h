@@ -21,6 +21,10 @@ namespace hersey::model {
 [[nodiscard]] std::shared_ptr<const film::JournalConduction> journal_conduction(const Model& model,
                                                                                 const Bearing& bearing);
 
+/// Returns the surroundings of a body that conducts heat: its cooled faces, without the faces of films in its remaining
+/// surface (`cooling: {rest: ...}`), and its nodes of given temperature. @pre the body has `heat`
+[[nodiscard]] fem::ThermalSurroundings surroundings_of(const Model& model, const Body& body);
+
 /// Returns all data on which `wall_conduction` depends: equal for models with the same result.
 [[nodiscard]] std::string fingerprint_of_wall(const Model& model, const Bearing& bearing);
 /// Returns all data on which `journal_conduction` depends.

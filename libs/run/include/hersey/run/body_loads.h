@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hersey/core/spatial.h"
@@ -37,6 +38,18 @@ struct BodyLoadsAt {
   Vector3 acceleration = Vector3::Zero(), angular_velocity = Vector3::Zero();
 };
 
+/// Temperatures of the films' surfaces at the nodes of a body's mesh, mean over time.
+struct FilmTemperatures {
+  /// The surface of one film.
+  struct Surface {
+    std::string bearing;
+    double mean = 0;  ///< over the surface and over time [degC]
+  };
+  std::vector<Surface> surfaces;  ///< of films with temperatures; none: no film on the body has any
+  std::vector<int> nodes;         ///< of these films' faces, indices in the mesh, ascending
+  Eigen::VectorXd T;              ///< of these nodes [degC]
+};
+
 /// Loads of the films of a finished run on a body, for strength computations: at the instants at which fields are
 /// stored.
 /// @verified_by loads_test.py
@@ -58,13 +71,23 @@ class BodyLoads {
   [[nodiscard]] const std::vector<double>& times() const;  ///< [s], of the stored instants
   /// Crank angles of the same [rad]; empty: the model has no crank.
   [[nodiscard]] const std::vector<double>& crank_angles() const;
+  /// Begin and end of the last complete cycle [s]; none of a run without cycles.
+  [[nodiscard]] std::optional<std::pair<double, double>> cycle() const;
   /// Instants of the last complete cycle; of a run without cycles all.
   [[nodiscard]] std::vector<std::size_t> last_cycle() const;
   /// Returns the loads at a stored instant.
   [[nodiscard]] BodyLoadsAt at(std::size_t instant) const;
+  /// Returns the temperatures of the body's own side of the films (of a shell `shell_temperature`, of a journal
+  /// `journal_temperature`) at the nodes of their faces, mean over the time from the first to the last of these stored
+  /// instants, linear between them, (film-surface.13) to (film-surface.15). Nodes of two films have the mean of both.
+  /// @pre instants are not empty, and ascending
+  [[nodiscard]] FilmTemperatures mean_temperatures(const std::vector<std::size_t>& instants) const;
 
  private:
   struct Film;
+  struct NodalMeans;
+  [[nodiscard]] NodalMeans nodal_means(const Film& film, const std::vector<std::size_t>& instants,
+                                       const std::vector<double>& weights) const;
   void add_film(const model::Bearing& bearing, bool is_shell);
   void add(const Film& film, std::size_t instant, BodyLoadsAt& loads) const;
 
