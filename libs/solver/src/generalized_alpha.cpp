@@ -85,7 +85,7 @@ struct GeneralizedAlpha::Workspace {
 
   void choose_start(Equations& equations, const State& state, double dt);
   void predict(double dt);
-  void begin_iteration(bool is_chosen);
+  void begin_iteration(IterationStart at);
   void keep_acceleration(VectorXd next);
   void set_trial(Equations& equations, const State& state, const VectorXd& at);
   bool assemble(Equations& equations, const GeneralizedAlphaOptions& options, bool with_tangent = true);
@@ -138,11 +138,11 @@ void GeneralizedAlpha::Workspace::predict(double dt) {
 }
 
 /// The iteration begins with the algorithmic acceleration going on as over the last step of this length: films, whose
-/// gaps are differences of large motions, are then near their end. The error of steps chosen by it refers to the
-/// prediction itself.
-void GeneralizedAlpha::Workspace::begin_iteration(bool is_chosen) {
+/// gaps are differences of large motions, are then near their end.
+void GeneralizedAlpha::Workspace::begin_iteration(IterationStart at) {
   dq = dq_predicted;
-  if (is_chosen || a_before.size() == 0 || std::abs(stage.dt - last_dt) > kOtherLength * last_dt) return;
+  if (at == IterationStart::prediction || a_before.size() == 0 || std::abs(stage.dt - last_dt) > kOtherLength * last_dt)
+    return;
   dq += parameters.beta * stage.dt * stage.dt * (a - a_before);
 }
 
@@ -337,15 +337,28 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
                       .expected = "a value below 1",
                       .suggestion = "0.95 dissipates little; at 1 the multipliers of equal steps grow without bound"});
   Workspace& w = *work_;
-  StepSummary summary;
   if (!w.started) {
     w.started = true;
     w.stage.fresh = true;
   }
+  StepSummary first =
+      attempt(equations, state, dt, is_accurate, is_chosen ? IterationStart::prediction : IterationStart::beyond);
+  if (first.solved() || first.status == StepStatus::inaccurate || w.stage.fresh) return first;
+  // Condensed unknowns, too, begin a step that is begun again where the last one ended.
+  StepSummary again = attempt(equations, state, dt, is_accurate, IterationStart::prediction);
+  again.iterations += first.iterations;
+  return again;
+}
+
+StepSummary GeneralizedAlpha::attempt(Equations& equations, State& state, double dt, const StepCheck& is_accurate,
+                                      IterationStart begins) {
+  Workspace& w = *work_;
+  StepSummary summary;
+  const bool is_chosen = is_accurate && options_.chosen_by_error;
   equations.begin_step(state, dt);
   w.choose_start(equations, state, dt);
   w.predict(dt);
-  w.begin_iteration(is_chosen);
+  w.begin_iteration(begins);
 
   const auto fail = [&](StepStatus status, const std::string& why) {
     summary.status = status;

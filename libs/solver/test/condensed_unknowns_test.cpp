@@ -52,5 +52,50 @@ TEST_CASE("CondensedUnknowns_MoveAsThoseOfTheSystem") {
   }
 }
 
+/// A stiff pendulum with condensed unknowns over equal steps.
+test::OneCoordinate swung(bool needs_tangent, State& s) {
+  test::OneCoordinate system;
+  system.force = [](double q, double, double) { return omega2 * std::sinh(3 * q); };
+  system.force_by_q = [](double q, double, double) { return 3 * omega2 * std::cosh(3 * q); };
+  system.condenses = true;
+  system.needs = needs_tangent;
+  s = system.at(0.8, 0);
+  GeneralizedAlpha integrator({.spectral_radius = 0.8, .rtol = 1e-10});
+  for (int k = 0; k < 60; ++k) REQUIRE(integrator.step(system, s, 0.02).solved());
+  return system;
+}
+
+// What ends a step is found without a tangent, unless condensed unknowns need it.
+TEST_CASE("TheLastResidualOfAStep_TakesNoTangent") {
+  State with, without;
+  const test::OneCoordinate whole = swung(true, with), light = swung(false, without);
+  CHECK(whole.tangents == whole.assembled);
+  CHECK(light.tangents <= light.assembled - 50);
+  // A residual that was expected to be the last and is not is found again with the tangent.
+  CHECK(light.assembled <= whole.assembled + 10);
+  constexpr double converged = 1e-8;  // of motions of 0.8, velocities of 10: steps are solved to 1e-10
+  CHECK(std::abs(with.q[0] - without.q[0]) < converged);
+  CHECK(std::abs(with.v[0] - without.v[0]) < 10 * converged);
+}
+
+// An iteration that begins where the acceleration would go on as over the last step ends sooner and at the same motion.
+TEST_CASE("SmoothMotionInEqualSteps_IsPredictedFromTwoSteps") {
+  const auto iterations = [](double other_length) {
+    test::OneCoordinate system;
+    system.force = [](double q, double, double) { return omega2 * std::sin(q); };
+    system.force_by_q = [](double q, double, double) { return omega2 * std::cos(q); };
+    State s = system.at(1, 0);
+    GeneralizedAlpha integrator({.spectral_radius = 0.8});
+    int sum = 0;
+    for (int k = 0; k < 100; ++k) {
+      const StepSummary step = integrator.step(system, s, k % 2 == 0 ? 0.015 : other_length);
+      REQUIRE(step.solved());
+      sum += step.iterations;
+    }
+    return sum;
+  };
+  CHECK(iterations(0.015) < 0.75 * iterations(0.014));
+}
+
 }  // namespace condensed_unknowns_test
 }  // namespace hersey::solver

@@ -19,6 +19,7 @@ class OneCoordinate final : public Equations {
   double lowest = -1e300;        ///< q at and below this is outside the domain
   double internal = 0;           ///< internal residual reported
   bool condenses = false;        ///< condensed unknowns are reported
+  bool needs = false;            ///< these move with the tangent only
   int begun = 0, accepted = 0, assembled = 0, tangents = 0;
 
   [[nodiscard]] Index nq() const override { return 1; }
@@ -68,6 +69,7 @@ class OneCoordinate final : public Equations {
   void begin_step(const State&, double) override { ++begun; }
   void accept_step(const State&) override { ++accepted; }
   [[nodiscard]] bool has_condensed_unknowns() const override { return condenses; }
+  [[nodiscard]] bool needs_tangent() const override { return needs; }
   [[nodiscard]] double internal_residual() const override { return internal; }
   [[nodiscard]] std::string name_of_internal_residual() const override { return "film of the fake"; }
   [[nodiscard]] std::string domain_error() const override { return outside_ ? "gap closed" : ""; }

@@ -16,6 +16,9 @@ constexpr double kLargestRedistributedOverfill = 0.02;
 // After so many iterations of film and bodies together the film is found by itself.
 constexpr int kCommonIterations = 12;
 
+// Residual of a film whose increment may come from an older factor: what that leaves out is of its square.
+constexpr double kNearOnChord = 1e-6;
+
 // A step this many times as long as the last one begins with the film that it left.
 constexpr double kFurthestPrediction = 2;
 
@@ -81,12 +84,14 @@ film::FilmSolveSummary FilmElement::solve_steady(const film::SurfaceMotion& surf
 void FilmElement::begin_step(double dt) {
   history_ = history_start_;
   history_.dt = dt;
-  u_ = predicted(dt);
+  u_ = is_repeated_ ? u_start_ : predicted(dt);
   is_linearised_ = is_at_accepted_ = false;
+  is_repeated_ = true;
   iterations_ = 0;
 }
 
-// Unknowns go on as over the last step. Nodes may switch between full and cavitated on the way: most that do, switch.
+// Unknowns go on as over the last step, but for a step that is tried again. Nodes may switch between full and cavitated
+// on the way: most that do, switch.
 Eigen::VectorXd FilmElement::predicted(double dt) const {
   if (dt == 0 || dt_before_ == 0 || dt > kFurthestPrediction * dt_before_) return u_start_;
   const Eigen::VectorXd u = u_start_ + dt / dt_before_ * (u_start_ - u_before_);
@@ -155,12 +160,12 @@ film::FilmDomain FilmElement::follow_on_chord(const film::SurfaceMotion& surface
     follow(parameters);
     domain = reynolds_.chord_increment(surfaces, history_, u_, du_);
     is_linearised_ = false;
-    if (domain.is_inside()) {
+    if (domain.is_inside() && reynolds_.residual().relative <= kNearOnChord) {
       ++iterations_;
       forces = forces_after(du_, openings);
       return domain;
     }
-    u_ = u_linearised_;
+    if (!domain.is_inside()) u_ = u_linearised_;
   }
   domain = linearise(surfaces, parameters);
   if (domain.is_inside()) forces = increment(openings);
@@ -225,7 +230,7 @@ void FilmElement::accept_step(const film::SurfaceMotion& surfaces, bool is_evalu
   u_before_ = is_step ? u_start_ : u_;
   dt_before_ = is_step ? history_.dt : 0;
   u_start_ = u_;
-  is_linearised_ = false;
+  is_linearised_ = is_repeated_ = false;
 }
 
 film::FilmObservables FilmElement::observe(const film::SurfaceMotion& accepted, const Eigen::Vector2d& e,
@@ -264,7 +269,7 @@ void FilmElement::persist(Archive& archive) {
   archive.io("started", has_started_);
   archive.io("u", u_start_);
   archive.io("u_before", u_before_), archive.io("dt_before", dt_before_);
-  if (archive.restores()) u_ = u_start_, is_at_accepted_ = false;
+  if (archive.restores()) u_ = u_start_, is_at_accepted_ = is_repeated_ = false;
 }
 
 void FilmElement::persist_step(Archive& archive) { persist_history(archive, history_); }

@@ -134,6 +134,7 @@ class FilmElement {
   bool has_started_ = false;
   bool has_step_oil_ = false;    // oil_ belongs to the film evaluated last
   bool is_at_accepted_ = false;  // reynolds_ stands at the state accepted last
+  bool is_repeated_ = false;     // the next step has been begun before
 };
 
 }  // namespace hersey::bearing

@@ -63,7 +63,11 @@ NodeLaw::NodeLaw(const FilmModel& model)
       cavitation_(cavitation_law(model)),
       scales_(cavitation_scales(model)),
       contact_scale_(model.asperities.elastic_factor * model.asperities.composite_modulus),
-      uniform_{model.lubricant.mu0, model.lubricant.mu0, 1, model.lubricant.mu0} {}
+      uniform_{model.lubricant.mu0, model.lubricant.mu0, 1, model.lubricant.mu0},
+      is_open_(static_cast<std::size_t>(model.grid.size()), 0) {
+  for (int node = 0; node < model.grid.size(); ++node)
+    is_open_[static_cast<std::size_t>(node)] = open_edge(model, node) ? 1 : 0;
+}
 
 void NodeLaw::evaluate(double g, double u, int at, const Sliding& sliding, double roughness,
                        const NodeViscosity& viscosity, Node& node) const {
@@ -75,7 +79,7 @@ void NodeLaw::evaluate(double g, double u, int at, const Sliding& sliding, doubl
 
 void NodeLaw::pressure_and_fill(double u, int at, Node& node) const {
   FilmPhase phase = cavitation_.phase(u, scales_);
-  const bool open = open_edge(model_, at);
+  const bool open = is_open_[static_cast<std::size_t>(at)] != 0;
   node.wall = model_.p_cav;
   if (open) {
     phase.p = {};

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <vector>
 
 #include "hersey/film/film_model.h"
 
@@ -118,7 +119,8 @@ class NodeLaw {
   const CavitationLaw& cavitation_;
   CavitationScales scales_;
   double contact_scale_;
-  NodeViscosity uniform_;  ///< the model's
+  NodeViscosity uniform_;      ///< the model's
+  std::vector<char> is_open_;  ///< open_edge() of every node
 };
 
 }  // namespace hersey::film

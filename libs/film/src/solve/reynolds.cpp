@@ -22,7 +22,7 @@ constexpr double tight = 1e-10;
 
 // What one solution leaves of a step's defect of oil, what refinement leaves, and what each of its turns leaves of the
 // last at most: ten turns cost what a factor does.
-constexpr double settling = 1e-6, refined_to = 1e-10, least_gain = 0.1;
+constexpr double settling = 1e-6, refined_to = 1e-12, least_gain = 0.1;
 
 // Right-hand sides that multigrid has not solved after so many iterations are left to the direct solver.
 constexpr int most_iterations = 80;
@@ -283,8 +283,11 @@ FilmForces Reynolds::forces() const {
 FilmObservables Reynolds::observe(const SurfaceMotion& motion, const Eigen::Vector2d& e, const Eigen::VectorXd& u,
                                   const Eigen::Vector2d& tilt) const {
   HERSEY_REQUIRE(impl_->evaluated, "linearise() or settle() comes first");
-  if (impl_->linearised && impl_->balance.model().shear_force != ShearForce::none)
-    return observe_evaluated(impl_->balance, impl_->summed_wrench(), motion, e, u, tilt);
+  if (impl_->balance.model().shear_force != ShearForce::none) {
+    if (!impl_->linearised) impl_->wrench.evaluate(impl_->balance, motion, false);
+    const FilmWrench& now = impl_->linearised ? impl_->summed_wrench() : impl_->wrench;
+    return observe_evaluated(impl_->balance, now, motion, e, u, tilt);
+  }
   FilmWrench wrench(with_torque(impl_->balance.model()));
   wrench.evaluate(impl_->balance, motion, false);
   return observe_evaluated(impl_->balance, wrench, motion, e, u, tilt);

@@ -88,6 +88,12 @@ class GeneralizedAlpha {
   [[nodiscard]] const GeneralizedAlphaOptions& options() const { return options_; }
 
  private:
+  /// Where the iteration of a step begins: at the prediction, to which the error of the step refers, or where the
+  /// acceleration would go on as over the last step.
+  enum class IterationStart { prediction, beyond };
+  [[nodiscard]] StepSummary attempt(Equations& equations, State& state, double dt, const StepCheck& is_accurate,
+                                    IterationStart begins);
+
   struct Workspace;
   GeneralizedAlphaOptions options_;
   std::unique_ptr<Workspace> work_;
