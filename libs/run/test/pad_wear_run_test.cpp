@@ -56,7 +56,7 @@ bearings:
   const auto add = [&](const std::string& name, const std::string& bore, const std::string& group) {
     text += "  " + name +
             R"(: {shell: ground, journal: shaft, diameter: 50 mm, width: 25 mm, radial_clearance: 30 um, lubricant: oil,
-         grid: {circumferential: 72, axial: 5}, )" +
+         cavitation: reynolds, grid: {circumferential: 72, axial: 5}, )" +
             bore + R"(,
          asperities: {model: greenwood_tripp_fit, roughness: 0.8 um, elastic_factor: 3e-3, composite_modulus: 110 GPa,
                       friction: 0.1},
@@ -90,9 +90,9 @@ TEST_CASE("FilmsOfOneWornJournal_WearAsOneFilmOnAllTheirArcs") {
     CHECK(thinnest == relative(one.last("bearings/bore1/h_min")).epsilon(solved_for));
     CHECK(deepest == relative(one.last("bearings/bore1/wear_moving")).epsilon(solved_for));
     CHECK(three.last("bearings/arc3/worn_volume_fixed") > 0);
-    // Arcs that carry nothing meet the journal that the loaded one has worn.
+    // Arcs that carry nothing meet the journal that the loaded one has worn, by place once it has come round to them.
     CHECK(three.last("bearings/arc1/worn_volume_moving") == 0);
-    CHECK(three.last("bearings/arc1/wear_moving") > 0);
+    CHECK(three.last("bearings/arc1/wear_moving") == three.last("bearings/arc3/wear_moving"));
   }
 }
 
@@ -115,7 +115,7 @@ parameters: {end: 20 ms, step: 0.5 ms, sense: 1, shell: 2e-15 1/Pa, journal: 1e-
 lubricants: {oil: {viscosity: 30 mPa.s, density: 860 kg/m^3}}
 bodies:
   shaft: {mass: 20 kg, inertia: {xx: 0.1 kg.m^2, yy: 0.1 kg.m^2, zz: 6e-3 kg.m^2}}
-joints: {turning: {type: planar, between: [ground, shaft], axis: z, initial: {y: -28 um, rotation_rate: "60 rpm*${sense}"}}}
+joints: {turning: {type: planar, between: [ground, shaft], axis: z, initial: {y: -18 um, rotation_rate: "60 rpm*${sense}"}}}
 drives: {motor: {joint: turning, coordinate: rotation, speed: "60 rpm*${sense}"}}
 forces: {load: {type: force, body: shaft, components: ["${sense}*1 kN", -6 kN, 0 N], axes: ground}}
 bearings:

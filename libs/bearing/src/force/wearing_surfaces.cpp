@@ -145,6 +145,11 @@ void WearingSurfaces::wear_off(const VectorXd& p_asperity, const film::SurfaceMo
   sliding_pressure_ = std::move(slid);
 }
 
+double WearingSurfaces::moving_depth() const {
+  const VectorXd depths = worn();
+  return ring_ ? ring_->at_lines(of_moving(depths)).maxCoeff() : of_moving(depths).maxCoeff();
+}
+
 double WearingSurfaces::moving_volume() const {
   const VectorXd depths = of_moving(worn_);
   const Eigen::Index lines = depths.size() / around_.size();
@@ -155,7 +160,7 @@ WearObservation WearingSurfaces::observe() const {
   const auto of_fixed = worn_.head(area_.size());
   WearObservation shown{.fixed_depth = of_fixed.maxCoeff(),
                         .fixed_volume = of_fixed.dot(area_),
-                        .moving_depth = moving().maxCoeff(),
+                        .moving_depth = moving_depth(),
                         .moving_volume = moving_volume(),
                         .acceleration_error = error_};
   if (wear_.running_in) {
@@ -174,7 +179,7 @@ std::string WearingSurfaces::failure() const {
                                              surface, 1e6 * depth, 1e6 * wear.lining);
   };
   std::string fixed = worn_through("fixed", worn_.head(area_.size()).maxCoeff(), wear_.fixed);
-  return !fixed.empty() ? fixed : worn_through("moving", moving().maxCoeff(), wear_.moving);
+  return !fixed.empty() ? fixed : worn_through("moving", moving_depth(), wear_.moving);
 }
 
 void WearingSurfaces::persist(Archive& archive) {

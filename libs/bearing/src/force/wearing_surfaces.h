@@ -63,6 +63,7 @@ class WearingSurfaces : public SurfaceShape {
   }
   /// Depths worn off until the end of the step accepted last, of the moving surface by all of its films.
   [[nodiscard]] Eigen::VectorXd worn() const;
+  [[nodiscard]] double moving_depth() const;   ///< largest of the moving surface, wherever around [m]
   [[nodiscard]] double moving_volume() const;  ///< worn off it by this film [m^3]
   /// Depths over the coefficient, on the rows or the ring, that contact pressure times sliding distance at the nodes
   /// [Pa m] wears off the moving surface.
