@@ -27,7 +27,7 @@ import importer  # noqa: E402
 HERSEY = os.path.abspath(sys.argv.pop(1))
 WORK = os.path.abspath(sys.argv.pop(1))
 CAN_STUDY = importlib.util.find_spec("scipy") is not None and importlib.util.find_spec("openturns") is not None
-SOLVED = 1e-6  # of each series' largest value: steps are solved to 1e-8 of their largest term
+SOLVED = 1e-5  # of each series' largest value: steps are solved to 1e-8 of their largest term, forces of stiff films amplify it
 
 
 def run(*words):
@@ -59,6 +59,7 @@ class Machine:
     must_grow = ()    # series that are above 0 at some time, so that something is compared
     study = None      # of one parameter with its values, and outputs
     mirror = ()       # settings under which the machine is its own mirror image in x = 0
+    images = {}       # names that change places then
 
     @classmethod
     def setUpClass(cls):
@@ -138,9 +139,10 @@ class Machine:
                 continue
             if figure.endswith(("_phi", "_z", "_around", "_error")):
                 continue
+            image = "/".join(self.images.get(part, part) for part in name.split("/"))
             scale = np.nanmax(np.abs(row), initial=0)
             # Flows may be counted along x: their size is what is the same.
-            self.assertLessEqual(np.nanmax(np.abs(np.abs(row) - np.abs(other[name])), initial=0), SOLVED * scale, name)
+            self.assertLessEqual(np.nanmax(np.abs(np.abs(row) - np.abs(other[image])), initial=0), SOLVED * scale, name)
 
     @unittest.skipIf(not CAN_STUDY, "Python lacks what studies use")
     def test_points_of_a_study_are_runs(self):
@@ -173,7 +175,15 @@ class Bush(Machine, unittest.TestCase):
 class Pads(Machine, unittest.TestCase):
     name = "pads"
     must_grow = ("groups/front/worn_volume_fixed", "groups/front/worn_volume_moving", "bearings/front_pad_3/wear_moving")
+    mirror = ("sense=-1",)
+    images = {"front_pad_2": "front_pad_4", "front_pad_4": "front_pad_2", "flow_leading": "flow_trailing", "flow_trailing": "flow_leading"}
     study = ("doublings", ["-1", "1"], ["groups.front.worn_volume_fixed.end"])
+
+
+class DryElasticPads(Pads):
+    name = "dry_elastic_pads"
+    end = 20
+    step = 5e-5
 
 
 class Starved(Machine, unittest.TestCase):
@@ -184,12 +194,26 @@ class Starved(Machine, unittest.TestCase):
     study = ("swing", ["0", "6000"], ["bearings.main_1.h_min.min"])
 
 
+class Dry(Machine, unittest.TestCase):
+    name = "dry"
+    end = 40
+    must_grow = ("bearings/bush/worn_volume_fixed", "bearings/bush/worn_volume_moving", "bearings/bush/heat_to_journal")
+    mirror = ("sense=-1",)
+    study = ("fill", ["0", "0.7"], ["bearings.bush.worn_volume_fixed.end"])
+
+    def test_oil_and_heat_are_balanced(self):
+        found = series(self.whole)
+        of_oil = 1e-9  # of what has flowed, as in full films
+        self.assertLess(abs(found["bearings/bush/oil_unexplained"][-1]), of_oil * found["bearings/bush/oil_through_flow"][-1])
+        self.assertLess(found["bearings/bush/heat_balance_error"].max(), 1e-6)  # the temperatures' tolerance
+
+
 class Piston(Machine, unittest.TestCase):
     name = "piston"
     end = 50
     step = 1 / 18000  # a degree at 3000 rpm
     must_grow = ("bearings/skirt/worn_volume_fixed", "bearings/skirt/starved_share")
-    study = ("oil", ["2 um", "20 um"], ["forces.oil_ring.friction_power.mean", "bearings.skirt.starved_share.max"])
+    study = ("oil", ["10 um", "60 um"], ["bearings.skirt.starved_share.max", "forces.oil_ring.friction_power.mean"])
 
     def test_multigrid_finds_the_same(self):
         one, other = series(self.whole), series(self.ran("multigrid", sets=["solver=multigrid"]))
