@@ -88,7 +88,7 @@ def scale_of(name, one):
 # Of which the pairs are made: what the machine does, what films carry, lose and let flow, what circuits carry and what wears.
 FIGURES = ("h_min", "p_max_node", "power_film", "power_asperity", "flow_", "oil_volume", "side_force", "skirt_friction", "offset_top",
            "offset_bottom", "pressure_", "drawn_", "worn_volume_fixed", "worn_volume_moving", "wear_fixed", "stored", "h_min_thrust",
-           "h_min_antithrust", "source_power", "open_area_")
+           "h_min_antithrust", "source_power", "open_area_", "T_max", "T_side", "T_journal", "heat_to_oil", "temperature_")
 
 
 def is_figure(name):

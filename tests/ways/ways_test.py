@@ -9,6 +9,7 @@ behind a restrictor, a skirt on layers of oil with rings. `hersey` and FMUs are 
 
 import ctypes as c
 import importlib.util
+import json
 import os
 import shutil
 import subprocess
@@ -170,6 +171,30 @@ class Bush(Machine, unittest.TestCase):
     name = "bush"
     must_grow = ("bearings/bush/worn_volume_fixed", "bearings/bush/worn_volume_moving", "bearings/bush/wear_error")
     study = ("doublings", ["-1", "1"], ["bearings.bush.worn_volume_fixed.end"])
+
+
+    @unittest.skipIf(not CAN_STUDY, "Python lacks what studies use")
+    def test_drawn_coefficients_give_bands_of_the_closed_form(self):
+        """Where wear is too little to change the film, the worn volume is in proportion to the coefficient."""
+        model, out = os.path.join(self.folder, "drawn.yaml"), os.path.join(self.folder, "drawn")
+        slow = "bearings.bush.wear.acceleration=1e-3"
+        with open(self.model, encoding="utf-8") as file:
+            text = file.read().replace("acceleration: 5000", "acceleration: 1e-3")
+        with open(model, "w", encoding="utf-8") as file:
+            file.write(text + "study: {plan: sobol, samples: 8, keep: results, outputs: [bearings.bush.worn_volume_fixed.end], "
+                       "parameters: {doublings: {distribution: normal, mean: 0, standard_deviation: 1}}}\n")
+        run("study", model, "--out", out)
+        with open(os.path.join(out, "results.json"), encoding="utf-8") as file:
+            data = json.load(file)
+        (band,) = data["bands"]
+        factors = np.sort([2 ** record["inputs"][0] for record in data["runs"]])
+        self.assertGreater(factors[-1] / factors[0], 4)
+        alone = series(self.ran("slow", sets=[slow]))
+        volume = np.interp(band["time"], alone["time"], alone["bearings/bush/worn_volume_fixed"]) * 1e9  # [mm^3]
+        linear = 1e-6  # of the volume: depths of a thousandth of a nanometre do not change a film of half a micrometre by more
+        for percentile, course in band["percentiles"].items():
+            exact = volume * np.percentile(factors, float(percentile))
+            self.assertLess(np.abs(np.array(course) - exact).max(), linear * volume[-1], percentile)
 
 
 class Pads(Machine, unittest.TestCase):

@@ -34,6 +34,7 @@ WearingSurfaces::WearingSurfaces(const film::FilmModel& model, const WearModel& 
   if (common_) common_->films.push_back(this);
 }
 
+// (wear.10)
 VectorXd WearingSurfaces::worn() const {
   VectorXd depths = worn_;
   if (!common_) return depths;
