@@ -81,7 +81,7 @@ def scale_of(name, one):
     of = {"flow_": "flow_", "torque_": "torque_", "power_": "power_film", "drawn_": "drawn_"}
     folder, _, figure = name.rpartition("/")
     family = next((begin for start, begin in of.items() if figure.startswith(start)), figure)
-    alike = [np.abs(row).max() for key, row in one.series.items() if key.startswith(f"{folder}/{family}") and row.size]
+    alike = [np.nanmax(np.abs(row), initial=0) for key, row in one.series.items() if key.startswith(f"{folder}/{family}") and row.size]
     return max(alike, default=0.0)
 
 
@@ -135,7 +135,7 @@ def balance(one):
             found.append(f"{name} of {np.abs(row).max():.3g}")
         if figure.startswith("worn_volume") and np.diff(row).min(initial=0) < 0:
             found.append(f"{name} falls")
-        may_be_missing = figure.startswith(("rupture", "reformation", "centre_")) or name.count("/") > 2 or figure == "h_min_centre"
+        may_be_missing = figure.startswith(("rupture", "reformation", "centre_", "T_side")) or name.count("/") > 2 or figure == "h_min_centre"
         if not may_be_missing and not np.isfinite(row).all():
             found.append(f"{name} has values that are no numbers")
     return found
