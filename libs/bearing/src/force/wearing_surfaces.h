@@ -26,7 +26,10 @@ class WearingSurfaces : public SurfaceShape {
               film::SurfaceMotion& surfaces) override;
   void add_turning(const GapKinematics::Turning& turning,
                    std::vector<film::MotionDirection>& of_parameters) const override;
-  [[nodiscard]] bool changes_gap() const override { return true; }
+  /// False where nothing can be worn: a coefficient of 0 changes no bit.
+  [[nodiscard]] bool changes_gap() const override {
+    return wear_.fixed.coefficient > 0 || wear_.moving.coefficient > 0 || common_ != nullptr;
+  }
   [[nodiscard]] double power(const Eigen::VectorXd& normal_forces) const override;
   void persist(Archive& archive) override;
 
