@@ -78,7 +78,7 @@ def interrupted(hersey, text, folder, seconds):
 
 def scale_of(name, one):
     """By which differences of a series count: its largest number, and that of the series it is a part of."""
-    of = {"flow_": "flow_", "torque_": "torque_", "power_": "power_film", "drawn_": "drawn_"}
+    of = {"flow_": "flow_", "torque_": "torque_", "power_": "power_film", "drawn_": "drawn_", "heat_": "heat_"}
     folder, _, figure = name.rpartition("/")
     family = next((begin for start, begin in of.items() if figure.startswith(start)), figure)
     alike = [np.nanmax(np.abs(row), initial=0) for key, row in one.series.items() if key.startswith(f"{folder}/{family}") and row.size]
