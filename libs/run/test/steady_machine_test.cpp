@@ -226,7 +226,8 @@ simulation: {duration: 40 ms, step: 0.2 ms}
     };
     for (const char* series : {"/bearings/bush/flow_left", "/bearings/bush/flow_supply"}) {
       constexpr double solved_for = 1e-9;  // films are solved to 1e-10
-      CAPTURE(line), CAPTURE(series);
+      CAPTURE(line);
+      CAPTURE(series);
       CHECK(flow(series, {line}) ==
             relative(flow(series, {line, "simulation={analysis: steady}"})).epsilon(solved_for));
     }
