@@ -145,5 +145,39 @@ TEST_CASE("TiltingPads_WearWithTheirJournal") {
   CHECK(unworn == 0);  // opposite to the load
 }
 
+/// A collar that turns slowly on pads, heavily loaded.
+const std::string collar = R"(hersey: 1
+parameters: {sense: 1}
+lubricants: {oil: {viscosity: 5 mPa.s, density: 860 kg/m^3}}
+gravity: 0 0 0 m/s^2
+bodies:
+  shaft: {mass: 10 kg, inertia: {xx: 0.1 kg.m^2, yy: 0.1 kg.m^2, zz: 0.1 kg.m^2}}
+joints: {turning: {type: cylindrical, between: [ground, shaft], axis: z, initial: {translation: 12 um, rotation_rate: "60 rpm*${sense}"}}}
+drives: {motor: {joint: turning, coordinate: rotation, speed: "60 rpm*${sense}"}}
+forces: {load: {type: force, body: shaft, components: [0 N, 0 N, -4 kN], axes: ground}}
+bearings:
+  main: {kind: tilting_pad_thrust, stator: ground, runner: shaft, inner_diameter: 60 mm, outer_diameter: 120 mm,
+         lubricant: oil, grid: {along: 13, radial: 7}, pads: {count: 4, arc: 60 deg},
+         asperities: {model: greenwood_tripp_fit, roughness: 0.8 um, elastic_factor: 3e-3, composite_modulus: 110 GPa,
+                      friction: 0.1},
+         wear: {stator: {coefficient: 2e-15 1/Pa}, runner: {coefficient: 1e-15 1/Pa}, acceleration: 500}}
+simulation: {duration: 30 ms, step: 0.5 ms}
+)";
+
+// The pads are alike: each wears a quarter off the collar, which all of them meet.
+TEST_CASE("PadsBelowACollar_WearItTogether") {
+  const Run run(collar), mirrored(collar, {"sense=-1"});
+  const double moving = run.sum("main_pad_", 4, "worn_volume_moving");
+  CHECK(moving > 0);
+  constexpr double round_off = 1e-9, solved_for = 1e-6;  // steps are solved to 1e-8 of their largest term
+  CHECK(moving == relative(run.sum("main_pad_", 4, "worn_volume_fixed") / 2).epsilon(round_off));
+  for (int k = 1; k <= 4; ++k) {
+    const std::string pad = fmt::format("bearings/main_pad_{}/", k);
+    CHECK(run.last(pad + "worn_volume_moving") == relative(moving / 4).epsilon(solved_for));
+    CHECK(run.last(pad + "wear_moving") == run.last("bearings/main_pad_1/wear_moving"));
+    CHECK(mirrored.last(pad + "worn_volume_moving") == relative(moving / 4).epsilon(solved_for));
+  }
+}
+
 }  // namespace pad_wear_run_test
 }  // namespace hersey::run

@@ -83,7 +83,7 @@ void FilmReader::read_wear() {
                                      .acceleration = number_of(*wear, "acceleration"),
                                      .cycle = cycle != nullptr && !cycle->broken ? cycle->number : 0};
   if (const Value* moving = wear->find(surfaces_.moving); moving != nullptr && !moving->broken) {
-    if (moving->find("around") != nullptr) bearing_.wear->around = meaning_of(*moving, "around", wear_around_words);
+    if (moving->has("around")) bearing_.wear->around = meaning_of(*moving, "around", wear_around_words);
     if (const Value* group = moving->find("group"); group != nullptr) bearing_.worn_group = group->text;
   }
   if (const Value* run_in = wear->find("running_in"); run_in != nullptr && !run_in->broken)
