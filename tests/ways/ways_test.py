@@ -200,6 +200,8 @@ class Bush(Machine, Mirrored, unittest.TestCase):
 
 class Pads(Machine, Mirrored, unittest.TestCase):
     name = "pads"
+    end = 50
+    step = 1e-4
     must_grow = ("groups/front/worn_volume_fixed", "groups/front/worn_volume_moving", "bearings/front_pad_3/wear_moving")
     images = {"front_pad_2": "front_pad_4", "front_pad_4": "front_pad_2", "flow_leading": "flow_trailing", "flow_trailing": "flow_leading"}
     study = ("doublings", ["-1", "1"], ["groups.front.worn_volume_fixed.end"])

@@ -111,11 +111,11 @@ TEST_CASE("FilmsOfOwnSurfaces_DoNotSeeEachOthersWear_AndAGroupOfOneIsNone") {
 
 /// A shaft that turns slowly on tilting pads, heavily loaded.
 const std::string pads = R"(hersey: 1
-parameters: {end: 20 ms, step: 0.5 ms, sense: 1, shell: 2e-15 1/Pa, journal: 1e-15 1/Pa}
-lubricants: {oil: {viscosity: 30 mPa.s, density: 860 kg/m^3}}
+parameters: {end: 5 ms, step: 0.1 ms, sense: 1, shell: 2e-15 1/Pa, journal: 1e-15 1/Pa}
+lubricants: {oil: {viscosity: 3 mPa.s, density: 860 kg/m^3}}
 bodies:
   shaft: {mass: 20 kg, inertia: {xx: 0.1 kg.m^2, yy: 0.1 kg.m^2, zz: 6e-3 kg.m^2}}
-joints: {turning: {type: planar, between: [ground, shaft], axis: z, initial: {y: -18 um, rotation_rate: "60 rpm*${sense}"}}}
+joints: {turning: {type: planar, between: [ground, shaft], axis: z, initial: {y: -16 um, rotation_rate: "60 rpm*${sense}"}}}
 drives: {motor: {joint: turning, coordinate: rotation, speed: "60 rpm*${sense}"}}
 forces: {load: {type: force, body: shaft, components: ["${sense}*1 kN", -6 kN, 0 N], axes: ground}}
 bearings:
