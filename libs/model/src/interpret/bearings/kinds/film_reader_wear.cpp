@@ -7,6 +7,7 @@
 
 #include "hersey/core/two_pi.h"
 #include "interpret/bearings/kinds/film_reader.h"
+#include "schema/film_vocabulary.h"
 
 // Wear of both surfaces of a bearing.
 namespace hersey::model {
