@@ -12,11 +12,15 @@ import sys
 import tempfile
 import textwrap
 import unittest
-import xml.etree.ElementTree as ElementTree
 import zipfile
 
 import h5py
 import numpy as np
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import importer  # noqa: E402
+from importer import DISCARD, ERROR, OK, Fmu, column_of  # noqa: E402
 
 HERSEY = os.path.abspath(sys.argv.pop(1))
 WORK = os.path.abspath(sys.argv.pop(1))
@@ -55,7 +59,6 @@ STEP = 1e-4  # of the rig [s]
 LOAD_Y = "forces.push.components.y"
 H_MIN = "bearings.big_end.h_min"
 CLEARANCE = "bearings.big_end.radial_clearance"
-OK, WARNING, DISCARD, ERROR = range(4)
 
 
 def run(*words, expect=0):
@@ -65,116 +68,8 @@ def run(*words, expect=0):
     return done.stdout + done.stderr
 
 
-def column_of(file, name):
-    """What a results file has under the name of an FMU's output: `a.b.c`, a component by its label or place: `a.b.x`, `a.b[3]`."""
-    name, _, place = name.rstrip("]").partition("[")
-    path = name.replace(".", "/")
-    if path in file:
-        return file[path][:, int(place) - 1] if place else file[path][:]
-    path, _, label = path.rpartition("/")
-    labels = [text.decode() for text in file[path].dims[1][0][:]]
-    return file[path][:, labels.index(label)]
-
-
-class Fmu:
-    """An unpacked FMU: description and library."""
-
-    def __init__(self, path, folder):
-        with zipfile.ZipFile(path) as archive:
-            archive.extractall(folder)
-        self.folder = folder
-        self.description = ElementTree.parse(os.path.join(folder, "modelDescription.xml")).getroot()
-        self.version = int(self.description.get("fmiVersion")[0])
-        self.token = self.description.get("guid" if self.version == 2 else "instantiationToken")
-        binaries = "linux64" if self.version == 2 else "x86_64-linux"
-        self.library_path = os.path.join(folder, "binaries", binaries, "hersey_fmu.so")
-        self.library = c.CDLL(self.library_path)
-        self.references = {}
-        self.variables = {}
-        for variable in self.description.find("ModelVariables"):
-            self.references[variable.get("name")] = int(variable.get("valueReference"))
-            self.variables[variable.get("name")] = variable
-
-    def start_of(self, name):
-        variable = self.variables[name]
-        return float((variable[0] if self.version == 2 else variable).get("start"))
-
-
-LOGGER_2 = c.CFUNCTYPE(None, c.c_void_p, c.c_char_p, c.c_int, c.c_char_p, c.c_char_p)
-LOGGER_3 = c.CFUNCTYPE(None, c.c_void_p, c.c_int, c.c_char_p, c.c_char_p)
-
-
-class Callbacks2(c.Structure):
-    _fields_ = [("logger", LOGGER_2), ("allocate", c.c_void_p), ("free", c.c_void_p), ("finished", c.c_void_p),
-                ("environment", c.c_void_p)]
-
-
-class Instance:
-    """An instance of either version, under the names of neither."""
-
-    def __init__(self, fmu, name="one", token=None, logging=False, resources=None, logger=True):
-        self.fmu, self.version, self.log = fmu, fmu.version, []
-        token = (token or fmu.token).encode()
-        folder = resources or os.path.join(fmu.folder, "resources")
-        if self.version == 2:
-            self.callback = LOGGER_2(lambda _, __, status, category, text: self.log.append((status, text.decode()))) if logger else LOGGER_2()
-            self.callbacks = Callbacks2(self.callback, None, None, None, None)
-            create = fmu.library.fmi2Instantiate
-            create.restype = c.c_void_p
-            self.handle = create(name.encode(), 1, token, ("file://" + folder).encode(), c.byref(self.callbacks), 0,
-                                 int(logging))
-        else:
-            self.callback = LOGGER_3(lambda _, status, category, text: self.log.append((status, text.decode()))) if logger else LOGGER_3()
-            create = fmu.library.fmi3InstantiateCoSimulation
-            create.restype = c.c_void_p
-            self.handle = create(name.encode(), token, (folder + "/").encode(), c.c_bool(False), c.c_bool(logging),
-                                 c.c_bool(False), c.c_bool(False), None, c.c_size_t(0), None, self.callback, None)
-
-    def call(self, name, *arguments):
-        function = getattr(self.fmu.library, f"fmi{self.version}{name}")
-        function.restype = c.c_int
-        return function(c.c_void_p(self.handle), *arguments)
-
-    def must(self, name, *arguments):
-        status = self.call(name, *arguments)
-        if status != OK:
-            raise AssertionError(f"{name}: {status} {self.log}")
-
-    def initialise(self, start=0.0, stop=4e-3, parameters=None):
-        for name, value in (parameters or {}).items():
-            assert self.set(name, value) == OK, self.log
-        if self.version == 2:
-            self.must("SetupExperiment", 0, c.c_double(0), c.c_double(start), 1, c.c_double(stop))
-            self.must("EnterInitializationMode")
-        else:
-            self.must("EnterInitializationMode", c.c_bool(False), c.c_double(0), c.c_double(start), c.c_bool(True),
-                      c.c_double(stop))
-        self.must("ExitInitializationMode")
-        return self
-
-    def access(self, verb, names, values):
-        references = (c.c_uint32 * len(names))(*[self.fmu.references[n] if isinstance(n, str) else n for n in names])
-        numbers = (c.c_double * len(names))(*values)
-        count = c.c_size_t(len(names))
-        if self.version == 2:
-            return self.call(verb + "Real", references, count, numbers), list(numbers)
-        return self.call(verb + "Float64", references, count, numbers, count), list(numbers)
-
-    def get(self, name):
-        status, values = self.access("Get", [name], [0])
-        assert status == OK, self.log
-        return values[0]
-
-    def set(self, name, value):
-        return self.access("Set", [name], [value])[0]
-
-    def step(self, time, length):
-        if self.version == 2:
-            return self.call("DoStep", c.c_double(time), c.c_double(length), 1)
-        self.events, self.ends, self.early = c.c_bool(True), c.c_bool(True), c.c_bool(True)
-        self.reached = c.c_double(-1)
-        return self.call("DoStep", c.c_double(time), c.c_double(length), c.c_bool(True), c.byref(self.events),
-                         c.byref(self.ends), c.byref(self.early), c.byref(self.reached))
+class Instance(importer.Instance):
+    """An instance of the rig."""
 
     def march(self, count, length=STEP, first=0, output=H_MIN):
         rows = []
@@ -183,16 +78,6 @@ class Instance:
                 raise AssertionError(self.log)
             rows.append(self.get(output))
         return rows
-
-    def state(self):
-        kept = c.c_void_p()
-        self.must("GetFMUstate" if self.version == 2 else "GetFMUState", c.byref(kept))
-        return kept
-
-    def free(self):
-        free = getattr(self.fmu.library, f"fmi{self.version}FreeInstance")
-        free.restype = None
-        free(c.c_void_p(self.handle))
 
 
 class Cases:

@@ -73,6 +73,31 @@ def unworn(model):
     return Writing(other, base=base, without=("wear_", "worn_"))
 
 
+def oil(mu, is_warm):
+    """An oil of this viscosity, at 60 degC where it is to thin as it warms."""
+    law = {"law": "exponential", "viscosity": f"{1e3 * mu} mPa.s", "reference": "60 degC", "coefficient": "0.03 1/K"}
+    return {"viscosity": law if is_warm else f"{1e3 * mu} mPa.s", "density": "850 kg/m^3"}
+
+
+def warm(rng, films, circuit, moving):
+    """Gives films temperatures, and the circuit, too, or not."""
+    supply = f"{rng.uniform(40, 70):.4g} degC"
+    for keys in films:
+        shell = rng.choice([{"wall": "insulated"}, {"wall": "given", "temperature": "50 degC"}])
+        if keys.get("initial_fill", 1) < 1:
+            shell = {"wall": "given", "temperature": "50 degC"}  # contact in a dry film heats no oil
+        keys["thermal"] = {"model": "film", "supply_temperature": supply, "shell": shell,
+                           moving: rng.choice([{"wall": "insulated"}, {"wall": "free", "heat_capacity": "200 J/K"}])}
+        if keys["cavitation"] == "reynolds":
+            keys["thermal"]["carry_over"] = 0  # a film that loses oil has no grooves that stir it
+    if rng.random() < 0.5:
+        circuit["temperature"] = supply
+        return
+    for node in circuit["nodes"].values():
+        if "pressure" in node:
+            node["temperature"] = supply
+
+
 def element(rng, circuit, name, start, end):
     """A way from node to node: drilling, orifice or filter."""
     law = rng.choice(["drilling", "orifice", "resistance"])

@@ -26,6 +26,10 @@ class Rotor:
         self.circuit = parts.circuit(rng, [f"groove_{k}" for k in range(self.count)], {"joint": "plane"} if self.speed > 0 else
                                      {"speed": f"{abs(self.speed)} rpm"})
         self.steps = rng.choice([12, 20])
+        self.askew = [(rng.uniform(-180, 180), rng.choice([0, 0, 0.3]) * c / (self.width / 2000)) for _ in self.films]  # axis [deg], angle [rad]
+        self.is_warm = rng.random() < 0.4
+        if self.is_warm:
+            parts.warm(rng, self.films, self.circuit, "journal")
 
     def film(self, k):
         rng = self.rng
@@ -48,6 +52,11 @@ class Rotor:
         rate = speed * math.pi / 30
         heights = [0.0] if self.count == 1 else [-50.0, 50.0]
         frames = {f"at{k}": {"origin": f"0 0 {z} mm"} for k, z in enumerate(heights)}
+        seats = copy.deepcopy(frames)
+        for k, (axis, angle) in enumerate(self.askew):
+            if angle:
+                at = math.radians(axis + turn)  # a rotation's axis keeps its component across a mirror only
+                seats[f"at{k}"]["rotation"] = {"axis": f"{mirror * math.cos(at)!r} {math.sin(at)!r} 0", "angle": f"{angle!r} rad"}
         start = [0.3 * self.c * 1e6 * value for value in (x, y)]
 
         def component(value, other, function):
@@ -65,8 +74,8 @@ class Rotor:
             bearings[f"b{k}"] = {"shell": f"ground.at{k}", "journal": f"rotor.at{k}", **film}
         inertia = f"{0.5 * self.mass * (self.diameter / 2000) ** 2!r} kg.m^2"
         return {"hersey": 1, "gravity": "0 0 0 m/s^2",
-                "lubricants": {"oil": {"viscosity": f"{1e3 * self.mu} mPa.s", "density": "850 kg/m^3"}},
-                "bodies": {"ground": {"frames": frames},
+                "lubricants": {"oil": parts.oil(self.mu, self.is_warm)},
+                "bodies": {"ground": {"frames": seats},
                            "rotor": {"mass": f"{self.mass!r} kg", "inertia": {"xx": inertia, "yy": inertia, "zz": inertia}, "frames": frames}},
                 "joints": {"plane": {"type": "planar", "between": ["ground", "rotor"], "axis": "z",
                                      "initial": {"x": f"{start[0]!r} um", "y": f"{start[1]!r} um", "rotation_rate": f"{speed} rpm"}}},
@@ -85,14 +94,15 @@ class Rotor:
         if "joint" not in self.circuit["elements"].get("pump", {}):  # a pump that turned backwards would be another machine
             yield "mirrored", Writing(self.model(mirror=-1))
         yield "turned_ways", parts.turned_ways(model)
-        for name in parts.ways(self.circuit):
+        for name in parts.ways(self.circuit) if not self.is_warm else ():  # losses in the first half warm the second
             if halves := parts.parted(model, name):
                 yield f"parted_{name}", halves
                 break
         if self.has_wear:
             yield "counted_otherwise", Writing(parts.counted_otherwise(model, "b0", 4))
             yield "unworn", parts.unworn(model)
-        yield "given_pressure", self.with_given_pressure(model)
+        if not self.is_warm:  # oil from a circuit is as warm as its node
+            yield "given_pressure", self.with_given_pressure(model)
 
     def with_given_pressure(self, model):
         """Grooves at nodes of a given pressure are grooves of that pressure."""

@@ -36,6 +36,7 @@ TEST_CASE("JournalRing_SharesAllAmongItsLines_AndIsEvenWhereTheyAre") {
   REQUIRE(ring.lines() == 120);
   const Eigen::VectorXd even = Eigen::VectorXd::Constant(ring.size(), 3.0), values = wave(ring, 3);
   constexpr double round_off = 1e-12;
+  CHECK((ring.at_lines(values) - ring.at_nodes(values)).lpNorm<Eigen::Infinity>() < round_off);  // nodes are on lines
   for (const double angle : {0.0, 0.013, 2.0, -7.5}) {
     ring.turn(angle);
     CHECK((ring.at_nodes(even) - even).lpNorm<Eigen::Infinity>() < round_off);

@@ -54,6 +54,60 @@ TEST_CASE("WearAroundAJournal_IsReadAndPadsHaveNone") {
   CHECK(faults_of(edited(kBush, "lining: 20 um", "around: local")).find("unknown key 'around'") != std::string::npos);
 }
 
+const std::string kPads = R"(hersey: 1
+lubricants: {oil: {viscosity: 30 mPa.s}}
+bearings:
+  front: {kind: tilting_pad, diameter: 50 mm, width: 25 mm, radial_clearance: 30 um, lubricant: oil,
+          pads: {count: 4, arc: 70 deg},
+          asperities: {model: greenwood_tripp_fit, roughness: 0.8 um, elastic_factor: 3e-3, composite_modulus: 110 GPa},
+          wear: {shell: {coefficient: 2e-15 1/Pa}, journal: {coefficient: 1e-17 1/Pa}},
+          operating_point: {journal_speed: 120 rpm, load: 3 kN}}
+)";
+
+TEST_CASE("PadsWear_AndTheirJournalIsOneSurface") {
+  const auto alone = read_text(kPads, "m.yaml").composites.front().alone;
+  REQUIRE(alone);
+  for (const Bearing& pad : alone->bearings) {
+    REQUIRE(pad.wear);
+    CHECK(pad.wear->fixed.coefficient == 2e-15);
+    CHECK(pad.wear->moving.coefficient == 1e-17);
+    CHECK(pad.worn_group == "front");
+  }
+  const std::string named = edited(kPads, "coefficient: 1e-17 1/Pa", "coefficient: 1e-17 1/Pa, group: shaft");
+  CHECK(read_text(named, "m.yaml").composites.front().alone->bearings.front().worn_group == "shaft");
+  CHECK(faults_of(edited(kPads, "1e-17 1/Pa}", "1e-17 1/Pa, around: crank}")).find("even or local") !=
+        std::string::npos);
+  CHECK(faults_of(edited(kPads, "shell: {coefficient", "shell: {group: a, coefficient")).find("unknown key 'group'") !=
+        std::string::npos);
+}
+
+TEST_CASE("FilmsOfOneGroup_HaveOneSurface") {
+  const std::string keys = R"(, radial_clearance: 30 um, lubricant: oil, asperities: {model: greenwood_tripp_fit,
+         roughness: 0.8 um, elastic_factor: 3e-3, composite_modulus: 110 GPa}, )";
+  const auto model = [&](const std::string& size, const std::string& wear) {
+    return "hersey: 1\nlubricants: {oil: {viscosity: 30 mPa.s}}\nbearings:\n  a: {diameter: 50 mm, width: 25 mm" +
+           keys +
+           "arcs: {pad: {middle: 0 deg, arc: 100 deg}}, grid: {circumferential: 72}, "
+           "wear: {journal: {coefficient: 1e-17 1/Pa, group: j, around: local}}}\n  b: {" +
+           size + keys + "arcs: {pad: {middle: 180 deg, arc: 100 deg}}, " + wear + "}\n";
+  };
+  const std::string same = "diameter: 50 mm, width: 25 mm", grid = "grid: {circumferential: 72}, ";
+  const auto worn = [](const std::string& more) { return "wear: {journal: {coefficient: 1e-17 1/Pa, group: j" + more; };
+  CHECK(faults_of(model(same, grid + worn(", around: local}}"))) == "no fault");
+  const auto finds = [&](const std::string& text, const std::string& what) {
+    const std::string fault = faults_of(text);
+    CAPTURE(fault);
+    CHECK(fault.find("bearings.b.wear.journal.group: a film with " + what + " than bearing 'a' of that group") !=
+          std::string::npos);
+  };
+  finds(model("diameter: 50 mm, width: 20 mm", grid + worn(", around: local}}")), "another size");
+  finds(model(same, grid + worn("}}")), "another `around`");
+  finds(model(same, grid + worn(", around: local}, acceleration: 2}")), "another `acceleration`");
+  finds(model(same, "grid: {circumferential: 72, axial: 7}, " + worn(", around: local}}")), "other rows of its grid");
+  finds(model(same, "grid: {circumferential: 90}, " + worn(", around: local}}")),
+        "other distances of its grid's lines");
+}
+
 TEST_CASE("FaultsOfWear_SayWhatItNeeds") {
   const std::string asperities =
       "         asperities: {model: greenwood_tripp_fit, roughness: 0.8 um, elastic_factor: 3e-3, composite_modulus: "

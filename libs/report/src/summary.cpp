@@ -234,7 +234,8 @@ class Summary {
     for (const std::string& bearing : reader_.children("/groups")) {
       group_ = "films of " + bearing;
       path_ = "/groups/" + bearing + "/";
-      add_rows(run::quantities_of("/groups/<g>/"), {Statistic::smallest, Statistic::largest, Statistic::mean});
+      add_rows(run::quantities_of("/groups/<g>/"),
+               {Statistic::smallest, Statistic::largest, Statistic::mean, Statistic::at_end});
     }
   }
 

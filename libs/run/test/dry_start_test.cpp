@@ -141,5 +141,35 @@ TEST_CASE("DryStart_WearsMoreThanAFullOneAndEndsAlike") {
   CHECK(mirrored.worn == doctest::Approx(dry.worn).epsilon(1e-6));  // Newton's iteration ends at 1e-8
 }
 
+// Between walls of one temperature a sheared gap has the parabola with the height mu u^2/(8 k), however little oil it
+// has: that which makes heat conducts it, too.
+TEST_CASE("DryFilmThatIsShearedAllOver_IsAsWarmAsAFullOne") {
+  const auto rise = [](const char* fill, const char* shear) {
+    const std::string text = fmt::format(R"(hersey: 1
+lubricants: {{oil: {{viscosity: 20 mPa.s, density: 860 kg/m^3, conductivity: 0.13 W/m/K}}}}
+bodies: {{shaft: {{mass: 1 kg, inertia: {{xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}}}}}
+joints: {{turning: {{type: revolute, between: [ground, shaft], axis: z, initial: {{rotation_rate: 3000 rpm}}}}}}
+drives: {{motor: {{joint: turning, coordinate: rotation, speed: 3000 rpm}}}}
+bearings:
+  bush: {{shell: ground, journal: shaft, diameter: 40 mm, width: 20 mm, radial_clearance: 50 um, lubricant: oil,
+         grid: {{circumferential: 12, axial: 5}}, initial_fill: {}, cavitated_shear: {},
+         thermal: {{model: film, supply_temperature: 40 degC, shell: {{wall: given, temperature: 40 degC}},
+                   journal: {{wall: given, temperature: 40 degC}}}}}}
+simulation: {{duration: 60 ms, step: 1 ms}}
+)",
+                                         fill, shear);
+    const TemporaryDirectory folder;
+    const Summary summary = simulate(model::read_text(text, "m.yaml"), {.results = folder / "r.h5"});
+    REQUIRE(summary.status == Status::completed);
+    constexpr double wall = 40;  // degC
+    return results::Reader(folder / "r.h5").read("/bearings/bush/T_max").values.back() - wall;
+  };
+  const double u = 20e-3 * 100 * std::numbers::pi, exact = 20e-3 * u * u / (8 * 0.13), full = rise("1", "full");
+  CHECK(full == doctest::Approx(exact).epsilon(0.02));  // of five layers
+  for (const char* fill : {"0.2", "0.001"})
+    for (const char* shear : {"full", "film_share"})
+      CHECK(rise(fill, shear) == doctest::Approx(full).epsilon(1e-5));  // by what 60 ms have left to settle
+}
+
 }  // namespace dry_start_test
 }  // namespace hersey::run

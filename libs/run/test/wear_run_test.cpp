@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/core/input_error.h"
 #include "hersey/model/read.h"
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
@@ -49,6 +50,27 @@ TEST_CASE("WearWithoutCoefficient_ChangesNoBit") {
   without.replace(begin, end + 5 - begin, "");
   const Run none({"end=20 ms"}, Status::completed, without), zero({"end=20 ms", "k=0 1/Pa"});
   for (const char* name : {"h_min", "p_max", "power_film", "oil_volume"}) CHECK(none.series(name) == zero.series(name));
+}
+
+// A shaft that overlaps the bush between two nodes of a coarse grid, at the edge.
+TEST_CASE("WearWithoutCoefficient_StartsNothingThatTouches") {
+  std::string without = bush;
+  const std::size_t begin = without.find(",\n         wear:"), end = without.find("5 ms}}", begin);
+  without.replace(begin, end + 5 - begin, "");
+  const auto fault = [](const std::string& text) {
+    const TemporaryDirectory folder;
+    try {
+      (void)simulate(model::read_text(text, "m.yaml",
+                                      {"k=0 1/Pa", "end=1 ms", "bearings.bush.grid.circumferential=12",
+                                       "joints.turning.initial.x=7.247 um", "joints.turning.initial.y=-27.046 um"}),
+                     {.results = folder / "r.h5"});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(fault(without).find("the journal touches the shell") != std::string::npos);
+  CHECK(fault(bush) == fault(without));
 }
 
 TEST_CASE("Mirrored_BushesWearAlike") {

@@ -83,7 +83,8 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
       directions_(static_cast<std::size_t>(parameters_.size())),
       port_pressures_(Eigen::VectorXd::Constant(port_count(), model.p_cav)),
       accepted_s_(Eigen::VectorXd::Zero(deforming_->amplitudes())) {
-  if (options.wear) wearing_ = add_shape(std::make_unique<WearingSurfaces>(film_->model(), *options.wear), shapes_);
+  if (options.wear)
+    wearing_ = add_shape(std::make_unique<WearingSurfaces>(film_->model(), *options.wear, options.common), shapes_);
   HERSEY_REQUIRE(port_count() == 0 || options.coupling == Coupling::monolithic, "a circuit in one Newton system");
   for (Eigen::Index k = 0; k < port_count(); ++k)
     directions_[directions_.size() - static_cast<std::size_t>(port_count() - k)].port_pressure =

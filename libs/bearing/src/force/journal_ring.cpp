@@ -66,6 +66,14 @@ VectorXd JournalRing::by_angle_twice(const VectorXd& values) const {
   return spread(values, curvature_, 1 / (step_ * step_));
 }
 
+VectorXd JournalRing::at_lines(const VectorXd& values) const {
+  const Eigen::Map<const Eigen::MatrixXd> rows(values.data(), grid_.n_z, lines_);
+  Eigen::MatrixXd on_lines(grid_.n_z, lines_);
+  for (Index k = 0; k < lines_; ++k)
+    on_lines.col(k) = 0.75 * rows.col(k) + 0.125 * (rows.col((k + lines_ - 1) % lines_) + rows.col((k + 1) % lines_));
+  return on_lines.reshaped();
+}
+
 VectorXd JournalRing::collected(const VectorXd& nodal) const {
   VectorXd values = VectorXd::Zero(size());
   for (std::size_t i = 0; i < first_.size(); ++i)

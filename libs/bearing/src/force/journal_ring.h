@@ -27,7 +27,9 @@ class JournalRing {
 
   /// Returns the values at the film's nodes.
   [[nodiscard]] Eigen::VectorXd at_nodes(const Eigen::VectorXd& values) const { return spread(values, value_, 1); }
-  /// Returns the first derivative of these by the journal's angle [1/rad].
+  /// Returns the values on the lines, of the whole journal.
+  [[nodiscard]] Eigen::VectorXd at_lines(const Eigen::VectorXd& values) const;
+  /// Returns the first derivative of those at the nodes by the journal's angle [1/rad].
   [[nodiscard]] Eigen::VectorXd by_angle(const Eigen::VectorXd& values) const;
   /// Returns the second derivative [1/rad^2].
   [[nodiscard]] Eigen::VectorXd by_angle_twice(const Eigen::VectorXd& values) const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hersey/bearing/shapes_at_rest.h"
+#include "hersey/core/contract.h"
 #include "hersey/core/two_pi.h"
 #include "hersey/film/film_surface.h"
 #include "hersey/film/nodal_field.h"
@@ -15,14 +16,14 @@ namespace hersey::bearing {
 
 using Eigen::VectorXd;
 
-namespace {}  // namespace
-
-WearingSurfaces::WearingSurfaces(const film::FilmModel& model, const WearModel& wear)
+WearingSurfaces::WearingSurfaces(const film::FilmModel& model, const WearModel& wear,
+                                 std::shared_ptr<CommonSurface> common)
     : model_(model),
       wear_(wear),
       area_(film::NodalField(model).weights()),
       around_(model.grid.n_z),
       ring_(wear.around == WearAround::local ? std::optional(JournalRing(model.grid)) : std::nullopt),
+      common_(std::move(common)),
       worn_(VectorXd::Zero(model.grid.size() + (ring_ ? ring_->size() : model.grid.n_z))),
       start_(worn_),
       now_(worn_),
@@ -30,6 +31,21 @@ WearingSurfaces::WearingSurfaces(const film::FilmModel& model, const WearModel& 
   const film::Grid& grid = model.grid;
   const double whole = two_pi / covered_angle(grid);
   around_ = whole * Eigen::Map<const Eigen::MatrixXd>(area_.data(), grid.n_z, grid.n_phi).rowwise().sum();
+  if (common_) common_->films.push_back(this);
+}
+
+// (wear.10)
+VectorXd WearingSurfaces::worn() const {
+  VectorXd depths = worn_;
+  if (!common_) return depths;
+  const Eigen::Index n = area_.size();
+  auto moving = depths.tail(depths.size() - n);
+  moving.setZero();
+  for (const WearingSurfaces* film : common_->films) {
+    HERSEY_REQUIRE(film->worn_.size() - film->area_.size() == moving.size(), "films of one surface have its rows");
+    moving += film->of_moving(film->worn_);
+  }
+  return depths;
 }
 
 VectorXd WearingSurfaces::at_rows(const VectorXd& rows) const {
@@ -43,15 +59,16 @@ VectorXd WearingSurfaces::moving_at_nodes(const VectorXd& depths) const {
 }
 
 VectorXd WearingSurfaces::moving() const {
-  if (!ring_) return at_rows(of_moving(worn_));
+  const VectorXd depths = worn();
+  if (!ring_) return at_rows(of_moving(depths));
   JournalRing unturned = *ring_;
   unturned.turn(0);
-  return unturned.at_nodes(of_moving(worn_));
+  return unturned.at_nodes(of_moving(depths));
 }
 
 void WearingSurfaces::begin_step(double dt) {
   const double part = over_ > 0 ? std::min(1.0, dt / over_) : 1.0;
-  now_ = start_ + part * (worn_ - start_);
+  now_ = start_ + part * (worn() - start_);
   if (dt > 0)
     rate_ = (now_ - start_) / dt;
   else
@@ -129,6 +146,11 @@ void WearingSurfaces::wear_off(const VectorXd& p_asperity, const film::SurfaceMo
   sliding_pressure_ = std::move(slid);
 }
 
+double WearingSurfaces::moving_depth() const {
+  const VectorXd depths = worn();
+  return ring_ ? ring_->at_lines(of_moving(depths)).maxCoeff() : of_moving(depths).maxCoeff();
+}
+
 double WearingSurfaces::moving_volume() const {
   const VectorXd depths = of_moving(worn_);
   const Eigen::Index lines = depths.size() / around_.size();
@@ -139,11 +161,11 @@ WearObservation WearingSurfaces::observe() const {
   const auto of_fixed = worn_.head(area_.size());
   WearObservation shown{.fixed_depth = of_fixed.maxCoeff(),
                         .fixed_volume = of_fixed.dot(area_),
-                        .moving_depth = moving().maxCoeff(),
+                        .moving_depth = moving_depth(),
                         .moving_volume = moving_volume(),
                         .acceleration_error = error_};
   if (wear_.running_in) {
-    const VectorXd ratio = roughness(worn_);
+    const VectorXd ratio = roughness_ratio();
     shown.roughness_least = ratio.minCoeff(), shown.roughness_mean = ratio.dot(area_) / area_.sum();
   }
   if (sliding_pressure_.size() > 0)
@@ -158,7 +180,7 @@ std::string WearingSurfaces::failure() const {
                                              surface, 1e6 * depth, 1e6 * wear.lining);
   };
   std::string fixed = worn_through("fixed", worn_.head(area_.size()).maxCoeff(), wear_.fixed);
-  return !fixed.empty() ? fixed : worn_through("moving", moving().maxCoeff(), wear_.moving);
+  return !fixed.empty() ? fixed : worn_through("moving", moving_depth(), wear_.moving);
 }
 
 void WearingSurfaces::persist(Archive& archive) {

@@ -56,6 +56,7 @@ void FlowBalance::settle(const Eigen::VectorXd& du, StepOilBalance& oil) const {
     const double end = prescribed ? nodes_[i].content * whole : start - dt_ * (leaving[i] + out);
     const double coming = (end - start) / dt_ + leaving[i];
     if (is_on_prescribed_edge(i)) out = blocks_inflow(i) ? 0 : -coming;
+    if (is_on_supply(i) && is_on_open_edge(i)) out = std::max(out, -coming);  // as returns_to_edge()
     const double land = over_land(i), fed = (is_on_supply(i) ? coming + out : 0) + land;
     add_flow_over_edge(oil, i, out + land);
     oil.flow_supply += fed;

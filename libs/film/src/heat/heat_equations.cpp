@@ -10,7 +10,11 @@
 // and solved in heat_solution.cpp.
 namespace hersey::film {
 
-double HeatEquations::oil_fraction(const Node& node) { return std::clamp(node.theta, least_fill_, 1.0); }
+// What is sheared over the whole gap fills it: conduction by streamers alone would warm them without bound as they
+// thin.
+double HeatEquations::conducting_fraction(const Node& node) const {
+  return model_.cavitated_shear == CavitatedShear::full ? 1 : std::clamp(node.theta, least_fill_, 1.0);
+}
 
 HeatEquations::HeatEquations(const FilmModel& model, const ThermalModel& thermal)
     : model_(model),
@@ -81,7 +85,7 @@ double HeatEquations::journal_friction(const CarryingFilm& film, int node) const
 WallFlux HeatEquations::to_wall(const CarryingFilm& film, int node, int layer, double resistance) const {
   const Node& at = film.balance.nodes()[node];
   auto [beside, next] = across_.slope_at_wall(static_cast<std::size_t>(layer));
-  double k = model_.lubricant.conductivity * oil_fraction(at) / at.h;
+  double k = model_.lubricant.conductivity * conducting_fraction(at) / at.h;
   if (const EddyMixing mixing(model_, at); mixing.mixes() && k > 0) {
     // A laminar film has the slope of a parabola; where eddies carry the heat its correction of the slope over half of
     // the layer, 2/width, fades with the resistance (turbulence.14).
@@ -101,9 +105,9 @@ double HeatEquations::between(const CarryingFilm& film, int node, int layer) con
   if (const EddyMixing mixing(model_, at); mixing.mixes()) {
     const double from = across_.middle(static_cast<std::size_t>(layer));
     const double to = from + across_.to_next(static_cast<std::size_t>(layer));
-    return oil_fraction(at) * area / (at.h * mixing.resistance(from, to));
+    return conducting_fraction(at) * area / (at.h * mixing.resistance(from, to));
   }
-  const double k = model_.lubricant.conductivity * oil_fraction(at);
+  const double k = model_.lubricant.conductivity * conducting_fraction(at);
   return k * area / (at.h * across_.to_next(static_cast<std::size_t>(layer)));
 }
 

@@ -86,8 +86,8 @@ class HeatEquations {
   };
   /// Nodes without oil have the heat capacity of so small a fraction of the oil in the clearance.
   static constexpr double least_fill_ = 1e-6;
-  /// Fraction of a node's width that carries and conducts heat.
-  [[nodiscard]] static double oil_fraction(const Node& node);
+  /// Fraction of a node's width that conducts heat: the one that is sheared, and so makes it.
+  [[nodiscard]] double conducting_fraction(const Node& node) const;
   [[nodiscard]] bool has_line() const { return model_.supply.kind != SupplyKind::none; }
   [[nodiscard]] bool is_line(int supply) const { return has_line() && supply == 0; }
   [[nodiscard]] double throughput(const CarryingFilm& film) const;  ///< largest of a control volume [m^3/s], > 0

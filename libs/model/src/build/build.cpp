@@ -405,6 +405,11 @@ class Builder {
     }
     options.growth = bearing.growth;
     options.wear = bearing.wear;
+    if (bearing.wear && !bearing.worn_group.empty()) {
+      std::shared_ptr<bearing::CommonSurface>& common = worn_groups_[bearing.worn_group];
+      if (!common) common = std::make_shared<bearing::CommonSurface>();
+      options.common = common;
+    }
     if (bearing.moves_with_inertia)
       options.inertia = std::make_shared<bearing::FilmInertia>(bearing.film, momentum_factor(bearing.oil_inertia));
     for (const Function& pressure : bearing.feature_pressures) {
@@ -491,6 +496,7 @@ class Builder {
   mbd::MechanismBuilder mechanism_;
   Machine machine_;
   std::map<const DeformingSurface*, BuiltSurface> kept_;  // parts of bearings' surfaces that flexible bodies keep
+  std::map<std::string, std::shared_ptr<bearing::CommonSurface>> worn_groups_;
   std::map<std::string, mbd::BodyId> bodies_;
   std::map<std::pair<std::string, std::string>, mbd::FrameId> frames_;
   std::map<std::pair<std::string, std::string>, Pose> poses_;

@@ -142,13 +142,16 @@ TypePtr wear_format(const SurfaceKeys& surfaces) {
     return with_exactly_one(surface, {"coefficient", "energy_density"});
   };
   const TypePtr fixed = one_law(object("wear of a surface", of_surface));
-  TypePtr moving = fixed;
-  if (std::string_view(surfaces.moving) == "journal") {
-    std::vector<Key> of_journal = of_surface;
-    of_journal.push_back(
+  std::vector<Key> of_moving = of_surface;
+  of_moving.push_back(optional("group", text("a name", "front"),
+                               "Name of a surface that several films wear, as pads do: each of this name has in its "
+                               "gap what all of them wear off it.",
+                               "this film only; of a bearing of tilting pads its name"));
+  const bool is_journal = surfaces.moving == "journal";
+  if (is_journal)
+    of_moving.push_back(
         defaulted("around", choice(wear_around_words), "even", "Where around the journal the contact wears it."));
-    moving = one_law(object("wear of the journal", of_journal));
-  }
+  const TypePtr moving = one_law(object("wear of the moving surface", of_moving));
   const TypePtr running_in =
       object("running in of the roughness",
              {required("roughness", quantity("m", "0.4 um", Range::positive()),
@@ -158,8 +161,8 @@ TypePtr wear_format(const SurfaceKeys& surfaces) {
   return object("wear",
                 {optional(surfaces.fixed, fixed, "Of the fixed surface, place by place.", "none"),
                  optional(surfaces.moving, moving,
-                          moving == fixed ? "Of the moving surface, evenly around."
-                                          : "Of the moving surface, evenly around or place by place.",
+                          is_journal ? "Of the moving surface, evenly around or place by place."
+                                     : "Of the moving surface, evenly around.",
                           "none"),
                  defaulted("acceleration", number("1000", {.low = 0, .high = 1e9, .low_open = true}), "1",
                            "Times that wear counts: one cycle stands for as many."),

@@ -82,6 +82,23 @@ auto sum_of(double film::FilmObservables::*member) {
   };
 }
 
+bool pads_wear(const GroupPlan& plan) { return plan.model.bearings[plan.films.front()].wear.has_value(); }
+
+auto worn_by_all(double bearing::WearObservation::*volume) {
+  return [volume](const GroupRow& row) {
+    double sum = 0;
+    for (std::size_t k = 0; k < row.plan.films.size(); ++k) sum += *observed(row, k).wear.*volume;
+    return sum;
+  };
+}
+
+double largest_wear(const GroupRow& row) {
+  double largest = 0;
+  for (std::size_t k = 0; k < row.plan.films.size(); ++k)
+    largest = std::max(largest, observed(row, k).wear->fixed_depth);
+  return largest;
+}
+
 double side_flow(const GroupRow& row) {
   return sum_of(&film::FilmObservables::flow_left)(row) + sum_of(&film::FilmObservables::flow_right)(row);
 }
@@ -127,6 +144,25 @@ const QuantityTable<GroupRow, GroupPlan>& group_quantities() {
        "oil that leaves all films over their sides",
        side_flow,
        {.summary_entries = {{GroupStatistic::mean, "mean side flow of all films", "mm³/s"}}}},
+      {"wear_fixed",
+       "m",
+       "largest depth worn off a pad",
+       largest_wear,
+       {.note = "this and the following: of bearings with `wear`",
+        .only = pads_wear,
+        .summary_entries = {{GroupStatistic::at_end, "largest wear of the pads at the end", "µm"}}}},
+      {"worn_volume_fixed",
+       "m^3",
+       "worn off all pads",
+       worn_by_all(&bearing::WearObservation::fixed_volume),
+       {.only = pads_wear,
+        .summary_entries = {{GroupStatistic::at_end, "volume worn off all pads at the end", "mm³"}}}},
+      {"worn_volume_moving",
+       "m^3",
+       "worn off the moving surface by all films",
+       worn_by_all(&bearing::WearObservation::moving_volume),
+       {.only = pads_wear,
+        .summary_entries = {{GroupStatistic::at_end, "volume worn off the moving surface by all films", "mm³"}}}},
   };
   return table;
 }

@@ -52,6 +52,7 @@ struct BearingOptions {
   std::optional<film::ThermalModel> thermal = {};
   double growth = 0;                                ///< thermal change of the clearance of an isothermal film [m]
   std::optional<WearModel> wear = {};               ///< of both surfaces, in time; unset: none
+  std::shared_ptr<CommonSurface> common = {};       ///< the moving one, where other films wear it, too; null: none do
   std::shared_ptr<const FilmInertia> inertia = {};  ///< of the oil; null: the film's forces are those without inertia
   /// Surfaces of elastic bodies; null: rigid. Their amplitudes come with the motion, the shell's before the journal's.
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace hersey::bearing {
 
@@ -32,12 +33,20 @@ struct WearModel {
   double cycle = 0;  ///< after which loads repeat, for the error of an acceleration [s]; 0: unknown
 };
 
+class WearingSurfaces;
+
+/// Moving surface that several films wear, as the journal of a bearing of pads: each film has in its gap what all of
+/// them have worn off it. Their grids have the same rows and, where it wears by place, lines at the same distance.
+struct CommonSurface {
+  std::vector<const WearingSurfaces*> films;  ///< in the order in which they were made, all as long-lived as the others
+};
+
 /// Figures of the wear since the start of a run, all of its acceleration included.
 struct WearObservation {
   double fixed_depth = 0;                          ///< largest worn depth of the fixed surface [m]
   double fixed_volume = 0;                         ///< worn off it [m^3]
-  double moving_depth = 0;                         ///< largest of the moving surface [m]
-  double moving_volume = 0;                        ///< [m^3]
+  double moving_depth = 0;                         ///< largest of the moving surface, by all of its films [m]
+  double moving_volume = 0;                        ///< worn off it by this film [m^3]
   double roughness_least = 1, roughness_mean = 1;  ///< ratio of roughness to that at the start, over the film [-]
   double rate = 0;                                 ///< volume worn off both per time, without acceleration [m^3/s]
   /// Uncertainty of the worn volume by the acceleration: half of how much the wear of each cycle differs from that of

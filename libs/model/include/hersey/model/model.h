@@ -307,6 +307,7 @@ struct Bearing {
   std::optional<bearing::WallExpansion> expansion;  ///< of the walls, whatever heats the film; unset: they keep size
   double growth = 0;  ///< of the clearance of a film with one given temperature: expansion at that [m]
   std::optional<bearing::WearModel> wear;      ///< of both surfaces over a run; unset: none
+  std::string worn_group;                      ///< of the films that wear one moving surface; empty: this film only
   double initial_fill = 1;                     ///< share of the gap that is oil as a run begins [-]
   OilValidity validity;                        ///< of its oil
   std::optional<double> permissible_pressure;  ///< permissible pressure of its lining [Pa]; unset: the usual value in

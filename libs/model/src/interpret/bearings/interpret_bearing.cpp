@@ -31,6 +31,7 @@ void interpret_bearings(Context& context) {
     kind->read_point(context, value, bearing);
     context.model.bearings.push_back(std::move(bearing));
   }
+  check_worn_groups(context);
 }
 
 namespace {

@@ -125,6 +125,14 @@ void set_moving_wall(const Value& bearing, const WarmedByPads& moving, const Sou
   }
 }
 
+void set_worn_group(const std::string& moving, const std::string& name, Node& film) {
+  Node* const wear = film.find("wear");
+  Node* const worn = wear != nullptr ? wear->find(moving) : nullptr;
+  if (worn == nullptr || worn->kind != Node::Kind::mapping || worn->find("group") != nullptr) return;
+  worn->entries.push_back(
+      {"group", worn->position, Node{.kind = Node::Kind::scalar, .position = worn->position, .text = name}});
+}
+
 Node parts_tree(const std::string& text, const SourcePosition& position) {
   std::vector<Fault> faults;
   std::optional<Node> tree = parse_yaml(text, position.file, faults);

@@ -50,6 +50,11 @@ struct WarmedByPads {
 /// @pre has_warm_films
 void set_moving_wall(const Value& bearing, const WarmedByPads& moving, const SourcePosition& position, Node& tree);
 
+/// Makes the moving surface that the film of a pad wears one that all pads wear, unless the model names it.
+/// @param moving  key of that surface, "journal"
+/// @param film  with the keys of the composite
+void set_worn_group(const std::string& moving, const std::string& name, Node& film);
+
 /// Parts of a composite, written as a model file has them, as a tree whose faults are at `position`.
 [[nodiscard]] Node parts_tree(const std::string& text, const SourcePosition& position);
 

@@ -168,6 +168,7 @@ class ThrustPads {
     for (Entry& film : tree.find("bearings")->entries) {
       for (const Entry& own : node_.entries)
         if (is_key_of_each_pad(parts_.kind, own.key)) film.value.entries.push_back(own);
+      set_worn_group("runner", parts_.name, film.value);
       if (const Node* runner = node_.find("runner")) film.value.find("runner")->position = runner->position;
     }
     if (has_warm_films(value_)) set_moving_wall(value_, warmed(), parts_.position, tree);

@@ -252,6 +252,7 @@ class TiltingPads {
     for (Entry& film : tree.find("bearings")->entries) {
       for (const Entry& own : node_.entries)
         if (is_key_of_each_pad(parts_.kind, own.key)) film.value.entries.push_back(own);
+      set_worn_group("journal", parts_.name, film.value);
       if (const Node* journal = node_.find("journal")) film.value.find("journal")->position = journal->position;
       Node* arc = film.value.find("arcs")->find("pad");
       for (const char* key : {"edge_pressure", "ambient_fill", "edge_flow"}) {

@@ -67,7 +67,7 @@ TypePtr composite_point_format(const std::string& clearance, const std::string& 
 
 bool is_key_of_each_pad(const std::string& kind, const std::string& key) {
   const std::vector<std::string> of_all{"lubricant",   "grid",      "edge_pressure", "ambient_fill",
-                                        "shear_force", "roughness", "materials"},
+                                        "shear_force", "roughness", "materials",     "wear"},
       around_a_journal{"diameter", "width", "radial_clearance", "diametral_clearance", "thermal"},
       below_a_collar{"inner_diameter", "outer_diameter",           "sense",       "shape",
                      "edge_flow",      "reference_film_thickness", "temperature", "thermal"};

@@ -76,6 +76,9 @@ class FilmReader {
   bool takes_materials_ = false;          ///< some modulus is to come from `materials`
 };
 
+/// Reports films that are to wear one moving surface and cannot. All bearings have been read.
+void check_worn_groups(Context& context);
+
 /// Returns the coupling of a bearing to its bodies.
 [[nodiscard]] Coupling coupling_of(const Value& bearing);
 

@@ -1,12 +1,65 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <variant>
 
+#include "hersey/core/two_pi.h"
 #include "interpret/bearings/kinds/film_reader.h"
+#include "schema/film_vocabulary.h"
 
 // Wear of both surfaces of a bearing.
 namespace hersey::model {
+namespace {
+
+/// Number of lines around a whole journal that lie as close as those of a film.
+long lines_around(const film::Grid& grid) {
+  double covered = 0;
+  int intervals = 0;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const int next = grid.next(i);
+    if (next < 0) continue;
+    ++intervals;
+    covered += grid.phi(next) - grid.phi(i) + (next > i ? 0 : two_pi);
+  }
+  return std::lround(intervals * two_pi / covered);
+}
+
+/// Names what differs between films that are to wear one moving surface; empty where they can.
+std::string difference(const Bearing& one, const Bearing& other) {
+  if (one.kind->name() != other.kind->name()) return "another kind";
+  if (one.journal.body != other.journal.body || one.journal.frame != other.journal.frame)
+    return "another " + one.kind->moving_surface();
+  if (one.film.R != other.film.R || one.film.L != other.film.L) return "another size";
+  if (one.film.grid.n_z != other.film.grid.n_z || one.film.grid.heights != other.film.grid.heights)
+    return "other rows of its grid";
+  if (one.wear->around != other.wear->around) return "another `around`";
+  if (one.wear->acceleration != other.wear->acceleration) return "another `acceleration`";
+  const bool is_local = one.wear->around == bearing::WearAround::local;
+  return is_local && lines_around(one.film.grid) != lines_around(other.film.grid)
+             ? "other distances of its grid's lines"
+             : "";
+}
+
+}  // namespace
+
+void check_worn_groups(Context& context) {
+  const std::vector<Bearing>& bearings = context.model.bearings;
+  for (const auto& [name, value] : section(context.root, "bearings")) {
+    const auto is_named = [&name = name](const Bearing& bearing) { return bearing.name == name; };
+    const auto own = std::find_if(bearings.begin(), bearings.end(), is_named);
+    if (own == bearings.end() || !own->wear || own->worn_group.empty() || context.has_fault_in(value.path)) continue;
+    const auto first = std::find_if(bearings.begin(), own, [&](const Bearing& bearing) {
+      return bearing.wear && bearing.worn_group == own->worn_group;
+    });
+    if (first == own || context.has_fault_in("bearings." + first->name)) continue;
+    if (const std::string differs = difference(*own, *first); !differs.empty())
+      context.fault(*value.find("wear")->find(own->kind->moving_surface())->find("group"),
+                    fmt::format("a film with {} than bearing '{}' of that group", differs, first->name),
+                    "films of one surface, with the same size, rows and way of wearing it");
+  }
+}
 
 void FilmReader::read_wear() {
   const Value* wear = value_.find("wear");
@@ -30,8 +83,10 @@ void FilmReader::read_wear() {
                                      .moving = wear_of(*wear, surfaces_.moving),
                                      .acceleration = number_of(*wear, "acceleration"),
                                      .cycle = cycle != nullptr && !cycle->broken ? cycle->number : 0};
-  if (const Value* moving = wear->find(surfaces_.moving); moving != nullptr && moving->find("around") != nullptr)
-    bearing_.wear->around = meaning_of(*moving, "around", wear_around_words);
+  if (const Value* moving = wear->find(surfaces_.moving); moving != nullptr && !moving->broken) {
+    if (moving->has("around")) bearing_.wear->around = meaning_of(*moving, "around", wear_around_words);
+    if (const Value* group = moving->find("group"); group != nullptr) bearing_.worn_group = group->text;
+  }
   if (const Value* run_in = wear->find("running_in"); run_in != nullptr && !run_in->broken)
     bearing_.wear->running_in = running_in_of(*run_in);
 }
