@@ -52,7 +52,7 @@ FilmElement::FilmElement(const film::FilmModel& model, Options options)
 }
 
 film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
-  is_at_accepted_ = false;
+  is_evaluated_ = is_at_accepted_ = false;
   history_.dt = options_.initial_dt;
   history_.theta.setConstant(options_.initial_fill);
   history_.w.resize(0);
@@ -73,7 +73,7 @@ film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
 }
 
 film::FilmSolveSummary FilmElement::solve_steady(const film::SurfaceMotion& surfaces) {
-  is_at_accepted_ = false;
+  is_evaluated_ = is_at_accepted_ = false;
   history_.dt = 0;
   history_.phi_journal = surfaces.phi_journal;
   if (heat_) history_.viscosity = heat_->viscosity();
@@ -85,7 +85,7 @@ void FilmElement::begin_step(double dt) {
   history_ = history_start_;
   history_.dt = dt;
   u_ = is_repeated_ ? u_start_ : predicted(dt);
-  is_linearised_ = is_at_accepted_ = false;
+  is_linearised_ = is_evaluated_ = is_at_accepted_ = false;
   is_repeated_ = true;
   iterations_ = 0;
 }
@@ -160,7 +160,8 @@ film::FilmDomain FilmElement::follow_on_chord(const film::SurfaceMotion& surface
     follow(parameters);
     domain = reynolds_.chord_increment(surfaces, history_, u_, du_);
     is_linearised_ = false;
-    if (domain.is_inside() && reynolds_.residual().relative <= kNearOnChord) {
+    is_evaluated_ = domain.is_inside();
+    if (is_evaluated_ && reynolds_.residual().relative <= kNearOnChord) {
       ++iterations_;
       forces = forces_after(du_, openings);
       return domain;
@@ -175,6 +176,7 @@ film::FilmDomain FilmElement::follow_on_chord(const film::SurfaceMotion& surface
 film::FilmSolveSummary FilmElement::solve(const film::SurfaceMotion& surfaces) {
   film::FilmSolveOptions without_fallback = options_.solve;
   without_fallback.allows_fallback = false;
+  is_evaluated_ = false;
   film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, without_fallback, u_);
   iterations_ += summary.iterations;
   return summary;
@@ -182,24 +184,30 @@ film::FilmSolveSummary FilmElement::solve(const film::SurfaceMotion& surfaces) {
 
 film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces) {
   is_at_accepted_ = false;
-  return reynolds_.linearise(surfaces, history_, u_);
+  const film::FilmDomain domain = reynolds_.linearise(surfaces, history_, u_);
+  is_evaluated_ = domain.is_inside();
+  return domain;
 }
 
 bool FilmElement::is_step_consistent(const film::SurfaceMotion& surfaces) {
   if (!has_started_) return true;
-  compute_oil_balance(surfaces);
+  compute_oil_balance(surfaces, is_evaluated_);
   if (oil_.of_step().redistributed_overfill <= kLargestRedistributedOverfill || history_.by_gap) return true;
   history_.by_gap = true;
   Eigen::VectorXd film = u_;
   const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, options_.solve, film);
   if (summary.solved()) u_ = film;
+  is_evaluated_ = false;
   iterations_ += summary.iterations;
   return false;
 }
 
 // Uses up the linearisation of the film.
-void FilmElement::compute_oil_balance(const film::SurfaceMotion& surfaces) {
-  oil_.close_step(reynolds_, surfaces, history_, u_);
+void FilmElement::compute_oil_balance(const film::SurfaceMotion& surfaces, bool is_evaluated) {
+  if (is_evaluated)
+    oil_.close_step(reynolds_);
+  else
+    oil_.close_step(reynolds_, surfaces, history_, u_);
   has_step_oil_ = true;
   is_linearised_ = false;
 }
@@ -210,7 +218,7 @@ void FilmElement::accept_step(const film::SurfaceMotion& surfaces, bool is_evalu
   history_accepted_ = history_;
   const bool is_step = has_started_;
   if (is_step) {
-    if (!has_step_oil_) compute_oil_balance(surfaces);
+    if (!has_step_oil_) compute_oil_balance(surfaces, is_evaluated && is_evaluated_);
   } else {
     oil_.initialise(model(), surfaces, history_, u_);
     has_started_ = true;

@@ -61,7 +61,7 @@ class FilmElement {
   /// Linearises at fixed surfaces, u as it is.
   [[nodiscard]] film::FilmDomain linearise(const film::SurfaceMotion& surfaces);
   /// u += du of the last increment.
-  void take_increment() { u_ += du_; }
+  void take_increment() { u_ += du_, is_evaluated_ = false; }
 
   /// False if the oil balance over the step contradicts the film found with the gap's rate at its end (theory manual,
   /// film.15). If a film with the change of the gap over the step exists, u is that film on return.
@@ -108,7 +108,7 @@ class FilmElement {
   [[nodiscard]] Eigen::VectorXd predicted(double dt) const;
   [[nodiscard]] Forces forces_after(const Eigen::VectorXd& du, const Eigen::MatrixXd& openings) const;
   void follow(const Eigen::VectorXd& parameters);
-  void compute_oil_balance(const film::SurfaceMotion& surfaces);
+  void compute_oil_balance(const film::SurfaceMotion& surfaces, bool is_evaluated);
 
   Options options_;
   film::Reynolds reynolds_;
@@ -133,6 +133,7 @@ class FilmElement {
   OilBalance oil_;
   bool has_started_ = false;
   bool has_step_oil_ = false;    // oil_ belongs to the film evaluated last
+  bool is_evaluated_ = false;    // reynolds_ stands at u_ and the surfaces it has seen last
   bool is_at_accepted_ = false;  // reynolds_ stands at the state accepted last
   bool is_repeated_ = false;     // the next step has been begun before
 };

@@ -19,6 +19,8 @@ void OilBalance::close_step(film::Reynolds& reynolds, const film::SurfaceMotion&
   reynolds.settle(motion, history, u, step_);
 }
 
+void OilBalance::close_step(film::Reynolds& reynolds) { reynolds.settle(step_); }
+
 void OilBalance::accumulate(double dt) {
   const double in = step_.flow_supply, out = step_.flow_out();
   run_.step_error = step_.volume - run_.volume - dt * (in - out);

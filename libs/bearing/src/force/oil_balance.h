@@ -19,6 +19,8 @@ class OilBalance {
   /// Flows of the step that ends at `u`, as means over it. Uses up the linearisation of `reynolds`.
   void close_step(film::Reynolds& reynolds, const film::SurfaceMotion& motion, const film::FilmHistory& history,
                   const Eigen::VectorXd& u);
+  /// The same of a step that ends at the state which `reynolds` has evaluated last.
+  void close_step(film::Reynolds& reynolds);
   /// Adds the step closed last, of length dt [s], to the run.
   void accumulate(double dt);
 

@@ -459,9 +459,15 @@ void Reynolds::Impl::subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x
 
 void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
                       StepOilBalance& oil) {
+  const FilmDomain domain = impl_->balance.evaluate(motion, history, u);
+  HERSEY_REQUIRE(domain.is_inside(), text(impl_->balance.model(), domain));
+  impl_->evaluated = true;
+  settle(oil);
+}
+
+void Reynolds::settle(StepOilBalance& oil) {
   Impl& m = *impl_;
-  const FilmDomain domain = m.balance.evaluate(motion, history, u);
-  HERSEY_REQUIRE(domain.is_inside(), text(m.balance.model(), domain));
+  HERSEY_REQUIRE(m.evaluated, "linearise() or chord_increment() comes first");
   m.rhs = -m.balance.residual();
   m.balance.subtract_squeeze_defect(m.rhs);
   m.balance.assemble_jacobian();
@@ -469,7 +475,6 @@ void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, c
   m.solve_for_settling();
   m.balance.settle(m.answer, oil);
   m.linearised = m.summed = m.factorised = m.set_up = false;
-  m.evaluated = true;
 }
 
 void respond(Reynolds& film, std::span<const MotionDirection> directions, Eigen::MatrixXd& du,

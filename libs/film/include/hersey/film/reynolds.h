@@ -133,6 +133,9 @@ class Reynolds {
   /// rate; flows are to bring what the gap has gained over the whole step. Their difference is led through the film
   /// along the last linearisation. linearise() comes next. A run begins with oil_at_start() instead.
   void settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u, StepOilBalance& oil);
+  /// The same of a step that has ended at the state last linearised or tried on its factor, without evaluating it
+  /// again.
+  void settle(StepOilBalance& oil);
 
   /// Change of the film's unknowns with accelerations of its surfaces by the inertia of the oil to first order
   /// (damper.6), a column each [Pa s^2/m for accelerations in m/s^2].
