@@ -40,7 +40,7 @@ bearings:
     features: {f0: {shape: hole, angle: 10 deg, depth: 0 mm, diameter: 9.7 mm, pressure: 20 bar}}
     compliance: {model: column, composite_modulus: 60 GPa, length: 2 mm}
     asperities: {model: greenwood_tripp, roughness: 1 um, elastic_factor: 3e-3, composite_modulus: 115 GPa, friction: 0.1}
-simulation: {duration: 4.08 ms, step: 0.68 ms}
+simulation: {duration: 4.08 ms, step: 1.36 ms}
 )");
   CHECK_MESSAGE(summary.status == Status::completed, summary.message);
   CHECK(summary.rejected_steps > 0);  // some trial was outside the domain

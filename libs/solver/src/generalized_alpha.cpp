@@ -30,6 +30,9 @@ constexpr double kWithOldFactors = 0.01;
 /// round-off.
 constexpr double kOtherLength = 0.01;
 
+/// An acceleration that changes by less than this share of itself in a step belongs to a motion that steps resolve.
+constexpr double kLargestChange = 0.5;
+
 /// Largest ratio of successive residuals for which old factors are kept.
 constexpr double kFastEnough = 0.05;
 
@@ -86,7 +89,8 @@ struct GeneralizedAlpha::Workspace {
   void choose_start(Equations& equations, const State& state, double dt);
   void predict(double dt);
   void begin_iteration(IterationStart at);
-  void keep_acceleration(VectorXd next);
+  void accept_acceleration();
+  [[nodiscard]] bool is_of_other_length() const { return std::abs(stage.dt - last_dt) > kOtherLength * last_dt; }
   void set_trial(Equations& equations, const State& state, const VectorXd& at);
   bool assemble(Equations& equations, const GeneralizedAlphaOptions& options, bool with_tangent = true);
   void measure(Equations& equations, const GeneralizedAlphaOptions& options);
@@ -138,21 +142,24 @@ void GeneralizedAlpha::Workspace::predict(double dt) {
 }
 
 /// The iteration begins with the algorithmic acceleration going on as over the last step of this length: films, whose
-/// gaps are differences of large motions, are then near their end.
+/// gaps are differences of large motions, are then near their end. Accelerations that change by much of themselves in a
+/// step are those of motions it does not resolve, and stay.
 void GeneralizedAlpha::Workspace::begin_iteration(IterationStart at) {
   dq = dq_predicted;
-  if (at == IterationStart::prediction || a_before.size() == 0 || std::abs(stage.dt - last_dt) > kOtherLength * last_dt)
-    return;
-  dq += parameters.beta * stage.dt * stage.dt * (a - a_before);
+  if (at == IterationStart::prediction || a_before.size() == 0 || is_of_other_length()) return;
+  const double reach = parameters.beta * stage.dt * stage.dt;
+  for (Index i = 0; i < dq.size(); ++i)
+    if (const double change = a[i] - a_before[i]; std::abs(change) < kLargestChange * std::abs(a[i]))
+      dq[i] += reach * change;
 }
 
 /// Accepts the algorithmic acceleration of a step.
-void GeneralizedAlpha::Workspace::keep_acceleration(VectorXd next) {
-  if (std::abs(stage.dt - last_dt) > kOtherLength * last_dt)
+void GeneralizedAlpha::Workspace::accept_acceleration() {
+  if (is_of_other_length())
     a_before.resize(0);
   else
     a_before = a;
-  a = std::move(next);
+  a = a_n + (dq - dq_predicted) / (parameters.beta * stage.dt * stage.dt);
 }
 
 /// Sets the trial state with the increment of position `at`.
@@ -341,9 +348,11 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     w.started = true;
     w.stage.fresh = true;
   }
+  const bool goes_on = !is_chosen && equations.has_condensed_unknowns();
   StepSummary first =
-      attempt(equations, state, dt, is_accurate, is_chosen ? IterationStart::prediction : IterationStart::beyond);
-  if (first.solved() || first.status == StepStatus::inaccurate || w.stage.fresh) return first;
+      attempt(equations, state, dt, is_accurate, goes_on ? IterationStart::beyond : IterationStart::prediction);
+  const bool began_further_on = equations.has_condensed_unknowns() && !w.stage.fresh;
+  if (first.solved() || first.status == StepStatus::inaccurate || !began_further_on) return first;
   // Condensed unknowns, too, begin a step that is begun again where the last one ended.
   StepSummary again = attempt(equations, state, dt, is_accurate, IterationStart::prediction);
   again.iterations += first.iterations;
@@ -404,7 +413,7 @@ StepSummary GeneralizedAlpha::attempt(Equations& equations, State& state, double
     w.estimate_error();
     if (!is_accurate(w.trial, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");
   }
-  w.keep_acceleration(w.a_n + (w.dq - w.dq_predicted) / (w.parameters.beta * dt * dt));
+  w.accept_acceleration();
   if (is_chosen && has_factors_of_constraints)
     w.end_on_constraints(equations);
   else if (options_.returns_to_constraints && has_factors_of_constraints &&
