@@ -44,7 +44,7 @@ COMMANDS = {
     # At rest the journal's attitude is round-off.
     "hydrostatic/jacking": [("bearing", "bearings.main.operating_point.journal_speed=10rpm")],
     "hydrostatic/model": [("bearing",)],
-    "hydrostatic/spindle": [("run",)],
+    "hydrostatic/spindle": [("run", "simulation.tolerance=1e-10")],
     "lemon_bore/model": [("bearing",)],
     "lobed_bores/model": [("bearing",)],
     "lobed_bores/partial_arc": [("bearing",)],
