@@ -348,11 +348,10 @@ StepSummary GeneralizedAlpha::step(Equations& equations, State& state, double dt
     w.started = true;
     w.stage.fresh = true;
   }
-  const bool goes_on = !is_chosen && equations.has_condensed_unknowns();
-  StepSummary first =
-      attempt(equations, state, dt, is_accurate, goes_on ? IterationStart::beyond : IterationStart::prediction);
-  const bool began_further_on = equations.has_condensed_unknowns() && !w.stage.fresh;
-  if (first.solved() || first.status == StepStatus::inaccurate || !began_further_on) return first;
+  const bool may_go_on = equations.has_condensed_unknowns() && !equations.needs_tangent();
+  StepSummary first = attempt(equations, state, dt, is_accurate,
+                              may_go_on && !is_chosen ? IterationStart::beyond : IterationStart::prediction);
+  if (first.solved() || first.status == StepStatus::inaccurate || !may_go_on || w.stage.fresh) return first;
   // Condensed unknowns, too, begin a step that is begun again where the last one ended.
   StepSummary again = attempt(equations, state, dt, is_accurate, IterationStart::prediction);
   again.iterations += first.iterations;
