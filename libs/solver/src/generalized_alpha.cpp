@@ -379,7 +379,7 @@ StepSummary GeneralizedAlpha::attempt(Equations& equations, State& state, double
   // Factors serve as long as they bring the residual down fast (theory manual, integrator.20). Condensed unknowns move
   // with each tangent and need their own.
   const bool may_keep_factors = !equations.has_condensed_unknowns();
-  const bool may_end_without_tangent = may_keep_factors || !equations.needs_tangent();
+  const bool needs_tangent = equations.needs_tangent();
   w.enough = is_chosen ? std::min(kOfPrediction * w.worst_row, kLargestLeft / options_.rtol) : 0;
   bool keeps_factors = false;
   double last = std::numeric_limits<double>::infinity();  // the residual one iteration ago
@@ -401,7 +401,7 @@ StepSummary GeneralizedAlpha::attempt(Equations& equations, State& state, double
     const double before = w.worst();
     if (!(keeps_factors || w.factorise(equations.nv())) || !w.solve_increment(equations.nv()))
       return fail(StepStatus::singular, "the equations are singular here; worst equation: " + w.worst_name(equations));
-    const bool with_tangent = !(may_end_without_tangent && (may_keep_factors || looks_solved(last, before)));
+    const bool with_tangent = !may_keep_factors && (needs_tangent || !looks_solved(last, before));
     last = before;
     if (!w.move(equations, state, options_, with_tangent)) return fail(StepStatus::domain_error, w.why_outside);
     keeps_factors = may_keep_factors && w.worst() < kFastEnough * before;
