@@ -30,6 +30,7 @@ MachineRun::MachineRun(const model::Model& model, const Options& options, std::o
       began_(Clock::now()),
       machine_(model::build(model)),
       state_(starting_state(model, machine_)),
+      lead_in_(checkpoint ? LeadInSummary{} : lead_in(model, options, machine_, state_)),
       kinds_(force_kinds(machine_)),
       stepper_(model, machine_),
       work_(model, machine_, stepper_.integrator()),
@@ -37,6 +38,11 @@ MachineRun::MachineRun(const model::Model& model, const Options& options, std::o
       checkpoints_(model.simulation) {
   record_.declare_cost(work_.work());
   if (checkpoint) restore_file(std::move(*checkpoint));
+}
+
+std::string MachineRun::ending() const {
+  const std::string text = record_.ending(state_.t);
+  return lead_in_.message.empty() || text.empty() ? text : text + "; " + lead_in_.message;
 }
 
 void MachineRun::begin() {
@@ -99,6 +105,7 @@ void MachineRun::persist(Archive& archive) {
     archive.io("t", state_.t), archive.io("q", state_.q), archive.io("v", state_.v);
     archive.io("vdot", state_.vdot), archive.io("lambda", state_.lambda);
   }
+  archive.io("lead_in_cycles", lead_in_.cycles), archive.io("lead_in", lead_in_.message);
   {
     const Archive::Group group(archive, "mechanism");
     machine_.mechanism->persist(archive);
@@ -191,6 +198,7 @@ Summary MachineRun::summary() const {
   summary.results = options_.results;
   summary.t_end = state_.t;
   summary.rejected_steps = stepper_.rejected_steps();
+  summary.lead_in_cycles = lead_in_.cycles;
   record_.summarise(summary);
   const Cost spent = cost_ ? *cost_ : cost();
   summary.wall_time = spent.wall_time;

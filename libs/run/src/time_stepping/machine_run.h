@@ -18,6 +18,7 @@
 #include "record/run_record.h"
 #include "series/work_record.h"
 #include "time_stepping/checkpoint.h"
+#include "time_stepping/lead_in.h"
 #include "time_stepping/time_stepper.h"
 
 namespace hersey::run {
@@ -35,7 +36,7 @@ class MachineRun {
 
   [[nodiscard]] bool is_at_end() const { return stepper_.is_at_end() || record_.ends_run(); }
   /// Message of a run that ended normally; may be empty.
-  [[nodiscard]] std::string ending() const { return record_.ending(state_.t); }
+  [[nodiscard]] std::string ending() const;
 
   /// Takes one accepted step, at most to `limit` [s].
   /// @returns unsolved, with the reason why there is no step, or why none can follow it
@@ -100,6 +101,7 @@ class MachineRun {
   Clock::time_point began_;
   model::Machine machine_;
   solver::State state_;
+  LeadInSummary lead_in_;
   std::vector<ForceKind> kinds_;
   TimeStepper stepper_;
   WorkRecord work_;

@@ -254,6 +254,12 @@ void interpret_cycle(Context& context, const Value& parent) {
                          "give a `duration` instead");
   simulation.cycle = Cycle{seconds_of(context, *value, "period", simulation.crank),
                            number_of(*value, "until_converged"), integer_of(*value, "most")};
+  if (const Value* lead_in = value->find("lead_in"); lead_in != nullptr && !lead_in->broken) {
+    simulation.cycle->lead_in = meaning_of(*lead_in, lead_in_words);
+    if (simulation.cycle->lead_in != LeadIn::none && simulation.cycle->tolerance == 0)
+      context.fault(*lead_in, "a lead-in to cycles that are all run", "cycles that end the run once they repeat",
+                    "give `until_converged` a value above 0");
+  }
   const double longest = simulation.cycle->most * simulation.cycle->period;
   simulation.duration = parent.find("duration") != nullptr ? std::min(simulation.duration, longest) : longest;
 }
