@@ -5,16 +5,11 @@
 #include <cmath>
 #include <exception>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include "hersey/core/error_text.h"
 #include "hersey/film/grid_transfer.h"
-#include "hersey/solver/initialise.h"
-#include "start/start.h"
 #include "time_stepping/machine_run.h"
 
 namespace hersey::run {
@@ -43,104 +38,60 @@ model::Model on_half_grids(model::Model model) {
   return model;
 }
 
-class LeadIn {
- public:
-  LeadIn(const model::Model& model, const Options& options, model::Machine& machine)
-      : coarse_(on_half_grids(model)), options_(options), machine_(machine) {
-    quiet_.stop = options.stop;
-    if (options.on_cycle) {
-      quiet_.on_cycle = [this](CycleProgress cycle) {
-        cycle.leads_in = true;
-        options_.on_cycle(cycle);
-      };
-    }
+// Drives and functions of angles begin again at the start of the run. Revolutions are taken back each by itself, since
+// they do not commute.
+void unwind(const mbd::Mechanism& mechanism, const Eigen::VectorXd& travelled, Eigen::VectorXd& q) {
+  const Eigen::VectorXd scales = mechanism.position_scales();
+  for (Eigen::Index row = 0; row < travelled.size(); ++row) {
+    const double revolutions = std::round(travelled[row] / (2 * std::numbers::pi));
+    if (scales[row] != 1 || revolutions == 0) continue;
+    Eigen::VectorXd back = Eigen::VectorXd::Zero(travelled.size()), unwound;
+    back[row] = -2 * std::numbers::pi * revolutions;
+    mechanism.retract(q, back, unwound);
+    q = unwound;
   }
+}
 
-  /// Runs its cycles. @returns false if it was stopped
-  bool run() {
-    MachineRun run(coarse_, quiet_);
-    run.begin();
-    travelled_ = Eigen::VectorXd::Zero(machine_.mechanism->nv());
-    while (!run.is_at_end()) {
-      if (quiet_.stop != nullptr && quiet_.stop->load()) return false;
-      if (const Outcome step = run.step(); !step.solved()) throw std::runtime_error(step.message);
-      if (run.state().v.size() != travelled_.size()) throw std::runtime_error("its bodies have other coordinates");
-      travelled_ += run.last_dt() * run.state().v;
-    }
-    cycles_ = run.summary().cycles;
-    end_ = run.state();
-    for (std::size_t i = 0; i < machine_.bearings.size(); ++i)
-      films_.push_back(run.machine().bearings[i].bearing->on_grid(machine_.bearings[i].bearing->model().grid));
-    if (run.machine().network) run.machine().network->persist(network_);
-    return true;
+PeriodicStart run_cycles(const model::Model& model, const Options& options) {
+  const model::Model coarse = on_half_grids(model);
+  Options quiet;
+  quiet.stop = options.stop;
+  if (options.on_cycle)
+    quiet.on_cycle = [&options](CycleProgress cycle) {
+      cycle.leads_in = true;
+      options.on_cycle(cycle);
+    };
+  MachineRun run(coarse, quiet);
+  run.begin();
+  Eigen::VectorXd travelled = Eigen::VectorXd::Zero(run.mechanism().nv());  // integral of the velocities
+  while (!run.is_at_end()) {
+    if (quiet.stop != nullptr && quiet.stop->load()) return {.message = "the lead-in was stopped"};
+    if (const Outcome step = run.step(); !step.solved()) throw std::runtime_error(step.message);
+    travelled += run.last_dt() * run.state().v;
   }
-
-  /// Moves the machine to the end of these cycles, at the time of `state`.
-  void move(solver::State& state) {
-    mbd::Mechanism& mechanism = *machine_.mechanism;
-    solver::State start = end_;
-    start.t = state.t;
-    unwind(mechanism, start.q);
-    for (std::size_t i = 0; i < films_.size(); ++i) machine_.bearings[i].bearing->begin_from(films_[i]);
-    if (machine_.network) {
-      Archive content(network_.content());
-      machine_.network->persist(content);
-    }
-    solver::InitialiseOptions initialise;
-    initialise.fixed.resize(static_cast<std::size_t>(mechanism.nv()));
-    std::iota(initialise.fixed.begin(), initialise.fixed.end(), 0);
-    initialise.fixed_rates = mechanism.given_rates();
-    const solver::InitialiseSummary found = solver::initialise(mechanism, start, initialise);
-    if (!found.solved()) throw std::runtime_error("its last state is none of the machine's: " + found.message);
-    state = start;
+  PeriodicStart start{.cycles = run.summary().cycles, .state = run.state()};
+  start.message = fmt::format("begun after {} cycles on half grids", start.cycles);
+  unwind(run.mechanism(), travelled, start.state.q);
+  for (std::size_t i = 0; i < model.bearings.size(); ++i)
+    start.films.push_back(run.machine().bearings[i].bearing->on_grid(model.bearings[i].film.grid));
+  if (run.machine().network) {
+    Archive network;
+    run.machine().network->persist(network);
+    start.network = network.content();
   }
-
-  [[nodiscard]] int cycles() const { return cycles_; }
-
- private:
-  // Drives and functions of angles begin again at the start: whole revolutions, each by itself, which do not commute.
-  void unwind(const mbd::Mechanism& mechanism, Eigen::VectorXd& q) const {
-    const Eigen::VectorXd scales = mechanism.position_scales();
-    for (Eigen::Index row = 0; row < travelled_.size(); ++row) {
-      const double revolutions = std::round(travelled_[row] / (2 * std::numbers::pi));
-      if (scales[row] != 1 || revolutions == 0) continue;
-      Eigen::VectorXd back = Eigen::VectorXd::Zero(travelled_.size()), unwound;
-      back[row] = -2 * std::numbers::pi * revolutions;
-      mechanism.retract(q, back, unwound);
-      q = unwound;
-    }
-  }
-
-  model::Model coarse_;
-  const Options& options_;
-  Options quiet_;
-  model::Machine& machine_;
-  Eigen::VectorXd travelled_;  // integral of the velocities
-  int cycles_ = 0;
-  solver::State end_;
-  std::vector<bearing::FilmAtStart> films_;
-  Archive network_;
-};
+  return start;
+}
 
 }  // namespace
 
-LeadInSummary lead_in(const model::Model& model, const Options& options, model::Machine& machine,
-                      solver::State& state) {
+PeriodicStart lead_in(const model::Model& model, const Options& options) {
   const auto& cycle = model.simulation.cycle;
   if (!cycle || cycle->lead_in == model::LeadIn::none) return {};
-  LeadInSummary summary;
   try {
-    LeadIn cycles(model, options, machine);
-    if (!cycles.run()) return {.message = "its lead-in was stopped"};
-    cycles.move(state);
-    summary.cycles = cycles.cycles();
-    summary.message = fmt::format("begun after {} cycles on half grids", summary.cycles);
+    return run_cycles(model, options);
   } catch (const std::exception& error) {
-    summary.message = "the lead-in was given up: " + error_text(error);
-    machine = model::build(model);
-    state = starting_state(model, machine);
+    return {.message = "the lead-in was given up: " + error_text(error)};
   }
-  return summary;
 }
 
 }  // namespace hersey::run

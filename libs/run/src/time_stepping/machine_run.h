@@ -18,7 +18,7 @@
 #include "record/run_record.h"
 #include "series/work_record.h"
 #include "time_stepping/checkpoint.h"
-#include "time_stepping/lead_in.h"
+#include "time_stepping/periodic_start.h"
 #include "time_stepping/time_stepper.h"
 
 namespace hersey::run {
@@ -29,7 +29,9 @@ class MachineRun {
  public:
   /// @param model, options  outlive this; without options.results nothing is written
   /// @param checkpoint  state from which an interrupted run continues; none: the run starts at its beginning
-  MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint = {});
+  /// @param start  of a run that is not resumed; without cycles: that of the model
+  MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint = {},
+             PeriodicStart start = {});
 
   /// Chooses the steps and records the start; a resumed run has done so before. To be called before the first step.
   void begin();
@@ -101,7 +103,7 @@ class MachineRun {
   Clock::time_point began_;
   model::Machine machine_;
   solver::State state_;
-  LeadInSummary lead_in_;
+  PeriodicStart start_;
   std::vector<ForceKind> kinds_;
   TimeStepper stepper_;
   WorkRecord work_;
