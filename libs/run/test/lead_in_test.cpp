@@ -10,7 +10,9 @@
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
 #include "small_rig.h"
+#include "start/start.h"
 #include "temporary_directory.h"
+#include "time_stepping/periodic_start.h"
 
 namespace hersey::run {
 namespace lead_in_test {
@@ -152,6 +154,24 @@ TEST_CASE("ResumedRunBehindALeadIn_HasNoSecondOne") {
     return results::Reader(scratch / file).read("/bearings/big_end/h_min").values;
   };
   CHECK(h_min("whole.h5") == h_min("parts.h5"));  // to the last bit
+}
+
+TEST_CASE("StartThatIsNoneOfTheMachines_IsGivenUp") {
+  const model::Model model = rig();
+  model::Machine machine = model::build(model);
+  solver::State state = starting_state(model, machine);
+  const solver::State plain = state;
+  PeriodicStart of_another{.cycles = 3, .state = plain};
+  of_another.state.q.conservativeResize(plain.q.size() + 1);
+  PeriodicStart outside{.cycles = 3, .state = plain};
+  outside.state.q.array() += 1;  // rad and m: far beyond the bore
+  for (const PeriodicStart& start : {of_another, outside}) {
+    const PeriodicStart made = begin_in(start, model, machine, state);
+    CHECK(made.cycles == 0);
+    CHECK(made.message.find("the lead-in was given up: ") == 0);
+    CHECK(state.q == plain.q);
+    CHECK(state.vdot == plain.vdot);
+  }
 }
 
 TEST_CASE("LeadInToCyclesThatAreAllRun_IsRefused") {
