@@ -87,10 +87,11 @@ int close(const RunArguments& arguments, const std::filesystem::path& folder, co
 }
 
 void report(const run::CycleProgress& cycle) {
+  const std::string name = fmt::format("{}cycle {}", cycle.leads_in ? "lead-in, " : "", cycle.number);
   if (std::isfinite(cycle.change)) {
-    say("cycle {}: {:.2g} % ({})\n", cycle.number, 100 * cycle.change, cycle.largest);
+    say("{}: {:.2g} % ({})\n", name, 100 * cycle.change, cycle.largest);
   } else {
-    say("cycle {}\n", cycle.number);
+    say("{}\n", name);
   }
 }
 

@@ -143,6 +143,16 @@ TEST_CASE("DeformedMesh_MovesAsTheFilmSeesItsSurface") {
   CHECK(radial == doctest::Approx(most).epsilon(0.03));
 }
 
+TEST_CASE("FilmsOnSurfacesThatDeform_TakeNoLeadIn") {
+  const TemporaryDirectory folder;
+  std::ofstream(folder / "ring.inp") << Run::ring().text();
+  std::ofstream(folder / "shaft.inp") << Run::shaft().text();
+  std::ofstream(folder / "model.yaml") << machine;
+  CHECK_THROWS_WITH_AS(
+      (void)model::read(folder / "model.yaml", {"simulation.cycle={period: 0.5 ms, lead_in: half_grids}"}),
+      doctest::Contains("a lead-in of films on half grids between surfaces that deform"), InputError);
+}
+
 TEST_CASE("MeshesAt_AnglesComeAgainInEveryCycle") {
   const model::Model model =
       rig(rig_with("  duration: \"${duration}\"\n", "  cycle: {period: 360 deg, until_converged: 0, most: 3}\n") +

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hersey/bearing/clearance.h"
+#include "hersey/core/contract.h"
 #include "hersey/film/observables.h"
 
 namespace hersey::bearing {
@@ -54,7 +55,10 @@ FilmElement::FilmElement(const film::FilmModel& model, Options options)
 film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
   is_evaluated_ = is_at_accepted_ = false;
   history_.dt = options_.initial_dt;
-  history_.theta.setConstant(options_.initial_fill);
+  if (fill_at_start_.size() > 0)
+    history_.theta = fill_at_start_;
+  else
+    history_.theta.setConstant(options_.initial_fill);
   history_.w.resize(0);
   history_.density.setOnes(u_.size());
   history_.gap.resize(0);
@@ -70,6 +74,18 @@ film::FilmSolveSummary FilmElement::start(const film::SurfaceMotion& surfaces) {
   }
   has_layer_shear_ = true;
   return summary;
+}
+
+void FilmElement::begin_from(const Eigen::VectorXd& fill, const film::HeatState* heat) {
+  HERSEY_REQUIRE(fill.size() == u_.size(), "a fill fraction at each node");
+  fill_at_start_ = fill;
+  if (heat == nullptr) return;
+  HERSEY_REQUIRE(heat_.has_value(), "a film with temperatures");
+  film::HeatState state = *heat;
+  state.thinning = heat_->state().thinning;
+  heat_->set_state(state);
+  history_.viscosity = history_start_.viscosity = heat_->viscosity();
+  has_layer_shear_ = false;
 }
 
 film::FilmSolveSummary FilmElement::solve_steady(const film::SurfaceMotion& surfaces) {

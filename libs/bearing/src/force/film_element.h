@@ -33,6 +33,9 @@ class FilmElement {
   /// Solves the film of a freshly filled gap at the start of a run, a compliant liner in static equilibrium with it. On
   /// failure the summary gives the reason, and the node where the film leaves its domain.
   [[nodiscard]] film::FilmSolveSummary start(const film::SurfaceMotion& surfaces);
+  /// Begins a run from these fill fractions, shape (grid.size()), in place of options.initial_fill, and temperatures.
+  /// @param heat  null: those that there are
+  void begin_from(const Eigen::VectorXd& fill, const film::HeatState* heat);
   /// Solves the steady film of the surfaces' present motion at the present temperatures, starting from the last film.
   [[nodiscard]] film::FilmSolveSummary solve_steady(const film::SurfaceMotion& surfaces);
   /// Starts a step of length dt from the film accepted last.
@@ -111,6 +114,7 @@ class FilmElement {
   void compute_oil_balance(const film::SurfaceMotion& surfaces, bool is_evaluated);
 
   Options options_;
+  Eigen::VectorXd fill_at_start_;  // empty: options_.initial_fill everywhere
   film::Reynolds reynolds_;
   std::optional<film::FilmHeat> heat_;  // at the state accepted last
 

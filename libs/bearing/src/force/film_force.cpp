@@ -17,6 +17,7 @@
 #include "heat/film_temperatures.h"
 #include "hersey/bearing/clearance.h"
 #include "hersey/core/contract.h"
+#include "hersey/film/grid_transfer.h"
 
 namespace hersey::bearing {
 namespace {
@@ -396,6 +397,23 @@ void FilmForce::guess_temperatures() {
 void FilmForce::set_ends(std::vector<film::EndOil> ends) {
   HERSEY_REQUIRE(film_->heat() != nullptr, "a film with temperatures");
   film_->heat()->set_ends(std::move(ends));
+}
+
+// Ratios of sheared viscosities are found anew as the film starts.
+FilmAtStart FilmForce::on_grid(const film::Grid& grid) const {
+  const film::GridTransfer transfer = film::GridTransfer::by_position(model().grid, grid);
+  FilmAtStart start{.fill = transfer(fields().theta).cwiseMax(0.0).cwiseMin(1.0), .growth = thermal_->growth()};
+  if (heat() == nullptr) return start;
+  start.heat = heat()->state();
+  start.heat->film = transfer(start.heat->film, heat()->thermal().layers);
+  for (Eigen::VectorXd* around : {&start.heat->shell, &start.heat->wall_heat})
+    if (around->size() > 0) *around = transfer.around(*around);
+  return start;
+}
+
+void FilmForce::begin_from(const FilmAtStart& start) {
+  film_->begin_from(start.fill, start.heat ? &*start.heat : nullptr);
+  if (start.heat) thermal_->set_growth(start.growth);
 }
 
 std::string FilmForce::thermal_failure(double closed) const {

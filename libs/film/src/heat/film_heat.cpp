@@ -246,6 +246,8 @@ void FilmHeat::set_state(const HeatState& state) {
                  "temperatures of this film");
   impl_->state = state;
   impl_->average_walls();
+  // Means over a cycle begin here: what a film has become by being set has come from no wall.
+  if (impl_->has_fixed_walls()) impl_->equations.mean().clear();
 }
 
 Eigen::VectorXd FilmHeat::shell_opening() const {

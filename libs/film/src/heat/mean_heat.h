@@ -75,6 +75,8 @@ class MeanHeat {
   /// nodes, in the order of WallHeatFlow [W]; and the film's temperatures [K].
   void add_heat(double dt, const Eigen::VectorXd& into, const Eigen::VectorXd& into_nodes, const Eigen::VectorXd& start,
                 const Eigen::VectorXd& end);
+  /// Discards the steps since then.
+  void clear();
   /// True if steps were added since the last call of answer().
   [[nodiscard]] bool has_steps() const { return time_ > 0; }
   /// Solves for the changes by the means since the last call; at least one step is required. @param shell, journal
@@ -91,7 +93,6 @@ class MeanHeat {
   [[nodiscard]] Eigen::VectorXd missing(const Eigen::VectorXd& shell, double journal) const;
   [[nodiscard]] HeatSystem::Row answer_entries(int i) const;
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
-  void clear();
 
   Grid grid_;
   int layers_;

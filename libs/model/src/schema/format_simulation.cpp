@@ -30,6 +30,8 @@ TypePtr cycle_format() {
                     "Ends the run once no bearing's smallest film thickness, peak pressure and mean friction loss "
                     "differs by more than this share from the cycle before; 0 runs all cycles."),
           defaulted("most", integer(20, {.low = 1, .high = 100000}), "20", "Cycles after which the run ends anyway."),
+          defaulted("lead_in", choice(lead_in_words), "none",
+                    "Cheaper cycles before those of the run, for machines whose cycles take long to repeat."),
       });
 }
 

@@ -65,6 +65,14 @@ inline constexpr Vocabulary<ModesAbout, 4> modes_about_words{{
      "the state at the end of a run over `duration`; bearings by their tangent there, over its last step"},
 }};
 
+inline constexpr Vocabulary<LeadIn, 2> lead_in_words{{
+    {LeadIn::none, "none", "the cycles of the run begin with the state at the start of the model"},
+    {LeadIn::half_grids, "half_grids",
+     "cycles with films on grids of half as many lines and rows are run until they repeat, and discarded; the cycles "
+     "of "
+     "the run begin with the motion, oil and temperatures that they end with, and are compared as without them"},
+}};
+
 inline constexpr Vocabulary<InitialDeformation, 3> initial_deformation_words{{
     {InitialDeformation::none, "none", "undeformed: what presses on it makes it vibrate"},
     {InitialDeformation::internal, "internal",

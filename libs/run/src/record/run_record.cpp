@@ -88,7 +88,8 @@ std::vector<std::string> RunRecord::starvation_warnings(const model::Bearing& be
 void RunRecord::end_cycle(double t) {
   last_cycle_ = cycles_.take(recorder_.close_cycle());
   recorder_.write_cycle(t, last_cycle_.value);
-  if (options_.on_cycle) options_.on_cycle({last_cycle_.number, last_cycle_.value, last_cycle_.largest});
+  if (options_.on_cycle)
+    options_.on_cycle({.number = last_cycle_.number, .change = last_cycle_.value, .largest = last_cycle_.largest});
   repeats_ = cycles_.converged(last_cycle_);
 }
 

@@ -24,12 +24,14 @@ results::Status as_written(Status status) {
 
 }  // namespace
 
-MachineRun::MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint)
+MachineRun::MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint,
+                       PeriodicStart start)
     : model_(model),
       options_(options),
       began_(Clock::now()),
       machine_(model::build(model)),
       state_(starting_state(model, machine_)),
+      start_(begin_in(std::move(start), model, machine_, state_)),
       kinds_(force_kinds(machine_)),
       stepper_(model, machine_),
       work_(model, machine_, stepper_.integrator()),
@@ -37,6 +39,11 @@ MachineRun::MachineRun(const model::Model& model, const Options& options, std::o
       checkpoints_(model.simulation) {
   record_.declare_cost(work_.work());
   if (checkpoint) restore_file(std::move(*checkpoint));
+}
+
+std::string MachineRun::ending() const {
+  const std::string text = record_.ending(state_.t);
+  return start_.message.empty() || text.empty() ? text : text + "; " + start_.message;
 }
 
 void MachineRun::begin() {
@@ -99,6 +106,7 @@ void MachineRun::persist(Archive& archive) {
     archive.io("t", state_.t), archive.io("q", state_.q), archive.io("v", state_.v);
     archive.io("vdot", state_.vdot), archive.io("lambda", state_.lambda);
   }
+  archive.io("lead_in_cycles", start_.cycles), archive.io("lead_in", start_.message);
   {
     const Archive::Group group(archive, "mechanism");
     machine_.mechanism->persist(archive);
@@ -191,6 +199,7 @@ Summary MachineRun::summary() const {
   summary.results = options_.results;
   summary.t_end = state_.t;
   summary.rejected_steps = stepper_.rejected_steps();
+  summary.lead_in_cycles = start_.cycles;
   record_.summarise(summary);
   const Cost spent = cost_ ? *cost_ : cost();
   summary.wall_time = spent.wall_time;

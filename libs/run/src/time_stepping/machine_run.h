@@ -18,6 +18,7 @@
 #include "record/run_record.h"
 #include "series/work_record.h"
 #include "time_stepping/checkpoint.h"
+#include "time_stepping/periodic_start.h"
 #include "time_stepping/time_stepper.h"
 
 namespace hersey::run {
@@ -28,14 +29,16 @@ class MachineRun {
  public:
   /// @param model, options  outlive this; without options.results nothing is written
   /// @param checkpoint  state from which an interrupted run continues; none: the run starts at its beginning
-  MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint = {});
+  /// @param start  of a run that is not resumed; without cycles: that of the model
+  MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint = {},
+             PeriodicStart start = {});
 
   /// Chooses the steps and records the start; a resumed run has done so before. To be called before the first step.
   void begin();
 
   [[nodiscard]] bool is_at_end() const { return stepper_.is_at_end() || record_.ends_run(); }
   /// Message of a run that ended normally; may be empty.
-  [[nodiscard]] std::string ending() const { return record_.ending(state_.t); }
+  [[nodiscard]] std::string ending() const;
 
   /// Takes one accepted step, at most to `limit` [s].
   /// @returns unsolved, with the reason why there is no step, or why none can follow it
@@ -100,6 +103,7 @@ class MachineRun {
   Clock::time_point began_;
   model::Machine machine_;
   solver::State state_;
+  PeriodicStart start_;
   std::vector<ForceKind> kinds_;
   TimeStepper stepper_;
   WorkRecord work_;

@@ -23,6 +23,7 @@
 #include "start/start_changes.h"
 #include "time_stepping/checkpoint.h"
 #include "time_stepping/instants.h"
+#include "time_stepping/lead_in.h"
 #include "time_stepping/machine_run.h"
 #include "time_stepping/steady_heat.h"
 
@@ -40,8 +41,11 @@ double last_time(const std::filesystem::path& file) {
 class Run {
  public:
   Run(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint,
-      const Summary* coarse)
-      : model_(model), options_(options), machine_(model, options, std::move(checkpoint)), coarse_(coarse) {}
+      PeriodicStart start, const Summary* coarse)
+      : model_(model),
+        options_(options),
+        machine_(model, options, std::move(checkpoint), std::move(start)),
+        coarse_(coarse) {}
 
   Summary run() {
     try {
@@ -160,7 +164,8 @@ class Run {
 Summary simulate_from(std::optional<Archive::Content> checkpoint, const model::Model& model, const Options& options,
                       const Summary* coarse = nullptr) {
   try {
-    return Run(model, options, std::move(checkpoint), coarse).run();
+    PeriodicStart start = checkpoint ? PeriodicStart{} : lead_in(model, options);
+    return Run(model, options, std::move(checkpoint), std::move(start), coarse).run();
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(unfinished_file(options.results), ignored);

@@ -15,6 +15,7 @@
 #include "hersey/results/output_lock.h"
 #include "record/recorder.h"
 #include "time_stepping/inputs.h"
+#include "time_stepping/lead_in.h"
 #include "time_stepping/machine_run.h"
 
 namespace hersey::run {
@@ -45,7 +46,7 @@ struct Simulation::Impl {
         options(std::move(options_)),
         lock(std::in_place, options.results),
         inputs(model),
-        run(model, options),
+        run(model, options, {}, lead_in(model, options)),
         snapshot(model, run.machine(), run.state(), Options{}) {
     run.begin();
     for (const results::LatestRow& row : snapshot.latest()) {

@@ -87,6 +87,7 @@ std::string summary_json(const Summary& summary) {
                                 {"steps", summary.steps},
                                 {"rejected_steps", summary.rejected_steps},
                                 {"cycles", summary.cycles},
+                                {"lead_in_cycles", summary.lead_in_cycles},
                                 {"newton_iterations", summary.newton_iterations},
                                 {"worst_constraint_drift", summary.worst_constraint_drift},
                                 {"worst_power_balance", summary.worst_power_balance},

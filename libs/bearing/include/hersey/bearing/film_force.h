@@ -58,6 +58,13 @@ struct BearingOptions {
   std::shared_ptr<const ElasticSurface> shell_surface, journal_surface;
 };
 
+/// Film with which a run begins in place of a freshly filled gap at the temperature of the supply.
+struct FilmAtStart {
+  Eigen::VectorXd fill;                 ///< share of the gap that is oil [-], in [0, 1], shape (grid.size())
+  std::optional<film::HeatState> heat;  ///< of a film with temperatures
+  double growth = 0;                    ///< of its clearance by temperature [m]
+};
+
 class DeformingSurfaces;
 class FilmElement;
 class SurfaceShape;
@@ -173,6 +180,13 @@ class FilmForce : public mbd::TwoBodyForce {
 
   /// Returns the fields at the nodes at the state last accepted.
   [[nodiscard]] film::FilmFields fields() const;
+
+  /// Returns that film, with which a run on another grid can begin (theory manual, integrator.37). @param grid  of the
+  /// other film, with patches as those of this one
+  [[nodiscard]] FilmAtStart on_grid(const film::Grid& grid) const;
+  /// Begins with a film: the next evaluation with motion.dt = 0 finds the film into which it develops within
+  /// options.initial_dt. @throws ContractError on a wrong shape
+  void begin_from(const FilmAtStart& start);
 
  private:
   void evaluate_surfaces(const mbd::RelativeMotion& motion);

@@ -363,11 +363,18 @@ struct Settle {
   double over = 0;          ///< time between comparisons [s]
 };
 
+/// Cycles that are run and discarded before those of the run.
+enum class LeadIn {
+  none,
+  half_grids,  ///< cycles with films on grids of half as many lines and rows, until they repeat
+};
+
 /// Ends the run early once a cycle repeats the one before.
 struct Cycle {
   double period = 0;        ///< [s], > 0
   double tolerance = 0.01;  ///< relative difference of the figures of two cycles; 0: all cycles are run
   int most = 20;            ///< cycles, >= 1
+  LeadIn lead_in = LeadIn::none;
 };
 
 /// Steps chosen by their error.

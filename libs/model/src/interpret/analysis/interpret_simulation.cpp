@@ -243,6 +243,27 @@ void interpret_output(Context& context) {
   if (const Value* meshes = out->find("meshes_at")) interpret_meshes_at(context, *meshes);
 }
 
+// True of films whose surfaces deform, and of bodies whose nodes all move: a film on another grid deforms them
+// otherwise, and no film is found between surfaces that those of half the nodes have pushed apart.
+bool has_elastic_surfaces(const Model& model) {
+  const auto deforms = [](const Bearing& bearing) { return bearing.shell_surface || bearing.journal_surface; };
+  const auto is_nodal = [](const Body& body) { return body.flexible && body.flexible->nodal; };
+  return std::any_of(model.bearings.begin(), model.bearings.end(), deforms) ||
+         std::any_of(model.bodies.begin(), model.bodies.end(), is_nodal);
+}
+
+void interpret_lead_in(Context& context, const Value& value) {
+  Cycle& cycle = *context.model.simulation.cycle;
+  cycle.lead_in = meaning_of(value, lead_in_words);
+  if (cycle.lead_in == LeadIn::none) return;
+  if (cycle.tolerance == 0)
+    context.fault(value, "a lead-in to cycles that are all run", "cycles that end the run once they repeat",
+                  "give `until_converged` a value above 0");
+  if (has_elastic_surfaces(context.model))
+    context.fault(value, "a lead-in of films on half grids between surfaces that deform", "rigid surfaces of all films",
+                  "leave `lead_in` out");
+}
+
 /// Cycles that end the run, if its duration does not.
 void interpret_cycle(Context& context, const Value& parent) {
   Simulation& simulation = context.model.simulation;
@@ -254,6 +275,8 @@ void interpret_cycle(Context& context, const Value& parent) {
                          "give a `duration` instead");
   simulation.cycle = Cycle{seconds_of(context, *value, "period", simulation.crank),
                            number_of(*value, "until_converged"), integer_of(*value, "most")};
+  if (const Value* lead_in = value->find("lead_in"); lead_in != nullptr && !lead_in->broken)
+    interpret_lead_in(context, *lead_in);
   const double longest = simulation.cycle->most * simulation.cycle->period;
   simulation.duration = parent.find("duration") != nullptr ? std::min(simulation.duration, longest) : longest;
 }
@@ -271,10 +294,7 @@ void require_whole_steps(Context& context, const Value& parent) {
 InitialDeformation initial_deformation_of(const Model& model, const Value& simulation) {
   if (const Value* value = simulation.find("initial_deformation"); value != nullptr && !value->broken)
     return meaning_of(*value, initial_deformation_words);
-  const auto deforms = [](const Bearing& bearing) { return bearing.shell_surface || bearing.journal_surface; };
-  const auto is_nodal = [](const Body& body) { return body.flexible && body.flexible->nodal; };
-  const bool rests = std::any_of(model.bearings.begin(), model.bearings.end(), deforms) ||
-                     std::any_of(model.bodies.begin(), model.bodies.end(), is_nodal);
+  const bool rests = has_elastic_surfaces(model);
   return rests ? InitialDeformation::internal : InitialDeformation::none;
 }
 

@@ -20,9 +20,10 @@ struct Progress {
 
 /// A cycle that has just ended; handed to Options::on_cycle.
 struct CycleProgress {
-  int number = 0;       ///< from 1
-  double change = 0;    ///< largest difference from the cycle before, relative; not a number in the first
-  std::string largest;  ///< of what, "film thickness of big_end"
+  int number = 0;         ///< from 1
+  double change = 0;      ///< largest difference from the cycle before, relative; not a number in the first
+  std::string largest;    ///< of what, "film thickness of big_end"
+  bool leads_in = false;  ///< it is of the lead-in (model::LeadIn), before those of the run
 };
 
 struct StudyParameterValue {

@@ -86,6 +86,7 @@ struct [[nodiscard]] Summary : OutcomeOf<Status, Status::completed, Status::stop
   int newton_iterations = 0;
   int cycles = 0;                     ///< that ended, where the model asks for cycles
   double cycle_change = 0;            ///< of the last of them: CycleProgress::change
+  int lead_in_cycles = 0;             ///< that were run on coarser grids before, and discarded
   double worst_step_error = 0;        ///< largest local error of a step: angles [rad], lengths over sizes, StepError
   double worst_constraint_drift = 0;  ///< largest violation of a constraint, relative to the compared quantities [-]
   double worst_power_balance = 0;     ///< largest residual power of the equations of motion over the largest power [-]

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "hersey/model/model.h"
+#include "hersey/run/options.h"
+#include "time_stepping/periodic_start.h"
+
+namespace hersey::run {
+
+/// Finds the periodic motion of a machine with films on half grids, if its model asks for it (model::LeadIn), by cycles
+/// that are discarded (theory manual, integrator.37). The cycles of the run decide about convergence as without it, so
+/// that a poor lead-in costs cycles and changes no answer beyond their tolerance. One that fails or is stopped has no
+/// cycles, and a message.
+/// @cost the cycles on the half grids, about a fifth each of what one of the run costs
+[[nodiscard]] PeriodicStart lead_in(const model::Model& model, const Options& options);
+
+}  // namespace hersey::run

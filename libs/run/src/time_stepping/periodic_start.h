@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hersey/bearing/film_force.h"
+#include "hersey/core/archive.h"
+#include "hersey/model/build.h"
+#include "hersey/model/model.h"
+#include "hersey/solver/equations.h"
+
+namespace hersey::run {
+
+/// Start of a run in a periodic motion that has been found before it (lead_in()), in place of that of its model.
+struct PeriodicStart {
+  int cycles = 0;                           ///< by which it was found; 0: there is none
+  std::string message;                      ///< how it was found, or why not; empty where nobody asked for it
+  solver::State state;                      ///< at the end of a cycle, less whole revolutions
+  std::vector<bearing::FilmAtStart> films;  ///< of each bearing
+  Archive::Content network;                 ///< temperatures of the thermal network
+};
+
+/// Moves a machine into that motion (theory manual, integrator.38): pressures, accelerations and multipliers follow
+/// from its positions, velocities, fill fractions and temperatures at state.t. Where no state of the machine is there
+/// it starts as its model says.
+/// @param machine, state  as starting_state() leaves them
+/// @returns the start that was made, cycles and message: start.cycles is 0 and the message gives the reason if it
+/// failed
+[[nodiscard]] PeriodicStart begin_in(PeriodicStart start, const model::Model& model, model::Machine& machine,
+                                     solver::State& state);
+
+}  // namespace hersey::run
