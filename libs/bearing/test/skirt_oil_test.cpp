@@ -67,7 +67,7 @@ TEST_CASE("AmpleLayers_AreAFloodedSkirt") {
 TEST_CASE("SkirtWithoutOil_CarriesNothing") {
   const SteadyState dry = Skirt{.top = 0}.solve();
   CHECK(dry.film.p_max == 0);
-  CHECK(dry.film.flow_out() == 0);
+  CHECK(std::abs(dry.film.flow_out()) < 1e-16 * 5 * c * arc * R);  // round-off of what the liner would carry
   CHECK(dry.film.starved_share > 1 - 1.0 / 40);  // the half volumes where the liner leaves count as full
 }
 

@@ -265,10 +265,8 @@ film::FilmObservables FilmElement::observe(const film::SurfaceMotion& accepted, 
                                    : film::observe_film(model(), accepted, history_accepted_, e, u_start_, tilt);
   film.oil_volume = oil_.of_run().volume;
   // A film that bears tension has no past: its flows are those of the pressure that acts, at the end of the step.
-  if (!film::cavitation_law(model()).has_tension()) {
-    const double sliding_flow = std::abs(accepted.u_journal) * clearance(model()) * model().L;
-    oil_.report_flows(history_accepted_.dt, sliding_flow, film);
-  }
+  if (!film::cavitation_law(model()).has_tension())
+    oil_.report_flows(history_accepted_.dt, film::sliding_flow(model(), accepted, clearance(model())), film);
   return film;
 }
 

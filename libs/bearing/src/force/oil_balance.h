@@ -30,7 +30,7 @@ class OilBalance {
   [[nodiscard]] const CumulativeOilBalance& of_run() const { return run_; }
 
   /// Replaces the flows at the end of a step of length dt [s] by means over it; leaves them at dt = 0.
-  /// @param sliding_flow  scale of the flow that surfaces carry, |u| c L [m^3/s]
+  /// @param sliding_flow  scale of the flow that surfaces carry [m^3/s]
   void report_flows(double dt, double sliding_flow, film::FilmObservables& film) const;
 
   /// Saves or restores the balance of the run.

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "balance/flow_balance.h"
 #include "hersey/core/contract.h"
 
@@ -8,36 +10,40 @@ namespace hersey::film {
 void FlowBalance::find_changes_by_surfaces() const {
   BySurfaces& by = by_surfaces_;
   if (by.is_found) return;
-  for (auto* field : {&by.storage_g, &by.storage_excess, &by.storage_rate, &by.storage_excess_rate})
+  for (auto* field : {&by.storage_gap, &by.storage_excess, &by.storage_rate, &by.storage_excess_rate})
     field->resize(size());
   for (int i = 0; i < size(); ++i) {
-    by.storage_g[i] = storage_g(i), by.storage_excess[i] = storage_excess(i);
+    by.storage_gap[i] = storage_g(i), by.storage_excess[i] = storage_excess(i);
     by.storage_rate[i] = storage_g_rate(i), by.storage_excess_rate[i] = storage_excess_rate(i);
   }
-  by.flows.resize(faces_.size());
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const Face& face = faces_[f];
-    const FaceFlow& flow = flows_[f];
-    const bool cut = is_cut(f);
-    by.flows[f] = {.a = face.a,
-                   .b = face.b,
-                   .from = flow.couette >= 0 ? face.a : face.b,
-                   .leaves_a = !cut || !has_line_row(face.a),
-                   .enters_b = !cut || !has_line_row(face.b),
-                   .g_a = flow.q_h_a * nodes_[face.a].h_g,
-                   .g_b = flow.q_h_b * nodes_[face.b].h_g,
-                   .bend = axial(f) ? 0 : flow.q_bend,
-                   .excess = flow.q_excess,
-                   .journal = flow.q_journal};
-  }
+  by.around.resize(size()), by.axial.resize(size());
+  for (std::size_t f = 0; f < faces_.size(); ++f) find_flow_by_surfaces(f, axial(f) ? by.axial : by.around);
   by.is_found = true;
+}
+
+void FlowBalance::find_flow_by_surfaces(std::size_t f, FlowsBySurfaces& by) const {
+  const Face& face = faces_[f];
+  const FaceFlow& flow = flows_[f];
+  const Eigen::Index at = face.a;
+  const bool cut = is_cut(f);
+  by.leaves[at] = !cut || !has_line_row(face.a) ? 1 : 0;
+  by.enters[at] = !cut || !has_line_row(face.b) ? 1 : 0;
+  by.gap[at] = flow.q_h_a * nodes_[face.a].h_g;
+  by.gap_next[at] = flow.q_h_b * nodes_[face.b].h_g;
+  if (flow.q_excess != 0) (flow.couette >= 0 ? by.excess : by.excess_next)[at] = flow.q_excess;
+  if (!axial(f)) by.bend[at] = flow.q_bend;
+  by.journal[at] = flow.q_journal;
+  const auto [full, little] = carried_by_speeds(f);
+  const EntrainedFlow carried = flow.carried(upstream(f).theta);
+  const Speeds speeds = (full * carried.full + little * carried.little) * (flow.density * face.stretch);
+  by.mean_speed[at] = speeds.mean, by.half_slip[at] = speeds.half_slip, by.journal_speed[at] = speeds.journal;
 }
 
 void FlowBalance::add_storage_along(const MotionDirection& direction, Eigen::VectorXd& dr) const {
   if (direction.g.size() != 0) {
     interpolation_.bends(direction.g, direction_bends_);
     interpolation_.excesses(direction.g, direction_excesses_);
-    dr += by_surfaces_.storage_g.cwiseProduct(direction.g) +
+    dr += by_surfaces_.storage_gap.cwiseProduct(direction.g) +
           by_surfaces_.storage_excess.cwiseProduct(direction_excesses_);
   }
   if (direction.g_rate.size() != 0) {
@@ -48,19 +54,41 @@ void FlowBalance::add_storage_along(const MotionDirection& direction, Eigen::Vec
   if (relief_.has_pockets()) add_turning_pockets(direction, dr);
 }
 
-void FlowBalance::add_flows_along(const MotionDirection& direction, bool slides, Eigen::VectorXd& dr) const {
-  const bool gap = direction.g.size() != 0;
-  const double rotation = direction.phi_journal;
+// The last nodes' next ones are the first: so they are around a whole bearing, and elsewhere these flows are zero.
+void FlowBalance::add_flows_along(const FlowsBySurfaces& by, Eigen::Index next, const MotionDirection& direction,
+                                  const Speeds& speeds, Eigen::VectorXd& dr) const {
+  const Eigen::Index n = size(), rest = n - next;
+  Eigen::VectorXd& q = direction_flow_;
+  q.setZero(n);
+  if (direction.g.size() != 0) {
+    const Eigen::VectorXd &g = direction.g, &excess = direction_excesses_;
+    q += by.gap.cwiseProduct(g) + by.excess.cwiseProduct(excess);
+    q.head(rest) +=
+        by.gap_next.head(rest).cwiseProduct(g.tail(rest)) + by.excess_next.head(rest).cwiseProduct(excess.tail(rest));
+    q.tail(next) +=
+        by.gap_next.tail(next).cwiseProduct(g.head(next)) + by.excess_next.tail(next).cwiseProduct(excess.head(next));
+    if (&by == &by_surfaces_.around) q += by.bend.cwiseProduct(direction_bends_);
+  }
+  if (direction.phi_journal != 0) q += direction.phi_journal * by.journal;
+  if (speeds.mean != 0) q += speeds.mean * by.mean_speed;
+  if (speeds.half_slip != 0) q += speeds.half_slip * by.half_slip;
+  if (speeds.journal != 0) q += speeds.journal * by.journal_speed;
+  dr += by.leaves.cwiseProduct(q);
+  q.array() *= by.enters.array();
+  dr.tail(rest) -= q.head(rest);
+  dr.head(next) -= q.tail(next);
+}
+
+// Oil that thins or turns turbulent as the surfaces slide flows otherwise under the same pressure.
+void FlowBalance::add_sliding_along(Eigen::VectorXd& dr) const {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const FlowBySurfaces& by = by_surfaces_.flows[f];
-    double q = by.journal * rotation;
-    if (gap) {
-      q += by.g_a * direction.g[by.a] + by.g_b * direction.g[by.b] + by.excess * direction_excesses_[by.from];
-      if (by.bend != 0) q += by.bend * direction_bends_[static_cast<Eigen::Index>(f)];
-    }
-    if (slides) q += flow_along_speeds(f, direction);
-    if (by.leaves_a) dr[by.a] += q;
-    if (by.enters_b) dr[by.b] -= q;
+    if (flows_[f].q_fluidity == 0) continue;
+    const auto [a, b] = std::pair{faces_[f].a, faces_[f].b};
+    const double q =
+        0.5 * flows_[f].q_fluidity * (flow_of(a, f).along(sliding_along(a)) + flow_of(b, f).along(sliding_along(b)));
+    const bool cut = is_cut(f);
+    if (!cut || !has_line_row(a)) dr[a] += q;
+    if (!cut || !has_line_row(b)) dr[b] -= q;
   }
 }
 
@@ -79,7 +107,11 @@ void FlowBalance::balance_along(const MotionDirection& direction, Eigen::VectorX
   for (int j = 0; slides && j < model_.grid.n_z; ++j)
     direction_sliding_[static_cast<std::size_t>(j)] = change_of_sliding(direction, j);
   const bool rotates = direction.phi_journal != 0 && relief_.has_pockets();
-  if (gap || slides || rotates) add_flows_along(direction, slides, dr);
+  if (gap || slides || rotates) {
+    add_flows_along(by_surfaces_.around, model_.grid.n_z, direction, around_speeds(direction), dr);
+    add_flows_along(by_surfaces_.axial, 1, direction, axial_speeds(direction), dr);
+  }
+  if (slides && has_sliding_viscosity()) add_sliding_along(dr);
   for (const int node : leaking_edge_nodes_) {
     const SealFlow leaks = seal_flow(node);
     const SlidingChange& sliding = sliding_along(node);

@@ -106,12 +106,11 @@ bool FlowBalance::oil_crosses_pocket_edge(std::size_t f) const {
   return axial(f) || (speed - faces_[f].stretch * speeds_.u_journal) * speed > 0;
 }
 
-double FlowBalance::entrained_upstream(std::size_t f, int from, const Speeds& speeds) const {
+Speeds FlowBalance::entrained_upstream(std::size_t f, int from) const {
   const Cell& cell = cells_[from];
-  double entrained = speeds.mean * (cell.gap + cell.depth) + speeds.half_slip * rough_[from].drag[axial(f) ? 1 : 0];
-  if (cell.turning > 0 && !axial(f))
-    entrained -= (oil_crosses_pocket_edge(f) ? speeds.journal : speeds.mean) * cell.turning;
-  return entrained;
+  Speeds by{.mean = cell.gap + cell.depth, .half_slip = rough_[from].drag[axial(f) ? 1 : 0]};
+  if (cell.turning > 0 && !axial(f)) (oil_crosses_pocket_edge(f) ? by.journal : by.mean) -= cell.turning;
+  return by;
 }
 
 // Flow of little oil (film.28): the content of the control volume upstream moves at the surfaces' mean speed; the
@@ -128,7 +127,7 @@ void FlowBalance::add_starved_limit(std::size_t f, FaceGap& gap) const {
   const PocketFlowTube* flow_tube =
       is_deep ? &relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])] : nullptr;
   const double swept = is_deep ? flow_tube->swept / faces_[f].width : 0;
-  const double little = entrained_upstream(f, gap.from, {speed, half_slip, journal}) + swept;
+  const double little = entrained_upstream(f, gap.from).dot({speed, half_slip, journal}) + swept;
   if (little * gap.full <= 0 || (is_deep && std::abs(little) <= std::abs(gap.full))) return;
   const double ratio = little / gap.full;
   if (!is_deep && (ratio > most_widening || ratio * most_widening < 1)) {
@@ -231,49 +230,45 @@ std::array<double, 2> FlowBalance::flow_by_u(std::size_t f) const {
           -flow.K * b.p_u + by_laws(b, flow.q_h_b) + (from_a ? 0 : flow.q_theta * b.theta_u)};
 }
 
-/// Returns the flows of a full gap and of little oil, both without density and without swept volumes, which the step
-/// has fixed.
-std::array<double, 2> FlowBalance::carried_at(std::size_t f, const Speeds& speeds) const {
+FlowBalance::CarriedBySpeeds FlowBalance::carried_by_speeds(std::size_t f) const {
   const Face& face = faces_[f];
+  const FaceFlow& flow = flows_[f];
   const double h = thickness_on(f);
-  const RoughGap &a = rough_[face.a], &b = rough_[face.b];
-  const int k = axial(f) ? 1 : 0;
-  double full = speeds.mean * h + 0.5 * (speeds.mean * (a.mean - nodes_[face.a].h + b.mean - nodes_[face.b].h) +
-                                         speeds.half_slip * (a.drag[k] + b.drag[k]));
-  double swept = 0;
+  Speeds full{.mean = h};
+  if (!rough_law_.is_smooth() || is_layered()) {
+    const RoughGap &a = rough_[face.a], &b = rough_[face.b];
+    const int k = axial(f) ? 1 : 0;
+    full.mean += 0.5 * (a.mean - nodes_[face.a].h + b.mean - nodes_[face.b].h);
+    full.half_slip = 0.5 * (a.drag[k] + b.drag[k]);
+  }
+  Speeds swept;
   if (flow_tube_of_[f] >= 0) {
     const PocketFlowTube& flow_tube = relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])];
-    const double step = axial(f) ? 0 : edge_speed_of(flow_tube, speeds.mean, speeds.journal);
-    swept = flow_tube.swept_speed * speeds.journal / face.width;
-    full += (speeds.mean - step) * (relief_.gap(flow_tube, h).carry.value - h) + swept;
+    const double deeper = relief_.gap(flow_tube, h).carry.value - h;
+    full.mean += deeper;
+    if (!axial(f)) {
+      full.mean -= edge_speed_of(flow_tube, 1, 0) * deeper;
+      full.journal -= edge_speed_of(flow_tube, 0, 1) * deeper;
+    }
+    swept.journal = flow_tube.swept_speed / face.width;
+    full = full + swept;
   }
-  const FaceFlow& flow = flows_[f];
-  const int from = flow.couette >= 0 ? face.a : face.b;
-  const double own = entrained_upstream(f, from, speeds) + swept;
-  const double limited = flow.little_over_couette * full;
-  const double little = flow.little == flow.couette ? full : flow.little_over_couette > 0 ? limited : own;
-  return {face.width * full, face.width * little};
+  Speeds little = full;
+  if (flow.little_over_couette > 0)
+    little = full * flow.little_over_couette;
+  else if (flow.little != flow.couette)
+    little = entrained_upstream(f, flow.couette >= 0 ? face.a : face.b) + swept;
+  return {full * face.width, little * face.width};
 }
 
-FlowBalance::Speeds FlowBalance::speeds_along(std::size_t f, const MotionDirection& direction) const {
-  if (axial(f))
-    return {0.5 * (direction.w_shell + direction.w_journal), 0.5 * (direction.w_shell - direction.w_journal),
-            direction.w_journal};
-  return Speeds{0.5 * (direction.u_shell + direction.u_journal), 0.5 * (direction.u_shell - direction.u_journal),
-                direction.u_journal} *
-         faces_[f].stretch;
+Speeds FlowBalance::axial_speeds(const MotionDirection& direction) {
+  return {0.5 * (direction.w_shell + direction.w_journal), 0.5 * (direction.w_shell - direction.w_journal),
+          direction.w_journal};
 }
 
-double FlowBalance::flow_along_speeds(std::size_t f, const MotionDirection& direction) const {
-  const FaceFlow& flow = flows_[f];
-  double q = 0;
-  if (const Speeds speeds = speeds_along(f, direction); speeds.mean != 0 || speeds.half_slip != 0) {
-    const auto [full, little] = carried_at(f, speeds);
-    const EntrainedFlow carried = flow.carried(upstream(f).theta);
-    q += flow.density * (carried.full * full + carried.little * little);
-  }
-  const auto along = [&](int node) { return flow_of(node, f).along(sliding_along(node)); };
-  return q + 0.5 * flow.q_fluidity * (along(faces_[f].a) + along(faces_[f].b));
+Speeds FlowBalance::around_speeds(const MotionDirection& direction) {
+  return {0.5 * (direction.u_shell + direction.u_journal), 0.5 * (direction.u_shell - direction.u_journal),
+          direction.u_journal};
 }
 
 }  // namespace hersey::film

@@ -234,7 +234,7 @@ Eigen::Vector2d FlowBalance::slip(int j) const {
 }
 
 SlidingChange FlowBalance::change_of_sliding(const MotionDirection& direction, int j) const {
-  if (model_.lubricant.shear_thinning.is_newtonian() && !model_.turbulence.counts()) return {};
+  if (!has_sliding_viscosity()) return {};
   return film::change_of_sliding(slip(j), {geometry_.stretch[j] * (direction.u_journal - direction.u_shell),
                                            direction.w_journal - direction.w_shell});
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "balance/by_surfaces.h"
 #include "balance/node.h"
 #include "gap/feature_cover.h"
 #include "gap/gap_interpolation.h"
@@ -358,29 +359,6 @@ class FlowBalance {
     int from = 0;                 ///< upstream
   };
 
-  /// Change of the flow over a face by the gap at its nodes, by bend, excess at the node upstream and phi_journal, and
-  /// whether it counts in the rows of both nodes.
-  struct FlowBySurfaces {
-    int a = 0, b = 0, from = 0;
-    bool leaves_a = true, enters_b = true;
-    double g_a = 0, g_b = 0, bend = 0, excess = 0, journal = 0;
-  };
-
-  /// Changes of storage and flows with the surfaces at the state last evaluated.
-  struct BySurfaces {
-    bool is_found = false;
-    Eigen::VectorXd storage_g, storage_excess, storage_rate, storage_excess_rate;  ///< shape (n)
-    std::vector<FlowBySurfaces> flows;                                             ///< over the faces
-  };
-
-  /// Speeds across a face: mean of both surfaces, half their difference, the journal's [m/s].
-  struct Speeds {
-    double mean = 0, half_slip = 0, journal = 0;
-    [[nodiscard]] Speeds operator*(double factor) const {
-      return {factor * mean, factor * half_slip, factor * journal};
-    }
-  };
-
   /// Properties of a node that its edge determines.
   struct EdgeNode {
     enum class Kind { none, wall, prescribed, open, leaking };
@@ -482,7 +460,11 @@ class FlowBalance {
   void balance_along(const MotionDirection& direction, Eigen::VectorXd& db) const;
   void find_changes_by_surfaces() const;
   void add_storage_along(const MotionDirection& direction, Eigen::VectorXd& dr) const;
-  void add_flows_along(const MotionDirection& direction, bool slides, Eigen::VectorXd& dr) const;
+  void find_flow_by_surfaces(std::size_t f, FlowsBySurfaces& by) const;
+  /// Adds the changes of the flows over the faces of one kind, whose nodes lie `next` apart.
+  void add_flows_along(const FlowsBySurfaces& by, Eigen::Index next, const MotionDirection& direction,
+                       const Speeds& speeds, Eigen::VectorXd& dr) const;
+  void add_sliding_along(Eigen::VectorXd& dr) const;
   [[nodiscard]] const SlidingChange& sliding_along(int node) const {
     return direction_sliding_[static_cast<std::size_t>(node % model_.grid.n_z)];
   }
@@ -500,15 +482,14 @@ class FlowBalance {
   }
   /// True if oil crosses the edge of a pocket of the journal over face f.
   [[nodiscard]] bool oil_crosses_pocket_edge(std::size_t f) const;
-  /// Flow per width that the surfaces entrain from the control volume upstream of face f if it is full [m^2/s].
-  [[nodiscard]] double entrained_upstream(std::size_t f, int from, const Speeds& speeds) const;
+  /// Derivatives by the speeds of the flow per width which the surfaces entrain from the control volume upstream of
+  /// face f if it is full [m].
+  [[nodiscard]] Speeds entrained_upstream(std::size_t f, int from) const;
   [[nodiscard]] const Node& upstream(std::size_t f) const {
     return nodes_[flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b];
   }
   /// Change of a row's sliding with the surfaces' speeds.
   [[nodiscard]] SlidingChange change_of_sliding(const MotionDirection& direction, int j) const;
-  /// Change of the flow over face f with the speeds of the surfaces.
-  [[nodiscard]] double flow_along_speeds(std::size_t f, const MotionDirection& direction) const;
   [[nodiscard]] const PrescribedNode* prescribed_at(int node) const;
   [[nodiscard]] const PrescribedNode* supplied_at(int node) const;
   [[nodiscard]] Tie tie(const PrescribedNode& prescribed) const;
@@ -563,10 +544,23 @@ class FlowBalance {
   [[nodiscard]] double half_slip(std::size_t f) const {
     return axial(f) ? half_slip_z_ : faces_[f].stretch * half_slip_phi_;
   }
+  /// Changes of the speeds around the bearing, where a face does not stretch them, and along its axis.
+  [[nodiscard]] static Speeds around_speeds(const MotionDirection& direction);
+  [[nodiscard]] static Speeds axial_speeds(const MotionDirection& direction);
   /// Changes of the speeds across face f.
-  [[nodiscard]] Speeds speeds_along(std::size_t f, const MotionDirection& direction) const;
-  /// Flows over face f, of a full gap and of little oil, at a set of speeds.
-  [[nodiscard]] std::array<double, 2> carried_at(std::size_t f, const Speeds& speeds) const;
+  [[nodiscard]] Speeds speeds_along(std::size_t f, const MotionDirection& direction) const {
+    return axial(f) ? axial_speeds(direction) : around_speeds(direction) * faces_[f].stretch;
+  }
+  /// True if the oil's viscosity depends on the speed at which the surfaces slide.
+  [[nodiscard]] bool has_sliding_viscosity() const {
+    return !model_.lubricant.shear_thinning.is_newtonian() || model_.turbulence.counts();
+  }
+  /// Entrained flows over a face by the speeds of the surfaces, of a full gap and of little oil, without density and
+  /// without swept volumes, which the step has fixed [m^2].
+  struct CarriedBySpeeds {
+    Speeds full, little;
+  };
+  [[nodiscard]] CarriedBySpeeds carried_by_speeds(std::size_t f) const;
 
   FilmModel model_;
   const CavitationLaw& cavitation_;
@@ -595,7 +589,7 @@ class FlowBalance {
   PocketRelief relief_;
   Eigen::VectorXd bends_, excesses_, rate_excesses_;  ///< bends of the gap, excesses of the gap and of its rate
   mutable Eigen::VectorXd direction_bends_, direction_excesses_, direction_rate_excesses_;
-  mutable Eigen::VectorXd direction_balance_;
+  mutable Eigen::VectorXd direction_balance_, direction_flow_;
   mutable BySurfaces by_surfaces_;
   mutable std::vector<SlidingChange> direction_sliding_;  ///< of the rows
   std::vector<Cell> cells_;

@@ -395,9 +395,10 @@ double FlowBalance::line_fraction_along(std::size_t f, const CutFaceFraction& fr
   double change = fraction.journal * direction.phi_journal;
   // Of surfaces at rest nothing is carried, of which a fraction could change.
   if (flow.couette != 0 && (speeds.mean != 0 || speeds.half_slip != 0)) {
-    const auto [full, little] = carried_at(f, speeds);
+    const auto [full, little] = carried_by_speeds(f);
     const EntrainedFlow carried = flow.carried(upstream(f).theta);
-    change += flow.density * ((carried.full - fraction.value) * full + carried.little * little) / flow.couette;
+    change += flow.density *
+              ((carried.full - fraction.value) * full.dot(speeds) + carried.little * little.dot(speeds)) / flow.couette;
   }
   if (direction.g.size() == 0) return change;
   return change + fraction.h_a * nodes_[face.a].h_g * direction.g[face.a] +

@@ -136,9 +136,8 @@ void observe_oil(const FlowBalance& balance, const SurfaceMotion& motion, FilmOb
     }
   }
   o.cavitated_share = cavitated / total;
-  const double fastest = std::max(std::abs(motion.u_journal), std::abs(motion.u_shell));
   double scale = std::max({std::abs(o.flow_left), std::abs(o.flow_right), std::abs(o.flow_first), std::abs(o.flow_last),
-                           std::abs(o.flow_supply), std::abs(o.storage_rate), fastest * model.c * model.L});
+                           std::abs(o.flow_supply), std::abs(o.storage_rate), sliding_flow(model, motion, model.c)});
   if (o.flow_features.size() > 0) scale = std::max(scale, o.flow_features.cwiseAbs().maxCoeff());
   // Where flows cancel, as in a pure squeeze, the inflows and outflows of the nodes set the scale of round-off.
   if (!cavitation_law(model).loses_oil()) scale = std::max(scale, gross);
@@ -321,6 +320,12 @@ FilmObservables observe_evaluated(const FlowBalance& balance, const FilmWrench& 
   o.sliding_speed = std::hypot(motion.u_journal - motion.u_shell, motion.w_journal - motion.w_shell);
   add_powers(balance, motion, wrench, o);
   return o;
+}
+
+double sliding_flow(const FilmModel& model, const SurfaceMotion& motion, double c) {
+  const double around = std::max(std::abs(motion.u_journal), std::abs(motion.u_shell)) * model.L;
+  const double length = model.R * mean_step(model.grid) * model.grid.n_phi;
+  return c * std::max(around, std::max(std::abs(motion.w_journal), std::abs(motion.w_shell)) * length);
 }
 
 StepOilBalance oil_at_start(const FilmModel& model, const SurfaceMotion& motion, const FilmHistory& history,

@@ -8,9 +8,10 @@
 
 #include "balance/flow_balance.h"
 #include "hersey/core/contract.h"
-#include "hersey/solver/sparse_lu.h"
+#include "hersey/solver/subtract_product.h"
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
+#include "solve/grid_lu.h"
 #include "solve/multigrid_solver.h"
 #include "solve/port_border.h"
 
@@ -30,7 +31,9 @@ constexpr int most_iterations = 80;
 }  // namespace
 
 struct Reynolds::Impl {
-  Impl(const FilmModel& model, LinearSolver chosen) : balance(model), wrench(model) { state.kind = chosen; }
+  Impl(const FilmModel& model, LinearSolver chosen) : balance(model), wrench(model), lu(balance.model().grid) {
+    state.kind = chosen;
+  }
 
   void factorise();
   void take_speeds(const SurfaceMotion& motion);
@@ -44,6 +47,7 @@ struct Reynolds::Impl {
   void solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
+  void multiply_by_adjoint();
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void find_port_flows(PortFlows flows, CondensedFilm& film);
   void set_up_multigrid();
@@ -54,7 +58,7 @@ struct Reynolds::Impl {
   FlowBalance balance;
   FilmWrench wrench;
   LinearSolverState state;  // but for has_factor
-  solver::SparseLu lu;      // of the matrix in the pattern, which the border completes
+  GridLu lu;                // of the matrix in the pattern, which the border completes
   PortBorder border;
   std::optional<MultigridSolver> multigrid;
   std::vector<double> shifted;
@@ -62,7 +66,8 @@ struct Reynolds::Impl {
   // Of the last condensation, n rows each: residual's derivative along the directions; then either the answer of each
   // output (six of the wrench, forces on shapes, flows of ports) to the residual, or the increment and the answers to
   // the directions.
-  Eigen::MatrixXd residual_by_s, adjoint, answers, port_flow_by_u;
+  Eigen::MatrixXd residual_by_s, adjoint, products, answers, port_flow_by_u;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> adjoint_rows;
   Eigen::VectorXd condensed_residual, increment;
   SurfaceMotion speeds;    // without gap and rate
   bool evaluated = false;  // `balance` has the state of the last evaluation, which was inside the domain
@@ -104,7 +109,7 @@ bool Reynolds::Impl::factorise_shifted(double shift) {
 void Reynolds::Impl::factorise() {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
   if (factorised) return;
-  if (lu.size() == 0) lu.analyse(balance.size(), balance.column_start(), balance.row_index());
+  if (!lu.is_analysed()) lu.analyse(balance.column_start(), balance.row_index());
   if (state.kind == LinearSolver::direct) border.forget_answers();
   ++state.factorisations;
   factorised = lu.factorise(balance.values());
@@ -119,7 +124,7 @@ void Reynolds::Impl::factorise() {
 // @returns whether the matrix had a factor
 bool Reynolds::Impl::solve_regularised(Eigen::VectorXd& du) {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
-  if (lu.size() == 0) lu.analyse(balance.size(), balance.column_start(), balance.row_index());
+  if (!lu.is_analysed()) lu.analyse(balance.column_start(), balance.row_index());
   find_row_sizes();
   factorised = false;  // as far as the Jacobian itself is asked for
   if (!factorise_shifted(1e-3)) return false;
@@ -203,14 +208,23 @@ void Reynolds::Impl::condense_by_adjoint(const Eigen::MatrixXd& openings, Conden
   adjoint.rightCols(ports) = port_flow_by_u;
   solve_transposed(adjoint);
   for (Eigen::Index i = 0; i < 6; ++i) film.wrench[i] -= adjoint.col(i).dot(balance.residual());
-  film.wrench_by_s.noalias() -= adjoint.leftCols<6>().transpose() * residual_by_s;
-  if (shapes > 0) {
-    film.Q.noalias() -= adjoint.middleCols(6, shapes).transpose() * balance.residual();
-    film.Q_by_s.noalias() -= adjoint.middleCols(6, shapes).transpose() * residual_by_s;
-  }
-  if (ports == 0) return;
+  film.Q.noalias() -= adjoint.middleCols(6, shapes).transpose() * balance.residual();
   film.port_flow.noalias() -= adjoint.rightCols(ports).transpose() * balance.residual();
-  film.port_flow_by_s.noalias() -= adjoint.rightCols(ports).transpose() * residual_by_s;
+  multiply_by_adjoint();
+  film.wrench_by_s += products.topRows<6>();
+  film.Q_by_s += products.middleRows(6, shapes);
+  film.port_flow_by_s += products.middleRows(6 + shapes, ports);
+}
+
+// Computes -Lambda^T r_s, with rows of zeros up to whole registers. Rows of the transposed product are columns of this
+// one.
+void Reynolds::Impl::multiply_by_adjoint() {
+  const Eigen::Index n = adjoint.rows(), padded = (adjoint.cols() + 3) / 4 * 4;
+  adjoint_rows.setZero(n, padded);
+  adjoint_rows.leftCols(adjoint.cols()) = adjoint;
+  products.setZero(padded, residual_by_s.cols());
+  solver::subtract_product(static_cast<int>(residual_by_s.cols()), static_cast<int>(padded), static_cast<int>(n),
+                           {residual_by_s.data(), n, 1}, adjoint_rows.data(), padded, products.data(), padded);
 }
 
 void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film) {

@@ -24,6 +24,10 @@ namespace hersey::film {
                                            const Eigen::VectorXd& u,
                                            const Eigen::Vector2d& tilt = Eigen::Vector2d::Zero());
 
+/// Returns what surfaces at these speeds carry in a gap as wide as the clearance `c` [m], around the bearing or along
+/// its axis: the scale of flows where a film's own vanish, as without oil [m^3/s].
+[[nodiscard]] double sliding_flow(const FilmModel& model, const SurfaceMotion& motion, double c);
+
 /// Returns the oil of a film at `u` with which a run starts: no step has led there, so that flows are undefined.
 [[nodiscard]] StepOilBalance oil_at_start(const FilmModel& model, const SurfaceMotion& motion,
                                           const FilmHistory& history, const Eigen::VectorXd& u);
