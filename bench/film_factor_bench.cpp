@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   for (const Grid& grid : {Grid{60, 13}, Grid{120, 25}, Grid{240, 49}, Grid{480, 105}, Grid{960, 209}}) {
     if (grid.n_phi > largest) break;
     const BenchBearing b = bench_bearing(grid, 1, 0.8);
-    const TimedFilm film = timed_film(b, FilmSolver::newton, {});
+    const TimedFilm film = timed_film(b, {.solver = FilmSolver::newton}, 1);
     FlowBalance balance(b.model);
     balance.evaluate(b.motion, {}, film.u);
     balance.assemble_jacobian();
