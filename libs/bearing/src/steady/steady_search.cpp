@@ -56,6 +56,11 @@ bool SteadySearch::is_fluid() {
 }
 
 SteadySummary SteadySearch::solve() {
+  if (has_film_ && point_.load && linearise() && solve_jointly(*point_.load)) {
+    summary_.set_solved(true);
+    summary_.message.clear();
+    return summary_;
+  }
   has_film_ = true;
   if (!point_.load && options_.start_heat) take_start();
   return point_.load ? under_load() : at_given_position();

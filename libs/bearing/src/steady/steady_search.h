@@ -21,7 +21,8 @@ class SteadySearch {
   /// Keeps references to `model` and `options`.
   SteadySearch(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options);
 
-  /// Solves from the start that the options give, or from the kind's estimate.
+  /// Solves from the film of begin_at(); without one, or where that does not lead there, from the start that the
+  /// options give, or from the kind's estimate.
   [[nodiscard]] SteadySummary solve();
   /// Solves again after a change of viscosities or clearance, from the present film and position.
   [[nodiscard]] SteadySummary retry();
