@@ -47,6 +47,8 @@ class SteadyFilm {
   [[nodiscard]] const ShapesAtRest& shapes() const { return shapes_; }
   /// Sets the tolerance on the film's relative residual, instead of SteadyOptions::rtol.
   void set_tolerance(double rtol) { film_options_.rtol = rtol; }
+  /// Makes every linearisation also find the film's answer to the position, which respond_to_position() then gives.
+  void look_for_position() { finds_position_ = true; }
   /// History of a steady film, with its viscosities.
   [[nodiscard]] const film::FilmHistory& history() const { return history_; }
 
@@ -83,6 +85,8 @@ class SteadyFilm {
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces (bearing.28).
   void respond(std::span<const film::MotionDirection> directions, Eigen::MatrixXd& dx, Columns& dW);
+  /// Total derivatives with the position `e` of the last linearisation.
+  void respond_to_position(const Coordinates& e, Eigen::MatrixXd& dx, Columns& dW);
   /// Change of the wrench on the shell with accelerations by the oil's inertia (damper.8), given what unit rates do to
   /// x.
   /// @pre rigid surfaces
@@ -115,6 +119,8 @@ class SteadyFilm {
   [[nodiscard]] const film::Reynolds& reynolds() const { return reynolds_; }
 
  private:
+  [[nodiscard]] bool has_position_answers() const { return u_by_position_.cols() > 0; }
+  void solve_with_position(const Coordinates& e, Eigen::VectorXd& du);
   void gather_flexibility(const SteadyElasticity& elasticity);
   [[nodiscard]] film::FilmSolveSummary solve_film(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
   [[nodiscard]] film::FilmSolveSummary solve_by_factorisation(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
@@ -150,6 +156,10 @@ class SteadyFilm {
   // amplitudes, and the factor of what is left for these.
   Eigen::VectorXd r_s_, dx_;
   Coordinates force_;
+  // Answer to the position, and the wrench's change at fixed u; empty: not found along with the increment.
+  Eigen::MatrixXd u_by_position_;
+  Columns W_by_position_;
+  bool finds_position_ = false;
   Vector6 wrench_ = Vector6::Zero();  // on the shell, its present axes
   double turn_ = 0, turn_in_body_ = 0;
   Eigen::MatrixXd C_W_now_;  // of the shell's body as it is deformed

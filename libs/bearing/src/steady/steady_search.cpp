@@ -26,6 +26,7 @@ constexpr double kOutwardSearchBudget = 0.6;
 SteadySearch::SteadySearch(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
     : model_(model), point_(point), options_(options), film_(model, point_, options), x_(film_.start()) {
   e_ = force_ = Coordinates::Zero(coordinates_of().count());
+  if (point_.load) film_.look_for_position();
 }
 
 bool SteadySearch::film_at(const Coordinates& e) {
@@ -190,7 +191,7 @@ bool SteadySearch::linearise() {
 
 Eigen::MatrixXd SteadySearch::force_by_position() {
   Columns dW;
-  film_.respond(coordinates_of().directions(e_, 0, e_.size()), dx_de_, dW);
+  film_.respond_to_position(e_, dx_de_, dW);
   return film_.change_of_force(dx_de_, dW);
 }
 

@@ -392,13 +392,13 @@ Eigen::VectorXd Reynolds::jacobian_product(const Eigen::Ref<const Eigen::VectorX
   return -product;
 }
 
-void Reynolds::solve(Eigen::MatrixXd& columns, SystemMatrix matrix) {
+void Reynolds::solve(Eigen::MatrixXd& columns, SystemMatrix matrix, double rtol) {
   Impl& m = *impl_;
   HERSEY_REQUIRE(columns.rows() == m.balance.size(), "shape (n, any)");
   const bool is_transposed = matrix == SystemMatrix::transposed;
   if (m.state.kind == LinearSolver::multigrid) {
     HERSEY_REQUIRE(!is_transposed, "a direct solver for the transposed system");
-    return m.solve_columns(columns, tight);
+    return m.solve_columns(columns, rtol);
   }
   m.factorise();
   if (is_transposed)
@@ -474,10 +474,10 @@ void Reynolds::settle(StepOilBalance& oil) {
 }
 
 void respond(Reynolds& film, std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
-             Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial) {
+             Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial, double rtol) {
   film.partials(directions, du, wrench_partial);
   du = -du;
-  film.solve(du);
+  film.solve(du, SystemMatrix::jacobian, rtol);
 }
 
 }  // namespace hersey::film
