@@ -25,7 +25,7 @@ film::LayeredViscosity taken_over(const film::GridTransfer& transfer, const film
 // Residual to which a film on another grid is solved before the last increment, which squares it.
 constexpr double kBeforeLastIncrement = 1e-6;
 
-// Calls take(model, search) for each grid on which the film is found.
+// Calls take(model, search) for each grid, with a search that begins at the film of `state`.
 template <class Take>
 void for_turned_films(const film::FilmModel& model, const SteadyState& state, const SteadyOptions& options,
                       const Take& take) {
@@ -42,7 +42,7 @@ void for_turned_films(const film::FilmModel& model, const SteadyState& state, co
     search.set_viscosity(taken_over(transfer, state.viscosity));
     search.set_shapes(state.shapes.changed_by(transfer));
     search.begin_at(state.e, transfer(state.u), state.s);
-    if (search.at_given_position().solved()) take(turned, search);
+    take(turned, search);
   }
 }
 
@@ -62,7 +62,7 @@ std::vector<TurnedFilm> turned_films(const film::FilmModel& model, const SteadyS
                                      const SteadyOptions& options) {
   std::vector<TurnedFilm> films;
   for_turned_films(model, state, options, [&](const film::FilmModel& turned, SteadySearch& search) {
-    films.push_back({turned, search.state()});
+    if (search.at_given_position().solved()) films.push_back({turned, search.state()});
   });
   return films;
 }
@@ -78,6 +78,7 @@ DynamicCoefficients phase_averaged_coefficients(const film::FilmModel& model, co
   DynamicCoefficients sum = state.coefficients;
   int count = 1;
   for_turned_films(model, state, options, [&](const film::FilmModel&, SteadySearch& search) {
+    if (!search.prepare_coefficients()) return;
     add(search.coefficients(), sum);
     ++count;
   });

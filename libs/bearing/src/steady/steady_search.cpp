@@ -80,6 +80,13 @@ SteadySummary SteadySearch::at_given_position() {
   return summary_;
 }
 
+bool SteadySearch::prepare_coefficients() {
+  if (film_.deforms() || is_swept()) return at_given_position().solved();
+  e_ = point_.e;
+  if (!has_open_gap() || !film_.solve(e_, x_).solved() || !is_fluid()) return false;
+  return film_.ends_linearised() || linearise();
+}
+
 SteadySummary SteadySearch::under_load() {
   if (!film_at_start()) return summary_;
   if (carries_no_load()) {

@@ -29,6 +29,9 @@ class SteadySearch {
   /// Solves the film at the position that the point gives.
   [[nodiscard]] SteadySummary at_given_position();
 
+  /// Solves the film at the position that the point gives as far as coefficients() need it.
+  [[nodiscard]] bool prepare_coefficients();
+
   /// Begins at a known film `u` and position, with the amplitudes `s` of surfaces that deform.
   void begin_at(const Coordinates& e, const Eigen::VectorXd& u, const Eigen::VectorXd& s = {});
   /// True if there is a film to continue from.
@@ -128,6 +131,9 @@ class SteadySearch {
   /// Adds the increment of the last linearisation. Returns false, and adds nothing, if a fill fraction would become
   /// negative: such a root of the equations is no film.
   [[nodiscard]] bool take_last_increment();
+  /// Where film and force are so near that the derivatives of this linearisation are those of the solution, takes the
+  /// last Newton step; nothing is evaluated after it. By multigrid, whose step has come with the linearisation.
+  [[nodiscard]] bool take_last_step(const Coordinates& target);
   /// Near the solution, takes one Newton step from the present linearisation; its remainder is known to be small.
   [[nodiscard]] bool take_one_step(const Coordinates& target);
   /// Near the solution, takes steps of the chord method with the factor of the last such step. Each reduces the error
