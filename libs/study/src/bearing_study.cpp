@@ -193,6 +193,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     solution.whirl_speed = damper->whirl_speed;
   solution.model = bearing::scaled_for(bearing.film, point);
   solution.elasticity = bodies.elasticity(model, bearing);
+  solution.solver = solution.elasticity ? film::FilmSolver::newton : bearing.solver;
   bearing::SteadyOptions steady{.kind = bearing.kind,
                                 .solver = bearing.solver,
                                 .elasticity = solution.elasticity,

@@ -21,7 +21,7 @@ constexpr int kNodesWorthHalving = 1000;
 // take 110 ms on 120 x 25 nodes, 290 and 240 ms on 160 x 35, 790 and 390 ms on 240 x 53.
 constexpr int kFewestForMultigrid = 5000;
 
-// Begins with the position and the film that a search on half of the nodes each way finds (bearing.42). Without an
+// Begins with the position and the film that a search on half of the nodes each way finds (bearing.39). Without an
 // answer there the search begins by itself.
 void begin_on_coarse_grid(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
                           SteadySearch& search) {

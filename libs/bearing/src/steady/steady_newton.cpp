@@ -93,6 +93,7 @@ bool SteadySearch::take_last_increment() {
   return true;
 }
 
+// (bearing.40)
 bool SteadySearch::take_last_step(const Coordinates& target) {
   if (!film_.has_position_answers()) return false;
   const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());

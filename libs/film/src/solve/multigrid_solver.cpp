@@ -54,6 +54,13 @@ Value value_of(const Lanes<Value>& lanes) {
 }
 
 template <class Value>
+WideOf<Value> wide_of(const Lanes<Value>& lanes) {
+  WideOf<Value> values{};
+  for (int k = 0; k < kLanes<Value>; ++k) set_lane(values, k, lanes[k]);
+  return values;
+}
+
+template <class Value>
 Lanes<Value> norms(const std::vector<WideOf<Value>>& x) {
   WideOf<Value> sum{};
   for (const WideOf<Value>& value : x) sum += value * value;
@@ -241,6 +248,23 @@ void MultigridSolver::multiply(const LineVectorOf<Value>& of, LineVectorOf<Value
   }
 }
 
+// x += the first `count` preconditioned vectors times their factors, line by line, so that x stays in the cache.
+template <class Value, class Projections>
+void MultigridSolver::add_combination(const Projections& projections, int count, Krylov<Value>& krylov) const {
+  std::array<WideOf<Value>, kRestart> factor{};
+  for (int c = 0; c < kLanes<Value>; ++c) {
+    const std::array<double, kRestart> of_lane = projections[static_cast<std::size_t>(c)].factors();
+    for (int i = 0; i < count; ++i) set_lane(factor[i], c, of_lane[i]);
+  }
+  for (int line = 0; line < n_phi_; ++line) {
+    WideOf<Value>* x = krylov.x.data() + line * n_z_;
+    for (int i = 0; i < count; ++i) {
+      const Value* z = krylov.preconditioned[i].data() + line * n_z_;
+      for (int j = 0; j < n_z_; ++j) x[j] += factor[i] * widen(z[j]);
+    }
+  }
+}
+
 template <class Value>
 MultigridSummary MultigridSolver::solve_abreast(Eigen::Ref<Eigen::MatrixXd> columns, const MultigridOptions& options) {
   const int n = n_phi_ * n_z_, count = static_cast<int>(columns.cols());
@@ -276,9 +300,8 @@ MultigridSummary MultigridSolver::solve_abreast(Eigen::Ref<Eigen::MatrixXd> colu
       projections[c].begin(is_open ? norm[c] : 0);
     }
     if (done || !finite || cycles >= options.max_iterations) return finish(done && finite);
-    for (int k = 0; k < n; ++k)
-      for (int c = 0; c < kLanes<Value>; ++c)
-        film::set_lane(krylov.basis[0][k], c, static_cast<Real>(inverse[c] * lane(residual[k], c)));
+    const auto scale = wide_of<Value>(inverse);
+    for (int k = 0; k < n; ++k) krylov.basis[0][k] = narrow(WideOf<Value>(scale * residual[k]));
     bool ends = false;
     int k = 0;
     while (k < kRestart && cycles < options.max_iterations && !ends) {
@@ -295,14 +318,7 @@ MultigridSummary MultigridSolver::solve_abreast(Eigen::Ref<Eigen::MatrixXd> colu
       }
       ++k;
     }
-    for (int i = 0; i < k; ++i) {
-      Lanes<Value> factor{};
-      for (int c = 0; c < kLanes<Value>; ++c) factor[c] = projections[c].factors()[i];
-      WideOf<Value> f{};
-      for (int c = 0; c < kLanes<Value>; ++c) set_lane(f, c, factor[c]);
-      const Value* z = krylov.preconditioned[i].data();
-      for (int node = 0; node < n; ++node) x[node] += f * widen(z[node]);
-    }
+    add_combination<Value>(projections, k, krylov);
     find_residual<Value>(columns, krylov);
     const Lanes<Value> before = norm;
     norm = norms<Value>(residual);

@@ -60,6 +60,8 @@ class MultigridSolver {
   void find_residual(const Eigen::Ref<const Eigen::MatrixXd>& b, Krylov<Value>& krylov) const;
   template <class Value>
   void multiply(const LineVectorOf<Value>& x, LineVectorOf<Value>& y) const;
+  template <class Value, class Projections>
+  void add_combination(const Projections& projections, int count, Krylov<Value>& krylov) const;
   template <class Value>
   [[nodiscard]] MultigridSummary solve_abreast(Eigen::Ref<Eigen::MatrixXd> columns, const MultigridOptions& options);
 
