@@ -16,8 +16,8 @@ namespace {
 
 constexpr int centre = 0, west = 1, east = 2, south = 3, north = 4;
 
-// Vectors kept between two restarts. Each takes an eighth to a tenth of the residual away, and single precision carries
-// about as many digits; with half as many a fifth more cycles are needed, with twice as many none fewer.
+// Vectors kept between two restarts: six to eight of them take a residual as far as single precision carries it. Half as
+// many forget what they have found before they are done, twice as many only take memory.
 constexpr int kRestart = 6;
 
 // What the vectors of one restart, in single precision, can take a residual to, as a fraction of what it was.

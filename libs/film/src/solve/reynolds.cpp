@@ -152,10 +152,11 @@ const FilmWrench& Reynolds::Impl::summed_wrench() {
 bool Reynolds::Impl::solve_by_multigrid(Eigen::Ref<Eigen::MatrixXd> columns, double rtol) {
   set_up_multigrid();
   if (!multigrid_is_sound) return false;
-  unsolved = columns;
+  if (unsolved.cols() < columns.cols()) unsolved.resize(columns.rows(), columns.cols());
+  unsolved.leftCols(columns.cols()) = columns;
   const MultigridSummary summary = multigrid->solve(columns, {.rtol = rtol, .max_iterations = most_iterations});
   state.iterations += summary.iterations;
-  if (!summary.solved()) columns = unsolved;
+  if (!summary.solved()) columns = unsolved.leftCols(columns.cols());
   return summary.solved();
 }
 
