@@ -2,7 +2,7 @@
 """bench/compare_speed.py OTHER PROGRAM [--rounds N] [--only REGEX]
 
 How many times faster PROGRAM is than OTHER, such as the program of an earlier commit, on what people do: each job by both in turn, on one
-thread, N times; the least processor time of either counts, since a shared machine only ever adds to it. Beside the ratio stands by how much
+thread, N times; the least processor time of either counts, since a shared machine only ever adds to it. Beside the ratio stand the largest memory, and by how much
 the thinnest film (of the last cycle, where there are cycles), or where there is none the kinetic energy at the end, differs between both.
 """
 import argparse
@@ -10,7 +10,6 @@ import json
 import os
 import pathlib
 import re
-import resource
 import subprocess
 import sys
 import tempfile
@@ -35,6 +34,8 @@ JOBS = {
     "four-bar, no film": ("run", "four_bar/model", []),
     "bearing alone, K and C, 120 x 25": ("bearing", "bearing_alone/model", []),
     "bearing alone, K and C, 480 x 105": ("bearing", "bearing_alone/model", [f"{GRID}.circumferential=480", f"{GRID}.axial=105"]),
+    "bearing alone, K and C, 960 x 208": ("bearing", "bearing_alone/model", [f"{GRID}.circumferential=960", f"{GRID}.axial=208"]),
+    "bearing alone, K and C, 1920 x 416": ("bearing", "bearing_alone/model", [f"{GRID}.circumferential=1920", f"{GRID}.axial=416"]),
 }
 
 
@@ -50,7 +51,7 @@ def figure_of(answer):
 
 
 def answer_of(program, job, is_other):
-    """Processor time [s] of one job, and its figure."""
+    """Processor time [s] of one job, its largest memory [MB], and its figure."""
     kind, example, settings, *own = job
     if own and not is_other:
         settings = settings + own[0]
@@ -58,11 +59,14 @@ def answer_of(program, job, is_other):
         call = [program, kind, str(EXAMPLES / f"{example}.yaml"), "--json", "--threads", "1", "--jobs", "1"]
         call += [word for setting in settings for word in ("--set", setting)]
         call += ["--output", folder, "--force"] if kind == "run" else ["--no-grid-error"]
-        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        done = subprocess.run(call, capture_output=True, text=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}, check=False)
-        if done.returncode != 0:
-            sys.exit(f"{program} {kind} {example} ended with status {done.returncode}: {done.stderr.strip()[-400:]}")
-        return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, figure_of(json.loads(done.stdout))
+        answer, errors = pathlib.Path(folder) / "answer.json", pathlib.Path(folder) / "errors.txt"
+        with answer.open("w") as out, errors.open("w") as err:
+            running = subprocess.Popen(call, stdout=out, stderr=err, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
+            _, status, used = os.wait4(running.pid, 0)
+            running.returncode = os.waitstatus_to_exitcode(status)
+        if running.returncode != 0:
+            sys.exit(f"{program} {kind} {example} ended with status {running.returncode}: {errors.read_text().strip()[-400:]}")
+        return used.ru_utime, used.ru_maxrss / 1024, figure_of(json.loads(answer.read_text()))
 
 
 def main():
@@ -72,19 +76,20 @@ def main():
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--only", default="", help="jobs whose name this regular expression matches")
     given = parser.parse_args()
-    print(f"{'job':<42} {'other [s]':>10} {'this [s]':>10} {'times faster':>13} {'differs by':>11}")
+    print(f"{'job':<42} {'other [s]':>10} {'this [s]':>10} {'times faster':>13} {'differs by':>11} {'other [MB]':>11} {'this [MB]':>10}")
     for name, job in JOBS.items():
         if not re.search(given.only, name):
             continue
         times = {given.other: [], given.program: []}
-        figures = {}
+        figures, memory = {}, {}
         for _ in range(given.rounds):
             for program, taken in times.items():
-                seconds, figures[program] = answer_of(program, job, program == given.other)
+                seconds, memory[program], figures[program] = answer_of(program, job, program == given.other)
                 taken.append(seconds)
         before, now = min(times[given.other]), min(times[given.program])
         was, shown = figures[given.other], figures[given.program]
-        print(f"{name:<42} {before:10.2f} {now:10.2f} {before / now:13.2f} {abs(shown / was - 1):11.1e}", flush=True)
+        print(f"{name:<42} {before:10.2f} {now:10.2f} {before / now:13.2f} {abs(shown / was - 1):11.1e} {memory[given.other]:11.0f} {memory[given.program]:10.0f}",
+              flush=True)
 
 
 if __name__ == "__main__":

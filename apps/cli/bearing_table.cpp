@@ -86,6 +86,20 @@ std::string heat_of(const BearingSolution& solution) {
   return remark.empty() ? "" : "  " + remark + "\n";
 }
 
+// The solver of the film, as in the model file; empty for a bearing of several parts.
+std::string solver_of(const BearingSolution& solution) {
+  if (!solution.solver) return "";
+  switch (*solution.solver) {
+    case film::FilmSolver::multigrid:
+      return "multigrid";
+    case film::FilmSolver::sor:
+      return "sor";
+    case film::FilmSolver::newton:
+      break;
+  }
+  return "newton";
+}
+
 // Under which condition the figures hold: at light loads it decides about them.
 std::string condition_of(const BearingSolution& solution) {
   const film::FilmModel& film = solution.model;
@@ -97,9 +111,10 @@ std::string condition_of(const BearingSolution& solution) {
   std::string surfaces, shear;
   for (const auto& [name, text] : surface_remarks(solution)) surfaces += fmt::format("  {}: {}\n", name, text);
   for (const auto& [name, text] : study::shear_remarks(solution)) shear += fmt::format("  {}\n", text);
-  return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} film linearisations{}, {:.3g} s\n",
+  const std::string solver = solution.solver ? fmt::format(" (solver: {})", solver_of(solution)) : "";
+  return fmt::format("  {} cavitation at {:.4g} bar, {}; grid {} x {}; {} film linearisations{}{}, {:.3g} s\n",
                      cavitation, 1e-5 * film.p_cav, pressures_of(film), film.grid.n_phi, film.grid.n_z, work.iterations,
-                     film_work, solution.wall_time) +
+                     film_work, solver, solution.wall_time) +
          shear + roughness_of(film.roughness) + surfaces + heat_of(solution);
 }
 
@@ -333,6 +348,7 @@ nlohmann::json bearing_json(const BearingSolution& solution, const std::vector<s
   for (const auto& [name, text] : surface_remarks(solution)) document["surfaces"][name] = text;
   for (const auto& [name, text] : study::shear_remarks(solution)) document["conditions"][name] = text;
   if (!solution.warnings.empty()) document["warnings"] = solution.warnings;
+  if (solution.solver) document["solver"] = solver_of(solution);
   document["linearisations"] = solution.summary.iterations;
   document["film_iterations"] = solution.summary.film_iterations;
   document["wall_time"] = solution.wall_time;

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "film_cases.h"
@@ -197,6 +198,39 @@ TEST_CASE("Responses_AreThoseOfTheDirectSolver") {
     // Multigrid answers to 1e-10, about films that both are solved to 1e-12.
     CHECK((du[0].col(column) - du[1].col(column)).norm() < 1e-7 * du[0].col(column).norm());
   }
+}
+
+// Side by side, right-hand sides of sizes far apart, one of them zero, each keep the tolerance of their own, and the
+// answers are linear in them.
+TEST_CASE("RightHandSidesAbreast_AreEachSolvedToTheirOwnTolerance") {
+  const FilmModel m = big_end(Cavitation::mass_conserving, {120, 26});
+  const SurfaceMotion motion = surfaces(m, turning(m, 0.8, omega), 0.02);
+  Reynolds reynolds(m, LinearSolver::multigrid);
+  const int n = m.grid.size();
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(n);
+  REQUIRE(solve_film(reynolds, motion, {}, {}, u).solved());
+  Eigen::MatrixXd b(n, 7);
+  for (int k = 0; k < n; ++k)
+    for (int c = 0; c < 7; ++c) b(k, c) = std::sin(0.37 * (c + 1) * k + c);
+  b.col(1) *= 1e6, b.col(3) *= 1e-9;
+  b.col(4).setZero();
+  b.col(6) = 2 * b.col(0) - b.col(2);
+  for (const double rtol : {1e-4, 1e-7, 1e-10}) {  // above and below what single precision carries
+    CAPTURE(rtol);
+    Eigen::MatrixXd x = b;
+    reynolds.solve(x, SystemMatrix::jacobian, rtol);
+    for (int c = 0; c < 7; ++c) {
+      CAPTURE(c);
+      CHECK((reynolds.jacobian_product(x.col(c)) - b.col(c)).norm() <= 1.01 * rtol * b.col(c).norm());
+      Eigen::MatrixXd alone = b.col(c);
+      reynolds.solve(alone, SystemMatrix::jacobian, rtol);
+      CHECK((reynolds.jacobian_product(alone) - b.col(c)).norm() <= 1.01 * rtol * b.col(c).norm());
+    }
+    CHECK(x.col(4).isZero(0));
+    CHECK((reynolds.jacobian_product(x.col(6) - 2 * x.col(0) + x.col(2))).norm() <=
+          rtol * (b.col(6).norm() + 2 * b.col(0).norm() + b.col(2).norm()));
+  }
+  CHECK(reynolds.linear_solver().fallback_solves == 0);
 }
 
 }  // namespace multigrid_test

@@ -151,6 +151,8 @@ TEST_CASE("SolverIsChosenBySize_UnlessGiven") {
   const std::string fine = "    grid: {circumferential: 480, axial: 97}\n";
   CHECK(solver_of("") == film::FilmSolver::newton);
   CHECK(solver_of(fine) == film::FilmSolver::multigrid);
+  CHECK(solver_of("    solver: auto\n") == film::FilmSolver::newton);
+  CHECK(solver_of(fine + "    solver: auto\n") == film::FilmSolver::multigrid);
   CHECK(solver_of(fine + "    solver: newton\n") == film::FilmSolver::newton);
   CHECK(solver_of("    solver: multigrid\n") == film::FilmSolver::multigrid);
 }

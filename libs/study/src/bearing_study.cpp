@@ -193,6 +193,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
     solution.whirl_speed = damper->whirl_speed;
   solution.model = bearing::scaled_for(bearing.film, point);
   solution.elasticity = bodies.elasticity(model, bearing);
+  solution.solver = solution.elasticity ? film::FilmSolver::newton : bearing.solver;
   bearing::SteadyOptions steady{.kind = bearing.kind,
                                 .solver = bearing.solver,
                                 .elasticity = solution.elasticity,
@@ -225,8 +226,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   steady.start_film = {}, steady.start_heat = {};
   // Those at the temperatures as they are, whose grid error stands beside those with temperatures that follow, too.
   solution.tangent = solution.state.coefficients;
-  const bearing::DynamicCoefficients frozen = bearing::phase_averaged_coefficients(
-      solution.state, bearing::turned_films(solution.model, solution.state, steady));
+  const bearing::DynamicCoefficients frozen =
+      bearing::phase_averaged_coefficients(solution.model, solution.state, steady);
   solution.state.coefficients = frozen;
   if (!solve_heat(bearing, options, steady, solution)) return;
   if (std::holds_alternative<model::JournalPoint>(*bearing.operating_point)) {

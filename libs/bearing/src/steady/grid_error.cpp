@@ -146,8 +146,7 @@ GridError estimate_grid_error(const film::FilmModel& model, const SteadyState& s
     if (from_here.thermal) take_to(coarse.grid, fine, *from_here.thermal);
     SteadyState coarse_state;
     if (!is_fine_enough(coarse.grid) || !solve_steady(coarse, state.point, from_here, coarse_state).solved()) break;
-    coarse_state.coefficients =
-        phase_averaged_coefficients(coarse_state, turned_films(coarse, coarse_state, from_here));
+    coarse_state.coefficients = phase_averaged_coefficients(coarse, coarse_state, from_here);
     figures.push_back(figures_of(coarse, coarse_state));
   }
   GridError error;

@@ -3,10 +3,47 @@
 #include "hersey/bearing/bearing_kind.h"
 #include "hersey/bearing/steady_bearing.h"
 #include "hersey/core/contract.h"
+#include "hersey/film/grid_transfer.h"
 #include "steady/steady_heat.h"
 #include "steady/steady_search.h"
 
 namespace hersey::bearing {
+namespace {
+
+// What a search on half of the nodes leaves of the load and of the film: far less than the grid's own error, which the
+// search on all nodes has to take away in any case.
+constexpr double kCoarseSearch = 1e-6;
+
+// Below so many nodes a search is as quick by itself as with one on half of the nodes before it.
+constexpr int kNodesWorthHalving = 1000;
+
+// Nodes from which on multigrid finds a steady film with its coefficients sooner than a factor does: measured, both
+// take 110 ms on 120 x 25 nodes, 290 and 240 ms on 160 x 35, 790 and 390 ms on 240 x 53.
+constexpr int kFewestForMultigrid = 5000;
+
+// Begins with the position and the film that a search on half of the nodes each way finds (bearing.39). Without an
+// answer there the search begins by itself.
+void begin_on_coarse_grid(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
+                          SteadySearch& search) {
+  const bool is_elastic = options.elasticity && (options.elasticity->shell || options.elasticity->journal);
+  if (!point.load || options.start_film.size() > 0 || is_elastic || options.solver == film::FilmSolver::sor) return;
+  if (model.grid.size() < kNodesWorthHalving || !film::can_be_coarsened(model.grid)) return;
+  film::FilmModel half = model;
+  half.grid = film::half_of(model.grid);
+  SteadyOptions on_half = options;
+  on_half.rtol = std::max(options.rtol, kCoarseSearch);
+  if (options.solver == film::FilmSolver::multigrid && half.grid.size() < kFewestForMultigrid)
+    on_half.solver = film::FilmSolver::newton;
+  SteadySearch search_there(half, point, on_half);
+  begin_on_coarse_grid(half, point, on_half, search_there);
+  if (!search_there.solve().solved()) return;
+  const film::GridTransfer transfer(half.grid, model.grid);
+  const double fill = film::fill_scale(model) / film::fill_scale(half);
+  search.begin_at(search_there.position(),
+                  transfer(search_there.film().unaryExpr([fill](double u) { return u < 0 ? fill * u : u; })));
+}
+
+}  // namespace
 
 double initial_gap(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options) {
   const std::unique_ptr<SteadyCoordinates> coordinates =
@@ -26,6 +63,7 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   HERSEY_REQUIRE(initial_gap(model, point, options) > 0, "a journal inside its bore");
   if (options.thermal) return solve_with_heat(model, point, options, state);
   SteadySearch search(model, point, options);
+  begin_on_coarse_grid(model, point, options, search);
   const SteadySummary summary = search.solve();
   if (summary.solved()) state = search.state();
   return summary;

@@ -27,6 +27,14 @@ constexpr double kSmallestStepLength = 1e-6;
 // and iterations of either at most.
 constexpr int kFilmPatience = 8, kMostIterations = 40;
 
+// What multigrid leaves of the right-hand sides of a step towards the load. Newton's method gains as much in each
+// iteration, and gets by with as few of them as with exact steps; with 1e-4 it takes one more.
+constexpr double kStepTolerance = 1e-6;
+
+// What it leaves of those of coefficients, which then differ from a factor's in the seventh digit; grids err in the
+// fourth.
+constexpr double kCoefficientTolerance = 1e-7;
+
 // Residual of a film from which on it is found anew at the deformation of the step.
 constexpr double kFarFilm = 0.1;
 
@@ -167,6 +175,7 @@ film::FilmSolveSummary SteadyFilm::solve_by_factorisation(const film::SurfaceMot
 
 film::FilmSolveSummary SteadyFilm::solve_film(const film::SurfaceMotion& motion, VectorXd& u) {
   film::FilmSolveSummary solved = film::solve_film(reynolds_, motion, history_, film_options_, u);
+  ends_linearised_ = solved.solved() && !deforms() && film_options_.solver != film::FilmSolver::sor;
   if (solved.solved() || film_options_.solver != film::FilmSolver::multigrid) return solved;
   const int before = solved.iterations;
   solved = solve_by_factorisation(motion, u);
@@ -269,10 +278,15 @@ bool SteadyFilm::reuses_film(const Coordinates& e, const VectorXd& x, const Coor
 }
 
 film::FilmDomain SteadyFilm::linearise(const Coordinates& e, const VectorXd& x) {
-  const film::FilmDomain domain = reynolds_.linearise(surfaces(e, x), history_, film_of(x));
+  film::FilmDomain domain;
+  if (!std::exchange(ends_linearised_, false)) domain = reynolds_.linearise(surfaces(e, x), history_, film_of(x));
   if (!domain.is_inside()) return domain;
   VectorXd du;
-  reynolds_.newton_increment(du);
+  u_by_position_.resize(0, 0);
+  if (finds_position_ && !deforms() && reynolds_.linear_solver().kind == film::LinearSolver::multigrid)
+    solve_with_position(e, du);
+  else
+    reynolds_.newton_increment(du, {.rtol = kStepTolerance});
   wrench_ = reynolds_.forces().wrench_on_shell + reynolds_.forces().wrench_by_u * du;
   dx_ = du;
   force_ = force_of(wrench_);
@@ -294,6 +308,23 @@ film::FilmDomain SteadyFilm::linearise(const Coordinates& e, const VectorXd& x) 
   turn_ += turn_by_s_.dot(ds);
   force_ = force_of(about_z(turn_) * wrench_);
   return domain;
+}
+
+// Multigrid solves several right-hand sides for little more than one: increment and answer to the position together.
+void SteadyFilm::solve_with_position(const Coordinates& e, VectorXd& du) {
+  reynolds_.partials(coordinates_->directions(e, 0, e.size()), u_by_position_, W_by_position_);
+  u_by_position_ = -u_by_position_;
+  u_by_position_.conservativeResize(Eigen::NoChange, e.size() + 1);
+  u_by_position_.col(e.size()) = -reynolds_.residual().value;
+  reynolds_.solve(u_by_position_, film::SystemMatrix::jacobian, kStepTolerance);
+  du = u_by_position_.col(e.size());
+  u_by_position_.conservativeResize(Eigen::NoChange, e.size());
+}
+
+void SteadyFilm::respond_to_position(const Coordinates& e, MatrixXd& dx, Columns& dW) {
+  if (!has_position_answers()) return respond(coordinates_->directions(e, 0, e.size()), dx, dW);
+  dx = u_by_position_;
+  dW = W_by_position_ + reynolds_.forces().wrench_by_u * dx;
 }
 
 film::FilmDomain SteadyFilm::chord_about(const Coordinates& e, const VectorXd& x) {
@@ -363,7 +394,7 @@ double SteadyFilm::relative_residual() const {
 
 void SteadyFilm::respond(std::span<const film::MotionDirection> directions, MatrixXd& dx, Columns& dW) {
   MatrixXd du;
-  film::respond(reynolds_, directions, du, dW);
+  film::respond(reynolds_, directions, du, dW, kCoefficientTolerance);
   dW += reynolds_.forces().wrench_by_u * du;
   if (!deforms()) {
     dx = std::move(du);

@@ -40,13 +40,23 @@ class SteadyFilm {
   [[nodiscard]] film::SurfaceMotion surfaces(const Coordinates& e, const Eigen::VectorXd& x);
 
   /// Sets the viscosities by the oil's temperatures.
-  void set_viscosity(film::LayeredViscosity viscosity) { history_.viscosity = std::move(viscosity); }
+  void set_viscosity(film::LayeredViscosity viscosity) {
+    history_.viscosity = std::move(viscosity);
+    ends_linearised_ = false;
+  }
   /// Sets the shapes of both surfaces at rest, elastic deformation apart.
-  void set_shapes(ShapesAtRest shapes) { shapes_ = std::move(shapes); }
+  void set_shapes(ShapesAtRest shapes) {
+    shapes_ = std::move(shapes);
+    ends_linearised_ = false;
+  }
   /// As set.
   [[nodiscard]] const ShapesAtRest& shapes() const { return shapes_; }
   /// Sets the tolerance on the film's relative residual, instead of SteadyOptions::rtol.
   void set_tolerance(double rtol) { film_options_.rtol = rtol; }
+  /// True if the last linearisation has found the answer to the position along with the increment.
+  [[nodiscard]] bool has_position_answers() const { return u_by_position_.cols() > 0; }
+  /// Makes every linearisation also find the film's answer to the position, which respond_to_position() then gives.
+  void look_for_position() { finds_position_ = true; }
   /// History of a steady film, with its viscosities.
   [[nodiscard]] const film::FilmHistory& history() const { return history_; }
 
@@ -59,6 +69,9 @@ class SteadyFilm {
   /// Solves film and deformation at `e` from x. On failure x is the last iterate.
   [[nodiscard]] film::FilmSolveSummary solve(const Coordinates& e, Eigen::VectorXd& x);
 
+  /// True if the last solve() of a film between rigid surfaces has left it linearised about its answer: respond()
+  /// refers to that. The next linearise(), which begins at that answer, then only adds the increment.
+  [[nodiscard]] bool ends_linearised() const { return ends_linearised_; }
   /// Linearises about x; the members below refer to it.
   [[nodiscard]] film::FilmDomain linearise(const Coordinates& e, const Eigen::VectorXd& x);
   /// Linearises, after solving the film at this deformation where a step has moved its rupture front far: Newton's
@@ -83,6 +96,8 @@ class SteadyFilm {
   using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   /// Total derivatives of x and of the wrench on the shell (bearing's axes) with changes of the surfaces (bearing.28).
   void respond(std::span<const film::MotionDirection> directions, Eigen::MatrixXd& dx, Columns& dW);
+  /// Total derivatives with the position `e` of the last linearisation.
+  void respond_to_position(const Coordinates& e, Eigen::MatrixXd& dx, Columns& dW);
   /// Change of the wrench on the shell with accelerations by the oil's inertia (damper.8), given what unit rates do to
   /// x.
   /// @pre rigid surfaces
@@ -115,6 +130,7 @@ class SteadyFilm {
   [[nodiscard]] const film::Reynolds& reynolds() const { return reynolds_; }
 
  private:
+  void solve_with_position(const Coordinates& e, Eigen::VectorXd& du);
   void gather_flexibility(const SteadyElasticity& elasticity);
   [[nodiscard]] film::FilmSolveSummary solve_film(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
   [[nodiscard]] film::FilmSolveSummary solve_by_factorisation(const film::SurfaceMotion& motion, Eigen::VectorXd& u);
@@ -150,6 +166,10 @@ class SteadyFilm {
   // amplitudes, and the factor of what is left for these.
   Eigen::VectorXd r_s_, dx_;
   Coordinates force_;
+  // Answer to the position, and the wrench's change at fixed u; empty: not found along with the increment.
+  Eigen::MatrixXd u_by_position_;
+  Columns W_by_position_;
+  bool finds_position_ = false, ends_linearised_ = false;
   Vector6 wrench_ = Vector6::Zero();  // on the shell, its present axes
   double turn_ = 0, turn_in_body_ = 0;
   Eigen::MatrixXd C_W_now_;  // of the shell's body as it is deformed

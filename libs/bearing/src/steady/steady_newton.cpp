@@ -23,6 +23,10 @@ constexpr double kForceFloor = 1e-6;
 // Newton's method leaves of a small residual this many times its square.
 constexpr double kCurvature = 3;
 
+// Residuals of film and force over their scales at which derivatives are those of the solution, to some times this;
+// with edges in oil under pressure, whose flow is the scale of the residual, to some thousand times.
+constexpr double kSameDerivatives = 1e-9;
+
 // Steps of the chord method in one iteration at most, and what may be missing for a first one.
 constexpr int kMostOnChord = 3;
 constexpr double kFarOnChord = 0.01;
@@ -89,6 +93,22 @@ bool SteadySearch::take_last_increment() {
   return true;
 }
 
+// (bearing.40)
+bool SteadySearch::take_last_step(const Coordinates& target) {
+  if (!film_.has_position_answers()) return false;
+  const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());
+  if (off > kSameDerivatives || kCurvature * off * off > rtol_) return false;
+  const Coordinates de = force_by_position().fullPivLu().solve(target - force_);
+  if (!(de.norm() < kSmallStep * gap_at(e_))) return false;
+  const Eigen::VectorXd x = x_ + film_.increment() + dx_de_ * de;
+  if (((x.array() < 0) != (x_.array() < 0)).any() || film::lowest_fill_node(model_, film_.film_of(x)) >= 0)
+    return false;
+  e_ += de;
+  x_ = x;
+  summary_.force_error = kCurvature * off * off;
+  return true;
+}
+
 bool SteadySearch::take_one_step(const Coordinates& target) {
   if (is_swept()) return false;
   const double off = std::max((force_ - target).norm() / target.norm(), film_.relative_residual());
@@ -132,6 +152,7 @@ bool SteadySearch::solve_jointly(const Coordinates& target) {
       if (take_last_increment()) return true;
       if (!film_at(e_)) return false;  // solves the film alone, which can leave such a root
     }
+    if (take_last_step(target)) return true;
     const double now = log_force_error(target) + film_.relative_residual();
     idle = now < 0.5 * best ? 0 : idle + 1;
     best = std::min(best, now);

@@ -26,6 +26,7 @@ constexpr double kOutwardSearchBudget = 0.6;
 SteadySearch::SteadySearch(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options)
     : model_(model), point_(point), options_(options), film_(model, point_, options), x_(film_.start()) {
   e_ = force_ = Coordinates::Zero(coordinates_of().count());
+  if (point_.load) film_.look_for_position();
 }
 
 bool SteadySearch::film_at(const Coordinates& e) {
@@ -56,6 +57,11 @@ bool SteadySearch::is_fluid() {
 }
 
 SteadySummary SteadySearch::solve() {
+  if (has_film_ && point_.load && linearise() && solve_jointly(*point_.load)) {
+    summary_.set_solved(true);
+    summary_.message.clear();
+    return summary_;
+  }
   has_film_ = true;
   if (!point_.load && options_.start_heat) take_start();
   return point_.load ? under_load() : at_given_position();
@@ -72,6 +78,13 @@ SteadySummary SteadySearch::at_given_position() {
   summary_.set_solved(film_at(point_.e));
   if (summary_.solved()) x_ += film_.increment();  // beyond the tolerance: derivatives and differences then agree
   return summary_;
+}
+
+bool SteadySearch::prepare_coefficients() {
+  if (film_.deforms() || is_swept()) return at_given_position().solved();
+  e_ = point_.e;
+  if (!has_open_gap() || !film_.solve(e_, x_).solved() || !is_fluid()) return false;
+  return film_.ends_linearised() || linearise();
 }
 
 SteadySummary SteadySearch::under_load() {
@@ -185,7 +198,7 @@ bool SteadySearch::linearise() {
 
 Eigen::MatrixXd SteadySearch::force_by_position() {
   Columns dW;
-  film_.respond(coordinates_of().directions(e_, 0, e_.size()), dx_de_, dW);
+  film_.respond_to_position(e_, dx_de_, dW);
   return film_.change_of_force(dx_de_, dW);
 }
 

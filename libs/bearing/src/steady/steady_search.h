@@ -21,12 +21,16 @@ class SteadySearch {
   /// Keeps references to `model` and `options`.
   SteadySearch(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options);
 
-  /// Solves from the start that the options give, or from the kind's estimate.
+  /// Solves from the film of begin_at(); without one, or where that does not lead there, from the start that the
+  /// options give, or from the kind's estimate.
   [[nodiscard]] SteadySummary solve();
   /// Solves again after a change of viscosities or clearance, from the present film and position.
   [[nodiscard]] SteadySummary retry();
   /// Solves the film at the position that the point gives.
   [[nodiscard]] SteadySummary at_given_position();
+
+  /// Solves the film at the position that the point gives as far as coefficients() need it.
+  [[nodiscard]] bool prepare_coefficients();
 
   /// Begins at a known film `u` and position, with the amplitudes `s` of surfaces that deform.
   void begin_at(const Coordinates& e, const Eigen::VectorXd& u, const Eigen::VectorXd& s = {});
@@ -127,6 +131,9 @@ class SteadySearch {
   /// Adds the increment of the last linearisation. Returns false, and adds nothing, if a fill fraction would become
   /// negative: such a root of the equations is no film.
   [[nodiscard]] bool take_last_increment();
+  /// Where film and force are so near that the derivatives of this linearisation are those of the solution, takes the
+  /// last Newton step; nothing is evaluated after it. By multigrid, whose step has come with the linearisation.
+  [[nodiscard]] bool take_last_step(const Coordinates& target);
   /// Near the solution, takes one Newton step from the present linearisation; its remainder is known to be small.
   [[nodiscard]] bool take_one_step(const Coordinates& target);
   /// Near the solution, takes steps of the chord method with the factor of the last such step. Each reduces the error

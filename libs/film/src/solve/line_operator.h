@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <vector>
 
 namespace hersey::film {
@@ -10,21 +11,43 @@ namespace hersey::film {
 /// grids.
 using Real = float;
 
+/// Right-hand sides that are solved side by side. A recurrence along a line waits for the node before; four of them
+/// fill the registers of every processor, read the matrix once and take little longer than one.
+constexpr int kAbreast = 4;
+
+/// The values of as many right-hand sides at one node.
+using Pack [[gnu::vector_size(kAbreast * sizeof(Real))]] = Real;
+
+/// The same values in double precision.
+using WidePack [[gnu::vector_size(kAbreast * sizeof(double))]] = double;
+template <class Value>
+using WideOf = std::conditional_t<std::is_same_v<Value, Real>, double, WidePack>;
+
+/// The value of right-hand side k at a node.
+[[nodiscard]] inline Real lane(const Real& value, int /*k*/) { return value; }
+[[nodiscard]] inline Real lane(const Pack& values, int k) { return values[k]; }
+inline void set_lane(Real& value, int /*k*/, Real to) { value = to; }
+inline void set_lane(Pack& values, int k, Real to) { values[k] = to; }
+
 /// A vector over the nodes of all lines, line by line, with one extra node at either end that is always finite: the
-/// missing neighbours of the first and the last node are multiplied by zero coefficients.
-class LineVector {
+/// missing neighbours of the first and the last node are multiplied by zero coefficients. Value is Real, or Pack for
+/// several vectors side by side.
+template <class Value>
+class LineVectorOf {
  public:
-  LineVector() = default;
-  explicit LineVector(int size) : values_(static_cast<std::size_t>(size) + 2, 0.0) {}
-  [[nodiscard]] Real* data() { return values_.data() + 1; }
-  [[nodiscard]] const Real* data() const { return values_.data() + 1; }
-  [[nodiscard]] Real& operator[](int i) { return values_[static_cast<std::size_t>(i) + 1]; }
-  [[nodiscard]] Real operator[](int i) const { return values_[static_cast<std::size_t>(i) + 1]; }
-  void fill(Real value) { std::fill(values_.begin(), values_.end(), value); }
+  LineVectorOf() = default;
+  explicit LineVectorOf(int size) : values_(static_cast<std::size_t>(size) + 2, Value{}) {}
+  [[nodiscard]] Value* data() { return values_.data() + 1; }
+  [[nodiscard]] const Value* data() const { return values_.data() + 1; }
+  [[nodiscard]] Value& operator[](int i) { return values_[static_cast<std::size_t>(i) + 1]; }
+  [[nodiscard]] const Value& operator[](int i) const { return values_[static_cast<std::size_t>(i) + 1]; }
+  [[nodiscard]] int size() const { return values_.empty() ? 0 : static_cast<int>(values_.size()) - 2; }
+  void set_zero() { std::fill(values_.begin(), values_.end(), Value{}); }
 
  private:
-  std::vector<Real> values_;
+  std::vector<Value> values_;
 };
+using LineVector = LineVectorOf<Real>;
 
 /// A matrix over `lines` lines of n nodes that close to a ring. A node is coupled to the three nearest of its own line
 /// and of the lines before (west) and after it (east).
@@ -49,14 +72,19 @@ class LineOperator {
   /// LU factorisation of every line's own tridiagonal block, without pivoting. False where a pivot vanishes.
   [[nodiscard]] bool factorise_lines();
 
-  /// Solves one line's block for x in place of its right-hand side; the second does so for the transposed block.
-  void solve_line(int line, Real* x) const;
+  /// Solves one line's block for x in place of its right-hand side; the second does so for the transposed block. Value
+  /// here and below: Real or Pack.
+  template <class Value>
+  void solve_line(int line, Value* x) const;
   void solve_line_transposed(int line, Real* x) const;
 
   /// Gauss-Seidel on A x = b line by line, in ascending or descending order.
-  void relax(const LineVector& b, bool ascending, LineVector& x) const;
+  template <class Value>
+  void relax(const LineVectorOf<Value>& b, bool ascending, LineVectorOf<Value>& x) const;
   /// Gauss-Seidel from x = 0; `residual` becomes b - A x.
-  void relax_from_zero(const LineVector& b, bool ascending, LineVector& x, LineVector& residual) const;
+  template <class Value>
+  void relax_from_zero(const LineVectorOf<Value>& b, bool ascending, LineVectorOf<Value>& x,
+                       LineVectorOf<Value>& residual) const;
 
  private:
   struct Pivot {

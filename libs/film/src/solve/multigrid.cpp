@@ -1,6 +1,7 @@
 #include "solve/multigrid.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 namespace hersey::film {
@@ -24,7 +25,6 @@ Multigrid::Multigrid(int lines, int nodes_per_line) {
     Level& level = levels_.emplace_back();
     level.A = LineOperator(n, nodes_per_line);
     level.active.assign(static_cast<std::size_t>(size), 1);
-    for (LineVector* v : {&level.x, &level.b, &level.residual}) *v = LineVector(size);
     if (n < fewest_lines_to_coarsen) break;
     for (LineVector* v : {&level.p_before, &level.p_after, &level.r_before, &level.r_after}) *v = LineVector(size);
   }
@@ -164,36 +164,67 @@ bool Multigrid::setup(const std::vector<char>& active, bool ascending) {
   return factorise_coarsest();
 }
 
-void Multigrid::cycle(const LineVector& b, LineVector& x) { descend(0, b, x); }
-
-void Multigrid::solve_coarsest(const LineVector& b, LineVector& x) {
-  const int n = levels_.back().A.size();
-  std::copy(b.data(), b.data() + n, rhs_.begin());
-  lu_.solve(rhs_);
-  std::copy(rhs_.begin(), rhs_.end(), x.data());
+template <class Value>
+std::vector<Multigrid::Scratch<Value>>& Multigrid::scratch_of() {
+  if constexpr (std::is_same_v<Value, Real>)
+    return single_;
+  else
+    return abreast_;
 }
 
-void Multigrid::descend(std::size_t l, const LineVector& b, LineVector& x) {
-  if (l + 1 == levels_.size()) return solve_coarsest(b, x);
-  Level &fine = levels_[l], &coarse = levels_[l + 1];
-  const LineOperator& A = fine.A;
-  const int n = A.nodes_per_line();
-  A.relax_from_zero(b, ascending_, x, fine.residual);
-  coarse.b.fill(0);
-  for (int line = 0; line < A.lines(); ++line) {
-    const int at = line * n, here = line / 2 * n, next = coarse.A.after(line / 2) * n;
-    for (int j = 0; j < n; ++j) coarse.b[here + j] += fine.r_before[at + j] * fine.residual[at + j];
-    if (line % 2 == 0) continue;
-    for (int j = 0; j < n; ++j) coarse.b[next + j] += fine.r_after[at + j] * fine.residual[at + j];
+template <class Value>
+void Multigrid::cycle(const LineVectorOf<Value>& b, LineVectorOf<Value>& x) {
+  std::vector<Scratch<Value>>& scratch = scratch_of<Value>();
+  if (scratch.empty()) {
+    scratch.resize(levels_.size());
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+      const int size = levels_[l].A.size();
+      if (l + 1 < levels_.size()) scratch[l].residual = LineVectorOf<Value>(size);
+      if (l > 0) scratch[l].x = scratch[l].b = LineVectorOf<Value>(size);
+    }
   }
-  descend(l + 1, coarse.b, coarse.x);
+  descend(0, b, x);
+}
+
+template <class Value>
+void Multigrid::solve_coarsest(const LineVectorOf<Value>& b, LineVectorOf<Value>& x) {
+  constexpr int columns = sizeof(Value) / sizeof(Real);
+  const int n = levels_.back().A.size();
+  rhs_.resize(static_cast<std::size_t>(n) * columns);
+  for (int c = 0; c < columns; ++c)
+    for (int i = 0; i < n; ++i) rhs_[static_cast<std::size_t>(c) * n + i] = lane(b[i], c);
+  lu_.solve(rhs_, columns);
+  for (int c = 0; c < columns; ++c)
+    for (int i = 0; i < n; ++i) set_lane(x[i], c, static_cast<Real>(rhs_[static_cast<std::size_t>(c) * n + i]));
+}
+
+template <class Value>
+void Multigrid::descend(std::size_t l, const LineVectorOf<Value>& b, LineVectorOf<Value>& x) {
+  if (l + 1 == levels_.size()) return solve_coarsest(b, x);
+  const Level& fine = levels_[l];
+  LineVectorOf<Value>& residual = scratch_of<Value>()[l].residual;
+  LineVectorOf<Value>&coarse_b = scratch_of<Value>()[l + 1].b, &coarse_x = scratch_of<Value>()[l + 1].x;
+  const LineOperator &A = fine.A, &B = levels_[l + 1].A;
+  const int n = A.nodes_per_line();
+  A.relax_from_zero(b, ascending_, x, residual);
+  coarse_b.set_zero();
   for (int line = 0; line < A.lines(); ++line) {
-    const int at = line * n, here = line / 2 * n, next = coarse.A.after(line / 2) * n;
-    for (int j = 0; j < n; ++j) x[at + j] += fine.p_before[at + j] * coarse.x[here + j];
+    const int at = line * n, here = line / 2 * n, next = B.after(line / 2) * n;
+    for (int j = 0; j < n; ++j) coarse_b[here + j] += fine.r_before[at + j] * residual[at + j];
     if (line % 2 == 0) continue;
-    for (int j = 0; j < n; ++j) x[at + j] += fine.p_after[at + j] * coarse.x[next + j];
+    for (int j = 0; j < n; ++j) coarse_b[next + j] += fine.r_after[at + j] * residual[at + j];
+  }
+  descend(l + 1, coarse_b, coarse_x);
+  for (int line = 0; line < A.lines(); ++line) {
+    const int at = line * n, here = line / 2 * n, next = B.after(line / 2) * n;
+    for (int j = 0; j < n; ++j) x[at + j] += fine.p_before[at + j] * coarse_x[here + j];
+    if (line % 2 == 0) continue;
+    for (int j = 0; j < n; ++j) x[at + j] += fine.p_after[at + j] * coarse_x[next + j];
   }
   A.relax(b, ascending_, x);
 }
+
+template void Multigrid::cycle(const LineVectorOf<Real>&, LineVectorOf<Real>&);
+template void Multigrid::cycle(const LineVectorOf<Pack>&, LineVectorOf<Pack>&);
 
 }  // namespace hersey::film

@@ -24,8 +24,9 @@ class Multigrid {
   /// @returns false where a line's own block or the coarsest matrix is singular
   [[nodiscard]] bool setup(const std::vector<char>& active, bool ascending);
 
-  /// Applies one V-cycle from zero: an approximate solution of A x = b.
-  void cycle(const LineVector& b, LineVector& x);
+  /// Applies one V-cycle from zero: an approximate solution of A x = b, for one right-hand side or several abreast.
+  template <class Value>
+  void cycle(const LineVectorOf<Value>& b, LineVectorOf<Value>& x);
 
  private:
   struct Level {
@@ -34,15 +35,25 @@ class Multigrid {
     // Interpolation to a node from the coarse line at or before it and from the one after, and the restriction of its
     // residual to these.
     LineVector p_before, p_after, r_before, r_after;
-    LineVector x, b, residual;
+  };
+  /// Vectors of a cycle on one level; x and b of the finest are the caller's.
+  template <class Value>
+  struct Scratch {
+    LineVectorOf<Value> x, b, residual;
   };
   static void weigh(Level& fine, LineVector& scratch);
   static void coarsen(const Level& fine, Level& coarse);
   [[nodiscard]] bool factorise_coarsest();
-  void descend(std::size_t level, const LineVector& b, LineVector& x);
-  void solve_coarsest(const LineVector& b, LineVector& x);
+  template <class Value>
+  [[nodiscard]] std::vector<Scratch<Value>>& scratch_of();
+  template <class Value>
+  void descend(std::size_t level, const LineVectorOf<Value>& b, LineVectorOf<Value>& x);
+  template <class Value>
+  void solve_coarsest(const LineVectorOf<Value>& b, LineVectorOf<Value>& x);
 
   std::vector<Level> levels_;
+  std::vector<Scratch<Real>> single_;  ///< empty until a cycle needs them
+  std::vector<Scratch<Pack>> abreast_;
   bool ascending_ = true;
   LineVector scratch_;
   solver::SparseLu lu_;

@@ -41,9 +41,10 @@ struct Reynolds::Impl {
   void find_row_sizes();
   [[nodiscard]] bool factorise_shifted(double shift);
   [[nodiscard]] bool solve_regularised(Eigen::VectorXd& du);
-  [[nodiscard]] bool solve_by_multigrid(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
+  [[nodiscard]] bool solve_by_multigrid(Eigen::Ref<Eigen::MatrixXd> columns, double rtol);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
-  void solve_in_pattern(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
+  void solve_columns(Eigen::Ref<Eigen::MatrixXd> columns, double rtol);
+  void solve_in_pattern(Eigen::Ref<Eigen::MatrixXd> columns, double rtol);
   void solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
@@ -66,7 +67,7 @@ struct Reynolds::Impl {
   // Of the last condensation, n rows each: residual's derivative along the directions; then either the answer of each
   // output (six of the wrench, forces on shapes, flows of ports) to the residual, or the increment and the answers to
   // the directions.
-  Eigen::MatrixXd residual_by_s, adjoint, products, answers, port_flow_by_u;
+  Eigen::MatrixXd unsolved, residual_by_s, adjoint, products, answers, port_flow_by_u;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> adjoint_rows;
   Eigen::VectorXd condensed_residual, increment;
   SurfaceMotion speeds;    // without gap and rate
@@ -153,11 +154,14 @@ const FilmWrench& Reynolds::Impl::summed_wrench() {
   return wrench;
 }
 
-bool Reynolds::Impl::solve_by_multigrid(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
+bool Reynolds::Impl::solve_by_multigrid(Eigen::Ref<Eigen::MatrixXd> columns, double rtol) {
   set_up_multigrid();
   if (!multigrid_is_sound) return false;
-  const solver::GmresSummary summary = multigrid->solve(b, {.rtol = rtol, .max_iterations = most_iterations}, x);
+  if (unsolved.cols() < columns.cols()) unsolved.resize(columns.rows(), columns.cols());
+  unsolved.leftCols(columns.cols()) = columns;
+  const MultigridSummary summary = multigrid->solve(columns, {.rtol = rtol, .max_iterations = most_iterations});
   state.iterations += summary.iterations;
+  if (!summary.solved()) columns = unsolved.leftCols(columns.cols());
   return summary.solved();
 }
 
@@ -177,25 +181,22 @@ void Reynolds::Impl::solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns
 }
 
 void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
-  if (border.is_empty()) return solve_in_pattern(b, rtol, x);
   x = b;
-  border.solve(x, [&](Eigen::Ref<Eigen::MatrixXd> of) {
-    Eigen::VectorXd in_pattern;
-    for (auto column : of.colwise()) {
-      solve_in_pattern(column, std::min(rtol, tight), in_pattern);
-      column = in_pattern;
-    }
-  });
+  solve_columns(x, rtol);
 }
 
-void Reynolds::Impl::solve_in_pattern(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
+void Reynolds::Impl::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns, double rtol) {
+  if (border.is_empty()) return solve_in_pattern(columns, rtol);
+  border.solve(columns, [&](Eigen::Ref<Eigen::MatrixXd> of) { solve_in_pattern(of, std::min(rtol, tight)); });
+}
+
+void Reynolds::Impl::solve_in_pattern(Eigen::Ref<Eigen::MatrixXd> columns, double rtol) {
   if (state.kind == LinearSolver::multigrid) {
-    if (solve_by_multigrid(b, rtol, x)) return;
-    ++state.fallback_solves;
+    if (solve_by_multigrid(columns, rtol)) return;
+    state.fallback_solves += static_cast<int>(columns.cols());
   }
   factorise();
-  x = b;
-  lu.solve({x.data(), static_cast<std::size_t>(x.size())});
+  lu.solve({columns.data(), static_cast<std::size_t>(columns.size())}, static_cast<int>(columns.cols()));
 }
 
 // With J^T Lambda = F_u^T for forces and flows F:  F_u du0 = -Lambda^T r  and  F_u U = -Lambda^T r_s.
@@ -228,17 +229,18 @@ void Reynolds::Impl::multiply_by_adjoint() {
 }
 
 void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film) {
-  rhs = -balance.residual();
-  solve(rhs, tight, increment);
+  const Eigen::Index count = residual_by_s.cols();
+  answers.resize(residual_by_s.rows(), count + 1);
+  answers.leftCols(count) = -residual_by_s;
+  answers.col(count) = -balance.residual();
+  solve_columns(answers, tight);
+  increment = answers.col(count);
   film.wrench += wrench.change_by_u(increment);
   film.port_flow.noalias() += port_flow_by_u.transpose() * increment;
   rhs = wrench.normal().by_u.cwiseProduct(increment);
   film.Q.noalias() += openings.transpose() * rhs;
-  answers.resize(residual_by_s.rows(), residual_by_s.cols());
-  for (Eigen::Index k = 0; k < answers.cols(); ++k) {
-    rhs = -residual_by_s.col(k);
-    solve(rhs, tight, answer);
-    answers.col(k) = answer;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    answer = answers.col(k);
     film.wrench_by_s.col(k) += wrench.change_by_u(answer);
     film.port_flow_by_s.col(k).noalias() += port_flow_by_u.transpose() * answer;
     rhs = wrench.normal().by_u.cwiseProduct(answer);
@@ -380,7 +382,7 @@ void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::Vector
     m.solve_directly(du);
   } else {
     du = m.increment;
-    du.noalias() += m.answers * ds;
+    du.noalias() += m.answers.leftCols(ds.size()) * ds;
   }
 }
 
@@ -405,18 +407,13 @@ Eigen::VectorXd Reynolds::jacobian_product(const Eigen::Ref<const Eigen::VectorX
   return -product;
 }
 
-void Reynolds::solve(Eigen::MatrixXd& columns, SystemMatrix matrix) {
+void Reynolds::solve(Eigen::MatrixXd& columns, SystemMatrix matrix, double rtol) {
   Impl& m = *impl_;
   HERSEY_REQUIRE(columns.rows() == m.balance.size(), "shape (n, any)");
   const bool is_transposed = matrix == SystemMatrix::transposed;
   if (m.state.kind == LinearSolver::multigrid) {
     HERSEY_REQUIRE(!is_transposed, "a direct solver for the transposed system");
-    for (auto column : columns.colwise()) {
-      m.rhs = column;
-      m.solve(m.rhs, tight, m.answer);
-      column = m.answer;
-    }
-    return;
+    return m.solve_columns(columns, rtol);
   }
   m.factorise();
   if (is_transposed)
@@ -492,10 +489,10 @@ void Reynolds::settle(StepOilBalance& oil) {
 }
 
 void respond(Reynolds& film, std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
-             Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial) {
+             Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial, double rtol) {
   film.partials(directions, du, wrench_partial);
   du = -du;
-  film.solve(du);
+  film.solve(du, SystemMatrix::jacobian, rtol);
 }
 
 }  // namespace hersey::film

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "check/vocabulary.h"
 #include "hersey/film/film_model.h"
 #include "hersey/model/model.h"
@@ -75,7 +77,9 @@ inline constexpr Vocabulary<film::TransitionNumber, 2> transition_words{{
     {film::TransitionNumber::taylor, "taylor", "Re sqrt(h/R), of the vortices between a journal and its bore"},
 }};
 
-inline constexpr Vocabulary<film::FilmSolver, 3> film_solver_words{{
+/// No solver: it is chosen by film::usual_solver().
+inline constexpr Vocabulary<std::optional<film::FilmSolver>, 4> film_solver_words{{
+    {std::nullopt, "auto", "`multigrid` on grids of more than 15,000 nodes, `newton` on others: the faster of both"},
     {film::FilmSolver::newton, "newton", "Newton's method with exact derivatives"},
     {film::FilmSolver::multigrid, "multigrid", "the same, its linear systems solved by multigrid: for fine grids"},
     {film::FilmSolver::sor, "sor", "successive over-relaxation, for comparison"},

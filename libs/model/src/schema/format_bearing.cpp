@@ -207,9 +207,8 @@ std::vector<Key> shared_bearing_keys() {
       defaulted("cavitated_shear", choice(cavitated_shear_words), "film_share", "Shear in the cavitated film."),
       defaulted("turbulence", turbulence_format(), "none",
                 "Friction of the film at the speeds and thicknesses at which it is not laminar."),
-      optional("solver", choice(film_solver_words),
-               "Solver of the film. Coupled monolithically to the bodies, `sor` finds the initial film only.",
-               "newton; of grids of more than 15,000 nodes multigrid"),
+      defaulted("solver", choice(film_solver_words), "auto",
+                "Solver of the film. Coupled monolithically to the bodies, `sor` finds the initial film only."),
       defaulted("coupling", coupling_format(), "monolithic", "How film and bodies are solved together."),
   };
 }

@@ -24,4 +24,9 @@ struct TurnedFilm {
 [[nodiscard]] DynamicCoefficients phase_averaged_coefficients(const SteadyState& state,
                                                               const std::vector<TurnedFilm>& turned);
 
+/// Does the same without keeping the films on the other grids.
+/// @param model, options  with which `state` was solved
+[[nodiscard]] DynamicCoefficients phase_averaged_coefficients(const film::FilmModel& model, const SteadyState& state,
+                                                              const SteadyOptions& options);
+
 }  // namespace hersey::bearing

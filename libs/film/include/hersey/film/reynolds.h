@@ -127,7 +127,8 @@ class Reynolds {
   [[nodiscard]] Eigen::VectorXd jacobian_product(const Eigen::Ref<const Eigen::VectorXd>& v) const;
   /// Replaces each column by the solution of J x = column: the film's answer to a change of its residual that no motion
   /// of the surfaces makes; or of J^T x = column, the adjoint of a force, by `direct` only.
-  void solve(Eigen::MatrixXd& columns, SystemMatrix matrix = SystemMatrix::jacobian);
+  /// @param rtol  what `multigrid` leaves of each column
+  void solve(Eigen::MatrixXd& columns, SystemMatrix matrix = SystemMatrix::jacobian, double rtol = 1e-10);
 
   /// Closes a step of history.dt > 0 that has ended at `u`: forces belong to its end, where the gap opens at its exact
   /// rate; flows are to bring what the gap has gained over the whole step. Their difference is led through the film
@@ -155,7 +156,8 @@ class Reynolds {
 /// dr/d(parameter), and the wrench's *partial* derivative at fixed u. The total derivative is
 /// wrench_partial + forces().wrench_by_u * du. For coefficients and searches, which need the film's own change; where
 /// only forces are needed, condense() has them for less.
+/// @param rtol  what `multigrid` leaves of the right-hand sides
 void respond(Reynolds& film, std::span<const MotionDirection> directions, Eigen::MatrixXd& du,
-             Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial);
+             Eigen::Matrix<double, 6, Eigen::Dynamic>& wrench_partial, double rtol = 1e-10);
 
 }  // namespace hersey::film

@@ -24,8 +24,7 @@ void interpret_bearings(Context& context) {
     bearing.name = name;
     bearing.position = value.key_position;
     kind->read(context, value, bearing);
-    bearing.solver = value.find("solver") != nullptr ? meaning_of(value, "solver", film_solver_words)
-                                                     : film::usual_solver(bearing.film.grid);
+    bearing.solver = meaning_of(value, "solver", film_solver_words, {}).value_or(film::usual_solver(bearing.film.grid));
     complete_restrictors(context, value, bearing);
     bearing.coupling = coupling_of(value);
     kind->read_point(context, value, bearing);

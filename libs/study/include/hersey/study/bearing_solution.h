@@ -66,7 +66,8 @@ struct PadBearingSolution {
 struct [[nodiscard]] BearingSolution : Outcome {
   model::StudyRun run;
   film::FilmModel model;
-  bool expands = false;                 ///< its clearance follows the temperatures of its walls
+  std::optional<film::FilmSolver> solver = {};  ///< of its film; unset: of a bearing of several parts
+  bool expands = false;                         ///< its clearance follows the temperatures of its walls
   std::vector<std::string> node_names;  ///< nodes of the thermal network to which its walls belong; empty if they
                                         ///< belong to none
   std::shared_ptr<const bearing::SteadyElasticity> elasticity;  ///< of the surfaces; null: both rigid
