@@ -65,6 +65,15 @@ inline constexpr Vocabulary<ModesAbout, 4> modes_about_words{{
      "the state at the end of a run over `duration`; bearings by their tangent there, over its last step"},
 }};
 
+inline constexpr Vocabulary<Integrator, 2> integrator_words{{
+    {Integrator::generalized_alpha, "generalized_alpha",
+     "implicit, of second order, damps vibrations that the steps do not resolve: for every machine"},
+    {Integrator::dormand_prince, "dormand_prince",
+     "explicit Runge-Kutta method of order eight, for rigid bodies without films, contacts and piston rings: many "
+     "times "
+     "faster at small tolerances; stiff springs and strong dampers limit its steps"},
+}};
+
 inline constexpr Vocabulary<InitialDeformation, 3> initial_deformation_words{{
     {InitialDeformation::none, "none", "undeformed: what presses on it makes it vibrate"},
     {InitialDeformation::internal, "internal",
