@@ -143,7 +143,6 @@ void DormandPrince::Workspace::prepare(const Equations& equations, const State& 
   rates.resize(2 * nv, kStages);
   position_scales = equations.position_scales();
   end = state;
-  analysed = -1;
 }
 
 /// sum = dt sum_i weights_i rates_i.
@@ -179,15 +178,15 @@ StepStatus DormandPrince::Workspace::assemble(Equations& equations, const State&
   if (nlambda > 0) equations.constraint_rates(at, velocity, bias);
   if (!with_matrix) return StepStatus::converged;
   const Stopwatch watch(linear_solve_time);
+  if (mirror.empty()) find_mirror();
   if (analysed != matrix.nonZeros()) {
-    find_mirror();
     lu.analyse(matrix);
     analysed = matrix.nonZeros();
   }
   double* values = matrix.valuePtr();
   for (const auto& [from, to] : mirror) values[to] = values[from];
   if (lu.factorise({values, static_cast<std::size_t>(matrix.nonZeros())})) return StepStatus::converged;
-  why = "mass matrix and constraints are singular here";
+  why = "a motion has no inertia, or constraints depend on each other at this position";
   return StepStatus::singular;
 }
 
