@@ -174,7 +174,7 @@ std::string part_for_implicit_steps(const Context& context) {
   for (const auto& [section_name, part] : {std::pair{"bearings", "bearing"}, std::pair{"contacts", "contact"}})
     for (const auto& [name, value] : section(context.root, section_name)) return part + (" '" + name + "'");
   for (const auto& [name, body] : section(context.root, "bodies"))
-    if (body.find("flexible") != nullptr || body.find("beam") != nullptr) return "the flexible body '" + name + "'";
+    if (body.has("flexible") || body.has("beam")) return "the flexible body '" + name + "'";
   for (const Force& force : context.model.forces)
     if (force.as<PistonRing>() != nullptr) return "piston ring '" + force.name + "'";
   return {};
