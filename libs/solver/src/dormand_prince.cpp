@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "hersey/core/contract.h"
 #include "hersey/core/stopwatch.h"
@@ -95,6 +96,8 @@ constexpr double kThirdOrderShare = 0.01;
 constexpr double kRoundOffOfPositions = 1e-14;
 constexpr double kLargestViolation = 1e-11;
 
+constexpr const char* kSingular = "a motion has no inertia, or constraints depend on each other at this position";
+
 /// A correction that does not halve the violation is one by round-off.
 constexpr double kLeastProgress = 0.5;
 
@@ -118,16 +121,18 @@ struct DormandPrince::Workspace {
   int evaluations = 0;
   double linear_solve_time = 0;
   Stage stage;
-  std::string why;  ///< the last evaluation failed
+  StepStatus why = StepStatus::converged;  ///< why the step ends without a solution
+  std::string reason;                      ///< in one sentence
 
   void prepare(const Equations& equations, const State& state);
   void set_change(const std::array<double, kStages>& weights, double dt, VectorXd& sum) const;
   void find_mirror();
-  [[nodiscard]] StepStatus assemble(Equations& equations, const State& at, bool with_matrix);
+  [[nodiscard]] bool assemble(Equations& equations, const State& at, bool with_matrix);
   void solve();
-  [[nodiscard]] StepStatus evaluate_stage(Equations& equations, const State& state, double dt, int i);
-  [[nodiscard]] StepStatus close_positions(Equations& equations, int most);
-  [[nodiscard]] StepStatus finish(Equations& equations, const State& state, double dt, int most);
+  bool refuse(StepStatus status, std::string text);
+  [[nodiscard]] bool evaluate_stage(Equations& equations, const State& state, double dt, int i);
+  [[nodiscard]] bool close_positions(Equations& equations, int most);
+  [[nodiscard]] bool finish(Equations& equations, const State& state, double dt, int most);
   void estimate_error(double dt);
 };
 
@@ -152,6 +157,13 @@ void DormandPrince::Workspace::set_change(const std::array<double, kStages>& wei
     if (weights[i] != 0) sum += (dt * weights[i]) * rates.col(i);
 }
 
+/// Notes why the step ends; false.
+bool DormandPrince::Workspace::refuse(StepStatus status, std::string text) {
+  why = status;
+  reason = std::move(text);
+  return false;
+}
+
 /// The tangent of a stage without displacements has G^T beside the mass matrix, and zeros in place of G.
 void DormandPrince::Workspace::find_mirror() {
   mirror.clear();
@@ -169,14 +181,14 @@ void DormandPrince::Workspace::find_mirror() {
 }
 
 /// Residual, and the matrix with its factors where asked for, at a state; and G v + Phi_t and gamma.
-StepStatus DormandPrince::Workspace::assemble(Equations& equations, const State& at, bool with_matrix) {
+bool DormandPrince::Workspace::assemble(Equations& equations, const State& at, bool with_matrix) {
   ++evaluations;
   equations.assemble(at, stage, residual, scale, with_matrix ? &matrix : nullptr);
-  why = equations.domain_error();
-  if (why.empty() && !residual.head(nv).allFinite()) why = "the residual is not a number";
-  if (!why.empty()) return StepStatus::domain_error;
+  if (std::string outside = equations.domain_error(); !outside.empty())
+    return refuse(StepStatus::domain_error, std::move(outside));
+  if (!residual.head(nv).allFinite()) return refuse(StepStatus::domain_error, "the residual is not a number");
   if (nlambda > 0) equations.constraint_rates(at, velocity, bias);
-  if (!with_matrix) return StepStatus::converged;
+  if (!with_matrix) return true;
   const Stopwatch watch(linear_solve_time);
   if (mirror.empty()) find_mirror();
   if (analysed != matrix.nonZeros()) {
@@ -185,9 +197,8 @@ StepStatus DormandPrince::Workspace::assemble(Equations& equations, const State&
   }
   double* values = matrix.valuePtr();
   for (const auto& [from, to] : mirror) values[to] = values[from];
-  if (lu.factorise({values, static_cast<std::size_t>(matrix.nonZeros())})) return StepStatus::converged;
-  why = "a motion has no inertia, or constraints depend on each other at this position";
-  return StepStatus::singular;
+  if (lu.factorise({values, static_cast<std::size_t>(matrix.nonZeros())})) return true;
+  return refuse(StepStatus::singular, kSingular);
 }
 
 void DormandPrince::Workspace::solve() {
@@ -196,7 +207,7 @@ void DormandPrince::Workspace::solve() {
 }
 
 /// Theory manual eq. (integrator.37) and (integrator.39): rates of stage i.
-StepStatus DormandPrince::Workspace::evaluate_stage(Equations& equations, const State& state, double dt, int i) {
+bool DormandPrince::Workspace::evaluate_stage(Equations& equations, const State& state, double dt, int i) {
   if (i > 0) {
     change.setZero(2 * nv);
     for (int j = 0; j < i; ++j)
@@ -205,35 +216,34 @@ StepStatus DormandPrince::Workspace::evaluate_stage(Equations& equations, const 
     correction = change.head(nv);
     equations.retract(state.q, correction, trial.q);
     trial.v = state.v + change.tail(nv);
-    const StepStatus found = assemble(equations, trial, true);
-    if (found != StepStatus::converged) return found;
+    if (!assemble(equations, trial, true)) return false;
     rhs.resize(nv + nlambda);
     rhs.head(nv) = -residual.head(nv);
     rhs.tail(nlambda) = -bias;
     solve();
-    if (!rhs.allFinite()) return StepStatus::singular;
+    if (!rhs.allFinite()) return refuse(StepStatus::singular, kSingular);
     equations.increment_rate(correction, trial.v, rate);
     rates.col(i).head(nv) = rate;
     rates.col(i).tail(nv) = rhs.head(nv);
-    return StepStatus::converged;
+    return true;
   }
   rates.col(0).head(nv) = state.v;
   rates.col(0).tail(nv) = state.vdot;
-  return StepStatus::converged;
+  return true;
 }
 
 /// Theory manual eq. (integrator.40), with the factors of the last stage, near the end of the step.
-StepStatus DormandPrince::Workspace::close_positions(Equations& equations, int most) {
+bool DormandPrince::Workspace::close_positions(Equations& equations, int most) {
   moved.setZero(nv);
   turned.setZero(nv);
-  if (nlambda == 0) return StepStatus::converged;
+  if (nlambda == 0) return true;
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
     equations.constraints(trial, phi, lengths, nullptr);
     const double violation = phi.cwiseQuotient(lengths).lpNorm<Eigen::Infinity>();
-    if (violation <= kRoundOffOfPositions) return StepStatus::converged;
+    if (violation <= kRoundOffOfPositions) return true;
     if (!(violation < kLeastProgress * last)) {
-      if (violation <= kLargestViolation) return StepStatus::converged;
+      if (violation <= kLargestViolation) return true;
       break;
     }
     last = violation;
@@ -245,19 +255,17 @@ StepStatus DormandPrince::Workspace::close_positions(Equations& equations, int m
     position = trial.q;
     equations.retract(position, correction, trial.q);
   }
-  why = "positions do not return to the constraints";
-  return StepStatus::no_convergence;
+  return refuse(StepStatus::no_convergence, "positions do not return to the constraints");
 }
 
 /// The end of the step on the constraints, with its accelerations and multipliers, (integrator.41).
-StepStatus DormandPrince::Workspace::finish(Equations& equations, const State& state, double dt, int most) {
+bool DormandPrince::Workspace::finish(Equations& equations, const State& state, double dt, int most) {
   set_change(kWeights, dt, change);
   trial.t = state.t + dt;
   correction = change.head(nv);
   equations.retract(state.q, correction, trial.q);
   trial.v = state.v + change.tail(nv);
-  if (const StepStatus closed = close_positions(equations, most); closed != StepStatus::converged) return closed;
-  if (const StepStatus found = assemble(equations, trial, true); found != StepStatus::converged) return found;
+  if (!close_positions(equations, most) || !assemble(equations, trial, true)) return false;
   if (nlambda > 0) {
     rhs.setZero(nv + nlambda);
     rhs.tail(nlambda) = -velocity;
@@ -273,7 +281,7 @@ StepStatus DormandPrince::Workspace::finish(Equations& equations, const State& s
   end.vdot = rhs.head(nv);
   end.lambda = rhs.tail(nlambda);
   // The same factors correct what the projected velocity changes; and the equations are left at the end of the step.
-  if (const StepStatus found = assemble(equations, end, false); found != StepStatus::converged) return found;
+  if (!assemble(equations, end, false)) return false;
   rhs.head(nv) = -residual.head(nv);
   if (nlambda > 0) {
     Eigen::Map<const Equations::SparseMatrix> view(matrix.rows(), matrix.cols(), matrix.nonZeros(),
@@ -286,7 +294,7 @@ StepStatus DormandPrince::Workspace::finish(Equations& equations, const State& s
   solve();
   end.vdot += rhs.head(nv);
   end.lambda += rhs.tail(nlambda);
-  return end.vdot.allFinite() && end.lambda.allFinite() ? StepStatus::converged : StepStatus::singular;
+  return (end.vdot.allFinite() && end.lambda.allFinite()) || refuse(StepStatus::singular, kSingular);
 }
 
 /// Theory manual eq. (integrator.38): of position, of velocity over the step, or what the projection has moved,
@@ -316,7 +324,7 @@ void DormandPrince::Workspace::estimate_error(double dt) {
 
 DormandPrince::DormandPrince(const DormandPrinceOptions& options)
     : options_(options), work_(std::make_unique<Workspace>()) {
-  HERSEY_REQUIRE(options.rtol > 0 && options.max_iterations > 0, "options are positive");
+  HERSEY_REQUIRE(options.max_iterations > 0, "options are positive");
 }
 
 DormandPrince::~DormandPrince() = default;
@@ -338,10 +346,8 @@ StepSummary DormandPrince::step(Equations& equations, State& state, double dt, c
     return summary;
   };
   for (int i = 0; i < kStages; ++i)
-    if (const StepStatus found = w.evaluate_stage(equations, state, dt, i); found != StepStatus::converged)
-      return fail(found, w.why);
-  if (const StepStatus found = w.finish(equations, state, dt, options_.max_iterations); found != StepStatus::converged)
-    return fail(found, w.why);
+    if (!w.evaluate_stage(equations, state, dt, i)) return fail(w.why, w.reason);
+  if (!w.finish(equations, state, dt, options_.max_iterations)) return fail(w.why, w.reason);
   if (is_accurate) {
     w.estimate_error(dt);
     if (!is_accurate(w.end, w.error)) return fail(StepStatus::inaccurate, "its error exceeds the tolerance");

@@ -8,7 +8,6 @@ namespace hersey::solver {
 
 /// Options of the explicit method.
 struct DormandPrinceOptions {
-  double rtol = 1e-8;       ///< residual of the equations at the end of a step, relative to the terms each row balances
   int max_iterations = 50;  ///< corrections of positions per step until the constraints are satisfied
 };
 
@@ -27,7 +26,7 @@ struct DormandPrinceOptions {
 /// @verified_by dormand_prince_test.cpp
 class DormandPrince final : public Integrator {
  public:
-  /// @pre rtol > 0, max_iterations > 0
+  /// @pre max_iterations > 0
   explicit DormandPrince(const DormandPrinceOptions& options = {});
   ~DormandPrince() override;
   DormandPrince(DormandPrince&&) noexcept;
