@@ -1,5 +1,5 @@
-// Rigid mechanisms of the IFToMM library: cost and error at two steps each, and how the time per step grows with the
-// number of loops.
+// Rigid mechanisms of the IFToMM library: cost and error at two steps each, error against cost of both integrators, and
+// how the time per step grows with the number of loops.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,12 +7,16 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "benchmark_mechanisms.h"
+#include "hersey/solver/dormand_prince.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/initialise.h"
+#include "hersey/solver/step_control.h"
 #include "mechanisms_pendulum.h"
 
 namespace {
@@ -139,6 +143,84 @@ bool scaling() {
   return met;
 }
 
+/// One way of stepping a mechanism: its cost, and where it ends.
+struct Trial {
+  int steps = 0;
+  double seconds = 0, error = 0;
+};
+
+solver::State consistent_start(Mechanism& mechanism) {
+  solver::State state = mechanism.initial_state();
+  const solver::InitialiseSummary start = solver::initialise(
+      mechanism, state, {.fixed = mechanism.given_coordinates(), .fixed_rates = mechanism.given_rates()});
+  if (!start.solved()) fmt::print("{}\n", start.message);
+  return state;
+}
+
+/// Steps of the explicit method chosen by their error, as a run with `step: {tolerance}` chooses them.
+Trial explicit_trial(Mechanism& mechanism, double end, double tolerance, solver::State& state) {
+  state = consistent_start(mechanism);
+  solver::DormandPrince integrator;
+  const Eigen::VectorXd scales = mechanism.position_scales();
+  solver::StepControl control({.smallest = 1e-9, .largest = 0.02 * end, .order = 8, .reach = 1, .largest_growth = 2},
+                              1e-3);
+  Eigen::VectorXd errors;
+  const auto check = [&](const solver::State&, const Eigen::VectorXd& error) {
+    errors = error.cwiseQuotient(scales) / tolerance;
+    return errors.lpNorm<Eigen::Infinity>() <= 1;
+  };
+  Trial trial;
+  const double began = cpu_seconds();
+  for (; state.t < end * (1 - 1e-12); ++trial.steps) {
+    const double dt = control.proposed(end - state.t);
+    const solver::StepSummary summary = integrator.step(mechanism, state, dt, check);
+    if (summary.solved()) {
+      control.accepted(dt, errors);
+    } else if (summary.status == solver::StepStatus::inaccurate
+                   ? !control.rejected(dt, errors.lpNorm<Eigen::Infinity>())
+                   : !control.failed(dt)) {
+      fmt::print("{}\n", summary.message);
+      break;
+    }
+  }
+  trial.seconds = cpu_seconds() - began;
+  return trial;
+}
+
+/// Error against processor time of equal steps of generalized-alpha and of chosen steps of the explicit method. The
+/// ratio is that of the costs at the error of the explicit steps, by the second order of the others.
+bool precision(const std::string& name, std::unique_ptr<Mechanism> mechanism, double end,
+               const std::vector<int>& counts, const std::vector<double>& tolerances, double at, double least) {
+  solver::State exact = consistent_start(*mechanism);
+  solver::DormandPrince integrator;
+  constexpr int fine = 1000;  // far below all errors printed
+  for (int i = 1; i <= fine; ++i)
+    if (!integrator.step(*mechanism, exact, end * i / fine - exact.t, {}).solved()) return false;
+  const auto error_of = [&](const solver::State& s) { return (s.q - exact.q).lpNorm<Eigen::Infinity>(); };
+  fmt::print("\n{}: largest error of a coordinate at the end\n", name);
+  Trial last;
+  for (const int count : counts) {
+    solver::State state = mechanism->initial_state();
+    const Cost cost = run(*mechanism, state, end, count, 0.9, [](const solver::State&) {});
+    last = {cost.steps, cost.seconds, error_of(state)};
+    fmt::print("{:>36} {:8} steps {:9.4f} s {:10.2e}\n", "generalized_alpha", last.steps, last.seconds, last.error);
+  }
+  double best = 0;
+  for (const double tolerance : tolerances) {
+    solver::State state;
+    Trial trial = explicit_trial(*mechanism, end, tolerance, state);
+    trial.error = error_of(state);
+    const double ratio = last.seconds * std::sqrt(last.error / trial.error) / trial.seconds;
+    fmt::print("{:>36} {:8} steps {:9.4f} s {:10.2e}   {:.1f} times faster\n",
+               fmt::format("dormand_prince, tolerance {:g}", tolerance), trial.steps, trial.seconds, trial.error,
+               ratio);
+    if (trial.error <= at && best == 0) best = last.seconds * std::sqrt(last.error / at) / trial.seconds;
+  }
+  const bool met = best >= least;
+  fmt::print("at an error of {:g}: {:.1f} times   {} (at least {:g})\n", at, best, met ? "met" : "MISSED", least);
+  return met;
+}
+
 }  // namespace
 
 int main() {
@@ -155,6 +237,10 @@ int main() {
   met &= governor(10000, 1e-4);
   met &= pendulum(1000000, 0);
   met &= pendulum(5000000, 1e-3);
+  met &=
+      precision("A02 four-bars, N = 40, 10 s", mbd::test::four_bars(40), 10, {500, 2000}, {1e-5, 1e-6, 1e-7}, 3e-5, 2);
+  met &= precision("A04 Bricard, 10 s", mbd::test::bricard(), 10, {2500, 10000}, {1e-6, 1e-8, 1e-10, 1e-12}, 7e-8, 5);
+  met &= precision("A04 Bricard, 10 s", mbd::test::bricard(), 10, {40000}, {1e-8, 1e-9, 1e-10, 1e-11}, 4e-9, 8);
   met &= scaling();
   return met ? 0 : 1;
 }

@@ -167,8 +167,10 @@ FAULTS = [
           "beta(0.25 * (gamma + 0.5) * (gamma + 0.5)) {}", "beta(0.25 * gamma * gamma) {}"),
     Fault("solver: share of the estimated error", "solver/src/generalized_alpha.cpp",
           "0.5 * gamma - beta - 1.0 / 12;", "0.5 * gamma - beta - 1.0 / 6;"),
-    Fault("solver: order of the step's error", "solver/src/step_control.cpp",
-          "constexpr double kOrder = 3; ", "constexpr double kOrder = 2; "),
+    Fault("solver: order of the step's error", "solver/include/hersey/solver/step_control.h",
+          "double order = 3;", "double order = 2;"),
+    Fault("solver: weight of a stage of the explicit method", "solver/src/dormand_prince.cpp",
+          "trial.v = state.v + change.tail(nv);\n    if (!assemble", "trial.v = state.v;\n    if (!assemble"),
     # -- fem
     Fault("fem: averaging frames beside rigid ones", "fem/src/reduction/frame_interface.cpp",
           "interface.motion - interface.C * interface.prescribed;", "interface.motion;"),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -94,6 +95,33 @@ inline std::unique_ptr<Mechanism> four_bars(int N, bool hinges = false) {
                  .inboard = b.add_frame({.name = "end", .body = coupler, .X_BF = {Matrix3::Identity(), {1, 0, 0}}}),
                  .outboard = tops[i + 1]});
   }
+  return b.finalise();
+}
+
+/// A04, Bricard's mechanism: five rods of 1 m and 1 kg and ground in a loop of six hinges, each perpendicular to the
+/// one before; one freedom and one redundant constraint.
+inline std::unique_ptr<Mechanism> bricard() {
+  MechanismBuilder b;
+  b.set_gravity({0, -9.81, 0});
+  const std::array<Vector3, 5> along{Vector3(1, 0, 0), {0, -1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}};
+  FrameId end = b.frame_of(b.ground());
+  for (int i = 0; i < 5; ++i) {
+    const Vector3 e = along[i];
+    const Vector3 inertia = Vector3::Constant(1.0 / 12) - e.cwiseAbs() / 12;
+    const BodyId rod =
+        b.add_body({.name = "rod" + std::to_string(i), .mass = 1, .com = 0.5 * e, .inertia = inertia.asDiagonal()});
+    b.add_joint({.name = "hinge" + std::to_string(i),
+                 .type = JointType::revolute,
+                 .inboard = end,
+                 .outboard = b.frame_of(rod),
+                 .axis = Vector3::Unit((i + 1) % 3)});
+    end = b.add_frame({.name = "end", .body = rod, .X_BF = {Matrix3::Identity(), e}});
+  }
+  b.add_joint({.name = "last",
+               .type = JointType::revolute,
+               .inboard = end,
+               .outboard = b.add_frame({.name = "last", .body = b.ground(), .X_BF = {Matrix3::Identity(), {0, 0, 1}}}),
+               .axis = Vector3::UnitX()});
   return b.finalise();
 }
 

@@ -5,6 +5,23 @@
 namespace hersey::model {
 namespace read_fault_test {
 
+TEST_CASE("ExplicitMethod_IsRefusedWhereItCannotStep") {
+  const std::string machine = R"(hersey: 1
+bodies:
+  block: {mass: 1 kg, inertia: {xx: 1 kg.m^2, yy: 1 kg.m^2, zz: 1 kg.m^2}}
+joints: {rail: {type: prismatic, between: [ground, block], axis: x}}
+simulation: {duration: 1 s, step: 1 ms, integrator: dormand_prince}
+)";
+  CHECK(read_text(machine, "m.yaml").simulation.integrator == Integrator::dormand_prince);
+  CHECK(faults_of(edited(machine, "dormand_prince", "euler")).find("generalized_alpha") != std::string::npos);
+  const std::string kinematic = faults_of(edited(machine, "step: 1 ms", "step: 1 ms, analysis: kinematics"));
+  CHECK(kinematic.find("m.yaml:5") != std::string::npos);
+  CHECK(kinematic.find("integrates nothing") != std::string::npos);
+  const std::string with_films = faults_of(good_model, {"simulation.integrator=dormand_prince"});
+  CHECK(with_films.find("the explicit method in a machine with bearing 'big_end'") != std::string::npos);
+  CHECK(with_films.find("generalized_alpha") != std::string::npos);
+}
+
 TEST_CASE("UnknownKey_NamesTheNearest") {
   CHECK(faults_after("    diameter: 45 mm\n", "    diameter: 45 mm\n    widht: 3 mm\n") ==
         "m.yaml:27:5: bearings.big_end: unknown key 'widht'; did you mean 'width'? expected shell, journal, diameter, "

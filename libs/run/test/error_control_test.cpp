@@ -182,6 +182,19 @@ TEST_CASE("KinksOfATable_AreHitExactly") {
   }
 }
 
+TEST_CASE("KinksOfATable_CostTheExplicitMethodNoAccuracy") {
+  // A tenth of the force: the block does not reach the wall, where the spring's direction would jump.
+  const std::string text = edited(pushed(), "5000]", "500]");
+  const auto end = [&](const std::string& tolerance) {
+    const Outcome o =
+        outcome(text, {"simulation.step.tolerance=" + tolerance, "simulation.integrator=dormand_prince"}, "rail");
+    for (const double kink : {1.0001, 1.0033, 1.0071}) CHECK(o.hits(kink));
+    return o.x.back();
+  };
+  // Some tens of steps, each with its tolerance at most: no error of a step across a kink.
+  CHECK(std::abs(end("1e-7") - end("1e-11")) < 1e-5);
+}
+
 TEST_CASE("Impulse_NeedsFewerStepsThanFixedOnesOfTheSameError") {
   // Reference: steps of 20 us, a divisor of every kink.
   const Outcome reference = outcome(pushed(), {"simulation.step=0.02 ms", "simulation.tolerance=1e-10"}, "rail");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hersey/model/build.h"
+#include "hersey/run/simulation.h"
 #include "hersey/solver/generalized_alpha.h"
 #include "mechanisms_pendulum.h"
 #include "small_rig.h"
@@ -94,9 +95,11 @@ struct Steps {
   mbd::Observation observation;
 };
 
-Steps step_through(const std::string& text, double radius, double tolerance) {
+Steps step_through(const std::string& text, double radius, double tolerance,
+                   const std::string& integrator = "generalized_alpha") {
   const model::Model model = rig(text, {"simulation.spectral_radius=" + std::to_string(radius),
-                                        "simulation.step.tolerance=" + std::to_string(tolerance * 1e12) + "e-12"});
+                                        "simulation.step.tolerance=" + std::to_string(tolerance * 1e12) + "e-12",
+                                        "simulation.integrator=" + integrator});
   model::Machine machine = model::build(model);
   Steps result;
   result.end = starting_state(model, machine);
@@ -232,11 +235,17 @@ TEST_CASE("MirroredLoop_TakesTheSameSteps") {
   }
 }
 
-TEST_CASE("BodiesInAnotherOrder_TakeTheSameSteps") {
+/// Bricard's loop with its first rod given last.
+std::string with_rods_in_another_order() {
   std::string reordered = kBricard;
   const std::size_t first = reordered.find("  rod1:"), second = reordered.find("  rod2:");
   const std::string rod = reordered.substr(first, second - first);
   reordered.erase(first, second - first).insert(reordered.find("joints:"), rod);
+  return reordered;
+}
+
+TEST_CASE("BodiesInAnotherOrder_TakeTheSameSteps") {
+  const std::string reordered = with_rods_in_another_order();
   for (const double radius : {0.8, 0.95}) {
     CAPTURE(radius);
     const Steps one = step_through(kBricard, radius, 1e-7), other = step_through(reordered, radius, 1e-7);
@@ -246,6 +255,80 @@ TEST_CASE("BodiesInAnotherOrder_TakeTheSameSteps") {
     CHECK((one.observation.joints[2].force - other.observation.joints[2].force).norm() <
           1e-8 * one.observation.joints[2].force.norm());
   }
+}
+
+/// Steps of the explicit method.
+Steps explicit_steps(const std::string& text, double tolerance) {
+  const Steps steps = step_through(text, 0.8, tolerance, "dormand_prince");
+  CAPTURE(steps.message);
+  REQUIRE(steps.completes);
+  return steps;
+}
+
+TEST_CASE("ErrorOfExplicitRun_FollowsTheTolerance") {
+  for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+    const Steps one = explicit_steps(kPendulumOnAJoint, tolerance);
+    const Vector3 errors = pendulum_errors(one.observation);
+    CAPTURE(tolerance);
+    MESSAGE(one.steps, " steps, errors ", errors.transpose());
+    // A few steps, each with the tolerance at most; the force is ten times the angle's error.
+    CHECK(errors[0] < 10 * tolerance);
+    CHECK(errors[2] < 100 * tolerance);
+  }
+  // Order eight: a tenth of a thousandth of the error costs 10^(4/8) times the steps, and those of the start.
+  CHECK(explicit_steps(kPendulumOnAJoint, 1e-10).steps < 4 * explicit_steps(kPendulumOnAJoint, 1e-6).steps);
+  CHECK(10 * explicit_steps(kPendulumOnAJoint, 1e-8).steps < step_through(kPendulumOnAJoint, 0.8, 1e-8).steps);
+}
+
+TEST_CASE("ExplicitLoops_EndWhereGeneralizedAlphaTends") {
+  // The errors of generalized-alpha go as tolerance^(2/3), a factor of 21.5 between these two.
+  const Steps exact = explicit_steps(kBricard, 1e-11);
+  const auto difference = [&](double tolerance) {
+    const Steps other = step_through(kBricard, 0.8, tolerance);
+    REQUIRE(other.completes);
+    const mbd::Observation &a = exact.observation, &b = other.observation;
+    return (a.joints[2].force - b.joints[2].force).norm() / a.joints[2].force.norm() +
+           (exact.end.q - other.end.q).norm() + (exact.end.v - other.end.v).norm();
+  };
+  const double coarse = difference(1e-6), fine = difference(1e-8);
+  MESSAGE("differences ", coarse, ", ", fine);
+  CHECK(coarse / fine > 12);
+  CHECK(coarse / fine < 40);
+
+  // The drive prescribes the motion of the four-bar linkage: its forces tell. Generalized-alpha's are those of its
+  // positions, which a drive of constant speed leaves without error but for that of solution, 1e-8.
+  const Vector3 of_explicit = explicit_steps(kHinges, 1e-9).observation.joints[2].force;
+  const Vector3 of_alpha = step_through(kHinges, 0.8, 1e-8).observation.joints[2].force;
+  CHECK((of_explicit - of_alpha).norm() < 1e-7 * of_explicit.norm());  // ten times the tolerance of solutions
+}
+
+TEST_CASE("MirroredAndReorderedExplicitLoops_TakeTheSameSteps") {
+  const Steps one = explicit_steps(kHinges, 1e-9);
+  const Steps mirrored = explicit_steps(four_bar("revolute", "revolute, axis: z", -1), 1e-9);
+  CHECK(one.steps == mirrored.steps);
+  const Vector3 force = one.observation.joints[2].force, other = mirrored.observation.joints[2].force;
+  // Round-off of accelerations.
+  CHECK((force - Vector3(-other.x(), other.y(), other.z())).norm() < 1e-10 * force.norm());
+
+  const Steps given = explicit_steps(kBricard, 1e-9), reordered = explicit_steps(with_rods_in_another_order(), 1e-9);
+  CHECK(given.steps == reordered.steps);
+  CHECK((given.observation.joints[2].force - reordered.observation.joints[2].force).norm() <
+        1e-10 * given.observation.joints[2].force.norm());  // round-off of sums in another order
+}
+
+TEST_CASE("ResumedExplicitRun_GoesOnWithTheSameBits") {
+  const model::Model model = rig(kBricard, {"simulation.integrator=dormand_prince"});
+  const auto go_on = [](Simulation& one) {
+    while (one.step().status == Advance::Status::advanced) continue;
+    return one.output("joints.j3.rates");
+  };
+  Simulation simulation(model);
+  for (int k = 0; k < 6; ++k) REQUIRE(simulation.step().status == Advance::Status::advanced);
+  const Archive::Content saved = simulation.save();
+  const std::vector<double> first = go_on(simulation);
+  Simulation other(model);
+  other.restore(saved);
+  CHECK(go_on(other) == first);
 }
 
 }  // namespace loop_steps_test

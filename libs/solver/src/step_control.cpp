@@ -8,11 +8,8 @@
 namespace hersey::solver {
 namespace {
 
-constexpr double kAim = 0.5;            // share of the tolerance aimed at
-constexpr double kLargestGrowth = 1.3;  // per step
+constexpr double kAim = 0.5;  // share of the tolerance aimed at
 constexpr double kLargestCut = 0.2;
-constexpr double kOrder = 3;              // of the local error
-constexpr double kReach = 8;              // steps over which an error's present change counts as an error
 constexpr double kLargestTrend = 2;       // by which a step's error factor may be thought to change to the next
 constexpr double kFinestCut = 64;         // an instant this many parts of a step away from its end is reached in parts
 constexpr double kRoundOffOfTime = 1e-9;  // relative round-off of times
@@ -47,18 +44,18 @@ double StepControl::proposed(double remaining) const {
 
 /// Theory manual eq. (integrator.14): the step with which the next error would be the one aimed at.
 double StepControl::wanted(double dt, const Eigen::VectorXd& errors) {
-  const Eigen::VectorXd factors = errors / std::pow(dt, kOrder);
-  double factor = kSmallestError / std::pow(dt, kOrder);
+  const Eigen::VectorXd factors = errors / std::pow(dt, options_.order);
+  double factor = kSmallestError / std::pow(dt, options_.order);
   if (factors.size() > 0) factor = std::max(factor, factors.lpNorm<Eigen::Infinity>());
   Eigen::VectorXd change;
   if (factors_.size() == factors.size()) change = factors - factors_;
   for (Eigen::Index i = 0; i < std::min(change.size(), change_.size()); ++i)
-    factor = std::max(factor, std::hypot(factors[i], kReach * lasting(change_[i], change[i])));
+    factor = std::max(factor, std::hypot(factors[i], options_.reach * lasting(change_[i], change[i])));
   const double trend = factor_ > 0 ? std::clamp(factor / factor_, 1 / kLargestTrend, kLargestTrend) : 1;
   factors_ = factors;
   change_ = change;
   factor_ = factor;
-  return std::pow(kAim / (factor * trend), 1 / kOrder);
+  return std::pow(kAim / (factor * trend), 1 / options_.order);
 }
 
 /// To double a step only where the doubled one would still meet the aim.
@@ -75,13 +72,13 @@ void StepControl::accepted(double dt, const Eigen::VectorXd& errors) {
   if (options_.unit > 0)
     accept_part(dt, next);
   else  // a step cut to hit an instant does not shorten those that follow
-    dt_ = std::clamp(next, kLargestCut * dt_, (after_rejection_ ? 1 : kLargestGrowth) * dt_);
+    dt_ = std::clamp(next, kLargestCut * dt_, (after_rejection_ ? 1 : options_.largest_growth) * dt_);
   dt_ = std::clamp(dt_, options_.smallest, options_.largest);
   after_rejection_ = false;
 }
 
 bool StepControl::rejected(double dt, double error) {
-  return shorten(dt, std::clamp(std::pow(kAim / error, 1 / kOrder), kLargestCut, 0.9));
+  return shorten(dt, std::clamp(std::pow(kAim / error, 1 / options_.order), kLargestCut, 0.9));
 }
 
 bool StepControl::failed(double dt) { return shorten(dt, 0.5); }
@@ -91,7 +88,7 @@ bool StepControl::shorten(double dt, double factor) {
   factors_.resize(0);
   change_.resize(0);
   factor_ = 0;
-  if (dt <= options_.smallest) return false;
+  if (dt <= options_.smallest * (1 + 2 * kRoundOffOfTime)) return false;  // as `proposed` rounds it
   dt_ = std::max(factor * dt, options_.smallest);
   return true;
 }

@@ -97,6 +97,15 @@ void Mechanism::retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Ei
   q.tail(own) = q0.tail(own) + dq.segment(parts_->tree.nv, own);
 }
 
+void Mechanism::increment_rate(const Eigen::VectorXd& dq, const Eigen::VectorXd& v, Eigen::VectorXd& rate) const {
+  rate = v;
+  for (const Link& link : parts_->tree.links) {
+    if (link.motion != Motion::ball) continue;
+    const Matrix3 T = rotation_exp_tangent(dq.segment<3>(link.first_v));
+    rate.segment<3>(link.first_v) = T.inverse() * v.segment<3>(link.first_v);
+  }
+}
+
 void Mechanism::assemble(const State& state, const Stage& stage, Eigen::VectorXd& residual, Eigen::VectorXd& scale,
                          SparseMatrix* tangent) {
   MechanismParts& m = *parts_;
@@ -184,10 +193,11 @@ double MechanismParts::closure_length(const Closure& closure, const Pose& X_WA) 
 }
 
 void MechanismParts::add_closures(Assembly& assembly, const State& state) const {
+  const bool has_stiffness = assembly.tangent != nullptr && !assembly.is_of_inertia_alone();
   for (const Closure& closure : tree.closures) {
     const Pose X_WA = motion.pose(closure.pair.a);
     const Pose X_AB = X_WA.inverse() * motion.pose(closure.pair.b);
-    add_pair_force(assembly, closure.pair, closure_response(closure, X_AB, state.lambda, assembly.tangent != nullptr));
+    add_pair_force(assembly, closure.pair, closure_response(closure, X_AB, state.lambda, has_stiffness));
     for (std::size_t i = 0; i < closure.rows.size(); ++i) {
       const ConstraintRow& row = closure.rows[i];
       const int at = nv + closure.first_row + static_cast<int>(i);
@@ -306,9 +316,13 @@ void Mechanism::constraint_rates(const State& state, Eigen::VectorXd& velocity, 
   MechanismParts& m = *parts_;
   velocity.setZero(nlambda());
   bias.setZero(nlambda());
-  m.motion.update_positions(state);
-  m.motion.update_velocities(state);
-  m.motion.update_accelerations(state, true);
+  if ((state.vdot.array() == 0).all()) {
+    m.motion.update(state);  // often of an assembly at the same state
+  } else {
+    m.motion.update_positions(state);
+    m.motion.update_velocities(state);
+    m.motion.update_accelerations(state, true);
+  }
   for (const Closure& closure : m.tree.closures) {
     const Pair& pair = closure.pair;
     const RelativeMotion relative = m.motion.relative(pair);

@@ -35,6 +35,10 @@ Vector6 acceleration_change(const Assembly& assembly, const Pair& pair, const Si
 
 void compute_directions(const Tree& tree, const TreeMotion& motion, const solver::Stage& stage,
                         std::vector<Direction>& directions) {
+  if (stage.k == 0 && stage.c == 0) {
+    for (std::size_t k = 0; k < directions.size(); ++k) directions[k] = {.E = stage.m * motion.J(static_cast<int>(k))};
+    return;
+  }
   for (std::size_t l = 1; l < tree.links.size(); ++l) {
     const Link& link = tree.links[l];
     const Vector6 &V_p = motion.V(link.parent), &A_p = motion.A(link.parent), &V_c = motion.V(static_cast<int>(l));
@@ -65,12 +69,12 @@ void add_pair_force(Assembly& assembly, const Pair& pair, const ForceResponse& r
     const Vector6& J = motion.J(row.column);
     assembly.add_residual(row.column, -row.sign * J.dot(W), magnitude(J, size));
   }
-  if (!assembly.tangent) return;
+  const bool has_inertia = !response.dW_dA.isZero(0);
+  if (!assembly.tangent || (assembly.is_of_inertia_alone() && !has_inertia)) return;
 
   const Matrix6 to_A = motion_transform(X_WA.inverse());
   const Matrix6 K = to_A.transpose() * response.dW_dX * to_A;
   const bool is_damped = !response.dW_dV.isZero(0);  // that of a constraint is not
-  const bool has_inertia = !response.dW_dA.isZero(0);
   Matrix6 D, M;
   if (is_damped) D = to_A.transpose() * response.dW_dV * to_A;
   if (has_inertia) M = to_A.transpose() * response.dW_dA * to_A;

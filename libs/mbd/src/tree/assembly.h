@@ -35,6 +35,9 @@ struct Assembly {
     scale[row] += magnitude;
   }
   void add_tangent(Eigen::Index row, Eigen::Index column, double value) { tangent->coeffRef(row, column) += value; }
+
+  /// True if the tangent is a multiple of the mass matrix, as explicit methods and consistent starts need it.
+  [[nodiscard]] bool is_of_inertia_alone() const { return stage.k == 0 && stage.c == 0; }
 };
 
 /// Magnitude of the terms of J . W.
@@ -52,7 +55,7 @@ class InertiaTerms {
   void add(Assembly& assembly);
 
  private:
-  void gather(const Tree& tree, const TreeMotion& motion, double dt, bool want_tangent);
+  void gather(const Assembly& assembly);
   void add_tangent(Assembly& assembly) const;
 
   std::vector<Matrix6> I_, B_;          ///< composite inertia, composite velocity coupling

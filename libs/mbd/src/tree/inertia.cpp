@@ -25,7 +25,12 @@ Matrix6 inertia_in_world(const Link& link, const Pose& X_WL) {
 InertiaTerms::InertiaTerms(const Tree& tree)
     : I_(tree.links.size()), B_(tree.links.size()), F_(tree.links.size()), magnitude_(tree.links.size()) {}
 
-void InertiaTerms::gather(const Tree& tree, const TreeMotion& motion, double dt, bool want_tangent) {
+void InertiaTerms::gather(const Assembly& assembly) {
+  const Tree& tree = assembly.tree;
+  const TreeMotion& motion = assembly.motion;
+  const double dt = assembly.stage.dt;
+  const bool wants_inertia = assembly.tangent != nullptr;
+  const bool wants_coupling = wants_inertia && !assembly.is_of_inertia_alone();
   const int n = static_cast<int>(tree.links.size());
   const double momentum_share = dt > 0 ? kMomentumShare / dt : 0;
   for (int l = 0; l < n; ++l) {
@@ -46,21 +51,20 @@ void InertiaTerms::gather(const Tree& tree, const TreeMotion& motion, double dt,
     // means.
     magnitude_[l] = (IA - weight).cwiseAbs() + weight.cwiseAbs() + Vh.cwiseAbs() + momentum_share * h.cwiseAbs();
     // B of (mechanisms.9).
-    if (want_tangent) B_[l] = cross_force_matrix(V) * I_[l] - I_[l] * cross_motion_matrix(V) + momentum_cross(h);
+    if (wants_coupling) B_[l] = cross_force_matrix(V) * I_[l] - I_[l] * cross_motion_matrix(V) + momentum_cross(h);
   }
   for (int l = n - 1; l > 0; --l) {
     const int p = tree.links[l].parent;
     F_[p] += F_[l];
     magnitude_[p] += magnitude_[l];
-    if (!want_tangent) continue;
-    I_[p] += I_[l];
-    B_[p] += B_[l];
+    if (wants_inertia) I_[p] += I_[l];
+    if (wants_coupling) B_[p] += B_[l];
   }
 }
 
 void InertiaTerms::add(Assembly& assembly) {
   const Tree& tree = assembly.tree;
-  gather(tree, assembly.motion, assembly.stage.dt, assembly.tangent != nullptr);
+  gather(assembly);
   for (int k = 0; k < tree.nv; ++k) {
     const Vector6& J = assembly.motion.J(k);
     const int l = tree.columns[k].link;
@@ -71,8 +75,18 @@ void InertiaTerms::add(Assembly& assembly) {
 
 void InertiaTerms::add_tangent(Assembly& assembly) const {
   const Tree& tree = assembly.tree;
+  const bool is_of_inertia_alone = assembly.is_of_inertia_alone();
   for (int j = 0; j < tree.nv; ++j) {
     const int l = tree.columns[j].link;
+    if (is_of_inertia_alone) {
+      const Vector6 felt = I_[l] * assembly.directions[j].E;
+      for (int k : tree.path[l]) {
+        const double value = assembly.motion.J(k).dot(felt);
+        assembly.add_tangent(k, j, value);
+        if (tree.columns[k].link != l) assembly.add_tangent(j, k, value);
+      }
+      continue;
+    }
     const Vector6& J_j = assembly.motion.J(j);
     const Direction& d_j = assembly.directions[j];
     const Vector6 IJ = I_[l] * J_j, BJ = B_[l].transpose() * J_j;

@@ -77,6 +77,7 @@ TypePtr simulation_format() {
           optional("initial_deformation", choice(initial_deformation_words),
                    "How bodies that deform start, in `dynamics`.",
                    "`internal` where a film presses on a surface that deforms or a body is `nodal`, otherwise `none`"),
+          defaulted("integrator", choice(integrator_words), "generalized_alpha", "Method that integrates the motion."),
           defaulted(
               "spectral_radius", number("0.8", {.low = 0, .high = 1}), "0.8",
               "Damping of the fastest vibrations by generalized-alpha: 1 none (where drives or closed loops constrain "

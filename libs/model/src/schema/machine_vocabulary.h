@@ -69,8 +69,16 @@ inline constexpr Vocabulary<LeadIn, 2> lead_in_words{{
     {LeadIn::none, "none", "the cycles of the run begin with the state at the start of the model"},
     {LeadIn::half_grids, "half_grids",
      "cycles with films on grids of half as many lines and rows are run until they repeat, and discarded; the cycles "
-     "of "
-     "the run begin with the motion, oil and temperatures that they end with, and are compared as without them"},
+     "of the run begin with the motion, oil and temperatures that they end with, and are compared as without them"},
+}};
+
+inline constexpr Vocabulary<Integrator, 2> integrator_words{{
+    {Integrator::generalized_alpha, "generalized_alpha",
+     "implicit, of second order, damps vibrations that the steps do not resolve: for every machine"},
+    {Integrator::dormand_prince, "dormand_prince",
+     "explicit Runge-Kutta method of order eight, for rigid bodies without films, contacts and piston rings: many "
+     "times "
+     "faster at small tolerances; stiff springs and strong dampers limit its steps"},
 }};
 
 inline constexpr Vocabulary<InitialDeformation, 3> initial_deformation_words{{

@@ -53,8 +53,7 @@ PerStep StepCounts::per_step() const {
   return figures;
 }
 
-WorkRecord::WorkRecord(const model::Model& model, const model::Machine& machine,
-                       const solver::GeneralizedAlpha& integrator)
+WorkRecord::WorkRecord(const model::Model& model, const model::Machine& machine, const solver::Integrator& integrator)
     : model_(model),
       machine_(machine),
       integrator_(integrator),

@@ -7,7 +7,7 @@
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/run/work.h"
-#include "hersey/solver/generalized_alpha.h"
+#include "hersey/solver/integrator.h"
 #include "observation/step_record.h"
 #include "table/quantity.h"
 
@@ -29,7 +29,7 @@ class StepCounts {
 /// Measures the cost of the steps of a run.
 class WorkRecord {
  public:
-  WorkRecord(const model::Model& model, const model::Machine& machine, const solver::GeneralizedAlpha& integrator);
+  WorkRecord(const model::Model& model, const model::Machine& machine, const solver::Integrator& integrator);
 
   /// The machine is at its start: from here on the run steps.
   void begin();
@@ -50,7 +50,7 @@ class WorkRecord {
 
   const model::Model& model_;
   const model::Machine& machine_;
-  const solver::GeneralizedAlpha& integrator_;
+  const solver::Integrator& integrator_;
   Clock::time_point made_, began_;
   bool is_begun_ = false;
   double recording_ = 0;

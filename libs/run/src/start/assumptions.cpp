@@ -459,6 +459,11 @@ std::string integration(const model::Simulation& run) {
                                      "journals over their clearance (the film's own error is not estimated)",
                                      run.error_control->tolerance)
                                : fmt::format("step {:.4g} us", 1e6 * run.step);
+  if (run.integrator == model::Integrator::dormand_prince)
+    return fmt::format(
+        "explicit Runge-Kutta method of order eight (Dormand and Prince), constraints satisfied at the "
+        "ends of steps, {}",
+        step);
   return fmt::format("generalized-alpha, spectral radius {:.3g}, {}, Newton tolerance {:.1e}", run.spectral_radius,
                      step, run.tolerance);
 }

@@ -20,7 +20,7 @@ struct PeriodicStart {
   Archive::Content network;                 ///< temperatures of the thermal network
 };
 
-/// Moves a machine into that motion (theory manual, integrator.38): pressures, accelerations and multipliers follow
+/// Moves a machine into that motion (theory manual, integrator.43): pressures, accelerations and multipliers follow
 /// from its positions, velocities, fill fractions and temperatures at state.t. Where no state of the machine is there
 /// it starts as its model says.
 /// @param machine, state  as starting_state() leaves them

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hersey/solver/dormand_prince.h"
+#include "hersey/solver/generalized_alpha.h"
 #include "hersey/solver/initialise.h"
 #include "hersey/solver/kinematics.h"
 #include "time_stepping/instants.h"
@@ -20,7 +22,17 @@ constexpr double kOfHalvedStep = 8;     // ratio of the error to its tolerance a
 constexpr double kCreeping = 1.0 / 16;  // of the fixed step: an impact asks for shorter ones, not a motion throughout
 constexpr double kShortest = 1.0 / 64;  // share of the fixed step below which steps are accepted whatever their error
 
-solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
+// The estimate of the explicit method's error is of its order. Its steps are long: changes of the error over more than
+// one step ahead say nothing. They have no modes of the constraints that growth could excite; at a growth of 1.5 the
+// start takes twice as many steps, at 5 a third of all steps is rejected.
+constexpr const char* kAdviceToExplicit =
+    "; where constraints depend on each other at an instant, as where all bars of a linkage lie in line, "
+    "`integrator: generalized_alpha` goes on, or a larger tolerance may";
+constexpr double kOrderOfDormandPrince = 8;
+constexpr double kReachOfDormandPrince = 1;
+constexpr double kGrowthOfDormandPrince = 2;
+
+solver::GeneralizedAlphaOptions options_of_generalized_alpha(const model::Model& model) {
   solver::GeneralizedAlphaOptions options;
   options.spectral_radius = model.simulation.spectral_radius;
   options.rtol = model.simulation.tolerance;
@@ -37,12 +49,18 @@ solver::GeneralizedAlphaOptions integrator_options(const model::Model& model) {
   return options;
 }
 
+std::unique_ptr<solver::Integrator> integrator_of(const model::Model& model) {
+  if (model.simulation.integrator == model::Integrator::dormand_prince)
+    return std::make_unique<solver::DormandPrince>();
+  return std::make_unique<solver::GeneralizedAlpha>(options_of_generalized_alpha(model));
+}
+
 }  // namespace
 
 TimeStepper::TimeStepper(const model::Model& model, model::Machine& machine)
     : model_(model),
       machine_(machine),
-      integrator_(integrator_options(model)),
+      integrator_(integrator_of(model)),
       step_error_(model, machine),
       energy_(model, machine),
       has_smooth_motion_(model.bearings.empty() && machine.mechanism->elastic_coordinates().empty()) {}
@@ -57,9 +75,13 @@ void TimeStepper::plan(const solver::State& state, const mbd::Observation& start
   }
   bends_ = kinks(model_, machine_.mechanism->spec(), start);
   targets_ = TargetInstants(instants_to_hit(model_, bends_));
-  control_.emplace(
-      solver::StepControlOptions{.smallest = limits->smallest, .largest = limits->largest, .unit = unit_of_steps()},
-      first_step(*machine_.mechanism, state, *limits));
+  solver::StepControlOptions options{.smallest = limits->smallest, .largest = limits->largest, .unit = unit_of_steps()};
+  if (model_.simulation.integrator == model::Integrator::dormand_prince) {
+    options.order = kOrderOfDormandPrince;
+    options.reach = kReachOfDormandPrince;
+    options.largest_growth = kGrowthOfDormandPrince;
+  }
+  control_.emplace(options, first_step(*machine_.mechanism, state, *limits));
 }
 
 // Bodies with a displacement of every node factorise a matrix for every step size: few of them then, parts of the
@@ -123,7 +145,7 @@ TimeStep TimeStepper::take(solver::State& state, double limit) {
 
 // Beyond a kink of a drive's speed its acceleration is another one: the method's history would ring on it.
 void TimeStepper::start_afresh(solver::State& state) {
-  if (solver::solve_accelerations(*machine_.mechanism, state, last_dt_)) integrator_.reset();
+  if (solver::solve_accelerations(*machine_.mechanism, state, last_dt_)) integrator_->reset();
   energy_.begin(state);
 }
 
@@ -131,7 +153,7 @@ void TimeStepper::start_afresh(solver::State& state) {
 // which is harder the shorter they are. They begin from velocities that the constraints allow.
 void TimeStepper::restart(solver::State& state) {
   if (!solver::restart(*machine_.mechanism, state, last_dt_)) return;
-  integrator_.reset();
+  integrator_->reset();
   energy_.begin(state);
 }
 
@@ -185,7 +207,7 @@ TimeStep TimeStepper::take_fixed(solver::State& state, double target) {
       return (!may_be_cut || step_error_.of_coordinates() <= kMeaningless) && energy_.allows(end);
     };
     energy_.begin_trial();
-    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, check);
+    step.solution = integrator_->step(*machine_.mechanism, state, step.dt, check);
     if (step.solution.solved()) {
       step.local_error = step_error_.largest();
       if (creeping_ == 0) energy_.count_loss_anew();
@@ -234,7 +256,7 @@ TimeStep TimeStepper::take_controlled(solver::State& state, double target) {
     const double remaining = target - state.t;
     step.dt = control_->proposed(remaining);
     energy_.begin_trial();
-    step.solution = integrator_.step(*machine_.mechanism, state, step.dt, check);
+    step.solution = integrator_->step(*machine_.mechanism, state, step.dt, check);
     if (step.solution.solved()) {
       if (step.dt == remaining) state.t = target;  // exactly, not as a sum of steps
       step.local_error = step_error_.largest();
@@ -253,8 +275,10 @@ TimeStep TimeStepper::take_controlled(solver::State& state, double target) {
     const std::string reason =
         inaccurate ? fmt::format("the error of {} is {:.2g} times the tolerance", step_error_.worst(), step.error)
                    : step.solution.message;
-    step.fail(fmt::format("t = {:.6g} s: {} with the smallest step, {:.2g} s: {}", state.t,
-                          inaccurate ? "the tolerance is exceeded" : "no convergence", step.dt, reason));
+    const bool is_explicit = model_.simulation.integrator == model::Integrator::dormand_prince;
+    step.fail(fmt::format("t = {:.6g} s: {} with the smallest step, {:.2g} s: {}{}", state.t,
+                          inaccurate ? "the tolerance is exceeded" : "no convergence", step.dt, reason,
+                          is_explicit ? kAdviceToExplicit : ""));
     return step;
   }
 }
@@ -262,7 +286,7 @@ TimeStep TimeStepper::take_controlled(solver::State& state, double target) {
 void TimeStepper::persist(Archive& archive) {
   {
     const Archive::Group group(archive, "integrator");
-    integrator_.persist(archive);
+    integrator_->persist(archive);
   }
   const Archive::Group group(archive, "steps");
   archive.io("reached", reached_), archive.io("off_plan", off_plan_), archive.io("at_bend", at_bend_),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 #include "hersey/core/outcome.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
-#include "hersey/solver/generalized_alpha.h"
+#include "hersey/solver/integrator.h"
 #include "hersey/solver/step_control.h"
 #include "time_stepping/energy_monitor.h"
 #include "time_stepping/step_error.h"
@@ -51,7 +52,7 @@ class TimeStepper {
   /// @param moves  prescribed velocities have jumped too: the machine's velocities follow, as by an impulse
   void take_jump(solver::State& state, bool moves);
 
-  [[nodiscard]] const solver::GeneralizedAlpha& integrator() const { return integrator_; }
+  [[nodiscard]] const solver::Integrator& integrator() const { return *integrator_; }
   /// Length of the last step; 0 before the first [s].
   [[nodiscard]] double last_dt() const { return last_dt_; }
   /// The monitor of the energy of the steps.
@@ -75,7 +76,7 @@ class TimeStepper {
 
   const model::Model& model_;
   model::Machine& machine_;
-  solver::GeneralizedAlpha integrator_;
+  std::unique_ptr<solver::Integrator> integrator_;
   StepError step_error_;
   EnergyMonitor energy_;
   /// Neither films nor deformations, whose fast motions the error's estimate takes for errors.

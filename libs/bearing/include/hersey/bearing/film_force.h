@@ -181,7 +181,7 @@ class FilmForce : public mbd::TwoBodyForce {
   /// Returns the fields at the nodes at the state last accepted.
   [[nodiscard]] film::FilmFields fields() const;
 
-  /// Returns that film, with which a run on another grid can begin (theory manual, integrator.37). @param grid  of the
+  /// Returns that film, with which a run on another grid can begin (theory manual, integrator.42). @param grid  of the
   /// other film, with patches as those of this one
   [[nodiscard]] FilmAtStart on_grid(const film::Grid& grid) const;
   /// Begins with a film: the next evaluation with motion.dt = 0 finds the film into which it develops within

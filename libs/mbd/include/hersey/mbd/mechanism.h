@@ -29,6 +29,7 @@ class Mechanism final : public solver::Equations {
   [[nodiscard]] Index nv() const override;
   [[nodiscard]] Index nlambda() const override;
   void retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Eigen::VectorXd& q) const override;
+  void increment_rate(const Eigen::VectorXd& dq, const Eigen::VectorXd& v, Eigen::VectorXd& rate) const override;
   void assemble(const solver::State& state, const solver::Stage& stage, Eigen::VectorXd& residual,
                 Eigen::VectorXd& scale, SparseMatrix* tangent) override;
   void constraints(const solver::State& state, Eigen::VectorXd& phi, Eigen::VectorXd& scale,

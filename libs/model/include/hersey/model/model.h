@@ -402,6 +402,12 @@ enum class ModesAbout {
   end,
 };
 
+/// Method that integrates the motion over time.
+enum class Integrator {
+  generalized_alpha,  ///< implicit, second order, damps what steps do not resolve
+  dormand_prince,     ///< explicit, eighth order; for rigid bodies without films and contacts
+};
+
 /// Initial state of bodies that deform.
 enum class InitialDeformation {
   none,      ///< undeformed
@@ -418,6 +424,7 @@ struct Simulation {
   std::optional<ErrorControl> error_control;
   std::optional<Crank> crank;
   InitialDeformation initial_deformation = InitialDeformation::none;
+  Integrator integrator = Integrator::generalized_alpha;
   double spectral_radius = 0.8;  ///< of generalized-alpha, 0..1
   double tolerance = 1e-8;       ///< relative, of Newton
   int max_iterations = 50;       ///< of Newton, per step

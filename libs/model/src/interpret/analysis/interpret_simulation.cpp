@@ -168,6 +168,32 @@ void refuse_flexible_bodies(Context& context, const Value& value) {
   }
 }
 
+/// The first of the model's parts that an explicit integrator without condensed unknowns cannot advance; empty if there
+/// is none.
+std::string part_for_implicit_steps(const Context& context) {
+  for (const auto& [section_name, part] : {std::pair{"bearings", "bearing"}, std::pair{"contacts", "contact"}})
+    for (const auto& [name, value] : section(context.root, section_name)) return part + (" '" + name + "'");
+  for (const auto& [name, body] : section(context.root, "bodies"))
+    if (body.has("flexible") || body.has("beam")) return "the flexible body '" + name + "'";
+  for (const Force& force : context.model.forces)
+    if (force.as<PistonRing>() != nullptr) return "piston ring '" + force.name + "'";
+  return {};
+}
+
+void interpret_integrator(Context& context, const Value& value) {
+  Simulation& simulation = context.model.simulation;
+  simulation.integrator = meaning_of(value, "integrator", integrator_words);
+  if (simulation.integrator == Integrator::generalized_alpha) return;
+  const Value& at = *value.find("integrator");
+  if (const std::string part = part_for_implicit_steps(context); !part.empty())
+    context.fault(at, "the explicit method in a machine with " + part,
+                  "rigid bodies with joints, drives, springs, dampers and loads",
+                  "use `integrator: generalized_alpha`, which is for every machine");
+  if (simulation.analysis == Analysis::kinematics)
+    context.fault(at, "an integrator of a kinematic analysis, which integrates nothing", "`analysis: dynamics`",
+                  "leave out `integrator`");
+}
+
 void interpret_analysis(Context& context, const Value& value) {
   Simulation& simulation = context.model.simulation;
   simulation.analysis = meaning_of(value, "analysis", analysis_words);
@@ -306,6 +332,7 @@ void interpret_simulation(Context& context) {
   if (value == nullptr) return;
   simulation.position = value->key_position;
   interpret_analysis(context, *value);
+  interpret_integrator(context, *value);
   simulation.crank = crank_of(context, *value);
   simulation.start = number_of(*value, "start");
   simulation.duration = seconds_of(context, *value, "duration", simulation.crank);

@@ -54,6 +54,13 @@ class Equations : public Condensed<State> {
   /// Computes q = q0 (+) dq: a sum for plain coordinates, q0 exp(dq) for an orientation.
   virtual void retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Eigen::VectorXd& q) const = 0;
 
+  /// Computes the rate of the increment dq of q0 (+) dq where the velocity is v, T(dq) rate = v with T the derivative
+  /// of the retraction, for methods that integrate increments: v for plain coordinates.
+  virtual void increment_rate(const Eigen::VectorXd& dq, const Eigen::VectorXd& v, Eigen::VectorXd& rate) const {
+    (void)dq;
+    rate = v;
+  }
+
   /// Computes the residual r, shape (nv + nlambda), the magnitude of the terms that each row balances (`scale`, same
   /// shape, for relative norms), and, unless `tangent` is null, the tangent of the residual with respect to [dx;
   /// lambda].

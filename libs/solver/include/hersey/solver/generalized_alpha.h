@@ -1,12 +1,9 @@
 #pragma once
 
-#include <Eigen/Dense>
-#include <functional>
 #include <memory>
-#include <string>
 
-#include "hersey/core/outcome.h"
 #include "hersey/solver/equations.h"
+#include "hersey/solver/integrator.h"
 
 namespace hersey::solver {
 
@@ -29,21 +26,6 @@ struct GeneralizedAlphaOptions {
   bool returns_to_constraints = false;
 };
 
-/// Status of a step.
-enum class StepStatus { no_convergence, domain_error, singular, inaccurate, converged };
-
-/// Outcome of one step. If it is not solved, the state is that at the start of the step.
-struct [[nodiscard]] StepSummary : OutcomeOf<StepStatus, StepStatus::converged> {
-  int iterations = 0;     ///< Newton iterations spent
-  double residual = 0;    ///< largest residual relative to the tolerance of this step, <= 1 when solved
-  std::string worst_row;  ///< name of the row with `residual`; empty when solved
-};
-
-/// Function that returns whether a solved step is accurate enough. Its arguments are the state at the end of the step
-/// and the estimated error of position: an increment of position, shape (nv), from the end of the step to the exact
-/// solution.
-using StepCheck = std::function<bool(const State& end, const Eigen::VectorXd& error)>;
-
 /// Generalized-alpha for constrained mechanical systems of index 3 on a Lie group (theory manual, chapter integrator).
 ///
 /// Second order in positions and velocities, and in multipliers once the transient of the start has faded. The step
@@ -55,17 +37,15 @@ using StepCheck = std::function<bool(const State& end, const Eigen::VectorXd& er
 /// @see Chung and Hulbert (1993), J. Appl. Mech. 60, 371-375; Arnold and Bruels (2007), Multibody Syst. Dyn. 18,
 ///      185-202; Bruels, Cardona and Arnold (2012), Mech. Mach. Theory 48, 121-137.
 /// @verified_by generalized_alpha_test.cpp
-class GeneralizedAlpha {
+class GeneralizedAlpha final : public Integrator {
  public:
   /// @pre 0 <= spectral_radius <= 1, rtol > 0, max_iterations > 0.
   explicit GeneralizedAlpha(const GeneralizedAlphaOptions& options = {});
-  ~GeneralizedAlpha();
+  ~GeneralizedAlpha() override;
   GeneralizedAlpha(GeneralizedAlpha&&) noexcept;
   GeneralizedAlpha& operator=(GeneralizedAlpha&&) noexcept;
 
-  /// Discards the history: the next step starts from its state alone, whose vdot must be consistent (see initialise).
-  /// Call it after every discontinuous change of the state or the equations.
-  void reset();
+  void reset() override;
 
   /// Advances `state` by `dt` > 0, film and other condensed unknowns included.
   /// @throws InputError if spectral_radius is 1, the equations have constraints and the step is not chosen by its
@@ -76,13 +56,12 @@ class GeneralizedAlpha {
   /// Advances `state` by `dt` and accepts the step only if `is_accurate` returns true for its local error (theory
   /// manual eq. (integrator.11)); otherwise the step is `inaccurate`, and state, condensed unknowns and history are
   /// those before it.
-  [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt, const StepCheck& is_accurate);
+  [[nodiscard]] StepSummary step(Equations& equations, State& state, double dt, const StepCheck& is_accurate) override;
 
-  /// Returns the computing time spent so far on factorising and solving linear systems [s].
-  [[nodiscard]] double linear_solve_time() const;
+  [[nodiscard]] double linear_solve_time() const override;
 
   /// Saves or restores the history and the pivot order in use.
-  void persist(Archive& archive);
+  void persist(Archive& archive) override;
 
   /// Returns the options given to the constructor.
   [[nodiscard]] const GeneralizedAlphaOptions& options() const { return options_; }

@@ -10,8 +10,13 @@ namespace hersey::solver {
 struct StepControlOptions {
   double smallest = 1e-9;  ///< [s], > 0
   double largest = 1;      ///< [s], >= smallest
-  double unit = 0;  ///< > 0: step lengths are this value divided by powers of 2; for cases in which each new length
-                    ///< costs a factorisation [s]
+  double unit = 0;   ///< > 0: step lengths are this value divided by powers of 2; for cases in which each new length
+                     ///< costs a factorisation [s]
+  double order = 3;  ///< the error of a step goes as its length to this power
+  /// Steps over which an error's present change counts as an error: keeps low orders short where their error passes
+  /// through zero.
+  double reach = 8;
+  double largest_growth = 1.3;  ///< of a step over the one before
 };
 
 /// Chooses step lengths from the errors of previous steps (theory manual eq. (integrator.14)).
