@@ -76,8 +76,7 @@ inline constexpr Vocabulary<Integrator, 2> integrator_words{{
     {Integrator::generalized_alpha, "generalized_alpha",
      "implicit, of second order, damps vibrations that the steps do not resolve: for every machine"},
     {Integrator::dormand_prince, "dormand_prince",
-     "explicit Runge-Kutta method of order eight, for rigid bodies without films, contacts and piston rings: many "
-     "times "
+     "explicit Runge-Kutta method of order eight, for rigid bodies without films, contacts and piston rings: much "
      "faster at small tolerances; stiff springs and strong dampers limit its steps"},
 }};
 
