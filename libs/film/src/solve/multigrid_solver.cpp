@@ -16,8 +16,7 @@ namespace {
 
 constexpr int centre = 0, west = 1, east = 2, south = 3, north = 4;
 
-// Vectors kept between two restarts: six to eight of them take a residual as far as single precision carries it. Half as
-// many forget what they have found before they are done, twice as many only take memory.
+// Vectors kept between two restarts: six to eight of them take a residual as far as single precision carries it.
 constexpr int kRestart = 6;
 
 // What the vectors of one restart, in single precision, can take a residual to, as a fraction of what it was.
