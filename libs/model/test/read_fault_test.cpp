@@ -232,8 +232,9 @@ TEST_CASE("UnknownWord_NamesTheNearest") {
   CHECK(faults_after("type: planar", "type: plannar") ==
         "m.yaml:15:17: joints.guide.type: 'plannar'; did you mean 'planar'? expected fixed, revolute, prismatic, "
         "cylindrical, spherical, planar, universal, screw or free");
-  CHECK(faults_after("    lubricant: oil\n", "    lubricant: oil\n    solver: newtn\n") ==
-        "m.yaml:30:13: bearings.big_end.solver: 'newtn'; did you mean 'newton'? expected auto, newton, multigrid or sor");
+  CHECK(
+      faults_after("    lubricant: oil\n", "    lubricant: oil\n    solver: newtn\n") ==
+      "m.yaml:30:13: bearings.big_end.solver: 'newtn'; did you mean 'newton'? expected auto, newton, multigrid or sor");
 }
 
 TEST_CASE("KeyOfAnotherVariant_NamesItsOwner") {

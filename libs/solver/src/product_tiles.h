@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "hersey/solver/subtract_product.h"
+#include "hersey/solver/strided_matrix.h"
 
 /// Kernels of small dense matrices. They are compiled twice where a processor may have more instructions than all of
 /// its kind: a kernel is inlined into a function for plain ones and into one for fused ones. It has no lambdas, which

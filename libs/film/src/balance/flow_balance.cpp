@@ -244,10 +244,10 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   HERSEY_REQUIRE(u.size() == n, "u of shape (grid.size())");
   take_history(history);
   take_motion(motion);
-  u_ = u;
+  take_unknowns(u);
   by_surfaces_.is_found = false;
   find_supply(motion);
-  if (const FilmDomain domain = evaluate_nodes(motion, u); !domain.is_inside()) return domain;
+  if (const FilmDomain domain = evaluate_nodes(motion, u_); !domain.is_inside()) return domain;
   for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
   for (const int node : leaking_edge_nodes_) {
     const double leaves = seal_flow(node).value;
@@ -262,6 +262,14 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
       model_.c * std::max(std::abs(speed_phi_) * geometry_.mean_dz, std::abs(speed_z_) * geometry_.mean_dx);
   largest_throughput_ = std::max(throughput_.maxCoeff(), 1e-3 * carried);
   return {};
+}
+
+// Between parallel surfaces u is nothing but round-off, whose sign would decide which nodes are full; all are.
+void FlowBalance::take_unknowns(const Eigen::VectorXd& u) {
+  const double round_off = 1e-12 * fill_scale(model_);
+  u_ = u;
+  for (double& value : u_)
+    if (std::abs(value) < round_off) value = 0;
 }
 
 // Where the oil is thinner at one of the surfaces, sliding carries more of it along with the other, as between rough

@@ -496,6 +496,7 @@ class FlowBalance {
   [[nodiscard]] Tie tie_to_line(const PrescribedNode& prescribed) const;
   void take_history(const FilmHistory& history);
   void take_motion(const SurfaceMotion& motion);
+  void take_unknowns(const Eigen::VectorXd& u);
   /// Evaluates the states of the nodes, and adds the storage in their control volumes to the balance.
   [[nodiscard]] FilmDomain evaluate_nodes(const SurfaceMotion& motion, const Eigen::VectorXd& u);
   /// Round-off of u on a line or groove at p_cav, where u = 0 [Pa].

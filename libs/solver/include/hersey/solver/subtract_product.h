@@ -2,17 +2,9 @@
 
 #include <cstddef>
 
+#include "hersey/solver/strided_matrix.h"
+
 namespace hersey::solver {
-
-/// A dense matrix inside an array: element (i, j) stands at data[i * row + j * column].
-struct StridedMatrix {
-  const double* data = nullptr;
-  std::ptrdiff_t row = 0, column = 1;
-
-  /// Returns the matrix without its first rows, or without its first rows and columns.
-  [[nodiscard]] StridedMatrix from_row(int i) const { return {data + i * row, row, column}; }
-  [[nodiscard]] StridedMatrix from(int i, int j) const { return {data + i * row + j * column, row, column}; }
-};
 
 /// Subtracts the product A B of small dense matrices from C. Use it where many such products are too small for BLAS,
 /// which spends more on each call than on the numbers.
