@@ -177,6 +177,16 @@ TEST_CASE("PivotedPad_MeetsAnIndependentSolution_AtAnyAngle") {
   }
 }
 
+// Between the parallel surfaces of the start nothing but round-off decides whether there is a film.
+TEST_CASE("PivotedPad_IsFoundFromAnyParallelGap") {
+  const Ran near(pivoted(10000, 0, "{analysis: steady}"));
+  for (const char* gap : {"35 um", "40.1 um", "45 um", "50 um"}) {
+    CAPTURE(gap);
+    const Ran far(pivoted(10000, 0, "{analysis: steady}"), {std::string("joints.turning.initial.translation=") + gap});
+    CHECK(far.number("bearings/pad/h_min") == relative(near.number("bearings/pad/h_min")).epsilon(1e-7));  // Newton's
+  }
+}
+
 // In time the pad finds its tilt.
 TEST_CASE("PivotedPad_SettlesAtItsSteadyMotion") {
   const std::vector<std::string> coarse{"bearings.pad.grid={along: 13, radial: 9}"};

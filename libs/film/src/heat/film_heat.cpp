@@ -67,6 +67,17 @@ double mean_across(const Eigen::Ref<const Eigen::VectorXd>& layers, const Layeri
   return mean;
 }
 
+// Pads that are alike are equally hot but for what iterations leave of their range of temperatures.
+constexpr double equally_hot = 1e-7;
+
+// Returns the first of the hottest nodes.
+Eigen::Index first_of_hottest(const Eigen::VectorXd& T) {
+  const double highest = T.maxCoeff(), enough = highest - equally_hot * (highest - T.minCoeff());
+  Eigen::Index node = 0;
+  while (T[node] < enough) ++node;
+  return node;
+}
+
 }  // namespace
 
 HeatState first_guess(const FilmModel& model, const ThermalModel& thermal, double T_oil, HeatState image) {
@@ -476,11 +487,10 @@ void FilmHeat::Impl::show_surfaces(const CarryingFilm& film) {
 void FilmHeat::Impl::find_hottest() {
   const GridGeometry& at = flow.geometry();
   const int n_z = flow.model().grid.n_z;
-  Eigen::Index node = 0;
-  observed.T_max = shown.hottest.maxCoeff(&node);
-  observed.T_max_phi = at.phi[node / n_z], observed.T_max_z = at.z[node % n_z];
-  observed.T_shell_max = shown.shell.maxCoeff(&node);
-  observed.T_shell_max_phi = at.phi[node / n_z];
+  observed.T_max = shown.hottest.maxCoeff(), observed.T_shell_max = shown.shell.maxCoeff();
+  const Eigen::Index hottest = first_of_hottest(shown.hottest), hottest_in_shell = first_of_hottest(shown.shell);
+  observed.T_max_phi = at.phi[hottest / n_z], observed.T_max_z = at.z[hottest % n_z];
+  observed.T_shell_max_phi = at.phi[hottest_in_shell / n_z];
 }
 
 void FilmHeat::Impl::average(const CarryingFilm& film) {
