@@ -17,10 +17,6 @@ constexpr double kCoarseSearch = 1e-6;
 // Below so many nodes a search is as quick by itself as with one on half of the nodes before it.
 constexpr int kNodesWorthHalving = 1000;
 
-// Nodes from which on multigrid finds a steady film with its coefficients sooner than a factor does: measured, both
-// take 110 ms on 120 x 25 nodes, 290 and 240 ms on 160 x 35, 790 and 390 ms on 240 x 53.
-constexpr int kFewestForMultigrid = 5000;
-
 // Begins with the position and the film that a search on half of the nodes each way finds (bearing.39). Without an
 // answer there the search begins by itself.
 void begin_on_coarse_grid(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options,
@@ -32,8 +28,7 @@ void begin_on_coarse_grid(const film::FilmModel& model, const OperatingPoint& po
   half.grid = film::half_of(model.grid);
   SteadyOptions on_half = options;
   on_half.rtol = std::max(options.rtol, kCoarseSearch);
-  if (options.solver == film::FilmSolver::multigrid && half.grid.size() < kFewestForMultigrid)
-    on_half.solver = film::FilmSolver::newton;
+  if (options.solver == film::FilmSolver::multigrid) on_half.solver = film::usual_solver(half.grid);
   SteadySearch search_there(half, point, on_half);
   begin_on_coarse_grid(half, point, on_half, search_there);
   if (!search_there.solve().solved()) return;
