@@ -38,6 +38,15 @@ void begin_on_coarse_grid(const film::FilmModel& model, const OperatingPoint& po
                   transfer(search_there.film().unaryExpr([fill](double u) { return u < 0 ? fill * u : u; })));
 }
 
+SteadySummary search_from_coarse_grids(const film::FilmModel& model, const OperatingPoint& point,
+                                       const SteadyOptions& options, SteadyState& state) {
+  SteadySearch search(model, point, options);
+  begin_on_coarse_grid(model, point, options, search);
+  const SteadySummary summary = search.solve();
+  if (summary.solved()) state = search.state();
+  return summary;
+}
+
 }  // namespace
 
 double initial_gap(const film::FilmModel& model, const OperatingPoint& point, const SteadyOptions& options) {
@@ -57,11 +66,15 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
                  "speeds that move oil in the gap, a feed or another pressure, or asperities");
   HERSEY_REQUIRE(initial_gap(model, point, options) > 0, "a journal inside its bore");
   if (options.thermal) return solve_with_heat(model, point, options, state);
-  SteadySearch search(model, point, options);
-  begin_on_coarse_grid(model, point, options, search);
-  const SteadySummary summary = search.solve();
-  if (summary.solved()) state = search.state();
-  return summary;
+  SteadySummary summary = search_from_coarse_grids(model, point, options, state);
+  if (summary.solved() || options.solver != film::FilmSolver::multigrid) return summary;
+  // Of films that starve multigrid loses the level of the oil, which their edges hardly determine.
+  SteadyOptions by_factors = options;
+  by_factors.solver = film::FilmSolver::newton;
+  SteadySummary again = search_from_coarse_grids(model, point, by_factors, state);
+  if (!again.solved()) return summary;
+  again.iterations += summary.iterations;
+  return again;
 }
 
 film::FilmFields steady_fields(const film::FilmModel& model, const SteadyState& state) {
