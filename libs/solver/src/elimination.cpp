@@ -17,10 +17,10 @@ struct Gap {
 class Stretches {
  public:
   std::size_t take(std::size_t length) {
-    for (auto gap = gaps_.begin(); gap != gaps_.end(); ++gap) {
-      if (gap->length < length) continue;
-      const std::size_t first = gap->first;
-      gap->first += length, gap->length -= length;
+    for (Gap& gap : gaps_) {
+      if (gap.length < length) continue;
+      const std::size_t first = gap.first;
+      gap.first += length, gap.length -= length;
       return first;
     }
     const bool ends_free = !gaps_.empty() && gaps_.back().first + gaps_.back().length == room_;

@@ -188,7 +188,7 @@ void Multigrid::cycle(const LineVectorOf<Value>& b, LineVectorOf<Value>& x) {
 
 template <class Value>
 void Multigrid::solve_coarsest(const LineVectorOf<Value>& b, LineVectorOf<Value>& x) {
-  constexpr int columns = sizeof(Value) / sizeof(Real);
+  constexpr int columns = std::is_same_v<Value, Pack> ? kAbreast : 1;
   const int n = levels_.back().A.size();
   rhs_.resize(static_cast<std::size_t>(n) * columns);
   for (int c = 0; c < columns; ++c)

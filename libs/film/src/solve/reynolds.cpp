@@ -43,7 +43,7 @@ struct Reynolds::Impl {
   [[nodiscard]] bool solve_regularised(Eigen::VectorXd& du);
   [[nodiscard]] bool solve_by_multigrid(Eigen::Ref<Eigen::MatrixXd> columns, double rtol);
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
-  void solve_columns(Eigen::Ref<Eigen::MatrixXd> columns, double rtol);
+  void solve_columns(const Eigen::Ref<Eigen::MatrixXd>& columns, double rtol);
   void solve_in_pattern(Eigen::Ref<Eigen::MatrixXd> columns, double rtol);
   void solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns);
@@ -185,9 +185,9 @@ void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorX
   solve_columns(x, rtol);
 }
 
-void Reynolds::Impl::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns, double rtol) {
+void Reynolds::Impl::solve_columns(const Eigen::Ref<Eigen::MatrixXd>& columns, double rtol) {
   if (border.is_empty()) return solve_in_pattern(columns, rtol);
-  border.solve(columns, [&](Eigen::Ref<Eigen::MatrixXd> of) { solve_in_pattern(of, std::min(rtol, tight)); });
+  border.solve(columns, [&](const Eigen::Ref<Eigen::MatrixXd>& of) { solve_in_pattern(of, std::min(rtol, tight)); });
 }
 
 void Reynolds::Impl::solve_in_pattern(Eigen::Ref<Eigen::MatrixXd> columns, double rtol) {
