@@ -1172,7 +1172,7 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
     def test_full_disk_ends_with_the_reason_and_keeps_what_was_written(self):
         def small_disk():  # writing beyond the limit, a second away, fails as on a full disk
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (3_000_000, 3_000_000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (6_000_000, 6_000_000))
 
         run = hersey("run", MODEL, "--output", self.out, "--set", "duration=1000 s", preexec_fn=small_disk)
         self.assertEqual(run.returncode, FAILED, run.stdout + run.stderr)

@@ -10,6 +10,7 @@ namespace hersey::results {
 namespace {
 
 constexpr double flush_share = 0.03;                        // of the time of a run, which flushes take at most
+constexpr double first_flush = 0.1;                         // of the interval: a run may soon fill a small disk
 constexpr std::size_t worth_moving = std::size_t{1} << 20;  // numbers: 8 MiB
 
 }  // namespace
@@ -103,12 +104,15 @@ std::size_t RowFlow::missing_steps() const {
 
 bool RowFlow::are_chunks_full() const { return steps_at_a_time_ > 0 && !datasets_.empty() && missing_steps() == 0; }
 
-/// While nothing is under way. A chunk that is written before it is full is written again: where all are about to be, a
-/// flush waits for that as long again at most.
+/// While nothing is under way. Flushes follow each other quickly in a young file. A chunk that is written before it is
+/// full is written again: where all are about to be, a flush waits for that as long again at most.
 bool RowFlow::is_flush_due() const {
   if (flush_interval_ == 0) return true;
-  const double since = std::chrono::duration<double>(Clock::now() - last_flush_).count();
-  const double interval = std::max(flush_interval_, flush_cost_ / flush_share);
+  const Clock::time_point now = Clock::now();
+  const double since = std::chrono::duration<double>(now - last_flush_).count();
+  const double age = std::chrono::duration<double>(now - opened_).count();
+  const double wanted = std::clamp(age, first_flush * flush_interval_, flush_interval_);
+  const double interval = std::max(wanted, flush_cost_ / flush_share);
   if (since < interval) return false;
   if (steps_at_a_time_ == 0 || datasets_.empty() || since >= 2 * interval) return true;
   const double steps = static_cast<double>(datasets_.front().rows() + waiting_.steps() - rows_at_flush_);

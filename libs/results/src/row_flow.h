@@ -18,7 +18,7 @@ class RowFlow {
  public:
   /// @param file  outlives it; used by a separate thread while rows are being written: settle() first
   /// @param expected  final number of rows of a series, as far as known
-  /// @param flush_interval  shortest time between two automatic flushes [s]
+  /// @param flush_interval  shortest time between two automatic flushes [s], a tenth of it at first
   RowFlow(OpenFile& file, std::size_t expected, double flush_interval, bool writes_beside)
       : file_(file), expected_(expected), flush_interval_(flush_interval), writes_beside_(writes_beside) {}
 
@@ -67,7 +67,8 @@ class RowFlow {
   WaitingRows waiting_;              // not in the file yet
   WaitingRows leaving_;              // on their way into it
   std::size_t steps_at_a_time_ = 0;  // rows of most series that go together; 0 until there is room for them
-  Clock::time_point last_flush_ = Clock::now();
+  Clock::time_point opened_ = Clock::now();
+  Clock::time_point last_flush_ = opened_;
   std::size_t rows_at_flush_ = 0;  // of the first series
   double flush_cost_ = 0;          // of the last one [s]; before there are rows, what making the series took
   std::future<void> writing_;      // while it is under way the file, its datasets, leaving_ and the cost are its own

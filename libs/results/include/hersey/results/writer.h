@@ -29,7 +29,7 @@ enum class Status {
 
 struct WriterOptions {
   bool overwrite = false;       ///< replace an existing file instead of throwing FileExists
-  double flush_interval = 0.5;  ///< shortest time between two writes by flush_if_due() [s], >= 0
+  double flush_interval = 0.5;  ///< shortest time between two writes by flush_if_due() [s], >= 0; a tenth at first
   std::size_t rows = 0;         ///< expected number of rows of the series, as far as known
   /// true: flush_if_due() writes rows to the file in a separate thread while others are added.
   bool writes_beside = false;
