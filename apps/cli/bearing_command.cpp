@@ -20,6 +20,7 @@
 #include "hersey/session/output_file.h"
 #include "hersey/session/session.h"
 #include "standard_streams.h"
+#include "timing_table.h"
 
 namespace hersey::cli {
 namespace {
@@ -233,6 +234,7 @@ int bearing_command(const BearingArguments& arguments) {
                                            .threads = arguments.jobs};
   const std::vector<study::BearingSolution> solutions = session.solve_bearings(runs, options);
   print(arguments, solutions, sensitivities_of(arguments, session, options, solutions));
+  if (arguments.timing && solutions.size() == 1) say("{}", timing_text(solutions.front()));
   bool all_solved = true;
   for (const study::BearingSolution& solution : solutions) {
     for (const std::string& warning : solution.warnings)

@@ -16,9 +16,10 @@ struct RunArguments {
   bool resume = false;
   bool json = false;
   bool step_error = false;
-  bool all = false;  ///< print every figure, however many
-  int jobs = 0;      ///< 0: one per thread
-  int threads = 0;   ///< 0: one per processor
+  bool all = false;     ///< print every figure, however many
+  bool timing = false;  ///< print where the computing time went
+  int jobs = 0;         ///< 0: one per thread
+  int threads = 0;      ///< 0: one per processor
 };
 
 /// `hersey run`: simulates a model, or every run of its study, writes results and report, prints the closing table.
@@ -90,6 +91,7 @@ struct BearingArguments {
   std::filesystem::path csv, fields, vtu, report;  ///< files to write; empty: none
   bool json = false;
   bool no_grid_error = false;
+  bool timing = false;                          ///< print where the computing time went
   bool sensitivity = false;                     ///< of every figure to the usual parameters
   std::vector<std::string> sensitivity_to;      ///< to these key paths
   std::string thermal_coefficients = "frozen";  ///< or total

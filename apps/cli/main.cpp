@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
     cli::open_standard_streams();
     cli::report_crashes_of_damaged_files();
     use_one_blas_thread();
+    end_blas_threads();
     const int code = cli::dispatch(argc, argv);
     return cli::finish_standard_output() || code != cli::kOk ? code : static_cast<int>(cli::kFailed);
   } catch (const InputError& error) {

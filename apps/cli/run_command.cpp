@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@
 #include "progress_bar.h"
 #include "standard_streams.h"
 #include "table.h"
+#include "timing_table.h"
 
 namespace hersey::cli {
 namespace {
@@ -245,6 +247,7 @@ int run_all(const RunArguments& arguments, const session::Session& session, cons
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
+  const auto began = std::chrono::steady_clock::now();
   const session::Session session(arguments.model, arguments.overrides);
   const std::filesystem::path folder = arguments.output.empty() ? session.results_folder() : arguments.output;
   warn(session.model().warnings);
@@ -260,7 +263,12 @@ int run_command(const RunArguments& arguments) {
   Display display(session.model(), runs);
   if (!runs.empty()) return run_all(arguments, session, folder, runs, options, display);
   const run::Summary summary = session.run(folder / "results.h5", options, display);
-  return close(arguments, folder, {summary.results}, {summary}, exit_code(summary.status));
+  const int code = close(arguments, folder, {summary.results}, {summary}, exit_code(summary.status));
+  if (arguments.timing && summary.steps > 0) {
+    const std::chrono::duration<double> total = std::chrono::steady_clock::now() - began;
+    say("{}", timing_text(summary, total.count()));
+  }
+  return code;
 }
 
 }  // namespace hersey::cli

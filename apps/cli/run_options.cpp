@@ -39,6 +39,8 @@ void add_run(CLI::App& app, Commands& commands) {
       ->excludes(resume);
   command->add_flag("--json", run->json, "Print the closing table as JSON");
   command->add_flag("--all", run->all, "Print every figure of every bearing, however many");
+  command->add_flag("--timing", run->timing,
+                    "Print where the computing time of a single run went, in 25 lines at most");
   command->add_option("--jobs", run->jobs, "Runs of a study at the same time (default: one per processor)")
       ->check(CLI::PositiveNumber);
   add_threads(*command, run->threads);
@@ -111,6 +113,7 @@ void add_bearing(CLI::App& app, Commands& commands) {
       ->type_name("FILE");
   command->add_flag("--json", bearing->json, "Print every figure as JSON");
   command->add_flag("--no-grid-error", bearing->no_grid_error, "Leave out the estimate of the grid's error");
+  command->add_flag("--timing", bearing->timing, "Print where the computing time of a single solution went");
   command->add_flag("--sensitivity", bearing->sensitivity,
                     "Print the derivatives of every figure by load, speed, size, clearance, viscosity and supplies");
   repeatable(

@@ -97,6 +97,8 @@ FilmForce::~FilmForce() = default;
 
 const film::FilmModel& FilmForce::model() const { return film_->model(); }
 
+film::FilmWork FilmForce::work() const { return film_->reynolds().work(); }
+
 const film::FilmHeat* FilmForce::heat() const { return film_->heat(); }
 
 void FilmForce::evaluate_surfaces(const mbd::RelativeMotion& motion) {

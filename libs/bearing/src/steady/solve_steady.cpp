@@ -42,7 +42,8 @@ SteadySummary search_from_coarse_grids(const film::FilmModel& model, const Opera
                                        const SteadyOptions& options, SteadyState& state) {
   SteadySearch search(model, point, options);
   begin_on_coarse_grid(model, point, options, search);
-  const SteadySummary summary = search.solve();
+  SteadySummary summary = search.solve();
+  summary.work = search.work();
   if (summary.solved()) state = search.state();
   return summary;
 }
@@ -74,6 +75,7 @@ SteadySummary solve_steady(const film::FilmModel& model, const OperatingPoint& p
   SteadySummary again = search_from_coarse_grids(model, point, by_factors, state);
   if (!again.solved()) return summary;
   again.iterations += summary.iterations;
+  again.work += summary.work;
   return again;
 }
 

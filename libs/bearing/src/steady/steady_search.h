@@ -54,6 +54,8 @@ class SteadySearch {
   /// linearisation. Surfaces that deform with the position move at its rate (bearing.29).
   [[nodiscard]] DynamicCoefficients coefficients();
   [[nodiscard]] const Coordinates& position() const { return e_; }
+  /// What its film has cost.
+  [[nodiscard]] film::FilmWork work() const { return film_.reynolds().work(); }
   [[nodiscard]] Eigen::VectorXd film() const { return film_.film_of(x_); }
   [[nodiscard]] SteadyState state();
 

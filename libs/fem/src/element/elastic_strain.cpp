@@ -22,10 +22,8 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> elastic_strain(ElementType type, const 
       type == ElementType::hex8 ? std::optional<IncompatibleModes>(x) : std::nullopt;
   Eigen::Matrix<double, 9, 1> amplitude = Eigen::Matrix<double, 9, 1>::Zero();
   if (modes) {
-    const IncompatibleModes::Stiffness k = modes->stiffness(x, material.D);
-    Eigen::Matrix<double, 9, 1> missing = -k.K_au * displacement;
-    if (stretch.size() > 0) missing += modes->forces(x, stress_of_stretch(material)) * stretch;
-    amplitude = k.K_aa.llt().solve(missing);
+    if (stretch.size() > 0) amplitude = modes->forces(x, stress_of_stretch(material)) * stretch;
+    amplitude = modes->amplitudes(x, material.D, u, amplitude);
   }
   for (std::size_t p = 0; p < points.size(); ++p) {
     const ShapeFunctions shape = shape_functions(type, points[p]);

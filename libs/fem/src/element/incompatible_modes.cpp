@@ -32,6 +32,22 @@ IncompatibleModes::Stiffness IncompatibleModes::stiffness(const NodeColumns& x, 
   return k;
 }
 
+Eigen::Matrix<double, 9, 1> IncompatibleModes::amplitudes(const NodeColumns& x, const Matrix6& D, const NodeColumns& u,
+                                                          const Eigen::Matrix<double, 9, 1>& forces) const {
+  const Eigen::Map<const Eigen::VectorXd> displacement(u.data(), u.size());
+  Eigen::Matrix<double, 9, 9> K_aa = Eigen::Matrix<double, 9, 9>::Zero();
+  Eigen::Matrix<double, 9, 1> f = forces;
+  for (const auto& [xi, weight] : stiffness_points(ElementType::hex8)) {
+    const ElementPoint point = element_point(shape_functions(ElementType::hex8, xi), x);
+    const Vector6 e = strain_matrix(point.gradients) * displacement;
+    const Eigen::Matrix<double, 6, 9> M = strain(xi, point.jacobian);
+    const Eigen::Matrix<double, 6, 9> stress = weight * point.jacobian * D * M;
+    K_aa.noalias() += M.transpose() * stress;
+    f.noalias() -= stress.transpose() * e;
+  }
+  return K_aa.llt().solve(f);
+}
+
 Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, most_nodes> IncompatibleModes::forces(const NodeColumns& x,
                                                                                      const Vector6& stress) const {
   Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, most_nodes> f;

@@ -23,6 +23,11 @@ class IncompatibleModes {
   /// The blocks before condensation.
   [[nodiscard]] Stiffness stiffness(const NodeColumns& x, const Matrix6& D) const;
 
+  /// Amplitudes at which the modes balance displacements `u` of the nodes and `forces` on the modes themselves: those
+  /// that condensation takes out of the stiffness.
+  [[nodiscard]] Eigen::Matrix<double, 9, 1> amplitudes(const NodeColumns& x, const Matrix6& D, const NodeColumns& u,
+                                                       const Eigen::Matrix<double, 9, 1>& forces) const;
+
   /// Forces on the modes of a stress [Pa] that goes with a field given at the nodes, (9, nodes): (elastic.28).
   [[nodiscard]] Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, most_nodes> forces(const NodeColumns& x,
                                                                                   const Vector6& stress) const;

@@ -8,6 +8,7 @@
 
 #include "balance/flow_balance.h"
 #include "hersey/core/contract.h"
+#include "hersey/core/stopwatch.h"
 #include "hersey/solver/subtract_product.h"
 #include "observe/film_wrench.h"
 #include "observe/observe_evaluated.h"
@@ -35,6 +36,8 @@ struct Reynolds::Impl {
     state.kind = chosen;
   }
 
+  [[nodiscard]] FilmDomain evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u);
+  void assemble_jacobian();
   void factorise();
   void take_speeds(const SurfaceMotion& motion);
   [[nodiscard]] bool is_finite() const;
@@ -45,12 +48,15 @@ struct Reynolds::Impl {
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve_columns(const Eigen::Ref<Eigen::MatrixXd>& columns, double rtol);
   void solve_in_pattern(Eigen::Ref<Eigen::MatrixXd> columns, double rtol);
+  void solve_by_factor(Eigen::Ref<Eigen::MatrixXd> columns, SystemMatrix matrix = SystemMatrix::jacobian);
   void solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void multiply_by_adjoint();
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void find_port_flows(PortFlows flows, CondensedFilm& film);
+  void find_partials(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, PortFlows flows,
+                     CondensedFilm& film);
   void set_up_multigrid();
   void solve_for_settling();
   void subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const;
@@ -59,6 +65,7 @@ struct Reynolds::Impl {
   FlowBalance balance;
   FilmWrench wrench;
   LinearSolverState state;  // but for has_factor
+  FilmWork work;            // but for factorisations
   GridLu lu;                // of the matrix in the pattern, which the border completes
   PortBorder border;
   std::optional<MultigridSolver> multigrid;
@@ -75,6 +82,18 @@ struct Reynolds::Impl {
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
   bool condensed = false;
 };
+
+FilmDomain Reynolds::Impl::evaluate(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
+  const Stopwatch watch(work.balance);
+  ++work.evaluations;
+  return balance.evaluate(motion, history, u);
+}
+
+void Reynolds::Impl::assemble_jacobian() {
+  const Stopwatch watch(work.jacobian);
+  balance.assemble_jacobian();
+  border.take(balance);
+}
 
 bool Reynolds::Impl::is_finite() const {
   const auto values = balance.values();
@@ -110,6 +129,7 @@ bool Reynolds::Impl::factorise_shifted(double shift) {
 void Reynolds::Impl::factorise() {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
   if (factorised) return;
+  const Stopwatch watch(work.factors);
   if (!lu.is_analysed()) lu.analyse(balance.column_start(), balance.row_index());
   if (state.kind == LinearSolver::direct) border.forget_answers();
   ++state.factorisations;
@@ -125,10 +145,13 @@ void Reynolds::Impl::factorise() {
 // @returns whether the matrix had a factor
 bool Reynolds::Impl::solve_regularised(Eigen::VectorXd& du) {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
-  if (!lu.is_analysed()) lu.analyse(balance.column_start(), balance.row_index());
-  find_row_sizes();
-  factorised = false;  // as far as the Jacobian itself is asked for
-  if (!factorise_shifted(1e-3)) return false;
+  {
+    const Stopwatch watch(work.factors);
+    if (!lu.is_analysed()) lu.analyse(balance.column_start(), balance.row_index());
+    find_row_sizes();
+    factorised = false;  // as far as the Jacobian itself is asked for
+    if (!factorise_shifted(1e-3)) return false;
+  }
   du = -balance.residual();
   border.forget_answers();
   solve_directly(du);
@@ -149,12 +172,16 @@ void Reynolds::Impl::set_up_multigrid() {
 // Sums over the surface are not needed on the way to a solution.
 const FilmWrench& Reynolds::Impl::summed_wrench() {
   HERSEY_REQUIRE(linearised, "linearise() comes first");
-  if (!summed) wrench.evaluate(balance, speeds, true);
+  if (!summed) {
+    const Stopwatch watch(work.forces);
+    wrench.evaluate(balance, speeds, true);
+  }
   summed = true;
   return wrench;
 }
 
 bool Reynolds::Impl::solve_by_multigrid(Eigen::Ref<Eigen::MatrixXd> columns, double rtol) {
+  const Stopwatch watch(work.solutions);
   set_up_multigrid();
   if (!multigrid_is_sound) return false;
   if (unsolved.cols() < columns.cols()) unsolved.resize(columns.rows(), columns.cols());
@@ -165,19 +192,22 @@ bool Reynolds::Impl::solve_by_multigrid(Eigen::Ref<Eigen::MatrixXd> columns, dou
   return summary.solved();
 }
 
+// Of the matrix in the pattern, without the border.
+void Reynolds::Impl::solve_by_factor(Eigen::Ref<Eigen::MatrixXd> columns, SystemMatrix matrix) {
+  const Stopwatch watch(work.solutions);
+  const std::span<double> numbers{columns.data(), static_cast<std::size_t>(columns.size())};
+  const auto count = static_cast<int>(columns.cols());
+  matrix == SystemMatrix::transposed ? lu.solve_transposed(numbers, count) : lu.solve(numbers, count);
+}
+
 void Reynolds::Impl::solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns) {
-  border.solve(columns, [&](Eigen::Ref<Eigen::MatrixXd> of) {
-    lu.solve({of.data(), static_cast<std::size_t>(of.size())}, static_cast<int>(of.cols()));
-  });
+  border.solve(columns, [&](const Eigen::Ref<Eigen::MatrixXd>& of) { solve_by_factor(of); });
 }
 
 void Reynolds::Impl::solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns) {
-  const auto in_pattern = [&](Eigen::Ref<Eigen::MatrixXd> of) {
-    lu.solve({of.data(), static_cast<std::size_t>(of.size())}, static_cast<int>(of.cols()));
-  };
-  border.solve_transposed(columns, in_pattern, [&](Eigen::Ref<Eigen::MatrixXd> of) {
-    lu.solve_transposed({of.data(), static_cast<std::size_t>(of.size())}, static_cast<int>(of.cols()));
-  });
+  border.solve_transposed(
+      columns, [&](const Eigen::Ref<Eigen::MatrixXd>& of) { solve_by_factor(of); },
+      [&](const Eigen::Ref<Eigen::MatrixXd>& of) { solve_by_factor(of, SystemMatrix::transposed); });
 }
 
 void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
@@ -196,7 +226,7 @@ void Reynolds::Impl::solve_in_pattern(Eigen::Ref<Eigen::MatrixXd> columns, doubl
     state.fallback_solves += static_cast<int>(columns.cols());
   }
   factorise();
-  lu.solve({columns.data(), static_cast<std::size_t>(columns.size())}, static_cast<int>(columns.cols()));
+  solve_by_factor(columns);
 }
 
 // With J^T Lambda = F_u^T for forces and flows F:  F_u du0 = -Lambda^T r  and  F_u U = -Lambda^T r_s.
@@ -211,6 +241,7 @@ void Reynolds::Impl::condense_by_adjoint(const Eigen::MatrixXd& openings, Conden
   for (Eigen::Index i = 0; i < 6; ++i) film.wrench[i] -= adjoint.col(i).dot(balance.residual());
   film.Q.noalias() -= adjoint.middleCols(6, shapes).transpose() * balance.residual();
   film.port_flow.noalias() -= adjoint.rightCols(ports).transpose() * balance.residual();
+  const Stopwatch watch(work.derivatives);
   multiply_by_adjoint();
   film.wrench_by_s += products.topRows<6>();
   film.Q_by_s += products.middleRows(6, shapes);
@@ -248,6 +279,23 @@ void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, Conden
   }
 }
 
+// Derivatives along each direction at fixed u.
+void Reynolds::Impl::find_partials(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings,
+                                   PortFlows flows, CondensedFilm& film) {
+  const Stopwatch watch(work.derivatives);
+  const bool contact_pushes = openings.cols() > 0 && !wrench.normal().by_g.isZero(0);
+  for (Eigen::Index k = 0; k < residual_by_s.cols(); ++k) {
+    const MotionDirection& direction = directions[static_cast<std::size_t>(k)];
+    balance.derivative(direction, rhs, flows == PortFlows::included ? &port_change : nullptr);
+    residual_by_s.col(k) = rhs;
+    if (flows == PortFlows::included) film.port_flow_by_s.col(k) = port_change;
+    film.wrench_by_s.col(k) = wrench.along(direction);
+    if (!contact_pushes || direction.g.size() == 0) continue;
+    rhs = wrench.normal().by_g.cwiseProduct(direction.g);
+    film.Q_by_s.col(k).noalias() = openings.transpose() * rhs;
+  }
+}
+
 // Flows through the ports, or none; their derivatives along directions are condense()'s.
 void Reynolds::Impl::find_port_flows(PortFlows flows, CondensedFilm& film) {
   if (flows == PortFlows::left_out) {
@@ -276,9 +324,8 @@ LinearSolverState Reynolds::linear_solver() const {
 
 FilmDomain Reynolds::linearise(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u) {
   impl_->linearised = impl_->summed = impl_->evaluated = false;
-  if (const FilmDomain domain = impl_->balance.evaluate(motion, history, u); !domain.is_inside()) return domain;
-  impl_->balance.assemble_jacobian();
-  impl_->border.take(impl_->balance);
+  if (const FilmDomain domain = impl_->evaluate(motion, history, u); !domain.is_inside()) return domain;
+  impl_->assemble_jacobian();
   if (!impl_->is_finite()) return {FilmDomain::Violation::not_finite, -1};
   impl_->factorised = impl_->set_up = impl_->condensed = false;
   impl_->take_speeds(motion);
@@ -327,20 +374,29 @@ FilmDomain Reynolds::chord_increment(const SurfaceMotion& motion, const FilmHist
   HERSEY_REQUIRE(m.linearised && m.factorised, "a linearisation with a factor");
   (void)m.summed_wrench();
   m.evaluated = false;
-  const FilmDomain domain = m.balance.evaluate(motion, history, u);
+  const FilmDomain domain = m.evaluate(motion, history, u);
   if (!domain.is_inside()) {
     m.linearised = m.summed = m.factorised = m.set_up = false;
     return domain;
   }
   m.evaluated = true;
   m.take_speeds(motion);
-  m.wrench.evaluate(m.balance, m.speeds, false);
+  {
+    const Stopwatch watch(m.work.forces);
+    m.wrench.evaluate(m.balance, m.speeds, false);
+  }
   du = -m.balance.residual();
   m.solve_directly(du);
   return {};
 }
 
 ActiveSet Reynolds::active_set() const { return ActiveSet(impl_->balance); }
+
+FilmWork Reynolds::work() const {
+  FilmWork work = impl_->work;
+  work.factorisations = impl_->state.factorisations;
+  return work;
+}
 
 void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings,
                         CondensedFilm& film, PortFlows flows) {
@@ -353,17 +409,7 @@ void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen
   film.wrench_by_s.resize(6, m.residual_by_s.cols());
   film.Q_by_s.setZero(openings.cols(), m.residual_by_s.cols());
   m.find_port_flows(flows, film);
-  const bool contact_pushes = openings.cols() > 0 && !now.normal().by_g.isZero(0);
-  for (Eigen::Index k = 0; k < m.residual_by_s.cols(); ++k) {
-    const MotionDirection& direction = directions[static_cast<std::size_t>(k)];
-    m.balance.derivative(direction, m.rhs, flows == PortFlows::included ? &m.port_change : nullptr);
-    m.residual_by_s.col(k) = m.rhs;
-    if (flows == PortFlows::included) film.port_flow_by_s.col(k) = m.port_change;
-    film.wrench_by_s.col(k) = now.along(direction);
-    if (!contact_pushes || direction.g.size() == 0) continue;
-    m.rhs = now.normal().by_g.cwiseProduct(direction.g);
-    film.Q_by_s.col(k).noalias() = openings.transpose() * m.rhs;
-  }
+  m.find_partials(directions, openings, flows, film);
   film.wrench = now.total();
   film.Q.noalias() = openings.transpose() * now.normal().value;
   if (m.state.kind == LinearSolver::direct) {
@@ -470,7 +516,7 @@ void Reynolds::Impl::subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x
 
 void Reynolds::settle(const SurfaceMotion& motion, const FilmHistory& history, const Eigen::VectorXd& u,
                       StepOilBalance& oil) {
-  const FilmDomain domain = impl_->balance.evaluate(motion, history, u);
+  const FilmDomain domain = impl_->evaluate(motion, history, u);
   HERSEY_REQUIRE(domain.is_inside(), text(impl_->balance.model(), domain));
   impl_->evaluated = true;
   settle(oil);
@@ -481,8 +527,7 @@ void Reynolds::settle(StepOilBalance& oil) {
   HERSEY_REQUIRE(m.evaluated, "linearise() or chord_increment() comes first");
   m.rhs = -m.balance.residual();
   m.balance.subtract_squeeze_defect(m.rhs);
-  m.balance.assemble_jacobian();
-  m.border.take(m.balance);
+  m.assemble_jacobian();
   m.solve_for_settling();
   m.balance.settle(m.answer, oil);
   m.linearised = m.summed = m.factorised = m.set_up = false;

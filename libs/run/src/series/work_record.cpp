@@ -25,6 +25,13 @@ std::string scheme_of(const model::Coupling& coupling) {
   return {};
 }
 
+void persist_work(Archive& archive, film::FilmWork& work) {
+  archive.io("balance", work.balance), archive.io("jacobian", work.jacobian), archive.io("factors", work.factors);
+  archive.io("solutions", work.solutions), archive.io("derivatives", work.derivatives);
+  archive.io("forces", work.forces), archive.io("evaluations", work.evaluations);
+  archive.io("factorisations", work.factorisations);
+}
+
 }  // namespace
 
 void StepCounts::take(int count) {
@@ -59,6 +66,7 @@ WorkRecord::WorkRecord(const model::Model& model, const model::Machine& machine,
       integrator_(integrator),
       made_(Clock::now()),
       began_(made_),
+      films_before_(model.bearings.size()),
       film_iterations_(model.bearings.size()),
       exchanges_(model.bearings.size()) {}
 
@@ -110,8 +118,20 @@ std::vector<double> WorkRecord::stepping() const {
   return seconds;
 }
 
+std::vector<FilmCost> WorkRecord::films() const {
+  std::vector<FilmCost> films = films_before_;
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const model::BuiltBearing& bearing = machine_.bearings[i];
+    films[i].bearing = model_.bearings[i].name;
+    films[i].nodes = bearing.bearing->model().grid.size();
+    films[i].seconds += machine_.mechanism->timing().force[static_cast<std::size_t>(bearing.force.index)];
+    films[i].work += bearing.bearing->work();
+  }
+  return films;
+}
+
 Work WorkRecord::work() const {
-  Work work{.start_up = start_up(), .newton_iterations = newton_iterations_.per_step()};
+  Work work{.start_up = start_up(), .newton_iterations = newton_iterations_.per_step(), .films = films()};
   const std::vector<double> seconds = stepping();
   work.stepping = total_of(seconds);
   std::vector<std::string> names;
@@ -137,10 +157,17 @@ void WorkRecord::persist(Archive& archive) {
     film_iterations_[i].persist(archive, "film_iterations");
     exchanges_[i].persist(archive, "exchanges");
   }
+  std::vector<FilmCost> costs = films();
+  for (FilmCost& film : costs) {
+    const Archive::Group group(archive, film.bearing);
+    archive.io("seconds", film.seconds);
+    persist_work(archive, film.work);
+  }
   double start = start_up();
   std::vector<double> seconds = stepping();
   archive.io("start_up", start), archive.io("seconds", seconds);
   if (!archive.restores()) return;
+  films_before_ = std::move(costs);
   start_up_before_ = start;
   spent_before_ = seconds;
 }
@@ -223,6 +250,28 @@ const std::vector<Attribute<CouplingWork>>& of_coupling() {
   return table;
 }
 
+const std::vector<Attribute<FilmCost>>& of_film() {
+  static const std::vector<Attribute<FilmCost>> table{
+      {"nodes", "1", "of its grid", &FilmCost::nodes},
+      {"seconds", "s", "in all, surfaces, temperatures and history included", &FilmCost::seconds},
+      {"evaluations", "1", "of its residual, the start's included",
+       [](const FilmCost& cost) { return cost.work.evaluations; }},
+      {"factorisations", "1", "of its Jacobian", [](const FilmCost& cost) { return cost.work.factorisations; }},
+      {"balance", "s", "properties of the oil at the nodes, flows between them, residuals",
+       [](const FilmCost& cost) { return cost.work.balance; }},
+      {"jacobian", "s", "derivatives of the residual by the unknowns",
+       [](const FilmCost& cost) { return cost.work.jacobian; }},
+      {"factors", "s", "factorisations", [](const FilmCost& cost) { return cost.work.factors; }},
+      {"solutions", "s", "right-hand sides, by factors or multigrid",
+       [](const FilmCost& cost) { return cost.work.solutions; }},
+      {"derivatives", "s", "residual and forces along motions of the surfaces",
+       [](const FilmCost& cost) { return cost.work.derivatives; }},
+      {"forces", "s", "sums of pressure and shear, with their derivatives by the unknowns",
+       [](const FilmCost& cost) { return cost.work.forces; }},
+  };
+  return table;
+}
+
 }  // namespace
 
 void write_work(const Work& work, double wall_time, int steps, results::Writer& writer) {
@@ -232,6 +281,7 @@ void write_work(const Work& work, double wall_time, int steps, results::Writer& 
   write_once(of_parts(), "/timing/parts/", cost, writer);
   for (const CouplingWork& coupling : work.couplings)
     write_once(of_coupling(), "/timing/couplings/" + coupling.bearing + "/", coupling, writer);
+  for (const FilmCost& film : work.films) write_once(of_film(), "/timing/films/" + film.bearing + "/", film, writer);
 }
 
 std::vector<QuantityGroup> describe_work() {
@@ -240,11 +290,15 @@ std::vector<QuantityGroup> describe_work() {
   QuantityGroup parts{.path = "/timing/parts/", .heading = "of the parts of the computing time", .quantities = {}};
   QuantityGroup couplings{
       .path = "/timing/couplings/<bearing>/", .heading = "of the coupling of a bearing", .quantities = {}};
+  QuantityGroup films{.path = "/timing/films/<bearing>/",
+                      .heading = "of the cost of a bearing's film, in the film's own thread",
+                      .quantities = {}};
   describe(of_run(), "n", run);
   describe(of_timing(), "n", timing);
   describe(of_parts(), "n", parts);
   describe(of_coupling(), "n", couplings);
-  return {run, timing, parts, couplings};
+  describe(of_film(), "n", films);
+  return {run, timing, parts, couplings, films};
 }
 
 }  // namespace hersey::run

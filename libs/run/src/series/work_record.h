@@ -45,6 +45,7 @@ class WorkRecord {
 
   /// Time spent since the program began, in the order of Work::parts.
   [[nodiscard]] std::vector<double> spent() const;
+  [[nodiscard]] std::vector<FilmCost> films() const;
   [[nodiscard]] double start_up() const;
   [[nodiscard]] std::vector<double> stepping() const;  ///< the same since `begin`, and before an interruption
 
@@ -56,6 +57,7 @@ class WorkRecord {
   double recording_ = 0;
   double start_up_before_ = 0;                         ///< of the parts of a resumed run
   std::vector<double> spent_at_begin_, spent_before_;  ///< the latter: of the parts of a resumed run
+  std::vector<FilmCost> films_before_;                 ///< of a resumed run
   StepCounts newton_iterations_;
   std::vector<StepCounts> film_iterations_, exchanges_;
 };

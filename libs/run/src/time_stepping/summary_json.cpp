@@ -27,13 +27,25 @@ nlohmann::json json_of(const Work& work) {
                           {"stepping", work.stepping},
                           {"newton_iterations", json_of(work.newton_iterations)},
                           {"parts", nlohmann::json::object()},
-                          {"couplings", nlohmann::json::object()}};
+                          {"couplings", nlohmann::json::object()},
+                          {"films", nlohmann::json::object()}};
   for (const WorkPart& part : work.parts) document["parts"][part.name] = part.seconds;
   for (const CouplingWork& coupling : work.couplings)
     document["couplings"][coupling.bearing] = {{"scheme", coupling.scheme},
                                                {"film_iterations", json_of(coupling.film_iterations)},
                                                {"exchanges", json_of(coupling.exchanges)},
                                                {"steps_as_one", coupling.steps_as_one}};
+  for (const FilmCost& film : work.films)
+    document["films"][film.bearing] = {{"nodes", film.nodes},
+                                       {"seconds", film.seconds},
+                                       {"evaluations", film.work.evaluations},
+                                       {"factorisations", film.work.factorisations},
+                                       {"balance", film.work.balance},
+                                       {"jacobian", film.work.jacobian},
+                                       {"factors", film.work.factors},
+                                       {"solutions", film.work.solutions},
+                                       {"derivatives", film.work.derivatives},
+                                       {"forces", film.work.forces}};
   return document;
 }
 

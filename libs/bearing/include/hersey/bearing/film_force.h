@@ -98,6 +98,8 @@ class FilmForce : public mbd::TwoBodyForce {
   [[nodiscard]] const GapKinematics& gap() const { return *gap_; }
   /// The film's constant data.
   [[nodiscard]] const film::FilmModel& model() const;
+  /// Where its computing time has gone, surfaces and temperatures apart.
+  [[nodiscard]] film::FilmWork work() const;
   /// The coupling of the options. A single step may be monolithic in a partitioned coupling, too.
   [[nodiscard]] Coupling coupling() const { return options_.coupling; }
 

@@ -8,6 +8,7 @@
 #include "hersey/core/outcome.h"
 #include "hersey/film/film_heat.h"
 #include "hersey/film/film_model.h"
+#include "hersey/film/film_work.h"
 #include "hersey/film/observables.h"
 
 namespace hersey::bearing {
@@ -19,6 +20,7 @@ struct [[nodiscard]] SteadySummary : Outcome {
   int film_iterations = 0;  ///< SOR sweeps or multigrid cycles, over all paths
   int heat_iterations = 0;  ///< of the staggered iteration of film and temperature
   double force_error = 0;   ///< |force - load| / |load|; 0 where the position is given
+  film::FilmWork work;      ///< of an isothermal film on its own grid, coefficients and grid error apart; else nothing
 };
 
 /// Derivatives of the film's force on the shell, Q = (F_x, F_y, M_y, -M_x), by the position x = (e_x, e_y, t_x, t_y) of

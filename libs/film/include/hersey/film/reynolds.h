@@ -12,6 +12,7 @@
 #include "hersey/film/film_model.h"
 #include "hersey/film/film_observables.h"
 #include "hersey/film/film_response.h"
+#include "hersey/film/film_work.h"
 
 namespace hersey::film {
 
@@ -66,6 +67,8 @@ class Reynolds {
   [[nodiscard]] const FilmModel& model() const;
   /// Which linear solver this film has, whether it has a factor for chord_increment(), and what it has done so far.
   [[nodiscard]] LinearSolverState linear_solver() const;
+  /// What the film has cost since it was made.
+  [[nodiscard]] FilmWork work() const;
 
   /// Linearises about `u`: every iteration begins with it. After it the members below refer to this state; the first of
   /// them that needs the factorised Jacobian factorises it. Where the Jacobian is singular (nothing fixes the fill

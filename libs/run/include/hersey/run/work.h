@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "hersey/film/film_work.h"
+
 namespace hersey::run {
 
 /// Statistics of a count per step over a run.
@@ -25,6 +27,14 @@ struct CouplingWork {
   int steps_as_one = 0;  ///< partitioned: steps that were solved monolithically because the exchange did not converge
 };
 
+/// Where the time of one bearing's film goes, its start included.
+struct FilmCost {
+  std::string bearing;
+  int nodes = 0;
+  double seconds = 0;   ///< in the film's own thread, surfaces and temperatures included
+  film::FilmWork work;  ///< what of it the film's equations took
+};
+
 /// Cost of a run's steps. Films are solved in parallel: the time until all of them are solved is divided among them in
 /// proportion to the time each of them took in its own thread.
 struct Work {
@@ -33,6 +43,7 @@ struct Work {
   std::vector<WorkPart> parts;  ///< their sum is `stepping`
   PerStep newton_iterations;    ///< of accepted steps
   std::vector<CouplingWork> couplings;
+  std::vector<FilmCost> films;  ///< one of each bearing
 };
 
 }  // namespace hersey::run
