@@ -35,11 +35,11 @@ fmu: $(BUILD)/build.ninja  ## builds what `hersey export` needs: build/release/h
 	@$(PHASE) configure build/log/fmu-configure.log cmake $(BUILD)
 	@$(PHASE) compile build/log/fmu.log cmake --build $(BUILD) --target fmu -j $(JOBS)
 
-bench:  ## builds and runs the benchmarks
-	@scripts/setup build
+bench:  ## builds and runs the benchmarks (AGAINST=program or commit: and prints how much faster standard jobs are than with that one)
+	@scripts/setup build $(if $(AGAINST),test)
 	@$(MAKE) --no-print-directory PRESET=bench build/bench/build.ninja
 	@$(PHASE) compile build/log/bench.log cmake --build build/bench -j $(JOBS)
-	@scripts/bench build/bench
+	@scripts/bench build/bench $(AGAINST)
 
 key-figures: program  ## compares every example's key figures with bench/key_figures.csv (UPDATE=1: writes them there, WHY='...': why they changed; ONLY=regex: some; AGAINST=program: with another program's)
 	@scripts/setup test

@@ -10,7 +10,8 @@
 
 #include "balance/flow_balance.h"
 #include "film_cases.h"
-#include "hersey/solver/sparse_lu.h"
+#include "machine_limits.h"
+#include "solve/grid_lu.h"
 #include "solve/multigrid_solver.h"
 
 namespace {
@@ -46,8 +47,8 @@ Parts parts_of(const BenchBearing& b, const Eigen::VectorXd& u, FilmSolver solve
   });
   Eigen::VectorXd rhs = balance.residual(), x;
   if (solver == FilmSolver::newton) {
-    solver::SparseLu lu;
-    lu.analyse(balance.size(), balance.column_start(), balance.row_index());
+    GridLu lu(b.model.grid);
+    lu.analyse(balance.column_start(), balance.row_index());
     bool sound = lu.factorise(balance.values());
     parts.setup = shortest(2, [&] { sound = sound && lu.factorise(balance.values()); });
     if (!sound) std::abort();
@@ -66,12 +67,19 @@ Parts parts_of(const BenchBearing& b, const Eigen::VectorXd& u, FilmSolver solve
 
 int main(int argc, char** argv) {
   const int largest = argc > 1 ? std::atoi(argv[1]) : 1920;
+  // A film is read and written at least once in each of its Newton iterations: Jacobian, unknowns, gap and rate.
+  constexpr double bytes = 8 * (9 + 4);
+  const double bandwidth = bench::machine_limits().bandwidth;
   fmt::print("Film of a bearing L/D = 1, epsilon 0.8, mass conserving, from nothing to a residual of 1e-10.\n");
   fmt::print(
       "us: processor time per unknown, set-up of all data included. Shares of one Newton iteration: assembly of\n");
-  fmt::print("residual and Jacobian, factorisation (multigrid: its operators), solution.\n\n");
-  fmt::print("{:>11} {:>8} | {:>9} {:>6} {:>4} {:>14} | {:>9} {:>6} {:>4} {:>5} {:>14} {:>7}\n", "grid", "unknowns",
-             "newton s", "us", "it.", "shares", "multigr s", "us", "it.", "GMRES", "shares", "MB");
+  fmt::print("residual and Jacobian, factorisation (multigrid: its operators), solution.\n");
+  fmt::print(
+      "limit: of the time, what a core's bandwidth, {:.2g} GB/s, leaves to Newton's iterations of {:.0f} bytes\n",
+      1e-9 * bandwidth, bytes);
+  fmt::print("a node: Jacobian, unknowns, gap and rate once each.\n\n");
+  fmt::print("{:>11} {:>8} | {:>9} {:>6} {:>4} {:>14} | {:>9} {:>6} {:>4} {:>5} {:>14} {:>7} {:>7}\n", "grid",
+             "unknowns", "newton s", "us", "it.", "shares", "multigr s", "us", "it.", "GMRES", "shares", "MB", "limit");
   double at_120 = 0, slowest = 0, at_960 = 0;
   int first_faster = 0, most_iterations = 0;
   bool converged = true;
@@ -94,8 +102,10 @@ int main(int argc, char** argv) {
     } else {
       fmt::print("{:9} {:>6} {:>4} {:>14}", "-", "-", "-", "-");
     }
-    fmt::print(" | {:9.4f} {:6.2f} {:4} {:5} {:>14} {:7.0f}\n", multigrid.seconds, us, multigrid.summary.iterations,
-               multigrid.counts.iterations, multigrid_shares, memory);
+    const double limit = bytes * n * multigrid.summary.iterations / bandwidth;
+    fmt::print(" | {:9.4f} {:6.2f} {:4} {:5} {:>14} {:7.0f} {:5.1f} %\n", multigrid.seconds, us,
+               multigrid.summary.iterations, multigrid.counts.iterations, multigrid_shares, memory,
+               100 * limit / multigrid.seconds);
     if (n_phi == 120) at_120 = us;
     if (n_phi == 960) at_960 = multigrid.seconds;
     if (n_phi >= 120) slowest = std::max(slowest, us);

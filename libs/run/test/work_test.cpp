@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "hersey/results/reader.h"
 #include "hersey/run/simulate.h"
@@ -40,6 +41,13 @@ TEST_CASE("Work_SharesAddUpToTheTimeOfTheSteps") {
   CHECK(work.start_up + work.stepping <= summary.wall_time);
   REQUIRE(work.parts.front().name == "film big_end");
   CHECK(work.parts.front().seconds > 0.3 * work.stepping);  // a film and two bodies
+  REQUIRE(work.films.size() == 1);
+  const FilmCost& film = work.films.front();
+  CHECK(film.bearing == "big_end");
+  CHECK(film.work.total() > 0.5 * film.seconds);  // surfaces and history are less than the equations
+  CHECK(film.work.total() <= film.seconds);
+  CHECK(film.work.evaluations >= summary.newton_iterations + summary.steps);
+  CHECK(film.work.factorisations <= film.work.evaluations);
   CHECK(work.newton_iterations.mean == doctest::Approx(static_cast<double>(summary.newton_iterations) / summary.steps));
 }
 
@@ -55,6 +63,29 @@ TEST_CASE("Work_IsInTheResultsFile") {
   for (std::size_t i = 0; i < names.size(); ++i)
     CHECK(reader.number_attribute("/timing/parts", names[i]) == summary.work.parts[i].seconds);
   CHECK(reader.text_attribute("/timing/couplings/big_end", "scheme") == "monolithic");
+  const FilmCost& film = summary.work.films.front();
+  CHECK(reader.number_attribute("/timing/films/big_end", "nodes") == film.nodes);
+  CHECK(reader.number_attribute("/timing/films/big_end", "seconds") == film.seconds);
+  CHECK(reader.number_attribute("/timing/films/big_end", "balance") == film.work.balance);
+}
+
+TEST_CASE("Work_OfAResumedRun_IsThatOfBothParts") {
+  const TemporaryDirectory scratch;
+  const model::Model model = rig();
+  const Summary whole = simulate(model, {.results = scratch / "whole.h5"});
+  std::atomic<bool> stop{false};
+  int taken = 0;
+  Options options{.results = scratch / "parts.h5", .stop = &stop};
+  options.on_progress = [&](const Progress&) { stop = taken++ >= whole.steps / 2; };
+  const Summary first = simulate(model, options);
+  REQUIRE(first.status == Status::stopped);
+  const Summary both = simulate(model, {.results = scratch / "parts.h5", .resume = true});
+  REQUIRE(both.status == Status::completed);
+  const FilmCost &of_whole = whole.work.films.front(), &of_first = first.work.films.front(),
+                 &of_both = both.work.films.front();
+  CHECK(of_both.work.factorisations >= of_whole.work.factorisations);  // the second part begins anew
+  CHECK(of_both.work.factorisations <= of_whole.work.factorisations + 2);
+  CHECK(of_both.seconds > of_first.seconds);
 }
 
 TEST_CASE("Work_SaysHowManyExchangesACouplingTook") {

@@ -256,4 +256,14 @@ void FrontalLu::solve_transposed(std::span<double> b, int columns) {
 
 int FrontalLu::size() const { return impl_->n; }
 
+// Of the group's block, of its border by rows and by columns, and of the complement.
+double FrontalLu::operations() const {
+  double sum = 0;
+  for (const Elimination::Front& front : impl_->plan.fronts) {
+    const double own = front.own, outside = front.outside();
+    sum += 2.0 / 3 * own * own * own + 2 * own * own * outside + 2 * own * outside * outside;
+  }
+  return sum;
+}
+
 }  // namespace hersey::solver

@@ -28,6 +28,8 @@ class GridLu {
   /// Overwrites `columns` right-hand sides, stored one after the other, by the solutions.
   void solve(std::span<double> b, int columns = 1);
   void solve_transposed(std::span<double> b, int columns = 1);
+  /// Returns the operations in floating point of a factor by fronts.
+  [[nodiscard]] double operations() const { return fronts_.operations(); }
   /// Saves or restores the pivots of the whole matrix, which the next such factor reuses.
   void persist(Archive& archive) { pivoting_.persist(archive); }
 

@@ -42,6 +42,8 @@ class FrontalLu {
 
   /// Returns the number of rows n of the pattern; 0 before analyse().
   [[nodiscard]] int size() const;
+  /// Returns the operations in floating point of one factorisation in this pattern.
+  [[nodiscard]] double operations() const;
 
  private:
   struct Impl;
