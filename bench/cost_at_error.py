@@ -40,42 +40,43 @@ JOBS = [
      grids("bearings.main.grid", "circumferential", "axial", JOURNAL),
      {"h_min": "h_min", "p_max": "p_max", "stiffness_xx": "K_xx", "damping_xx": "C_xx"}),
     ("hot journal bearing, load given", "bearing", "hot_bearing/model", [],
-     grids("bearings.main.grid", "circumferential", "axial", [(60, 13), (120, 25), (240, 49)]),
+     grids("bearings.main.grid", "circumferential", "axial", [(60, 13), (120, 25), (240, 49), (480, 97)]),
      {"h_min": "h_min", "T_max": "T_max", "power_film": "loss"}),
     ("bearing of tilting pads, K and C", "bearing", "tilting_pads/bearing", [],
-     grids("bearings.main.grid", "circumferential", "axial", [(60, 7), (120, 13), (240, 25), (480, 49)]),
+     grids("bearings.front.grid", "circumferential", "axial", [(60, 7), (120, 13), (240, 25), (480, 49)]),
      {"h_min": "h_min", "p_max": "p_max", "stiffness_xx": "K_xx", "damping_xx": "C_xx"}),
     ("thrust bearing of tilting pads", "bearing", "thrust_pads/tilting", [],
-     grids("bearings.main.grid", "along", "radial", [(17, 11), (33, 21), (65, 41), (129, 81)]),
+     grids("bearings.thrust.grid", "along", "radial", [(17, 11), (33, 21), (65, 41), (129, 81)]),
      {"h_min": "h_min", "p_max": "p_max", "power_film": "loss"}),
     ("squeeze-film damper, orbit given", "bearing", "squeeze_film_damper/model", [],
-     grids("bearings.damper.grid", "circumferential", "axial", [(30, 9), (60, 17), (120, 33), (240, 65)]),
+     grids("bearings.damper.grid", "circumferential", "axial", [(60, 31), (120, 61), (240, 121), (480, 241)]),
      {"p_max": "p_max", "orbit_damping": "damping", "orbit_stiffness": "stiffness"}),
     ("slider-crank with big end, 720 deg", "run", "slider_crank/model", [],
-     steps("deg", [2, 1, 0.5, 0.25, 0.125]), {MOFT: "MOFT", POFP: "POFP"}),
-    ("paper's big end, 1 rev", "run", "paper_big_end/model", ["load=1000N", "clearance=0.034mm", "simulation.duration=1rev"],
+     steps("deg", [1, 0.5, 0.25, 0.125]), {MOFT: "MOFT", POFP: "POFP"}),
+    ("paper's big end, 4 rev", "run", "paper_big_end/model", ["load=1000N", "clearance=0.034mm", "simulation.duration=4rev"],
      steps("deg", [4, 2, 1, 0.5]), {MOFT: "MOFT", POFP: "POFP"}),
-    ("engine, four films, one cycle", "run", "engine/model", ["simulation.cycle.most=1", "simulation.cycle.until_converged=0"],
-     steps("deg", [2, 1, 0.5, 0.25]), {MOFT: "MOFT", POFP: "POFP"}),
-    ("double pendulum, 10 s", "run", "double_pendulum/model", [],
-     tolerances(["1e-4", "1e-6", "1e-8", "1e-10"]), {"energy/kinetic": "kinetic energy at the end"}),
+    ("engine, four films, two cycles", "run", "engine/model", ["simulation.cycle.most=2", "simulation.cycle.until_converged=0"],
+     steps("deg", [1, 0.5, 0.25]), {MOFT: "MOFT", POFP: "POFP"}),
+    ("double pendulum, 3 s", "run", "double_pendulum/model", ["simulation.duration=3s"],
+     tolerances(["1e-3", "1e-5", "1e-7", "1e-9", "1e-11"]), {"energy/kinetic": "kinetic energy at the end"}),
     ("four-bar, closed loop, 1 s", "run", "four_bar/model", [],
      steps("ms", [4, 2, 1, 0.5, 0.25]), {"energy/kinetic": "kinetic energy at the end"}),
 ]
 
 
 def figures_of_run(results, names):
-    """Of the closing table the worst bearing's; or the last of a series."""
+    """The worst bearing's in the second half of the run, which the start no longer decides; or the last of a series."""
     import h5py
 
     values = {}
     with h5py.File(results) as file:
         bearings = file.get("bearings", {}).values()
+        half = file["time"][()] >= 0.5 * file["time"][-1]
         for name in names:
             if name == MOFT:
-                values[name] = min(bearing["h_min"][()].min() for bearing in bearings)
+                values[name] = min(bearing["h_min"][()][half].min() for bearing in bearings)
             elif name == POFP:
-                values[name] = max(bearing["p_max"][()].max() for bearing in bearings)
+                values[name] = max(bearing["p_max"][()][half].max() for bearing in bearings)
             else:
                 values[name] = file[name][-1]
     return values

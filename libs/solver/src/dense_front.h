@@ -36,4 +36,14 @@ void solve_up(const DenseFront& front, const FrontSides& sides);
 void solve_down_transposed(const DenseFront& front, const FrontSides& sides);
 void solve_up_transposed(const DenseFront& front, const FrontSides& sides);
 
+/// One right-hand side of a front. Behind `own` and `border` finite numbers follow, up to whole packs.
+struct FrontVector {
+  double* own = nullptr;     ///< of the front's own unknowns
+  double* border = nullptr;  ///< of its border
+};
+
+/// The same parts in a solution with A.
+void solve_down(const DenseFront& front, const FrontVector& vector);
+void solve_up(const DenseFront& front, const FrontVector& vector);
+
 }  // namespace hersey::solver

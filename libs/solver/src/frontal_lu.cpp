@@ -42,6 +42,7 @@ struct FrontalLu::Impl {
   void add_complement(const Elimination::Front& child, const DenseFront& into);
   void find_largest(const Elimination::Front& front, const DenseFront& dense);
   void find_largest_given(std::span<const double> values);
+  void solve_vector(std::span<double> b);
   void take_sides(std::span<const double> b, int columns, int width);
   void give_sides(std::span<double> b, int columns, int width) const;
   [[nodiscard]] FrontSides gather(std::size_t f, int width);
@@ -214,6 +215,31 @@ void FrontalLu::Impl::scatter(std::size_t f, int width) {
   }
 }
 
+// A single right-hand side in order of elimination, by itself.
+void FrontalLu::Impl::solve_vector(std::span<double> b) {
+  const std::size_t eliminated = plan.unknown_at.size();
+  if (rows.size() < eliminated + pack_width) rows.resize(eliminated + pack_width);
+  if (border.size() < widest_border + pack_width) border.resize(widest_border + pack_width);
+  for (std::size_t at = 0; at < eliminated; ++at) rows[at] = b[static_cast<std::size_t>(plan.unknown_at[at])];
+  std::fill_n(rows.begin() + static_cast<std::ptrdiff_t>(eliminated), pack_width, 0.0);
+  const auto vector_of = [&](const Elimination::Front& front) {
+    for (int j = 0; j < front.outside(); ++j)
+      border[static_cast<std::size_t>(j)] =
+          rows[static_cast<std::size_t>(front.positions[static_cast<std::size_t>(front.own + j)])];
+    std::fill_n(border.begin() + front.outside(), pack_width, 0.0);
+    return FrontVector{rows.data() + front.first(), border.data()};
+  };
+  for (std::size_t f = 0; f < plan.fronts.size(); ++f) {
+    const Elimination::Front& front = plan.fronts[f];
+    solve_down(dense(f), vector_of(front));
+    for (int j = 0; j < front.outside(); ++j)
+      rows[static_cast<std::size_t>(front.positions[static_cast<std::size_t>(front.own + j)])] =
+          border[static_cast<std::size_t>(j)];
+  }
+  for (std::size_t f = plan.fronts.size(); f-- > 0;) solve_up(dense(f), vector_of(plan.fronts[f]));
+  for (std::size_t at = 0; at < eliminated; ++at) b[static_cast<std::size_t>(plan.unknown_at[at])] = rows[at];
+}
+
 void FrontalLu::solve(std::span<double> b, int columns) {
   Impl& m = *impl_;
   HERSEY_REQUIRE(m.factorised, "no factorisation to solve with");
@@ -224,6 +250,7 @@ void FrontalLu::solve(std::span<double> b, int columns) {
     for (std::size_t k = 0; k < m.plan.from_known.size(); ++k)
       column[m.plan.from_known[k].row] -= m.known_values[k] * column[m.plan.from_known[k].known];
   }
+  if (columns == 1) return m.solve_vector(b);
   const int width = padded(columns);
   m.take_sides(b, columns, width);
   for (std::size_t f = 0; f < m.plan.fronts.size(); ++f) {
