@@ -7,6 +7,7 @@
 #include "hersey/fem/constrained_stiffness.h"
 #include "hersey/fem/finite_strain.h"
 #include "hersey/fem/load_vectors.h"
+#include "hersey/fem/shape_stress.h"
 #include "small_bodies.h"
 
 namespace hersey::fem {
@@ -86,6 +87,19 @@ Ring pressed_ring(ElementType type, int radial, int around) {
   const StaticSolution solution = solve_static(body, supports, pressure_load(mesh, mesh.surfaces.at("x0"), 20e6));
   REQUIRE(solution.solved());
   return {std::move(body), solution.u.col(0)};
+}
+
+TEST_CASE("ShapeStress_IsThatOfTheDisplacedBody") {
+  for (const ElementType type : {ElementType::hex8, ElementType::hex20}) {
+    const Ring ring = pressed_ring(type, 2, 3);
+    Eigen::MatrixXd shapes(ring.u.size(), 3);
+    for (Eigen::Index k = 0; k < 3; ++k)
+      for (Eigen::Index i = 0; i < shapes.rows(); ++i) shapes(i, k) = std::sin(0.7 * static_cast<double>(i + k * k));
+    const Eigen::Vector3d q(1e-6, -3e-6, 2e-6);
+    const auto by_shapes = ShapeStress(ring.body.mesh, ring.body.materials, shapes).nodal(q);
+    const auto at_once = recover_stress(ring.body.mesh, ring.body.materials, shapes * q).nodal;
+    CHECK((by_shapes - at_once).norm() < 100 * eps * at_once.norm());
+  }
 }
 
 TEST_CASE("ThickRing_MeetsLamesStressesAndDisplacement") {

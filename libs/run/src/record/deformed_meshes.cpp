@@ -9,13 +9,21 @@
 namespace hersey::run {
 namespace {
 
-/// Adds stresses in the body's axes, which rotate with it.
-void add_stress(const model::BuiltFlexible& flexible, const Eigen::VectorXd& u, fem::VtuFrame& frame) {
-  const auto measure = flexible.strain == mbd::Strain::finite ? fem::StressMeasure::finite : fem::StressMeasure::small;
-  const fem::Stress stress =
-      fem::recover_stress(*flexible.mesh, flexible.materials, u, fem::Integration::full, measure);
-  frame.node_fields.push_back({"stress", stress.nodal});
-  frame.node_fields.push_back({"von_mises", stress.nodal_von_mises.transpose()});
+constexpr double most_of_shapes = 64e6;  // bytes of the stresses of all shapes
+
+/// Stresses are linear in the amplitudes of fewer shapes than there will be meshes.
+bool is_worth_shapes(const model::BuiltFlexible& flexible, double meshes) {
+  const auto shapes = static_cast<double>(flexible.shapes.cols());
+  const double bytes = 6 * sizeof(double) * static_cast<double>(flexible.mesh->nodes.size()) * shapes;
+  return flexible.strain == mbd::Strain::small && shapes > 0 && !flexible.materials.empty() && shapes < meshes &&
+         bytes <= most_of_shapes;
+}
+
+void add_stress(Eigen::MatrixXd stress, fem::VtuFrame& frame) {
+  Eigen::RowVectorXd von_mises(stress.cols());
+  for (Eigen::Index n = 0; n < stress.cols(); ++n) von_mises[n] = fem::von_mises(stress.col(n));
+  frame.node_fields.push_back({"stress", std::move(stress)});
+  frame.node_fields.push_back({"von_mises", von_mises});
 }
 
 void add_film_pressure(const FilmPressures::AtNodes& pressures, fem::VtuFrame& frame) {
@@ -38,9 +46,21 @@ DeformedMeshes::DeformedMeshes(const model::Model& model, const model::Machine& 
     std::filesystem::path pvd = results;
     pvd.replace_extension();
     pvd += "_" + name + ".pvd";
-    series_.push_back(
-        {i, body->flexible->vtu_every, fem::VtuSeries(std::move(pvd)), FilmPressures(model, machine, name)});
+    const double every = body->flexible->vtu_every;
+    series_.push_back({i, every, fem::VtuSeries(std::move(pvd)), FilmPressures(model, machine, name), {}});
+    const double meshes = static_cast<double>(chosen_.size()) + (every > 0 ? model.simulation.duration / every : 0.0);
+    const model::BuiltFlexible& flexible = machine.flexibles[i];
+    if (is_worth_shapes(flexible, meshes))
+      series_.back().shape_stress.emplace(*flexible.mesh, flexible.materials, flexible.shapes);
   }
+}
+
+Eigen::MatrixXd DeformedMeshes::stress_of(const Series& series, const mbd::ElasticMotion& motion,
+                                          const Eigen::VectorXd& u) const {
+  const model::BuiltFlexible& flexible = machine_.flexibles[series.flexible];
+  if (series.shape_stress) return series.shape_stress->nodal(flexible.body->amplitudes(motion));
+  const auto measure = flexible.strain == mbd::Strain::finite ? fem::StressMeasure::finite : fem::StressMeasure::small;
+  return fem::recover_stress(*flexible.mesh, flexible.materials, u, fem::Integration::full, measure).nodal;
 }
 
 bool DeformedMeshes::is_due(Series& series, double since_start, double slack) const {
@@ -75,7 +95,7 @@ void DeformedMeshes::write(double t, double since_start, double slack, const Ste
     }
     frame.node_fields.push_back({"displacement", std::move(displacement)});
     if (series.films.has_any()) add_film_pressure(series.films.at_nodes(step), frame);
-    if (!flexible.materials.empty()) add_stress(flexible, u, frame);
+    if (!flexible.materials.empty()) add_stress(stress_of(series, motion, u), frame);
     series.files.add(t, *flexible.mesh, frame);
   }
 }

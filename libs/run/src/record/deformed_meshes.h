@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "hersey/fem/shape_stress.h"
 #include "hersey/fem/vtu_file.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
@@ -28,10 +30,14 @@ class DeformedMeshes {
     double every = 0;
     fem::VtuSeries files;
     FilmPressures films;
-    double next = 0;          ///< in intervals
-    std::size_t next_at = 0;  ///< of the chosen times
+    std::optional<fem::ShapeStress> shape_stress;  ///< where it is worth its making
+    double next = 0;                               ///< in intervals
+    std::size_t next_at = 0;                       ///< of the chosen times
   };
 
+  /// In the body's axes, which rotate with it, shape (6, nodes).
+  [[nodiscard]] Eigen::MatrixXd stress_of(const Series& series, const mbd::ElasticMotion& motion,
+                                          const Eigen::VectorXd& u) const;
   [[nodiscard]] bool is_due(Series& series, double since_start, double slack) const;
 
   const model::Machine& machine_;

@@ -67,12 +67,7 @@ BodyStress::BodyStress(const results::Reader& results, const model::Model& model
   require_same_shapes();
   times_ = results.read("/time").values;
   if (results.has("/crank_angle")) crank_angles_ = results.read("/crank_angle").values;
-  const auto nodes = static_cast<Index>(mesh().nodes.size());
-  stress_of_shapes_.resize(6 * nodes, shapes());
-  for (Index k = 0; k < shapes(); ++k) {
-    const fem::Stress stress = fem::recover_stress(mesh(), flexible_.materials, flexible_.shapes.col(k));
-    stress_of_shapes_.col(k) = Eigen::Map<const VectorXd>(stress.nodal.data(), 6 * nodes);
-  }
+  shape_stress_.emplace(mesh(), flexible_.materials, flexible_.shapes);
 }
 
 // Another version or machine may have found the same vibrations with another sign or, of equal frequencies, another
@@ -107,9 +102,9 @@ BodyStressAt BodyStress::at(std::size_t instant) const {
   BodyStressAt result;
   result.time = times_.at(instant);
   if (!crank_angles_.empty()) result.crank_angle = crank_angles_.at(instant);
-  const VectorXd u = flexible_.shapes * q, stress = stress_of_shapes_ * q;
+  const VectorXd u = flexible_.shapes * q;
   result.displacement = Eigen::Map<const MatrixXd>(u.data(), 3, nodes);
-  result.stress = Eigen::Map<const MatrixXd>(stress.data(), 6, nodes);
+  result.stress = shape_stress_->nodal(q);
   result.von_mises.resize(nodes);
   for (Index n = 0; n < nodes; ++n) result.von_mises[n] = fem::von_mises(result.stress.col(n));
   result.von_mises.maxCoeff(&result.node);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hersey/fem/shape_stress.h"
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/results/reader.h"
@@ -65,7 +66,7 @@ class BodyStress {
 
   const results::Reader& results_;
   model::BuiltFlexible flexible_;
-  Eigen::MatrixXd stress_of_shapes_;  ///< six components node after node, shape (6 nodes, shapes) [Pa]
+  std::optional<fem::ShapeStress> shape_stress_;
   std::vector<double> times_, crank_angles_;
 };
 
