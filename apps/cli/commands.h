@@ -40,6 +40,17 @@ struct LoadsArguments {
   std::string model_file;                                      ///< where it lies now; empty: as the results say
 };
 
+struct OpenArguments {
+  std::filesystem::path path;  ///< a model or a folder; empty: the present one
+  int port = 0;                ///< 0: the first free one
+  bool no_browser = false;
+  std::filesystem::path program;  ///< argv[0]
+};
+
+/// `hersey open`: serves the workbench of a folder on the loopback address until Ctrl-C.
+/// @returns an ExitCode. @throws InputError; std::runtime_error if the port is taken
+[[nodiscard]] int open_command(const OpenArguments& arguments);
+
 struct ExportArguments {
   std::string file;  ///< a model, or results with --loads
   std::vector<std::string> overrides;

@@ -1,0 +1,1 @@
+document.getElementById("workbench").textContent = "The page of the workbench has not been built: make web";
