@@ -16,9 +16,10 @@ struct RunArguments {
   bool resume = false;
   bool json = false;
   bool step_error = false;
-  bool all = false;  ///< print every figure, however many
-  int jobs = 0;      ///< 0: one per thread
-  int threads = 0;   ///< 0: one per processor
+  bool all = false;              ///< print every figure, however many
+  int jobs = 0;                  ///< 0: one per thread
+  int threads = 0;               ///< 0: one per processor
+  std::filesystem::path events;  ///< file to append lines of JSON to while the run goes on; empty: none
 };
 
 /// `hersey run`: simulates a model, or every run of its study, writes results and report, prints the closing table.
