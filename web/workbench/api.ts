@@ -70,8 +70,10 @@ export interface RunEntry {
   started: string | number | null;
   ended: string | number | null;
   message: string;
-  results: string | null;
+  results: string[];
   report: string | null;
+  can_resume?: boolean;
+  study?: boolean;
 }
 
 export interface Template {
@@ -147,8 +149,8 @@ export class Api {
   }
 
   /** Hands every event on until the page goes; connects again where the stream breaks, and says so. */
-  async follow(hear: (event: string, data: unknown) => void, connected: (is: boolean) => void): Promise<never> {
-    let after = "";
+  async follow(start: number | undefined, hear: (event: string, data: unknown) => void, connected: (is: boolean) => void): Promise<never> {
+    let after = start === undefined ? "" : String(start);
     let pause = 500;
     for (;;) {
       try {

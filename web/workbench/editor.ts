@@ -133,6 +133,7 @@ export class Editor {
       foldGutter(),
       drawSelection(),
       dropCursor(),
+      EditorView.lineWrapping,
       EditorState.allowMultipleSelections.of(true),
       EditorState.tabSize.of(2),
       indentOnInput(),

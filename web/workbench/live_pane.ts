@@ -4,6 +4,7 @@ import type { Api, RunEntry, RunEvent } from "./api";
 import { h } from "../src/dom";
 import { LinePlot } from "../src/line_plot";
 import { Orbit } from "../src/orbit";
+import { path } from "./runs_pane";
 import { texts } from "./texts";
 
 /** Events of a run as columns, per bearing. */
@@ -74,7 +75,7 @@ export class LivePane {
   async readLog(): Promise<void> {
     if (!this.run) return;
     try {
-      const text = await (await this.api.request("GET", `/api/runs/${this.run.id}/log`)).text();
+      const text = await (await this.api.request("GET", `/api/runs/${path(this.run.id)}/log`)).text();
       const atEnd = this.log.scrollTop + this.log.clientHeight > this.log.scrollHeight - 30;
       this.log.textContent = text || "–";
       if (atEnd) this.log.scrollTop = this.log.scrollHeight;
@@ -87,7 +88,7 @@ export class LivePane {
   private async recall(run: RunEntry): Promise<void> {
     const course = new Course();
     try {
-      const { text } = await this.api.file(`${run.folder}/events.ndjson`);
+      const text = await (await this.api.request("GET", `/api/runs/${path(run.id)}/events`)).text();
       for (const line of text.split("\n")) {
         if (!line.includes('"stepped"')) continue;
         try {
@@ -143,16 +144,15 @@ export class LivePane {
       return;
     }
     const x: number[] = [];
-    const line = (name: string, label: string, unit: string) => {
-      const plot = new LinePlot({ name, x: { label: texts.time, unit: "ms", values: x }, left: { label, unit, fromZero: true }, curves: [{ label, unit, y: [] }], height: 165 });
-      return plot;
-    };
-    const path = { time: new Float64Array(), x: new Float64Array(), y: new Float64Array(), force: null, clearance: 1 };
-    this.drawn = { x, thickness: line("h_min", texts.hMin, "µm"), pressure: line("p_max", texts.pMax, "MPa"), orbit: new Orbit(path), path };
+    // As high as the pane leaves room: title, legend and scroll bar stand beside.
+    const height = Math.max(110, this.element.clientHeight - 78);
+    const line = (name: string, label: string, unit: string) => new LinePlot({ name, x: { label: texts.time, unit: "ms", values: x }, left: { label: texts.short[name as "h_min" | "p_max"], unit, fromZero: true }, curves: [{ label, unit, y: [] }], height });
+    const orbit = { time: new Float64Array(), x: new Float64Array(), y: new Float64Array(), force: null, clearance: 1 };
+    this.drawn = { x, thickness: line("h_min", texts.hMin, "µm"), pressure: line("p_max", texts.pMax, "MPa"), orbit: new Orbit(orbit), path: orbit };
     this.plots.replaceChildren(
       h("div", { class: "live-plot", "data-plot": "h_min" }, this.drawn.thickness.element),
       h("div", { class: "live-plot", "data-plot": "p_max" }, this.drawn.pressure.element),
-      h("div", { class: "live-plot live-orbit", "data-plot": "orbit" }, this.drawn.orbit.element),
+      h("div", { class: "live-plot live-orbit", "data-plot": "orbit", style: `max-width: ${height + 20}px` }, this.drawn.orbit.element),
     );
     this.redraw();
   }
@@ -166,16 +166,16 @@ export class LivePane {
     }
     const own = course.bearings.get(this.shownBearing);
     if (!own || course.time.length === 0) return;
-    const { x, thickness, pressure, orbit, path } = this.drawn;
+    const { x, thickness, pressure, orbit, path: shown } = this.drawn;
     x.splice(0, x.length, ...course.time.map((t) => 1e3 * t));
     thickness.update([own.h_min]);
     pressure.update([own.p_max]);
     // The journal's last turns are enough of its path.
     const from = Math.max(0, own.x.length - 600);
-    path.time = Float64Array.from(course.time.slice(from));
-    path.x = Float64Array.from(own.x.slice(from));
-    path.y = Float64Array.from(own.y.slice(from));
-    path.clearance = this.clearance(this.shownBearing) ?? 1.1 * Math.max(1e-9, ...own.x.map((e, i) => Math.hypot(e, own.y[i]!)));
+    shown.time = Float64Array.from(course.time.slice(from));
+    shown.x = Float64Array.from(own.x.slice(from));
+    shown.y = Float64Array.from(own.y.slice(from));
+    shown.clearance = this.clearance(this.shownBearing) ?? 1.1 * Math.max(1e-9, ...own.x.map((e, i) => Math.hypot(e, own.y[i]!)));
     orbit.show(course.time[course.time.length - 1]!);
   }
 }

@@ -167,6 +167,15 @@ export class WorkbenchMachine extends MachineView {
     this.named(`/bearings/${bearing.name}`, () => this.groups.get(bearing.inboard), () => super.addBearing(bearing, colour));
   }
 
+  /** A pane may be higher than wide, and one instant shows less than a whole motion: a step back. */
+  protected override lookFromStart(): void {
+    super.lookFromStart();
+    const { target } = this.controls!;
+    this.camera.position.sub(target).multiplyScalar(1.12 / Math.min(1, this.camera.aspect)).add(target);
+    this.controls!.update();
+    this.render();
+  }
+
   protected override place(): void {
     super.place();
     if (!this.poses) return;
@@ -184,8 +193,10 @@ export class WorkbenchMachine extends MachineView {
         for (const paint of [object.material].flat() as MeshStandardMaterial[]) {
           if (!paint.emissive) continue;
           const on = this.chosen !== null && object.userData["part"] === this.chosen;
-          paint.emissive.set(on ? "#e08a00" : "#000000");
-          paint.emissiveIntensity = on ? 0.65 : 0;
+          paint.userData["own"] ??= paint.color.getHex();
+          paint.color.set(on ? "#e08a00" : (paint.userData["own"] as number));
+          paint.emissive.set(on ? "#c87400" : "#000000");
+          paint.emissiveIntensity = on ? 0.35 : 0;
         }
       });
   }

@@ -61,7 +61,7 @@ export class MachinePane {
     this.element = h(
       "div",
       { class: "machine-pane" },
-      h("div", { class: "pane-tools" }, this.partList, cut, this.cutPlace, frames, reset, this.staleNote),
+      h("div", { class: "pane-tools" }, this.partList, cut, this.cutPlace, frames, reset),
       this.stage,
       this.legend,
       this.jointBox,
@@ -85,7 +85,7 @@ export class MachinePane {
     if (this.machine) this.machine.take(run);
     else {
       this.machine = new WorkbenchMachine(run, (part) => (part ? this.pick(part) : this.highlight(null)));
-      this.stage.replaceChildren(this.machine.space);
+      this.stage.replaceChildren(this.machine.space, this.staleNote);
       this.legend.replaceChildren(this.machine.names);
     }
     this.listParts();

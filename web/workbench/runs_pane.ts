@@ -4,6 +4,9 @@ import type { Api, RunEntry } from "./api";
 import { h } from "../src/dom";
 import { texts } from "./texts";
 
+/** Of a run, in the address of a request. */
+export const path = (id: string) => encodeURIComponent(id);
+
 export interface RunsHooks {
   api: Api;
   chosen: (run: RunEntry) => void;
@@ -32,7 +35,7 @@ export class RunsPane {
 
   async load(): Promise<void> {
     const { runs } = await this.hooks.api.get<{ runs: RunEntry[] }>("/api/runs");
-    const when = (run: RunEntry) => (typeof run.started === "number" ? run.started : Date.parse(run.started ?? "") || 0);
+    const when = (run: RunEntry) => (typeof run.started === "number" ? 1e3 * run.started : Date.parse(run.started ?? "") || 0);
     this.runs = [...runs].sort((a, b) => when(b) - when(a));
     this.draw();
     this.hooks.changed();
@@ -45,9 +48,7 @@ export class RunsPane {
     for (const run of unknown) {
       this.models.set(run.id, null);
       try {
-        const record = JSON.parse((await this.hooks.api.file(`${run.folder}/run.json`)).text) as Record<string, unknown>;
-        const text = [record["text"], record["model_text"]].find((t) => typeof t === "string");
-        this.models.set(run.id, (text as string | undefined) ?? null);
+        this.models.set(run.id, await (await this.hooks.api.request("GET", `/api/runs/${path(run.id)}/model`)).text());
       } catch {
         // A run of before may have none.
       }
@@ -85,7 +86,7 @@ export class RunsPane {
     const { api, say } = this.hooks;
     const act = (label: string, work: () => Promise<unknown>) =>
       h("button", { type: "button", class: "quiet", "aria-label": `${label}: ${texts.runOf(this.name(run), run.id)}`, click: () => void work().then(() => this.load()).catch((error: Error) => say(error.message)) }, label);
-    const take = h("input", { type: "checkbox", "aria-label": `${texts.chooseRun}: ${texts.runOf(this.name(run), run.id)}`, checked: this.compared.has(run.id), disabled: !run.results });
+    const take = h("input", { type: "checkbox", "aria-label": `${texts.chooseRun}: ${texts.runOf(this.name(run), run.id)}`, checked: this.compared.has(run.id), disabled: run.results.length === 0 });
     take.addEventListener("change", () => {
       if (take.checked) this.compared.add(run.id);
       else this.compared.delete(run.id);
@@ -104,15 +105,15 @@ export class RunsPane {
       h(
         "div",
         { class: "run-tools" },
-        isRunning ? act(texts.stop, () => api.post(`/api/runs/${run.id}/stop`)) : null,
-        !isRunning && run.state !== "completed" ? act(texts.resume, () => api.post(`/api/runs/${run.id}/resume`)) : null,
-        !isRunning && run.results ? act(texts.report, () => this.open(run)) : null,
+        isRunning ? act(texts.stop, () => api.post(`/api/runs/${path(run.id)}/stop`)) : null,
+        run.can_resume ? act(texts.resume, () => api.post(`/api/runs/${path(run.id)}/resume`)) : null,
+        !isRunning && run.results.length > 0 ? act(texts.report, () => this.open(run)) : null,
       ),
     );
   }
 
   private async open(run: RunEntry): Promise<void> {
-    const { url } = await this.hooks.api.post<{ url: string }>(`/api/runs/${run.id}/report`);
+    const { url } = await this.hooks.api.post<{ url: string }>(`/api/runs/${path(run.id)}/report`);
     this.hooks.openReport(`${this.name(run)} ${run.id}`, url);
   }
 

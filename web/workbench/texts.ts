@@ -106,6 +106,7 @@ export const texts = {
   hMin: "Minimum film thickness",
   pMax: "Peak film pressure",
   orbit: "Orbit",
+  short: { h_min: "h min", p_max: "p max" },
   time: "time",
   templates: {
     title: "Begin a model",

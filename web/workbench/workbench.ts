@@ -23,6 +23,8 @@ export interface Hello {
   version: string;
   folder: string;
   open: string | null;
+  /** Number of the last event. */
+  event?: number;
 }
 
 interface Checked extends Findings {
@@ -41,6 +43,10 @@ interface Remembered {
   tabs: Record<string, string>;
   run: string;
 }
+
+/** Faults that only the start of a run shows, not its text. */
+const startFaults = new WeakSet<Fault>();
+const isOfStart = (fault: Fault) => startFaults.has(fault);
 
 /** Pause of typing before a text is checked [ms]. */
 const pause = 60;
@@ -210,7 +216,7 @@ export class Workbench {
     const wanted = this.hello.open ?? (this.files.filter(({ kind }) => kind === "model").length === 1 ? this.files.find(({ kind }) => kind === "model")!.path : null);
     if (!this.old && wanted) await this.openFile(wanted);
     if (!this.active) this.showActive();
-    void this.api.follow((event, data) => this.hear(event, data), (is) => this.connected(is));
+    void this.api.follow(this.hello.event, (event, data) => this.hear(event, data), (is) => this.connected(is));
     await runs;
     const last = this.runs.runs.find(({ id }) => id === this.old?.run) ?? this.runs.running[0];
     if (last) await this.showRun(last, false);
@@ -518,25 +524,38 @@ export class Workbench {
     const count = ++this.checks;
     const { doc } = document.state;
     this.checkState.classList.add("at-work");
-    let answer: Checked;
-    try {
-      answer = await this.api.post<Checked>("/api/check", { path: document.path, text: doc.toString() });
-    } catch (error) {
-      if (count === this.checks && !(error instanceof Unreachable)) this.fail(error);
-      this.checkState.classList.remove("at-work");
-      return;
-    }
+    const ask = (depth: "text" | "start", scene: boolean) => this.api.post<Checked>("/api/check", { path: document.path, text: doc.toString(), depth, scene });
     // An older text's answer is of no use once a newer one is asked about.
-    if (count !== this.checks || document !== this.model || document.state.doc !== doc) return;
-    this.checkState.classList.remove("at-work");
+    const isOld = () => count !== this.checks || document !== this.model || document.state.doc !== doc;
+    try {
+      const read = await ask("text", true);
+      if (isOld()) return;
+      const isReadable = read.faults.length === 0;
+      // What the start of the run was found to be last stays until it is known of this text.
+      const shown = isReadable && this.findings ? { ...read, faults: this.findings.faults.filter(isOfStart), warnings: this.findings.warnings } : read;
+      this.showFindings(document, shown);
+      this.machine.show(read.scene);
+      this.showModelParts(read.scene);
+      this.cursorMoved(document);
+      performance.mark("hersey-checked");
+      if (!isReadable) return;
+      const started = await ask("start", false);
+      if (isOld()) return;
+      for (const fault of started.faults) startFaults.add(fault);
+      this.showFindings(document, started);
+      if (document === this.model) this.cursorMoved(document);
+    } catch (error) {
+      if (count === this.checks) this.fail(error);
+    } finally {
+      if (count === this.checks) this.checkState.classList.remove("at-work");
+    }
+  }
+
+  private showFindings(document: OpenDocument, answer: Checked): void {
     this.findings = { faults: answer.faults, warnings: answer.warnings, missing: answer.missing ?? [] };
-    this.editor.setFaults(document, diagnostics(doc, document.path, this.findings, (edits) => this.repair(edits)) as Diagnostic[]);
+    this.editor.setFaults(document, diagnostics(document.state.doc, document.path, this.findings, (edits) => this.repair(edits)) as Diagnostic[]);
     this.problems.show(this.findings);
     this.showCheckState(answer.runs);
-    this.machine.show(answer.scene);
-    this.showModelParts(answer.scene);
-    this.cursorMoved(document);
-    performance.mark("hersey-checked");
   }
 
   private showModelParts(scene: SceneText | null): void {
@@ -684,7 +703,7 @@ export class Workbench {
     const run = this.runs.running.find(({ id }) => id === this.live.shownRun) ?? this.runs.running[0];
     if (!run) return;
     try {
-      await this.api.post(`/api/runs/${run.id}/stop`);
+      await this.api.post(`/api/runs/${encodeURIComponent(run.id)}/stop`);
       await this.runs.load();
     } catch (error) {
       this.fail(error);

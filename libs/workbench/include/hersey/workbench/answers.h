@@ -1,0 +1,77 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace hersey::workbench {
+
+/// A request that has no answer; the three parts are the status and the body of the response.
+class Refused : public std::runtime_error {
+ public:
+  /// @param status  of HTTP: 400 a request that cannot be read, 404 something unknown, 409 a file that exists,
+  ///                422 a model or value that is wrong
+  Refused(int status, std::string error, std::string advice = {});
+  int status = 0;
+  std::string error;   ///< a sentence: what is wrong
+  std::string advice;  ///< what to do about it; may be empty
+};
+
+/// What the texts of models say: answers of the workbench to its page, JSON in and JSON out, without any HTTP.
+///
+/// A request names a model file by `path`, relative to the folder, and brings its text, which need not be saved. Files
+/// that the model names (tables, meshes) are read beside it. Lines and columns count from 1, columns in UTF-16 units as
+/// editors in browsers count them; 0 means unknown. A wrong model is an answer with faults; what cannot be answered is
+/// thrown as Refused.
+///
+/// Answers may be asked from several threads at once. Models read lately and solutions of bearings are kept, the
+/// oldest dropped.
+/// @verified_by answers_check_test.cpp, answers_scene_test.cpp, answers_bearing_test.cpp, answers_edit_test.cpp
+class Answers {
+ public:
+  /// @param folder  where the paths of requests start
+  explicit Answers(std::filesystem::path folder);
+  Answers(const Answers&) = delete;
+  Answers& operator=(const Answers&) = delete;
+  ~Answers();
+
+  /// `{path, text, set: ["load=500 N"], depth: "text"|"start", scene: true}` -> `{faults: [F], warnings: [F], runs,
+  /// parameters: {name: text}, scene: S|null, missing: [...], outline: [...], depth, time}`.
+  ///
+  /// With the depth `text` faults are those of the reader; with `start`, the usual one, also those of the start of the
+  /// run, which takes longer: a loop that does not close, a journal that touches its shell, and the warnings about it.
+  /// F = `{line, column, endLine, endColumn, file, path, message, found, expected, suggestion, repairs: [{label, edits:
+  /// [{line, column, endLine, endColumn, text}]}]}`; `file` is relative to the folder, and repairs are of the text of
+  /// the request. `missing` lists the parts that a run, or without bodies a bearing, still needs.
+  ///
+  /// S is a run with one instant, as the front end of the report reads it, with `sources` and `bearings` beside: see
+  /// scene(). It is null where the text cannot be read as a model; a model that cannot start is drawn as far as it can
+  /// be assembled.
+  [[nodiscard]] std::string check(std::string_view request) const;
+
+  /// `{key}` -> `{title, text, kind, unit, units, default, required, allowed: [{text, meaning}], keys: [...], example,
+  /// plain}` as `hersey explain`; `plain` is its text, with all variants.
+  [[nodiscard]] std::string explain(std::string_view request) const;
+  /// `{text: "45 mm", unit: "in"}` -> `{text: "1.7716535 in", units: ["mm", ...]}`; without `unit` the units alone.
+  [[nodiscard]] std::string convert(std::string_view request) const;
+  /// The JSON Schema of model files, as `hersey schema`.
+  [[nodiscard]] std::string schema() const;
+
+  /// `{path, text, key: "bearings.main.features.hole.phi", value: "45 deg"}` -> `{text, edits: [...]}`: the value is
+  /// replaced, or the key inserted where it is missing; null removes it. Comments, order and layout of all the rest
+  /// stay.
+  [[nodiscard]] std::string set_value(std::string_view request) const;
+
+  /// The models of `hersey init`: `[{name, title, text}]`.
+  [[nodiscard]] std::string templates() const;
+  /// `{template, path}` -> `{path}`: writes a new model into the folder. An existing file is left as it is: 409.
+  std::string new_model(std::string_view request) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hersey::workbench

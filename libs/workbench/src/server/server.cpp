@@ -1,0 +1,93 @@
+#include "hersey/workbench/server.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "folder/folder.h"
+#include "folder/watch.h"
+#include "server/api.h"
+#include "server/event_log.h"
+#include "server/guard.h"
+#include "server/http_server.h"
+
+namespace hersey::workbench {
+
+class Server::Impl {
+ public:
+  explicit Impl(ServerOptions options)
+      : options_(std::move(options)),
+        folder_(options_.folder),
+        token_(random_token()),
+        api_(folder_, events_, options_.open, ends_),
+        http_(
+            token_, [this](const Request& request) { return api_.handle(request); }, options_.log) {
+    bind();
+  }
+
+  [[nodiscard]] int port() const { return port_; }
+  [[nodiscard]] std::string address() const { return fmt::format("http://127.0.0.1:{}/#token={}", port_, token_); }
+
+  void serve(const std::atomic<bool>& stop) {
+    std::thread listening([&] { http_.listen(); });
+    Watch watch(folder_);
+    constexpr std::chrono::milliseconds kTick{50};
+    constexpr int kTicksPerLook = 10;
+    for (int tick = 1; !stop; ++tick) {
+      std::this_thread::sleep_for(kTick);
+      if (tick % kTicksPerLook != 0) continue;
+      if (const std::vector<std::string> paths = watch.changes(); !paths.empty())
+        events_.add("files", nlohmann::json{{"paths", paths}}.dump());
+    }
+    ends_ = true;
+    http_.stop();
+    listening.join();
+  }
+
+ private:
+  void bind() {
+    constexpr int kFirst = 8437, kMost = 100;
+    if (options_.port != 0) {
+      if (!http_.bind(options_.port))
+        throw std::runtime_error(
+            fmt::format("port {} cannot be used: another program has it, or it is reserved; "
+                        "leave out --port to take the next free one",
+                        options_.port));
+      port_ = options_.port;
+      return;
+    }
+    for (int port = kFirst; port < kFirst + kMost; ++port)
+      if (http_.bind(port)) {
+        port_ = port;
+        return;
+      }
+    throw std::runtime_error(
+        fmt::format("no port from {} to {} is free; choose one by --port", kFirst, kFirst + kMost - 1));
+  }
+
+  ServerOptions options_;
+  Folder folder_;
+  EventLog events_;
+  std::string token_;
+  std::atomic<bool> ends_ = false;
+  Api api_;
+  HttpServer http_;
+  int port_ = 0;
+};
+
+Server::Server(ServerOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+
+Server::~Server() = default;
+
+int Server::port() const { return impl_->port(); }
+
+std::string Server::address() const { return impl_->address(); }
+
+void Server::serve(const std::atomic<bool>& stop) { impl_->serve(stop); }
+
+}  // namespace hersey::workbench
