@@ -72,9 +72,9 @@ void RunEvents::started(const model::Model& model, const std::vector<model::Stud
   if (fd_ < 0) return;
   runs_ = std::max<std::size_t>(runs.size(), 1);
   const model::Simulation& plan = model.simulation;
-  EventJson event{{"kind", "started"}, {"title", model.title},  {"pid", ::getpid()},
-             {"t", plan.start},   {"t_start", plan.start}, {"t_end", plan.start + plan.duration},
-             {"share", 0},        {"runs", EventJson::array()}, {"bearings", EventJson::array()}};
+  EventJson event{{"kind", "started"}, {"title", model.title},       {"pid", ::getpid()},
+                  {"t", plan.start},   {"t_start", plan.start},      {"t_end", plan.start + plan.duration},
+                  {"share", 0},        {"runs", EventJson::array()}, {"bearings", EventJson::array()}};
   for (const model::StudyRun& run : runs) event["runs"].push_back(run.label);
   for (const model::Bearing& bearing : model.bearings) event["bearings"].push_back(bearing.name);
   write(event);
@@ -83,7 +83,8 @@ void RunEvents::started(const model::Model& model, const std::vector<model::Stud
 void RunEvents::warned(std::size_t run, const std::vector<Fault>& warnings) {
   if (fd_ < 0) return;
   for (const Fault& warning : warnings) {
-    EventJson event{{"kind", "warning"}, {"run", run}, {"text", warning.text()}, {"fault", EventJson(fault_json(warning))}};
+    EventJson event{
+        {"kind", "warning"}, {"run", run}, {"text", warning.text()}, {"fault", EventJson(fault_json(warning))}};
     write(event);
   }
 }

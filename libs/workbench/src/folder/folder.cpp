@@ -54,19 +54,19 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-NotDone outside(const std::string& why) {
+Refused outside(const std::string& why) {
   return {403, why, "name a file of the folder that the workbench was opened with"};
 }
 
 [[noreturn]] void cannot_write(const std::string& file, int error) {
   const std::string why = std::generic_category().message(error);
   if (error == ENOSPC || error == EFBIG || error == EDQUOT)
-    throw NotDone(507, fmt::format("{} is not written, the old file is whole: {}", file, why),
+    throw Refused(507, fmt::format("{} is not written, the old file is whole: {}", file, why),
                   "make room on the disk, then save again");
   if (error == EACCES || error == EROFS || error == EPERM)
-    throw NotDone(403, fmt::format("{} is not written: {}", file, why),
+    throw Refused(403, fmt::format("{} is not written: {}", file, why),
                   "save it under another name, or change the rights of the folder");
-  throw NotDone(500, fmt::format("{} is not written: {}", file, why), "save it under another name");
+  throw Refused(500, fmt::format("{} is not written: {}", file, why), "save it under another name");
 }
 
 /// Marks a content. Two contents of one file with the same mark are improbable enough for editors: FNV-1a, 64 bits,
@@ -252,7 +252,7 @@ std::vector<FileEntry> Folder::list() const {
     const std::string relative = walk->path().lexically_relative(path_).generic_string();
     try {
       if (walk->is_symlink(error)) (void)resolve(relative);
-    } catch (const NotDone&) {
+    } catch (const Refused&) {
       continue;
     }
     FileEntry entry{relative, "", static_cast<std::uintmax_t>(status.st_size), seconds(status)};
@@ -268,15 +268,15 @@ FileText Folder::read(const std::string& relative) const {
   const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
   if (opened.number() < 0) {
     if (errno == ENOENT || errno == ENOTDIR)
-      throw NotDone(404, relative + " is not there", "choose a file of the list");
-    throw NotDone(403, fmt::format("{} cannot be read: {}", relative, std::generic_category().message(errno)),
+      throw Refused(404, relative + " is not there", "choose a file of the list");
+    throw Refused(403, fmt::format("{} cannot be read: {}", relative, std::generic_category().message(errno)),
                   "change its rights, or choose another file");
   }
   struct stat status {};
   if (::fstat(opened.number(), &status) != 0 || !S_ISREG(status.st_mode))
-    throw NotDone(403, relative + " is no file", "choose a file of the list");
+    throw Refused(403, relative + " is no file", "choose a file of the list");
   if (static_cast<std::uintmax_t>(status.st_size) > kMostText)
-    throw NotDone(413, fmt::format("{} is larger than {} MB", relative, kMostText >> 20), "edit it by another program");
+    throw Refused(413, fmt::format("{} is larger than {} MB", relative, kMostText >> 20), "edit it by another program");
   FileText content{text_of(opened.number(), kMostText), ""};
   content.etag = etag_of(content.text);
   return content;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "folder/not_done.h"
+#include "hersey/workbench/answers.h"
 
 namespace hersey::workbench {
 
@@ -45,13 +45,13 @@ class Folder {
 
   /// Files down to four folders deep, hidden ones left out, at most 2000, by name.
   [[nodiscard]] std::vector<FileEntry> list() const;
-  /// @throws NotDone 404 where there is none, 413 above the size that pages edit
+  /// @throws Refused 404 where there is none, 413 above the size that pages edit
   [[nodiscard]] FileText read(const std::string& relative) const;
   /// Replaces a file whose content still has the mark `etag`, through a temporary file beside it.
-  /// @returns the new mark @throws ChangedFile if the content differs; NotDone 507 on a full disk, 403 where nothing
+  /// @returns the new mark @throws ChangedFile if the content differs; Refused 507 on a full disk, 403 where nothing
   /// may be written; the old file is whole then
   std::string replace(const std::string& relative, const std::string& text, const std::string& etag);
-  /// Writes a file that does not exist. @returns its mark @throws ChangedFile if it exists; NotDone as `replace`
+  /// Writes a file that does not exist. @returns its mark @throws ChangedFile if it exists; Refused as `replace`
   std::string create(const std::string& relative, const std::string& text);
 
  private:

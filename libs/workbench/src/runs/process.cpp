@@ -133,7 +133,7 @@ bool interrupt(const ProcessId& process, const std::string& argument) {
 
 int run_to_end(const std::vector<std::string>& words, const std::filesystem::path& folder, double most_seconds,
                std::string& output) {
-  using Clock = std::chrono::steady_clock;
+  using Monotonic = std::chrono::steady_clock;
   const Arguments arguments(words);
   const std::string in_folder = folder.string();
   std::array<int, 2> pipe{};
@@ -151,12 +151,12 @@ int run_to_end(const std::vector<std::string>& words, const std::filesystem::pat
     no_process(words.front());
   }
   constexpr std::size_t kMostOutput = 65536;
-  const Clock::time_point end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(most_seconds));
+  const Monotonic::time_point end =
+      Monotonic::now() + std::chrono::duration_cast<Monotonic::duration>(std::chrono::duration<double>(most_seconds));
   bool is_late = false;
   while (true) {
     pollfd entry{pipe[0], POLLIN, 0};
-    const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+    const auto rest = std::chrono::duration_cast<std::chrono::milliseconds>(end - Monotonic::now()).count();
     const int ready = rest > 0 ? ::poll(&entry, 1, static_cast<int>(rest)) : 0;
     if (ready < 0 && errno == EINTR) continue;
     is_late = ready <= 0;
@@ -165,7 +165,8 @@ int run_to_end(const std::vector<std::string>& words, const std::filesystem::pat
     const ssize_t got = ::read(pipe[0], part.data(), part.size());
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;
-    output.append(part.data(), std::min(static_cast<std::size_t>(got), kMostOutput - std::min(kMostOutput, output.size())));
+    output.append(part.data(),
+                  std::min(static_cast<std::size_t>(got), kMostOutput - std::min(kMostOutput, output.size())));
   }
   ::close(pipe[0]);
   if (is_late) ::kill(-child, SIGKILL);

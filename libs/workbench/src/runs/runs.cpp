@@ -29,6 +29,7 @@ using Path = std::filesystem::path;
 
 constexpr std::size_t kMostRuns = 500;
 constexpr std::uintmax_t kMostLog = 256 << 10;
+constexpr std::uintmax_t kMostModel = std::uintmax_t{16} << 20;
 constexpr std::uintmax_t kMostTail = 64 << 10;
 constexpr std::uintmax_t kMostRecord = 1 << 20;
 constexpr double kReportTime = 300;  // [s]
@@ -105,9 +106,10 @@ std::string plain(const std::string& name) {
 }
 
 void check_override(const std::string& change) {
-  const bool is_plain = std::none_of(change.begin(), change.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  const bool is_plain =
+      std::none_of(change.begin(), change.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   if (!is_plain || change.find('=') == std::string::npos || change.size() > 10'000)
-    throw NotDone(422, fmt::format("'{}' changes nothing", change), "write it as load=500N");
+    throw Refused(422, fmt::format("'{}' changes nothing", change), "write it as load=500N");
 }
 
 /// What the events say of the last start of a run.
@@ -138,7 +140,7 @@ json json_with(const ProcessId& process) { return {{"pid", process.pid}, {"start
 
 void cannot_make(const Path& folder, const std::error_code& error) {
   const bool is_full = error == std::errc::no_space_on_device;
-  throw NotDone(is_full ? 507 : 403, fmt::format("{} cannot be made: {}", folder.string(), error.message()),
+  throw Refused(is_full ? 507 : 403, fmt::format("{} cannot be made: {}", folder.string(), error.message()),
                 is_full ? "make room on the disk" : "open a folder in which you may write");
 }
 
@@ -146,14 +148,17 @@ void write_record(const Path& file, const std::string& text) {
   try {
     write_file(file, {text});
   } catch (const std::runtime_error& error) {
-    throw NotDone(507, error.what(), "make room on the disk, then start the run again");
+    throw Refused(507, error.what(), "make room on the disk, then start the run again");
   }
 }
 
 }  // namespace
 
 Runs::Runs(Folder& folder, EventLog& events, Path program)
-    : folder_(folder), events_(events), program_(std::move(program)) {}
+    : folder_(folder), events_(events), program_(std::move(program)) {
+  look_for_runs();
+  calls_ = 1;
+}
 
 Runs::~Runs() {
   std::error_code ignored;
@@ -195,7 +200,8 @@ RunEntry Runs::entry_of(const std::string& id) const {
     run.state = "lost";
     run.message = "its process ended without a word: it was killed, or the machine was; the log may say more";
   }
-  run.can_resume = run.state != "running" && run.state != "completed" && (run.can_resume || run.is_study || !run.results.empty());
+  run.can_resume =
+      run.state != "running" && run.state != "completed" && (run.can_resume || run.is_study || !run.results.empty());
   return run;
 }
 
@@ -248,14 +254,14 @@ RunEntry Runs::find(const std::string& id) const {
     return entry_of(id);
   for (RunEntry& run : results_made_elsewhere())
     if (run.id == id) return std::move(run);
-  throw NotDone(404, "there is no run of this name", "choose one of the list");
+  throw Refused(404, "there is no run of this name", "choose one of the list");
 }
 
 std::string Runs::start(const json& request) {
   const std::string path = text_in(request, "path");
   const FileText model = folder_.read(path);
   if (const std::string etag = text_in(request, "etag"); !etag.empty() && etag != model.etag)
-    throw NotDone(409, path + " has been changed since", "save it, then run it");
+    throw Refused(409, path + " has been changed since", "save it, then run it");
   const std::vector<std::string> overrides = texts_in(request, "set");
   for (const std::string& change : overrides) check_override(change);
   const std::lock_guard lock(starting_);
@@ -271,7 +277,8 @@ std::string Runs::start(const json& request) {
     if (error) cannot_make(runs / next, error);
   }
   json record{{"version", version()}, {"model", path}, {"set", overrides}, {"started", now()}};
-  if (request.value("study", false)) record["study"] = true, record["on"] = text_in(request, "on") == "slurm" ? "slurm" : "local";
+  if (request.value("study", false))
+    record["study"] = true, record["on"] = text_in(request, "on") == "slurm" ? "slurm" : "local";
   write_record(runs / id / "model.txt", model.text);
   launch(id, std::move(record), false);
   return id;
@@ -281,7 +288,8 @@ void Runs::launch(const std::string& id, json record, bool resumes) {
   const Path folder = folder_.path() / "runs" / id;
   const bool is_study = record.value("study", false);
   const Path model = folder_.resolve(text_in(record, "model"));
-  std::vector<std::string> words{program_.string(), is_study ? "study" : "run", model.string(), "--output", folder.string()};
+  std::vector<std::string> words{program_.string(), is_study ? "study" : "run", model.string(), "--output",
+                                 folder.string()};
   for (const std::string& change : texts_in(record, "set")) {
     check_override(change);
     words.push_back("--set=" + change);
@@ -305,26 +313,33 @@ void Runs::launch(const std::string& id, json record, bool resumes) {
 
 void Runs::stop(const std::string& id) const {
   const RunEntry run = find(id);
-  if (run.state != "running") throw NotDone(409, "this run has ended already", "");
+  if (run.state != "running") throw Refused(409, "this run has ended already", "");
   if (!interrupt(run.process, (folder_.path() / run.folder).string()))
-    throw NotDone(409, "this run was not started here, or has just ended", "stop it where it was started");
+    throw Refused(409, "this run was not started here, or has just ended", "stop it where it was started");
 }
 
 void Runs::resume(const std::string& id) {
   const std::lock_guard lock(starting_);
   const RunEntry run = find(id);
   if (!run.can_resume)
-    throw NotDone(409, run.state == "running" ? "this run goes on already" : "there is nothing to resume from", "start it anew");
+    throw Refused(409, run.state == "running" ? "this run goes on already" : "there is nothing to resume from",
+                  "start it anew");
   const Path file = folder_.path() / run.folder / "run.json";
   json record = object_of(part_of(file, 0, size_of(file)));
   if (record.is_null() || run.folder != "runs/" + id)
-    throw NotDone(409, "this run was not started here", "resume it by `hersey run --resume`");
+    throw Refused(409, "this run was not started here", "resume it by `hersey run --resume`");
   record["resumed"] = now();
   launch(id, std::move(record), true);
 }
 
 std::string Runs::log(const std::string& id) const {
   return tail_of(folder_.path() / find(id).folder / "log.txt", kMostLog);
+}
+
+std::string Runs::model_text(const std::string& id) const {
+  const Path file = folder_.path() / find(id).folder / "model.txt";
+  if (!std::filesystem::exists(file)) throw Refused(404, "the model of this run is not known", "");
+  return tail_of(file, kMostModel);
 }
 
 std::string Runs::history(const std::string& id, std::size_t most) const {
@@ -355,7 +370,7 @@ Path Runs::report(const std::vector<std::string>& ids) {
   for (const std::string& id : ids) {
     const RunEntry run = find(id);
     if (run.results.empty() && run.report.empty())
-      throw NotDone(409, id + " has no results yet", "wait for the first of them, or look at its log");
+      throw Refused(409, id + " has no results yet", "wait for the first of them, or look at its log");
     for (const std::string& file : run.results) {
       words.push_back((folder_.path() / file).string());
       names.push_back(run.results.size() == 1 ? id : id + " " + Path(file).stem().string());
@@ -367,7 +382,8 @@ Path Runs::report(const std::vector<std::string>& ids) {
   if (reports_.empty()) {
     std::string pattern = (std::filesystem::temp_directory_path() / "hersey-reports-XXXXXX").string();
     if (::mkdtemp(pattern.data()) == nullptr)
-      throw NotDone(507, fmt::format("no temporary folder can be made: {}", std::strerror(errno)), "make room on the disk");
+      throw Refused(507, fmt::format("no temporary folder can be made: {}", std::strerror(errno)),
+                    "make room on the disk");
     reports_ = pattern;
   }
   const Path page = reports_ / fmt::format("{}.html", ++report_count_);
@@ -379,7 +395,7 @@ Path Runs::report(const std::vector<std::string>& ids) {
   }
   std::string output;
   if (run_to_end(words, folder_.path(), kReportTime, output) != 0)
-    throw NotDone(422, "no report can be made: " + output.substr(0, output.find('\n')), "look at the log of the run");
+    throw Refused(422, "no report can be made: " + output.substr(0, output.find('\n')), "look at the log of the run");
   return page;
 }
 

@@ -19,9 +19,9 @@ struct RunEntry {
   std::string id;  ///< name of its folder in runs/; of results made elsewhere their path with ':' for '/'
   std::string model;
   std::vector<std::string> overrides;
-  std::string folder;  ///< relative
-  std::string state;   ///< running, completed, failed, stopped or lost
-  double share = 0;    ///< done, from 0 to 1
+  std::string folder;             ///< relative
+  std::string state;              ///< running, completed, failed, stopped or lost
+  double share = 0;               ///< done, from 0 to 1
   double started = 0, ended = 0;  ///< seconds since 1970; 0: not known
   std::string message;
   std::vector<std::string> results;  ///< relative paths
@@ -44,20 +44,22 @@ class Runs {
 
   /// All runs, the newest first: at most 500.
   [[nodiscard]] std::vector<RunEntry> list() const;
-  /// @throws NotDone 404
+  /// @throws Refused 404
   [[nodiscard]] RunEntry find(const std::string& id) const;
   /// Starts a run of a saved model. @returns its id
   /// @param request  {path, set, etag?, threads?, study?, on?}
-  /// @throws NotDone 409 if the file no longer has the mark `etag`; 403, 507 if its folder cannot be made
+  /// @throws Refused 409 if the file no longer has the mark `etag`; 403, 507 if its folder cannot be made
   std::string start(const nlohmann::json& request);
   void stop(const std::string& id) const;
   void resume(const std::string& id);
   /// The end of what it printed, at most 256 kB.
   [[nodiscard]] std::string log(const std::string& id) const;
+  /// Text of its model as it was started, for comparisons.
+  [[nodiscard]] std::string model_text(const std::string& id) const;
   /// Its events, steps thinned out to at most `most`, one line of JSON each.
   [[nodiscard]] std::string history(const std::string& id, std::size_t most) const;
   /// Makes the report of runs, of several as a comparison, in a temporary folder where it is not there already.
-  /// @throws NotDone 409 if there are no results yet, 422 if no report can be made of them
+  /// @throws Refused 409 if there are no results yet, 422 if no report can be made of them
   std::filesystem::path report(const std::vector<std::string>& ids);
 
   /// Passes on what runs have written since the last call. To be called several times a second, by one thread.

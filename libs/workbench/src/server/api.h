@@ -1,9 +1,16 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
+#include <filesystem>
+#include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "folder/folder.h"
+#include "hersey/workbench/answers.h"
+#include "runs/runs.h"
 #include "server/event_log.h"
 #include "server/exchange.h"
 
@@ -13,8 +20,14 @@ namespace hersey::workbench {
 class Api {
  public:
   /// @param open  model that the page opens, relative to the folder; empty: none
-  Api(Folder& folder, EventLog& events, std::string open, const std::atomic<bool>& stop)
-      : folder_(folder), events_(events), open_(std::move(open)), stop_(stop) {}
+  Api(Folder& folder, Runs& runs, EventLog& events, std::string open, const std::atomic<bool>& stop)
+      : folder_(folder),
+        runs_(runs),
+        events_(events),
+        open_(std::move(open)),
+        stop_(stop),
+        answers_(folder.path()),
+        schema_(answers_.schema()) {}
 
   [[nodiscard]] Reply handle(const Request& request);
 
@@ -24,11 +37,20 @@ class Api {
   [[nodiscard]] Reply files() const;
   [[nodiscard]] Reply file(const Request& request);
   [[nodiscard]] Reply event_stream(const Request& request) const;
+  [[nodiscard]] Reply run_list() const;
+  [[nodiscard]] Reply of_run(const Request& request);
+  [[nodiscard]] Reply report(const std::vector<std::string>& ids);
+  [[nodiscard]] Reply report_file(const Request& request);
 
   Folder& folder_;
+  Runs& runs_;
   EventLog& events_;
   std::string open_;
   const std::atomic<bool>& stop_;
+  Answers answers_;
+  std::string schema_;
+  std::mutex tickets_mutex_;
+  std::deque<std::pair<std::string, std::filesystem::path>> tickets_;  // of reports, the oldest first
 };
 
 }  // namespace hersey::workbench

@@ -26,7 +26,7 @@ struct Request {
   }
 };
 
-/// Writes a part of a stream. @returns false if nobody reads it any more
+/// Writes a part of a stream; an empty one only asks. @returns false if nobody reads it any more
 using StreamWriter = std::function<bool(std::string_view)>;
 
 struct Reply {

@@ -247,12 +247,14 @@ void fill_in(httplib::Response& response, Reply reply) {
     response.set_header(name, value);
   }
   if (!reply.stream) return response.set_content(reply.body, reply.type);
-  response.set_chunked_content_provider(
-      reply.type, [stream = std::move(reply.stream)](std::size_t, httplib::DataSink& sink) {
-        const bool goes_on = stream([&](std::string_view text) { return sink.write(text.data(), text.size()); });
-        if (!goes_on) sink.done();
-        return true;
-      });
+  // An empty part would end the stream.
+  const auto provide = [stream = std::move(reply.stream)](std::size_t, httplib::DataSink& sink) {
+    const StreamWriter write = [&](std::string_view text) {
+      return text.empty() ? !current->is_hung_up() : sink.write(text.data(), text.size());
+    };
+    return stream(write);
+  };
+  response.set_chunked_content_provider(reply.type, provide);
 }
 
 }  // namespace

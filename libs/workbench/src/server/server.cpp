@@ -24,7 +24,8 @@ class Server::Impl {
       : options_(std::move(options)),
         folder_(options_.folder),
         token_(random_token()),
-        api_(folder_, events_, options_.open, ends_),
+        runs_(folder_, events_, options_.program),
+        api_(folder_, runs_, events_, options_.open, ends_),
         http_(
             token_, [this](const Request& request) { return api_.handle(request); }, options_.log) {
     bind();
@@ -36,10 +37,11 @@ class Server::Impl {
   void serve(const std::atomic<bool>& stop) {
     std::thread listening([&] { http_.listen(); });
     Watch watch(folder_);
-    constexpr std::chrono::milliseconds kTick{50};
+    constexpr std::chrono::milliseconds kTick{50};  // so long an event of a run waits at most
     constexpr int kTicksPerLook = 10;
     for (int tick = 1; !stop; ++tick) {
       std::this_thread::sleep_for(kTick);
+      runs_.follow();
       if (tick % kTicksPerLook != 0) continue;
       if (const std::vector<std::string> paths = watch.changes(); !paths.empty())
         events_.add("files", nlohmann::json{{"paths", paths}}.dump());
@@ -75,6 +77,7 @@ class Server::Impl {
   EventLog events_;
   std::string token_;
   std::atomic<bool> ends_ = false;
+  Runs runs_;
   Api api_;
   HttpServer http_;
   int port_ = 0;
