@@ -53,7 +53,7 @@ export function askTexts(name: string, mine: string, theirs: string): Promise<st
         h("button", { type: "button", class: "quiet", click: () => window.close() }, texts.conflict.later),
       ),
     );
-    const common = (label: string) => [lineNumbers(), yaml(), EditorView.theme({}, { dark: isDark() }), EditorView.contentAttributes.of({ "aria-label": label })];
+    const common = (label: string) => [lineNumbers(), yaml(), EditorView.theme({}, { dark: isDark() }), EditorView.contentAttributes.of({ "aria-label": label, tabindex: "0" })];
     const view = new MergeView({
       parent: holder,
       a: { doc: mine, extensions: common(texts.conflict.mine) },

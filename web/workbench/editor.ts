@@ -143,7 +143,7 @@ export class Editor {
       highlightActiveLine(),
       highlightSelectionMatches(),
       partField,
-      EditorView.contentAttributes.of({ "aria-label": texts.editor(path) }),
+      EditorView.contentAttributes.of({ "aria-label": texts.editor(path), tabindex: "0" }),
       ...(isModel ? [yaml(), numberMarks, lintGutter(), autocompletion({ icons: false, activateOnTypingDelay: 50 }), this.hooks.model] : []),
       keymap.of([...closeBracketsKeymap, ...completionKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...foldKeymap, indentWithTab]),
       EditorView.updateListener.of((update) => this.heard(update)),

@@ -74,7 +74,7 @@ export function walkable(bar: HTMLElement): void {
 /** A bar that changes a size of the layout, a property of `holder` in pixels. */
 export function splitter(holder: HTMLElement, property: string, label: string, towards: "right" | "left" | "up", start: number, changed: (size: number) => void): HTMLElement {
   const isUpright = towards !== "up";
-  const bar = h("div", { class: `splitter ${isUpright ? "upright" : "level"}`, role: "separator", tabindex: 0, "aria-label": label, "aria-orientation": isUpright ? "vertical" : "horizontal", "aria-valuemin": 120 });
+  const bar = h("div", { class: `splitter ${{ right: "upright at-left", left: "upright at-right", up: "level" }[towards]}`, role: "separator", tabindex: 0, "aria-label": label, "aria-orientation": isUpright ? "vertical" : "horizontal", "aria-valuemin": 120 });
   let size = start;
   const set = (wanted: number) => {
     const room = isUpright ? innerWidth : innerHeight;

@@ -30,7 +30,7 @@ export const texts = {
   closeTab: (name: string) => `Close ${name}`,
   unsaved: "not saved",
   editor: (name: string) => `Text of ${name}`,
-  panes: { left: "Folder and runs", middle: "Texts and reports", right: "Machine and bearing", below: "Problems, plots and log" },
+  panes: { left: "Folder and runs", middle: "Texts and reports", right: "Machine and bearing", below: "Problems, plots and log", sizes: "Sizes of the panes" },
   splitters: { left: "Width of the folder's pane", right: "Width of the machine's pane", below: "Height of the lower pane" },
   state: {
     none: "No model open",

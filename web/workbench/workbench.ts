@@ -178,12 +178,16 @@ export class Workbench {
     };
     root.append(
       bar,
+      h(
+        "section",
+        { class: "splitters", "aria-label": texts.panes.sizes },
+        splitter(root, "--left", texts.splitters.left, "right", size("left", Math.min(320, Math.max(200, 0.17 * w))), remember("left")),
+        splitter(root, "--right", texts.splitters.right, "left", size("right", Math.max(380, 0.36 * w)), remember("right")),
+        splitter(root, "--below", texts.splitters.below, "up", size("below", Math.max(190, 0.29 * hgt)), remember("below")),
+      ),
       h("nav", { class: "pane left", "aria-label": texts.panes.left, tabindex: -1 }, group(texts.files, this.fileList), group(texts.runs, this.runs.element), group(texts.outline, this.outline.element)),
-      splitter(root, "--left", texts.splitters.left, "right", size("left", Math.min(320, Math.max(200, 0.17 * w))), remember("left")),
       h("main", { class: "pane middle", "aria-label": texts.panes.middle, tabindex: -1 }, this.documentBar, this.documentArea),
-      splitter(root, "--right", texts.splitters.right, "left", size("right", Math.max(380, 0.36 * w)), remember("right")),
       h("aside", { class: "pane right", "aria-label": texts.panes.right, tabindex: -1 }, this.right.element),
-      splitter(root, "--below", texts.splitters.below, "up", size("below", Math.max(190, 0.29 * hgt)), remember("below")),
       h("section", { class: "pane below", "aria-label": texts.panes.below, tabindex: -1 }, this.below.element),
       this.notices,
       this.announcer,
