@@ -32,6 +32,7 @@ export interface Source {
 export interface Feature {
   name: string;
   kind: string;
+  surface?: "fixed" | "moving";
   phi: number;
   z: number;
   arc: number;
@@ -42,13 +43,15 @@ export interface Feature {
 }
 
 export interface BearingScene {
-  kind?: string;
-  radius?: number;
-  width?: number;
-  clearance?: number;
-  grid: { circumferential: number; axial: number } | null;
+  radius: number;
+  width: number;
+  clearance: number;
+  /** Names of the coordinates, such as phi and z. */
+  along: string;
+  across: string;
+  grid: { circumferential: number; axial: number; along: number[]; across: number[]; closes: boolean; arcs?: number[] };
   features: Feature[];
-  [further: string]: unknown;
+  supply?: { at: "angle" | "widest_gap"; phi: number };
 }
 
 export interface FileEntry {

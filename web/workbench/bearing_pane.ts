@@ -90,11 +90,10 @@ export class BearingPane {
     const node = find(tree, key.split("."));
     const turned = ((phi % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI);
     const degrees = `${Number(((turned * 180) / Math.PI).toFixed(3))} deg`;
-    const keyOf = (names: string[]) => names.find((name) => node?.children.some((c) => c.key === name));
-    const along = keyOf(["angle", "phi", "line", "x", "position"]) ?? "angle";
-    const across = keyOf(["z", "axial", "axial_position", "y", "offset"]);
-    if (node?.kind === "scalar") return this.hooks.set(key, degrees);
-    if (phi !== feature.phi) await this.hooks.set(`${key}.${along}`, along === "x" ? `${Number((1e3 * phi).toFixed(4))} mm` : degrees);
-    if (z !== feature.z && (across || feature.arc > 0)) await this.hooks.set(`${key}.${across ?? "z"}`, `${Number((1e3 * z).toFixed(4))} mm`);
+    const millimetres = (x: number) => `${Number((1e3 * x).toFixed(4))} mm`;
+    if (feature.kind === "line" || node?.kind === "scalar") return this.hooks.set(key, degrees);
+    const { along, across } = this.bearings[this.name]!;
+    if (Math.abs(phi - feature.phi) > 1e-9) await this.hooks.set(`${key}.${along === "phi" ? "angle" : along}`, along === "phi" ? degrees : millimetres(phi));
+    if (Math.abs(z - feature.z) > 1e-9) await this.hooks.set(`${key}.${across}`, millimetres(z));
   }
 }

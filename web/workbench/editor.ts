@@ -6,7 +6,7 @@ import { yaml } from "@codemirror/lang-yaml";
 import { bracketMatching, foldGutter, foldKeymap, HighlightStyle, indentOnInput, syntaxHighlighting } from "@codemirror/language";
 import { forEachDiagnostic, lintGutter, setDiagnostics, type Diagnostic } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
-import { Compartment, EditorSelection, EditorState, Prec, StateEffect, StateField, Text, type Extension } from "@codemirror/state";
+import { Compartment, EditorSelection, EditorState, Prec, StateEffect, StateField, Text, type Extension, type Range } from "@codemirror/state";
 import { Decoration, drawSelection, dropCursor, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers, MatchDecorator, ViewPlugin, type DecorationSet, type ViewUpdate } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import type { Edit } from "./api";
@@ -81,6 +81,31 @@ const numberMarks = ViewPlugin.fromClass(
   { decorations: (plugin) => plugin.decorations },
 );
 
+/** Lines that are wrapped go on below their beginning. */
+const hanging = ViewPlugin.fromClass(
+  class {
+    decorations: DecorationSet;
+    constructor(view: EditorView) {
+      this.decorations = this.made(view);
+    }
+    update(update: ViewUpdate): void {
+      if (update.docChanged || update.viewportChanged) this.decorations = this.made(update.view);
+    }
+    made(view: EditorView): DecorationSet {
+      const marks: Range<Decoration>[] = [];
+      for (const { from, to } of view.visibleRanges)
+        for (let at = from; at <= to; ) {
+          const line = view.state.doc.lineAt(at);
+          const depth = line.text.search(/\S/) + 2;
+          if (line.length > 40 && depth > 1) marks.push(Decoration.line({ attributes: { style: `padding-left: calc(${depth}ch + 6px); text-indent: -${depth}ch` } }).range(line.from));
+          at = line.to + 1;
+        }
+      return Decoration.set(marks);
+    }
+  },
+  { decorations: (plugin) => plugin.decorations },
+);
+
 /** Lines of the part chosen in the picture. */
 const markPart = StateEffect.define<{ from: number; to: number } | null>();
 const partLine = Decoration.line({ class: "cm-part" });
@@ -134,6 +159,7 @@ export class Editor {
       drawSelection(),
       dropCursor(),
       EditorView.lineWrapping,
+      hanging,
       EditorState.allowMultipleSelections.of(true),
       EditorState.tabSize.of(2),
       indentOnInput(),

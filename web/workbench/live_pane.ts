@@ -12,8 +12,8 @@ class Course {
   readonly time: number[] = [];
   readonly bearings = new Map<string, { h_min: number[]; p_max: number[]; x: number[]; y: number[] }>();
 
-  take({ t, bearings }: RunEvent): void {
-    if (t === undefined || !bearings || (this.time.length > 0 && t <= this.time[this.time.length - 1]!)) return;
+  take({ kind, t, bearings }: RunEvent): void {
+    if (kind !== "stepped" || t === undefined || !bearings || (this.time.length > 0 && t <= this.time[this.time.length - 1]!)) return;
     this.time.push(t);
     for (const [name, b] of Object.entries(bearings)) {
       let own = this.bearings.get(name);
@@ -66,7 +66,7 @@ export class LivePane {
 
   async show(run: RunEntry): Promise<void> {
     this.run = run;
-    this.title.textContent = texts.runOf(run.model, run.id);
+    this.title.textContent = run.id;
     await this.recall(run);
     this.build();
     await this.readLog();
@@ -145,7 +145,7 @@ export class LivePane {
     }
     const x: number[] = [];
     // As high as the pane leaves room: title, legend and scroll bar stand beside.
-    const height = Math.max(110, this.element.clientHeight - 78);
+    const height = Math.max(110, this.element.clientHeight - 70);
     const line = (name: string, label: string, unit: string) => new LinePlot({ name, x: { label: texts.time, unit: "ms", values: x }, left: { label: texts.short[name as "h_min" | "p_max"], unit, fromZero: true }, curves: [{ label, unit, y: [] }], height });
     const orbit = { time: new Float64Array(), x: new Float64Array(), y: new Float64Array(), force: null, clearance: 1 };
     this.drawn = { x, thickness: line("h_min", texts.hMin, "µm"), pressure: line("p_max", texts.pMax, "MPa"), orbit: new Orbit(orbit), path: orbit };

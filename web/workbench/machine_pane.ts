@@ -1,13 +1,20 @@
 // The pane with the machine: its picture, its parts as a list, its joints as sliders.
 
-import type { Api, Source } from "./api";
+import type { Api, BearingScene, Source } from "./api";
 import { Run, type RunText } from "../src/data";
 import { h } from "../src/dom";
 import { format } from "../src/units";
 import { WorkbenchMachine, type Pose } from "./machine";
 import { texts } from "./texts";
 
-export type SceneText = RunText & { sources?: Record<string, Source>; bearings?: Record<string, import("./api").BearingScene> };
+export type SceneText = RunText & {
+  sources?: Record<string, Source>;
+  bearings?: Record<string, BearingScene>;
+  /** Coordinates that can be moved. */
+  joints?: Record<string, { name: string; unit: "rad" | "m"; value: number }[]>;
+  /** Why loops do not close. */
+  open?: string;
+};
 
 export interface MachineHooks {
   api: Api;
@@ -19,11 +26,8 @@ export interface MachineHooks {
 
 interface Coordinate {
   joint: string;
-  isAngle: boolean;
+  coordinate: string;
 }
-
-const anglesOf = new Set(["revolute", "screw"]);
-const lengthsOf = new Set(["prismatic"]);
 
 export class MachinePane {
   readonly element: HTMLElement;
@@ -57,6 +61,8 @@ export class MachinePane {
       this.machine?.showFrames(on);
     });
     const reset = h("button", { type: "button", class: "quiet", click: () => this.machine?.reset() }, texts.resetView);
+    this.partList.append(h("option", { value: "" }, texts.parts));
+    this.jointBox.hidden = true;
     this.partList.addEventListener("change", () => this.partList.value && this.pick(this.partList.value));
     this.element = h(
       "div",
@@ -78,7 +84,8 @@ export class MachinePane {
 
   /** Null keeps the last picture and says that it is not of this text. */
   show(scene: SceneText | null): void {
-    this.staleNote.hidden = scene !== null || this.scene === null;
+    this.staleNote.hidden = scene !== null ? !scene.open : this.scene === null;
+    this.staleNote.textContent = scene?.open || texts.stale;
     if (!scene) return;
     this.scene = scene;
     const run = new Run(scene);
@@ -101,7 +108,8 @@ export class MachinePane {
     this.stage.replaceChildren(h("p", { class: "note empty" }, texts.noScene));
     this.legend.replaceChildren();
     this.sliders.replaceChildren();
-    this.partList.replaceChildren();
+    this.partList.replaceChildren(h("option", { value: "" }, texts.parts));
+    this.jointBox.hidden = true;
     this.staleNote.hidden = true;
   }
 
@@ -133,25 +141,26 @@ export class MachinePane {
   }
 
   private listJoints(run: Run): void {
-    const joints = this.machine!.joints.filter(({ kind }) => anglesOf.has(kind) || lengthsOf.has(kind));
+    const isFree = (joint: string) => run.attribute(`/joints/${joint}`, "type") === "free";
+    const joints = Object.entries(this.scene?.joints ?? {}).flatMap(([joint, list]) => (isFree(joint) ? [] : list.map((c) => ({ joint, ...c }))));
     this.jointBox.hidden = joints.length === 0;
-    const names = joints.map(({ name, kind }) => `${name}:${kind}`).join();
+    const names = joints.map(({ joint, name, value }) => `${joint}.${name}:${value}`).join();
     if (names === this.jointNames) return;
     this.jointNames = names;
     const reach = Math.max(0.01, this.machine!.size);
     this.sliders.replaceChildren(
-      ...joints.flatMap(({ name, kind }) => {
-        const isAngle = anglesOf.has(kind);
-        const [low, high] = isAngle ? [-Math.PI, Math.PI] : [-reach, reach];
-        const start = run.number(`/joints/${name}`, "coordinate") ?? 0;
+      ...joints.flatMap(({ joint, name, unit, value: start }) => {
+        const isAngle = unit === "rad";
+        const half = isAngle ? Math.PI : reach;
+        const [low, high] = [start - half, start + half];
         const value = h("output", { class: "slider-value" });
         const say = (x: number) => (value.textContent = isAngle ? `${format((x * 180) / Math.PI, 3)}°` : `${format(1e3 * x, 3)} mm`);
-        const slider = h("input", { type: "range", min: low, max: high, step: (high - low) / 720, value: start, "aria-label": `${name}, ${isAngle ? "rotation" : "translation"}` });
+        const slider = h("input", { type: "range", min: low, max: high, step: (high - low) / 720, value: start, "aria-label": `${joint}, ${name}` });
         slider.addEventListener("input", () => {
           say(Number(slider.value));
-          this.moveTo({ joint: name, isAngle }, Number(slider.value));
+          this.moveTo({ joint, coordinate: name }, Number(slider.value));
         });
-        const reset = h("button", { type: "button", class: "quiet", "aria-label": `${name}: ${texts.jointReset}` }, "↺");
+        const reset = h("button", { type: "button", class: "quiet", "aria-label": `${joint}: ${texts.jointReset}` }, "↺");
         reset.addEventListener("click", () => {
           slider.value = String(start);
           say(start);
@@ -159,7 +168,7 @@ export class MachinePane {
           this.machine?.move(null);
         });
         say(start);
-        return [h("span", { class: "slider-name" }, name), slider, value, reset];
+        return [h("span", { class: "slider-name" }, joint), slider, value, reset];
       }),
     );
   }
@@ -173,12 +182,12 @@ export class MachinePane {
   private async ask(): Promise<void> {
     this.busy = true;
     while (this.wanted !== null && this.moving) {
-      const [{ joint }, value] = [this.moving, this.wanted];
+      const [coordinate, value] = [this.moving, this.wanted];
       this.wanted = null;
       const model = this.hooks.model();
       if (!model) break;
       try {
-        const { bodies } = await this.hooks.api.post<{ bodies: Record<string, Pose> }>("/api/move", { ...model, joint, value });
+        const { bodies } = await this.hooks.api.post<{ bodies: Record<string, Pose> }>("/api/move", { ...model, ...coordinate, value });
         this.machine?.move(bodies);
         this.hooks.say("");
       } catch (error) {

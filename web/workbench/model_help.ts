@@ -63,6 +63,9 @@ function complete(context: CompletionContext, helpers: ModelHelpers): Completion
   const root = readTree(text);
   const place = placeAt(root, text, context.pos);
   if (!place || (!context.explicit && place.written === "" && place.what === "key")) return null;
+  // In the midst of a value nothing is offered unasked.
+  const line = context.state.doc.lineAt(context.pos);
+  if (!context.explicit && /^\s*[^\s,}\]#]/.test(text.slice(context.pos, line.to))) return null;
   const options = place.what === "key" ? keyCompletions(schema, place.map, text) : valueCompletions(schema, place.node, root, text, place.written);
   if (options.length === 0) return null;
   return { from: place.from, options, validFor: place.what === "key" ? /^\w*$/ : /^[-\w. ]*$/ };

@@ -92,7 +92,7 @@ export class RunsPane {
       else this.compared.delete(run.id);
       this.compareButton.disabled = this.compared.size < 2;
     });
-    const pick = h("button", { type: "button", class: "run-name", click: () => this.hooks.chosen(run) }, this.name(run), " ", h("span", { class: "run-id" }, run.id));
+    const pick = h("button", { type: "button", class: "run-name", title: run.model, click: () => this.hooks.chosen(run) }, run.id);
     const isRunning = run.state === "running";
     const share = isRunning ? h("span", { class: "run-progress" }, h("progress", { max: 1, value: run.share ?? 0, "aria-label": texts.runOf(this.name(run), run.id) }), h("span", { class: "share" }, `${Math.round(100 * (run.share ?? 0))} %`)) : null;
     return h(
@@ -114,7 +114,7 @@ export class RunsPane {
 
   private async open(run: RunEntry): Promise<void> {
     const { url } = await this.hooks.api.post<{ url: string }>(`/api/runs/${path(run.id)}/report`);
-    this.hooks.openReport(`${this.name(run)} ${run.id}`, url);
+    this.hooks.openReport(run.id, url);
   }
 
   async openReportOf(run: RunEntry): Promise<void> {

@@ -28,49 +28,45 @@ export class Unwrapped {
   constructor(private readonly hooks: UnwrappedHooks) {}
 
   show(name: string, bearing: BearingScene | null): void {
-    const width = bearing?.width ?? 0;
-    if (!bearing || !(width > 0)) {
+    if (!bearing || bearing.grid.along.length < 2 || bearing.grid.across.length < 2) {
       this.element.replaceChildren();
       return;
     }
+    const { along: nodes, across: rows, closes } = bearing.grid;
+    const isPlane = bearing.along !== "phi";
+    const low = closes ? 0 : nodes[0]!;
+    const along = closes ? 2 * Math.PI : nodes[nodes.length - 1]! - low;
+    const bottom = rows[0]!;
+    const width = rows[rows.length - 1]! - bottom;
+    // The line that supplies it is a feature without extent around it.
+    const line: Feature[] = bearing.supply?.at === "angle" ? [{ name: texts.supply, kind: "line", phi: bearing.supply.phi, z: 0, arc: 0, length: 0, key: `bearings.${name}.supply.line` }] : [];
+    const all = [...bearing.features, ...line];
     const focused = (document.activeElement as Element | null)?.getAttribute?.("data-feature");
-    const isPlane = (bearing.length as number | undefined ?? 0) > 0 && !(bearing.radius && bearing.radius > 0);
-    const along = isPlane ? (bearing["length"] as number) : 2 * Math.PI;
-    const low = isPlane ? -along / 2 : 0;
     const x = (phi: number) => box.left + ((phi - low) / along) * box.width;
-    const y = (z: number) => box.top + (0.5 - z / width) * box.height;
+    const y = (z: number) => box.top + (1 - (z - bottom) / width) * box.height;
     const drawing = svg("svg", { viewBox: `0 0 ${box.left + box.width + 14} ${box.top + box.height + 40}`, role: "group", "aria-label": texts.unwrapped(name) });
     drawing.append(svg("rect", { class: "paper", x: box.left, y: box.top, width: box.width, height: box.height }));
-    this.drawGrid(drawing, bearing);
+    const lines = [...nodes.map((node) => `M${x(node)} ${box.top}v${box.height}`), ...rows.map((row) => `M${box.left} ${y(row)}h${box.width}`)];
+    drawing.append(svg("path", { class: "grid", d: lines.join("") }));
     for (let k = 0; k <= 4; k++) {
       const value = low + (k / 4) * along;
-      drawing.append(svg("text", { class: "tick", x: x(value), y: box.top + box.height + 15, "text-anchor": "middle" }, isPlane ? format(1e3 * value, 3) : `${90 * k}°`));
+      drawing.append(svg("text", { class: "tick", x: x(value), y: box.top + box.height + 15, "text-anchor": "middle" }, isPlane ? format(1e3 * value, 3) : `${format((180 / Math.PI) * value, 3)}°`));
     }
-    for (const share of [-0.5, 0, 0.5]) drawing.append(svg("text", { class: "tick", x: box.left - 6, y: y(share * width) + 4, "text-anchor": "end" }, format(1e3 * share * width, 3)));
-    drawing.append(svg("text", { class: "axis", x: box.left + box.width / 2, y: box.top + box.height + 33, "text-anchor": "middle" }, isPlane ? "x [mm]" : "bearing angle φ; z upwards [mm]"));
+    for (const share of [0, 0.5, 1]) drawing.append(svg("text", { class: "tick", x: box.left - 6, y: y(bottom + share * width) + 4, "text-anchor": "end" }, format(1e3 * (bottom + share * width), 3)));
+    drawing.append(svg("text", { class: "axis", x: box.left + box.width / 2, y: box.top + box.height + 33, "text-anchor": "middle" }, isPlane ? texts.axesOfPad(bearing.along, bearing.across) : texts.axesOfBore));
     const clip = svg("clipPath", { id: "unwrapped-clip" }, svg("rect", { x: box.left, y: box.top, width: box.width, height: box.height }));
     drawing.append(svg("defs", {}, clip));
-    for (const feature of bearing.features) drawing.append(this.draw(feature, along, width, x, y, isPlane));
+    for (const feature of all) drawing.append(this.draw(feature, along, width, x, y, isPlane));
     this.element.replaceChildren(drawing);
     if (focused) this.element.querySelector<SVGElement>(`[data-feature="${CSS.escape(focused)}"]`)?.focus();
   }
 
-  private drawGrid(drawing: SVGElement, { grid }: BearingScene): void {
-    if (!grid) return;
-    const lines: string[] = [];
-    const [n, m] = [grid.circumferential, grid.axial];
-    for (let i = 1; i < n && n <= 400; i++) lines.push(`M${box.left + (i / n) * box.width} ${box.top}v${box.height}`);
-    const cells = Math.max(1, m - 1);
-    for (let j = 1; j < cells && m <= 200; j++) lines.push(`M${box.left} ${box.top + (j / cells) * box.height}h${box.width}`);
-    drawing.append(svg("path", { class: "grid", d: lines.join("") }));
-  }
-
   private draw(feature: Feature, along: number, width: number, x: (phi: number) => number, y: (z: number) => number, isPlane: boolean): SVGElement {
-    const [w, t] = [(feature.arc / along) * box.width, ((feature.length || width) / width) * box.height];
+    const [w, t] = [(feature.arc / along) * box.width, ((feature.length || 4 * width) / width) * box.height];
     const key = feature.key ?? "";
-    const round = /hole|pocket|round|circle/.test(feature.kind) && feature.kind !== "groove";
+    const round = feature.kind === "hole";
     const place = isPlane ? `${format(1e3 * feature.phi, 3)} mm` : `${format((feature.phi * 180) / Math.PI, 4)}°`;
-    const group = svg("g", { class: `feature ${feature.kind}`, "clip-path": "url(#unwrapped-clip)" });
+    const group = svg("g", { class: `feature ${feature.kind} ${feature.surface ?? "fixed"}`, "clip-path": "url(#unwrapped-clip)" });
     const handle = svg("g", { class: key ? "handle" : "", "data-feature": feature.name, ...(key ? { tabindex: 0, role: "button", "aria-label": `${feature.name}, ${feature.kind}, at ${place}, z ${format(1e3 * feature.z, 3)} mm` } : {}) });
     const turn = isPlane ? [0] : [-along, 0, along];
     for (const shift of turn) {
@@ -78,7 +74,7 @@ export class Unwrapped {
       if (feature.arc === 0) handle.append(svg("path", { class: "line", d: `M${cx} ${cy - t / 2}v${t}` }), svg("path", { class: "touch", d: `M${cx} ${cy - t / 2}v${t}` }));
       else if (round) handle.append(svg("ellipse", { cx, cy, rx: Math.max(3, w / 2), ry: Math.max(3, t / 2) }));
       else handle.append(svg("rect", { x: cx - Math.max(2, w / 2), y: cy - t / 2, width: Math.max(4, w), height: t, rx: 1.5 }));
-      if (shift === 0) handle.append(svg("text", { class: "feature-name", x: Math.min(box.left + box.width - 4, Math.max(box.left + 4, cx)), y: Math.max(box.top + 12, cy - t / 2 - 4), "text-anchor": cx > box.left + box.width - 60 ? "end" : cx < box.left + 60 ? "start" : "middle" }, feature.name));
+      if (shift === 0) handle.append(svg("text", { class: "feature-name", x: Math.min(box.left + box.width - 4, Math.max(box.left + 4, cx)), y: Math.max(box.top + 13, cy - t / 2 - 4), "text-anchor": cx > box.left + box.width - 60 ? "end" : cx < box.left + 60 ? "start" : "middle" }, feature.name));
     }
     group.append(handle);
     if (key) this.followHand(handle, feature, along, width);

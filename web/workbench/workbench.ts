@@ -183,7 +183,7 @@ export class Workbench {
         { class: "splitters", "aria-label": texts.panes.sizes },
         splitter(root, "--left", texts.splitters.left, "right", size("left", Math.min(320, Math.max(200, 0.17 * w))), remember("left")),
         splitter(root, "--right", texts.splitters.right, "left", size("right", Math.max(380, 0.36 * w)), remember("right")),
-        splitter(root, "--below", texts.splitters.below, "up", size("below", Math.max(190, 0.29 * hgt)), remember("below")),
+        splitter(root, "--below", texts.splitters.below, "up", size("below", Math.max(215, 0.3 * hgt)), remember("below")),
       ),
       h("nav", { class: "pane left", "aria-label": texts.panes.left, tabindex: -1 }, group(texts.files, this.fileList), group(texts.runs, this.runs.element), group(texts.outline, this.outline.element)),
       h("main", { class: "pane middle", "aria-label": texts.panes.middle, tabindex: -1 }, this.documentBar, this.documentArea),
@@ -342,7 +342,7 @@ export class Workbench {
     this.drawDocumentBar();
     this.drawFiles();
     const shown = this.editor.documents.get(this.active);
-    this.outline.show(shown?.isModel ? shown.tree : null);
+    this.outline.show((shown ?? this.model)?.isModel ? (shown ?? this.model)!.tree : null);
     this.saveButton.disabled = !shown?.isDirty;
   }
 
@@ -656,6 +656,7 @@ export class Workbench {
   private goToOffset(at: number, focus = true): void {
     const document = this.editor.active;
     if (!document) return;
+    if (this.active !== document.path) this.activate(document.path);
     const line = document.state.doc.lineAt(Math.min(at, document.state.doc.length));
     this.editor.goTo(line.number, at - line.from + 1, focus);
   }
