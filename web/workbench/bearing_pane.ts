@@ -74,7 +74,9 @@ export class BearingPane {
     this.note.hidden = false;
   }
 
-  private draw(): void {
+  /** Once it comes into sight: what nobody sees takes no time. */
+  draw(): void {
+    if (this.element.hidden) return;
     const name = this.choice.value;
     this.unwrapped.show(name, this.bearings[name] ?? null);
     const { schema, tree, text } = this.last ?? {};

@@ -145,14 +145,14 @@ export class LivePane {
     }
     const x: number[] = [];
     // As high as the pane leaves room: title, legend and scroll bar stand beside.
-    const height = Math.max(110, this.element.clientHeight - 70);
+    const height = Math.max(110, this.element.clientHeight - 48);
     const line = (name: string, label: string, unit: string) => new LinePlot({ name, x: { label: texts.time, unit: "ms", values: x }, left: { label: texts.short[name as "h_min" | "p_max"], unit, fromZero: true }, curves: [{ label, unit, y: [] }], height });
     const orbit = { time: new Float64Array(), x: new Float64Array(), y: new Float64Array(), force: null, clearance: 1 };
     this.drawn = { x, thickness: line("h_min", texts.hMin, "µm"), pressure: line("p_max", texts.pMax, "MPa"), orbit: new Orbit(orbit), path: orbit };
     this.plots.replaceChildren(
       h("div", { class: "live-plot", "data-plot": "h_min" }, this.drawn.thickness.element),
       h("div", { class: "live-plot", "data-plot": "p_max" }, this.drawn.pressure.element),
-      h("div", { class: "live-plot live-orbit", "data-plot": "orbit", style: `max-width: ${height + 20}px` }, this.drawn.orbit.element),
+      h("div", { class: "live-plot live-orbit", "data-plot": "orbit", style: `max-width: ${height}px` }, this.drawn.orbit.element),
     );
     this.redraw();
   }

@@ -40,6 +40,7 @@ export class MachinePane {
   private readonly cutPlace = h("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, hidden: true, "aria-label": texts.sectionPlace });
   private machine: WorkbenchMachine | null = null;
   private scene: SceneText | null = null;
+  private look = "";
   private jointNames = "";
   private moving: Coordinate | null = null;
   private wanted: number | null = null;
@@ -87,7 +88,12 @@ export class MachinePane {
     this.staleNote.hidden = scene !== null ? !scene.open : this.scene === null;
     this.staleNote.textContent = scene?.open || texts.stale;
     if (!scene) return;
+    // Comments and settings change nothing of the picture.
+    const look = JSON.stringify([scene.attributes, scene.datasets]);
+    const isSame = this.machine !== null && look === this.look;
     this.scene = scene;
+    this.look = look;
+    if (isSame) return;
     const run = new Run(scene);
     if (this.machine) this.machine.take(run);
     else {

@@ -92,7 +92,7 @@ export class RunsPane {
       else this.compared.delete(run.id);
       this.compareButton.disabled = this.compared.size < 2;
     });
-    const pick = h("button", { type: "button", class: "run-name", title: run.model, click: () => this.hooks.chosen(run) }, run.id);
+    const pick = h("button", { type: "button", class: "run-name", title: `${run.model}, ${run.id}`, click: () => this.hooks.chosen(run) }, `${this.name(run)} ${/\d+$/.exec(run.id)?.[0] ?? ""}`);
     const isRunning = run.state === "running";
     const share = isRunning ? h("span", { class: "run-progress" }, h("progress", { max: 1, value: run.share ?? 0, "aria-label": texts.runOf(this.name(run), run.id) }), h("span", { class: "share" }, `${Math.round(100 * (run.share ?? 0))} %`)) : null;
     return h(

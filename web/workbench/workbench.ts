@@ -49,7 +49,7 @@ const startFaults = new WeakSet<Fault>();
 const isOfStart = (fault: Fault) => startFaults.has(fault);
 
 /** Pause of typing before a text is checked [ms]. */
-const pause = 60;
+const pause = 45;
 /** Pause before everything open is remembered [ms]. */
 const rememberPause = 400;
 
@@ -114,7 +114,7 @@ export class Workbench {
     this.machine = new MachinePane({ api, model: text, chosen: (part) => this.goToPart(part), say });
     const set = (key: string, value: string | null) => this.setValue(key, value);
     this.bearing = new BearingPane({ set, goToKey: (key) => this.goToKey(key), chosen: (name) => (this.machine.highlight(`/bearings/${name}`), this.point.refresh()) });
-    this.point = new PointPane(api, text, { name: () => this.bearing.name });
+    this.point = new PointPane(api, () => (this.model ? { ...text()!, tree: this.model.tree } : null), () => this.bearing.name);
     this.problems = new ProblemList((fault) => this.goToFault(fault), (edits) => this.repair(edits));
     this.live = new LivePane(api, (bearing) => this.machine.run?.number(`/bearings/${bearing}`, "radial_clearance"));
     this.runs = new RunsPane({ api, say, chosen: (run) => void this.showRun(run), openReport: (title, url) => this.openReport(title, url), changed: () => this.runsChanged() });
@@ -125,6 +125,7 @@ export class Workbench {
       { key: "point", label: texts.point, content: this.point.element },
     ], (key) => {
       if (key === "point") setTimeout(() => this.point.refresh());
+      if (key === "bearing") this.bearing?.draw();
       this.rememberSoon();
     });
     this.below = new Tabs(texts.panes.below, [
@@ -604,7 +605,7 @@ export class Workbench {
     if (!document) return;
     const { doc } = document.state;
     try {
-      const { text } = await this.api.post<{ text: string; edits?: Edit[] }>("/api/set_value", { path: document.path, text: doc.toString(), key, value });
+      const { text } = await this.api.post<{ text: string; edits?: Edit[] }>("/api/set", { path: document.path, text: doc.toString(), key, value });
       if (document.state.doc !== doc) return;
       this.editor.replace(document, text);
       this.checkNow();
@@ -778,7 +779,7 @@ export class Workbench {
     if (!words) return;
     const line = h("p", { class: "notice passing" }, words, h("button", { type: "button", class: "quiet", "aria-label": texts.dismiss, click: () => line.remove() }, "✕"));
     this.notices.append(line);
-    setTimeout(() => line.remove(), 6000);
+    setTimeout(() => line.remove(), 4500);
   }
 
   /** A word that stays until its matter is settled. */
