@@ -57,9 +57,14 @@ export class WorkbenchMachine extends MachineView {
     this.bounds = this.boundingSphere();
     this.poses = null;
     if (!this.renderer) return;
-    this.release();
+    const old = this.meshes();
     this.build();
     this.place();
+    // Not before the new ones are drawn: shaders that nothing uses would have to be made again.
+    for (const mesh of old) {
+      mesh.geometry.dispose();
+      for (const paint of [mesh.material].flat()) paint.dispose();
+    }
     if (this.bounds.radius > 2 * size || this.bounds.radius < 0.5 * size) this.reset();
   }
 
@@ -122,13 +127,10 @@ export class WorkbenchMachine extends MachineView {
     return (small ?? nearest).object.userData["part"] as string;
   }
 
-  private release(): void {
-    for (const group of this.groups.values())
-      group.traverse((object: Object3D) => {
-        if (!(object instanceof Mesh)) return;
-        object.geometry.dispose();
-        for (const paint of [object.material].flat()) paint.dispose();
-      });
+  private meshes(): Mesh[] {
+    const found: Mesh[] = [];
+    for (const group of this.groups.values()) group.traverse((object: Object3D) => object instanceof Mesh && found.push(object));
+    return found;
   }
 
   /** What `add` puts into the scene belongs to a part. */
