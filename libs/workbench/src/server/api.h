@@ -26,8 +26,7 @@ class Api {
         events_(events),
         open_(std::move(open)),
         stop_(stop),
-        answers_(folder.path()),
-        schema_(answers_.schema()) {}
+        answers_(folder.path()) {}
 
   [[nodiscard]] Reply handle(const Request& request);
 
@@ -36,7 +35,7 @@ class Api {
   [[nodiscard]] Reply hello() const;
   [[nodiscard]] Reply files() const;
   [[nodiscard]] Reply file(const Request& request);
-  [[nodiscard]] Reply event_stream(const Request& request) const;
+  [[nodiscard]] Reply event_stream(const Request& request);
   [[nodiscard]] Reply run_list() const;
   [[nodiscard]] Reply of_run(const Request& request);
   [[nodiscard]] Reply report(const std::vector<std::string>& ids);
@@ -48,7 +47,9 @@ class Api {
   std::string open_;
   const std::atomic<bool>& stop_;
   Answers answers_;
+  std::once_flag schema_made_;
   std::string schema_;
+  std::atomic<int> streams_ = 0;  // of events
   std::mutex tickets_mutex_;
   std::deque<std::pair<std::string, std::filesystem::path>> tickets_;  // of reports, the oldest first
 };
