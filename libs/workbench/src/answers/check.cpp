@@ -6,6 +6,7 @@
 #include "answers/kept.h"
 #include "answers/repairs.h"
 #include "answers/request.h"
+#include "answers/scene.h"
 #include "hersey/model/read.h"
 #include "hersey/model/study.h"
 #include "hersey/model/text_map.h"
@@ -123,6 +124,14 @@ Findings examine(const std::string& text, const std::string& file, const std::ve
   return found;
 }
 
+std::string scene_of(const model::Model& model, const TextMap& map, const TextColumns& columns) {
+  try {
+    return scene_json(model, run::Picture(model), map, columns);
+  } catch (const InputError&) {
+    return "null";  // no mechanism: the faults say why
+  }
+}
+
 }  // namespace
 
 std::string Answers::check(std::string_view request) const {
@@ -148,10 +157,12 @@ std::string Answers::check(std::string_view request) const {
       answer["parameters"][parameter.name] = parameter.text;
   answer["missing"] = found.model ? missing_of_model(*found.model) : missing_of_faults(found.faults);
   answer["outline"] = map ? outline_of(*map, columns) : Json::array();
-  answer["scene"] = nullptr;
   answer["depth"] = depth;
+  const std::string scene = found.model && map ? scene_of(*found.model, *map, columns) : "null";
   answer["time"] = std::chrono::duration<double>(Clock::now() - began).count();
-  return dumped(answer);
+  std::string whole = dumped(answer);
+  whole.back() = ',';
+  return whole + "\"scene\":" + scene + "}";
 }
 
 }  // namespace hersey::workbench
