@@ -59,7 +59,7 @@ RunEvents::RunEvents(const std::filesystem::path& file) {
   if (fd_ < 0) refuse(" cannot be written");
   // Appended to a model or a table, events would ruin it.
   std::array<char, kBeginning.size()> first{};
-  const ssize_t got = ::pread(fd_, first.data(), first.size(), 0);
+  const ssize_t got = std::filesystem::is_regular_file(file, ignored) ? ::pread(fd_, first.data(), first.size(), 0) : 0;
   if (got > 0 && std::string_view(first.data(), static_cast<std::size_t>(got)) != kBeginning)
     refuse(" exists and is no file of events");
 }

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "events/event_log.h"
 #include "folder/folder.h"
 #include "hersey/workbench/answers.h"
 #include "runs/runs.h"
-#include "server/event_log.h"
 #include "server/exchange.h"
 
 namespace hersey::workbench {
@@ -21,12 +21,7 @@ class Api {
  public:
   /// @param open  model that the page opens, relative to the folder; empty: none
   Api(Folder& folder, Runs& runs, EventLog& events, std::string open, const std::atomic<bool>& stop)
-      : folder_(folder),
-        runs_(runs),
-        events_(events),
-        open_(std::move(open)),
-        stop_(stop),
-        answers_(folder.path()) {}
+      : folder_(folder), runs_(runs), events_(events), open_(std::move(open)), stop_(stop), answers_(folder.path()) {}
 
   [[nodiscard]] Reply handle(const Request& request);
 

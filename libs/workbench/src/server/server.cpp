@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "events/event_log.h"
 #include "folder/folder.h"
 #include "folder/watch.h"
 #include "server/api.h"
-#include "server/event_log.h"
 #include "server/guard.h"
 #include "server/http_server.h"
 
