@@ -59,7 +59,7 @@ RunEvents::RunEvents(const std::filesystem::path& file) {
   if (fd_ < 0) refuse(" cannot be written");
   // Appended to a model or a table, events would ruin it.
   std::array<char, kBeginning.size()> first{};
-  const ssize_t got = ::pread(fd_, first.data(), first.size(), 0);
+  const ssize_t got = std::filesystem::is_regular_file(file, ignored) ? ::pread(fd_, first.data(), first.size(), 0) : 0;
   if (got > 0 && std::string_view(first.data(), static_cast<std::size_t>(got)) != kBeginning)
     refuse(" exists and is no file of events");
 }
@@ -95,7 +95,8 @@ void RunEvents::stepped(std::size_t run, const run::Progress& progress) {
   constexpr double kPauseShare = 1e-4;  // 20,000 lines in the first hour, 30,000 more up to a day
   const Clock::time_point now = Clock::now();
   const double pause = std::max(kLeastPause, kPauseShare * progress.elapsed);
-  if (std::chrono::duration<double>(now - last_step_).count() < pause) return;
+  const bool is_last = progress.t_end - progress.t < 0.5 * progress.dt;
+  if (!is_last && std::chrono::duration<double>(now - last_step_).count() < pause) return;
   last_step_ = now;
   t_ = progress.t;
   const double span = progress.t_end - progress.t_start;

@@ -87,6 +87,11 @@ std::vector<std::string> texts_in(const json& object, const char* key) {
   return texts;
 }
 
+bool flag_in(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_boolean() && found->get<bool>();
+}
+
 ProcessId process_in(const json& record) {
   const auto found = record.find("process");
   if (found == record.end() || !found->is_object()) return {};
@@ -174,7 +179,7 @@ RunEntry Runs::entry_of(const std::string& id) const {
   run.model = text_in(record, "model");
   run.overrides = texts_in(record, "set");
   run.started = number_in(record, "started");
-  run.is_study = record.is_object() && record.value("study", false);
+  run.is_study = flag_in(record, "study");
   run.process = process_in(record);
   const Course course = course_of(folder / "events.ndjson");
   run.share = course.share, run.message = course.message, run.ended = course.ended;
@@ -277,7 +282,7 @@ std::string Runs::start(const json& request) {
     if (error) cannot_make(runs / next, error);
   }
   json record{{"version", version()}, {"model", path}, {"set", overrides}, {"started", now()}};
-  if (request.value("study", false))
+  if (flag_in(request, "study"))
     record["study"] = true, record["on"] = text_in(request, "on") == "slurm" ? "slurm" : "local";
   write_record(runs / id / "model.txt", model.text);
   launch(id, std::move(record), false);
@@ -286,7 +291,7 @@ std::string Runs::start(const json& request) {
 
 void Runs::launch(const std::string& id, json record, bool resumes) {
   const Path folder = folder_.path() / "runs" / id;
-  const bool is_study = record.value("study", false);
+  const bool is_study = flag_in(record, "study");
   const Path model = folder_.resolve(text_in(record, "model"));
   std::vector<std::string> words{program_.string(), is_study ? "study" : "run", model.string(), "--output",
                                  folder.string()};

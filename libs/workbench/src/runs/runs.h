@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "events/event_log.h"
 #include "folder/folder.h"
 #include "runs/process.h"
-#include "server/event_log.h"
 
 namespace hersey::workbench {
 

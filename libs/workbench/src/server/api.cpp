@@ -98,7 +98,10 @@ Reply Api::route(const Request& request) {
   if (call == "GET files") return files();
   if (call == "GET file" || call == "PUT file") return file(request);
   if (call == "GET events") return event_stream(request);
-  if (call == "GET schema") return {.body = schema_};
+  if (call == "GET schema") {
+    std::call_once(schema_made_, [this] { schema_ = answers_.schema(); });
+    return {.body = schema_};
+  }
   if (call == "GET templates") return {.body = answers_.templates()};
   const auto ask = [&](std::string (Answers::*question)(std::string_view) const) -> Reply {
     return {.body = (answers_.*question)(request.body)};
@@ -209,7 +212,7 @@ Reply Api::file(const Request& request) {
   return {.status = 204, .headers = {{"ETag", etag}}};
 }
 
-Reply Api::event_stream(const Request& request) const {
+Reply Api::event_stream(const Request& request) {
   const std::string after = request.value("after");
   std::uint64_t number = events_.last();
   if (!after.empty()) {
@@ -217,11 +220,19 @@ Reply Api::event_stream(const Request& request) const {
     if (error != std::errc{} || end != after.data() + after.size())
       throw Refused(400, "after is no number", "reload the page");
   }
+  // Streams stay open: they must not take all the connections there are.
+  constexpr int kMostStreams = 32;
   struct Progress {
+    explicit Progress(std::uint64_t first, std::atomic<int>& open) : number(first), streams(open) { ++streams; }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    ~Progress() { --streams; }
     std::uint64_t number;
     std::chrono::steady_clock::time_point said = {};
+    std::atomic<int>& streams;
   };
-  const auto progress = std::make_shared<Progress>(Progress{number});
+  const auto progress = std::make_shared<Progress>(number, streams_);
+  if (streams_ > kMostStreams) throw Refused(503, "too many pages follow this folder", "close some of them");
   Reply reply{.type = "text/event-stream"};
   reply.stream = [this, progress](const StreamWriter& write) {
     using namespace std::chrono_literals;

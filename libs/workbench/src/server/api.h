@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "events/event_log.h"
 #include "folder/folder.h"
 #include "hersey/workbench/answers.h"
 #include "runs/runs.h"
-#include "server/event_log.h"
 #include "server/exchange.h"
 
 namespace hersey::workbench {
@@ -21,13 +21,7 @@ class Api {
  public:
   /// @param open  model that the page opens, relative to the folder; empty: none
   Api(Folder& folder, Runs& runs, EventLog& events, std::string open, const std::atomic<bool>& stop)
-      : folder_(folder),
-        runs_(runs),
-        events_(events),
-        open_(std::move(open)),
-        stop_(stop),
-        answers_(folder.path()),
-        schema_(answers_.schema()) {}
+      : folder_(folder), runs_(runs), events_(events), open_(std::move(open)), stop_(stop), answers_(folder.path()) {}
 
   [[nodiscard]] Reply handle(const Request& request);
 
@@ -36,7 +30,7 @@ class Api {
   [[nodiscard]] Reply hello() const;
   [[nodiscard]] Reply files() const;
   [[nodiscard]] Reply file(const Request& request);
-  [[nodiscard]] Reply event_stream(const Request& request) const;
+  [[nodiscard]] Reply event_stream(const Request& request);
   [[nodiscard]] Reply run_list() const;
   [[nodiscard]] Reply of_run(const Request& request);
   [[nodiscard]] Reply report(const std::vector<std::string>& ids);
@@ -48,7 +42,9 @@ class Api {
   std::string open_;
   const std::atomic<bool>& stop_;
   Answers answers_;
+  std::once_flag schema_made_;
   std::string schema_;
+  std::atomic<int> streams_ = 0;  // of events
   std::mutex tickets_mutex_;
   std::deque<std::pair<std::string, std::filesystem::path>> tickets_;  // of reports, the oldest first
 };

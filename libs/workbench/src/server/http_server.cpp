@@ -75,8 +75,12 @@ class Connection : public httplib::Stream {
 
   /// True while no complete request has been received: the connection can be closed without losing anything.
   [[nodiscard]] bool is_at_rest() const { return in_head_; }
+  [[nodiscard]] bool is_closing() const { return is_closing_; }
   [[nodiscard]] Clock::time_point at_rest_since() const { return at_rest_since_; }
-  void close_early() const { ::shutdown(socket_, SHUT_RDWR); }
+  void close_early() {
+    is_closing_ = true;
+    ::shutdown(socket_, SHUT_RDWR);
+  }
   /// No further request of this connection is read.
   void close_after_reply() { closes_ = true; }
   [[nodiscard]] bool closes() const { return closes_; }
@@ -89,10 +93,10 @@ class Connection : public httplib::Stream {
   }
 
   ssize_t read(char* data, size_t size) override {
-    if (begin_ == end_ && !fill()) return -1;
+    if (begin_ == end_ && !fill()) return give_up();
     std::size_t most = std::min(size, end_ - begin_);
     if (in_head_) {
-      if (head_bytes_ >= kMostHead) return -1;
+      if (head_bytes_ >= kMostHead) return give_up();
       most = std::min(most, kMostHead - head_bytes_);
       head_bytes_ += most;
     }
@@ -111,6 +115,12 @@ class Connection : public httplib::Stream {
   socket_t socket() const override { return socket_; }
 
  private:
+  /// What follows a request that has not been read to its end is no request.
+  ssize_t give_up() {
+    closes_ = true;
+    return -1;
+  }
+
   [[nodiscard]] bool is_ready(short event, Clock::duration patience) const {
     pollfd entry{socket_, event, 0};
     const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(patience).count();
@@ -133,6 +143,7 @@ class Connection : public httplib::Stream {
   Clock::time_point deadline_;
   std::atomic<Clock::time_point> at_rest_since_ = Clock::now();
   std::atomic<bool> in_head_ = true;
+  std::atomic<bool> is_closing_ = false;
   bool closes_ = false;
   std::size_t head_bytes_ = 0;
   std::array<char, 16384> buffer_{};
@@ -153,16 +164,19 @@ class Connections {
   /// Closes the connection that has been without a request for longest, where there are as many as may be.
   void make_room() {
     const std::lock_guard lock(mutex_);
-    if (open_.size() < kMostConnections) return;
+    const auto staying =
+        std::count_if(open_.begin(), open_.end(), [](const Connection* c) { return !c->is_closing(); });
+    if (static_cast<std::size_t>(staying) < kMostConnections) return;
     Connection* oldest = nullptr;
     for (Connection* connection : open_)
-      if (connection->is_at_rest() && (oldest == nullptr || connection->at_rest_since() < oldest->at_rest_since()))
+      if (!connection->is_closing() && connection->is_at_rest() &&
+          (oldest == nullptr || connection->at_rest_since() < oldest->at_rest_since()))
         oldest = connection;
     if (oldest != nullptr) oldest->close_early();
   }
   void close_all() {
     const std::lock_guard lock(mutex_);
-    for (const Connection* connection : open_) connection->close_early();
+    for (Connection* connection : open_) connection->close_early();
   }
 
  private:
@@ -183,15 +197,17 @@ class Threads : public httplib::TaskQueue {
   void enqueue(std::function<void()> task) override {
     connections_.make_room();
     {
-      const std::lock_guard lock(mutex_);
-      if (count_ < kMostThreads) {
+      std::unique_lock lock(mutex_);
+      // Those that make room take a moment to end.
+      constexpr auto kPatience = std::chrono::milliseconds(500);
+      if (ended_.wait_for(lock, kPatience, [&] { return count_ < kMostThreads; })) {
         ++count_;
         try {
           std::thread([this, task] {
             task();
             const std::lock_guard ending(mutex_);
             --count_;
-            all_ended_.notify_all();
+            ended_.notify_all();
           }).detach();
           return;
         } catch (const std::system_error&) {
@@ -207,13 +223,13 @@ class Threads : public httplib::TaskQueue {
   void shutdown() override {
     connections_.close_all();
     std::unique_lock lock(mutex_);
-    all_ended_.wait(lock, [&] { return count_ == 0; });
+    ended_.wait(lock, [&] { return count_ == 0; });
   }
 
  private:
   Connections& connections_;
   std::mutex mutex_;
-  std::condition_variable all_ended_;
+  std::condition_variable ended_;
   std::size_t count_ = 0;
 };
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "events/event_log.h"
 #include "folder/folder.h"
 #include "folder/watch.h"
 #include "server/api.h"
-#include "server/event_log.h"
 #include "server/guard.h"
 #include "server/http_server.h"
 
@@ -35,7 +35,11 @@ class Server::Impl {
   [[nodiscard]] std::string address() const { return fmt::format("http://127.0.0.1:{}/#token={}", port_, token_); }
 
   void serve(const std::atomic<bool>& stop) {
-    std::thread listening([&] { http_.listen(); });
+    std::atomic<bool> has_ended = false;
+    std::thread listening([&] {
+      http_.listen();
+      has_ended = true;
+    });
     Watch watch(folder_);
     constexpr std::chrono::milliseconds kTick{50};  // so long an event of a run waits at most
     constexpr int kTicksPerLook = 10;
@@ -47,7 +51,11 @@ class Server::Impl {
         events_.add("files", nlohmann::json{{"paths", paths}}.dump());
     }
     ends_ = true;
-    http_.stop();
+    // A stop before it has begun to listen has no effect.
+    while (!has_ended) {
+      http_.stop();
+      std::this_thread::sleep_for(kTick);
+    }
     listening.join();
   }
 

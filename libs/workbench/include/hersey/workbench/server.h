@@ -30,6 +30,7 @@ class Server {
   Server& operator=(const Server&) = delete;
   ~Server();
 
+  /// Port on the loopback address.
   [[nodiscard]] int port() const;
   /// Address with the token in its fragment, which browsers do not send.
   [[nodiscard]] std::string address() const;

@@ -1,4 +1,4 @@
-#include "server/event_log.h"
+#include "events/event_log.h"
 
 #include <chrono>
 
