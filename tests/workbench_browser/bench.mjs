@@ -19,10 +19,11 @@ export function launch() {
   return require("playwright-core").chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: flags });
 }
 
-/** A folder with the slider-crank, its table, and a bearing by itself. */
+/** A folder with the slider-crank, its table, a four-bar linkage, and a bearing by itself. */
 export function folderOfModels() {
   const folder = mkdtempSync(join(tmpdir(), "hersey-workbench-"));
   for (const name of ["model.yaml", "gas_pressure.csv"]) cpSync(join(root, "examples/slider_crank", name), join(folder, name));
+  cpSync(join(root, "examples/four_bar/model.yaml"), join(folder, "four_bar.yaml"));
   cpSync(join(root, "examples/bearing_alone/model.yaml"), join(folder, "bearing.yaml"));
   mkdirSync(join(folder, "notes"));
   return folder;
@@ -106,6 +107,15 @@ export const textOf = (page) =>
     const content = document.querySelector(".cm-content");
     return (content.cmTile ?? content.cmView).view.state.doc.toString();
   });
+
+/** Waits until the text has some words, or no longer has them. */
+export async function says(page, words, has = true) {
+  for (let i = 0; i < 160; i++) {
+    if ((await textOf(page)).includes(words) === has) return;
+    await page.waitForTimeout(50);
+  }
+  throw new Error(`the text ${has ? "does not say" : "still says"} ${words}`);
+}
 
 /** What the top bar says of the model, once it begins so. */
 export const state = (page, words) => page.locator(".check-state", { hasText: words }).waitFor();

@@ -3,7 +3,7 @@
 import type { Api, RunEntry, RunEvent } from "./api";
 import { h } from "../src/dom";
 import { LinePlot } from "../src/line_plot";
-import { Orbit } from "../src/orbit";
+import { Orbit, type OrbitData } from "../src/orbit";
 import { path } from "./runs_pane";
 import { texts } from "./texts";
 
@@ -34,6 +34,20 @@ class Course {
     };
     keep(this.time);
     for (const b of this.bearings.values()) [b.h_min, b.p_max, b.x, b.y].forEach(keep);
+  }
+}
+
+/** As high as the plots beside it. */
+class LowOrbit extends Orbit {
+  constructor(
+    data: OrbitData,
+    private readonly low: number,
+  ) {
+    super(data);
+  }
+
+  protected override heightFor(): number {
+    return this.low ?? 150;
   }
 }
 
@@ -148,11 +162,11 @@ export class LivePane {
     const height = Math.max(110, this.element.clientHeight - 48);
     const line = (name: string, label: string, unit: string) => new LinePlot({ name, x: { label: texts.time, unit: "ms", values: x }, left: { label: texts.short[name as "h_min" | "p_max"], unit, fromZero: true }, curves: [{ label, unit, y: [] }], height });
     const orbit = { time: new Float64Array(), x: new Float64Array(), y: new Float64Array(), force: null, clearance: 1 };
-    this.drawn = { x, thickness: line("h_min", texts.hMin, "µm"), pressure: line("p_max", texts.pMax, "MPa"), orbit: new Orbit(orbit), path: orbit };
+    this.drawn = { x, thickness: line("h_min", texts.hMin, "µm"), pressure: line("p_max", texts.pMax, "MPa"), orbit: new LowOrbit(orbit, height + 6), path: orbit };
     this.plots.replaceChildren(
       h("div", { class: "live-plot", "data-plot": "h_min" }, this.drawn.thickness.element),
       h("div", { class: "live-plot", "data-plot": "p_max" }, this.drawn.pressure.element),
-      h("div", { class: "live-plot live-orbit", "data-plot": "orbit", style: `max-width: ${height}px` }, this.drawn.orbit.element),
+      h("div", { class: "live-plot live-orbit", "data-plot": "orbit" }, this.drawn.orbit.element),
     );
     this.redraw();
   }

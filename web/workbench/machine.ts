@@ -17,10 +17,14 @@ export class WorkbenchMachine extends MachineView {
   private poses: Map<string, Matrix4> | null = null;
   private cut: number | null = null;
   private framesShown = false;
+  private isTurned = false;
 
   /** @param pick  called with the part that was clicked, such as /bodies/rod; null beside them all */
   constructor(run: Run, pick: (part: string | null) => void) {
     super(new MachineGeometry(run));
+    // Who has turned the machine keeps the view; else it fits into every size of the pane.
+    new ResizeObserver(() => this.controls && !this.isTurned && this.reset()).observe(this.holder);
+    for (const kind of ["pointerdown", "wheel", "keydown"]) this.holder.addEventListener(kind, () => (this.isTurned = true), { passive: true });
     let down: [number, number] | null = null;
     this.holder.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
     this.holder.addEventListener("pointerup", (event) => {
@@ -66,6 +70,11 @@ export class WorkbenchMachine extends MachineView {
       for (const paint of [mesh.material].flat()) paint.dispose();
     }
     if (this.bounds.radius > 2 * size || this.bounds.radius < 0.5 * size) this.reset();
+  }
+
+  resetByHand(): void {
+    this.isTurned = false;
+    this.reset();
   }
 
   reset(): void {

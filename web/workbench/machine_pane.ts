@@ -61,7 +61,7 @@ export class MachinePane {
       frames.setAttribute("aria-pressed", String(on));
       this.machine?.showFrames(on);
     });
-    const reset = h("button", { type: "button", class: "quiet", click: () => this.machine?.reset() }, texts.resetView);
+    const reset = h("button", { type: "button", class: "quiet", click: () => this.machine?.resetByHand() }, texts.resetView);
     this.partList.append(h("option", { value: "" }, texts.parts));
     this.jointBox.hidden = true;
     this.partList.addEventListener("change", () => this.partList.value && this.pick(this.partList.value));

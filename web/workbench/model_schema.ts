@@ -157,7 +157,7 @@ export class ModelSchema {
     const schemas = this.schemasOf(node, text);
     if (!own && schemas.length === 0) return null;
     const described = own ? this.describe(node.key, own) : null;
-    const kinds = [...new Set(schemas.flatMap((s) => (s.const !== undefined ? [`${s.const}${s.description ? `: ${s.description}` : ""}`] : s.description && s.description !== described?.description ? [s.description] : [])))];
+    const kinds = [...new Set(schemas.flatMap((s) => (s.const === 0 ? [] : s.const !== undefined ? [`${s.const}${s.description ? `: ${s.description}` : ""}`] : s.description && s.description !== described?.description ? [s.description] : [])))];
     return { title: node.key, description: described?.description ?? "", kinds: kinds.slice(0, 12), default: described?.default ?? "" };
   }
 

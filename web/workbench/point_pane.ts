@@ -120,8 +120,10 @@ export class PointPane {
       if (!model || !this.bearing) break;
       // A bearing of a machine may have no operating point of its own.
       const hasPoint = find(model.tree, ["bearings", this.bearing, "operating_point"]) !== undefined || find(model.tree, ["use"]) !== undefined;
-      const isSet = ({ key }: Knob) => this.touched.has(key) || (!hasPoint && (key === "load" || key === "speed"));
-      const set = knobs.filter(isSet).map((knob) => `${knob.key}=${Number(this.current(knob).toPrecision(5))} ${knob.unit}`);
+      const written = (knob: Knob) => `${Number(this.current(knob).toPrecision(5))} ${knob.unit}`;
+      const ofPoint = (knob: Knob) => knob.key === "load" || knob.key === "speed";
+      const set = knobs.filter((knob) => this.touched.has(knob.key) && (hasPoint || !ofPoint(knob))).map((knob) => `${knob.key}=${written(knob)}`);
+      if (!hasPoint) set.unshift(`bearings.${this.bearing}.operating_point={journal_speed: ${written(knobs[1]!)}, load: ${written(knobs[0]!)}}`);
       const begun = performance.now();
       try {
         const answer = await this.api.post<Answer>("/api/bearing", { path: model.path, text: model.text, bearing: this.bearing, set, fields: ["pressure"], ...(this.previous ? { previous: this.previous } : {}) });

@@ -36,6 +36,7 @@ export const texts = {
     none: "No model open",
     checking: "Checking",
     good: (runs: number) => (runs > 1 ? `Ready: ${runs} runs` : "Ready to run"),
+    missing: (n: number) => (n === 1 ? "1 part missing to run" : `${n} parts missing to run`),
     faults: (n: number) => (n === 1 ? "1 fault" : `${n} faults`),
     warnings: (n: number) => (n === 1 ? "1 warning" : `${n} warnings`),
   },

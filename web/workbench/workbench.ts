@@ -541,14 +541,13 @@ export class Workbench {
       this.showFindings(document, shown);
       this.machine.show(read.scene);
       this.showModelParts(read.scene);
-      this.cursorMoved(document);
+      this.machine.highlight(this.partAtCursor(document));
       performance.mark("hersey-checked");
       if (!isReadable) return;
       const started = await ask("start", false);
       if (isOld()) return;
       for (const fault of started.faults) startFaults.add(fault);
       this.showFindings(document, started);
-      if (document === this.model) this.cursorMoved(document);
     } catch (error) {
       if (count === this.checks) this.fail(error);
     } finally {
@@ -573,12 +572,15 @@ export class Workbench {
 
   private showCheckState(runs = 1): void {
     const { faults, warnings } = this.findings ?? { faults: [], warnings: [] };
-    const words = !this.findings ? texts.state.none : faults.length > 0 ? texts.state.faults(faults.length) : [texts.state.good(runs), ...(warnings.length > 0 ? [texts.state.warnings(warnings.length)] : [])].join(", ");
-    const kind = !this.findings ? "none" : faults.length > 0 ? "bad" : warnings.length > 0 ? "warn" : "good";
+    const missing = this.findings?.missing ?? [];
+    const isReady = faults.length === 0 && missing.length === 0;
+    const ready = isReady ? texts.state.good(runs) : texts.state.missing(missing.length);
+    const words = !this.findings ? texts.state.none : faults.length > 0 ? texts.state.faults(faults.length) : [ready, ...(warnings.length > 0 ? [texts.state.warnings(warnings.length)] : [])].join(", ");
+    const kind = !this.findings ? "none" : faults.length > 0 ? "bad" : warnings.length > 0 || !isReady ? "warn" : "good";
     if (this.checkState.textContent !== words) this.announcer.textContent = words;
     this.checkState.textContent = words;
     this.checkState.dataset["kind"] = kind;
-    this.runButton.disabled = !this.findings || faults.length > 0;
+    this.runButton.disabled = !this.findings || !isReady;
     const count = faults.length + warnings.length;
     this.below.label("problems", count > 0 ? `${texts.problems} (${count})` : texts.problems);
   }
