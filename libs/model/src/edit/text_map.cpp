@@ -325,6 +325,10 @@ TextMap::TextMap(std::string text, std::string file)
   } else {
     Scan{*this}.visit_value(0, *root, offset(root->position.line, root->position.column), 0, false);
   }
+  for (std::size_t i = 1; i < entries_.size(); ++i) {
+    by_key_.try_emplace({entries_[i].key_at.line, entries_[i].key_at.column}, i);
+    by_value_.try_emplace({entries_[i].value_at.line, entries_[i].value_at.column}, i);
+  }
 }
 
 std::size_t TextMap::offset(int line, int column) const {
@@ -360,13 +364,9 @@ const TextEntry* TextMap::find(std::string_view path) const {
 }
 
 const TextEntry* TextMap::at(int line, int column) const {
-  const TextEntry* of_value = nullptr;
-  for (std::size_t i = 1; i < entries_.size(); ++i) {
-    const TextEntry& entry = entries_[i];
-    if (entry.key_at.line == line && entry.key_at.column == column) return &entry;
-    if (entry.value_at.line == line && entry.value_at.column == column) of_value = &entry;
-  }
-  return of_value;
+  for (const auto* entries : {&by_key_, &by_value_})
+    if (const auto found = entries->find({line, column}); found != entries->end()) return &entries_[found->second];
+  return nullptr;
 }
 
 TextExtent TextMap::word_at(int line, int column) const {

@@ -21,6 +21,7 @@ struct KeyLocation {
   const Type* type = nullptr;
   const Key* key = nullptr;  ///< null for the item of a mapping with free names
   std::string condition;     ///< "type: revolute", where only some variants have the key
+  bool is_tag = false;       ///< the key that chooses the variant of `type`
 };
 
 std::string key_path(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
@@ -69,7 +70,8 @@ std::vector<KeyLocation> step(const KeyLocation& location, const std::string& na
   for (const Type* mapping : mappings_of(*location.type)) {
     add(mapping->keys, "");
     for (const Variant& variant : mapping->variants) add(variant.keys, mapping->tag + ": " + variant.tag);
-    if (mapping->tag == name && found.empty()) found.push_back({key_path(location.path, name), mapping, nullptr, ""});
+    if (mapping->tag == name && found.empty())
+      found.push_back({key_path(location.path, name), mapping, nullptr, "", true});
   }
   return found;
 }
@@ -263,6 +265,10 @@ KeyExplanation explained(const KeyLocation& location) {
   found.kind = kind_in_words(*location.type);
   found.value = value_of(*location.type);
   collect_words(*location.type, found);
+  if (location.is_tag) {
+    found.kind = "choice";
+    return found;
+  }
   const Type& of = location.type->kind == Kind::named ? *location.type->item : *location.type;
   for (const Type* mapping : mappings_of(of))
     for (const Key* key : all_keys(*mapping)) {
@@ -271,6 +277,13 @@ KeyExplanation explained(const KeyLocation& location) {
         found.keys.emplace_back(key->name, plain(key->description));
     }
   return found;
+}
+
+/// The variant that is taken where none is chosen; else the first.
+const Variant& usual_variant(const Type& type) {
+  const auto usual = std::find_if(type.variants.begin(), type.variants.end(),
+                                  [&](const Variant& one) { return one.tag == type.default_tag; });
+  return usual == type.variants.end() ? type.variants.front() : *usual;
 }
 
 constexpr int kDeepestExample = 5;
@@ -286,10 +299,8 @@ std::string example_of_keys(const Type& type, int depth) {
   std::vector<const Key*> keys;
   for (const Key& key : type.keys) keys.push_back(&key);
   if (type.kind == Kind::variant) {
-    const auto usual = std::find_if(type.variants.begin(), type.variants.end(),
-                                    [&](const Variant& one) { return one.tag == type.default_tag; });
-    const Variant& chosen = usual == type.variants.end() ? type.variants.front() : *usual;
-    if (usual == type.variants.end()) add(type.tag, chosen.tag);
+    const Variant& chosen = usual_variant(type);
+    if (chosen.tag != type.default_tag) add(type.tag, chosen.tag);
     for (const Key& key : chosen.keys) keys.push_back(&key);
   }
   const auto is_chosen = [&](const Key& key) {
@@ -337,7 +348,10 @@ std::vector<KeyExplanation> key_explanations(const std::string& path) {
   return found;
 }
 
-std::string example_value(const std::string& path) { return example_of(*find_locations(path).front().type, 0); }
+std::string example_value(const std::string& path) {
+  const KeyLocation location = find_locations(path).front();
+  return location.is_tag ? usual_variant(*location.type).tag : example_of(*location.type, 0);
+}
 
 std::string explanation(const std::string& path) {
   std::string text;

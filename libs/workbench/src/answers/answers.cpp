@@ -16,15 +16,7 @@
 
 namespace hersey::workbench {
 
-std::string Answers::Impl::file(const std::string& path) const {
-  const std::filesystem::path relative(path);
-  const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (path.empty() || leaves)
-    throw Refused(403, "The path '" + path + "' is not one of the folder.", "Name a file relative to the folder.");
-  return (root_ / relative).lexically_normal().string();
-}
-
-Answers::Answers(std::filesystem::path folder) : impl_(std::make_unique<Impl>(std::move(folder))) {}
+Answers::Answers(const std::filesystem::path& folder) : impl_(std::make_unique<Impl>(folder)) {}
 Answers::~Answers() = default;
 
 std::string Answers::schema() const { return model::schema_json(); }

@@ -131,8 +131,19 @@ Json loads_of(const model::Model& model) {
   return loads;
 }
 
-/// Coordinates that can be moved, with their values.
-Json joints_of(const model::Model& model, const run::Picture& picture) {
+}  // namespace
+
+Json poses_json(const run::Picture& picture) {
+  Json bodies = Json::object();
+  for (const auto& [name, pose] : picture.poses()) {
+    const Eigen::Quaterniond turn(pose.R);
+    bodies[name] = {{"position", {pose.r.x(), pose.r.y(), pose.r.z()}},
+                    {"orientation", {turn.w(), turn.x(), turn.y(), turn.z()}}};
+  }
+  return bodies;
+}
+
+Json joints_json(const model::Model& model, const run::Picture& picture) {
   Json joints = Json::object();
   if (model.bodies.empty()) return joints;
   for (const model::Joint& joint : model.joints) {
@@ -149,18 +160,6 @@ Json joints_of(const model::Model& model, const run::Picture& picture) {
   return joints;
 }
 
-}  // namespace
-
-Json poses_json(const run::Picture& picture) {
-  Json bodies = Json::object();
-  for (const auto& [name, pose] : picture.poses()) {
-    const Eigen::Quaterniond turn(pose.R);
-    bodies[name] = {{"position", {pose.r.x(), pose.r.y(), pose.r.z()}},
-                    {"orientation", {turn.w(), turn.x(), turn.y(), turn.z()}}};
-  }
-  return bodies;
-}
-
 std::string scene_json(const model::Model& model, const run::Picture& picture, const TextMap& map,
                        const TextColumns& columns) {
   results::Writer writer(results::InMemory{.keeps_all = true});
@@ -171,7 +170,7 @@ std::string scene_json(const model::Model& model, const run::Picture& picture, c
   for (const model::Bearing& bearing : model.bearings)
     beside["bearings"][bearing.name] = bearing_json(bearing, beside["sources"]);
   beside["loads"] = loads_of(model);
-  beside["joints"] = joints_of(model, picture);
+  beside["joints"] = joints_json(model, picture);
   beside["open"] = picture.assembly().solved() ? "" : picture.assembly().message;
   // One object of both, without reading the first again: it may be megabytes.
   scene.back() = ',';

@@ -19,4 +19,7 @@ namespace hersey::workbench {
 /// `{name: {position: [3], orientation: [w, x, y, z]}}`.
 [[nodiscard]] Json poses_json(const run::Picture& picture);
 
+/// The coordinates that can be moved, with their values: `{joint: [{name, unit, value}]}`.
+[[nodiscard]] Json joints_json(const model::Model& model, const run::Picture& picture);
+
 }  // namespace hersey::workbench

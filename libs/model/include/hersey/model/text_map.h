@@ -1,8 +1,9 @@
 #pragma once
 
-#include <optional>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hersey/core/input_error.h"
@@ -80,6 +81,7 @@ class TextMap {
   std::vector<std::size_t> lines_;            // where each begins
   std::vector<std::size_t> offset_of_value_;  // of each entry: a value that begins before stands elsewhere
   std::vector<TextEntry> entries_;
+  std::map<std::pair<int, int>, std::size_t> by_key_, by_value_;  // entries by line and column of their beginning
 };
 
 /// The text with the edits made. @pre no two of them overlap

@@ -32,7 +32,7 @@ class Refused : public std::runtime_error {
 class Answers {
  public:
   /// @param folder  where the paths of requests start
-  explicit Answers(std::filesystem::path folder);
+  explicit Answers(const std::filesystem::path& folder);
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
   ~Answers();
@@ -50,6 +50,27 @@ class Answers {
   /// scene(). It is null where the text cannot be read as a model; a model that cannot start is drawn as far as it can
   /// be assembled.
   [[nodiscard]] std::string check(std::string_view request) const;
+
+  /// `{path, text, set, joint, coordinate, value}` -> `{bodies: {name: {position: [3], orientation: [w, x, y, z]}},
+  /// joints: {name: [{name, unit, value}]}, residual}`: the machine with that coordinate (without `coordinate`: the
+  /// joint's first) at `value` [rad or m]. Drives are released, loops close by the assembly of the mechanism on the
+  /// branch on which they start; what no loop moves keeps still. Refused with 422 where a loop does not close.
+  [[nodiscard]] std::string move(std::string_view request) const;
+
+  /// `{path, text, bearing, set: ["load=500 N"], previous: id, averaged: false, fields: ["pressure", "thickness"]}` ->
+  /// `{id, solved, message, figures: [{key, group, name, unit, value, words}], position: {e, angle, ratio}, solution,
+  /// conditions, warnings, started_from, averaged, grid, time, solving}`. Names in `set` are parameters, key paths or
+  /// the short names of `hersey bearing`; a load replaces a position of the text and the other way round.
+  ///
+  /// `solution` is what a page of a bearing by itself reads of one solution (SolutionText of web/src/data.ts), with the
+  /// fields asked for. The solution is kept under `id`, so that the next one, `previous`, starts from it. Without
+  /// `averaged`, stiffness and damping are those of the grid alone: quicker, and less exact by some percent.
+  /// No error of the grid is estimated.
+  [[nodiscard]] std::string bearing(std::string_view request) const;
+
+  /// `{path, length_unit: "mm"}` -> what `hersey mesh --json` tells of a mesh file of the folder: sizes, sets,
+  /// `found` surfaces that could be bores or journals; and `lines`, the text of a model that uses them.
+  [[nodiscard]] std::string mesh_info(std::string_view request) const;
 
   /// `{key}` -> `{title, text, kind, unit, units, default, required, allowed: [{text, meaning}], keys: [...], example,
   /// plain}` as `hersey explain`; `plain` is its text, with all variants.
