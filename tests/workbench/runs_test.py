@@ -114,6 +114,11 @@ class Runs(unittest.TestCase):
         self.assertNotIn("allow-same-origin", policy)
         self.assertNotIn("connect-src", policy)  # default-src 'none'
         self.assertTrue(page.headers["content-type"].startswith("text/html"))
+        # The fields of all instants lie beside a report, which loads them when asked, as a stranger to every origin.
+        write(self.folder, f"runs/{first}/report_fields/film.js", "fields")
+        fields = self.server.get(url + "report_fields/film.js", token=False, headers={"Origin": "null", "Sec-Fetch-Site": "cross-site"})
+        self.assertEqual((fields.status, fields.text), (200, "fields"))
+        self.assertIn(f"http://127.0.0.1:{self.server.port}{url};", policy)
         both = self.server.post("/api/compare", {"ids": [first, second]})
         compared = self.server.get(both.json["url"], token=False)
         self.assertIn(f'"{first}"', compared.text)
