@@ -264,6 +264,18 @@ class Runs(unittest.TestCase):
         kinds = [json.loads(line)["kind"] for line in self.server.get(f"/api/runs/{name}/events").text.splitlines()]
         self.assertEqual(kinds.count("run_finished"), 2)
 
+    def test_a_study_by_its_own_program_says_how_it_ended(self):
+        # The model has none; where the study's Python packages are missing, that is what it says.
+        answer = self.server.post("/api/runs", {"path": "bearing.yaml", "set": ["load=5 N"], "study": True})
+        name = answer.json["id"]
+        self.pids.append(self.record(name)["process"]["pid"])
+        self.assertIn("study", self.record(name)["command"])
+        run = self.server.wait_for(name, "failed")
+        self.assertTrue(run["study"])
+        self.assertRegex(run["message"], "study")
+        self.assertIn(run["message"], self.server.get(f"/api/runs/{name}/log").text)
+        self.assertTrue(run["can_resume"])
+
 
 if __name__ == "__main__":
     unittest.main()
