@@ -114,6 +114,11 @@ class Runs(unittest.TestCase):
         self.assertNotIn("allow-same-origin", policy)
         self.assertNotIn("connect-src", policy)  # default-src 'none'
         self.assertTrue(page.headers["content-type"].startswith("text/html"))
+        # The fields of all instants lie beside a report, which loads them when asked, as a stranger to every origin.
+        write(self.folder, f"runs/{first}/report_fields/film.js", "fields")
+        fields = self.server.get(url + "report_fields/film.js", token=False, headers={"Origin": "null", "Sec-Fetch-Site": "cross-site"})
+        self.assertEqual((fields.status, fields.text), (200, "fields"))
+        self.assertIn(f"http://127.0.0.1:{self.server.port}{url};", policy)
         both = self.server.post("/api/compare", {"ids": [first, second]})
         compared = self.server.get(both.json["url"], token=False)
         self.assertIn(f'"{first}"', compared.text)
@@ -258,6 +263,18 @@ class Runs(unittest.TestCase):
         self.assertEqual(len(run["results"]), 2)
         kinds = [json.loads(line)["kind"] for line in self.server.get(f"/api/runs/{name}/events").text.splitlines()]
         self.assertEqual(kinds.count("run_finished"), 2)
+
+    def test_a_study_by_its_own_program_says_how_it_ended(self):
+        # The model has none; where the study's Python packages are missing, that is what it says.
+        answer = self.server.post("/api/runs", {"path": "bearing.yaml", "set": ["load=5 N"], "study": True})
+        name = answer.json["id"]
+        self.pids.append(self.record(name)["process"]["pid"])
+        self.assertIn("study", self.record(name)["command"])
+        run = self.server.wait_for(name, "failed")
+        self.assertTrue(run["study"])
+        self.assertRegex(run["message"], "study")
+        self.assertIn(run["message"], self.server.get(f"/api/runs/{name}/log").text)
+        self.assertTrue(run["can_resume"])
 
 
 if __name__ == "__main__":

@@ -99,9 +99,8 @@ ProcessId start_detached(const std::vector<std::string>& words, const std::files
   }
   const pid_t child = ::fork();
   if (child == 0) {
-    ::setsid();
     const pid_t program = ::fork();
-    if (program == 0) become_program(arguments, in_folder.c_str(), output);
+    if (program == 0 && ::setsid() > 0) become_program(arguments, in_folder.c_str(), output);
     [[maybe_unused]] const ssize_t said = ::write(pipe[1], &program, sizeof program);
     ::_exit(0);
   }
@@ -128,7 +127,7 @@ bool is_running(const ProcessId& process) {
 }
 
 bool interrupt(const ProcessId& process, const std::string& argument) {
-  return is_running(process) && has_argument(process.pid, argument) && ::kill(process.pid, SIGINT) == 0;
+  return is_running(process) && has_argument(process.pid, argument) && ::kill(-process.pid, SIGINT) == 0;
 }
 
 int run_to_end(const std::vector<std::string>& words, const std::filesystem::path& folder, double most_seconds,

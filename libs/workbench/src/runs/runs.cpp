@@ -110,6 +110,12 @@ std::string plain(const std::string& name) {
   return text.empty() ? "run" : text;
 }
 
+std::string last_line(std::string text) {
+  text.erase(std::min(text.find_last_not_of(" \n") + 1, text.size()));
+  const std::size_t begin = text.rfind('\n');
+  return begin == std::string::npos ? text : text.substr(begin + 1);
+}
+
 void check_override(const std::string& change) {
   const bool is_plain =
       std::none_of(change.begin(), change.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
@@ -199,8 +205,11 @@ RunEntry Runs::entry_of(const std::string& id) const {
     run.can_resume = false;
   } else if (!course.status.empty()) {
     run.state = course.status;
-  } else if (run.is_study && !run.report.empty()) {
-    run.state = "completed", run.share = 1;
+  } else if (const std::string code = part_of(folder / "exit.txt", 0, 8); run.is_study && !code.empty()) {
+    run.state = code == "0\n" ? "completed" : code == "130\n" ? "stopped" : "failed";
+    run.share = run.state == "completed" ? 1 : 0;
+    run.ended = time_of(folder / "exit.txt");
+    if (run.state != "completed") run.message = last_line(tail_of(folder / "log.txt", kMostTail));
   } else {
     run.state = "lost";
     run.message = "its process ended without a word: it was killed, or the machine was; the log may say more";
@@ -311,6 +320,13 @@ void Runs::launch(const std::string& id, json record, bool resumes) {
   };
   record.erase("process");
   save();
+  // Studies report no events: a shell notes how they end. It outlives Ctrl-C, which both get.
+  if (is_study) {
+    std::error_code ignored;
+    std::filesystem::remove(folder / "exit.txt", ignored);
+    words.insert(words.begin(),
+                 {"/bin/sh", "-c", "trap : INT TERM; \"$@\"; echo $? > \"$0\"", (folder / "exit.txt").string()});
+  }
   record["process"] = json_with(start_detached(words, folder_.path(), folder / "log.txt"));
   save();
   events_.add("runs", json{{"id", id}}.dump());

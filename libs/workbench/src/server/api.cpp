@@ -107,6 +107,9 @@ Reply Api::route(const Request& request) {
     return {.body = (answers_.*question)(request.body)};
   };
   if (call == "POST check") return ask(&Answers::check);
+  if (call == "POST move") return ask(&Answers::move);
+  if (call == "POST bearing") return ask(&Answers::bearing);
+  if (call == "POST mesh") return ask(&Answers::mesh_info);
   if (call == "POST explain") return ask(&Answers::explain);
   if (call == "POST convert") return ask(&Answers::convert);
   if (call == "POST set") return ask(&Answers::set_value);
