@@ -51,7 +51,7 @@ export class PartForm {
         if (depth < deepest) rows.push(h("fieldset", {}, h("legend", { title: field.description }, field.key), ...this.fields(schema, own, text, key, depth + 1)));
         continue;
       }
-      rows.push(this.row(field.key, field.description, key, schema.wordsOf(field.schema).filter(({ kind }) => kind === "word").map(({ value }) => value)));
+      rows.push(this.row(field.key, field.description, key, schema.wordsOf(field.schema).filter(({ kind }) => kind === "word").map(({ value }) => value), schema.isOfWords(field.schema)));
     }
     // Of a group, such as the holes of a bearing: names that the schema does not know.
     for (const own of node.children) {
@@ -59,18 +59,20 @@ export class PartForm {
       const key = `${path}.${own.key}`;
       if (own.kind === "map" || own.kind === "block") {
         if (depth < deepest) rows.push(h("fieldset", {}, h("legend", {}, own.key), ...this.fields(schema, own, text, key, depth + 1)));
-      } else rows.push(this.row(own.key, "", key, []));
+      } else rows.push(this.row(own.key, "", key, [], false));
     }
     if (missing.length > 0) rows.push(this.adder(missing, path));
     return rows;
   }
 
-  private row(name: string, description: string, key: string, words: string[]): HTMLElement {
+  private row(name: string, description: string, key: string, words: string[], isClosed: boolean): HTMLElement {
     const id = `field-${key}`;
     const label = h("label", { for: id, title: description }, name.replaceAll("_", " "));
-    const field = words.length > 0 ? h("select", { id, "data-key": key }, ...words.map((word) => h("option", { value: word }, word))) : h("input", { id, type: "text", "data-key": key, spellcheck: "false", autocomplete: "off" });
+    const options = words.map((word) => h("option", { value: word }, word));
+    const isChoice = isClosed && words.length > 0;
+    const field = isChoice ? h("select", { id, "data-key": key }, ...options) : h("input", { id, type: "text", "data-key": key, spellcheck: "false", autocomplete: "off", ...(words.length > 0 ? { list: `${id}-words` } : {}) });
     field.addEventListener("change", () => void this.set(key, field.value));
-    return h("div", { class: "field" }, label, field);
+    return h("div", { class: "field" }, label, field, !isChoice && words.length > 0 ? h("datalist", { id: `${id}-words` }, ...options) : null);
   }
 
   private adder(missing: { key: string; description: string }[], path: string): HTMLElement {

@@ -139,6 +139,11 @@ export class ModelSchema {
     return [...found.values()];
   }
 
+  /** Nothing but words is allowed, parameters aside. */
+  isOfWords(schema: Schema): boolean {
+    return this.flat(schema).every((s) => s.const !== undefined || s.enum !== undefined || (s.pattern ?? "").startsWith("\\$\\{") || (s.type === "boolean" && s.const === undefined));
+  }
+
   wordsOf(schema: Schema): ValueHelp[] {
     return this.words(this.flat(schema));
   }
