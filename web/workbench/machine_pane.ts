@@ -45,6 +45,8 @@ export class MachinePane {
   private moving: Coordinate | null = null;
   private wanted: number | null = null;
   private busy = false;
+  /** Shows a coordinate on its slider. */
+  private readonly coordinates = new Map<string, (value: number) => void>();
 
   constructor(private readonly hooks: MachineHooks) {
     const cut = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, texts.section);
@@ -121,7 +123,8 @@ export class MachinePane {
 
   highlight(part: string | null): void {
     this.machine?.choose(part);
-    this.partList.value = part ?? "";
+    const isListed = [...this.partList.options].some(({ value }) => value === part);
+    this.partList.value = isListed ? part! : "";
   }
 
   private pick(part: string): void {
@@ -153,6 +156,7 @@ export class MachinePane {
     const names = joints.map(({ joint, name, value }) => `${joint}.${name}:${value}`).join();
     if (names === this.jointNames) return;
     this.jointNames = names;
+    this.coordinates.clear();
     const reach = Math.max(0.01, this.machine!.size);
     this.sliders.replaceChildren(
       ...joints.flatMap(({ joint, name, unit, value: start }) => {
@@ -168,12 +172,15 @@ export class MachinePane {
         });
         const reset = h("button", { type: "button", class: "quiet", "aria-label": `${joint}: ${texts.jointReset}` }, "↺");
         reset.addEventListener("click", () => {
-          slider.value = String(start);
-          say(start);
+          for (const c of joints) this.coordinates.get(`${c.joint}.${c.name}`)?.(c.value);
           this.wanted = null;
           this.machine?.move(null);
         });
         say(start);
+        this.coordinates.set(`${joint}.${name}`, (x) => {
+          slider.value = String(x);
+          say(x);
+        });
         return [h("span", { class: "slider-name" }, joint), slider, value, reset];
       }),
     );
@@ -193,8 +200,10 @@ export class MachinePane {
       const model = this.hooks.model();
       if (!model) break;
       try {
-        const { bodies } = await this.hooks.api.post<{ bodies: Record<string, Pose> }>("/api/move", { ...model, ...coordinate, value });
+        const { bodies, joints } = await this.hooks.api.post<{ bodies: Record<string, Pose>; joints?: SceneText["joints"] }>("/api/move", { ...model, ...coordinate, value });
         this.machine?.move(bodies);
+        for (const [joint, list] of Object.entries(joints ?? {}))
+          for (const c of list) if (joint !== coordinate.joint || c.name !== coordinate.coordinate) this.coordinates.get(`${joint}.${c.name}`)?.(c.value);
         this.hooks.say("");
       } catch (error) {
         this.hooks.say(error instanceof Error ? error.message : String(error));
