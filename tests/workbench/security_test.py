@@ -182,6 +182,26 @@ class Security(unittest.TestCase):
             self.assertEqual(self.server.get(f"/api/runs/{name}/log").status, 404)
         self.assertEqual(sorted(os.listdir(self.top.name)), ["log", "models", "other.yaml", "secret.yaml"])
 
+    def test_links_among_runs_lead_nowhere(self):
+        run = os.path.join(self.folder, "runs", "evil-001")
+        write(run, "run.json", '{"model": "model.yaml", "set": []}')
+        secret = os.path.join(self.top.name, "secret.yaml")
+        for name in ("log.txt", "events.ndjson", "model.txt", "report.html", "results.h5"):
+            os.symlink(secret, os.path.join(run, name))
+        self.assertEqual([entry["id"] for entry in self.server.get("/api/runs").json["runs"]], ["evil-001"])
+        for call in ("GET log", "GET events", "GET model", "POST report", "POST resume"):
+            method, what = call.split()
+            answer = self.server.request(method, "/api/runs/evil-001/" + what)
+            self.assertNotIn(SECRET.encode(), answer.body, call)
+            self.assertEqual(answer.status, 200 if what in ("log", "events") else answer.status)
+        os.rename(os.path.join(self.folder, "runs"), os.path.join(self.top.name, "elsewhere"))
+        os.symlink("../elsewhere", os.path.join(self.folder, "runs"))
+        self.assertEqual(self.server.get("/api/runs").json["runs"], [])
+        self.refused(self.server.post("/api/runs", {"path": "model.yaml", "set": []}), 403, "link")
+        self.assertEqual(os.listdir(os.path.join(self.top.name, "elsewhere")), ["evil-001"])
+        with open(secret, encoding="utf-8") as file:
+            self.assertEqual(file.read(), SECRET)
+
     def test_large_bodies_are_refused(self):
         body = b"x" * 100_000_000
         begin = time.time()

@@ -36,30 +36,38 @@ constexpr double kReportTime = 300;  // [s]
 
 double now() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
 
+/// Size and time of change of a regular file, of no link: what a run has written is no link, and others may lead
+/// anywhere.
+struct stat status_of_own(const Path& file) {
+  struct stat status {};
+  if (::lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  return status;
+}
+
+bool is_own_folder(const Path& folder) {
+  struct stat status {};
+  return ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+std::uintmax_t size_of(const Path& file) { return static_cast<std::uintmax_t>(status_of_own(file).st_size); }
+
+double time_of(const Path& file) { return static_cast<double>(status_of_own(file).st_mtim.tv_sec); }
+
 /// Bytes of a file from `begin` on, at most `most`; empty if it cannot be read.
 std::string part_of(const Path& file, std::uintmax_t begin, std::uintmax_t most) {
+  const std::uintmax_t size = size_of(file);
+  if (size <= begin) return {};
   std::ifstream stream(file, std::ios::binary);
   stream.seekg(static_cast<std::streamoff>(begin));
-  std::string text(most, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(most));
+  std::string text(std::min(most, size - begin), '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
   return text;
 }
 
-std::uintmax_t size_of(const Path& file) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  return error ? 0 : size;
-}
-
 std::string tail_of(const Path& file, std::uintmax_t most) {
   const std::uintmax_t size = size_of(file);
-  return part_of(file, size > most ? size - most : 0, std::min(size, most));
-}
-
-double time_of(const Path& file) {
-  struct stat status {};
-  return ::stat(file.c_str(), &status) == 0 ? static_cast<double>(status.st_mtim.tv_sec) : 0;
+  return part_of(file, size > most ? size - most : 0, most);
 }
 
 /// An object from a line, null if it is none: files may have been cut off, or written by someone else.
@@ -155,6 +163,19 @@ void cannot_make(const Path& folder, const std::error_code& error) {
                 is_full ? "make room on the disk" : "open a folder in which you may write");
 }
 
+/// Names of the runs in `folder`/runs.
+std::vector<std::string> own_runs(const Path& folder) {
+  std::vector<std::string> ids;
+  if (!is_own_folder(folder / "runs")) return ids;
+  std::error_code error;
+  for (const auto& run : std::filesystem::directory_iterator(folder / "runs", error)) {
+    std::string id = run.path().filename().string();
+    if (id == plain(id) && is_own_folder(run.path()) && time_of(run.path() / "run.json") > 0)
+      ids.push_back(std::move(id));
+  }
+  return ids;
+}
+
 void write_record(const Path& file, const std::string& text) {
   try {
     write_file(file, {text});
@@ -181,7 +202,7 @@ RunEntry Runs::entry_of(const std::string& id) const {
   RunEntry run;
   run.id = id;
   run.folder = "runs/" + id;
-  const json record = object_of(part_of(folder / "run.json", 0, std::min(size_of(folder / "run.json"), kMostRecord)));
+  const json record = object_of(part_of(folder / "run.json", 0, kMostRecord));
   run.model = text_in(record, "model");
   run.overrides = texts_in(record, "set");
   run.started = number_in(record, "started");
@@ -192,6 +213,7 @@ RunEntry Runs::entry_of(const std::string& id) const {
   std::error_code error;
   for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
     const Path name = file.path().filename();
+    if (file.is_symlink(error)) continue;
     if (name.extension() == ".h5") run.results.push_back(run.folder + "/" + name.string());
     if (name == "report.html" || name == "study.html") run.report = run.folder + "/" + name.string();
     if (name.extension() == ".checkpoint") run.can_resume = true;
@@ -235,7 +257,7 @@ std::vector<RunEntry> Runs::results_made_elsewhere() const {
     const bool is_cut_off = std::filesystem::exists(Path(path).replace_extension(".checkpoint"));
     run.state = is_being_written ? "running" : is_cut_off ? "stopped" : "completed";
     const Path page = path.parent_path() / "report.html";
-    if (std::filesystem::exists(page) && path.filename() == "results.h5")
+    if (size_of(page) > 0 && path.filename() == "results.h5")
       run.report = page.lexically_relative(folder_.path()).generic_string();
     found.push_back(std::move(run));
   }
@@ -244,12 +266,8 @@ std::vector<RunEntry> Runs::results_made_elsewhere() const {
 
 std::vector<RunEntry> Runs::list() const {
   std::vector<std::pair<double, std::string>> ids;
-  std::error_code error;
-  for (const auto& folder : std::filesystem::directory_iterator(folder_.path() / "runs", error)) {
-    const std::string id = folder.path().filename().string();
-    if (id == plain(id) && std::filesystem::exists(folder.path() / "run.json", error))
-      ids.emplace_back(time_of(folder.path() / "run.json"), id);
-  }
+  for (const std::string& id : own_runs(folder_.path()))
+    ids.emplace_back(time_of(folder_.path() / "runs" / id / "run.json"), id);
   std::sort(ids.rbegin(), ids.rend());
   if (ids.size() > kMostRuns) ids.resize(kMostRuns);
   std::vector<RunEntry> runs;
@@ -263,9 +281,8 @@ std::vector<RunEntry> Runs::list() const {
 }
 
 RunEntry Runs::find(const std::string& id) const {
-  std::error_code error;
-  if (!id.empty() && id == plain(id) && std::filesystem::exists(folder_.path() / "runs" / id / "run.json", error))
-    return entry_of(id);
+  const std::vector<std::string> own = own_runs(folder_.path());
+  if (std::find(own.begin(), own.end(), id) != own.end()) return entry_of(id);
   for (RunEntry& run : results_made_elsewhere())
     if (run.id == id) return std::move(run);
   throw Refused(404, "there is no run of this name", "choose one of the list");
@@ -284,6 +301,7 @@ std::string Runs::start(const json& request) {
   std::error_code error;
   std::filesystem::create_directories(runs, error);
   if (error) cannot_make(runs, error);
+  if (!is_own_folder(runs)) throw Refused(403, "runs is a link, which may lead anywhere", "make it a folder");
   std::string id;
   for (int number = 1; id.empty(); ++number) {
     const std::string next = fmt::format("{}-{:03d}", name, number);
@@ -314,6 +332,11 @@ void Runs::launch(const std::string& id, json record, bool resumes) {
     words.insert(words.end(), {"--events", (folder / "events.ndjson").string()});
     if (resumes) words.emplace_back("--resume");
   }
+  // A link in their place would be followed when they are written.
+  for (const char* name :
+       {"run.json", "log.txt", "events.ndjson", "exit.txt", "results.h5", "results.checkpoint", "report.html"})
+    if (std::error_code error; std::filesystem::is_symlink(folder / name, error))
+      throw Refused(403, fmt::format("{} of this run is a link, which may lead anywhere", name), "start the run anew");
   record["command"] = words;
   const auto save = [&] {
     write_record(folder / "run.json", record.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
@@ -359,12 +382,13 @@ std::string Runs::log(const std::string& id) const {
 
 std::string Runs::model_text(const std::string& id) const {
   const Path file = folder_.path() / find(id).folder / "model.txt";
-  if (!std::filesystem::exists(file)) throw Refused(404, "the model of this run is not known", "");
+  if (size_of(file) == 0) throw Refused(404, "the model of this run is not known", "");
   return tail_of(file, kMostModel);
 }
 
 std::string Runs::history(const std::string& id, std::size_t most) const {
   const Path file = folder_.path() / find(id).folder / "events.ndjson";
+  if (size_of(file) == 0) return {};
   const auto each_line = [&](auto&& act) {
     std::ifstream stream(file, std::ios::binary);
     for (std::string line; std::getline(stream, line);)
@@ -445,21 +469,18 @@ void Runs::look_for_runs() {
   const bool is_first_look = calls_ == 0;
   bool is_list_new = false;
   std::set<std::string> there;
-  std::error_code error;
-  for (const auto& folder : std::filesystem::directory_iterator(folder_.path() / "runs", error)) {
-    const std::string id = folder.path().filename().string();
-    const Path record = folder.path() / "run.json";
+  for (const std::string& id : own_runs(folder_.path())) {
+    const Path folder = folder_.path() / "runs" / id, record = folder / "run.json";
     const double record_time = time_of(record);
-    if (id != plain(id) || record_time == 0) continue;
     there.insert(id);
     const auto [entry, is_new] = tails_.try_emplace(id);
     Tail& tail = entry->second;
     // What was written before this program began is history, which pages ask for; the rest of a line in the middle of
     // being written is no object.
-    if (is_new && is_first_look) tail.read = size_of(folder.path() / "events.ndjson"), tail.rest = "?";
+    if (is_new && is_first_look) tail.read = size_of(folder / "events.ndjson"), tail.rest = "?";
     if (!is_new && tail.record_time == record_time && !tail.runs) continue;
     tail.record_time = record_time;
-    const bool runs = is_running(process_in(object_of(part_of(record, 0, std::min(size_of(record), kMostRecord)))));
+    const bool runs = is_running(process_in(object_of(part_of(record, 0, kMostRecord))));
     is_list_new = is_list_new || is_new || runs != tail.runs;
     if (!runs) follow_run(id, tail);  // what it wrote at its end
     tail.runs = runs;

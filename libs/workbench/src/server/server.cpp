@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -42,13 +43,19 @@ class Server::Impl {
     });
     Watch watch(folder_);
     constexpr std::chrono::milliseconds kTick{50};  // so long an event of a run waits at most
-    constexpr int kTicksPerLook = 10;
-    for (int tick = 1; !stop; ++tick) {
+    constexpr std::chrono::milliseconds kLeastPause{500};
+    constexpr int kPausePerLook = 20;  // a large folder is looked at in a twentieth of the time
+    using Steady = std::chrono::steady_clock;
+    Steady::time_point next_look = Steady::now() + kLeastPause;
+    while (!stop) {
       std::this_thread::sleep_for(kTick);
       runs_.follow();
-      if (tick % kTicksPerLook != 0) continue;
+      const Steady::time_point look = Steady::now();
+      if (look < next_look) continue;
       if (const std::vector<std::string> paths = watch.changes(); !paths.empty())
         events_.add("files", nlohmann::json{{"paths", paths}}.dump());
+      const Steady::time_point end = Steady::now();
+      next_look = end + std::max<Steady::duration>(kLeastPause, kPausePerLook * (end - look));
     }
     ends_ = true;
     // A stop before it has begun to listen has no effect.
