@@ -468,8 +468,10 @@ std::vector<TextEdit> TextMap::set(const std::string& path, const std::string& v
   const bool is_item = parent.kind == TextEntry::Kind::list;
   const std::size_t behind_key =
       is_item ? begin : text_.find(':', offset(entry->key_at.end_line, entry->key_at.end_column)) + 1;
-  const bool is_on_line = text_.find_first_not_of(kSpace, behind_key) == begin && begin > behind_key;
-  if (is_item || is_on_line) return {{entry->value_at, text}};
+  const bool is_block = (entry->kind == TextEntry::Kind::list || entry->kind == TextEntry::Kind::mapping) &&
+                        !entry->is_flow && !entry->is_alias;
+  const bool is_there = begin > behind_key && !is_block;
+  if (is_item || is_there) return {{entry->value_at, text}};
   return {{extent(behind_key, end_of_content(*entry)), " " + text}};
 }
 
@@ -515,7 +517,7 @@ std::vector<TextEdit> TextMap::remove(const std::string& path) const {
   return {{extent(begin, offset(next.key_at.line, next.key_at.column)), ""}};
 }
 
-std::string edited(const std::string& text, const std::vector<TextEdit>& edits) {
+std::string with_edits(const std::string& text, const std::vector<TextEdit>& edits) {
   const std::vector<std::size_t> lines = starts_of_lines(text);
   const auto offset = [&](int line, int column) {
     const auto index = static_cast<std::size_t>(std::max(line, 1) - 1);
