@@ -1,6 +1,6 @@
 // What the journeys stand on: a folder of models, the program that serves it, a browser, and what became of each claim.
 import { spawn } from "node:child_process";
-import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { cpSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -19,13 +19,13 @@ export function launch() {
   return require("playwright-core").chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: flags });
 }
 
-/** A folder with the slider-crank, its table, a four-bar linkage, and a bearing by itself. */
+/** A folder with the slider-crank, its table, a four-bar linkage, a bearing by itself and a mesh. */
 export function folderOfModels() {
   const folder = mkdtempSync(join(tmpdir(), "hersey-workbench-"));
   for (const name of ["model.yaml", "gas_pressure.csv"]) cpSync(join(root, "examples/slider_crank", name), join(folder, name));
   cpSync(join(root, "examples/four_bar/model.yaml"), join(folder, "four_bar.yaml"));
   cpSync(join(root, "examples/bearing_alone/model.yaml"), join(folder, "bearing.yaml"));
-  mkdirSync(join(folder, "notes"));
+  cpSync(join(root, "examples/meshes/conrod.msh"), join(folder, "conrod.msh"));
   return folder;
 }
 

@@ -286,6 +286,16 @@ await findings.check("a new model is begun from a template", async () => {
   claim(readFileSync(join(folder, "my_rotor.yaml"), "utf8") === (await textOf(page)), "the file is another one");
 });
 
+await findings.check("a mesh of the folder shows the bores found in it", async () => {
+  await openFile("conrod.msh");
+  await page.locator("dialog .mesh-table").waitFor();
+  const found = await page.locator("dialog .mesh-table").innerText();
+  claim(/bore/.test(found) && found.includes("45 mm"), `found: ${found}`);
+  claim((await page.locator("dialog .template-text").innerText()).includes("mesh: conrod.msh"), "no lines of a model");
+  await picture(page, "12b-mesh");
+  await page.keyboard.press("Escape");
+});
+
 await findings.check("two tabs on one folder: clean texts follow, changed ones are asked about, nothing is lost", async () => {
   const other = await open(context, server.address, /412/);
   await other.locator('.file[data-path="bearing.yaml"]').click();

@@ -10,7 +10,7 @@ import { isDark } from "../src/theme";
 import { texts } from "./texts";
 
 /** A window over the page, closed by Escape. */
-function dialog(title: string, kind: string, ...content: (HTMLElement | null)[]): HTMLDialogElement {
+export function dialog(title: string, kind: string, ...content: (HTMLElement | null)[]): HTMLDialogElement {
   const id = `dialog-${kind}`;
   const close = h("button", { type: "button", class: "quiet", "aria-label": texts.close, click: () => element.close() }, "✕");
   const element = h("dialog", { class: `window ${kind}`, "aria-labelledby": id }, h("div", { class: "window-head" }, h("h2", { id }, title), close), ...content);

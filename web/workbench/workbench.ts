@@ -11,6 +11,7 @@ import { splitter, Tabs, walkable } from "./layout";
 import { LivePane } from "./live_pane";
 import { MachinePane, type SceneText } from "./machine_pane";
 import { explainHere, modelHelp, offerUnits, type ModelHelpers } from "./model_help";
+import { showMesh } from "./mesh_window";
 import { ModelSchema, type Schema } from "./model_schema";
 import { Outline } from "./outline";
 import { PointPane } from "./point_pane";
@@ -304,7 +305,8 @@ export class Workbench {
   private async openFile(path: string): Promise<void> {
     if (!this.editor.documents.has(path)) {
       const kind = this.files.find((f) => f.path === path)?.kind;
-      if (kind === "results" || (kind === "mesh" && /\.(h5|stl)$/i.test(path))) return this.say(texts.binary);
+      if (kind === "mesh" && /\.(msh|inp)$/i.test(path)) return showMesh(this.api, path);
+      if (kind === "results" || kind === "mesh") return this.say(texts.binary);
       try {
         const { text, etag } = await this.api.file(path);
         this.editor.add(path, text, etag);
