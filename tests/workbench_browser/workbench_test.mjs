@@ -191,10 +191,14 @@ await findings.check("a bearing is changed in its form and its unwrapped picture
   await page.locator(".unwrapped .handle").first().focus();
   await page.keyboard.press("ArrowRight");
   await says(page, "line: 91 deg");
-  const line = await page.locator(".unwrapped .handle .touch").nth(1).boundingBox();
-  await page.mouse.move(line.x + line.width / 2, line.y + line.height / 2);
+  await page.locator(".bearing-pane").evaluate((e) => (e.scrollTop = 0));
+  const line = await page.locator(".unwrapped .handle .touch").nth(1).evaluate((e) => {
+    const { x, y, width: w, height: hgt } = e.getBoundingClientRect();
+    return { x: x + w / 2, y: y + hgt / 2 };
+  }); // longer than the picture, around its middle
+  await page.mouse.move(line.x, line.y);
   await page.mouse.down();
-  await page.mouse.move(line.x + line.width / 2 + 60, line.y + line.height / 2, { steps: 4 });
+  await page.mouse.move(line.x + 60, line.y, { steps: 4 });
   await page.mouse.up();
   await says(page, "line: 91 deg", false);
   await picture(page, "7-bearing");
