@@ -119,6 +119,12 @@ TextEntry::Kind kind_of(const Node& node) {
   return TextEntry::Kind::nothing;
 }
 
+/// Behind the colon of a key that ends at `at`; there itself for a key without one, as in {a, b}.
+std::size_t behind_colon(std::string_view text, std::size_t at) {
+  const std::size_t colon = std::min(text.find_first_not_of(kSpace, at), text.size());
+  return colon < text.size() && text[colon] == ':' ? colon + 1 : at;
+}
+
 std::string path_to(const std::string& parent, const std::string& key) {
   return parent.empty() ? key : parent + "." + key;
 }
@@ -191,12 +197,6 @@ struct TextMap::Scan {
     return behind_plain(text(), at, column, is_in_flow);
   }
 
-  /// Behind the colon of a key that ends at `at`.
-  [[nodiscard]] std::size_t behind_colon(std::size_t at) const {
-    const std::size_t colon = text().find(':', at);
-    return colon == std::string_view::npos ? at : colon + 1;
-  }
-
   /// The first character behind `at` that is no space, on the same line; npos where there is none.
   [[nodiscard]] std::size_t next_on_line(std::size_t at) const {
     const std::size_t next = text().find_first_not_of(kSpace, at);
@@ -261,7 +261,7 @@ struct TextMap::Scan {
     const std::size_t first = behind_properties(at);
     const bool is_quoted = first < text().size() && (text()[first] == '"' || text()[first] == '\'');
     const std::size_t key_end = is_quoted ? behind_quotes(text(), first) : first + entry.key.size();
-    const std::size_t colon = behind_colon(key_end);
+    const std::size_t colon = behind_colon(text(), key_end);
     map.entries_[child].key_at = map.extent(at, key_end);
     map.offset_of_value_[child] = colon;
     const std::size_t begin = offset(entry.value.position);
@@ -459,7 +459,8 @@ std::vector<TextEdit> TextMap::set(const std::string& path, const std::string& v
     if (entry->kind != TextEntry::Kind::nothing) return {insertion(*entry, keys[i], inner)};
     // `key:` with nothing behind it
     const std::string all = "{" + keys[i] + ": " + fit_for_flow(inner) + "}";
-    return {{entry->value_at, " " + all}};
+    const std::size_t behind = offset(entry->value_at.line, entry->value_at.column);
+    return {{entry->value_at, (behind > 0 && text_[behind - 1] == ':' ? " " : ": ") + all}};
   }
   if (entry == &entries_.front()) throw InputError(fault(*entry, path, "no key path", "such as simulation.duration"));
   const TextEntry& parent = entries_[entry->parent];
@@ -467,10 +468,13 @@ std::vector<TextEdit> TextMap::set(const std::string& path, const std::string& v
   const std::size_t begin = offset(entry->value_at.line, entry->value_at.column);
   const bool is_item = parent.kind == TextEntry::Kind::list;
   const std::size_t behind_key =
-      is_item ? begin : text_.find(':', offset(entry->key_at.end_line, entry->key_at.end_column)) + 1;
-  const bool is_on_line = text_.find_first_not_of(kSpace, behind_key) == begin && begin > behind_key;
-  if (is_item || is_on_line) return {{entry->value_at, text}};
-  return {{extent(behind_key, end_of_content(*entry)), " " + text}};
+      is_item ? begin : behind_colon(text_, offset(entry->key_at.end_line, entry->key_at.end_column));
+  const bool is_block = (entry->kind == TextEntry::Kind::list || entry->kind == TextEntry::Kind::mapping) &&
+                        !entry->is_flow && !entry->is_alias;
+  const bool is_there = begin > behind_key && !is_block;
+  if (is_item || is_there) return {{entry->value_at, text}};
+  const std::string colon = text_[behind_key - 1] == ':' ? "" : ":";
+  return {{extent(behind_key, end_of_content(*entry)), colon + " " + text}};
 }
 
 std::vector<TextEdit> TextMap::remove(const std::string& path) const {
@@ -482,7 +486,7 @@ std::vector<TextEdit> TextMap::remove(const std::string& path) const {
   std::size_t begin = offset(entry->key_at.line, entry->key_at.column), end = end_of_content(*entry);
   if (parent.children.size() == 1 && entry->parent != 0) {
     const std::size_t first = offset(parent.value_at.line, parent.value_at.column);
-    const std::size_t colon = text_.find(':', offset(parent.key_at.end_line, parent.key_at.end_column)) + 1;
+    const std::size_t colon = behind_colon(text_, offset(parent.key_at.end_line, parent.key_at.end_column));
     const bool is_behind_key = entries_[parent.parent].kind == TextEntry::Kind::mapping && !parent.is_flow;
     return {{extent(is_behind_key ? colon : first, end_of_content(parent)),
              (is_behind_key ? " " : "") + std::string(is_item ? "[]" : "{}")}};
@@ -515,7 +519,7 @@ std::vector<TextEdit> TextMap::remove(const std::string& path) const {
   return {{extent(begin, offset(next.key_at.line, next.key_at.column)), ""}};
 }
 
-std::string edited(const std::string& text, const std::vector<TextEdit>& edits) {
+std::string with_edits(const std::string& text, const std::vector<TextEdit>& edits) {
   const std::vector<std::size_t> lines = starts_of_lines(text);
   const auto offset = [&](int line, int column) {
     const auto index = static_cast<std::size_t>(std::max(line, 1) - 1);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
 #include <utility>
 
@@ -65,7 +67,9 @@ std::vector<Quantity> quantities_in(const std::string& text) {
   std::vector<Quantity> parts;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    const bool is_number = std::string_view("0123456789+-.").find(word.front()) != std::string_view::npos;
+    // "1/s" is a unit.
+    const bool is_number =
+        std::string_view("0123456789+-.").find(word.front()) != std::string_view::npos && !word.starts_with("1/");
     if (is_number) {
       parts.push_back(split_quantity(word));
     } else if (!parts.empty()) {
@@ -81,10 +85,16 @@ std::vector<Quantity> quantities_in(const std::string& text) {
   return parts;
 }
 
-/// A number with as many digits as are known of it: those that distinguish it in the given unit, at most eight.
-std::string short_number(double value) {
+/// The value of a quantity in `unit` with as few digits as lead back to it, to nine of them.
+std::string converted_number(const Quantity& quantity, const std::string& unit) {
+  constexpr double kSame = 1e-9;  // relative: numbers are written by people
+  const double value = hersey::convert(quantity, unit);
   std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.8g", value);
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
+    const double back = hersey::convert({std::strtod(buffer.data(), nullptr), unit}, quantity.unit);
+    if (std::abs(back - quantity.number) <= kSame * std::abs(quantity.number)) break;
+  }
   return buffer.data();
 }
 
@@ -102,7 +112,7 @@ std::string Answers::convert(std::string_view request) const {
       return dumped(answer);
     }
     std::string converted;
-    for (const Quantity& part : parts) converted += short_number(hersey::convert(part, unit)) + " ";
+    for (const Quantity& part : parts) converted += converted_number(part, unit) + " ";
     answer["text"] = converted + unit;
     return dumped(answer);
   } catch (const QuantityError& error) {
@@ -121,7 +131,7 @@ std::string Answers::set_value(std::string_view request) const {
     const model::TextMap map(text, file);
     const std::vector<model::TextEdit> edits =
         value->is_null() ? map.remove(key) : map.set(key, text_in(given, "value"));
-    return dumped({{"text", model::edited(text, edits)}, {"edits", json_of(edits, TextColumns(text))}});
+    return dumped({{"text", model::with_edits(text, edits)}, {"edits", json_of(edits, TextColumns(text))}});
   } catch (const InputError& error) {
     refuse(error);
   }

@@ -88,7 +88,7 @@ Json parameters_in(const TextMap& map) {
 Json outline_of(const TextMap& map, const TextColumns& columns) {
   Json outline = Json::array();
   for (const TextEntry& entry : map.entries()) {
-    if (entry.path.empty()) continue;
+    if (entry.path.empty() || map.entries()[entry.parent].kind == TextEntry::Kind::list) continue;
     const auto depth = static_cast<std::size_t>(std::count(entry.path.begin(), entry.path.end(), '.')) + 1;
     if (depth > kDeepestOutline) continue;
     outline.push_back({{"path", entry.path},

@@ -85,6 +85,6 @@ class TextMap {
 };
 
 /// The text with the edits made. @pre no two of them overlap
-[[nodiscard]] std::string edited(const std::string& text, const std::vector<TextEdit>& edits);
+[[nodiscard]] std::string with_edits(const std::string& text, const std::vector<TextEdit>& edits);
 
 }  // namespace hersey::model
