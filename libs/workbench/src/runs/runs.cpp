@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -124,6 +125,18 @@ std::string last_line(std::string text) {
   return begin == std::string::npos ? text : text.substr(begin + 1);
 }
 
+/// Part of a study that is done: the runs on record, of as many as it says in lines like "3/8 runs, 3.35 per second".
+double share_of_study(const Path& folder) {
+  const std::string log = tail_of(folder / "log.txt", kMostTail);
+  const std::size_t end = log.rfind(" runs, ");
+  const std::size_t slash = end == std::string::npos ? end : log.rfind('/', end);
+  if (slash == std::string::npos) return 0;
+  const double all = std::atof(log.substr(slash + 1, end - slash - 1).c_str());
+  const std::string records = part_of(folder / "records.jsonl", 0, kMostModel);
+  const auto done = static_cast<double>(std::count(records.begin(), records.end(), '\n'));
+  return all > 0 ? std::min(done / all, 1.0) : 0;
+}
+
 void check_override(const std::string& change) {
   const bool is_plain =
       std::none_of(change.begin(), change.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
@@ -225,6 +238,7 @@ RunEntry Runs::entry_of(const std::string& id) const {
     run.state = "running";
     run.ended = 0;
     run.can_resume = false;
+    if (run.is_study) run.share = share_of_study(folder);
   } else if (!course.status.empty()) {
     run.state = course.status;
   } else if (const std::string code = part_of(folder / "exit.txt", 0, 8); run.is_study && !code.empty()) {

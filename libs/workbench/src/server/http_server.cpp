@@ -304,8 +304,9 @@ class HttpServer::Impl : public httplib::Server {
   }
 
   bool bind_with_queue(int port) {
-    // The library lets five connections wait to be accepted, a browser opens six at once.
-    constexpr int kMostWaiting = 128;
+    // The library lets five connections wait to be accepted; a browser opens six at once, and who comes in vain waits a
+    // second before it tries again.
+    constexpr int kMostWaiting = 1024;
     return bind_to_port("127.0.0.1", port) && ::listen(svr_sock_, kMostWaiting) == 0;
   }
 
