@@ -7,21 +7,40 @@ import { Orbit, type OrbitData } from "../src/orbit";
 import { path } from "./runs_pane";
 import { texts } from "./texts";
 
+type Further = "power" | "flow" | "T_max";
+
+interface Columns {
+  h_min: number[];
+  p_max: number[];
+  x: number[];
+  y: number[];
+  power: number[];
+  flow: number[];
+  T_max: number[];
+}
+
+const further: { key: Further; unit: string; shown: (value: number) => number }[] = [
+  { key: "power", unit: "W", shown: (x) => x },
+  { key: "flow", unit: "mm³/s", shown: (x) => 1e9 * x },
+  { key: "T_max", unit: "°C", shown: (x) => x - 273.15 },
+];
+
 /** Events of a run as columns, per bearing. */
 class Course {
   readonly time: number[] = [];
-  readonly bearings = new Map<string, { h_min: number[]; p_max: number[]; x: number[]; y: number[] }>();
+  readonly bearings = new Map<string, Columns>();
 
   take({ kind, t, bearings }: RunEvent): void {
     if (kind !== "stepped" || t === undefined || !bearings || (this.time.length > 0 && t <= this.time[this.time.length - 1]!)) return;
     this.time.push(t);
     for (const [name, b] of Object.entries(bearings)) {
       let own = this.bearings.get(name);
-      if (!own) this.bearings.set(name, (own = { h_min: [], p_max: [], x: [], y: [] }));
+      if (!own) this.bearings.set(name, (own = { h_min: [], p_max: [], x: [], y: [], power: [], flow: [], T_max: [] }));
       own.h_min.push(1e6 * (b.h_min ?? NaN));
       own.p_max.push(1e-6 * (b.p_max ?? NaN));
       own.x.push(b.e_x ?? NaN);
       own.y.push(b.e_y ?? NaN);
+      for (const { key, shown } of further) own[key].push(shown(b[key] ?? NaN));
     }
     if (this.time.length > 4000) this.thin();
   }
@@ -33,7 +52,7 @@ class Course {
       values.splice(0, half, ...values.slice(0, half).filter((_, i) => i % 2 === 0));
     };
     keep(this.time);
-    for (const b of this.bearings.values()) [b.h_min, b.p_max, b.x, b.y].forEach(keep);
+    for (const b of this.bearings.values()) Object.values(b as Columns & Record<string, number[]>).forEach(keep);
   }
 }
 
@@ -60,7 +79,7 @@ export class LivePane {
   private readonly courses = new Map<string, Course>();
   private run: RunEntry | null = null;
   private shownBearing = "";
-  private drawn: { x: number[]; thickness: LinePlot; pressure: LinePlot; orbit: Orbit; path: { time: Float64Array; x: Float64Array; y: Float64Array; force: null; clearance: number } } | null = null;
+  private drawn: { x: number[]; thickness: LinePlot; pressure: LinePlot; others: { key: Further; plot: LinePlot }[]; orbit: Orbit; path: { time: Float64Array; x: Float64Array; y: Float64Array; force: null; clearance: number } } | null = null;
   private awaited = false;
   private lastDrawn = 0;
 
@@ -148,6 +167,7 @@ export class LivePane {
     this.drawn?.thickness.destroy();
     this.drawn?.pressure.destroy();
     this.drawn?.orbit.destroy();
+    this.drawn?.others.forEach(({ plot }) => plot.destroy());
     this.drawn = null;
     const bearing = this.choice.value;
     this.shownBearing = bearing;
@@ -161,12 +181,17 @@ export class LivePane {
     // As high as the pane leaves room: title, legend and scroll bar stand beside.
     const height = Math.max(110, this.element.clientHeight - 48);
     const line = (name: string, label: string, unit: string) => new LinePlot({ name, x: { label: texts.time, unit: "ms", values: x }, left: { label: texts.short[name as "h_min" | "p_max"], unit, fromZero: true }, curves: [{ label, unit, y: [] }], height });
+    // What this run tells besides, such as no temperatures where they are not solved for.
+    const others = further
+      .filter(({ key }) => own[key].some((value) => Number.isFinite(value)))
+      .map(({ key, unit }) => ({ key, plot: new LinePlot({ name: key, x: { label: texts.time, unit: "ms", values: x }, left: { label: key === "T_max" ? "T" : texts.further[key].toLowerCase(), unit, fromZero: key !== "T_max" }, curves: [{ label: texts.further[key], unit, y: [] }], height }) }));
     const orbit = { time: new Float64Array(), x: new Float64Array(), y: new Float64Array(), force: null, clearance: 1 };
-    this.drawn = { x, thickness: line("h_min", texts.hMin, "µm"), pressure: line("p_max", texts.pMax, "MPa"), orbit: new LowOrbit(orbit, height + 6), path: orbit };
+    this.drawn = { x, thickness: line("h_min", texts.hMin, "µm"), pressure: line("p_max", texts.pMax, "MPa"), others, orbit: new LowOrbit(orbit, height + 6), path: orbit };
     this.plots.replaceChildren(
       h("div", { class: "live-plot", "data-plot": "h_min" }, this.drawn.thickness.element),
       h("div", { class: "live-plot", "data-plot": "p_max" }, this.drawn.pressure.element),
       h("div", { class: "live-plot live-orbit", "data-plot": "orbit" }, this.drawn.orbit.element),
+      ...others.map(({ key, plot }) => h("div", { class: "live-plot", "data-plot": key }, plot.element)),
     );
     this.redraw();
   }
@@ -184,6 +209,7 @@ export class LivePane {
     x.splice(0, x.length, ...course.time.map((t) => 1e3 * t));
     thickness.update([own.h_min]);
     pressure.update([own.p_max]);
+    for (const { key, plot } of this.drawn.others) plot.update([own[key]]);
     // The journal's last turns are enough of its path.
     const from = Math.max(0, own.x.length - 600);
     shown.time = Float64Array.from(course.time.slice(from));

@@ -70,6 +70,8 @@ export const texts = {
   noScene: "The machine appears here once its text says enough of it.",
   stale: "As of the last text without faults",
   part: "Part",
+  noPart: "No part is chosen: click one in the machine, or put the cursor into its lines.",
+  further: { power: "Power loss", flow: "Side flow", T_max: "Highest temperature" },
   parts: "Choose a part",
   section: "Section",
   sectionPlace: "Place of the section",

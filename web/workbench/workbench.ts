@@ -14,6 +14,7 @@ import { explainHere, modelHelp, offerUnits, type ModelHelpers } from "./model_h
 import { showMesh } from "./mesh_window";
 import { ModelSchema, type Schema } from "./model_schema";
 import { Outline } from "./outline";
+import { PartPane } from "./part_pane";
 import { PointPane } from "./point_pane";
 import { diagnostics, ProblemList, type Findings } from "./problems";
 import { RunsPane } from "./runs_pane";
@@ -60,6 +61,7 @@ export class Workbench {
   private readonly machine: MachinePane;
   private readonly bearing: BearingPane;
   private readonly point: PointPane;
+  private readonly part: PartPane;
   private readonly problems: ProblemList;
   private readonly runs: RunsPane;
   private readonly live: LivePane;
@@ -116,6 +118,7 @@ export class Workbench {
     const set = (key: string, value: string | null) => this.setValue(key, value);
     this.bearing = new BearingPane({ set, goToKey: (key) => this.goToKey(key), chosen: (name) => (this.machine.highlight(`/bearings/${name}`), this.point.refresh()) });
     this.point = new PointPane(api, () => (this.model ? { ...text()!, tree: this.model.tree } : null), () => this.bearing.name);
+    this.part = new PartPane(set);
     this.problems = new ProblemList((fault) => this.goToFault(fault), (edits) => this.repair(edits));
     this.live = new LivePane(api, (bearing) => this.machine.run?.number(`/bearings/${bearing}`, "radial_clearance"));
     this.runs = new RunsPane({ api, say, chosen: (run) => void this.showRun(run), openReport: (title, url) => this.openReport(title, url), changed: () => this.runsChanged() });
@@ -123,10 +126,12 @@ export class Workbench {
     this.right = new Tabs(texts.panes.right, [
       { key: "machine", label: texts.machine, content: this.machine.element },
       { key: "bearing", label: texts.bearing, content: this.bearing.element },
+      { key: "part", label: texts.part, content: this.part.element },
       { key: "point", label: texts.point, content: this.point.element },
     ], (key) => {
       if (key === "point") setTimeout(() => this.point.refresh());
       if (key === "bearing") this.bearing?.draw();
+      if (key === "part") this.part?.draw();
       this.rememberSoon();
     });
     this.below = new Tabs(texts.panes.below, [
@@ -568,6 +573,7 @@ export class Workbench {
     const document = this.model;
     if (!document) return;
     this.bearing.show(scene?.bearings ?? null, this.schema, document.tree, document.state.doc.toString());
+    this.part.show(this.schema, document.tree, document.state.doc.toString());
     if (this.active === document.path) this.outline.show(document.tree);
     if (this.right.current === "point") this.point.refresh();
   }
@@ -625,6 +631,7 @@ export class Workbench {
     if (document !== this.model) return;
     const part = this.partAtCursor(document);
     this.machine.highlight(part);
+    if (part) this.part.choose(part);
     this.editor.markLines(null);
     if (part?.startsWith("/bearings/")) this.bearing.choose(part.split("/")[2]!);
   }
@@ -651,6 +658,7 @@ export class Workbench {
     this.editor.goTo(lines.line, (node?.indent ?? 0) + 1, false);
     this.editor.markLines({ from: lines.line, to: lines.endLine });
     this.machine.highlight(part);
+    this.part.choose(part);
   }
 
   private goToKey(key: string): void {
