@@ -85,9 +85,11 @@ export function splitter(holder: HTMLElement, property: string, label: string, t
   };
   set(start);
   const sign = towards === "right" ? 1 : -1;
+  // The page may have changed it with the window's size.
+  const read = () => (size = parseFloat(holder.style.getPropertyValue(property)) || size);
   bar.addEventListener("pointerdown", (event) => {
     bar.setPointerCapture(event.pointerId);
-    const [from, before] = [isUpright ? event.clientX : event.clientY, size];
+    const [from, before] = [isUpright ? event.clientX : event.clientY, read()];
     const move = (e: PointerEvent) => set(before + sign * ((isUpright ? e.clientX : e.clientY) - from));
     bar.addEventListener("pointermove", move);
     bar.addEventListener("lostpointercapture", () => {
@@ -99,7 +101,7 @@ export function splitter(holder: HTMLElement, property: string, label: string, t
     const step = isUpright ? { ArrowRight: 1, ArrowLeft: -1 }[event.key] : { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (!step) return;
     event.preventDefault();
-    set(size + sign * step * (event.shiftKey ? 80 : 20));
+    set(read() + sign * step * (event.shiftKey ? 80 : 20));
     changed(size);
   });
   return bar;

@@ -52,6 +52,8 @@ const isOfStart = (fault: Fault) => startFaults.has(fault);
 
 /** Pause of typing before a text is checked [ms]. */
 const pause = 45;
+/** Further pause before the start of its run is tried [ms]. */
+const restPause = 200;
 /** Pause before everything open is remembered [ms]. */
 const rememberPause = 400;
 
@@ -177,8 +179,16 @@ export class Workbench {
     );
     const group = (title: string, content: HTMLElement) => h("section", { class: "group", "aria-label": title }, h("h2", {}, title), content);
     const root = h("div", { class: "bench" });
-    const size = (name: string, usual: number) => this.sizes[name] ?? usual;
-    const [w, hgt] = [innerWidth, innerHeight];
+    const usual = (): Record<"left" | "right" | "below", number> => ({
+      left: Math.min(420, Math.max(200, 0.17 * innerWidth)),
+      right: Math.max(380, 0.36 * innerWidth),
+      below: Math.max(215, 0.3 * innerHeight),
+    });
+    const size = (name: "left" | "right" | "below") => this.sizes[name] ?? usual()[name];
+    // What nobody has set by hand follows the window.
+    addEventListener("resize", () => {
+      for (const name of ["left", "right", "below"] as const) if (this.sizes[name] === undefined) root.style.setProperty(`--${name}`, `${usual()[name]}px`);
+    });
     const remember = (name: string) => (value: number) => {
       this.sizes[name] = value;
       this.rememberSoon();
@@ -188,9 +198,9 @@ export class Workbench {
       h(
         "section",
         { class: "splitters", "aria-label": texts.panes.sizes },
-        splitter(root, "--left", texts.splitters.left, "right", size("left", Math.min(320, Math.max(200, 0.17 * w))), remember("left")),
-        splitter(root, "--right", texts.splitters.right, "left", size("right", Math.max(380, 0.36 * w)), remember("right")),
-        splitter(root, "--below", texts.splitters.below, "up", size("below", Math.max(215, 0.3 * hgt)), remember("below")),
+        splitter(root, "--left", texts.splitters.left, "right", size("left"), remember("left")),
+        splitter(root, "--right", texts.splitters.right, "left", size("right"), remember("right")),
+        splitter(root, "--below", texts.splitters.below, "up", size("below"), remember("below")),
       ),
       h("nav", { class: "pane left", "aria-label": texts.panes.left, tabindex: -1 }, group(texts.files, this.fileList), group(texts.runs, this.runs.element), group(texts.outline, this.outline.element)),
       h("main", { class: "pane middle", "aria-label": texts.panes.middle, tabindex: -1 }, this.documentBar, this.documentArea),
@@ -551,6 +561,9 @@ export class Workbench {
       this.machine.highlight(this.partAtCursor(document));
       performance.mark("hersey-checked");
       if (!isReadable) return;
+      // It takes longer: it waits until the hands rest.
+      await new Promise((resolve) => setTimeout(resolve, restPause));
+      if (isOld()) return;
       const started = await ask("start", false);
       if (isOld()) return;
       for (const fault of started.faults) startFaults.add(fault);
