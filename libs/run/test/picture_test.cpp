@@ -61,7 +61,9 @@ TEST_CASE("Picture_WritesWhatAResultsFileHas") {
       if (const auto* number = std::get_if<double>(&value)) CHECK(reader.number_attribute(object, name) == *number);
     }
   REQUIRE(writer.kept().constants.size() > 30);
-  for (const auto& [path, constant] : writer.kept().constants) {
+  for (const auto& named : writer.kept().constants) {
+    const std::string& path = named.first;
+    const results::KeptConstant& constant = named.second;
     CAPTURE(path);
     const results::Array array = reader.read(path);
     CHECK(array.values == constant.values);

@@ -312,18 +312,28 @@ struct TextMap::Scan {
   }
 };
 
-TextMap::TextMap(std::string text, std::string file)
-    : text_(std::move(text)), file_(std::move(file)), lines_(starts_of_lines(text_)) {
+namespace {
+
+Node tree_of(const std::string& text, const std::string& file) {
   std::vector<Fault> faults;
-  const std::optional<Node> root = parse_yaml(text_, file_, faults);
+  std::optional<Node> root = parse_yaml(text, file, faults);
   if (!root) throw InputError(std::move(faults));
+  return std::move(*root);
+}
+
+}  // namespace
+
+TextMap::TextMap(std::string text, std::string file) : TextMap(text, file, tree_of(text, file)) {}
+
+TextMap::TextMap(std::string text, std::string file, const Node& root)
+    : text_(std::move(text)), file_(std::move(file)), lines_(starts_of_lines(text_)) {
   entries_.emplace_back();
   offset_of_value_.push_back(0);
-  if (root->kind == Node::Kind::null) {
+  if (root.kind == Node::Kind::null) {
     entries_.front().value_at = extent(text_.size(), text_.size());
     entries_.front().kind = TextEntry::Kind::mapping;
   } else {
-    Scan{*this}.visit_value(0, *root, offset(root->position.line, root->position.column), 0, false);
+    Scan{*this}.visit_value(0, root, offset(root.position.line, root.position.column), 0, false);
   }
   for (std::size_t i = 1; i < entries_.size(); ++i) {
     by_key_.try_emplace({entries_[i].key_at.line, entries_[i].key_at.column}, i);

@@ -137,10 +137,9 @@ struct Picture::Impl {
 
   /// Index of a joint of the model in the mechanism, and the coordinate.
   [[nodiscard]] std::pair<std::size_t, mbd::Coordinate> find(const std::string& joint, const std::string& name) const {
-    std::vector<std::string> joints, coordinates;
+    std::vector<std::string> coordinates;
     for (std::size_t j = 0; j < model.joints.size(); ++j) {
-      joints.push_back(model.joints[j].name);
-      if (joints.back() != joint) continue;
+      if (model.joints[j].name != joint) continue;
       for (const mbd::Coordinate& coordinate : mbd::coordinates_of(model.joints[j].type)) {
         if (coordinate.size != 1) continue;
         if (name.empty() || coordinate.name == name) return {j, coordinate};
@@ -152,6 +151,8 @@ struct Picture::Impl {
                              coordinates.empty() ? "a joint with one" : one_of(coordinates),
                              did_you_mean(name, coordinates)});
     }
+    std::vector<std::string> joints;
+    for (const model::Joint& one : model.joints) joints.push_back(one.name);
     throw InputError(Fault{{model.file, 0, 0},
                            "joints",
                            "no joint '" + joint + "'",

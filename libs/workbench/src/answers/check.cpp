@@ -23,14 +23,6 @@ using model::TextMap;
 
 constexpr std::size_t kDeepestOutline = 2;
 
-std::optional<TextMap> map_of(const std::string& text, const std::string& file) {
-  try {
-    return TextMap(text, file);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
 /// Runs that the study of a model would do, without reading each of them.
 std::size_t count_runs(const model::Model& model) {
   if (!model.study) return 1;
@@ -107,10 +99,10 @@ struct Findings {
 };
 
 /// Reads a text, and with `starts` finds the starts of its runs.
-Findings examine(const std::string& text, const std::string& file, const std::vector<std::string>& set, bool starts) {
+Findings examine(const model::ModelFile& file, const std::vector<std::string>& set, bool starts) {
   Findings found;
   try {
-    const session::Session session(text, file, set);
+    const session::Session session(file, set);
     found.model = session.model();
     found.runs = count_runs(*found.model);
     found.warnings = found.model->warnings;
@@ -141,8 +133,9 @@ std::string Answers::check(std::string_view request) const {
   const std::string depth = text_in(given, "depth", "start");
   if (depth != "text" && depth != "start")
     throw Refused(400, "The depth '" + depth + "' of a check is unknown.", "Ask for 'text' or 'start'.");
-  const Findings found = examine(text, file, texts_in(given, "set"), depth == "start");
-  const std::optional<TextMap> map = map_of(text, file);
+  const model::ModelFile opened(text, file);
+  const Findings found = examine(opened, texts_in(given, "set"), depth == "start");
+  const std::optional<TextMap> map = opened.map();
   const TextColumns columns(text);
   const auto listed = [&](const std::vector<Fault>& faults) {
     Json list = Json::array();

@@ -9,7 +9,7 @@
 
 namespace hersey::workbench {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 /// The object that a request is. @throws Refused with the status 400 for any other text
 [[nodiscard]] Json request_object(std::string_view request);

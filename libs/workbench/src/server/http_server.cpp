@@ -375,11 +375,14 @@ class HttpServer::Impl : public httplib::Server {
     fill_in(response, std::move(reply));
   }
 
+  /// Refused requests and failures; that something is not there or has changed is an everyday answer.
   void note(const httplib::Response& response) {
-    if (response.status < 400) return;
+    const int status = response.status;
+    const bool is_everyday = status < 400 || status == 404 || status == 409 || status == 412 || status == 422;
+    if (is_everyday && !refused) return;
+    if (head_of_request.method.empty()) return write_log(fmt::format("{} a request that cannot be read", status));
     const std::string why = refused ? ": " + refused->error : "";
-    write_log(
-        fmt::format("{} {} {}{}", response.status, in_log(head_of_request.method), in_log(head_of_request.path), why));
+    write_log(fmt::format("{} {} {}{}", status, in_log(head_of_request.method), in_log(head_of_request.path), why));
   }
 
   /// At most so many lines a second: a flood of requests is no flood of the log.

@@ -10,6 +10,8 @@
 
 namespace hersey::model {
 
+struct Node;
+
 /// A stretch of a text. Lines and columns count from 1, columns in bytes; the end lies behind the last character.
 struct TextExtent {
   int line = 0, column = 0, end_line = 0, end_column = 0;
@@ -45,6 +47,8 @@ class TextMap {
   /// @param file  names the text in faults
   /// @throws InputError where the text is not YAML
   TextMap(std::string text, std::string file);
+  /// Of a text that has been read. @param root  its tree
+  TextMap(std::string text, std::string file, const Node& root);
 
   [[nodiscard]] const std::string& text() const { return text_; }
   /// The root first; then every key and item in the order of the text, each behind its parent.
