@@ -10,5 +10,5 @@ install(DIRECTORY python/hersey_study DESTINATION share/hersey/python COMPONENT 
 install(FILES LICENSE THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/herseyConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/herseyConfigVersion.cmake
               cmake/FindHDF5C.cmake cmake/FindKLU.cmake cmake/FindMUMPS.cmake
-              cmake/FindUdunits2.cmake
+              cmake/FindUdunits2.cmake cmake/FindCppHttplib.cmake
         DESTINATION ${package_dir} COMPONENT dev)

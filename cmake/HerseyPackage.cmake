@@ -33,6 +33,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME hersey)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-scipy, python3-openturns, python3-nlopt, python3-h5py, gmsh")  # hersey study; hersey mesh of CAD files
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "xdg-utils")  # hersey open
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "hersey solves oil films and the mechanisms they carry together: film thickness,
 pressure, friction, oil flow, heat and contact of bearings whose shell and
 journal belong to rigid or elastic bodies that move.
@@ -43,7 +44,7 @@ one HTML page that opens in any browser.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libhersey-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-    "libeigen3-dev (>= 3.4), libfmt-dev (>= 9), libyaml-cpp-dev (>= 0.7), nlohmann-json3-dev, libmuparser-dev, libhdf5-dev, liblzma-dev, libsuitesparse-dev, libmumps-seq-dev, libopenblas0-pthread, libudunits2-dev")
+    "libeigen3-dev (>= 3.4), libfmt-dev (>= 9), libyaml-cpp-dev (>= 0.7), nlohmann-json3-dev, libmuparser-dev, libhdf5-dev, liblzma-dev, libsuitesparse-dev, libmumps-seq-dev, libopenblas0-pthread, libudunits2-dev, libcpp-httplib-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "cmake (>= 3.24)")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "Static libraries and headers: what the program hersey is made of,
 for programs of one's own;

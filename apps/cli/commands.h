@@ -16,10 +16,11 @@ struct RunArguments {
   bool resume = false;
   bool json = false;
   bool step_error = false;
-  bool all = false;     ///< print every figure, however many
-  bool timing = false;  ///< print where the computing time went
-  int jobs = 0;         ///< 0: one per thread
-  int threads = 0;      ///< 0: one per processor
+  bool all = false;              ///< print every figure, however many
+  bool timing = false;           ///< print where the computing time went
+  int jobs = 0;                  ///< 0: one per thread
+  int threads = 0;               ///< 0: one per processor
+  std::filesystem::path events;  ///< file to append lines of JSON to while the run goes on; empty: none
 };
 
 /// `hersey run`: simulates a model, or every run of its study, writes results and report, prints the closing table.
@@ -40,6 +41,17 @@ struct LoadsArguments {
   std::vector<std::string> temperature, cooling;               ///< as SolidArguments have them
   std::string model_file;                                      ///< where it lies now; empty: as the results say
 };
+
+struct OpenArguments {
+  std::filesystem::path path;  ///< a model or a folder; empty: the present one
+  int port = 0;                ///< 0: the first free one
+  bool no_browser = false;
+  std::filesystem::path program;  ///< argv[0]
+};
+
+/// `hersey open`: serves the workbench of a folder on the loopback address until Ctrl-C.
+/// @returns an ExitCode. @throws InputError; std::runtime_error if the port is taken
+[[nodiscard]] int open_command(const OpenArguments& arguments);
 
 struct ExportArguments {
   std::string file;  ///< a model, or results with --loads

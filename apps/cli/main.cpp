@@ -30,6 +30,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  hersey init big_end my_rod                                    a commented model to begin with\n"
     "  hersey explain bearings.main.supply                           what a key means, its unit and default\n"
+    "  hersey open my_rod.yaml                                       write it and see it in the browser\n"
     "  hersey run examples/paper_big_end/model.yaml                  all runs of its study\n"
     "  hersey run model.yaml --set load=500N --output out            one parameter changed\n"
     "  hersey run model.yaml --resume                                goes on after Ctrl-C or a crash\n"
@@ -76,6 +77,7 @@ int dispatch(int argc, char** argv) {
 
   Commands commands;
   add_run_commands(app, commands);
+  add_open_command(app, commands, argv[0]);
   add_mesh_commands(app, commands);
   add_study_commands(app, commands, argv[0]);
   add_file_commands(app, commands);

@@ -15,6 +15,7 @@
 #include "hersey/fem/skin.h"
 #include "hersey/fem/vtu_file.h"
 #include "hersey/session/output_file.h"
+#include "hersey/workbench/mesh_document.h"
 #include "option_value.h"
 #include "standard_streams.h"
 #include "table.h"
@@ -24,58 +25,6 @@ namespace {
 
 using fem::Mesh;
 using fem::MeshQuality;
-
-nlohmann::json json_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
-nlohmann::json sets_json(const Mesh& mesh) {
-  nlohmann::json sets = {{"nodes", nlohmann::json::object()},
-                         {"elements", nlohmann::json::object()},
-                         {"surfaces", nlohmann::json::object()}};
-  for (const auto& [name, set] : mesh.node_sets) sets["nodes"][name] = set.size();
-  for (const auto& [name, set] : mesh.element_sets) sets["elements"][name] = set.size();
-  for (const auto& [name, set] : mesh.surfaces) sets["surfaces"][name] = set.size();
-  return sets;
-}
-
-nlohmann::json quality_json(const MeshQuality& quality) {
-  nlohmann::json types = nlohmann::json::object();
-  for (const auto& [type, of_type] : quality.types) {
-    nlohmann::json entry = {{"count", of_type.count}};
-    if (type != fem::ElementType::beam2) {
-      entry["smallest_shape"] = of_type.smallest_shape;
-      entry["mean_shape"] = of_type.mean_shape;
-      entry["label_of_smallest_shape"] = of_type.label_of_smallest;
-      entry["largest_aspect"] = of_type.largest_aspect;
-    }
-    types[fem::name_of(type)] = std::move(entry);
-  }
-  return types;
-}
-
-nlohmann::json document_of(const Mesh& mesh, const MeshQuality& quality) {
-  nlohmann::json materials = nlohmann::json::array();
-  for (const fem::MeshMaterial& material : mesh.materials) {
-    nlohmann::json entry = {{"name", material.name}};
-    if (material.youngs_modulus) entry["youngs_modulus"] = *material.youngs_modulus;
-    if (material.poisson_ratio) entry["poisson_ratio"] = *material.poisson_ratio;
-    if (material.density) entry["density"] = *material.density;
-    materials.push_back(std::move(entry));
-  }
-  nlohmann::json document = {{"nodes", mesh.nodes.size()},
-                             {"degrees_of_freedom", 3 * mesh.nodes.size()},
-                             {"elements", quality_json(quality)},
-                             {"box", {{"lower", json_of(quality.lower)}, {"upper", json_of(quality.upper)}}},
-                             {"volume", quality.volume},
-                             {"ties", mesh.ties.size()},
-                             {"parts", quality.parts.size()},
-                             {"outer_faces", fem::outer_faces(mesh).size()},
-                             {"materials", std::move(materials)},
-                             {"sets", sets_json(mesh)}};
-  document["mass"] = quality.mass ? nlohmann::json(*quality.mass) : nlohmann::json();
-  document["units"] = {
-      {"box", "m"}, {"volume", "m^3"}, {"mass", "kg"}, {"youngs_modulus", "Pa"}, {"density", "kg/m^3"}};
-  return document;
-}
 
 std::string box_text(const MeshQuality& quality) {
   const Vector3 size = quality.upper - quality.lower;
@@ -200,12 +149,12 @@ void print_found(const Mesh& mesh, const std::vector<fem::FoundSurface>& found, 
   std::string lines;
   if (!output.empty()) {
     fmt::print("\nwritten   {}: in metres (length_unit: 1 m), with these surfaces by their names\n", output.string());
-    lines = model_lines(found, output.string(), "1 m");
+    lines = workbench::model_lines(found, output.string(), "1 m");
   } else {
     std::vector<fem::FoundSurface> named;
     for (const fem::FoundSurface& surface : found)
       if (mesh.surfaces.contains(surface.name)) named.push_back(surface);
-    lines = model_lines(named, file, unit.find_first_of("0123456789") == 0 ? unit : "1 " + unit);
+    lines = workbench::model_lines(named, file, unit.find_first_of("0123456789") == 0 ? unit : "1 " + unit);
     if (named.size() < found.size())
       fmt::print("  the file has no names for some of them; a mesh that has: --output FILE.msh\n");
   }
@@ -275,10 +224,10 @@ int mesh_command(const MeshArguments& arguments) {
   if (!output.empty() && faults.empty()) write_named(mesh, found, output, warnings);
   if (!arguments.vtu.empty()) write_picture(mesh, arguments.vtu);
   if (arguments.json) {
-    nlohmann::json document = document_of(mesh, quality);
+    nlohmann::json document = nlohmann::json::parse(workbench::mesh_json(mesh, quality));
     document["file"] = arguments.file;
     if (!output.empty() && faults.empty()) document["output"] = output.string();
-    document["found"] = found_json(found);
+    document["found"] = nlohmann::json::parse(workbench::found_json(found));
     document["faults"] = nlohmann::json::array();
     document["warnings"] = nlohmann::json::array();
     for (const Fault& fault : faults) document["faults"].push_back(fault_json(fault));

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "exit_code.h"
+#include "hersey/core/error_text.h"
 #include "hersey/model/study.h"
 #include "hersey/report/report.h"
 #include "hersey/results/error.h"
@@ -18,6 +19,7 @@
 #include "hersey/session/session.h"
 #include "interrupt.h"
 #include "progress_bar.h"
+#include "run_events.h"
 #include "standard_streams.h"
 #include "table.h"
 #include "timing_table.h"
@@ -181,13 +183,16 @@ class Display : public session::Listener {
  public:
   /// @param model  whose warnings have been printed
   /// @param runs   of a study; empty: a single run
-  Display(const model::Model& model, const std::vector<model::StudyRun>& runs) : runs_(runs) {
+  /// @param events  are written beside
+  Display(const model::Model& model, const std::vector<model::StudyRun>& runs, RunEvents& events)
+      : runs_(runs), events_(events) {
     for (const Fault& warning : model.warnings) reported_.insert(warning.text());
   }
 
   /// Warnings that several runs of a study share are printed with the first of them.
   void warned(std::size_t run, const std::vector<Fault>& warnings) override {
     bar_.clear();
+    events_.warned(run, warnings);
     const std::string name = runs_.empty() ? "" : runs_[run].label + ": ";
     for (const Fault& warning : warnings)
       if (const std::string text = warning.text(); reported_.insert(text).second) say("warning: {}{}\n", name, text);
@@ -195,11 +200,13 @@ class Display : public session::Listener {
 
   void stepped(std::size_t run, const run::Progress& progress) override {
     note_step();
+    events_.stepped(run, progress);
     bar_.show(label(run), progress);
   }
 
-  void cycle_ended(std::size_t /*run*/, const run::CycleProgress& cycle) override {
+  void cycle_ended(std::size_t run, const run::CycleProgress& cycle) override {
     bar_.clear();
+    events_.cycle_ended(run, cycle);
     report(cycle);
   }
 
@@ -209,6 +216,7 @@ class Display : public session::Listener {
     if (runs_.empty()) interrupt_is_heeded();
     ++finished_;
     bar_.clear();
+    events_.finished(run, result);
     if (result.solved()) {
       report(label(run), result.summary);
     } else {
@@ -223,6 +231,7 @@ class Display : public session::Listener {
   }
 
   const std::vector<model::StudyRun>& runs_;
+  RunEvents& events_;
   ProgressBar bar_;
   std::size_t finished_ = 0;
   std::set<std::string> reported_;
@@ -244,9 +253,7 @@ int run_all(const RunArguments& arguments, const session::Session& session, cons
   return close(arguments, folder, files, summaries, code);
 }
 
-}  // namespace
-
-int run_command(const RunArguments& arguments) {
+int run_with(const RunArguments& arguments, RunEvents& events) {
   const auto began = std::chrono::steady_clock::now();
   const session::Session session(arguments.model, arguments.overrides);
   const std::filesystem::path folder = arguments.output.empty() ? session.results_folder() : arguments.output;
@@ -260,7 +267,9 @@ int run_command(const RunArguments& arguments) {
   if (arguments.resume) options.existing = session::Existing::resume;
   options.stop = &catch_interrupts();
   options.pages = {folder / "report.html"};
-  Display display(session.model(), runs);
+  if (!arguments.events.empty()) options.pages.push_back(arguments.events);
+  Display display(session.model(), runs, events);
+  events.started(session.model(), runs);
   if (!runs.empty()) return run_all(arguments, session, folder, runs, options, display);
   const run::Summary summary = session.run(folder / "results.h5", options, display);
   const int code = close(arguments, folder, {summary.results}, {summary}, exit_code(summary.status));
@@ -269,6 +278,20 @@ int run_command(const RunArguments& arguments) {
     say("{}", timing_text(summary, total.count()));
   }
   return code;
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+  RunEvents events(arguments.events);
+  try {
+    const int code = run_with(arguments, events);
+    events.ended(code);
+    return code;
+  } catch (const std::exception& error) {
+    events.failed(error_text(error));
+    throw;
+  }
 }
 
 }  // namespace hersey::cli

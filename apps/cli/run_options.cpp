@@ -37,6 +37,10 @@ void add_run(CLI::App& app, Commands& commands) {
       ->add_flag("--step-error", run->step_error,
                  "Estimate what the time step does to each bearing's figures, by a run with steps twice as long")
       ->excludes(resume);
+  command
+      ->add_option("--events", run->events,
+                   "Append what happens to this file, one line of JSON each, at most ten steps a second")
+      ->type_name("FILE");
   command->add_flag("--json", run->json, "Print the closing table as JSON");
   command->add_flag("--all", run->all, "Print every figure of every bearing, however many");
   command->add_flag("--timing", run->timing,

@@ -238,7 +238,11 @@ int study_command(const StudyArguments& arguments) {
   // Debian's own interpreter has Debian's packages; another one on the path may not.
   const char* chosen = std::getenv("HERSEY_PYTHON");
   if (chosen != nullptr) ::execvp(chosen, argv.data());
-  ::execv("/usr/bin/python3", argv.data());
+  // An interpreter looks for its modules where its own name leads to: `python3` would be the first on the path.
+  std::string debian = "/usr/bin/python3";
+  argv.front() = debian.data();
+  ::execv(debian.c_str(), argv.data());
+  argv.front() = words.front().data();
   ::execvp("python3", argv.data());
   say("hersey: studies need Python: python3 cannot be started ({}); `scripts/setup study` installs what they use\n",
       std::strerror(errno));

@@ -34,7 +34,8 @@ export class MachineGeometry {
   readonly bearings: Link[];
   readonly forces: Link[];
 
-  private constructor(private readonly run: Run) {
+  /** Of a run that may hold less than a picture needs: see `of`. */
+  constructor(private readonly run: Run) {
     this.time = run.column("/time") ?? new Float64Array();
     this.bodies = run.children("/bodies").flatMap((name) => {
       const position = run.dataset(`/bodies/${name}/position`)?.values;

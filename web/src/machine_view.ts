@@ -49,22 +49,22 @@ export function sweepMachineViews(): void {
 
 export class MachineView {
   readonly element: HTMLElement;
-  private readonly holder = h("div", { class: "machine-space", role: "img", tabindex: 0, "aria-label": "The machine in space; arrow keys turn it, plus and minus come nearer" });
-  private readonly legend = h("div", { class: "machine-legend" });
-  private readonly scene = new Scene();
-  private readonly camera = new PerspectiveCamera(30, 1, 0.01, 100);
-  private readonly groups = new Map<string, Group>();
+  protected readonly holder = h("div", { class: "machine-space", role: "img", tabindex: 0, "aria-label": "The machine in space; arrow keys turn it, plus and minus come nearer" });
+  protected readonly legend = h("div", { class: "machine-legend" });
+  protected readonly scene = new Scene();
+  protected readonly camera = new PerspectiveCamera(30, 1, 0.01, 100);
+  protected readonly groups = new Map<string, Group>();
   private readonly paths = new Group();
   private readonly skins = new Map<string, DeformedMesh>();
   private enlargement = 1;
   private readonly deformationNote = h("span", { class: "chip" });
   private readonly films: FilmMesh[] = [];
   private areFilmsShown = true;
-  private readonly forceLines: { link: Link; line: Line }[] = [];
-  private renderer: WebGLRenderer | null = null;
-  private controls: OrbitControls | null = null;
+  protected readonly forceLines: { link: Link; line: Line }[] = [];
+  protected renderer: WebGLRenderer | null = null;
+  protected controls: OrbitControls | null = null;
   private readonly observer: ResizeObserver;
-  private readonly bounds: Sphere;
+  protected bounds: Sphere;
   private time = 0;
   private increments: Map<string, Increment> | null = null;
 
@@ -73,7 +73,7 @@ export class MachineView {
     return geometry ? new MachineView(geometry) : null;
   }
 
-  private constructor(private readonly geometry: MachineGeometry) {
+  protected constructor(protected geometry: MachineGeometry) {
     this.bounds = this.boundingSphere();
     const toggle = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, "Paths");
     toggle.addEventListener("click", () => {
@@ -197,7 +197,7 @@ export class MachineView {
   }
 
   /** A machine that moves in a plane is seen from almost along its normal, any other from a corner. */
-  private lookFromStart(): void {
+  protected lookFromStart(): void {
     const { centre, normal } = { centre: this.bounds.center, normal: this.normalOfMotion() };
     const up = this.geometry.up();
     const side = new Vector3().crossVectors(up, normal).normalize();
@@ -213,7 +213,7 @@ export class MachineView {
     this.render();
   }
 
-  private normalOfMotion(): Vector3 {
+  protected normalOfMotion(): Vector3 {
     const box = new Box3();
     for (const body of this.geometry.bodies)
       for (let k = 0; k < body.position.length; k += 3) box.expandByPoint(new Vector3().fromArray(body.position, k));
@@ -227,7 +227,7 @@ export class MachineView {
     return across.normalize();
   }
 
-  private boundingSphere(): Sphere {
+  protected boundingSphere(): Sphere {
     const box = new Box3();
     const pose = new Matrix4();
     const { geometry } = this;
@@ -260,7 +260,7 @@ export class MachineView {
     return [...pads, ...shapes];
   }
 
-  private build(): void {
+  protected build(): void {
     const colours = palette();
     this.scene.clear();
     this.paths.clear();
@@ -310,7 +310,7 @@ export class MachineView {
     this.scene.add(group);
   }
 
-  private addBody(name: string, colour: string): void {
+  protected addBody(name: string, colour: string): void {
     const group = new Group();
     group.matrixAutoUpdate = false;
     const shapes = this.geometry.shapes(name);
@@ -352,7 +352,7 @@ export class MachineView {
     group.add(ball(mass, 1.8 * radius, paint));
   }
 
-  private addJoint(joint: Link, size: number, colour: string): void {
+  protected addJoint(joint: Link, size: number, colour: string): void {
     const group = this.groups.get(joint.inboard);
     if (!group || joint.axis.lengthSq() === 0) return;
     const paint = material(colour);
@@ -363,7 +363,7 @@ export class MachineView {
   }
 
   /** The film; where it is not shown the shell, see-through and a little wider than the bore, or the face of the pad. */
-  private addBearing(bearing: Link, colour: string): void {
+  protected addBearing(bearing: Link, colour: string): void {
     const size = this.geometry.bearingSize(bearing.name);
     const { radius, width, length } = size;
     const group = this.groups.get(bearing.inboard);
@@ -394,7 +394,7 @@ export class MachineView {
     this.paths.add(new Line(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: new Color(colour) })));
   }
 
-  private place(): void {
+  protected place(): void {
     for (const body of this.geometry.bodies) {
       const group = this.groups.get(body.name);
       if (!group) continue;
@@ -433,7 +433,7 @@ export class MachineView {
     if (largest > 0) this.deformationNote.textContent = `deformations x ${this.enlargement}; brightest: ${format(1e6 * largest)} µm`;
   }
 
-  private render(): void {
+  protected render(): void {
     this.renderer?.render(this.scene, this.camera);
   }
 }

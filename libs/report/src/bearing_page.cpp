@@ -79,6 +79,10 @@ json solution_data(const PageSolution& solution, const std::string& bearing) {
 
 }  // namespace
 
+std::string solution_json(const PageSolution& solution, const std::string& bearing) {
+  return solution_data(solution, bearing).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
 void write_html(const BearingPage& page, const std::filesystem::path& out) {
   HERSEY_REQUIRE(!page.solutions.empty(), "a report shows at least one solution");
   json bearing{{"description", page.description}, {"file", page.file},       {"name", page.bearing},

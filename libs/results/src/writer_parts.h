@@ -35,7 +35,9 @@ namespace hersey::results {
 /// The file being written, and the objects made in it so far.
 struct Writer::Impl {
   bool in_memory = false;
-  std::vector<LatestRow> latest;                          // in memory
+  std::vector<LatestRow> latest;  // in memory
+  bool keeps_all = false;         // attributes and constants too; in memory
+  Kept kept;
   std::map<std::string, std::vector<std::string>> words;  // labels, by path; in memory
   Options options;
   OpenFile file;
@@ -58,6 +60,10 @@ struct Writer::Impl {
     if (row.shape.size() == 1) row.components = names_of(row.shape.front(), dimension);
     latest.push_back(std::move(row));
     return latest.size() - 1;
+  }
+
+  void keep_attribute(std::string_view object, std::string_view name, Kept::Attribute value) {
+    if (keeps_all) kept.attributes[absolute(object)][std::string(name)] = std::move(value);
   }
 
   [[nodiscard]] std::vector<std::string> names_of(std::size_t count, std::string_view dimension) const {

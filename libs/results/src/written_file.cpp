@@ -47,7 +47,10 @@ Writer::Writer(std::filesystem::path path, Options options) {
   impl_->flow.flush();
 }
 
-Writer::Writer(InMemory) : impl_(std::make_unique<Impl>(Options{})) { impl_->in_memory = true; }
+Writer::Writer(InMemory how) : impl_(std::make_unique<Impl>(Options{})) {
+  impl_->in_memory = true;
+  impl_->keeps_all = how.keeps_all;
+}
 
 Writer::~Writer() {
   try {
@@ -58,6 +61,9 @@ Writer::~Writer() {
 }
 
 const std::vector<LatestRow>& Writer::latest() const { return impl_->latest; }
+
+const Kept& Writer::kept() const { return impl_->kept; }
+
 void Writer::rename(const std::filesystem::path& path, bool replace) {
   if (impl_->in_memory) return;
   impl_->flow.settle();

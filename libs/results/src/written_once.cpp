@@ -4,14 +4,14 @@
 namespace hersey::results {
 
 void Writer::attribute(std::string_view object, std::string_view name, std::string_view text) {
-  if (impl_->in_memory) return;
+  if (impl_->in_memory) return impl_->keep_attribute(object, name, std::string(text));
   const Hdf5Session session = impl_->enter();
   impl_->file.require_open();
   impl_->set_text(impl_->open_or_make(absolute(object)).get(), name, text);
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, double value) {
-  if (impl_->in_memory) return;
+  if (impl_->in_memory) return impl_->keep_attribute(object, name, value);
   const Hdf5Session session = impl_->enter();
   impl_->file.require_open();
   const Handle target = impl_->open_or_make(absolute(object));
@@ -19,7 +19,7 @@ void Writer::attribute(std::string_view object, std::string_view name, double va
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, int value) {
-  if (impl_->in_memory) return;
+  if (impl_->in_memory) return impl_->keep_attribute(object, name, static_cast<double>(value));
   const Hdf5Session session = impl_->enter();
   impl_->file.require_open();
   const Handle target = impl_->open_or_make(absolute(object));
@@ -27,7 +27,7 @@ void Writer::attribute(std::string_view object, std::string_view name, int value
 }
 
 void Writer::attribute(std::string_view object, std::string_view name, const std::vector<std::string>& texts) {
-  if (impl_->in_memory) return;
+  if (impl_->in_memory) return impl_->keep_attribute(object, name, texts);
   const Hdf5Session session = impl_->enter();
   impl_->file.require_open();
   std::vector<const char*> pointers;
@@ -73,7 +73,12 @@ void Writer::text_table(std::string_view path, const std::vector<std::pair<std::
 
 void Writer::constant(std::string_view path, std::span<const double> values, std::string_view unit,
                       std::string_view description, std::string_view dimension) {
-  if (impl_->in_memory) return;
+  if (impl_->in_memory) {
+    if (impl_->keeps_all)
+      impl_->kept.constants[absolute(path)] = {
+          std::string(unit), std::string(description), {values.begin(), values.end()}};
+    return;
+  }
   const Hdf5Session session = impl_->enter();
   impl_->file.require_open();
   HERSEY_REQUIRE(!values.empty(), "a constant has numbers");

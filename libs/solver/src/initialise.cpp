@@ -215,6 +215,14 @@ bool find_accelerations(Equations& equations, State& trial, bool balances_massle
 
 }  // namespace
 
+InitialiseSummary assemble_positions(Equations& equations, State& state, const InitialiseOptions& options) {
+  InitialiseSummary summary;
+  summary.status = InitialiseStatus::consistent;
+  summary.residual = std::numeric_limits<double>::infinity();
+  Assembly(equations, state, options, summary).run();
+  return summary;
+}
+
 InitialiseSummary initialise(Equations& equations, State& state, const InitialiseOptions& options) {
   const Index nv = equations.nv(), nlambda = equations.nlambda();
   HERSEY_REQUIRE(state.q.size() == equations.nq() && state.v.size() == nv, "the state belongs to the equations");

@@ -198,6 +198,7 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
                                 .solver = bearing.solver,
                                 .elasticity = solution.elasticity,
                                 .inertia_factor = model::momentum_factor(bearing.oil_inertia)};
+  if (start != nullptr && start->kind && start->kind->name() != bearing.kind->name()) start = nullptr;
   if (start != nullptr) {
     steady.start = start->e;
     if (start->u.size() == bearing.film.grid.size()) steady.start_film = start->u;
@@ -227,7 +228,8 @@ void solve_one(const model::Model& model, const BearingStudyOptions& options, co
   // Those at the temperatures as they are, whose grid error stands beside those with temperatures that follow, too.
   solution.tangent = solution.state.coefficients;
   const bearing::DynamicCoefficients frozen =
-      bearing::phase_averaged_coefficients(solution.model, solution.state, steady);
+      options.phase_averages ? bearing::phase_averaged_coefficients(solution.model, solution.state, steady)
+                             : solution.tangent;
   solution.state.coefficients = frozen;
   if (!solve_heat(bearing, options, steady, solution)) return;
   if (std::holds_alternative<model::JournalPoint>(*bearing.operating_point)) {
@@ -571,6 +573,12 @@ std::vector<BearingSolution> solve_bearings(const std::string& path, const std::
 BearingSolver::BearingSolver() : bodies_(std::make_shared<KnownBodies>()) {}
 
 BearingSolution BearingSolver::solve(const model::Model& model, const BearingStudyOptions& options) const {
+  if (options.nearby != nullptr && options.nearby->solved()) {
+    BearingSolution solution;
+    solve_one(model, options, &options.nearby->state, *bodies_, solution);
+    solution.from_neighbour = true;
+    if (solution.solved()) return solution;
+  }
   BearingSolution solution;
   solve_one(model, options, nullptr, *bodies_, solution);
   return solution;

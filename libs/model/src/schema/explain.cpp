@@ -21,6 +21,7 @@ struct KeyLocation {
   const Type* type = nullptr;
   const Key* key = nullptr;  ///< null for the item of a mapping with free names
   std::string condition;     ///< "type: revolute", where only some variants have the key
+  bool is_tag = false;       ///< the key that chooses the variant of `type`
 };
 
 std::string key_path(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
@@ -69,7 +70,8 @@ std::vector<KeyLocation> step(const KeyLocation& location, const std::string& na
   for (const Type* mapping : mappings_of(*location.type)) {
     add(mapping->keys, "");
     for (const Variant& variant : mapping->variants) add(variant.keys, mapping->tag + ": " + variant.tag);
-    if (mapping->tag == name && found.empty()) found.push_back({key_path(location.path, name), mapping, nullptr, ""});
+    if (mapping->tag == name && found.empty())
+      found.push_back({key_path(location.path, name), mapping, nullptr, "", true});
   }
   return found;
 }
@@ -211,7 +213,145 @@ std::string text_of(const KeyLocation& location) {
   return text;
 }
 
+std::string kind_in_words(const Type& type) {
+  switch (type.kind) {
+    case Kind::text:
+    case Kind::part:
+      return "text";
+    case Kind::scalar:
+    case Kind::scale:
+      return "scalar";
+    case Kind::integer:
+      return "integer";
+    case Kind::quantity:
+      return "quantity";
+    case Kind::choice:
+      return "choice";
+    case Kind::reference:
+      return "reference";
+    case Kind::object:
+    case Kind::variant:
+      return "mapping";
+    case Kind::named:
+      return "named";
+    case Kind::list:
+      return "list";
+    case Kind::any_of:
+      break;
+  }
+  return kind_in_words(*type.alternatives.front());
+}
+
+/// Adds the words and units of a value: of each alternative that is none of keys.
+void collect_words(const Type& type, KeyExplanation& into) {
+  for (const Word& word : type.words) into.allowed.emplace_back(word.text, plain(word.description));
+  if (type.kind == Kind::variant)
+    for (const Variant& one : type.variants) into.allowed.emplace_back(one.tag, plain(one.description));
+  for (const std::string& unit : type.units) {
+    if (into.unit.empty() && unit != "1") into.unit = unit;
+    for (const std::string& spelled : dimension_of(unit).spelled)
+      if (std::find(into.units.begin(), into.units.end(), spelled) == into.units.end()) into.units.push_back(spelled);
+  }
+  for (const TypePtr& alternative : type.alternatives) collect_words(*alternative, into);
+}
+
+KeyExplanation explained(const KeyLocation& location) {
+  KeyExplanation found{.path = location.path, .condition = location.condition};
+  if (location.key != nullptr) {
+    found.text = plain(location.key->description);
+    found.default_text = default_of(*location.key);
+    found.is_required = location.key->required;
+  }
+  found.kind = kind_in_words(*location.type);
+  found.value = value_of(*location.type);
+  collect_words(*location.type, found);
+  if (location.is_tag) {
+    found.kind = "choice";
+    return found;
+  }
+  const Type& of = location.type->kind == Kind::named ? *location.type->item : *location.type;
+  for (const Type* mapping : mappings_of(of))
+    for (const Key* key : all_keys(*mapping)) {
+      const auto is_same = [&](const auto& one) { return one.first == key->name; };
+      if (std::none_of(found.keys.begin(), found.keys.end(), is_same))
+        found.keys.emplace_back(key->name, plain(key->description));
+    }
+  return found;
+}
+
+/// The variant that is taken where none is chosen; else the first.
+const Variant& usual_variant(const Type& type) {
+  const auto usual = std::find_if(type.variants.begin(), type.variants.end(),
+                                  [&](const Variant& one) { return one.tag == type.default_tag; });
+  return usual == type.variants.end() ? type.variants.front() : *usual;
+}
+
+constexpr int kDeepestExample = 5;
+
+std::string example_of(const Type& type, int depth);
+
+/// "{duration: 1 s, step: 0.1 ms}": the keys that have to be given.
+std::string example_of_keys(const Type& type, int depth) {
+  std::string text;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    text += (text.empty() ? "" : ", ") + name + ": " + value;
+  };
+  std::vector<const Key*> keys;
+  for (const Key& key : type.keys) keys.push_back(&key);
+  if (type.kind == Kind::variant) {
+    const Variant& chosen = usual_variant(type);
+    if (chosen.tag != type.default_tag) add(type.tag, chosen.tag);
+    for (const Key& key : chosen.keys) keys.push_back(&key);
+  }
+  const auto is_chosen = [&](const Key& key) {
+    return std::any_of(type.exactly_one.begin(), type.exactly_one.end(),
+                       [&](const std::vector<std::string>& group) { return group.front() == key.name; });
+  };
+  for (const Key* key : keys)
+    if (key->required || is_chosen(*key)) add(key->name, example_of(*key->type, depth + 1));
+  return "{" + text + "}";
+}
+
+std::string example_of(const Type& type, int depth) {
+  if (depth > kDeepestExample) return "{}";
+  switch (type.kind) {
+    case Kind::choice:
+      return type.words.front().text;
+    case Kind::object:
+    case Kind::variant:
+      return example_of_keys(type, depth);
+    case Kind::named:
+      return "{" + (type.example.empty() ? std::string("main") : type.example) + ": " +
+             example_of(*type.item, depth + 1) + "}";
+    case Kind::list: {
+      std::string items = example_of(*type.item, depth + 1);
+      const std::string one = items;
+      for (int i = 1; i < type.count; ++i) items += ", " + one;
+      return "[" + items + "]";
+    }
+    case Kind::any_of:
+      return example_of(*type.alternatives.front(), depth);
+    default:
+      break;
+  }
+  if (type.example.empty()) return type.kind == Kind::integer ? "1" : "0";
+  const bool needs_quotes = type.example.find_first_of(",:{}[]#&*!|>'\"%@`") != std::string::npos;
+  return needs_quotes ? "\"" + type.example + "\"" : type.example;
+}
+
 }  // namespace
+
+std::vector<KeyExplanation> key_explanations(const std::string& path) {
+  std::vector<KeyExplanation> found;
+  if (path.empty()) return found;
+  for (const KeyLocation& location : find_locations(path)) found.push_back(explained(location));
+  return found;
+}
+
+std::string example_value(const std::string& path) {
+  const KeyLocation location = find_locations(path).front();
+  return location.is_tag ? usual_variant(*location.type).tag : example_of(*location.type, 0);
+}
 
 std::string explanation(const std::string& path) {
   std::string text;

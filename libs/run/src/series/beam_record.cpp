@@ -217,6 +217,13 @@ BeamRecord::BeamRecord(const model::Model& model, const model::Machine& machine,
   write_once(surface_constants(), group_of(built) + "shapes/surface/", plan_, writer);
 }
 
+void write_beam_surface(const model::Beam& beam, const std::string& group, results::Writer& writer) {
+  const model::BuiltBeam unbuilt;
+  const BeamPlan plan{beam, unbuilt};
+  write_once(surface_attributes(), group + "shapes/surface/", plan, writer);
+  write_once(surface_constants(), group + "shapes/surface/", plan, writer);
+}
+
 void BeamRecord::append(const mbd::Observation& observation) const {
   const auto& segments = plan_.built.segments;
   BeamRow row{plan_, observation, {}};

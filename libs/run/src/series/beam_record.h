@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "hersey/model/build.h"
@@ -31,6 +32,10 @@ struct BeamRow {
 
 /// The beam of the model that `built` was made of.
 [[nodiscard]] const model::Beam& beam_of(const model::Model& model, const model::BuiltBeam& built);
+
+/// Writes the surface of a beam at rest, a shape of its body, for pictures.
+/// @param group  of the body, ends with "/"
+void write_beam_surface(const model::Beam& beam, const std::string& group, results::Writer& writer);
 
 /// One beam in the results file, besides the motion of its nodes with frames.
 class BeamRecord {

@@ -653,6 +653,10 @@ const BearingPlan& written(const BearingPlan& plan, results::Writer& writer) {
 
 }  // namespace
 
+void write_bearing_plan(const model::Model& model, const model::Bearing& bearing, results::Writer& writer) {
+  (void)written(BearingPlan{model, bearing, {}}, writer);
+}
+
 BearingRecord::BearingRecord(const BearingPlan& plan, const bearing::FilmForce& film, results::Writer& writer)
     : film_(film),
       is_forward_(plan.bearing.kind->is_forward()),

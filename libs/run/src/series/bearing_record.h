@@ -31,6 +31,9 @@ struct FilmInstant {
   const film::FilmFields& fields;
 };
 
+/// Writes what is known of a bearing before any run: its size, assumptions, and the nodes of its film.
+void write_bearing_plan(const model::Model& model, const model::Bearing& bearing, results::Writer& writer);
+
 /// One bearing in the results file: figures over time, extremes around the bore, fields.
 class BearingRecord {
  public:

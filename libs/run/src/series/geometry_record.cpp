@@ -118,22 +118,24 @@ const mbd::FrameSpec& frame(const mbd::MechanismSpec& spec, mbd::FrameId id) {
   return spec.frames[static_cast<std::size_t>(id.index)];
 }
 
+FrameOnBody on_body(const mbd::MechanismSpec& spec, mbd::FrameId id) {
+  const mbd::FrameSpec& at = frame(spec, id);
+  return {spec.bodies[static_cast<std::size_t>(at.body.index)].name, at.X_BF};
+}
+
 /// Two bodies that something connects, and where.
 struct Link {
-  const mbd::MechanismSpec& spec;
-  mbd::FrameId inboard, outboard;
+  FrameOnBody inboard, outboard;
   Vector3 axis;                      ///< in the axes of the inboard body
   Vector3 x_axis = Vector3::Zero();  ///< x axis of the inboard frame
 };
 
-auto body_name(mbd::FrameId Link::*end) {
-  return [end](const Link& link) {
-    return link.spec.bodies[static_cast<std::size_t>(frame(link.spec, link.*end).body.index)].name;
-  };
+auto body_name(FrameOnBody Link::*end) {
+  return [end](const Link& link) { return (link.*end).body; };
 }
 
-auto origin(mbd::FrameId Link::*end) {
-  return [end](const Link& link) { return frame(link.spec, link.*end).X_BF.r; };
+auto origin(FrameOnBody Link::*end) {
+  return [end](const Link& link) -> Vector3 { return (link.*end).X_BF.r; };
 }
 
 const std::vector<Attribute<Link>>& link_attributes() {
@@ -210,36 +212,52 @@ MassPoint mass_of_elastic(const mbd::MechanismSpec& spec, const std::string& nam
 
 }  // namespace
 
+void write_ground(const model::Body& ground, const Vector3& gravity, Writer& writer) {
+  mbd::MechanismSpec spec;
+  spec.gravity = gravity;
+  write_once(ground_constants(), "/ground/", spec, writer);
+  write_shapes(ground, "/ground/", writer);
+}
+
+void write_body(const model::Body& body, double mass, const Vector3& centre_of_mass, Writer& writer) {
+  const std::string group = "/bodies/" + body.name + "/";
+  const MassPoint point{mass, centre_of_mass};
+  write_once(body_attributes(), group, point, writer);
+  write_once(body_constants(), group, point, writer);
+  write_shapes(body, group, writer);
+}
+
+void write_joint_position(const mbd::MechanismSpec& spec, const mbd::JointSpec& joint, Writer& writer) {
+  const std::string group = "/joints/" + joint.name + "/";
+  const Link link{on_body(spec, joint.inboard), on_body(spec, joint.outboard),
+                  frame(spec, joint.inboard).X_BF.R * joint.axis.normalized()};
+  write_once(joint_attributes(), group, joint, writer);
+  write_once(link_attributes(), group, link, writer);
+  write_once(joint_constants(), group, link, writer);
+}
+
+void write_link(const std::string& group, const FrameOnBody& inboard, const FrameOnBody& outboard, Writer& writer) {
+  const Link link{inboard, outboard, inboard.X_BF.R.col(2), inboard.X_BF.R.col(0)};
+  write_once(link_attributes(), group, link, writer);
+  write_once(force_constants(), group, link, writer);
+}
+
 void write_geometry(const model::Model& model, const mbd::MechanismSpec& spec, const std::vector<bool>& hidden_joints,
                     Writer& writer) {
-  write_once(ground_constants(), "/ground/", spec, writer);
-  write_shapes(model.ground, "/ground/", writer);
+  write_ground(model.ground, spec.gravity, writer);
   for (const model::Body& body : model.bodies) {
-    const std::string group = "/bodies/" + body.name + "/";
     const MassPoint mass =
         body.flexible || body.beam ? mass_of_elastic(spec, body.name) : MassPoint{body.mass, body.centre_of_mass};
-    write_once(body_attributes(), group, mass, writer);
-    write_once(body_constants(), group, mass, writer);
-    write_shapes(body, group, writer);
+    write_body(body, mass.mass, mass.centre, writer);
   }
-  for (std::size_t j = 0; j < spec.joints.size(); ++j) {
-    if (hidden_joints[j]) continue;
-    const mbd::JointSpec& joint = spec.joints[j];
-    const std::string group = "/joints/" + joint.name + "/";
-    const Link link{spec, joint.inboard, joint.outboard, frame(spec, joint.inboard).X_BF.R * joint.axis.normalized()};
-    write_once(joint_attributes(), group, joint, writer);
-    write_once(link_attributes(), group, link, writer);
-    write_once(joint_constants(), group, link, writer);
-  }
+  for (std::size_t j = 0; j < spec.joints.size(); ++j)
+    if (!hidden_joints[j]) write_joint_position(spec, spec.joints[j], writer);
   for (const mbd::MechanismSpec::Force& force : spec.forces) {
     // Films and contacts are named as they are in messages, "bearing big_end".
     std::string group = "/forces/" + force.name + "/";
     for (const std::string kind : {"bearing", "contact"})
       if (force.name.starts_with(kind + " ")) group = "/" + kind + "s/" + force.name.substr(kind.size() + 1) + "/";
-    const Matrix3& R = frame(spec, force.a).X_BF.R;
-    const Link link{spec, force.a, force.b, R.col(2), R.col(0)};
-    write_once(link_attributes(), group, link, writer);
-    write_once(force_constants(), group, link, writer);
+    write_link(group, on_body(spec, force.a), on_body(spec, force.b), writer);
   }
 }
 

@@ -22,6 +22,22 @@ results::Status as_written(Status status) {
   return status == Status::stopped ? results::Status::stopped : results::Status::failed;
 }
 
+std::vector<BearingProgress> bearings_of(const model::Model& model, const StepRecord& step) {
+  std::vector<BearingProgress> figures;
+  for (std::size_t i = 0; i < step.bearings.size(); ++i) {
+    const bearing::BearingObservation& observed = step.bearings[i];
+    figures.push_back({.name = model.bearings[i].name,
+                       .h_min = observed.film.h_min,
+                       .p_max = observed.film.p_max,
+                       .e_x = observed.position.e[0],
+                       .e_y = observed.position.e[1],
+                       .power = observed.film.power_film + observed.film.power_asperity,
+                       .flow = observed.film.flow_out()});
+    if (observed.heat) figures.back().T_max = observed.heat->T_max;
+  }
+  return figures;
+}
+
 }  // namespace
 
 MachineRun::MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint,
@@ -175,7 +191,8 @@ void MachineRun::report_progress(const StepRecord& step) const {
                         .dt = step.dt,
                         .newton_iterations = step.newton_iterations,
                         .moft = record_.moft(),
-                        .elapsed = elapsed()});
+                        .elapsed = elapsed(),
+                        .bearings = [this, &step] { return bearings_of(model_, step); }});
 }
 
 Outcome MachineRun::finish(Status status, const std::string& message, const Summary* coarse) {

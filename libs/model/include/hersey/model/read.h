@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hersey/model/model.h"
+#include "hersey/model/text_map.h"
 
 namespace hersey::model {
 
@@ -31,6 +33,8 @@ class ModelFile {
 
   /// As model::read. @throws InputError
   [[nodiscard]] Model read(const std::vector<std::string>& overrides = {}) const;
+  /// Where everything stands in its text; nothing where that is not YAML.
+  [[nodiscard]] std::optional<TextMap> map() const;
   /// Its text, as it was when it was opened.
   [[nodiscard]] const std::string& text() const;
   /// What names it in faults.

@@ -194,6 +194,11 @@ ModelFile::ModelFile(std::string text, std::string file) {
   content_ = std::move(content);
 }
 
+std::optional<TextMap> ModelFile::map() const {
+  if (!content_->root) return std::nullopt;
+  return TextMap(content_->text, content_->file, *content_->root);
+}
+
 const std::string& ModelFile::text() const { return content_->text; }
 
 const std::string& ModelFile::file() const { return content_->file; }

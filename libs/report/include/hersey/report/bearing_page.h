@@ -62,6 +62,10 @@ struct BearingPage {
   std::vector<PageSolution> solutions;                          ///< one, or those of a sweep in its order
 };
 
+/// One solution as JSON, as the page reads it (SolutionText of web/src/data.ts).
+/// @param bearing  its name, of which the paths of its fields are made
+[[nodiscard]] std::string solution_json(const PageSolution& solution, const std::string& bearing);
+
 /// Writes one HTML file that shows the page: no network, no other file, any browser.
 /// @throws results::WriteError if `out` cannot be written.
 /// @pre there is at least one solution.

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "hersey/results/error.h"
@@ -36,7 +38,22 @@ struct WriterOptions {
 };
 
 /// Kept instead of a file.
-struct InMemory {};
+struct InMemory {
+  bool keeps_all = false;  ///< attributes and constants too, see Writer::kept; texts are left out
+};
+
+/// A dataset that was written once.
+struct KeptConstant {
+  std::string unit, text;
+  std::vector<double> values;
+};
+
+/// Attributes and constants of a writer in memory that keeps all.
+struct Kept {
+  using Attribute = std::variant<std::string, double, std::vector<std::string>>;
+  std::map<std::string, std::map<std::string, Attribute>> attributes;  ///< by path of the object, "/" of the root
+  std::map<std::string, KeptConstant> constants;                       ///< by path
+};
 
 /// A series of a writer in memory, with its last row.
 struct LatestRow {
@@ -193,6 +210,8 @@ class Writer {
 
   /// All series of a writer in memory, in the order of their declaration; empty for a writer with a file.
   [[nodiscard]] const std::vector<LatestRow>& latest() const;
+  /// Attributes and constants of a writer in memory; empty unless it keeps all.
+  [[nodiscard]] const Kept& kept() const;
 
   /// Path of the file after the last rename; empty in memory.
   [[nodiscard]] const std::filesystem::path& path() const;

@@ -9,6 +9,16 @@
 
 namespace hersey::run {
 
+/// Figures of one bearing at an accepted step, few enough to be shown while the run goes on.
+struct BearingProgress {
+  std::string name;
+  double h_min = 0, p_max = 0;  ///< smallest film thickness [m], largest film pressure [Pa]
+  double e_x = 0, e_y = 0;      ///< position of the moving surface in the bearing's axes [m]
+  double power = 0;             ///< friction power of film and asperities [W]
+  double flow = 0;              ///< oil leaving over the edges [m^3/s]
+  double T_max = std::numeric_limits<double>::quiet_NaN();  ///< hottest oil of a film with temperatures [K]
+};
+
 /// Progress of a run; handed to Options::on_progress after every accepted step.
 struct Progress {
   double t = 0, t_start = 0, t_end = 0;                   ///< [s]
@@ -16,6 +26,9 @@ struct Progress {
   int newton_iterations = 0;                              ///< of that step
   double moft = std::numeric_limits<double>::infinity();  ///< minimum oil film thickness so far, all bearings [m]
   double elapsed = 0;                                     ///< wall time since the start of the run [s]
+  /// Returns the figures of all bearings at this step; to be called, if wanted, before on_progress returns. May be
+  /// empty.
+  std::function<std::vector<BearingProgress>()> bearings = {};
 };
 
 /// A cycle that has just ended; handed to Options::on_cycle.

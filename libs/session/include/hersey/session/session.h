@@ -40,6 +40,8 @@ class Session {
   explicit Session(const std::string& path, std::vector<std::string> overrides = {});
   /// Takes the text of a model; `file` names it in faults and is where relative paths start. @throws InputError
   Session(std::string text, std::string file, std::vector<std::string> overrides);
+  /// Of a file that has been opened. @throws InputError
+  Session(model::ModelFile source, std::vector<std::string> overrides);
 
   /// The same text with other overrides, in place of the present ones. @throws InputError
   [[nodiscard]] Session with(std::vector<std::string> overrides) const;
@@ -99,7 +101,6 @@ class Session {
                                                               std::vector<std::string> keys, bool usual) const;
 
  private:
-  Session(model::ModelFile source, std::vector<std::string> overrides);
   void prepare(const std::vector<std::filesystem::path>& results, const RunOptions& options) const;
 
   model::ModelFile source_;

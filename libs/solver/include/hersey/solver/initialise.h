@@ -42,6 +42,11 @@ struct [[nodiscard]] InitialiseSummary : OutcomeOf<InitialiseStatus, InitialiseS
 /// @cost sparse factorisations; O(n^3) once, n = nv + nlambda, only if a fault has to be named.
 [[nodiscard]] InitialiseSummary initialise(Equations& equations, State& state, const InitialiseOptions& options = {});
 
+/// Makes the positions of `state` consistent with the constraints at state.t, as `initialise` does first; velocities
+/// stay. If it is not solved, the positions are the closest found.
+[[nodiscard]] InitialiseSummary assemble_positions(Equations& equations, State& state,
+                                                   const InitialiseOptions& options = {});
+
 /// Computes accelerations and multipliers of `state` from its positions and velocities by the same equations; condensed
 /// unknowns keep their values at the end of the last step, of length dt. Used at instants at which a drive's
 /// acceleration jumps. Returns false and changes nothing if the equations do not determine them.

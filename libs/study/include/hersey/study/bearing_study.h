@@ -17,8 +17,12 @@ struct BearingStudyOptions {
   bool grid_error = true;  ///< solve on coarser grids too
   /// treatment of temperatures in stiffness, damping and stability; unused if the oil has one given temperature
   ThermalCoefficients thermal_coefficients = ThermalCoefficients::frozen;
-  int threads = 0;                      ///< solutions at the same time; 0: one per core
-  const model::Model* first = nullptr;  ///< the model of the first run where it has been read already
+  /// false: stiffness and damping are those of the present grid, not their mean over the possible positions of its
+  /// lines (bearing.38). They jump by some percent as the grid or the load changes, and take a third of the time.
+  bool phase_averages = true;
+  const BearingSolution* nearby = nullptr;  ///< a solution of a similar bearing to start from; null: a cold start
+  int threads = 0;                          ///< solutions at the same time; 0: one per core
+  const model::Model* first = nullptr;      ///< the model of the first run where it has been read already
   /// If it is set, no further run is begun and those under way are ended; null if there is no stop.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -61,7 +65,7 @@ class BearingSolver {
   /// Starts without any known bodies.
   BearingSolver();
   /// Solves the bearing of `model` that `options` name; `options.threads` and `options.first` are ignored. May be
-  /// called from several threads at once.
+  /// called from several threads at once. Where `options.nearby` leads to no solution it starts anew.
   /// @returns a solution, or the reason why there is none.
   /// @throws InputError if the model gives no operating point, or one that cannot be solved.
   [[nodiscard]] BearingSolution solve(const model::Model& model, const BearingStudyOptions& options) const;

@@ -1,0 +1,169 @@
+#include "run_events.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "exit_code.h"
+#include "fault_json.h"
+
+namespace hersey::cli {
+namespace {
+
+// Lines begin with the kind of the event.
+using EventJson = nlohmann::ordered_json;
+constexpr std::string_view kBeginning = "{\"kind\":";
+
+/// Number or null: JSON has no infinity.
+EventJson finite(double value) { return std::isfinite(value) ? EventJson(value) : EventJson(nullptr); }
+
+EventJson json_of(const std::vector<run::BearingProgress>& bearings) {
+  EventJson figures = EventJson::object();
+  for (const run::BearingProgress& bearing : bearings)
+    figures[bearing.name] = {{"h_min", finite(bearing.h_min)}, {"p_max", finite(bearing.p_max)},
+                             {"e_x", finite(bearing.e_x)},     {"e_y", finite(bearing.e_y)},
+                             {"power", finite(bearing.power)}, {"flow", finite(bearing.flow)},
+                             {"T_max", finite(bearing.T_max)}};
+  return figures;
+}
+
+const char* word(run::Status status) {
+  switch (status) {
+    case run::Status::completed:
+      return "completed";
+    case run::Status::stopped:
+      return "stopped";
+    case run::Status::failed:
+      return "failed";
+  }
+  return "failed";
+}
+
+}  // namespace
+
+RunEvents::RunEvents(const std::filesystem::path& file) {
+  if (file.empty()) return;
+  const auto refuse = [&](const std::string& why) {
+    if (fd_ >= 0) ::close(fd_);
+    throw InputError(Fault{{"--events", 0, 0}, "", file.string() + why, "a new file, or one of earlier events", ""});
+  };
+  std::error_code ignored;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
+  fd_ = ::open(file.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  if (fd_ < 0) refuse(" cannot be written");
+  // Appended to a model or a table, events would ruin it.
+  std::array<char, kBeginning.size()> first{};
+  const ssize_t got = std::filesystem::is_regular_file(file, ignored) ? ::pread(fd_, first.data(), first.size(), 0) : 0;
+  if (got > 0 && std::string_view(first.data(), static_cast<std::size_t>(got)) != kBeginning)
+    refuse(" exists and is no file of events");
+}
+
+RunEvents::~RunEvents() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+void RunEvents::started(const model::Model& model, const std::vector<model::StudyRun>& runs) {
+  if (fd_ < 0) return;
+  runs_ = std::max<std::size_t>(runs.size(), 1);
+  const model::Simulation& plan = model.simulation;
+  EventJson event{{"kind", "started"}, {"title", model.title},       {"pid", ::getpid()},
+                  {"t", plan.start},   {"t_start", plan.start},      {"t_end", plan.start + plan.duration},
+                  {"share", 0},        {"runs", EventJson::array()}, {"bearings", EventJson::array()}};
+  for (const model::StudyRun& run : runs) event["runs"].push_back(run.label);
+  for (const model::Bearing& bearing : model.bearings) event["bearings"].push_back(bearing.name);
+  write(event);
+}
+
+void RunEvents::warned(std::size_t run, const std::vector<Fault>& warnings) {
+  if (fd_ < 0) return;
+  for (const Fault& warning : warnings) {
+    EventJson event{
+        {"kind", "warning"}, {"run", run}, {"text", warning.text()}, {"fault", EventJson(fault_json(warning))}};
+    write(event);
+  }
+}
+
+void RunEvents::stepped(std::size_t run, const run::Progress& progress) {
+  if (fd_ < 0) return;
+  constexpr double kLeastPause = 0.1;   // [s]: ten frames a second look continuous
+  constexpr double kPauseShare = 1e-4;  // 20,000 lines in the first hour, 30,000 more up to a day
+  const Clock::time_point now = Clock::now();
+  const double pause = std::max(kLeastPause, kPauseShare * progress.elapsed);
+  const bool is_last = progress.t_end - progress.t < 0.5 * progress.dt;
+  if (!is_last && std::chrono::duration<double>(now - last_step_).count() < pause) return;
+  last_step_ = now;
+  t_ = progress.t;
+  const double span = progress.t_end - progress.t_start;
+  const double part = span > 0 ? std::clamp((progress.t - progress.t_start) / span, 0.0, 1.0) : 0.0;
+  const double share = (static_cast<double>(finished_) + part) / static_cast<double>(runs_);
+  write({{"kind", "stepped"},
+         {"run", run},
+         {"t", progress.t},
+         {"t_end", progress.t_end},
+         {"share", share},
+         {"dt", progress.dt},
+         {"newton_iterations", progress.newton_iterations},
+         {"moft", finite(progress.moft)},
+         {"elapsed", progress.elapsed},
+         {"bearings", json_of(progress.bearings ? progress.bearings() : std::vector<run::BearingProgress>{})}});
+}
+
+void RunEvents::cycle_ended(std::size_t run, const run::CycleProgress& cycle) {
+  if (fd_ < 0) return;
+  write({{"kind", "cycle"},
+         {"run", run},
+         {"t", t_},
+         {"number", cycle.number},
+         {"change", finite(cycle.change)},
+         {"largest", cycle.largest},
+         {"leads_in", cycle.leads_in}});
+}
+
+void RunEvents::finished(std::size_t run, const study::RunResult& result) {
+  if (fd_ < 0) return;
+  ++finished_;
+  const bool ran = result.solved();
+  t_ = ran ? result.summary.t_end : t_;
+  message_ = ran ? result.summary.message : result.message;
+  if (ran)
+    for (const run::BearingSummary& bearing : result.summary.bearings)
+      for (const std::string& text : bearing.warnings)
+        write({{"kind", "warning"}, {"run", run}, {"text", "bearing " + bearing.name + ", " + text}});
+  if (runs_ == 1) return;
+  write({{"kind", "run_finished"},
+         {"run", run},
+         {"t", t_},
+         {"share", static_cast<double>(finished_) / static_cast<double>(runs_)},
+         {"status", ran ? word(result.summary.status) : "failed"},
+         {"message", message_}});
+}
+
+void RunEvents::ended(int code) {
+  if (fd_ < 0) return;
+  const char* status = code == kOk ? "completed" : code == kInterrupted ? "stopped" : "failed";
+  write({{"kind", "finished"}, {"t", t_}, {"status", status}, {"message", message_}, {"code", code}});
+}
+
+void RunEvents::failed(const std::string& message) {
+  if (fd_ < 0) return;
+  write({{"kind", "finished"}, {"t", t_}, {"status", "failed"}, {"message", message}, {"code", kFailed}});
+}
+
+void RunEvents::write(const nlohmann::ordered_json& event) {
+  if (fd_ < 0) return;
+  const std::string line = event.dump(-1, ' ', false, EventJson::error_handler_t::replace) + "\n";
+  ssize_t done = 0;
+  do done = ::write(fd_, line.data(), line.size());
+  while (done < 0 && errno == EINTR);
+  if (done == static_cast<ssize_t>(line.size())) return;
+  ::close(fd_);
+  fd_ = -1;
+}
+
+}  // namespace hersey::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hersey/session/session.h"
+#include "hersey/study/bearing_study.h"
+#include "hersey/workbench/refused.h"
+
+namespace hersey::workbench {
+
+/// What is kept from one answer to the next.
+class Kept {
+ public:
+  /// @param root  where paths start
+  explicit Kept(const std::filesystem::path& root) : root_(std::filesystem::absolute(root).lexically_normal()) {
+    if (!root_.has_filename()) root_ = root_.parent_path();  // "folder/"
+  }
+
+  [[nodiscard]] std::string folder() const { return root_.string(); }
+  /// The file that a request names. @throws Refused with the status 403 for one outside the folder
+  [[nodiscard]] std::string file(const std::string& path) const;
+
+  /// The model of a text, read once. Tables and meshes that it names are those of that time. @throws InputError
+  [[nodiscard]] std::shared_ptr<const session::Session> session(const std::string& text, const std::string& file);
+
+  /// Keeps a solution. @returns its name
+  std::string keep(study::BearingSolution solution);
+  /// A kept solution; null if it is no longer known.
+  [[nodiscard]] std::shared_ptr<const study::BearingSolution> solution(const std::string& id);
+
+  study::BearingSolver solver;  ///< knows compliances of bodies
+
+ private:
+  static constexpr std::size_t kMostSessions = 4;
+  static constexpr std::size_t kMostSolutions = 32;
+  using KeptSession = std::pair<std::string, std::shared_ptr<const session::Session>>;
+  using KeptSolution = std::pair<std::string, std::shared_ptr<const study::BearingSolution>>;
+
+  std::filesystem::path root_;
+  std::mutex mutex_;
+  std::list<KeptSession> sessions_;  // asked for last first
+  std::list<KeptSolution> solutions_;
+  std::size_t next_ = 1;
+};
+
+}  // namespace hersey::workbench

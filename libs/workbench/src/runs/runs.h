@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "events/event_log.h"
+#include "folder/folder.h"
+#include "runs/process.h"
+
+namespace hersey::workbench {
+
+/// What is known of a run from the files in its folder.
+struct RunEntry {
+  std::string id;  ///< name of its folder in runs/; of results made elsewhere their path with ':' for '/'
+  std::string model;
+  std::vector<std::string> overrides;
+  std::string folder;             ///< relative
+  std::string state;              ///< running, completed, failed, stopped or lost
+  double share = 0;               ///< done, from 0 to 1
+  double started = 0, ended = 0;  ///< seconds since 1970; 0: not known
+  std::string message;
+  std::vector<std::string> results;  ///< relative paths
+  std::string report;                ///< relative path; empty: none yet
+  bool can_resume = false;
+  bool is_study = false;
+  ProcessId process;
+};
+
+/// Runs of the models in a folder, each a process of its own with a folder of its own, runs/NAME: its results, report,
+/// log, the model's text, events.ndjson and run.json. Nothing about them is kept in this program: one that is started
+/// later finds them by these files.
+/// @verified_by tests/workbench/runs_test.py
+class Runs {
+ public:
+  Runs(Folder& folder, EventLog& events, std::filesystem::path program);
+  Runs(const Runs&) = delete;
+  Runs& operator=(const Runs&) = delete;
+  ~Runs();
+
+  /// All runs, the newest first: at most 500.
+  [[nodiscard]] std::vector<RunEntry> list() const;
+  /// @throws Refused 404
+  [[nodiscard]] RunEntry find(const std::string& id) const;
+  /// Starts a run of a saved model. @returns its id
+  /// @param request  {path, set, etag?, threads?, study?, on?}
+  /// @throws Refused 409 if the file no longer has the mark `etag`; 403, 507 if its folder cannot be made
+  std::string start(const nlohmann::json& request);
+  void stop(const std::string& id) const;
+  void resume(const std::string& id);
+  /// The end of what it printed, at most 256 kB.
+  [[nodiscard]] std::string log(const std::string& id) const;
+  /// Text of its model as it was started, for comparisons.
+  [[nodiscard]] std::string model_text(const std::string& id) const;
+  /// Its events, steps thinned out to at most `most`, one line of JSON each.
+  [[nodiscard]] std::string history(const std::string& id, std::size_t most) const;
+  /// Makes the report of runs, of several as a comparison, in a temporary folder where it is not there already.
+  /// @throws Refused 409 if there are no results yet, 422 if no report can be made of them
+  std::filesystem::path report(const std::vector<std::string>& ids);
+
+  /// Passes on what runs have written since the last call. To be called several times a second, by one thread.
+  void follow();
+
+ private:
+  /// How far the events of a run have been passed on.
+  struct Tail {
+    std::uintmax_t read = 0;
+    std::string rest;  // of a line that is not complete
+    double record_time = 0;
+    bool runs = false;
+  };
+  [[nodiscard]] RunEntry entry_of(const std::string& id) const;
+  [[nodiscard]] std::vector<RunEntry> results_made_elsewhere() const;
+  void launch(const std::string& id, nlohmann::json record, bool resumes);
+  void look_for_runs();
+  void follow_run(const std::string& id, Tail& tail);
+
+  Folder& folder_;
+  EventLog& events_;
+  std::filesystem::path program_;
+  std::mutex starting_;
+  std::map<std::string, Tail> tails_;
+  int calls_ = 0;
+  std::mutex reporting_;
+  std::filesystem::path reports_;  // temporary folder
+  int report_count_ = 0;
+};
+
+}  // namespace hersey::workbench

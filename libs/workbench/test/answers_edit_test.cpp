@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <fstream>
+
+#include "answers_support.h"
+#include "hersey/model/written.h"
+#include "temporary_directory.h"
+
+namespace hersey::workbench {
+namespace answers_edit_test {
+
+const std::string kText = R"(# A bearing to be changed.
+hersey: 1
+title: "a: title"   # in quotes
+parameters:
+  load: 500 N   # of the rod
+
+lubricants:
+  oil: {viscosity: 15 mPa.s}   # cold
+bearings:
+  main:
+    diameter: 45 mm
+    # between two keys
+    width: 15.6 mm
+    grid: {circumferential: 24, axial: 5}
+    supply:
+      line: widest_gap
+      pressure: "1 bar"
+    features:
+      hole: {type: hole, phi: 45 deg, z: 0 mm, diameter: 5 mm, pressure: 2 bar}
+    lubricant: oil
+  # the last word
+study:
+  parameters:
+    load:
+      - 300 N
+      - 500 N
+)";
+
+Json set(const std::string& text, const std::string& key, const Json& value) {
+  const Json request{{"path", "a.yaml"}, {"text", text}, {"key", key}, {"value", value}};
+  return Json::parse(Answers("/tmp").set_value(request.dump()));
+}
+
+Json value_at(const std::string& text, const std::string& key) {
+  return Json::parse(model::written_json(text, "a.yaml", {}, key));
+}
+
+TEST_CASE("SetValue_ThenRead_GivesTheValueAndLeavesAllOtherLines") {
+  const std::vector<std::pair<std::string, std::string>> changes{
+      {"title", "another"},
+      {"parameters.load", "600 N"},
+      {"lubricants.oil.viscosity", "12 mPa.s"},
+      {"bearings.main.diameter", "50 mm"},
+      {"bearings.main.width", "20 mm"},
+      {"bearings.main.grid.axial", "25"},
+      {"bearings.main.supply.pressure", "3 bar"},
+      {"bearings.main.features.hole.phi", "-90 deg"},
+      {"bearings.main.features.hole.pressure", "4 bar"},
+      {"study.parameters.load.1", "700 N"},
+  };
+  for (const auto& change : changes) {
+    const std::string &key = change.first, &value = change.second;
+    CAPTURE(key);
+    const Json answer = set(kText, key, value);
+    const std::string changed = answer["text"];
+    CHECK(value_at(changed, key) == value);
+    CHECK(with_edits(kText, answer["edits"]) == changed);
+    const std::vector<std::string> before = lines_of(kText), after = lines_of(changed);
+    REQUIRE(before.size() == after.size());
+    int different = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) different += before[i] != after[i] ? 1 : 0;
+    CHECK(different == 1);
+    // Back again: not a byte is lost, but for the kind of quotes.
+    if (key != "title" && key != "bearings.main.supply.pressure")
+      CHECK(set(changed, key, value_at(kText, key))["text"] == kText);
+  }
+}
+
+TEST_CASE("SetValue_OfAMissingKey_AddsOneLineOrPiece") {
+  const std::vector<std::pair<std::string, std::string>> additions{
+      {"bearings.main.radial_clearance", "34 um"},
+      {"bearings.main.supply.temperature", "40 degC"},
+      {"bearings.main.features.hole.surface", "journal"},
+      {"bearings.main.operating_point.load", "500 N"},
+      {"bearings.main.thermal.shell.wall", "given"},
+      {"gravity", "0 -9.81 0 m/s^2"},
+      {"simulation.duration", "1 s"},
+      {"study.parameters.load.2", "900 N"},
+      {"lubricants.water", "{viscosity: 1 mPa.s}"},
+  };
+  for (const auto& change : additions) {
+    const std::string &key = change.first, &value = change.second;
+    CAPTURE(key);
+    const Json answer = set(kText, key, value);
+    const std::string changed = answer["text"];
+    const Json found = value_at(changed, key);
+    CHECK((found.is_object() ? found == Json{{"viscosity", "1 mPa.s"}} : found == value));
+    // Without the new piece the text is the old one.
+    const std::vector<std::string> before = lines_of(kText), after = lines_of(changed);
+    CHECK(after.size() - before.size() <= 1);
+    for (const std::string& line : before) {
+      const bool stays = std::find(after.begin(), after.end(), line) != after.end();
+      CHECK((stays || line.find('{') != std::string::npos));
+    }
+    CHECK(set(changed, key, nullptr)["text"].get<std::string>().size() <= changed.size());
+  }
+}
+
+TEST_CASE("RemoveOfWhatWasAdded_GivesTheTextBack") {
+  for (const std::string key : {"bearings.main.radial_clearance", "bearings.main.supply.temperature",
+                                "bearings.main.features.hole.surface", "gravity", "study.parameters.load.2"}) {
+    CAPTURE(key);
+    const std::string added = set(kText, key, "1 m")["text"];
+    CHECK(set(added, key, nullptr)["text"] == kText);
+  }
+}
+
+TEST_CASE("ValuesThatNeedIt_AreQuotedInBraces") {
+  const std::string changed = set(kText, "lubricants.oil.note", "one, {two}")["text"];
+  CHECK(value_at(changed, "lubricants.oil.note") == "one, {two}");
+}
+
+TEST_CASE("LinesEndAsTheTextHasThem") {
+  std::string text = "hersey: 1\r\nbearings:\r\n  main:\r\n    width: 1 mm\r\n";
+  const std::string changed = set(text, "bearings.main.diameter", "2 mm")["text"];
+  CHECK(changed == "hersey: 1\r\nbearings:\r\n  main:\r\n    width: 1 mm\r\n    diameter: 2 mm\r\n");
+}
+
+TEST_CASE("WhatCannotBeSet_IsRefused") {
+  const auto status = [](const std::string& text, const std::string& key, const Json& value) {
+    return status_of([&] { return set(text, key, value); });
+  };
+  CHECK(status(kText, "bearings.main.diameter.inner", "1 mm") == 422);  // of a number
+  CHECK(status(kText, "study.parameters.load.7", "1 N") == 422);        // beyond the next item
+  CHECK(status(kText, "title", "[1") == 422);
+  CHECK(status(kText, "title", "a\nb: c") == 422);
+  CHECK(status(kText, "title", "a # comment") == 422);
+  CHECK(status(kText, "titel", nullptr) == 422);
+  CHECK(status("hersey: [", "title", "a") == 422);
+  CHECK(status("a: &x {b: 1}\nc: *x\n", "c.b", "2") == 422);  // stands in a
+}
+
+TEST_CASE("Templates_AreReadWithoutFault_AndWrittenOnce") {
+  const TemporaryDirectory folder;
+  const Answers answers(folder.path());
+  const Json templates = Json::parse(answers.templates());
+  REQUIRE(templates.size() > 5);
+  for (const Json& one : templates) {
+    const std::string name = one["name"];
+    CAPTURE(name);
+    CHECK_FALSE(one["title"].get<std::string>().empty());
+    const Json request{{"path", name + ".yaml"}, {"text", one["text"]}, {"depth", "text"}};
+    CHECK(Json::parse(answers.check(request.dump()))["faults"].empty());
+  }
+  const std::string request = R"({"template": "bearing", "path": "mine"})";
+  CHECK(Json::parse(answers.new_model(request))["path"] == "mine.yaml");
+  std::ofstream(folder.path() / "mine.yaml") << "own";
+  CHECK(status_of([&] { return answers.new_model(request); }) == 409);
+  CHECK(contents_of(folder.path() / "mine.yaml") == "own");
+  CHECK(status_of([&] { return answers.new_model(R"({"template": "none", "path": "b"})"); }) == 422);
+  CHECK(status_of([&] { return answers.new_model(R"({"template": "bearing", "path": "../b"})"); }) == 403);
+}
+
+}  // namespace answers_edit_test
+}  // namespace hersey::workbench

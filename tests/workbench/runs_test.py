@@ -1,0 +1,281 @@
+"""Runs started by `hersey open` go on without it, and are found again.
+
+    runs_test.py HERSEY [Class.test_name]
+"""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from workbench_client import Events, Workbench, write  # noqa: E402
+
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+MODEL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../cli/bearing.yaml")
+LONG = ["duration=1000 s"]
+
+
+def is_running(pid):
+    try:
+        with open(f"/proc/{pid}/stat", encoding="ascii") as file:
+            return file.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        self.top = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
+        self.addCleanup(self.top.cleanup)
+        self.folder = os.path.join(self.top.name, "models")
+        os.mkdir(self.folder)
+        shutil.copy(MODEL, os.path.join(self.folder, "bearing.yaml"))
+        self.pids = []
+        self.addCleanup(self.end_runs)
+        self.server = self.open()
+
+    def open(self):
+        server = Workbench(PROGRAM, self.folder, os.path.join(self.top.name, "log"))
+        self.addCleanup(server.stop)
+        return server
+
+    def end_runs(self):
+        for pid in self.pids:
+            if is_running(pid):
+                os.kill(pid, signal.SIGKILL)
+        while any(is_running(pid) for pid in self.pids):
+            time.sleep(0.01)
+
+    def record(self, name):
+        with open(os.path.join(self.folder, "runs", name, "run.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def start(self, *overrides, path="bearing.yaml"):
+        answer = self.server.post("/api/runs", {"path": path, "set": list(overrides)})
+        self.assertEqual(answer.status, 200, answer.body)
+        name = answer.json["id"]
+        self.pids.append(self.record(name)["process"]["pid"])
+        return name
+
+    def wait_for_steps(self, name, least=2):
+        end = time.time() + 20
+        while time.time() < end:
+            lines = self.server.get(f"/api/runs/{name}/events").text.splitlines()
+            if sum(json.loads(line)["kind"] == "stepped" for line in lines) >= least:
+                return
+            time.sleep(0.05)
+        self.fail("no steps came")
+
+    def test_a_run_reports_itself_from_start_to_end(self):
+        events = Events(self.server)
+        self.addCleanup(events.close)
+        name = self.start("duration=1 ms")
+        seen = []
+        while not seen or seen[-1].get("kind") != "finished":
+            _, kind, data = events.next()
+            if kind == "run":
+                seen.append(data)
+        self.assertEqual({event["id"] for event in seen}, {name})
+        self.assertEqual([event["kind"] for event in seen], ["started", "stepped", "stepped", "finished"])
+        self.assertEqual(seen[0]["bearings"], ["main"])
+        self.assertEqual([event["t"] for event in seen[1:3]], [0, 0.001])
+        self.assertEqual(seen[2]["share"], 1)
+        figures = seen[2]["bearings"]["main"]
+        self.assertEqual(set(figures), {"h_min", "p_max", "e_x", "e_y", "power", "flow", "T_max"})
+        self.assertEqual(seen[3]["status"], "completed")
+        run = self.server.wait_for(name, "completed")
+        self.assertEqual((run["share"], run["model"], run["set"], run["can_resume"]), (1, "bearing.yaml", ["duration=1 ms"], False))
+        self.assertEqual(run["results"], [f"runs/{name}/results.h5"])
+        self.assertIn("10 steps", self.server.get(f"/api/runs/{name}/log").text)
+        # What the results say of the last step is what the event said.
+        import h5py  # pylint: disable=import-outside-toplevel
+        with h5py.File(os.path.join(self.folder, run["results"][0]), "r") as file:
+            bearing = file["bearings/main"]
+            for key in ("h_min", "p_max"):
+                self.assertEqual(bearing[key][-1], figures[key])
+            self.assertEqual(list(bearing["eccentricity"][-1]), [figures["e_x"], figures["e_y"]])
+
+    def test_reports_open_in_a_sandbox(self):
+        first, second = self.start("duration=1 ms"), self.start("duration=1.5 ms")
+        for name in (first, second):
+            self.server.wait_for(name, "completed")
+        url = self.server.post(f"/api/runs/{first}/report").json["url"]
+        self.assertRegex(url, "^/report/[0-9a-f]{32}/$")
+        page = self.server.get(url, token=False)
+        self.assertEqual(page.status, 200)
+        policy = page.headers["content-security-policy"]
+        self.assertIn("sandbox allow-scripts", policy)
+        self.assertNotIn("allow-same-origin", policy)
+        self.assertNotIn("connect-src", policy)  # default-src 'none'
+        self.assertTrue(page.headers["content-type"].startswith("text/html"))
+        # The fields of all instants lie beside a report, which loads them when asked, as a stranger to every origin.
+        write(self.folder, f"runs/{first}/report_fields/film.js", "fields")
+        fields = self.server.get(url + "report_fields/film.js", token=False, headers={"Origin": "null", "Sec-Fetch-Site": "cross-site"})
+        self.assertEqual((fields.status, fields.text), (200, "fields"))
+        self.assertIn(f"http://127.0.0.1:{self.server.port}{url};", policy)
+        both = self.server.post("/api/compare", {"ids": [first, second]})
+        compared = self.server.get(both.json["url"], token=False)
+        self.assertIn(f'"{first}"', compared.text)
+        self.assertIn(f'"{second}"', compared.text)
+        for path in (url[:-2] + "/", url + "run.json", url + "../run.json", url + "report_fields/../run.json", url + "report.html"):
+            self.assertEqual(self.server.get(path, token=False).status, 404, path)
+        self.assertEqual(self.server.get(url, token=False, headers={"Host": "evil.example:80"}).status, 403)
+        self.assertEqual(self.server.post("/api/compare", {"ids": []}).status, 400)
+        self.assertEqual(self.server.post("/api/compare", {"ids": [first, "none"]}).status, 404)
+
+    def test_a_run_is_stopped_and_goes_on(self):
+        name = self.start("duration=0.2 s")
+        self.wait_for_steps(name)
+        self.assertEqual(self.server.run_of(name)["state"], "running")
+        self.assertEqual(self.server.post(f"/api/runs/{name}/stop").status, 200)
+        run = self.server.wait_for(name, "stopped")
+        self.assertIn("stopped on request", run["message"])
+        self.assertTrue(run["can_resume"])
+        self.assertLess(run["share"], 1)
+        self.assertEqual(self.server.post(f"/api/runs/{name}/stop").status, 409)
+        self.assertEqual(self.server.post(f"/api/runs/{name}/resume").status, 200)
+        self.pids.append(self.record(name)["process"]["pid"])
+        self.assertEqual(self.server.wait_for(name, "completed")["share"], 1)
+        self.assertEqual(self.server.post(f"/api/runs/{name}/resume").status, 409)
+
+    def test_a_killed_server_leaves_runs_that_are_found_again(self):
+        name = self.start(*LONG)
+        self.wait_for_steps(name)
+        pid = self.pids[-1]
+        self.server.kill()
+        self.assertTrue(is_running(pid))
+        self.server = self.open()
+        run = self.server.run_of(name)
+        self.assertEqual((run["state"], run["set"]), ("running", LONG))
+        events = Events(self.server)
+        self.addCleanup(events.close)
+        times = []
+        while len(times) < 3:
+            _, kind, data = events.next()
+            if kind == "run":
+                times.append(data["t"])
+        self.assertEqual(times, sorted(set(times)))
+        self.assertEqual(self.server.post(f"/api/runs/{name}/stop").status, 200)
+        self.assertEqual(self.server.wait_for(name, "stopped")["share"] > 0, True)
+
+    def test_ctrl_c_of_the_server_ends_no_run(self):
+        name = self.start(*LONG)
+        self.wait_for_steps(name)
+        self.assertEqual(self.server.stop(), 0)
+        self.assertTrue(is_running(self.pids[-1]))
+        self.server = self.open()
+        self.server.post(f"/api/runs/{name}/stop")
+        self.server.wait_for(name, "stopped")
+
+    def test_a_killed_run_is_lost_and_can_go_on(self):
+        name = self.start("duration=0.2 s")
+        self.wait_for_steps(name)
+        os.kill(self.pids[-1], signal.SIGKILL)
+        run = self.server.wait_for(name, "lost")
+        self.assertIn("killed", run["message"])
+        self.assertTrue(run["can_resume"])
+        self.assertEqual(self.server.post(f"/api/runs/{name}/resume").status, 200)
+        self.pids.append(self.record(name)["process"]["pid"])
+        self.assertEqual(self.server.wait_for(name, "completed")["share"], 1)
+
+    def test_a_failing_run_says_why(self):
+        write(self.folder, "wrong.yaml", "hersey: 1\nbodies:\n  rod: {mass: -1 kg}\n")
+        run = self.server.wait_for(self.start(path="wrong.yaml"), "failed")
+        self.assertIn("wrong.yaml:3", run["message"])
+        self.assertIn("mass", self.server.get(f"/api/runs/{run['id']}/log").text)
+        self.assertEqual(self.server.post(f"/api/runs/{run['id']}/report").status, 409)
+        thin = self.server.wait_for(self.start("load=1e9 N", "duration=0.1 s"), "failed")
+        self.assertIn("t = ", thin["message"])
+        self.assertIsNotNone(thin["report"])
+        self.assertTrue(self.server.is_alive())
+
+    def test_what_is_run_is_what_was_saved(self):
+        etag = self.server.file("bearing.yaml").headers["etag"]
+        write(self.folder, "bearing.yaml", self.server.file("bearing.yaml").text + "# theirs\n")
+        answer = self.server.post("/api/runs", {"path": "bearing.yaml", "set": [], "etag": etag})
+        self.assertEqual(answer.status, 409)
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "runs")))
+        name = self.start("duration=1 ms")
+        self.assertTrue(self.server.get(f"/api/runs/{name}/model").text.endswith("# theirs\n"))
+        self.server.wait_for(name, "completed")
+
+    def test_overrides_are_no_options(self):
+        for change in ("--force", "no equals sign", "a=\n--output=/tmp", "a=\0"):
+            with self.subTest(change=change):
+                self.assertEqual(self.server.post("/api/runs", {"path": "bearing.yaml", "set": [change]}).status, 422)
+        other = os.path.join(self.top.name, "other")
+        name = self.start(f"--output={other}")
+        run = self.server.wait_for(name, "failed")
+        self.assertFalse(os.path.exists(other))
+        self.assertIn("output", run["message"])
+
+    def test_a_record_of_someone_elses_process_ends_no_process(self):
+        with subprocess.Popen(["sleep", "60"]) as victim:
+            with open(f"/proc/{victim.pid}/stat", encoding="ascii") as file:
+                start = int(file.read().rsplit(")", 1)[1].split()[19])
+            for process in ({"pid": victim.pid, "start": start}, {"pid": victim.pid, "start": 1}, {"pid": -1, "start": start}, {"pid": 1, "start": 0},
+                            {"pid": "x"}, [], 7):
+                write(self.folder, "runs/evil-001/run.json", json.dumps({"model": "bearing.yaml", "process": process, "set": 5, "study": "no",
+                                                                        "command": ["touch", os.path.join(self.folder, "made")]}))
+                self.assertEqual(self.server.post("/api/runs/evil-001/stop").status, 409, process)
+                self.assertIsNone(victim.poll())
+            victim.kill()
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "made")))
+        for text in ("", "[]", "{", "null", "\0", '{"model": "../../x.yaml", "process": null}'):
+            write(self.folder, "runs/evil-001/run.json", text)
+            write(self.folder, "runs/evil-001/events.ndjson", text + '\n{"kind": 5}\n{"kind":"finished","status":7}\n')
+            self.assertEqual(self.server.get("/api/runs").status, 200)
+            self.assertGreaterEqual(self.server.post("/api/runs/evil-001/resume").status, 400)
+        self.assertTrue(self.server.is_alive())
+
+    def test_events_are_few_and_their_file_is_the_users(self):
+        model = os.path.join(self.folder, "bearing.yaml")
+        before = open(model, "rb").read()  # pylint: disable=consider-using-with
+        refused = subprocess.run([PROGRAM, "run", model, "--events", model], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("no file of events", refused.stderr)
+        self.assertEqual(open(model, "rb").read(), before)  # pylint: disable=consider-using-with
+        events = os.path.join(self.folder, "events.ndjson")
+        begin = time.time()
+        subprocess.run([PROGRAM, "run", model, "--events", events, "--set", "duration=0.2 s"], cwd=self.folder,
+                       capture_output=True, check=True)
+        seconds = time.time() - begin
+        with open(events, encoding="utf-8") as file:
+            kinds = [json.loads(line)["kind"] for line in file]
+        self.assertLess(kinds.count("stepped"), 10 * seconds + 2)
+        self.assertEqual((kinds[0], kinds[-1]), ("started", "finished"))
+        # A full disk ends the events and not the run.
+        full = subprocess.run([PROGRAM, "run", model, "--events", "/dev/full", "--output", "full"], cwd=self.folder, capture_output=True, text=True,
+                              check=False)
+        self.assertEqual(full.returncode, 0, full.stderr)
+
+    def test_runs_of_a_study(self):
+        text = self.server.file("bearing.yaml").text + "study:\n  parameters:\n    load: [100 N, 200 N]\n"
+        write(self.folder, "study.yaml", text)
+        name = self.start("duration=1 ms", path="study.yaml")
+        run = self.server.wait_for(name, "completed")
+        self.assertEqual(len(run["results"]), 2)
+        kinds = [json.loads(line)["kind"] for line in self.server.get(f"/api/runs/{name}/events").text.splitlines()]
+        self.assertEqual(kinds.count("run_finished"), 2)
+
+    def test_a_study_by_its_own_program_says_how_it_ended(self):
+        # The model has none; where the study's Python packages are missing, that is what it says.
+        answer = self.server.post("/api/runs", {"path": "bearing.yaml", "set": ["load=5 N"], "study": True})
+        name = answer.json["id"]
+        self.pids.append(self.record(name)["process"]["pid"])
+        self.assertIn("study", self.record(name)["command"])
+        run = self.server.wait_for(name, "failed")
+        self.assertTrue(run["study"])
+        self.assertRegex(run["message"], "study")
+        self.assertIn(run["message"], self.server.get(f"/api/runs/{name}/log").text)
+        self.assertTrue(run["can_resume"])
+
+
+if __name__ == "__main__":
+    unittest.main()

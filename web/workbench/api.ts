@@ -1,0 +1,204 @@
+// What the program serves below /api/: requests with the token of the session, and the stream of events.
+
+export interface Edit {
+  line: number;
+  column: number;
+  endLine: number;
+  endColumn: number;
+  text: string;
+}
+
+export interface Fault {
+  line: number;
+  column: number;
+  endColumn?: number;
+  file: string;
+  path: string;
+  message: string;
+  found: string;
+  expected: string;
+  suggestion: string;
+  repairs?: { label: string; edits: Edit[] }[];
+}
+
+/** Where a part of the machine stands in the text; lines from 1. */
+export interface Source {
+  line: number;
+  column?: number;
+  endLine: number;
+}
+
+/** A hole, groove or line of a bearing's unwrapped surface, in SI. */
+export interface Feature {
+  name: string;
+  kind: string;
+  surface?: "fixed" | "moving";
+  phi: number;
+  z: number;
+  arc: number;
+  length: number;
+  /** The key that holds it, such as bearings.main.features.hole. */
+  key?: string;
+  source?: Source | null;
+}
+
+export interface BearingScene {
+  radius: number;
+  width: number;
+  clearance: number;
+  /** Names of the coordinates, such as phi and z. */
+  along: string;
+  across: string;
+  grid: { circumferential: number; axial: number; along: number[]; across: number[]; closes: boolean; arcs?: number[] };
+  features: Feature[];
+  supply?: { at: "angle" | "widest_gap"; phi: number };
+}
+
+export interface FileEntry {
+  path: string;
+  kind: "model" | "mesh" | "table" | "results" | "report" | "text" | "other";
+  size: number;
+  changed: string | number;
+}
+
+export type RunState = "running" | "completed" | "failed" | "stopped" | "lost";
+
+export interface RunEntry {
+  id: string;
+  model: string;
+  set: string[];
+  folder: string;
+  state: RunState;
+  share: number;
+  started: string | number | null;
+  ended: string | number | null;
+  message: string;
+  results: string[];
+  report: string | null;
+  can_resume?: boolean;
+  study?: boolean;
+}
+
+export interface Template {
+  name: string;
+  title: string;
+  text: string;
+}
+
+/** A line of a run's events: small, at most ten a second. */
+export interface RunEvent {
+  id: string;
+  kind: string;
+  t?: number;
+  share?: number;
+  text?: string;
+  bearings?: Record<string, { h_min?: number; p_max?: number; e_x?: number; e_y?: number; [further: string]: number | undefined }>;
+}
+
+/** The server said no: why, and what to do. */
+export class Refused extends Error {
+  constructor(
+    readonly status: number,
+    message: string,
+    readonly advice: string,
+    readonly body: Record<string, unknown>,
+  ) {
+    super(message);
+  }
+}
+
+/** Nobody answers: the program was ended. */
+export class Unreachable extends Error {}
+
+export class Api {
+  constructor(private readonly token: string) {}
+
+  async request(method: string, path: string, body?: unknown, headers: Record<string, string> = {}): Promise<Response> {
+    const all: Record<string, string> = { Authorization: `Bearer ${this.token}`, ...headers };
+    let content: string | undefined;
+    if (typeof body === "string") [content, all["Content-Type"]] = [body, "text/plain; charset=utf-8"];
+    else if (body !== undefined) [content, all["Content-Type"]] = [JSON.stringify(body), "application/json"];
+    let response: Response;
+    try {
+      response = await fetch(path, { method, headers: all, ...(content === undefined ? {} : { body: content }), cache: "no-store" });
+    } catch (error) {
+      throw new Unreachable(String(error));
+    }
+    if (response.ok) return response;
+    const said: Record<string, unknown> = await response.json().catch(() => ({}));
+    throw new Refused(response.status, String(said["error"] ?? `${response.status} ${response.statusText}`), String(said["advice"] ?? ""), said);
+  }
+
+  async get<T>(path: string): Promise<T> {
+    return (await this.request("GET", path)).json() as Promise<T>;
+  }
+
+  async post<T>(path: string, body: unknown = {}): Promise<T> {
+    const response = await this.request("POST", path, body);
+    const text = await response.text();
+    return (text ? JSON.parse(text) : {}) as T;
+  }
+
+  async file(path: string): Promise<{ text: string; etag: string | null }> {
+    const response = await this.request("GET", `/api/file?path=${encodeURIComponent(path)}`);
+    return { text: await response.text(), etag: response.headers.get("ETag") };
+  }
+
+  /** Saves over what `etag` names; without one only where there is no such file yet. */
+  async save(path: string, text: string, etag: string | null): Promise<string | null> {
+    const condition: Record<string, string> = etag ? { "If-Match": etag } : { "If-None-Match": "*" };
+    const response = await this.request("PUT", `/api/file?path=${encodeURIComponent(path)}`, text, condition);
+    return response.headers.get("ETag");
+  }
+
+  /** Hands every event on until the page goes; connects again where the stream breaks, and says so. */
+  async follow(start: number | undefined, hear: (event: string, data: unknown) => void, connected: (is: boolean) => void): Promise<never> {
+    let after = start === undefined ? "" : String(start);
+    let pause = 500;
+    for (;;) {
+      try {
+        const response = await this.request("GET", `/api/events${after ? `?after=${after}` : ""}`);
+        connected(true);
+        pause = 500;
+        for await (const { event, data, id } of messages(response.body!)) {
+          if (id) after = id;
+          if (event === "reload") after = "";
+          hear(event, data);
+        }
+      } catch (error) {
+        if (error instanceof Refused && error.status === 401) hear("refused", null);
+      }
+      connected(false);
+      await new Promise((resolve) => setTimeout(resolve, pause));
+      pause = Math.min(5000, 2 * pause);
+    }
+  }
+}
+
+async function* messages(body: ReadableStream<Uint8Array>): AsyncGenerator<{ event: string; data: unknown; id: string }> {
+  const reader = body.pipeThrough(new TextDecoderStream() as unknown as ReadableWritablePair<string, Uint8Array>).getReader();
+  let rest = "";
+  for (;;) {
+    const { value, done } = await reader.read();
+    if (done) return;
+    rest += value;
+    const blocks = rest.split(/\r?\n\r?\n/);
+    rest = blocks.pop()!;
+    for (const block of blocks) {
+      const lines = block.split(/\r?\n/);
+      const of = (name: string) => lines.filter((line) => line.startsWith(`${name}:`)).map((line) => line.slice(name.length + 1).trimStart());
+      const data = of("data").join("\n");
+      const event = of("event")[0];
+      if (event === undefined && data === "") continue;
+      yield { event: event ?? "message", data: data ? parsed(data) : null, id: of("id")[0] ?? "" };
+    }
+  }
+}
+
+function parsed(text: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return text;
+  }
+}

@@ -1,0 +1,221 @@
+// Plots of a run while it goes on: least film thickness, largest pressure, the journal's path.
+
+import type { Api, RunEntry, RunEvent } from "./api";
+import { h } from "../src/dom";
+import { LinePlot } from "../src/line_plot";
+import { Orbit, type OrbitData } from "../src/orbit";
+import { path } from "./runs_pane";
+import { texts } from "./texts";
+
+type Further = "power" | "flow" | "T_max";
+
+interface Columns {
+  h_min: number[];
+  p_max: number[];
+  x: number[];
+  y: number[];
+  power: number[];
+  flow: number[];
+  T_max: number[];
+}
+
+const further: { key: Further; unit: string; shown: (value: number) => number }[] = [
+  { key: "power", unit: "W", shown: (x) => x },
+  { key: "flow", unit: "mm³/s", shown: (x) => 1e9 * x },
+  { key: "T_max", unit: "°C", shown: (x) => x - 273.15 },
+];
+
+/** Events of a run as columns, per bearing. */
+class Course {
+  readonly time: number[] = [];
+  readonly bearings = new Map<string, Columns>();
+
+  take({ kind, t, bearings }: RunEvent): void {
+    if (kind !== "stepped" || t === undefined || !bearings || (this.time.length > 0 && t <= this.time[this.time.length - 1]!)) return;
+    this.time.push(t);
+    for (const [name, b] of Object.entries(bearings)) {
+      let own = this.bearings.get(name);
+      if (!own) this.bearings.set(name, (own = { h_min: [], p_max: [], x: [], y: [], power: [], flow: [], T_max: [] }));
+      own.h_min.push(1e6 * (b.h_min ?? NaN));
+      own.p_max.push(1e-6 * (b.p_max ?? NaN));
+      own.x.push(b.e_x ?? NaN);
+      own.y.push(b.e_y ?? NaN);
+      for (const { key, shown } of further) own[key].push(shown(b[key] ?? NaN));
+    }
+    if (this.time.length > 4000) this.thin();
+  }
+
+  /** Every second instant of the first half goes. */
+  private thin(): void {
+    const keep = (values: number[]) => {
+      const half = values.length >> 1;
+      values.splice(0, half, ...values.slice(0, half).filter((_, i) => i % 2 === 0));
+    };
+    keep(this.time);
+    for (const b of this.bearings.values()) Object.values(b as Columns & Record<string, number[]>).forEach(keep);
+  }
+}
+
+/** As high as the plots beside it. */
+class LowOrbit extends Orbit {
+  constructor(
+    data: OrbitData,
+    private readonly low: number,
+  ) {
+    super(data);
+  }
+
+  protected override heightFor(): number {
+    return this.low ?? 150;
+  }
+}
+
+export class LivePane {
+  readonly element: HTMLElement;
+  readonly log = h("pre", { class: "log", tabindex: 0, "aria-label": texts.log }, texts.noLog);
+  private readonly choice = h("select", { "aria-label": texts.liveBearing });
+  private readonly title = h("span", { class: "live-title" });
+  private readonly plots = h("div", { class: "live-plots" });
+  private readonly courses = new Map<string, Course>();
+  private run: RunEntry | null = null;
+  private shownBearing = "";
+  private drawn: { x: number[]; thickness: LinePlot; pressure: LinePlot; others: { key: Further; plot: LinePlot }[]; orbit: Orbit; path: { time: Float64Array; x: Float64Array; y: Float64Array; force: null; clearance: number } } | null = null;
+  private awaited = false;
+  private lastDrawn = 0;
+
+  constructor(
+    private readonly api: Api,
+    private readonly clearance: (bearing: string) => number | undefined,
+  ) {
+    this.choice.addEventListener("change", () => this.build());
+    this.element = h("div", { class: "live-pane" }, h("div", { class: "pane-tools" }, this.title, this.choice), this.plots);
+    this.plots.append(h("p", { class: "note" }, texts.noLive));
+    this.choice.hidden = true;
+  }
+
+  get shownRun(): string {
+    return this.run?.id ?? "";
+  }
+
+  async show(run: RunEntry): Promise<void> {
+    this.run = run;
+    this.title.textContent = run.id;
+    await this.recall(run);
+    this.build();
+    await this.readLog();
+  }
+
+  async readLog(): Promise<void> {
+    if (!this.run) return;
+    try {
+      const text = await (await this.api.request("GET", `/api/runs/${path(this.run.id)}/log`)).text();
+      const atEnd = this.log.scrollTop + this.log.clientHeight > this.log.scrollHeight - 30;
+      this.log.textContent = text || "–";
+      if (atEnd) this.log.scrollTop = this.log.scrollHeight;
+    } catch (error) {
+      this.log.textContent = error instanceof Error ? error.message : String(error);
+    }
+  }
+
+  /** What the run has written before this page was there. */
+  private async recall(run: RunEntry): Promise<void> {
+    const course = new Course();
+    try {
+      const text = await (await this.api.request("GET", `/api/runs/${path(run.id)}/events`)).text();
+      for (const line of text.split("\n")) {
+        if (!line.includes('"stepped"')) continue;
+        try {
+          course.take(JSON.parse(line) as RunEvent);
+        } catch {
+          // The last line may be half written.
+        }
+      }
+    } catch {
+      return;
+    }
+    this.courses.set(run.id, course);
+  }
+
+  hear(event: RunEvent): void {
+    let course = this.courses.get(event.id);
+    if (!course) this.courses.set(event.id, (course = new Course()));
+    course.take(event);
+    if (event.id === this.run?.id) this.redrawSoon();
+  }
+
+  /** At most ten pictures a second. */
+  private redrawSoon(): void {
+    if (this.awaited) return;
+    this.awaited = true;
+    setTimeout(() => requestAnimationFrame(() => {
+      this.awaited = false;
+      this.lastDrawn = performance.now();
+      this.redraw();
+    }), Math.max(0, 100 - (performance.now() - this.lastDrawn)));
+  }
+
+  private names(): string[] {
+    return [...(this.courses.get(this.shownRun)?.bearings.keys() ?? [])];
+  }
+
+  private build(): void {
+    const names = this.names();
+    const before = this.choice.value;
+    this.choice.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
+    if (names.includes(before)) this.choice.value = before;
+    this.choice.hidden = names.length < 2;
+    this.drawn?.thickness.destroy();
+    this.drawn?.pressure.destroy();
+    this.drawn?.orbit.destroy();
+    this.drawn?.others.forEach(({ plot }) => plot.destroy());
+    this.drawn = null;
+    const bearing = this.choice.value;
+    this.shownBearing = bearing;
+    const course = this.courses.get(this.shownRun);
+    const own = course?.bearings.get(bearing);
+    if (!course || !own) {
+      this.plots.replaceChildren(h("p", { class: "note" }, texts.noLive));
+      return;
+    }
+    const x: number[] = [];
+    // As high as the pane leaves room: title, legend and scroll bar stand beside.
+    const height = Math.max(110, this.element.clientHeight - 48);
+    const line = (name: string, label: string, unit: string) => new LinePlot({ name, x: { label: texts.time, unit: "ms", values: x }, left: { label: texts.short[name as "h_min" | "p_max"], unit, fromZero: true }, curves: [{ label, unit, y: [] }], height });
+    // What this run tells besides, such as no temperatures where they are not solved for.
+    const others = further
+      .filter(({ key }) => own[key].some((value) => Number.isFinite(value)))
+      .map(({ key, unit }) => ({ key, plot: new LinePlot({ name: key, x: { label: texts.time, unit: "ms", values: x }, left: { label: key === "T_max" ? "T" : texts.further[key].toLowerCase(), unit, fromZero: key !== "T_max" }, curves: [{ label: texts.further[key], unit, y: [] }], height }) }));
+    const orbit = { time: new Float64Array(), x: new Float64Array(), y: new Float64Array(), force: null, clearance: 1 };
+    this.drawn = { x, thickness: line("h_min", texts.hMin, "µm"), pressure: line("p_max", texts.pMax, "MPa"), others, orbit: new LowOrbit(orbit, height + 6), path: orbit };
+    this.plots.replaceChildren(
+      h("div", { class: "live-plot", "data-plot": "h_min" }, this.drawn.thickness.element),
+      h("div", { class: "live-plot", "data-plot": "p_max" }, this.drawn.pressure.element),
+      h("div", { class: "live-plot live-orbit", "data-plot": "orbit" }, this.drawn.orbit.element),
+      ...others.map(({ key, plot }) => h("div", { class: "live-plot", "data-plot": key }, plot.element)),
+    );
+    this.redraw();
+  }
+
+  private redraw(): void {
+    const course = this.courses.get(this.shownRun);
+    if (!course) return;
+    if (!this.drawn || this.names().length !== this.choice.options.length) {
+      if (this.names().length > 0) this.build();
+      return;
+    }
+    const own = course.bearings.get(this.shownBearing);
+    if (!own || course.time.length === 0) return;
+    const { x, thickness, pressure, orbit, path: shown } = this.drawn;
+    x.splice(0, x.length, ...course.time.map((t) => 1e3 * t));
+    thickness.update([own.h_min]);
+    pressure.update([own.p_max]);
+    for (const { key, plot } of this.drawn.others) plot.update([own[key]]);
+    // The journal's last turns are enough of its path.
+    const from = Math.max(0, own.x.length - 600);
+    shown.time = Float64Array.from(course.time.slice(from));
+    shown.x = Float64Array.from(own.x.slice(from));
+    shown.y = Float64Array.from(own.y.slice(from));
+    shown.clearance = this.clearance(this.shownBearing) ?? 1.1 * Math.max(1e-9, ...own.x.map((e, i) => Math.hypot(e, own.y[i]!)));
+    orbit.show(course.time[course.time.length - 1]!);
+  }
+}

@@ -1,0 +1,214 @@
+// The machine as its text says, at its start: the report's picture, kept while the text changes; parts can be chosen,
+// joints moved, and the whole cut by a plane.
+
+import { AxesHelper, Matrix4, Mesh, Plane, Quaternion, Raycaster, Vector2, Vector3, type MeshStandardMaterial, type Object3D } from "three";
+import type { Run } from "../src/data";
+import { MachineGeometry, type Link } from "../src/machine_geometry";
+import { MachineView } from "../src/machine_view";
+
+export interface Pose {
+  position: [number, number, number];
+  /** w, x, y, z */
+  orientation: [number, number, number, number];
+}
+
+export class WorkbenchMachine extends MachineView {
+  private chosen: string | null = null;
+  private poses: Map<string, Matrix4> | null = null;
+  private cut: number | null = null;
+  private framesShown = false;
+  private isTurned = false;
+
+  /** @param pick  called with the part that was clicked, such as /bodies/rod; null beside them all */
+  constructor(run: Run, pick: (part: string | null) => void) {
+    super(new MachineGeometry(run));
+    // Who has turned the machine keeps the view; else it fits into every size of the pane.
+    new ResizeObserver(() => this.controls && !this.isTurned && this.reset()).observe(this.holder);
+    for (const kind of ["pointerdown", "wheel", "keydown"]) this.holder.addEventListener(kind, () => (this.isTurned = true), { passive: true });
+    let down: [number, number] | null = null;
+    this.holder.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY]));
+    this.holder.addEventListener("pointerup", (event) => {
+      // Turning the machine is no choice.
+      if (down && event.button === 0 && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4) pick(this.partAt(event.clientX, event.clientY));
+      down = null;
+    });
+  }
+
+  get space(): HTMLElement {
+    return this.holder;
+  }
+  get names(): HTMLElement {
+    return this.legend;
+  }
+  get joints(): Link[] {
+    return this.geometry.joints;
+  }
+
+  parts(): string[] {
+    const { bodies, joints, bearings, forces } = this.geometry;
+    return [
+      ...bodies.filter((b) => !b.name.includes(".")).map((b) => `/bodies/${b.name}`),
+      ...joints.map((j) => `/joints/${j.name}`),
+      ...bearings.map((b) => `/bearings/${b.name}`),
+      ...forces.map((f) => `/forces/${f.name}`),
+    ];
+  }
+
+  /** Another state of the text; the eye stays where it is unless the machine's size has changed much. */
+  take(run: Run): void {
+    const size = this.bounds.radius;
+    this.geometry = new MachineGeometry(run);
+    this.bounds = this.boundingSphere();
+    this.poses = null;
+    if (!this.renderer) return;
+    const old = this.meshes();
+    this.build();
+    this.place();
+    // Not before the new ones are drawn: shaders that nothing uses would have to be made again.
+    for (const mesh of old) {
+      mesh.geometry.dispose();
+      for (const paint of [mesh.material].flat()) paint.dispose();
+    }
+    if (this.bounds.radius > 2 * size || this.bounds.radius < 0.5 * size) this.reset();
+  }
+
+  resetByHand(): void {
+    this.isTurned = false;
+    this.reset();
+  }
+
+  reset(): void {
+    if (!this.renderer || !this.controls) return;
+    this.camera.up.copy(this.geometry.up());
+    this.lookFromStart();
+  }
+
+  /** Poses of a joint's other position; null: as the text says. */
+  move(poses: Record<string, Pose> | null): void {
+    this.poses = poses
+      ? new Map(
+          Object.entries(poses).map(([name, { position, orientation: [w, x, y, z] }]) => [name, new Matrix4().compose(new Vector3(...position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1))]),
+        )
+      : null;
+    if (this.renderer) this.place();
+  }
+
+  choose(part: string | null): void {
+    if (this.chosen === part) return;
+    this.chosen = part;
+    this.light();
+    this.render();
+  }
+
+  showFrames(shown: boolean): void {
+    this.framesShown = shown;
+    if (this.renderer) this.repaint();
+  }
+
+  /** Cuts along the plane of motion, `place` from -1 to 1 through the machine; null: whole. */
+  section(place: number | null): void {
+    this.cut = place;
+    this.clip();
+    this.render();
+  }
+
+  private clip(): void {
+    if (!this.renderer) return;
+    if (this.cut === null) {
+      this.renderer.clippingPlanes = [];
+      return;
+    }
+    const normal = this.normalOfMotion().negate();
+    const through = this.bounds.center.clone().addScaledVector(normal, -this.cut * this.bounds.radius);
+    this.renderer.clippingPlanes = [new Plane().setFromNormalAndCoplanarPoint(normal, through)];
+  }
+
+  private partAt(x: number, y: number): string | null {
+    const box = this.holder.getBoundingClientRect();
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height), this.camera);
+    const plane = this.renderer?.clippingPlanes[0];
+    const hits = ray.intersectObjects([...this.groups.values()], true).filter(({ object, point }) => object.userData["part"] && (!plane || plane.distanceToPoint(point) >= 0));
+    // Half-spaces lie behind everything; films and joints are small and win over the body around them.
+    const nearest = hits[0];
+    if (!nearest) return null;
+    const small = hits.find(({ object, distance }) => !String(object.userData["part"]).startsWith("/bodies/") && distance < nearest.distance + 0.04 * this.bounds.radius);
+    return (small ?? nearest).object.userData["part"] as string;
+  }
+
+  private meshes(): Mesh[] {
+    const found: Mesh[] = [];
+    for (const group of this.groups.values()) group.traverse((object: Object3D) => object instanceof Mesh && found.push(object));
+    return found;
+  }
+
+  /** What `add` puts into the scene belongs to a part. */
+  private named(part: string, group: () => Object3D | undefined, add: () => void): void {
+    const before = group()?.children.length ?? 0;
+    add();
+    for (const object of (group()?.children ?? []).slice(before)) object.traverse((o) => (o.userData["part"] = part));
+  }
+
+  protected override build(): void {
+    super.build();
+    this.clip();
+    this.light();
+  }
+
+  protected override addBody(name: string, colour: string): void {
+    super.addBody(name, colour);
+    const group = this.groups.get(name);
+    group?.traverse((o) => (o.userData["part"] = `/bodies/${name}`));
+    if (this.framesShown && group) {
+      const size = 0.15 * this.bounds.radius;
+      group.add(new AxesHelper(size));
+      for (const place of this.geometry.attachments(name)) {
+        const axes = new AxesHelper(0.6 * size);
+        axes.position.copy(place);
+        group.add(axes);
+      }
+    }
+  }
+
+  protected override addJoint(joint: Link, size: number, colour: string): void {
+    this.named(`/joints/${joint.name}`, () => this.groups.get(joint.inboard), () => super.addJoint(joint, size, colour));
+  }
+
+  protected override addBearing(bearing: Link, colour: string): void {
+    this.named(`/bearings/${bearing.name}`, () => this.groups.get(bearing.inboard), () => super.addBearing(bearing, colour));
+  }
+
+  /** A pane may be higher than wide, and one instant shows less than a whole motion: a step back. */
+  protected override lookFromStart(): void {
+    super.lookFromStart();
+    const { target } = this.controls!;
+    this.camera.position.sub(target).multiplyScalar(1.12 / Math.min(1, this.camera.aspect)).add(target);
+    this.controls!.update();
+    this.render();
+  }
+
+  protected override place(): void {
+    super.place();
+    if (!this.poses) return;
+    for (const [name, pose] of this.poses) this.groups.get(name)?.matrix.copy(pose);
+    const end = (body: string, place: Vector3) => place.clone().applyMatrix4(this.groups.get(body)?.matrix ?? new Matrix4());
+    for (const { link, line } of this.forceLines) line.geometry.setFromPoints([end(link.inboard, link.inboardPlace), end(link.outboard, link.outboardPlace)]);
+    this.render();
+  }
+
+  /** The chosen part glows. */
+  private light(): void {
+    for (const group of this.groups.values())
+      group.traverse((object: Object3D) => {
+        if (!(object instanceof Mesh)) return;
+        for (const paint of [object.material].flat() as MeshStandardMaterial[]) {
+          if (!paint.emissive) continue;
+          const on = this.chosen !== null && object.userData["part"] === this.chosen;
+          paint.userData["own"] ??= paint.color.getHex();
+          paint.color.set(on ? "#e08a00" : (paint.userData["own"] as number));
+          paint.emissive.set(on ? "#c87400" : "#000000");
+          paint.emissiveIntensity = on ? 0.35 : 0;
+        }
+      });
+  }
+}

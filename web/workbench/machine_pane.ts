@@ -1,0 +1,214 @@
+// The pane with the machine: its picture, its parts as a list, its joints as sliders.
+
+import type { Api, BearingScene, Source } from "./api";
+import { Run, type RunText } from "../src/data";
+import { h } from "../src/dom";
+import { format } from "../src/units";
+import { WorkbenchMachine, type Pose } from "./machine";
+import { texts } from "./texts";
+
+export type SceneText = RunText & {
+  sources?: Record<string, Source>;
+  bearings?: Record<string, BearingScene>;
+  /** Coordinates that can be moved. */
+  joints?: Record<string, { name: string; unit: "rad" | "m"; value: number }[]>;
+  /** Why loops do not close. */
+  open?: string;
+};
+
+export interface MachineHooks {
+  api: Api;
+  /** The model's path and text as they are now. */
+  model: () => { path: string; text: string } | null;
+  chosen: (part: string) => void;
+  say: (text: string) => void;
+}
+
+interface Coordinate {
+  joint: string;
+  coordinate: string;
+}
+
+export class MachinePane {
+  readonly element: HTMLElement;
+  private readonly stage = h("div", { class: "stage" }, h("p", { class: "note empty" }, texts.noScene));
+  private readonly legend = h("div", { class: "machine-names" });
+  private readonly partList = h("select", { "aria-label": texts.parts });
+  private readonly sliders = h("div", { class: "joint-sliders" });
+  private readonly jointBox = h("details", { class: "joints" }, h("summary", {}, texts.joints), h("p", { class: "note" }, texts.jointHelp), this.sliders);
+  private readonly staleNote = h("span", { class: "stale", hidden: true }, texts.stale);
+  private readonly cutPlace = h("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, hidden: true, "aria-label": texts.sectionPlace });
+  private machine: WorkbenchMachine | null = null;
+  private scene: SceneText | null = null;
+  private look = "";
+  private jointNames = "";
+  private moving: Coordinate | null = null;
+  private wanted: number | null = null;
+  private busy = false;
+  /** Shows a coordinate on its slider. */
+  private readonly coordinates = new Map<string, (value: number) => void>();
+
+  constructor(private readonly hooks: MachineHooks) {
+    const cut = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, texts.section);
+    cut.addEventListener("click", () => {
+      const on = cut.getAttribute("aria-pressed") !== "true";
+      cut.setAttribute("aria-pressed", String(on));
+      this.cutPlace.hidden = !on;
+      this.machine?.section(on ? Number(this.cutPlace.value) : null);
+    });
+    this.cutPlace.addEventListener("input", () => this.machine?.section(Number(this.cutPlace.value)));
+    const frames = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, texts.paths);
+    frames.addEventListener("click", () => {
+      const on = frames.getAttribute("aria-pressed") !== "true";
+      frames.setAttribute("aria-pressed", String(on));
+      this.machine?.showFrames(on);
+    });
+    const reset = h("button", { type: "button", class: "quiet", click: () => this.machine?.resetByHand() }, texts.resetView);
+    this.partList.append(h("option", { value: "" }, texts.parts));
+    this.jointBox.hidden = true;
+    this.partList.addEventListener("change", () => this.partList.value && this.pick(this.partList.value));
+    this.element = h(
+      "div",
+      { class: "machine-pane" },
+      h("div", { class: "pane-tools" }, this.partList, cut, this.cutPlace, frames, reset),
+      this.stage,
+      this.legend,
+      this.jointBox,
+    );
+  }
+
+  get sources(): Record<string, Source> {
+    return this.scene?.sources ?? {};
+  }
+
+  get run(): Run | null {
+    return this.scene ? new Run(this.scene) : null;
+  }
+
+  /** Null keeps the last picture and says that it is not of this text. */
+  show(scene: SceneText | null): void {
+    this.staleNote.hidden = scene !== null ? !scene.open : this.scene === null;
+    this.staleNote.textContent = scene?.open || texts.stale;
+    if (!scene) return;
+    // Comments and settings change nothing of the picture.
+    const look = JSON.stringify([scene.attributes, scene.datasets]);
+    const isSame = this.machine !== null && look === this.look;
+    this.scene = scene;
+    this.look = look;
+    if (isSame) return;
+    const run = new Run(scene);
+    if (this.machine) this.machine.take(run);
+    else {
+      this.machine = new WorkbenchMachine(run, (part) => (part ? this.pick(part) : this.highlight(null)));
+      this.stage.replaceChildren(this.machine.space, this.staleNote);
+      this.legend.replaceChildren(this.machine.names);
+    }
+    this.listParts();
+    this.listJoints(run);
+  }
+
+  /** Without a model. */
+  clear(): void {
+    this.scene = null;
+    this.machine?.destroy();
+    this.machine = null;
+    this.jointNames = "";
+    this.stage.replaceChildren(h("p", { class: "note empty" }, texts.noScene));
+    this.legend.replaceChildren();
+    this.sliders.replaceChildren();
+    this.partList.replaceChildren(h("option", { value: "" }, texts.parts));
+    this.jointBox.hidden = true;
+    this.staleNote.hidden = true;
+  }
+
+  highlight(part: string | null): void {
+    this.machine?.choose(part);
+    const isListed = [...this.partList.options].some(({ value }) => value === part);
+    this.partList.value = isListed ? part! : "";
+  }
+
+  private pick(part: string): void {
+    this.highlight(part);
+    this.hooks.chosen(part);
+  }
+
+  private listParts(): void {
+    const chosen = this.partList.value;
+    const parts = this.machine!.parts();
+    this.partList.replaceChildren(
+      h("option", { value: "" }, texts.parts),
+      ...["bodies", "joints", "bearings", "forces"].flatMap((group) => {
+        const own = parts.filter((part) => part.startsWith(`/${group}/`));
+        if (own.length === 0) return [];
+        const list = document.createElement("optgroup");
+        list.label = group;
+        list.append(...own.map((part) => h("option", { value: part }, part.split("/").pop()!)));
+        return [list];
+      }),
+    );
+    this.partList.value = parts.includes(chosen) ? chosen : "";
+  }
+
+  private listJoints(run: Run): void {
+    const isFree = (joint: string) => run.attribute(`/joints/${joint}`, "type") === "free";
+    const joints = Object.entries(this.scene?.joints ?? {}).flatMap(([joint, list]) => (isFree(joint) ? [] : list.map((c) => ({ joint, ...c }))));
+    this.jointBox.hidden = joints.length === 0;
+    const names = joints.map(({ joint, name, value }) => `${joint}.${name}:${value}`).join();
+    if (names === this.jointNames) return;
+    this.jointNames = names;
+    this.coordinates.clear();
+    const reach = Math.max(0.01, this.machine!.size);
+    this.sliders.replaceChildren(
+      ...joints.flatMap(({ joint, name, unit, value: start }) => {
+        const isAngle = unit === "rad";
+        const half = isAngle ? Math.PI : reach;
+        const [low, high] = [start - half, start + half];
+        const value = h("output", { class: "slider-value" });
+        const say = (x: number) => (value.textContent = isAngle ? `${format((x * 180) / Math.PI, 3)}°` : `${format(1e3 * x, 3)} mm`);
+        const slider = h("input", { type: "range", min: low, max: high, step: (high - low) / 720, value: start, "aria-label": `${joint}, ${name}` });
+        slider.addEventListener("input", () => {
+          say(Number(slider.value));
+          this.moveTo({ joint, coordinate: name }, Number(slider.value));
+        });
+        const reset = h("button", { type: "button", class: "quiet", "aria-label": `${joint}: ${texts.jointReset}` }, "↺");
+        reset.addEventListener("click", () => {
+          for (const c of joints) this.coordinates.get(`${c.joint}.${c.name}`)?.(c.value);
+          this.wanted = null;
+          this.machine?.move(null);
+        });
+        say(start);
+        this.coordinates.set(`${joint}.${name}`, (x) => {
+          slider.value = String(x);
+          say(x);
+        });
+        return [h("span", { class: "slider-name" }, joint), slider, value, reset];
+      }),
+    );
+  }
+
+  /** One question at a time: the newest position waits. */
+  private moveTo(coordinate: Coordinate, value: number): void {
+    [this.moving, this.wanted] = [coordinate, value];
+    if (!this.busy) void this.ask();
+  }
+
+  private async ask(): Promise<void> {
+    this.busy = true;
+    while (this.wanted !== null && this.moving) {
+      const [coordinate, value] = [this.moving, this.wanted];
+      this.wanted = null;
+      const model = this.hooks.model();
+      if (!model) break;
+      try {
+        const { bodies, joints } = await this.hooks.api.post<{ bodies: Record<string, Pose>; joints?: SceneText["joints"] }>("/api/move", { ...model, ...coordinate, value });
+        this.machine?.move(bodies);
+        for (const [joint, list] of Object.entries(joints ?? {}))
+          for (const c of list) if (joint !== coordinate.joint || c.name !== coordinate.coordinate) this.coordinates.get(`${joint}.${c.name}`)?.(c.value);
+        this.hooks.say("");
+      } catch (error) {
+        this.hooks.say(error instanceof Error ? error.message : String(error));
+      }
+    }
+    this.busy = false;
+  }
+}

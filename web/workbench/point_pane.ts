@@ -1,0 +1,205 @@
+// One bearing by itself: load, speed, clearance and viscosity on sliders, its answers as they move.
+
+import type { Api } from "./api";
+import { fieldsOnly, type FigureText, type SolutionText } from "../src/data";
+import { h } from "../src/dom";
+import { FieldMap } from "../src/field_map";
+import { unitText, valueText } from "../src/figure_text";
+import { FilmFields } from "../src/film_fields";
+import { Locus } from "../src/locus";
+import { format } from "../src/units";
+import { texts } from "./texts";
+import { quantityPattern } from "./units_of";
+import { child, find, type TextNode } from "./yaml_tree";
+
+interface Answer {
+  id: string | null;
+  solved: boolean;
+  message: string;
+  figures: FigureText[];
+  position: { e: [number, number]; clearance: number; ratio: number } | null;
+  solution: SolutionText;
+  time: number;
+}
+
+/** Around the value of the model, so many times less and more. */
+const spread = 8;
+
+interface Knob {
+  key: "load" | "speed" | "clearance" | "viscosity";
+  unit: string;
+  usual: number;
+}
+
+const knobs: Knob[] = [
+  { key: "load", unit: "N", usual: 1000 },
+  { key: "speed", unit: "rpm", usual: 3000 },
+  { key: "clearance", unit: "um", usual: 40 },
+  { key: "viscosity", unit: "mPa.s", usual: 10 },
+];
+
+/** Groups of figures that are worth a line each, the first ones first. */
+const groups = ["film", "films", "pads", "operating point", "friction", "power", "oil", "heat", "stability of a rigid rotor", "numbers"];
+
+export class PointPane {
+  readonly element: HTMLElement;
+  private readonly figures = h("table", { class: "figures-table" });
+  private readonly map = h("div", { class: "pressure-map" });
+  private readonly locus = h("div", { class: "point-locus" });
+  private readonly status = h("p", { class: "note", role: "status" }, texts.solveStart);
+  private readonly sliders = new Map<string, { input: HTMLInputElement; value: HTMLElement; middle: number; isKnown: boolean }>();
+  private readonly touched = new Set<string>();
+  private bearing = "";
+  private previous: string | null = null;
+  private wanted = false;
+  private busy = false;
+  private drawn: { map: FieldMap | null; locus: Locus | null } = { map: null, locus: null };
+
+  constructor(
+    private readonly api: Api,
+    private readonly model: () => { path: string; text: string; tree: TextNode } | null,
+    private readonly name: () => string,
+  ) {
+    const rows = knobs.flatMap((knob) => {
+      const input = h("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, "aria-label": texts.sliders[knob.key] });
+      const value = h("output", { class: "slider-value" });
+      this.sliders.set(knob.key, { input, value, middle: knob.usual, isKnown: false });
+      input.addEventListener("input", () => {
+        this.touched.add(knob.key);
+        this.write(knob);
+        this.ask();
+      });
+      const reset = h("button", { type: "button", class: "quiet", "aria-label": `${texts.sliders[knob.key]}: ${texts.jointReset}` }, "↺");
+      reset.addEventListener("click", () => {
+        this.touched.delete(knob.key);
+        input.value = "0";
+        this.write(knob);
+        this.ask();
+      });
+      this.write(knob);
+      return [h("span", { class: "slider-name" }, texts.sliders[knob.key]), input, value, reset];
+    });
+    this.element = h("div", { class: "point-pane" }, h("div", { class: "joint-sliders" }, ...rows), this.status, h("div", { class: "point-pictures" }, this.map, this.locus), this.figures);
+  }
+
+  /** The pane has come into sight, or the text has changed. */
+  refresh(): void {
+    if (this.name() !== this.bearing) {
+      this.bearing = this.name();
+      this.previous = null;
+      this.touched.clear();
+      for (const knob of knobs) {
+        const slider = this.sliders.get(knob.key)!;
+        slider.input.value = "0";
+        slider.isKnown = false;
+      }
+    }
+    if (!this.bearing) this.status.textContent = texts.noBearing;
+    else if (this.element.checkVisibility()) this.ask();
+  }
+
+  private current(knob: Knob): number {
+    const { input, middle } = this.sliders.get(knob.key)!;
+    return middle * spread ** Number(input.value);
+  }
+
+  private write(knob: Knob): void {
+    this.sliders.get(knob.key)!.value.textContent = `${format(this.current(knob), 3)} ${knob.unit.replace("um", "µm").replace("mPa.s", "mPa·s")}`;
+  }
+
+  private ask(): void {
+    this.wanted = true;
+    if (!this.busy) void this.work();
+  }
+
+  private async work(): Promise<void> {
+    this.busy = true;
+    while (this.wanted) {
+      this.wanted = false;
+      const model = this.model();
+      if (!model || !this.bearing) break;
+      // A bearing of a machine may have no operating point of its own.
+      const hasPoint = find(model.tree, ["bearings", this.bearing, "operating_point"]) !== undefined || find(model.tree, ["use"]) !== undefined;
+      const written = (knob: Knob) => `${Number(this.current(knob).toPrecision(5))} ${knob.unit}`;
+      const ofPoint = (knob: Knob) => knob.key === "load" || knob.key === "speed";
+      const set = knobs.filter((knob) => this.touched.has(knob.key) && (hasPoint || !ofPoint(knob))).map((knob) => `${knob.key}=${written(knob)}`);
+      if (!hasPoint) set.unshift(`bearings.${this.bearing}.operating_point={journal_speed: ${written(knobs[1]!)}, load: ${written(knobs[0]!)}}`);
+      const begun = performance.now();
+      try {
+        const answer = await this.api.post<Answer>("/api/bearing", { path: model.path, text: model.text, bearing: this.bearing, set, fields: ["pressure"], ...(this.previous ? { previous: this.previous } : {}) });
+        this.previous = answer.id ?? this.previous;
+        this.show(answer, model, performance.now() - begun);
+      } catch (error) {
+        this.status.textContent = error instanceof Error ? error.message : String(error);
+        this.element.classList.add("old");
+      }
+    }
+    this.busy = false;
+  }
+
+  private show(answer: Answer, model: { text: string; tree: TextNode }, ms: number): void {
+    this.element.classList.toggle("old", !answer.solved);
+    this.status.textContent = answer.solved ? texts.solved(Math.round(ms)) : answer.message;
+    if (!answer.solved) return;
+    this.learn(answer, model);
+    const { figures } = answer.solution;
+    const known = [...groups.filter((group) => figures.some((f) => f.group === group)), ...new Set(figures.map(({ group }) => group).filter((group) => !groups.includes(group)))];
+    this.figures.replaceChildren(
+      ...known.map((group) =>
+        h(
+          "tbody",
+          {},
+          h("tr", {}, h("th", { colspan: 2, class: "group" }, group)),
+          ...figures.filter((f) => f.group === group).map((f) => h("tr", { "data-figure-key": f.key }, h("th", {}, f.name), h("td", { class: "number" }, valueText(f), unitText(f)))),
+        ),
+      ),
+    );
+    this.drawMap(answer);
+  }
+
+  /** Where the sliders begin: what the model says. */
+  private learn({ figures, position }: Answer, { text, tree }: { text: string; tree: TextNode }): void {
+    const figure = (...keys: string[]) => figures.find(({ key, value }) => keys.includes(key) && value !== null);
+    const speed = figure("journal_speed", "speed");
+    const oil = child(find(tree, ["bearings", this.bearing]), "lubricant");
+    const name = oil ? text.slice(oil.valueFrom, oil.valueTo) : (find(tree, ["lubricants"])?.children[0]?.key ?? "");
+    const viscosity = find(tree, ["lubricants", name, "viscosity"]);
+    const written = viscosity ? quantityPattern.exec(text.slice(viscosity.valueFrom, viscosity.valueTo)) : null;
+    const values: Record<Knob["key"], number | undefined> = {
+      load: figure("load")?.value ?? undefined,
+      speed: speed ? speed.value! * (speed.unit === "rpm" ? 1 : 30 / Math.PI) : undefined,
+      clearance: position ? 1e6 * position.clearance : undefined,
+      viscosity: written ? parseFloat(written[1]!) * ({ "Pa.s": 1e3, "mPa.s": 1, cP: 1 }[written[2]!] ?? NaN) : undefined,
+    };
+    for (const knob of knobs) {
+      const slider = this.sliders.get(knob.key)!;
+      const value = values[knob.key];
+      if (this.touched.has(knob.key)) continue;
+      slider.isKnown = value !== undefined && value > 0;
+      slider.input.disabled = !slider.isKnown;
+      if (slider.isKnown) slider.middle = value! / spread ** Number(slider.input.value);
+      this.write(knob);
+      if (!slider.isKnown) slider.value.textContent = "–";
+    }
+  }
+
+  private drawMap({ solution, position }: Answer): void {
+    const film = solution.films[0];
+    const fields = film ? FilmFields.of(fieldsOnly(solution.datasets), film.bearing) : null;
+    const kind = fields?.kinds().find(({ key }) => key === "pressure") ?? fields?.kinds()[0];
+    this.drawn.map?.destroy();
+    this.drawn.locus?.destroy();
+    this.drawn = { map: null, locus: null };
+    if (fields && kind) {
+      this.drawn.map = new FieldMap(fields, kind, "instant", film!.features);
+      this.map.replaceChildren(this.drawn.map.element);
+      this.drawn.map.show(0, []);
+    } else this.map.replaceChildren();
+    if (position) {
+      const { e, clearance } = position;
+      const point = { label: "", x: e[0] / clearance, y: e[1] / clearance, index: 0 };
+      this.drawn.locus = new Locus({ lines: [{ colour: 0, points: [point] }], load: () => solution.load ?? [0, 0], clearance: () => clearance }, 0, () => undefined);
+      this.locus.replaceChildren(this.drawn.locus.element);
+    } else this.locus.replaceChildren();
+  }
+}

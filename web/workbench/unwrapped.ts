@@ -1,0 +1,119 @@
+// The surface of a bearing unwrapped: grid, holes, grooves and pads; what has a place in the text can be moved.
+
+import type { BearingScene, Feature } from "./api";
+import { h } from "../src/dom";
+import { format } from "../src/units";
+import { texts } from "./texts";
+
+const ns = "http://www.w3.org/2000/svg";
+
+function svg(tag: string, properties: Record<string, string | number>, ...children: (Node | string)[]): SVGElement {
+  const element = document.createElementNS(ns, tag);
+  for (const [name, value] of Object.entries(properties)) element.setAttribute(name, String(value));
+  element.append(...children);
+  return element;
+}
+
+export interface UnwrappedHooks {
+  /** A feature was moved by so much [rad or m; m]. */
+  moved: (feature: Feature, phi: number, z: number) => void;
+  chosen: (feature: Feature) => void;
+}
+
+const box = { left: 44, top: 10, width: 540, height: 190 };
+
+export class Unwrapped {
+  readonly element = h("div", { class: "unwrapped" });
+
+  constructor(private readonly hooks: UnwrappedHooks) {}
+
+  show(name: string, bearing: BearingScene | null): void {
+    if (!bearing || bearing.grid.along.length < 2 || bearing.grid.across.length < 2) {
+      this.element.replaceChildren();
+      return;
+    }
+    const { along: nodes, across: rows, closes } = bearing.grid;
+    const isPlane = bearing.along !== "phi";
+    const low = closes ? 0 : nodes[0]!;
+    const along = closes ? 2 * Math.PI : nodes[nodes.length - 1]! - low;
+    const bottom = rows[0]!;
+    const width = rows[rows.length - 1]! - bottom;
+    // The line that supplies it is a feature without extent around it.
+    const line: Feature[] = bearing.supply?.at === "angle" ? [{ name: texts.supply, kind: "line", phi: bearing.supply.phi, z: 0, arc: 0, length: 0, key: `bearings.${name}.supply.line` }] : [];
+    const all = [...bearing.features, ...line];
+    const focused = (document.activeElement as Element | null)?.getAttribute?.("data-feature");
+    const x = (phi: number) => box.left + ((phi - low) / along) * box.width;
+    const y = (z: number) => box.top + (1 - (z - bottom) / width) * box.height;
+    const drawing = svg("svg", { viewBox: `0 0 ${box.left + box.width + 14} ${box.top + box.height + 40}`, role: "group", "aria-label": texts.unwrapped(name) });
+    drawing.append(svg("rect", { class: "paper", x: box.left, y: box.top, width: box.width, height: box.height }));
+    const lines = [...nodes.map((node) => `M${x(node)} ${box.top}v${box.height}`), ...rows.map((row) => `M${box.left} ${y(row)}h${box.width}`)];
+    drawing.append(svg("path", { class: "grid", d: lines.join("") }));
+    for (let k = 0; k <= 4; k++) {
+      const value = low + (k / 4) * along;
+      drawing.append(svg("text", { class: "tick", x: x(value), y: box.top + box.height + 15, "text-anchor": "middle" }, isPlane ? format(1e3 * value, 3) : `${format((180 / Math.PI) * value, 3)}°`));
+    }
+    for (const share of [0, 0.5, 1]) drawing.append(svg("text", { class: "tick", x: box.left - 6, y: y(bottom + share * width) + 4, "text-anchor": "end" }, format(1e3 * (bottom + share * width), 3)));
+    drawing.append(svg("text", { class: "axis", x: box.left + box.width / 2, y: box.top + box.height + 33, "text-anchor": "middle" }, isPlane ? texts.axesOfPad(bearing.along, bearing.across) : texts.axesOfBore));
+    const clip = svg("clipPath", { id: "unwrapped-clip" }, svg("rect", { x: box.left, y: box.top, width: box.width, height: box.height }));
+    drawing.append(svg("defs", {}, clip));
+    for (const feature of all) drawing.append(this.draw(feature, along, width, x, y, isPlane));
+    this.element.replaceChildren(drawing);
+    if (focused) this.element.querySelector<SVGElement>(`[data-feature="${CSS.escape(focused)}"]`)?.focus();
+  }
+
+  private draw(feature: Feature, along: number, width: number, x: (phi: number) => number, y: (z: number) => number, isPlane: boolean): SVGElement {
+    const [w, t] = [(feature.arc / along) * box.width, ((feature.length || 4 * width) / width) * box.height];
+    const key = feature.key ?? "";
+    const round = feature.kind === "hole";
+    const place = isPlane ? `${format(1e3 * feature.phi, 3)} mm` : `${format((feature.phi * 180) / Math.PI, 4)}°`;
+    const group = svg("g", { class: `feature ${feature.kind} ${feature.surface ?? "fixed"}`, "clip-path": "url(#unwrapped-clip)" });
+    const handle = svg("g", { class: key ? "handle" : "", "data-feature": feature.name, ...(key ? { tabindex: 0, role: "button", "aria-label": `${feature.name}, ${feature.kind}, at ${place}, z ${format(1e3 * feature.z, 3)} mm` } : {}) });
+    const turn = isPlane ? [0] : [-along, 0, along];
+    for (const shift of turn) {
+      const [cx, cy] = [x(feature.phi + shift), y(feature.z)];
+      if (feature.arc === 0) handle.append(svg("path", { class: "line", d: `M${cx} ${cy - t / 2}v${t}` }), svg("path", { class: "touch", d: `M${cx} ${cy - t / 2}v${t}` }));
+      else if (round) handle.append(svg("ellipse", { cx, cy, rx: Math.max(3, w / 2), ry: Math.max(3, t / 2) }));
+      else handle.append(svg("rect", { x: cx - Math.max(2, w / 2), y: cy - t / 2, width: Math.max(4, w), height: t, rx: 1.5 }));
+      if (shift === 0) handle.append(svg("text", { class: "feature-name", x: Math.min(box.left + box.width - 4, Math.max(box.left + 4, cx)), y: Math.max(box.top + 13, cy - t / 2 - 4), "text-anchor": cx > box.left + box.width - 60 ? "end" : cx < box.left + 60 ? "start" : "middle" }, feature.name));
+    }
+    group.append(handle);
+    if (key) this.followHand(handle, feature, along, width);
+    return group;
+  }
+
+  private followHand(handle: SVGElement, feature: Feature, along: number, width: number): void {
+    const round = (value: number, step: number) => Math.round(value / step) * step;
+    const steps: [number, number] = along > 6.28 && along < 6.3 ? [Math.PI / 180, 1e-4] : [1e-4, 1e-4];
+    let start: { x: number; y: number; scale: number } | null = null;
+    const shift = (event: PointerEvent): [number, number] => {
+      const [dx, dy] = [(event.clientX - start!.x) * start!.scale, (event.clientY - start!.y) * start!.scale];
+      return [(dx / box.width) * along, (-dy / box.height) * width];
+    };
+    handle.addEventListener("pointerdown", (event) => {
+      const drawing = handle.ownerSVGElement!;
+      start = { x: event.clientX, y: event.clientY, scale: drawing.viewBox.baseVal.width / drawing.getBoundingClientRect().width };
+      handle.setPointerCapture(event.pointerId);
+      this.hooks.chosen(feature);
+    });
+    handle.addEventListener("pointermove", (event) => {
+      if (!start) return;
+      const [phi, z] = shift(event);
+      handle.setAttribute("transform", `translate(${(phi / along) * box.width} ${feature.arc === 0 ? 0 : (-z / width) * box.height})`);
+    });
+    handle.addEventListener("pointerup", (event) => {
+      if (!start) return;
+      const [phi, z] = shift(event);
+      start = null;
+      if (Math.abs((phi / along) * box.width) < 1 && Math.abs((z / width) * box.height) < 1) return;
+      this.hooks.moved(feature, round(feature.phi + phi, steps[0]), round(feature.z + z, steps[1]));
+    });
+    handle.addEventListener("keydown", (event) => {
+      const way: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+      const step = way[event.key];
+      if (!step) return;
+      event.preventDefault();
+      const size = event.shiftKey ? 10 : 1;
+      this.hooks.moved(feature, round(feature.phi + size * step[0] * steps[0], steps[0]), round(feature.z + size * step[1] * steps[1], steps[1]));
+    });
+  }
+}

@@ -1,0 +1,861 @@
+// The page as a whole: which model is open, what is asked of the program when its text changes, which pane shows what.
+
+import type { Diagnostic } from "@codemirror/lint";
+import { Unreachable, Refused, type Api, type Edit, type Fault, type FileEntry, type RunEntry, type RunEvent, type Template } from "./api";
+import { h } from "../src/dom";
+import { isDark, onThemeChange, setTheme } from "../src/theme";
+import { BearingPane } from "./bearing_pane";
+import { ask, askTemplate, askTexts, showKeys } from "./dialogs";
+import { Editor, type OpenDocument, type SavedDocument } from "./editor";
+import { splitter, Tabs, walkable } from "./layout";
+import { LivePane } from "./live_pane";
+import { MachinePane, type SceneText } from "./machine_pane";
+import { explainHere, modelHelp, offerUnits, type ModelHelpers } from "./model_help";
+import { showMesh } from "./mesh_window";
+import { ModelSchema, type Schema } from "./model_schema";
+import { Outline } from "./outline";
+import { PartPane } from "./part_pane";
+import { PointPane } from "./point_pane";
+import { diagnostics, ProblemList, type Findings } from "./problems";
+import { RunsPane } from "./runs_pane";
+import { texts } from "./texts";
+import { find, nodeAt, pathOf } from "./yaml_tree";
+
+export interface Hello {
+  version: string;
+  folder: string;
+  open: string | null;
+  /** Number of the last event. */
+  event?: number;
+}
+
+interface Checked extends Findings {
+  runs: number;
+  parameters: Record<string, unknown>;
+  scene: SceneText | null;
+}
+
+interface Remembered {
+  folder: string;
+  documents: SavedDocument[];
+  active: string;
+  model: string;
+  reports: { title: string; url: string }[];
+  sizes: Record<string, number>;
+  tabs: Record<string, string>;
+  run: string;
+}
+
+/** Faults that only the start of a run shows, not its text. */
+const startFaults = new WeakSet<Fault>();
+const isOfStart = (fault: Fault) => startFaults.has(fault);
+
+/** Pause of typing before a text is checked [ms]. */
+const pause = 45;
+/** Further pause before the start of its run is tried [ms]. */
+const restPause = 200;
+/** Pause before everything open is remembered [ms]. */
+const rememberPause = 400;
+
+export class Workbench {
+  readonly element: HTMLElement;
+  private readonly editor: Editor;
+  private readonly machine: MachinePane;
+  private readonly bearing: BearingPane;
+  private readonly point: PointPane;
+  private readonly part: PartPane;
+  private readonly problems: ProblemList;
+  private readonly runs: RunsPane;
+  private readonly live: LivePane;
+  private readonly outline: Outline;
+  private readonly right: Tabs;
+  private readonly below: Tabs;
+  private readonly fileList = h("ul", { class: "files" });
+  private readonly documentBar = h("div", { class: "tabs documents", role: "tablist", "aria-label": texts.panes.middle });
+  private readonly documentArea = h("div", { class: "document-area" });
+  private readonly notices = h("div", { class: "notices", "aria-live": "polite" });
+  private readonly checkState = h("button", { type: "button", class: "check-state", click: () => this.showProblems() });
+  private readonly announcer = h("div", { class: "visually-hidden", role: "status" });
+  private readonly runButton = h("button", { type: "button", class: "main-button", click: () => void this.runModel() }, texts.run);
+  private readonly stopButton = h("button", { type: "button", class: "quiet stop", disabled: true, click: () => void this.stopRun() }, texts.stop);
+  private readonly saveButton = h("button", { type: "button", class: "quiet", click: () => void this.save() }, texts.save);
+  private schema: ModelSchema | null = null;
+  private files: FileEntry[] = [];
+  private model: OpenDocument | null = null;
+  private findings: Findings | null = null;
+  private reports: { title: string; url: string; frame: HTMLIFrameElement }[] = [];
+  private active = "";
+  private checks = 0;
+  private checkTimer = 0;
+  private rememberTimer = 0;
+  private isReachable = true;
+  private sizes: Record<string, number>;
+  private readonly old: Remembered | null;
+
+  constructor(
+    private readonly api: Api,
+    private readonly hello: Hello,
+  ) {
+    this.old = this.recalled();
+    this.sizes = this.old?.sizes ?? {};
+    const say = (text: string) => this.say(text);
+    const helpers: ModelHelpers = {
+      schema: () => this.schema,
+      convert: async (value, unit) => (await api.post<{ text: string }>("/api/convert", { text: value, unit })).text,
+      say,
+    };
+    this.editor = new Editor({
+      changed: (document) => this.textChanged(document),
+      moved: (document) => this.cursorMoved(document),
+      model: modelHelp(helpers),
+      commands: [
+        { key: "Alt-Enter", run: () => this.repairHere() },
+        { key: "Alt-u", run: () => offerUnits(this.editor.view) || this.nothing(texts.convertNone) },
+        { key: "Alt-h", run: () => explainHere(this.editor.view, helpers) || this.nothing(texts.explainNone) },
+        { key: "Mod-Enter", run: () => (void this.runModel(), true) },
+      ],
+    });
+    const text = () => (this.model ? { path: this.model.path, text: this.model.state.doc.toString() } : null);
+    this.machine = new MachinePane({ api, model: text, chosen: (part) => this.goToPart(part), say });
+    const set = (key: string, value: string | null) => this.setValue(key, value);
+    this.bearing = new BearingPane({ set, goToKey: (key) => this.goToKey(key), chosen: (name) => (this.machine.highlight(`/bearings/${name}`), this.point.refresh()) });
+    this.point = new PointPane(api, () => (this.model ? { ...text()!, tree: this.model.tree } : null), () => this.bearing.name);
+    this.part = new PartPane(set);
+    this.problems = new ProblemList((fault) => this.goToFault(fault), (edits) => this.repair(edits));
+    this.live = new LivePane(api, (bearing) => this.machine.run?.number(`/bearings/${bearing}`, "radial_clearance"));
+    this.runs = new RunsPane({ api, say, chosen: (run) => void this.showRun(run), openReport: (title, url) => this.openReport(title, url), changed: () => this.runsChanged() });
+    this.outline = new Outline((at) => this.goToOffset(at));
+    this.right = new Tabs(texts.panes.right, [
+      { key: "machine", label: texts.machine, content: this.machine.element },
+      { key: "bearing", label: texts.bearing, content: this.bearing.element },
+      { key: "part", label: texts.part, content: this.part.element },
+      { key: "point", label: texts.point, content: this.point.element },
+    ], (key) => {
+      if (key === "point") setTimeout(() => this.point.refresh());
+      if (key === "bearing") this.bearing?.draw();
+      if (key === "part") this.part?.draw();
+      this.rememberSoon();
+    });
+    this.below = new Tabs(texts.panes.below, [
+      { key: "problems", label: texts.problems, content: this.problems.element },
+      { key: "live", label: texts.live, content: this.live.element },
+      { key: "log", label: texts.log, content: this.live.log },
+    ], (key) => {
+      if (key === "log") void this.live?.readLog();
+      this.rememberSoon();
+    });
+    this.element = this.layOut();
+    walkable(this.documentBar);
+    document.addEventListener("keydown", (event) => this.key(event));
+    addEventListener("pagehide", () => this.remember());
+    addEventListener("beforeunload", (event) => {
+      this.remember();
+      // The texts come back with the tab; without its memory they would be lost.
+      if (!this.remembers && [...this.editor.documents.values()].some((d) => d.isDirty)) event.preventDefault();
+    });
+  }
+
+  private layOut(): HTMLElement {
+    const theme = h("button", { type: "button", class: "quiet", click: () => this.switchTheme() });
+    const label = () => {
+      theme.textContent = isDark() ? texts.theme.light : texts.theme.dark;
+      theme.setAttribute("aria-label", isDark() ? texts.theme.toLight : texts.theme.toDark);
+    };
+    onThemeChange(label);
+    label();
+    const bar = h(
+      "header",
+      { class: "bar" },
+      h("h1", { class: "brand" }, "hersey", h("span", { class: "visually-hidden" }, " workbench")),
+      h("span", { class: "folder", title: this.hello.folder }, this.hello.folder.split("/").pop() || this.hello.folder),
+      h("button", { type: "button", class: "quiet", click: () => void this.beginModel() }, texts.begin),
+      this.saveButton,
+      this.checkState,
+      h("span", { class: "spacer" }),
+      this.runButton,
+      this.stopButton,
+      h("button", { type: "button", class: "quiet", click: () => showKeys() }, texts.shortcuts),
+      theme,
+    );
+    const group = (title: string, content: HTMLElement) => h("section", { class: "group", "aria-label": title }, h("h2", {}, title), content);
+    const root = h("div", { class: "bench" });
+    const usual = (): Record<"left" | "right" | "below", number> => ({
+      left: Math.min(420, Math.max(200, 0.17 * innerWidth)),
+      right: Math.max(380, 0.36 * innerWidth),
+      below: Math.max(215, 0.3 * innerHeight),
+    });
+    const size = (name: "left" | "right" | "below") => this.sizes[name] ?? usual()[name];
+    // What nobody has set by hand follows the window.
+    addEventListener("resize", () => {
+      for (const name of ["left", "right", "below"] as const) if (this.sizes[name] === undefined) root.style.setProperty(`--${name}`, `${usual()[name]}px`);
+    });
+    const remember = (name: string) => (value: number) => {
+      this.sizes[name] = value;
+      this.rememberSoon();
+    };
+    root.append(
+      bar,
+      h(
+        "section",
+        { class: "splitters", "aria-label": texts.panes.sizes },
+        splitter(root, "--left", texts.splitters.left, "right", size("left"), remember("left")),
+        splitter(root, "--right", texts.splitters.right, "left", size("right"), remember("right")),
+        splitter(root, "--below", texts.splitters.below, "up", size("below"), remember("below")),
+      ),
+      h("nav", { class: "pane left", "aria-label": texts.panes.left, tabindex: -1 }, group(texts.files, this.fileList), group(texts.runs, this.runs.element), group(texts.outline, this.outline.element)),
+      h("main", { class: "pane middle", "aria-label": texts.panes.middle, tabindex: -1 }, this.documentBar, this.documentArea),
+      h("aside", { class: "pane right", "aria-label": texts.panes.right, tabindex: -1 }, this.right.element),
+      h("section", { class: "pane below", "aria-label": texts.panes.below, tabindex: -1 }, this.below.element),
+      this.notices,
+      this.announcer,
+    );
+    return root;
+  }
+
+  /** Loads the folder and what was open before. */
+  async begin(): Promise<void> {
+    document.title = `${this.hello.folder.split("/").pop()} · ${texts.name}`;
+    this.problems.show(null);
+    this.showCheckState();
+    void this.api.get<Schema>("/api/schema").then((schema) => {
+      this.schema = new ModelSchema(schema);
+      this.showModelParts(null);
+    });
+    const files = this.loadFiles();
+    const runs = this.runs.load().catch(() => undefined);
+    if (this.old) for (const document of this.old.documents) this.editor.restore(document);
+    for (const report of this.old?.reports ?? []) this.addReport(report.title, report.url);
+    if (this.old) {
+      this.model = this.editor.documents.get(this.old.model) ?? null;
+      this.activate(this.old.active);
+      this.right.show(this.old.tabs["right"] ?? "machine");
+      this.below.show(this.old.tabs["below"] ?? "problems");
+      if (this.model) this.checkNow();
+      void this.refreshOpen();
+    }
+    await files;
+    const wanted = this.hello.open ?? (this.files.filter(({ kind }) => kind === "model").length === 1 ? this.files.find(({ kind }) => kind === "model")!.path : null);
+    if (!this.old && wanted) await this.openFile(wanted);
+    if (!this.active) this.showActive();
+    void this.api.follow(this.hello.event, (event, data) => this.hear(event, data), (is) => this.connected(is));
+    await runs;
+    const last = this.runs.runs.find(({ id }) => id === this.old?.run) ?? this.runs.running[0];
+    if (last) await this.showRun(last, false);
+  }
+
+  // ---- what the program tells
+
+  private hear(event: string, data: unknown): void {
+    if (event === "files") {
+      void this.loadFiles();
+      void this.refreshOpen();
+    } else if (event === "runs") void this.runs.load().catch(() => undefined);
+    else if (event === "run") this.hearRun(data as RunEvent);
+    else if (event === "reload") {
+      void this.loadFiles();
+      void this.refreshOpen();
+      void this.runs.load().catch(() => undefined);
+    } else if (event === "refused") this.notice("connection", texts.tokenRefused, []);
+  }
+
+  private hearRun(event: RunEvent): void {
+    this.live.hear(event);
+    if (event.share !== undefined) this.runs.progress(event.id, event.share);
+    if (event.kind === "finished" || event.kind === "started") void this.runs.load().catch(() => undefined);
+    if ((event.kind === "finished" || event.kind === "warning") && event.id === this.live.shownRun && this.below.current === "log") void this.live.readLog();
+  }
+
+  private connected(is: boolean): void {
+    if (is === this.isReachable) return;
+    this.isReachable = is;
+    if (is) {
+      this.dropNotice("connection");
+      this.say(texts.reachable);
+      this.hear("reload", null);
+      this.checkSoon();
+    } else this.notice("connection", texts.unreachable, []);
+  }
+
+  private runsChanged(): void {
+    this.stopButton.disabled = this.runs.running.length === 0;
+    const shown = this.runs.runs.find(({ id }) => id === this.live.shownRun);
+    if (shown && shown.state !== "running" && this.below.current === "log") void this.live.readLog();
+  }
+
+  private async showRun(run: RunEntry, open = true): Promise<void> {
+    this.runs.select(run.id);
+    if (open && this.below.current === "problems") this.below.show("live");
+    await this.live.show(run);
+    this.rememberSoon();
+  }
+
+  // ---- files and documents
+
+  private async loadFiles(): Promise<void> {
+    try {
+      this.files = (await this.api.get<{ files: FileEntry[] }>("/api/files")).files;
+    } catch (error) {
+      this.fail(error);
+      return;
+    }
+    this.drawFiles();
+  }
+
+  private drawFiles(): void {
+    const order = { model: 0, table: 1, mesh: 2, text: 3, report: 4, results: 5, other: 6 } as const;
+    const isOfRun = (path: string) => this.runs.runs.some(({ folder }) => path.startsWith(`${folder}/`));
+    const files = this.files.filter(({ path, kind }) => kind !== "other" && !isOfRun(path)).sort((a, b) => order[a.kind] - order[b.kind] || a.path.localeCompare(b.path));
+    const focused = document.activeElement?.getAttribute("data-path");
+    this.fileList.replaceChildren(
+      ...(files.some(({ kind }) => kind === "model") ? [] : [h("li", { class: "note" }, texts.emptyFolder)]),
+      ...files.map(({ path, kind }) => {
+        const open = this.editor.documents.get(path);
+        const button = h("button", { type: "button", class: `file ${kind}`, "data-path": path, "aria-current": path === this.active ? "true" : "false", click: () => void this.openFile(path) }, path, open?.isDirty ? h("span", { class: "dot", "aria-label": texts.unsaved, role: "img" }, "●") : null);
+        return h("li", {}, button);
+      }),
+    );
+    if (focused) this.fileList.querySelector<HTMLElement>(`[data-path="${CSS.escape(focused)}"]`)?.focus();
+  }
+
+  private async openFile(path: string): Promise<void> {
+    if (!this.editor.documents.has(path)) {
+      const kind = this.files.find((f) => f.path === path)?.kind;
+      if (kind === "mesh" && /\.(msh|inp)$/i.test(path)) return showMesh(this.api, path);
+      if (kind === "results" || kind === "mesh") return this.say(texts.binary);
+      try {
+        const { text, etag } = await this.api.file(path);
+        this.editor.add(path, text, etag);
+      } catch (error) {
+        return this.fail(error);
+      }
+    }
+    this.activate(path);
+    this.editor.view.focus();
+  }
+
+  /** Shows a text or a report. */
+  private activate(key: string): void {
+    const opened = this.editor.documents.get(key);
+    this.active = opened || this.reports.some(({ url }) => url === key) ? key : (this.editor.documents.keys().next().value ?? "");
+    const shown = this.editor.documents.get(this.active) ?? null;
+    if (shown) this.editor.show(shown);
+    if (shown?.isModel && shown !== this.model) {
+      this.model = shown;
+      this.findings = null;
+      this.machine.clear();
+      this.bearing.clear();
+      this.checkNow();
+    }
+    this.showActive();
+    this.rememberSoon();
+  }
+
+  private showActive(): void {
+    const isText = this.editor.documents.has(this.active);
+    this.editor.element.hidden = !isText;
+    for (const { frame, url } of this.reports) frame.hidden = url !== this.active;
+    if (!this.editor.element.isConnected) this.documentArea.append(this.editor.element);
+    this.documentArea.querySelector(".welcome")?.remove();
+    if (!this.active) this.documentArea.append(h("div", { class: "welcome" }, h("p", {}, texts.noModel), h("button", { type: "button", class: "main-button", click: () => void this.beginModel() }, texts.begin)));
+    this.drawDocumentBar();
+    this.drawFiles();
+    const shown = this.editor.documents.get(this.active);
+    this.outline.show((shown ?? this.model)?.isModel ? (shown ?? this.model)!.tree : null);
+    this.saveButton.disabled = !shown?.isDirty;
+  }
+
+  private drawDocumentBar(): void {
+    const had = this.documentBar.contains(document.activeElement);
+    const tab = (key: string, name: string, title: string, dirty: boolean, close: () => void) => {
+      const is = key === this.active;
+      const button = h("button", { type: "button", role: "tab", class: "tab", title, "aria-selected": String(is), tabindex: is ? 0 : -1, click: () => this.activate(key) }, name, dirty ? h("span", { class: "dot", role: "img", "aria-label": texts.unsaved }, "●") : null);
+      button.addEventListener("keydown", (event) => {
+        if (event.key === "Delete") close();
+      });
+      button.addEventListener("auxclick", (event) => event.button === 1 && close());
+      const cross = h("span", { class: "tab-close", title: texts.closeTab(name), "aria-hidden": "true", click: (event: Event) => (event.stopPropagation(), close()) }, "✕");
+      button.append(cross);
+      return button;
+    };
+    this.documentBar.replaceChildren(
+      ...[...this.editor.documents.values()].map((d) => tab(d.path, d.name, d.path, d.isDirty, () => void this.closeDocument(d))),
+      ...this.reports.map(({ title, url }) => tab(url, title, title, false, () => this.closeReport(url))),
+    );
+    if (had) this.documentBar.querySelector<HTMLElement>('[aria-selected="true"]')?.focus();
+  }
+
+  private async closeDocument(document: OpenDocument): Promise<void> {
+    if (document.isDirty) {
+      const answer = await ask(`${document.name}: ${texts.unsaved}`, [
+        { value: "save", label: texts.save },
+        { value: "drop", label: texts.close },
+        { value: "keep", label: texts.cancel },
+      ]);
+      if (answer === "save" && !(await this.save(document))) return;
+      if (answer !== "save" && answer !== "drop") return;
+    }
+    this.editor.close(document);
+    if (this.model === document) {
+      this.model = [...this.editor.documents.values()].find((d) => d.isModel) ?? null;
+      this.findings = null;
+      this.machine.clear();
+      this.bearing.clear();
+      this.problems.show(null);
+      this.showCheckState();
+      if (this.model) this.checkNow();
+    }
+    this.activate(this.active === document.path ? "" : this.active);
+  }
+
+  private addReport(title: string, url: string): void {
+    const frame = h("iframe", { title, src: url, class: "report-frame", sandbox: "allow-scripts allow-downloads", hidden: true });
+    this.reports.push({ title, url, frame });
+    this.documentArea.append(frame);
+  }
+
+  private openReport(title: string, url: string): void {
+    if (!this.reports.some((r) => r.url === url)) this.addReport(title, url);
+    this.activate(url);
+  }
+
+  private closeReport(url: string): void {
+    this.reports.find((r) => r.url === url)?.frame.remove();
+    this.reports = this.reports.filter((r) => r.url !== url);
+    this.activate(this.active === url ? "" : this.active);
+  }
+
+  /** Texts that were changed outside: read anew where nothing is lost by it, asked about otherwise. */
+  private async refreshOpen(): Promise<void> {
+    for (const document of [...this.editor.documents.values()]) {
+      let now: { text: string; etag: string | null };
+      try {
+        now = await this.api.file(document.path);
+      } catch (error) {
+        if (error instanceof Refused && error.status === 404) this.say(texts.gone(document.name));
+        continue;
+      }
+      if (now.etag === document.etag) continue;
+      const wasDirty = document.isDirty;
+      const isSame = document.state.doc.toString() === now.text;
+      if (!wasDirty || isSame) {
+        if (!isSame) {
+          this.editor.replace(document, now.text);
+          this.say(texts.reloaded(document.name));
+        }
+        document.base = document.state.doc;
+        document.etag = now.etag;
+        this.showActive();
+      } else this.noticeConflict(document);
+    }
+  }
+
+  private noticeConflict(document: OpenDocument): void {
+    document.conflict = true;
+    this.notice(`conflict-${document.path}`, texts.changedOnDisk(document.name), [{ label: texts.compareTexts, act: () => void this.resolve(document) }]);
+  }
+
+  private async resolve(document: OpenDocument): Promise<boolean> {
+    let now: { text: string; etag: string | null };
+    try {
+      now = await this.api.file(document.path);
+    } catch (error) {
+      this.fail(error);
+      return false;
+    }
+    const text = await askTexts(document.name, document.state.doc.toString(), now.text);
+    if (text === null) return false;
+    this.dropNotice(`conflict-${document.path}`);
+    document.conflict = false;
+    document.etag = now.etag;
+    this.editor.replace(document, text);
+    if (text !== now.text) return this.save(document);
+    document.base = document.state.doc;
+    this.showActive();
+    return true;
+  }
+
+  private async save(document = this.editor.documents.get(this.active) ?? null): Promise<boolean> {
+    if (!document) return false;
+    const doc = document.state.doc;
+    try {
+      document.etag = await this.api.save(document.path, doc.toString(), document.etag);
+      document.base = doc;
+      this.say(texts.saved(document.name));
+      this.dropNotice("save");
+      this.showActive();
+      this.rememberSoon();
+      return true;
+    } catch (error) {
+      if (error instanceof Refused && error.status === 412) return this.resolve(document);
+      const words = error instanceof Refused ? `${error.message} ${error.advice}` : texts.unreachable;
+      this.notice("save", `${texts.notSaved(document.name)} ${words}`, []);
+      return false;
+    }
+  }
+
+  private async beginModel(): Promise<void> {
+    let templates: Template[];
+    try {
+      const answer = await this.api.get<Template[] | { templates: Template[] }>("/api/templates");
+      templates = Array.isArray(answer) ? answer : answer.templates;
+    } catch (error) {
+      return this.fail(error);
+    }
+    const wanted = await askTemplate(templates);
+    if (!wanted) return;
+    try {
+      const made = await this.api.post<{ path?: string }>("/api/new", wanted);
+      await this.loadFiles();
+      await this.openFile(made.path ?? wanted.path);
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  // ---- the model's text
+
+  private textChanged(document: OpenDocument): void {
+    this.rememberSoon();
+    this.drawDirty(document);
+    if (document !== this.model) return;
+    this.checkSoon();
+  }
+
+  /** Redrawn only where something becomes unsaved or saved: typing costs nothing. */
+  private drawDirty(document: OpenDocument): void {
+    const marked = this.saveButton.disabled === false;
+    if (document.path === this.active && marked === document.isDirty) return;
+    this.drawDocumentBar();
+    this.drawFiles();
+    this.saveButton.disabled = !document.isDirty;
+  }
+
+  private checkSoon(): void {
+    clearTimeout(this.checkTimer);
+    this.checkTimer = window.setTimeout(() => this.checkNow(), pause);
+  }
+
+  private checkNow(): void {
+    clearTimeout(this.checkTimer);
+    void this.check();
+  }
+
+  private async check(): Promise<void> {
+    const document = this.model;
+    if (!document) return;
+    const count = ++this.checks;
+    const { doc } = document.state;
+    this.checkState.classList.add("at-work");
+    const ask = (depth: "text" | "start", scene: boolean) => this.api.post<Checked>("/api/check", { path: document.path, text: doc.toString(), depth, scene });
+    // An older text's answer is of no use once a newer one is asked about.
+    const isOld = () => count !== this.checks || document !== this.model || document.state.doc !== doc;
+    try {
+      const read = await ask("text", true);
+      if (isOld()) return;
+      const isReadable = read.faults.length === 0;
+      // What the start of the run was found to be last stays until it is known of this text.
+      const shown = isReadable && this.findings ? { ...read, faults: this.findings.faults.filter(isOfStart), warnings: this.findings.warnings } : read;
+      this.showFindings(document, shown);
+      this.machine.show(read.scene);
+      this.showModelParts(read.scene);
+      this.machine.highlight(this.partAtCursor(document));
+      performance.mark("hersey-checked");
+      if (!isReadable) return;
+      // It takes longer: it waits until the hands rest.
+      await new Promise((resolve) => setTimeout(resolve, restPause));
+      if (isOld()) return;
+      const started = await ask("start", false);
+      if (isOld()) return;
+      for (const fault of started.faults) startFaults.add(fault);
+      this.showFindings(document, started);
+    } catch (error) {
+      if (count === this.checks) this.fail(error);
+    } finally {
+      if (count === this.checks) this.checkState.classList.remove("at-work");
+    }
+  }
+
+  private showFindings(document: OpenDocument, answer: Checked): void {
+    this.findings = { faults: answer.faults, warnings: answer.warnings, missing: answer.missing ?? [] };
+    this.editor.setFaults(document, diagnostics(document.state.doc, document.path, this.findings, (edits) => this.repair(edits)) as Diagnostic[]);
+    this.problems.show(this.findings);
+    this.showCheckState(answer.runs);
+  }
+
+  private showModelParts(scene: SceneText | null): void {
+    const document = this.model;
+    if (!document) return;
+    this.bearing.show(scene?.bearings ?? null, this.schema, document.tree, document.state.doc.toString());
+    this.part.show(this.schema, document.tree, document.state.doc.toString());
+    if (this.active === document.path) this.outline.show(document.tree);
+    if (this.right.current === "point") this.point.refresh();
+  }
+
+  private showCheckState(runs = 1): void {
+    const { faults, warnings } = this.findings ?? { faults: [], warnings: [] };
+    const missing = this.findings?.missing ?? [];
+    const isReady = faults.length === 0 && missing.length === 0;
+    const ready = isReady ? texts.state.good(runs) : texts.state.missing(missing.length);
+    const words = !this.findings ? texts.state.none : faults.length > 0 ? texts.state.faults(faults.length) : [ready, ...(warnings.length > 0 ? [texts.state.warnings(warnings.length)] : [])].join(", ");
+    const kind = !this.findings ? "none" : faults.length > 0 ? "bad" : warnings.length > 0 || !isReady ? "warn" : "good";
+    if (this.checkState.textContent !== words) this.announcer.textContent = words;
+    this.checkState.textContent = words;
+    this.checkState.dataset["kind"] = kind;
+    this.runButton.disabled = !this.findings || !isReady;
+    const count = faults.length + warnings.length;
+    this.below.label("problems", count > 0 ? `${texts.problems} (${count})` : texts.problems);
+  }
+
+  private repair(edits: Edit[]): void {
+    if (!this.model) return;
+    if (this.active !== this.model.path) this.activate(this.model.path);
+    this.editor.edit(this.model, edits);
+    this.checkNow();
+    this.editor.view.focus();
+  }
+
+  private repairHere(): boolean {
+    const found = this.editor.faultAtCursor();
+    const action = found?.diagnostic.actions?.[0];
+    if (!found || !action) return false;
+    action.apply(this.editor.view, found.from, found.to);
+    return true;
+  }
+
+  /** A change made by a form or by hand in a picture is a change of the text. */
+  private async setValue(key: string, value: string | null): Promise<void> {
+    const document = this.model;
+    if (!document) return;
+    const { doc } = document.state;
+    try {
+      const { text } = await this.api.post<{ text: string; edits?: Edit[] }>("/api/set", { path: document.path, text: doc.toString(), key, value });
+      if (document.state.doc !== doc) return;
+      this.editor.replace(document, text);
+      this.checkNow();
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  // ---- from text to picture and back
+
+  private cursorMoved(document: OpenDocument): void {
+    this.rememberSoon();
+    if (document !== this.model) return;
+    const part = this.partAtCursor(document);
+    this.machine.highlight(part);
+    if (part) this.part.choose(part);
+    this.editor.markLines(null);
+    if (part?.startsWith("/bearings/")) this.bearing.choose(part.split("/")[2]!);
+  }
+
+  private partAtCursor(document: OpenDocument): string | null {
+    const { head } = document.state.selection.main;
+    const line = document.state.doc.lineAt(head).number;
+    const around = Object.entries(this.machine.sources).filter(([, source]) => source.line <= line && line <= source.endLine);
+    around.sort(([, a], [, b]) => a.endLine - a.line - (b.endLine - b.line));
+    if (around[0]) return around[0][0];
+    const path = pathOf(nodeAt(document.tree, head));
+    return path.length >= 2 && ["bodies", "joints", "bearings", "forces"].includes(path[0]!) ? `/${path[0]}/${path[1]}` : null;
+  }
+
+  private goToPart(part: string): void {
+    const document = this.model;
+    if (!document) return;
+    if (part.startsWith("/bearings/")) this.bearing.choose(part.split("/")[2]!);
+    const source = this.machine.sources[part];
+    const node = find(document.tree, part.slice(1).split("/"));
+    const lines = source ?? (node ? { line: document.state.doc.lineAt(node.from).number, endLine: document.state.doc.lineAt(node.to).number } : null);
+    if (!lines) return;
+    if (this.active !== document.path) this.activate(document.path);
+    this.editor.goTo(lines.line, (node?.indent ?? 0) + 1, false);
+    this.editor.markLines({ from: lines.line, to: lines.endLine });
+    this.machine.highlight(part);
+    this.part.choose(part);
+  }
+
+  private goToKey(key: string): void {
+    const node = this.model ? find(this.model.tree, key.split(".")) : undefined;
+    if (node) this.goToOffset(node.from, false);
+  }
+
+  private goToOffset(at: number, focus = true): void {
+    const document = this.editor.active;
+    if (!document) return;
+    if (this.active !== document.path) this.activate(document.path);
+    const line = document.state.doc.lineAt(Math.min(at, document.state.doc.length));
+    this.editor.goTo(line.number, at - line.from + 1, focus);
+  }
+
+  private goToFault(fault: Fault): void {
+    const document = this.model;
+    if (!document) return;
+    const isHere = !fault.file || fault.file === document.path || fault.file.endsWith(`/${document.path}`);
+    if (!isHere && this.files.some(({ path }) => path === fault.file)) {
+      void this.openFile(fault.file).then(() => this.editor.goTo(fault.line, fault.column));
+      return;
+    }
+    if (this.active !== document.path) this.activate(document.path);
+    this.editor.goTo(fault.line, fault.column);
+  }
+
+  private showProblems(): void {
+    this.below.show("problems");
+    this.element.querySelector<HTMLElement>(".problems button")?.focus();
+  }
+
+  // ---- runs
+
+  private async runModel(): Promise<void> {
+    const document = this.model;
+    if (!document || this.runButton.disabled) return;
+    if (document.isDirty) {
+      const answer = await ask(texts.saveFirst(document.name), [
+        { value: "save", label: texts.saveAndRun },
+        { value: "cancel", label: texts.cancel },
+      ]);
+      if (answer !== "save" || !(await this.save(document))) return;
+    }
+    try {
+      const { id } = await this.api.post<{ id: string }>("/api/runs", { path: document.path, set: [] });
+      this.say(texts.started(id));
+      await this.runs.load();
+      const run = this.runs.runs.find((r) => r.id === id);
+      if (run) {
+        this.below.show("live");
+        await this.showRun(run);
+      }
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  private async stopRun(): Promise<void> {
+    const run = this.runs.running.find(({ id }) => id === this.live.shownRun) ?? this.runs.running[0];
+    if (!run) return;
+    try {
+      await this.api.post(`/api/runs/${encodeURIComponent(run.id)}/stop`);
+      await this.runs.load();
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  // ---- keys, words, memory
+
+  private key(event: KeyboardEvent): void {
+    const command = event.ctrlKey || event.metaKey;
+    const act = (work: () => void) => {
+      event.preventDefault();
+      event.stopPropagation();
+      work();
+    };
+    if (document.querySelector("dialog[open]")) return;
+    if (command && event.key.toLowerCase() === "s") act(() => void this.save());
+    else if (command && event.key === "Enter" && !event.defaultPrevented) act(() => void this.runModel());
+    else if (command && event.key === ".") act(() => void this.stopRun());
+    else if (event.key === "F1") act(showKeys);
+    else if (event.key === "F6") act(() => this.nextPane(event.shiftKey ? -1 : 1));
+    else if (event.key === "F8") act(() => this.nextProblem(event.shiftKey ? -1 : 1));
+    else if (event.altKey && event.key.toLowerCase() === "m") act(() => this.right.show("machine"));
+  }
+
+  private nextPane(step: number): void {
+    const panes = [...this.element.querySelectorAll<HTMLElement>(".pane")];
+    const at = panes.findIndex((pane) => pane.contains(document.activeElement));
+    const next = panes[(at + step + panes.length) % panes.length]!;
+    if (next.classList.contains("middle") && !this.editor.element.hidden) this.editor.view.focus();
+    else (next.querySelector<HTMLElement>('[role="tab"][aria-selected="true"], button') ?? next).focus();
+  }
+
+  private nextProblem(step: number): void {
+    const all = [...(this.findings?.faults ?? []), ...(this.findings?.warnings ?? [])].filter(({ line }) => line > 0).sort((a, b) => a.line - b.line || a.column - b.column);
+    if (all.length === 0) return this.say(texts.noProblems);
+    const { state } = this.editor.view;
+    const here = state.doc.lineAt(state.selection.main.head);
+    const column = state.selection.main.head - here.from + 1;
+    const after = (f: Fault) => f.line > here.number || (f.line === here.number && f.column > column);
+    const before = (f: Fault) => f.line < here.number || (f.line === here.number && f.column < column);
+    this.goToFault(step > 0 ? (all.find(after) ?? all[0]!) : ([...all].reverse().find(before) ?? all[all.length - 1]!));
+  }
+
+  private switchTheme(): void {
+    setTheme(isDark() ? "light" : "dark");
+    localStorage.setItem("hersey-theme", isDark() ? "dark" : "light");
+  }
+
+  private nothing(words: string): boolean {
+    this.say(words);
+    return true;
+  }
+
+  private fail(error: unknown): void {
+    if (error instanceof Unreachable) {
+      this.notice("connection", texts.unreachable, []);
+      this.isReachable = false;
+      return;
+    }
+    this.say(error instanceof Refused ? [error.message, error.advice].filter((t) => t).join(" ") : error instanceof Error ? error.message : String(error));
+  }
+
+  /** A word that goes by itself; empty: away with the last one. */
+  private say(words: string): void {
+    this.notices.querySelector(".passing")?.remove();
+    if (!words) return;
+    const line = h("p", { class: "notice passing" }, words, h("button", { type: "button", class: "quiet", "aria-label": texts.dismiss, click: () => line.remove() }, "✕"));
+    this.notices.append(line);
+    setTimeout(() => line.remove(), 4500);
+  }
+
+  /** A word that stays until its matter is settled. */
+  private notice(key: string, words: string, actions: { label: string; act: () => void }[]): void {
+    this.dropNotice(key);
+    const line = h("p", { class: "notice", "data-notice": key }, words, ...actions.map(({ label, act }) => h("button", { type: "button", class: "quiet", click: act }, label)), h("button", { type: "button", class: "quiet", "aria-label": texts.dismiss, click: () => line.remove() }, "✕"));
+    this.notices.append(line);
+  }
+
+  private dropNotice(key: string): void {
+    this.notices.querySelector(`[data-notice="${CSS.escape(key)}"]`)?.remove();
+  }
+
+  private remembers = true;
+
+  private rememberSoon(): void {
+    clearTimeout(this.rememberTimer);
+    this.rememberTimer = window.setTimeout(() => this.remember(), rememberPause);
+  }
+
+  private remember(): void {
+    const state: Remembered = {
+      folder: this.hello.folder,
+      documents: this.editor.remembered(),
+      active: this.active,
+      model: this.model?.path ?? "",
+      reports: this.reports.map(({ title, url }) => ({ title, url })),
+      sizes: this.sizes,
+      tabs: { right: this.right.current, below: this.below.current },
+      run: this.live.shownRun,
+    };
+    const write = (value: Remembered) => sessionStorage.setItem("hersey-workbench", JSON.stringify(value));
+    try {
+      write(state);
+      this.remembers = true;
+    } catch {
+      // Too much for the tab's memory: without the histories, else not at all.
+      try {
+        write({ ...state, documents: state.documents.map((d) => ({ ...d, state: { ...(d.state as object), history: undefined } })) });
+      } catch {
+        this.remembers = false;
+      }
+    }
+  }
+
+  private recalled(): Remembered | null {
+    try {
+      const state = JSON.parse(sessionStorage.getItem("hersey-workbench") ?? "null") as Remembered | null;
+      return state?.folder === this.hello.folder && state.documents.length > 0 ? state : null;
+    } catch {
+      return null;
+    }
+  }
+}
