@@ -18,7 +18,7 @@
 
 namespace hersey::workbench {
 
-Answers::Answers(const std::filesystem::path& folder) : impl_(std::make_unique<Impl>(folder)) {}
+Answers::Answers(const std::filesystem::path& folder) : kept_(std::make_unique<Kept>(folder)) {}
 Answers::~Answers() = default;
 
 std::string Answers::schema() const { return model::schema_json(); }
@@ -122,7 +122,7 @@ std::string Answers::convert(std::string_view request) const {
 
 std::string Answers::set_value(std::string_view request) const {
   const Json given = request_object(request);
-  const std::string text = text_in(given, "text"), file = impl_->file(text_in(given, "path"));
+  const std::string text = text_in(given, "text"), file = kept_->file(text_in(given, "path"));
   const std::string key = text_in(given, "key");
   const auto value = given.find("value");
   if (value == given.end())
@@ -147,13 +147,13 @@ std::string Answers::templates() const {
 std::string Answers::new_model(std::string_view request) const {
   const Json given = request_object(request);
   const std::string name = text_in(given, "template"), path = text_in(given, "path");
-  std::filesystem::path file = impl_->file(path);
+  std::filesystem::path file = kept_->file(path);
   if (file.extension() != ".yaml" && file.extension() != ".yml") file += ".yaml";
   if (std::filesystem::exists(file) || std::filesystem::is_symlink(file))
     throw Refused(409, "There is a file '" + path + "' already.", "Choose another name.");
   try {
     const std::filesystem::path written = session::write_starting_model(name, file);
-    return dumped({{"path", written.lexically_relative(impl_->folder()).generic_string()}});
+    return dumped({{"path", written.lexically_relative(kept_->folder()).generic_string()}});
   } catch (const InputError& error) {
     refuse(error);
   } catch (const std::runtime_error& error) {

@@ -82,22 +82,22 @@ bool flag_in(const Json& request, const char* key) {
 std::string Answers::bearing(std::string_view request) const {
   const Moment::time_point began = Moment::now();
   const Json given = request_object(request);
-  const std::string text = text_in(given, "text"), file = impl_->file(text_in(given, "path"));
+  const std::string text = text_in(given, "text"), file = kept_->file(text_in(given, "path"));
   const std::string name = text_in(given, "bearing", ""), previous = text_in(given, "previous", "");
   std::vector<std::string> fields = texts_in(given, "fields");
   if (fields.empty()) fields = {"pressure", "thickness"};
   try {
-    const std::shared_ptr<const session::Session> base = impl_->session(text, file);
+    const std::shared_ptr<const session::Session> base = kept_->session(text, file);
     const std::string bearing_name = study::bearing_called(base->model(), name).name;
     const std::vector<std::string> overrides =
         overrides_of(base->model(), study::bearing_called(base->model(), name), texts_in(given, "set"));
     const session::Session session = overrides.empty() ? *base : base->with(overrides);
-    const std::shared_ptr<const study::BearingSolution> nearby = impl_->solution(previous);
+    const std::shared_ptr<const study::BearingSolution> nearby = kept_->solution(previous);
     const bool is_averaged = flag_in(given, "averaged");
     const study::BearingStudyOptions options{
         .bearing = bearing_name, .grid_error = false, .phase_averages = is_averaged, .nearby = nearby.get()};
     const Moment::time_point read = Moment::now();
-    study::BearingSolution solution = session.solve_bearing(impl_->solver, options);
+    study::BearingSolution solution = session.solve_bearing(kept_->solver, options);
     const double solving = seconds_since(read);
     report::PageSolution page = page_of(solution);
     for (report::PageFilm& film : page.films)
@@ -118,7 +118,7 @@ std::string Answers::bearing(std::string_view request) const {
     answer["averaged"] = is_averaged;
     answer["grid"] = {{"circumferential", solution.model.grid.n_phi}, {"axial", solution.model.grid.n_z}};
     const std::string shown = report::solution_json(page, bearing_name);
-    answer["id"] = solution.solved() ? Json(impl_->keep(std::move(solution))) : Json();
+    answer["id"] = solution.solved() ? Json(kept_->keep(std::move(solution))) : Json();
     answer["solving"] = solving;
     answer["time"] = seconds_since(began);
     std::string whole = dumped(answer);

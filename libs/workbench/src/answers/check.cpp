@@ -129,7 +129,7 @@ std::string scene_of(const model::Model& model, const TextMap& map, const TextCo
 std::string Answers::check(std::string_view request) const {
   const Clock::time_point began = Clock::now();
   const Json given = request_object(request);
-  const std::string text = text_in(given, "text"), file = impl_->file(text_in(given, "path"));
+  const std::string text = text_in(given, "text"), file = kept_->file(text_in(given, "path"));
   const std::string depth = text_in(given, "depth", "start");
   if (depth != "text" && depth != "start")
     throw Refused(400, "The depth '" + depth + "' of a check is unknown.", "Ask for 'text' or 'start'.");
@@ -140,7 +140,7 @@ std::string Answers::check(std::string_view request) const {
   const auto listed = [&](const std::vector<Fault>& faults) {
     Json list = Json::array();
     for (const Fault& fault : faults)
-      list.push_back(json_of(fault, text, map ? &*map : nullptr, columns, file, impl_->folder()));
+      list.push_back(json_of(fault, text, map ? &*map : nullptr, columns, file, kept_->folder()));
     return list;
   };
   Json answer{{"faults", listed(found.faults)}, {"warnings", listed(found.warnings)}, {"runs", found.runs}};

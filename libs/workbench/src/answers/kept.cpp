@@ -4,7 +4,7 @@
 
 namespace hersey::workbench {
 
-std::string Answers::Impl::file(const std::string& path) const {
+std::string Kept::file(const std::string& path) const {
   const std::filesystem::path relative(path);
   const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
   if (path.empty() || leaves)
@@ -12,7 +12,7 @@ std::string Answers::Impl::file(const std::string& path) const {
   return (root_ / relative).lexically_normal().string();
 }
 
-std::shared_ptr<const session::Session> Answers::Impl::session(const std::string& text, const std::string& file) {
+std::shared_ptr<const session::Session> Kept::session(const std::string& text, const std::string& file) {
   const std::string key = file + '\n' + text;
   {
     const std::lock_guard lock(mutex_);
@@ -30,7 +30,7 @@ std::shared_ptr<const session::Session> Answers::Impl::session(const std::string
   return read;
 }
 
-std::string Answers::Impl::keep(study::BearingSolution solution) {
+std::string Kept::keep(study::BearingSolution solution) {
   const std::lock_guard lock(mutex_);
   std::string id = "solution_" + std::to_string(next_++);
   solutions_.emplace_front(id, std::make_shared<const study::BearingSolution>(std::move(solution)));
@@ -38,7 +38,7 @@ std::string Answers::Impl::keep(study::BearingSolution solution) {
   return id;
 }
 
-std::shared_ptr<const study::BearingSolution> Answers::Impl::solution(const std::string& id) {
+std::shared_ptr<const study::BearingSolution> Kept::solution(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto known =
       std::find_if(solutions_.begin(), solutions_.end(), [&](const KeptSolution& one) { return one.first == id; });

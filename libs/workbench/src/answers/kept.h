@@ -11,13 +11,15 @@
 
 #include "hersey/session/session.h"
 #include "hersey/study/bearing_study.h"
-#include "hersey/workbench/answers.h"
+#include "hersey/workbench/refused.h"
 
 namespace hersey::workbench {
 
 /// What is kept from one answer to the next.
-struct Answers::Impl {
-  explicit Impl(const std::filesystem::path& root) : root_(std::filesystem::absolute(root).lexically_normal()) {
+class Kept {
+ public:
+  /// @param root  where paths start
+  explicit Kept(const std::filesystem::path& root) : root_(std::filesystem::absolute(root).lexically_normal()) {
     if (!root_.has_filename()) root_ = root_.parent_path();  // "folder/"
   }
 

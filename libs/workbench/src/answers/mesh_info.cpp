@@ -31,7 +31,7 @@ Json as_list(const std::vector<Fault>& faults, const std::string& folder) {
 
 std::string Answers::mesh_info(std::string_view request) const {
   const Json given = request_object(request);
-  const std::string path = text_in(given, "path"), file = impl_->file(path);
+  const std::string path = text_in(given, "path"), file = kept_->file(path);
   const std::string unit = text_in(given, "length_unit", "m");
   const double length = length_unit_of(unit);
   try {
@@ -46,9 +46,9 @@ std::string Answers::mesh_info(std::string_view request) const {
     Json answer{{"file", path}, {"length_unit", written_unit}};
     answer["lines"] = model_lines(named, path, written_unit);
     answer["unnamed"] = found.size() - named.size();
-    answer["warnings"] = as_list(warnings, impl_->folder());
-    answer["material_faults"] = as_list(material_faults, impl_->folder());
-    answer["faults"] = as_list(fem::faults_of(quality, path, fem::Parts::one), impl_->folder());
+    answer["warnings"] = as_list(warnings, kept_->folder());
+    answer["material_faults"] = as_list(material_faults, kept_->folder());
+    answer["faults"] = as_list(fem::faults_of(quality, path, fem::Parts::one), kept_->folder());
     std::string whole = dumped(answer);
     whole.back() = ',';
     return whole + "\"found\":" + found_json(found) + ",\"mesh\":" + mesh_json(mesh, quality) + "}";

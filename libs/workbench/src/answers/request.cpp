@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hersey/workbench/answers.h"
+#include "hersey/workbench/refused.h"
 
 namespace hersey::workbench {
-
-Refused::Refused(int status_code, std::string error_text, std::string advice_text)
-    : std::runtime_error(error_text),
-      status(status_code),
-      error(std::move(error_text)),
-      advice(std::move(advice_text)) {}
 
 Json request_object(std::string_view request) {
   Json value = Json::parse(request.begin(), request.end(), nullptr, false);

@@ -50,6 +50,7 @@ class TextMap {
   /// Of a text that has been read. @param root  its tree
   TextMap(std::string text, std::string file, const Node& root);
 
+  /// The text as it was given.
   [[nodiscard]] const std::string& text() const { return text_; }
   /// The root first; then every key and item in the order of the text, each behind its parent.
   [[nodiscard]] const std::vector<TextEntry>& entries() const { return entries_; }

@@ -2,22 +2,14 @@
 
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "hersey/workbench/refused.h"
+
 namespace hersey::workbench {
 
-/// A request that has no answer; the three parts are the status and the body of the response.
-class Refused : public std::runtime_error {
- public:
-  /// @param status  of HTTP: 400 a request that cannot be read, 404 something unknown, 409 a file that exists,
-  ///                422 a model or value that is wrong
-  Refused(int status, std::string error, std::string advice = {});
-  int status = 0;
-  std::string error;   ///< a sentence: what is wrong
-  std::string advice;  ///< what to do about it; may be empty
-};
+class Kept;
 
 /// What the texts of models say: answers of the workbench to its page, JSON in and JSON out, without any HTTP.
 ///
@@ -91,8 +83,7 @@ class Answers {
   std::string new_model(std::string_view request) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Kept> kept_;
 };
 
 }  // namespace hersey::workbench
