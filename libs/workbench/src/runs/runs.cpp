@@ -77,17 +77,17 @@ json object_of(const std::string& text) {
   return value.is_object() ? value : json();
 }
 
-std::string text_in(const json& object, const char* key) {
+std::string record_text(const json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-double number_in(const json& object, const char* key) {
+double record_number(const json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number() ? found->get<double>() : 0;
 }
 
-std::vector<std::string> texts_in(const json& object, const char* key) {
+std::vector<std::string> record_texts(const json& object, const char* key) {
   std::vector<std::string> texts;
   const auto found = object.find(key);
   if (found != object.end() && found->is_array())
@@ -96,7 +96,7 @@ std::vector<std::string> texts_in(const json& object, const char* key) {
   return texts;
 }
 
-bool flag_in(const json& object, const char* key) {
+bool record_flag(const json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_boolean() && found->get<bool>();
 }
@@ -104,7 +104,7 @@ bool flag_in(const json& object, const char* key) {
 ProcessId process_in(const json& record) {
   const auto found = record.find("process");
   if (found == record.end() || !found->is_object()) return {};
-  const double pid = number_in(*found, "pid"), start = number_in(*found, "start");
+  const double pid = record_number(*found, "pid"), start = record_number(*found, "start");
   if (!(pid > 0 && pid < 1e9 && start > 0 && start < 1e18)) return {};
   return {static_cast<int>(pid), static_cast<std::uint64_t>(start)};
 }
@@ -156,12 +156,12 @@ Course course_of(const Path& events) {
   for (std::string line; std::getline(lines, line);) {
     const json event = object_of(line);
     if (event.is_null()) continue;
-    const std::string kind = text_in(event, "kind");
+    const std::string kind = record_text(event, "kind");
     if (kind == "started") course = {};
-    if (kind == "stepped" || kind == "run_finished") course.share = number_in(event, "share");
+    if (kind == "stepped" || kind == "run_finished") course.share = record_number(event, "share");
     if (kind != "finished") continue;
-    course.status = text_in(event, "status");
-    course.message = text_in(event, "message");
+    course.status = record_text(event, "status");
+    course.message = record_text(event, "message");
     if (course.status == "completed") course.share = 1;
     course.ended = time_of(events);
   }
@@ -216,10 +216,10 @@ RunEntry Runs::entry_of(const std::string& id) const {
   run.id = id;
   run.folder = "runs/" + id;
   const json record = object_of(part_of(folder / "run.json", 0, kMostRecord));
-  run.model = text_in(record, "model");
-  run.overrides = texts_in(record, "set");
-  run.started = number_in(record, "started");
-  run.is_study = flag_in(record, "study");
+  run.model = record_text(record, "model");
+  run.overrides = record_texts(record, "set");
+  run.started = record_number(record, "started");
+  run.is_study = record_flag(record, "study");
   run.process = process_in(record);
   const Course course = course_of(folder / "events.ndjson");
   run.share = course.share, run.message = course.message, run.ended = course.ended;
@@ -303,11 +303,11 @@ RunEntry Runs::find(const std::string& id) const {
 }
 
 std::string Runs::start(const json& request) {
-  const std::string path = text_in(request, "path");
+  const std::string path = record_text(request, "path");
   const FileText model = folder_.read(path);
-  if (const std::string etag = text_in(request, "etag"); !etag.empty() && etag != model.etag)
+  if (const std::string etag = record_text(request, "etag"); !etag.empty() && etag != model.etag)
     throw Refused(409, path + " has been changed since", "save it, then run it");
-  const std::vector<std::string> overrides = texts_in(request, "set");
+  const std::vector<std::string> overrides = record_texts(request, "set");
   for (const std::string& change : overrides) check_override(change);
   const std::lock_guard lock(starting_);
   const std::string name = plain(session::model_name((folder_.path() / path).string()));
@@ -323,8 +323,8 @@ std::string Runs::start(const json& request) {
     if (error) cannot_make(runs / next, error);
   }
   json record{{"version", version()}, {"model", path}, {"set", overrides}, {"started", now()}};
-  if (flag_in(request, "study"))
-    record["study"] = true, record["on"] = text_in(request, "on") == "slurm" ? "slurm" : "local";
+  if (record_flag(request, "study"))
+    record["study"] = true, record["on"] = record_text(request, "on") == "slurm" ? "slurm" : "local";
   write_record(runs / id / "model.txt", model.text);
   launch(id, std::move(record), false);
   return id;
@@ -332,16 +332,16 @@ std::string Runs::start(const json& request) {
 
 void Runs::launch(const std::string& id, json record, bool resumes) {
   const Path folder = folder_.path() / "runs" / id;
-  const bool is_study = flag_in(record, "study");
-  const Path model = folder_.resolve(text_in(record, "model"));
+  const bool is_study = record_flag(record, "study");
+  const Path model = folder_.resolve(record_text(record, "model"));
   std::vector<std::string> words{program_.string(), is_study ? "study" : "run", model.string(), "--output",
                                  folder.string()};
-  for (const std::string& change : texts_in(record, "set")) {
+  for (const std::string& change : record_texts(record, "set")) {
     check_override(change);
     words.push_back("--set=" + change);
   }
   if (is_study) {
-    words.insert(words.end(), {"--on", text_in(record, "on") == "slurm" ? "slurm" : "local"});
+    words.insert(words.end(), {"--on", record_text(record, "on") == "slurm" ? "slurm" : "local"});
   } else {
     words.insert(words.end(), {"--events", (folder / "events.ndjson").string()});
     if (resumes) words.emplace_back("--resume");
