@@ -14,7 +14,7 @@ struct Command {
 };
 using Commands = std::vector<Command>;
 
-void add_run_commands(CLI::App& app, Commands& commands);   ///< run, check, report, bearing
+void add_run_commands(CLI::App& app, Commands& commands);  ///< run, check, report, bearing
 /// open. @param program  argv[0]
 void add_open_command(CLI::App& app, Commands& commands, const std::string& program);
 void add_mesh_commands(CLI::App& app, Commands& commands);  ///< mesh, reduce, modes, stress
