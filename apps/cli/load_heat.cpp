@@ -8,14 +8,13 @@
 #include <utility>
 
 #include "hersey/core/input_error.h"
+#include "hersey/film/temperature_law.h"
 #include "hersey/model/wall_conduction.h"
 #include "option_value.h"
 #include "solid_heat.h"
 
 namespace hersey::cli {
 namespace {
-
-constexpr double zero_celsius = 273.15;
 
 [[noreturn]] void refuse_load_heat(const char* option, std::string found, std::string expected,
                                    std::string suggestion = "") {
@@ -87,8 +86,8 @@ void conduct_from_films(const run::BodyLoads& loads, const run::FilmTemperatures
     if (std::binary_search(films.nodes.begin(), films.nodes.end(), node)) heat.film_heat -= leaving[set];
     ++set;
   }
-  heat.coldest = heat.temperatures.T.minCoeff() - zero_celsius;
-  heat.warmest = heat.temperatures.T.maxCoeff() - zero_celsius;
+  heat.coldest = heat.temperatures.T.minCoeff() - film::zero_celsius;
+  heat.warmest = heat.temperatures.T.maxCoeff() - film::zero_celsius;
 }
 
 std::string source_of(const run::BodyLoads& loads, bool is_cycle, std::size_t instants) {
@@ -145,7 +144,7 @@ std::optional<LoadHeat> heat_of_loads(const LoadsArguments& asked, const model::
   for (const fem::PrescribedNodes& set : surroundings.prescribed)
     for (const int node : set.nodes) to_write.prescribed[node] = set.T;
   for (std::size_t k = 0; k < films.nodes.size(); ++k)
-    to_write.prescribed[films.nodes[k]] = films.T[static_cast<Eigen::Index>(k)] + zero_celsius;
+    to_write.prescribed[films.nodes[k]] = films.T[static_cast<Eigen::Index>(k)] + film::zero_celsius;
   to_write.source = source_of(loads, is_cycle, instants.size());
   heat.films = films.surfaces;
   conduct_from_films(loads, films, materials, heat);
