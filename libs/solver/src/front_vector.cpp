@@ -10,8 +10,7 @@ HERSEY_KERNEL double sum_of(const Pack& pack) { return (pack[0] + pack[2]) + (pa
 // y -= A x for rows of whole packs.
 template <int rows>
 HERSEY_KERNEL void subtract_row_products(int columns, const double* A, std::ptrdiff_t row, const double* x, double* y) {
-  Pack sums[rows], of_x, of_a;
-  for (int i = 0; i < rows; ++i) sums[i] = Pack{};
+  Pack sums[rows] = {}, of_x{}, of_a{};
   for (int k = 0; k < columns; k += pack_width) {
     load(x + k, of_x);
     for (int i = 0; i < rows; ++i) {

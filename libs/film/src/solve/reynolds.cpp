@@ -29,6 +29,10 @@ constexpr double settling = 1e-6, refined_to = 1e-12, least_gain = 0.1;
 // Right-hand sides that multigrid has not solved after so many iterations are left to the direct solver.
 constexpr int most_iterations = 80;
 
+std::span<double> numbers_of(Eigen::Ref<Eigen::MatrixXd>& columns) {
+  return {columns.data(), static_cast<std::size_t>(columns.size())};
+}
+
 }  // namespace
 
 struct Reynolds::Impl {
@@ -48,7 +52,7 @@ struct Reynolds::Impl {
   void solve(const Eigen::VectorXd& rhs, double rtol, Eigen::VectorXd& x);
   void solve_columns(const Eigen::Ref<Eigen::MatrixXd>& columns, double rtol);
   void solve_in_pattern(Eigen::Ref<Eigen::MatrixXd> columns, double rtol);
-  void solve_by_factor(Eigen::Ref<Eigen::MatrixXd> columns, SystemMatrix matrix = SystemMatrix::jacobian);
+  void solve_by_factor(std::span<double> columns, SystemMatrix matrix = SystemMatrix::jacobian);
   void solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
@@ -193,21 +197,20 @@ bool Reynolds::Impl::solve_by_multigrid(Eigen::Ref<Eigen::MatrixXd> columns, dou
 }
 
 // Of the matrix in the pattern, without the border.
-void Reynolds::Impl::solve_by_factor(Eigen::Ref<Eigen::MatrixXd> columns, SystemMatrix matrix) {
+void Reynolds::Impl::solve_by_factor(std::span<double> columns, SystemMatrix matrix) {
   const Stopwatch watch(work.solutions);
-  const std::span<double> numbers{columns.data(), static_cast<std::size_t>(columns.size())};
-  const auto count = static_cast<int>(columns.cols());
-  matrix == SystemMatrix::transposed ? lu.solve_transposed(numbers, count) : lu.solve(numbers, count);
+  const int count = static_cast<int>(columns.size()) / balance.size();
+  matrix == SystemMatrix::transposed ? lu.solve_transposed(columns, count) : lu.solve(columns, count);
 }
 
 void Reynolds::Impl::solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns) {
-  border.solve(columns, [&](const Eigen::Ref<Eigen::MatrixXd>& of) { solve_by_factor(of); });
+  border.solve(columns, [&](Eigen::Ref<Eigen::MatrixXd> of) { solve_by_factor(numbers_of(of)); });
 }
 
 void Reynolds::Impl::solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns) {
   border.solve_transposed(
-      columns, [&](const Eigen::Ref<Eigen::MatrixXd>& of) { solve_by_factor(of); },
-      [&](const Eigen::Ref<Eigen::MatrixXd>& of) { solve_by_factor(of, SystemMatrix::transposed); });
+      columns, [&](Eigen::Ref<Eigen::MatrixXd> of) { solve_by_factor(numbers_of(of)); },
+      [&](Eigen::Ref<Eigen::MatrixXd> of) { solve_by_factor(numbers_of(of), SystemMatrix::transposed); });
 }
 
 void Reynolds::Impl::solve(const Eigen::VectorXd& b, double rtol, Eigen::VectorXd& x) {
@@ -226,7 +229,7 @@ void Reynolds::Impl::solve_in_pattern(Eigen::Ref<Eigen::MatrixXd> columns, doubl
     state.fallback_solves += static_cast<int>(columns.cols());
   }
   factorise();
-  solve_by_factor(columns);
+  solve_by_factor(numbers_of(columns));
 }
 
 // With J^T Lambda = F_u^T for forces and flows F:  F_u du0 = -Lambda^T r  and  F_u U = -Lambda^T r_s.
