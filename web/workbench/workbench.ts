@@ -1,6 +1,7 @@
 // The page as a whole: which model is open, what is asked of the program when its text changes, which pane shows what.
 
 import type { Diagnostic } from "@codemirror/lint";
+import type { Text } from "@codemirror/state";
 import { Unreachable, Refused, type Api, type Edit, type Fault, type FileEntry, type RunEntry, type RunEvent, type Template } from "./api";
 import { h } from "../src/dom";
 import { isDark, onThemeChange, setTheme } from "../src/theme";
@@ -49,6 +50,13 @@ interface Remembered {
 /** Faults that only the start of a run shows, not its text. */
 const startFaults = new WeakSet<Fault>();
 const isOfStart = (fault: Fault) => startFaults.has(fault);
+
+/** The text that a repair's edits were made for: their lines and columns hold in no other one. */
+const textOfEdits = new WeakMap<Edit[], Text>();
+
+function noteText({ faults, warnings }: Findings, doc: Text): void {
+  for (const fault of [...faults, ...warnings]) for (const { edits } of fault.repairs ?? []) textOfEdits.set(edits, doc);
+}
 
 /** Pause of typing before a text is checked [ms]. */
 const pause = 45;
@@ -339,15 +347,22 @@ export class Workbench {
     this.active = opened || this.reports.some(({ url }) => url === key) ? key : (this.editor.documents.keys().next().value ?? "");
     const shown = this.editor.documents.get(this.active) ?? null;
     if (shown) this.editor.show(shown);
-    if (shown?.isModel && shown !== this.model) {
-      this.model = shown;
-      this.findings = null;
-      this.machine.clear();
-      this.bearing.clear();
-      this.checkNow();
-    }
+    if (shown?.isModel && shown !== this.model) this.takeModel(shown);
     this.showActive();
     this.rememberSoon();
+  }
+
+  /** Another model: nothing that was found of the last one is said of it. */
+  private takeModel(document: OpenDocument | null): void {
+    this.model = document;
+    this.checks++;
+    this.findings = null;
+    this.machine.clear();
+    this.bearing.clear();
+    this.problems.show(null, document ? texts.state.checking : texts.noModel);
+    this.showCheckState();
+    this.checkState.classList.remove("at-work");
+    if (document) this.checkNow();
   }
 
   private showActive(): void {
@@ -395,15 +410,7 @@ export class Workbench {
       if (answer !== "save" && answer !== "drop") return;
     }
     this.editor.close(document);
-    if (this.model === document) {
-      this.model = [...this.editor.documents.values()].find((d) => d.isModel) ?? null;
-      this.findings = null;
-      this.machine.clear();
-      this.bearing.clear();
-      this.problems.show(null);
-      this.showCheckState();
-      if (this.model) this.checkNow();
-    }
+    if (this.model === document) this.takeModel([...this.editor.documents.values()].find((d) => d.isModel) ?? null);
     this.activate(this.active === document.path ? "" : this.active);
   }
 
@@ -552,6 +559,7 @@ export class Workbench {
     try {
       const read = await ask("text", true);
       if (isOld()) return;
+      noteText(read, doc);
       const isReadable = read.faults.length === 0;
       // What the start of the run was found to be last stays until it is known of this text.
       const shown = isReadable && this.findings ? { ...read, faults: this.findings.faults.filter(isOfStart), warnings: this.findings.warnings } : read;
@@ -566,6 +574,7 @@ export class Workbench {
       if (isOld()) return;
       const started = await ask("start", false);
       if (isOld()) return;
+      noteText(started, doc);
       for (const fault of started.faults) startFaults.add(fault);
       this.showFindings(document, started);
     } catch (error) {
@@ -596,7 +605,7 @@ export class Workbench {
     const missing = this.findings?.missing ?? [];
     const isReady = faults.length === 0 && missing.length === 0;
     const ready = isReady ? texts.state.good(runs) : texts.state.missing(missing.length);
-    const words = !this.findings ? texts.state.none : faults.length > 0 ? texts.state.faults(faults.length) : [ready, ...(warnings.length > 0 ? [texts.state.warnings(warnings.length)] : [])].join(", ");
+    const words = !this.findings ? (this.model ? texts.state.checking : texts.state.none) : faults.length > 0 ? texts.state.faults(faults.length) : [ready, ...(warnings.length > 0 ? [texts.state.warnings(warnings.length)] : [])].join(", ");
     const kind = !this.findings ? "none" : faults.length > 0 ? "bad" : warnings.length > 0 || !isReady ? "warn" : "good";
     if (this.checkState.textContent !== words) this.announcer.textContent = words;
     this.checkState.textContent = words;
@@ -608,6 +617,11 @@ export class Workbench {
 
   private repair(edits: Edit[]): void {
     if (!this.model) return;
+    if (!textOfEdits.get(edits)?.eq(this.model.state.doc)) {
+      this.say(texts.repairOld);
+      this.checkNow();
+      return;
+    }
     if (this.active !== this.model.path) this.activate(this.model.path);
     this.editor.edit(this.model, edits);
     this.checkNow();
