@@ -1,5 +1,14 @@
 // What the program serves below /api/: requests with the token of the session, and the stream of events.
 
+import { formOf, normal, written, type FileForm } from "./file_text";
+
+/** What a file holds, with "\n" between its lines. */
+export interface FileContent {
+  text: string;
+  etag: string | null;
+  form: FileForm;
+}
+
 export interface Edit {
   line: number;
   column: number;
@@ -139,15 +148,17 @@ export class Api {
     return (text ? JSON.parse(text) : {}) as T;
   }
 
-  async file(path: string): Promise<{ text: string; etag: string | null }> {
+  async file(path: string): Promise<FileContent> {
     const response = await this.request("GET", `/api/file?path=${encodeURIComponent(path)}`);
-    return { text: await response.text(), etag: response.headers.get("ETag") };
+    // Not text(), which drops the mark of the byte order.
+    const raw = new TextDecoder("utf-8", { ignoreBOM: true }).decode(await response.arrayBuffer());
+    return { text: normal(raw), etag: response.headers.get("ETag"), form: formOf(raw) };
   }
 
   /** Saves over what `etag` names; without one only where there is no such file yet. */
-  async save(path: string, text: string, etag: string | null): Promise<string | null> {
+  async save(path: string, text: string, form: FileForm, etag: string | null): Promise<string | null> {
     const condition: Record<string, string> = etag ? { "If-Match": etag } : { "If-None-Match": "*" };
-    const response = await this.request("PUT", `/api/file?path=${encodeURIComponent(path)}`, text, condition);
+    const response = await this.request("PUT", `/api/file?path=${encodeURIComponent(path)}`, written(text, form), condition);
     return response.headers.get("ETag");
   }
 

@@ -9,7 +9,8 @@ import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { Compartment, EditorSelection, EditorState, Prec, StateEffect, StateField, Text, type Extension, type Range } from "@codemirror/state";
 import { Decoration, drawSelection, dropCursor, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers, MatchDecorator, ViewPlugin, type DecorationSet, type ViewUpdate } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
-import type { Edit } from "./api";
+import type { Edit, FileContent } from "./api";
+import type { FileForm } from "./file_text";
 import { texts } from "./texts";
 import { isDark, onThemeChange } from "../src/theme";
 import { readTree, type TextNode } from "./yaml_tree";
@@ -19,6 +20,7 @@ export interface SavedDocument {
   state: unknown;
   base: string;
   etag: string | null;
+  form: FileForm;
 }
 
 export class OpenDocument {
@@ -27,6 +29,7 @@ export class OpenDocument {
     public state: EditorState,
     public base: Text,
     public etag: string | null,
+    public form: FileForm,
   ) {}
   scroll: StateEffect<unknown> | null = null;
   /** Changed outside while it was changed here. */
@@ -184,9 +187,9 @@ export class Editor {
     if (update.selectionSet && !update.docChanged) this.hooks.moved(document, update.transactions.some((t) => t.isUserEvent("select.pointer")));
   }
 
-  add(path: string, text: string, etag: string | null): OpenDocument {
+  add(path: string, { text, etag, form }: FileContent): OpenDocument {
     const state = EditorState.create({ doc: text, extensions: this.extensions(path) });
-    const document = new OpenDocument(path, state, state.doc, etag);
+    const document = new OpenDocument(path, state, state.doc, etag, form);
     this.documents.set(path, document);
     return document;
   }
@@ -200,13 +203,13 @@ export class Editor {
     } catch {
       state = EditorState.create({ doc: base, extensions: this.extensions(saved.path) });
     }
-    const document = new OpenDocument(saved.path, state, base, saved.etag);
+    const document = new OpenDocument(saved.path, state, base, saved.etag, saved.form);
     this.documents.set(saved.path, document);
     return document;
   }
 
   remembered(): SavedDocument[] {
-    return [...this.documents.values()].map((d) => ({ path: d.path, state: d.state.toJSON({ history: historyField }), base: d.base.toString(), etag: d.etag }));
+    return [...this.documents.values()].map((d) => ({ path: d.path, state: d.state.toJSON({ history: historyField }), base: d.base.toString(), etag: d.etag, form: d.form }));
   }
 
   show(document: OpenDocument | null): void {

@@ -2,7 +2,7 @@
 
 import type { Diagnostic } from "@codemirror/lint";
 import type { Text } from "@codemirror/state";
-import { Unreachable, Refused, type Api, type Edit, type Fault, type FileEntry, type RunEntry, type RunEvent, type Template } from "./api";
+import { Unreachable, Refused, type Api, type Edit, type Fault, type FileContent, type FileEntry, type RunEntry, type RunEvent, type Template } from "./api";
 import { h } from "../src/dom";
 import { isDark, onThemeChange, setTheme } from "../src/theme";
 import { BearingPane } from "./bearing_pane";
@@ -331,8 +331,8 @@ export class Workbench {
       if (kind === "mesh" && /\.(msh|inp)$/i.test(path)) return showMesh(this.api, path);
       if (kind === "results" || kind === "mesh") return this.say(texts.binary);
       try {
-        const { text, etag } = await this.api.file(path);
-        this.editor.add(path, text, etag);
+        const content = await this.api.file(path);
+        if (!this.editor.documents.has(path)) this.editor.add(path, content);
       } catch (error) {
         return this.fail(error);
       }
@@ -434,7 +434,7 @@ export class Workbench {
   /** Texts that were changed outside: read anew where nothing is lost by it, asked about otherwise. */
   private async refreshOpen(): Promise<void> {
     for (const document of [...this.editor.documents.values()]) {
-      let now: { text: string; etag: string | null };
+      let now: FileContent;
       try {
         now = await this.api.file(document.path);
       } catch (error) {
@@ -451,6 +451,7 @@ export class Workbench {
         }
         document.base = document.state.doc;
         document.etag = now.etag;
+        document.form = now.form;
         this.showActive();
       } else this.noticeConflict(document);
     }
@@ -462,7 +463,7 @@ export class Workbench {
   }
 
   private async resolve(document: OpenDocument): Promise<boolean> {
-    let now: { text: string; etag: string | null };
+    let now: FileContent;
     try {
       now = await this.api.file(document.path);
     } catch (error) {
@@ -474,6 +475,7 @@ export class Workbench {
     this.dropNotice(`conflict-${document.path}`);
     document.conflict = false;
     document.etag = now.etag;
+    document.form = now.form;
     this.editor.replace(document, text);
     if (text !== now.text) return this.save(document);
     document.base = document.state.doc;
@@ -485,7 +487,7 @@ export class Workbench {
     if (!document) return false;
     const doc = document.state.doc;
     try {
-      document.etag = await this.api.save(document.path, doc.toString(), document.etag);
+      document.etag = await this.api.save(document.path, doc.toString(), document.form, document.etag);
       document.base = doc;
       this.say(texts.saved(document.name));
       this.dropNotice("save");
