@@ -38,8 +38,13 @@ export class OpenDocument {
   get isModel(): boolean {
     return /\.ya?ml$/i.test(this.path);
   }
-  get isDirty(): boolean {
+  /** Whether the text is another one than the file had. */
+  get isChanged(): boolean {
     return !this.state.doc.eq(this.base);
+  }
+  /** Whether something is to be saved: a text whose file is gone as well. */
+  get isDirty(): boolean {
+    return this.etag === null || this.isChanged;
   }
   get name(): string {
     return this.path.split("/").pop()!;

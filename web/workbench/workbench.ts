@@ -438,13 +438,17 @@ export class Workbench {
       try {
         now = await this.api.file(document.path);
       } catch (error) {
-        if (error instanceof Refused && error.status === 404) this.say(texts.gone(document.name));
+        if (error instanceof Refused && error.status === 404 && document.etag !== null) {
+          document.etag = null;
+          this.say(texts.gone(document.name));
+          this.showActive();
+        }
         continue;
       }
       if (now.etag === document.etag) continue;
-      const wasDirty = document.isDirty;
+      const wasChanged = document.isChanged;
       const isSame = document.state.doc.toString() === now.text;
-      if (!wasDirty || isSame) {
+      if (!wasChanged || isSame) {
         if (!isSame) {
           this.editor.replace(document, now.text);
           this.say(texts.reloaded(document.name));
@@ -486,10 +490,16 @@ export class Workbench {
   private async save(document = this.editor.documents.get(this.active) ?? null): Promise<boolean> {
     if (!document) return false;
     const doc = document.state.doc;
+    const write = (etag: string | null) => this.api.save(document.path, doc.toString(), document.form, etag);
     try {
-      document.etag = await this.api.save(document.path, doc.toString(), document.form, document.etag);
+      let words = texts.saved(document.name);
+      document.etag = await write(document.etag).catch((error: unknown) => {
+        if (document.etag === null || !(error instanceof Refused) || error.status !== 404) throw error;
+        words = texts.savedNew(document.name);
+        return write(null);
+      });
       document.base = doc;
-      this.say(texts.saved(document.name));
+      this.say(words);
       this.dropNotice("save");
       this.showActive();
       this.rememberSoon();
