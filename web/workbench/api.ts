@@ -162,8 +162,8 @@ export class Api {
     return response.headers.get("ETag");
   }
 
-  /** Hands every event on until the page goes; connects again where the stream breaks, and says so. */
-  async follow(start: number | undefined, hear: (event: string, data: unknown) => void, connected: (is: boolean) => void): Promise<never> {
+  /** Hands every event on; connects again where the stream breaks, and says so. Ends where the token is refused. */
+  async follow(start: number | undefined, hear: (event: string, data: unknown) => void, connected: (is: boolean) => void): Promise<void> {
     let after = start === undefined ? "" : String(start);
     let pause = 500;
     for (;;) {
@@ -177,7 +177,7 @@ export class Api {
           hear(event, data);
         }
       } catch (error) {
-        if (error instanceof Refused && error.status === 401) hear("refused", null);
+        if (error instanceof Refused && error.status === 401) return hear("refused", null);
       }
       connected(false);
       await new Promise((resolve) => setTimeout(resolve, pause));

@@ -97,6 +97,7 @@ export class Workbench {
   private checkTimer = 0;
   private rememberTimer = 0;
   private isReachable = true;
+  private isLeaving = false;
   private sizes: Record<string, number>;
   private readonly old: Remembered | null;
 
@@ -158,9 +159,15 @@ export class Workbench {
     addEventListener("pagehide", () => this.remember());
     addEventListener("beforeunload", (event) => {
       this.remember();
-      // The texts come back with the tab; without its memory they would be lost.
-      if (!this.remembers && [...this.editor.documents.values()].some((d) => d.isDirty)) event.preventDefault();
+      // The texts come back with the tab; without its memory, or without a program to come back to, they would be lost.
+      const isAtRisk = !this.remembers || (!this.isReachable && !this.isLeaving);
+      if (isAtRisk && [...this.editor.documents.values()].some((d) => d.isDirty)) event.preventDefault();
     });
+  }
+
+  /** The page is about to be loaded anew, with another token. */
+  leave(): void {
+    this.isLeaving = true;
   }
 
   private layOut(): HTMLElement {
@@ -263,7 +270,10 @@ export class Workbench {
       void this.loadFiles();
       void this.refreshOpen();
       void this.runs.load().catch(() => undefined);
-    } else if (event === "refused") this.notice("connection", texts.tokenRefused, []);
+    } else if (event === "refused") {
+      this.isReachable = false;
+      this.notice("connection", texts.tokenRefused, []);
+    }
   }
 
   private hearRun(event: RunEvent): void {
