@@ -7,6 +7,7 @@ import { h } from "../src/dom";
 import { isDark, onThemeChange, setTheme } from "../src/theme";
 import { BearingPane } from "./bearing_pane";
 import { ask, askTemplate, askTexts, showKeys } from "./dialogs";
+import { formOf, normal, type FileForm } from "./file_text";
 import { Editor, type OpenDocument, type SavedDocument } from "./editor";
 import { splitter, Tabs, walkable } from "./layout";
 import { LivePane } from "./live_pane";
@@ -94,6 +95,7 @@ export class Workbench {
   private reports: { title: string; url: string; frame: HTMLIFrameElement }[] = [];
   private active = "";
   private checks = 0;
+  private readonly turns = new WeakMap<OpenDocument, Promise<unknown>>();
   private checkTimer = 0;
   private rememberTimer = 0;
   private isReachable = true;
@@ -441,39 +443,55 @@ export class Workbench {
     this.activate(this.active === url ? "" : this.active);
   }
 
+  /** One exchange with a document's file at a time: the next one begins where the last one has left it. */
+  private inTurn<T>(document: OpenDocument, work: () => Promise<T>): Promise<T> {
+    const next = (this.turns.get(document) ?? Promise.resolve()).then(work);
+    this.turns.set(document, next.catch(() => undefined));
+    return next;
+  }
+
   /** Texts that were changed outside: read anew where nothing is lost by it, asked about otherwise. */
   private async refreshOpen(): Promise<void> {
-    for (const document of [...this.editor.documents.values()]) {
-      let now: FileContent;
-      try {
-        now = await this.api.file(document.path);
-      } catch (error) {
-        if (error instanceof Refused && error.status === 404 && document.etag !== null) {
-          document.etag = null;
-          this.say(texts.gone(document.name));
-          this.showActive();
-        }
-        continue;
-      }
-      if (now.etag === document.etag) continue;
-      const wasChanged = document.isChanged;
-      const isSame = document.state.doc.toString() === now.text;
-      if (!wasChanged || isSame) {
-        if (!isSame) {
-          this.editor.replace(document, now.text);
-          this.say(texts.reloaded(document.name));
-        }
-        document.base = document.state.doc;
-        document.etag = now.etag;
-        document.form = now.form;
+    for (const document of [...this.editor.documents.values()]) await this.inTurn(document, () => this.refresh(document)).catch((error) => this.fail(error));
+  }
+
+  private async refresh(document: OpenDocument): Promise<void> {
+    const { etag } = document;
+    let now: FileContent;
+    try {
+      now = await this.api.file(document.path);
+    } catch (error) {
+      if (error instanceof Refused && error.status === 404 && document.etag !== null) {
+        document.etag = null;
+        this.say(texts.gone(document.name));
         this.showActive();
-      } else this.noticeConflict(document);
+      }
+      return;
     }
+    // Something else has been read or written meanwhile, or the text is closed.
+    if (document.etag !== etag || this.editor.documents.get(document.path) !== document || now.etag === etag) return;
+    const isSame = document.state.doc.toString() === now.text;
+    if (document.isChanged && !isSame) return this.noticeConflict(document);
+    if (!isSame) {
+      this.editor.replace(document, now.text);
+      this.say(texts.reloaded(document.name));
+    }
+    this.isOfFile(document, document.state.doc, now.etag, now.form);
+  }
+
+  /** The file has this text. */
+  private isOfFile(document: OpenDocument, doc: Text, etag: string | null, form: FileForm): void {
+    [document.base, document.etag, document.form] = [doc, etag, form];
+    document.conflict = false;
+    this.dropNotice(`conflict-${document.path}`);
+    this.dropNotice(`save-${document.path}`);
+    this.showActive();
+    this.rememberSoon();
   }
 
   private noticeConflict(document: OpenDocument): void {
     document.conflict = true;
-    this.notice(`conflict-${document.path}`, texts.changedOnDisk(document.name), [{ label: texts.compareTexts, act: () => void this.resolve(document) }]);
+    this.notice(`conflict-${document.path}`, texts.changedOnDisk(document.name), [{ label: texts.compareTexts, act: () => void this.inTurn(document, () => this.resolve(document)) }]);
   }
 
   private async resolve(document: OpenDocument): Promise<boolean> {
@@ -486,38 +504,44 @@ export class Workbench {
     }
     const text = await askTexts(document.name, document.state.doc.toString(), now.text);
     if (text === null) return false;
-    this.dropNotice(`conflict-${document.path}`);
-    document.conflict = false;
+    this.editor.replace(document, text);
+    if (text === now.text) {
+      this.isOfFile(document, document.state.doc, now.etag, now.form);
+      return true;
+    }
     document.etag = now.etag;
     document.form = now.form;
-    this.editor.replace(document, text);
-    if (text !== now.text) return this.save(document);
-    document.base = document.state.doc;
-    this.showActive();
-    return true;
+    return this.write(document);
   }
 
   private async save(document = this.editor.documents.get(this.active) ?? null): Promise<boolean> {
-    if (!document) return false;
+    return document ? this.inTurn(document, () => this.write(document)) : false;
+  }
+
+  private async write(document: OpenDocument): Promise<boolean> {
     const doc = document.state.doc;
-    const write = (etag: string | null) => this.api.save(document.path, doc.toString(), document.form, etag);
+    const put = (etag: string | null) => this.api.save(document.path, doc.toString(), document.form, etag);
     try {
       let words = texts.saved(document.name);
-      document.etag = await write(document.etag).catch((error: unknown) => {
+      const etag = await put(document.etag).catch((error: unknown) => {
         if (document.etag === null || !(error instanceof Refused) || error.status !== 404) throw error;
         words = texts.savedNew(document.name);
-        return write(null);
+        return put(null);
       });
-      document.base = doc;
+      this.isOfFile(document, doc, etag, document.form);
       this.say(words);
-      this.dropNotice("save");
-      this.showActive();
-      this.rememberSoon();
       return true;
     } catch (error) {
-      if (error instanceof Refused && error.status === 412) return this.resolve(document);
+      if (error instanceof Refused && error.status === 412) {
+        const raw = String(error.body["text"] ?? "");
+        if (normal(raw) !== doc.toString()) return this.resolve(document);
+        // Somebody else, or an answer that never came, has written just this.
+        this.isOfFile(document, doc, String(error.body["etag"]), formOf(raw));
+        this.say(texts.saved(document.name));
+        return true;
+      }
       const words = error instanceof Refused ? `${error.message} ${error.advice}` : texts.unreachable;
-      this.notice("save", `${texts.notSaved(document.name)} ${words}`, []);
+      this.notice(`save-${document.path}`, `${texts.notSaved(document.name)} ${words}`, []);
       return false;
     }
   }
