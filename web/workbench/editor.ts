@@ -32,8 +32,6 @@ export class OpenDocument {
     public form: FileForm,
   ) {}
   scroll: StateEffect<unknown> | null = null;
-  /** Changed outside while it was changed here. */
-  conflict = false;
 
   get isModel(): boolean {
     return /\.ya?ml$/i.test(this.path);

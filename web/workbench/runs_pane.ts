@@ -22,6 +22,8 @@ export class RunsPane {
   private readonly list = h("ul", { class: "runs" });
   private readonly compareButton = h("button", { type: "button", class: "quiet", disabled: true, title: texts.compareHelp, click: () => void this.compare() }, texts.compare);
   private readonly compared = new Set<string>();
+  private loads = 0;
+  private taken = 0;
   private readonly models = new Map<string, string | null>();
 
   constructor(private readonly hooks: RunsHooks) {
@@ -34,9 +36,13 @@ export class RunsPane {
   }
 
   async load(): Promise<void> {
+    const count = ++this.loads;
     const { runs } = await this.hooks.api.get<{ runs: RunEntry[] }>("/api/runs");
-    const when = (run: RunEntry) => (typeof run.started === "number" ? 1e3 * run.started : Date.parse(run.started ?? "") || 0);
-    this.runs = [...runs].sort((a, b) => when(b) - when(a));
+    // An answer that a later one has overtaken is of no use.
+    if (count < this.taken) return;
+    this.taken = count;
+    this.runs = runs;
+    for (const id of this.compared) if (!runs.some((run) => run.id === id)) this.compared.delete(id);
     this.draw();
     this.hooks.changed();
     void this.loadModels();

@@ -7,8 +7,8 @@ import { h } from "../src/dom";
 import { isDark, onThemeChange, setTheme } from "../src/theme";
 import { BearingPane } from "./bearing_pane";
 import { ask, askTemplate, askTexts, showKeys } from "./dialogs";
-import { formOf, normal, type FileForm } from "./file_text";
 import { Editor, type OpenDocument, type SavedDocument } from "./editor";
+import { formOf, normal, type FileForm } from "./file_text";
 import { splitter, Tabs, walkable } from "./layout";
 import { LivePane } from "./live_pane";
 import { MachinePane, type SceneText } from "./machine_pane";
@@ -95,6 +95,7 @@ export class Workbench {
   private reports: { title: string; url: string; frame: HTMLIFrameElement }[] = [];
   private active = "";
   private checks = 0;
+  private listings = 0;
   private readonly turns = new WeakMap<OpenDocument, Promise<unknown>>();
   private checkTimer = 0;
   private rememberTimer = 0;
@@ -263,10 +264,8 @@ export class Workbench {
   // ---- what the program tells
 
   private hear(event: string, data: unknown): void {
-    if (event === "files") {
-      void this.loadFiles();
-      void this.refreshOpen();
-    } else if (event === "runs") void this.runs.load().catch(() => undefined);
+    if (event === "files") this.hearFiles((data as { paths?: string[] } | null)?.paths ?? []);
+    else if (event === "runs") void this.runs.load().catch(() => undefined);
     else if (event === "run") this.hearRun(data as RunEvent);
     else if (event === "reload") {
       void this.loadFiles();
@@ -276,6 +275,15 @@ export class Workbench {
       this.isReachable = false;
       this.notice("connection", texts.tokenRefused, []);
     }
+  }
+
+  private hearFiles(paths: string[]): void {
+    void this.loadFiles();
+    void this.refreshOpen();
+    const isOfRun = (path: string) => path.startsWith("runs/") || /\.(h5|lock|checkpoint)$/.test(path);
+    if (paths.some(isOfRun)) void this.runs.load().catch(() => undefined);
+    // A table, a mesh or a part of the model may be another one.
+    if (paths.some((path) => !isOfRun(path) && path !== this.model?.path)) this.checkSoon();
   }
 
   private hearRun(event: RunEvent): void {
@@ -298,6 +306,7 @@ export class Workbench {
 
   private runsChanged(): void {
     this.stopButton.disabled = this.runs.running.length === 0;
+    this.drawFiles();
     const shown = this.runs.runs.find(({ id }) => id === this.live.shownRun);
     if (shown && shown.state !== "running" && this.below.current === "log") void this.live.readLog();
   }
@@ -312,8 +321,11 @@ export class Workbench {
   // ---- files and documents
 
   private async loadFiles(): Promise<void> {
+    const count = ++this.listings;
     try {
-      this.files = (await this.api.get<{ files: FileEntry[] }>("/api/files")).files;
+      const { files } = await this.api.get<{ files: FileEntry[] }>("/api/files");
+      if (count !== this.listings) return;
+      this.files = files;
     } catch (error) {
       this.fail(error);
       return;
@@ -323,7 +335,8 @@ export class Workbench {
 
   private drawFiles(): void {
     const order = { model: 0, table: 1, mesh: 2, text: 3, report: 4, results: 5, other: 6 } as const;
-    const isOfRun = (path: string) => this.runs.runs.some(({ folder }) => path.startsWith(`${folder}/`));
+    const ofRuns = new Set(this.runs.runs.flatMap(({ results, report }) => [...results, report ?? ""]));
+    const isOfRun = (path: string) => path.startsWith("runs/") || ofRuns.has(path);
     const files = this.files.filter(({ path, kind }) => kind !== "other" && !isOfRun(path)).sort((a, b) => order[a.kind] - order[b.kind] || a.path.localeCompare(b.path));
     const focused = document.activeElement?.getAttribute("data-path");
     this.fileList.replaceChildren(
@@ -421,6 +434,7 @@ export class Workbench {
       if (answer === "save" && !(await this.save(document))) return;
       if (answer !== "save" && answer !== "drop") return;
     }
+    for (const kind of ["conflict", "save"]) this.dropNotice(`${kind}-${document.path}`);
     this.editor.close(document);
     if (this.model === document) this.takeModel([...this.editor.documents.values()].find((d) => d.isModel) ?? null);
     this.activate(this.active === document.path ? "" : this.active);
@@ -452,7 +466,7 @@ export class Workbench {
 
   /** Texts that were changed outside: read anew where nothing is lost by it, asked about otherwise. */
   private async refreshOpen(): Promise<void> {
-    for (const document of [...this.editor.documents.values()]) await this.inTurn(document, () => this.refresh(document)).catch((error) => this.fail(error));
+    await Promise.all([...this.editor.documents.values()].map((document) => this.inTurn(document, () => this.refresh(document)).catch((error) => this.fail(error))));
   }
 
   private async refresh(document: OpenDocument): Promise<void> {
@@ -482,7 +496,6 @@ export class Workbench {
   /** The file has this text. */
   private isOfFile(document: OpenDocument, doc: Text, etag: string | null, form: FileForm): void {
     [document.base, document.etag, document.form] = [doc, etag, form];
-    document.conflict = false;
     this.dropNotice(`conflict-${document.path}`);
     this.dropNotice(`save-${document.path}`);
     this.showActive();
@@ -490,7 +503,6 @@ export class Workbench {
   }
 
   private noticeConflict(document: OpenDocument): void {
-    document.conflict = true;
     this.notice(`conflict-${document.path}`, texts.changedOnDisk(document.name), [{ label: texts.compareTexts, act: () => void this.inTurn(document, () => this.resolve(document)) }]);
   }
 
