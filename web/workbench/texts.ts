@@ -44,6 +44,7 @@ export const texts = {
   noModel: "Open a model of the folder, or begin a new one.",
   emptyFolder: "This folder has no model yet.",
   missing: "Missing to run",
+  notSet: (key: string) => `${key} was not changed: the text went on changing meanwhile.`,
   repairOld: "The text has changed since: it is checked anew, nothing was repaired.",
   fault: "fault",
   warning: "warning",

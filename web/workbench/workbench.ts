@@ -63,6 +63,8 @@ function noteText({ faults, warnings }: Findings, doc: Text): void {
 const pause = 45;
 /** Further pause before the start of its run is tried [ms]. */
 const restPause = 200;
+/** So often a change is asked about while the text goes on changing. */
+const mostTries = 5;
 /** Pause before everything open is remembered [ms]. */
 const rememberPause = 400;
 
@@ -95,6 +97,8 @@ export class Workbench {
   private reports: { title: string; url: string; frame: HTMLIFrameElement }[] = [];
   private active = "";
   private checks = 0;
+  /** The last change by a form or a drag. */
+  private valueSet: Promise<void> = Promise.resolve();
   private listings = 0;
   private readonly turns = new WeakMap<OpenDocument, Promise<unknown>>();
   private checkTimer = 0;
@@ -695,18 +699,23 @@ export class Workbench {
   }
 
   /** A change made by a form or by hand in a picture is a change of the text. */
-  private async setValue(key: string, value: string | null): Promise<void> {
+  private setValue(key: string, value: string | null): Promise<void> {
     const document = this.model;
-    if (!document) return;
-    const { doc } = document.state;
-    try {
+    if (document) this.valueSet = this.valueSet.then(() => this.setValueOf(document, key, value)).catch((error) => this.fail(error));
+    return this.valueSet;
+  }
+
+  /** Each change is asked about of the text that the one before has left; who types meanwhile has it asked about again. */
+  private async setValueOf(document: OpenDocument, key: string, value: string | null): Promise<void> {
+    for (let i = 0; i < mostTries; i++) {
+      const { doc } = document.state;
       const { text } = await this.api.post<{ text: string; edits?: Edit[] }>("/api/set", { path: document.path, text: doc.toString(), key, value });
-      if (document.state.doc !== doc) return;
+      if (document.state.doc !== doc) continue;
       this.editor.replace(document, text);
-      this.checkNow();
-    } catch (error) {
-      this.fail(error);
+      if (document === this.model) this.checkNow();
+      return;
     }
+    this.say(texts.notSet(key));
   }
 
   // ---- from text to picture and back
