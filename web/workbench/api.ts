@@ -98,6 +98,8 @@ export interface Template {
 export interface RunEvent {
   id: string;
   kind: string;
+  /** Which one of a study. */
+  run?: number;
   t?: number;
   share?: number;
   text?: string;

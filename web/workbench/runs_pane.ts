@@ -2,6 +2,7 @@
 
 import type { Api, RunEntry } from "./api";
 import { h } from "../src/dom";
+import { normal } from "./file_text";
 import { texts } from "./texts";
 
 /** Of a run, in the address of a request. */
@@ -60,6 +61,12 @@ export class RunsPane {
       }
     }
     if (unknown.length > 0) this.draw();
+  }
+
+  /** Of the model that a run was made of, as the editor would have it; undefined: not known. */
+  textOf(id: string): string | undefined {
+    const text = this.models.get(id);
+    return text ? normal(text) : undefined;
   }
 
   progress(id: string, share: number): void {

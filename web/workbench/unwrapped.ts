@@ -107,7 +107,7 @@ export class Unwrapped {
       const [phi, z] = shift(event);
       start = null;
       const [right, up] = [Math.abs((phi / along) * box.width), Math.abs((z / width) * box.height)];
-      if (right < 1 && up < 1) return;
+      if (right < 1 && up < 1) return handle.removeAttribute("transform");
       // A hand that follows one direction leaves it by some pixels.
       const isStill = (own: number, other: number) => own < 1 || (own < 4 && own < 0.2 * other);
       this.hooks.moved(feature, isStill(right, up) ? null : round(feature.phi + phi, steps[0]), isStill(up, right) ? null : round(feature.z + z, steps[1]));

@@ -138,7 +138,7 @@ export class Workbench {
     this.point = new PointPane(api, () => (this.model ? { ...text()!, tree: this.model.tree } : null), () => this.bearing.name);
     this.part = new PartPane(set);
     this.problems = new ProblemList((fault) => this.goToFault(fault), (edits) => this.repair(edits));
-    this.live = new LivePane(api, (bearing) => this.machine.run?.number(`/bearings/${bearing}`, "radial_clearance"));
+    this.live = new LivePane(api, (run, bearing) => this.clearanceOf(run, bearing));
     this.runs = new RunsPane({ api, say, chosen: (run) => void this.showRun(run), openReport: (title, url) => this.openReport(title, url), changed: () => this.runsChanged() });
     this.outline = new Outline((at) => this.goToOffset(at));
     this.right = new Tabs(texts.panes.right, [
@@ -308,7 +308,14 @@ export class Workbench {
     } else this.notice("connection", texts.unreachable, []);
   }
 
+  /** Of a run whose model is the open one, unchanged since; else nobody knows it here. */
+  private clearanceOf(run: RunEntry, bearing: string): number | undefined {
+    const isOpen = this.model && run.set.length === 0 && run.model === this.model.path && this.runs.textOf(run.id) === this.model.state.doc.toString();
+    return isOpen ? this.machine.run?.number(`/bearings/${bearing}`, "radial_clearance") : undefined;
+  }
+
   private runsChanged(): void {
+    this.live.update(this.runs.runs);
     this.stopButton.disabled = this.runs.running.length === 0;
     this.drawFiles();
     const shown = this.runs.runs.find(({ id }) => id === this.live.shownRun);
