@@ -161,9 +161,10 @@ export class LivePane {
       text = error instanceof Error ? error.message : String(error);
     }
     // Meanwhile another run may be shown.
+    text ||= "–";
     if (this.run.id !== id || this.log.textContent === text) return;
     const atEnd = this.log.scrollTop + this.log.clientHeight > this.log.scrollHeight - 30;
-    this.log.textContent = text || "–";
+    this.log.textContent = text;
     if (atEnd) this.log.scrollTop = this.log.scrollHeight;
   }
 
