@@ -11,7 +11,7 @@ export const path = (id: string) => encodeURIComponent(id);
 export interface RunsHooks {
   api: Api;
   chosen: (run: RunEntry) => void;
-  openReport: (title: string, url: string) => void;
+  openReport: (report: { key: string; title: string; url: string }) => void;
   say: (text: string) => void;
   changed: () => void;
 }
@@ -127,17 +127,14 @@ export class RunsPane {
 
   private async open(run: RunEntry): Promise<void> {
     const { url } = await this.hooks.api.post<{ url: string }>(`/api/runs/${path(run.id)}/report`);
-    this.hooks.openReport(run.id, url);
-  }
-
-  async openReportOf(run: RunEntry): Promise<void> {
-    await this.open(run).catch((error: Error) => this.hooks.say(error.message));
+    this.hooks.openReport({ key: `report ${run.id}`, title: run.id, url });
   }
 
   private async compare(): Promise<void> {
+    const ids = [...this.compared];
     try {
-      const { url } = await this.hooks.api.post<{ url: string }>("/api/compare", { ids: [...this.compared] });
-      this.hooks.openReport(texts.comparison, url);
+      const { url } = await this.hooks.api.post<{ url: string }>("/api/compare", { ids });
+      this.hooks.openReport({ key: `comparison ${[...ids].sort().join(" ")}`, title: texts.comparison, url });
     } catch (error) {
       this.hooks.say(error instanceof Error ? error.message : String(error));
     }

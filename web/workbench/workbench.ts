@@ -37,12 +37,19 @@ interface Checked extends Findings {
   scene: SceneText | null;
 }
 
+interface OpenReport {
+  /** Of the run, or of the runs compared: each has one tab. */
+  key: string;
+  title: string;
+  url: string;
+}
+
 interface Remembered {
   folder: string;
   documents: SavedDocument[];
   active: string;
   model: string;
-  reports: { title: string; url: string }[];
+  reports: OpenReport[];
   sizes: Record<string, number>;
   tabs: Record<string, string>;
   run: string;
@@ -94,7 +101,7 @@ export class Workbench {
   private files: FileEntry[] = [];
   private model: OpenDocument | null = null;
   private findings: Findings | null = null;
-  private reports: { title: string; url: string; frame: HTMLIFrameElement }[] = [];
+  private reports: (OpenReport & { frame: HTMLIFrameElement })[] = [];
   private active = "";
   private checks = 0;
   /** The last change by a form or a drag. */
@@ -139,7 +146,7 @@ export class Workbench {
     this.part = new PartPane(set);
     this.problems = new ProblemList((fault) => this.goToFault(fault), (edits) => this.repair(edits));
     this.live = new LivePane(api, (run, bearing) => this.clearanceOf(run, bearing));
-    this.runs = new RunsPane({ api, say, chosen: (run) => void this.showRun(run), openReport: (title, url) => this.openReport(title, url), changed: () => this.runsChanged() });
+    this.runs = new RunsPane({ api, say, chosen: (run) => void this.showRun(run), openReport: (report) => this.openReport(report), changed: () => this.runsChanged() });
     this.outline = new Outline((at) => this.goToOffset(at));
     this.right = new Tabs(texts.panes.right, [
       { key: "machine", label: texts.machine, content: this.machine.element },
@@ -246,7 +253,7 @@ export class Workbench {
     const files = this.loadFiles();
     const runs = this.runs.load().catch(() => undefined);
     if (this.old) for (const document of this.old.documents) this.editor.restore(document);
-    for (const report of this.old?.reports ?? []) this.addReport(report.title, report.url);
+    for (const report of this.old?.reports ?? []) this.addReport(report);
     if (this.old) {
       this.model = this.editor.documents.get(this.old.model) ?? null;
       this.activate(this.old.active);
@@ -380,7 +387,7 @@ export class Workbench {
   /** Shows a text or a report. */
   private activate(key: string): void {
     const opened = this.editor.documents.get(key);
-    this.active = opened || this.reports.some(({ url }) => url === key) ? key : (this.editor.documents.keys().next().value ?? "");
+    this.active = opened || this.reports.some((report) => report.key === key) ? key : (this.editor.documents.keys().next().value ?? "");
     const shown = this.editor.documents.get(this.active) ?? null;
     if (shown) this.editor.show(shown);
     if (shown?.isModel && shown !== this.model) this.takeModel(shown);
@@ -404,7 +411,11 @@ export class Workbench {
   private showActive(): void {
     const isText = this.editor.documents.has(this.active);
     this.editor.element.hidden = !isText;
-    for (const { frame, url } of this.reports) frame.hidden = url !== this.active;
+    for (const { frame, key, url } of this.reports) {
+      frame.hidden = key !== this.active;
+      // What nobody has looked at yet is not loaded.
+      if (!frame.hidden && frame.getAttribute("src") !== url) frame.src = url;
+    }
     if (!this.editor.element.isConnected) this.documentArea.append(this.editor.element);
     this.documentArea.querySelector(".welcome")?.remove();
     if (!this.active) this.documentArea.append(h("div", { class: "welcome" }, h("p", {}, texts.noModel), h("button", { type: "button", class: "main-button", click: () => void this.beginModel() }, texts.begin)));
@@ -430,7 +441,7 @@ export class Workbench {
     };
     this.documentBar.replaceChildren(
       ...[...this.editor.documents.values()].map((d) => tab(d.path, d.name, d.path, d.isDirty, () => void this.closeDocument(d))),
-      ...this.reports.map(({ title, url }) => tab(url, title, title, false, () => this.closeReport(url))),
+      ...this.reports.map(({ key, title }) => tab(key, title, title, false, () => this.closeReport(key))),
     );
     if (had) this.documentBar.querySelector<HTMLElement>('[aria-selected="true"]')?.focus();
   }
@@ -451,21 +462,23 @@ export class Workbench {
     this.activate(this.active === document.path ? "" : this.active);
   }
 
-  private addReport(title: string, url: string): void {
-    const frame = h("iframe", { title, src: url, class: "report-frame", sandbox: "allow-scripts allow-downloads", hidden: true });
-    this.reports.push({ title, url, frame });
+  private addReport(report: OpenReport): void {
+    const frame = h("iframe", { title: report.title, class: "report-frame", sandbox: "allow-scripts allow-downloads", hidden: true });
+    this.reports.push({ ...report, frame });
     this.documentArea.append(frame);
   }
 
-  private openReport(title: string, url: string): void {
-    if (!this.reports.some((r) => r.url === url)) this.addReport(title, url);
-    this.activate(url);
+  private openReport(report: OpenReport): void {
+    const opened = this.reports.find(({ key }) => key === report.key);
+    if (opened) opened.url = report.url;
+    else this.addReport(report);
+    this.activate(report.key);
   }
 
-  private closeReport(url: string): void {
-    this.reports.find((r) => r.url === url)?.frame.remove();
-    this.reports = this.reports.filter((r) => r.url !== url);
-    this.activate(this.active === url ? "" : this.active);
+  private closeReport(key: string): void {
+    this.reports.find((report) => report.key === key)?.frame.remove();
+    this.reports = this.reports.filter((report) => report.key !== key);
+    this.activate(this.active === key ? "" : this.active);
   }
 
   /** One exchange with a document's file at a time: the next one begins where the last one has left it. */
@@ -919,7 +932,7 @@ export class Workbench {
       documents: this.editor.remembered(),
       active: this.active,
       model: this.model?.path ?? "",
-      reports: this.reports.map(({ title, url }) => ({ title, url })),
+      reports: this.reports.map(({ key, title, url }) => ({ key, title, url })),
       sizes: this.sizes,
       tabs: { right: this.right.current, below: this.below.current },
       run: this.live.shownRun,
