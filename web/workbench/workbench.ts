@@ -246,10 +246,8 @@ export class Workbench {
     document.title = `${this.hello.folder.split("/").pop()} · ${texts.name}`;
     this.problems.show(null);
     this.showCheckState();
-    void this.api.get<Schema>("/api/schema").then((schema) => {
-      this.schema = new ModelSchema(schema);
-      this.showModelParts(null);
-    });
+    this.api.answered = (is) => this.connected(is);
+    void this.loadSchema();
     const files = this.loadFiles();
     const runs = this.runs.load().catch(() => undefined);
     if (this.old) for (const document of this.old.documents) this.editor.restore(document);
@@ -266,10 +264,19 @@ export class Workbench {
     const wanted = this.hello.open ?? (this.files.filter(({ kind }) => kind === "model").length === 1 ? this.files.find(({ kind }) => kind === "model")!.path : null);
     if (!this.old && wanted) await this.openFile(wanted);
     if (!this.active) this.showActive();
-    void this.api.follow(this.hello.event, (event, data) => this.hear(event, data), (is) => this.connected(is));
+    void this.api.follow(this.hello.event, (event, data) => this.hear(event, data));
     await runs;
     const last = this.runs.runs.find(({ id }) => id === this.old?.run) ?? this.runs.running[0];
     if (last) await this.showRun(last, false);
+  }
+
+  private async loadSchema(): Promise<void> {
+    try {
+      this.schema = new ModelSchema(await this.api.get<Schema>("/api/schema"));
+      this.showModelParts(null);
+    } catch {
+      // Asked for again once the program answers.
+    }
   }
 
   // ---- what the program tells
@@ -311,6 +318,7 @@ export class Workbench {
       this.dropNotice("connection");
       this.say(texts.reachable);
       this.hear("reload", null);
+      if (!this.schema) void this.loadSchema();
       this.checkSoon();
     } else this.notice("connection", texts.unreachable, []);
   }
@@ -891,11 +899,7 @@ export class Workbench {
   }
 
   private fail(error: unknown): void {
-    if (error instanceof Unreachable) {
-      this.notice("connection", texts.unreachable, []);
-      this.isReachable = false;
-      return;
-    }
+    if (error instanceof Unreachable) return this.connected(false);
     this.say(error instanceof Refused ? [error.message, error.advice].filter((t) => t).join(" ") : error instanceof Error ? error.message : String(error));
   }
 
