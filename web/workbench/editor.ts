@@ -17,10 +17,10 @@ import { readTree, type TextNode } from "./yaml_tree";
 
 export interface SavedDocument {
   path: string;
-  state: unknown;
-  base: string;
-  etag: string | null;
-  form: FileForm;
+  /** Place of the cursor in the text. */
+  cursor: number;
+  /** Of a text that is not saved. */
+  unsaved: { state: unknown; base: string; etag: string | null; form: FileForm } | null;
 }
 
 export class OpenDocument {
@@ -190,29 +190,34 @@ export class Editor {
     if (update.selectionSet && !update.docChanged) this.hooks.moved(document, update.transactions.some((t) => t.isUserEvent("select.pointer")));
   }
 
-  add(path: string, { text, etag, form }: FileContent): OpenDocument {
-    const state = EditorState.create({ doc: text, extensions: this.extensions(path) });
+  add(path: string, { text, etag, form }: FileContent, cursor = 0): OpenDocument {
+    const doc = Text.of(text.split("\n"));
+    const state = EditorState.create({ doc, selection: { anchor: Math.min(cursor, doc.length) }, extensions: this.extensions(path) });
     const document = new OpenDocument(path, state, state.doc, etag, form);
     this.documents.set(path, document);
     return document;
   }
 
   /** As it was before the page was loaded anew, with its history. */
-  restore(saved: SavedDocument): OpenDocument {
-    const base = Text.of(saved.base.split("\n"));
+  restore(path: string, { state: saved, base: baseText, etag, form }: NonNullable<SavedDocument["unsaved"]>): OpenDocument {
+    const base = Text.of(baseText.split("\n"));
     let state: EditorState;
     try {
-      state = EditorState.fromJSON(saved.state, { extensions: this.extensions(saved.path) }, { history: historyField });
+      state = EditorState.fromJSON(saved, { extensions: this.extensions(path) }, { history: historyField });
     } catch {
-      state = EditorState.create({ doc: base, extensions: this.extensions(saved.path) });
+      state = EditorState.create({ doc: base, extensions: this.extensions(path) });
     }
-    const document = new OpenDocument(saved.path, state, base, saved.etag, saved.form);
-    this.documents.set(saved.path, document);
+    const document = new OpenDocument(path, state, base, etag, form);
+    this.documents.set(path, document);
     return document;
   }
 
   remembered(): SavedDocument[] {
-    return [...this.documents.values()].map((d) => ({ path: d.path, state: d.state.toJSON({ history: historyField }), base: d.base.toString(), etag: d.etag, form: d.form }));
+    return [...this.documents.values()].map((d) => ({
+      path: d.path,
+      cursor: d.state.selection.main.head,
+      unsaved: d.isDirty ? { state: d.state.toJSON({ history: historyField }), base: d.base.toString(), etag: d.etag, form: d.form } : null,
+    }));
   }
 
   show(document: OpenDocument | null): void {

@@ -112,6 +112,10 @@ export class Workbench {
   private rememberTimer = 0;
   private isReachable = true;
   private isLeaving = false;
+  private isRecalled = false;
+  /** Whether the model can run. */
+  private isReady = false;
+  private isStarting = false;
   private sizes: Record<string, number>;
   private readonly old: Remembered | null;
 
@@ -250,7 +254,7 @@ export class Workbench {
     void this.loadSchema();
     const files = this.loadFiles();
     const runs = this.runs.load().catch(() => undefined);
-    if (this.old) for (const document of this.old.documents) this.editor.restore(document);
+    await this.recallDocuments(this.old?.documents ?? []);
     for (const report of this.old?.reports ?? []) this.addReport(report);
     if (this.old) {
       this.model = this.editor.documents.get(this.old.model) ?? null;
@@ -268,6 +272,17 @@ export class Workbench {
     await runs;
     const last = this.runs.runs.find(({ id }) => id === this.old?.run) ?? this.runs.running[0];
     if (last) await this.showRun(last, false);
+  }
+
+  /** What was not saved comes from the tab's memory, all else from the file as it is now. */
+  private async recallDocuments(documents: SavedDocument[]): Promise<void> {
+    const contents = await Promise.all(documents.map(({ path, unsaved }) => (unsaved ? null : this.api.file(path).catch((error: unknown) => this.fail(error)))));
+    documents.forEach(({ path, unsaved, cursor }, i) => {
+      const content = contents[i];
+      if (unsaved) this.editor.restore(path, unsaved);
+      else if (content) this.editor.add(path, content, cursor);
+    });
+    this.isRecalled = true;
   }
 
   private async loadSchema(): Promise<void> {
@@ -700,9 +715,15 @@ export class Workbench {
     if (this.checkState.textContent !== words) this.announcer.textContent = words;
     this.checkState.textContent = words;
     this.checkState.dataset["kind"] = kind;
-    this.runButton.disabled = !this.findings || !isReady;
+    this.isReady = this.findings !== null && isReady;
+    this.showRunButton();
     const count = faults.length + warnings.length;
     this.below.label("problems", count > 0 ? `${texts.problems} (${count})` : texts.problems);
+  }
+
+  /** A second start has to wait until the first one is known. */
+  private showRunButton(): void {
+    this.runButton.disabled = !this.isReady || this.isStarting;
   }
 
   private repair(edits: Edit[]): void {
@@ -818,6 +839,19 @@ export class Workbench {
   private async runModel(): Promise<void> {
     const document = this.model;
     if (!document || this.runButton.disabled) return;
+    this.isStarting = true;
+    this.showRunButton();
+    try {
+      await this.startRun(document);
+    } catch (error) {
+      this.fail(error);
+    } finally {
+      this.isStarting = false;
+      this.showRunButton();
+    }
+  }
+
+  private async startRun(document: OpenDocument): Promise<void> {
     if (document.isDirty) {
       const answer = await ask(texts.saveFirst(document.name), [
         { value: "save", label: texts.saveAndRun },
@@ -825,18 +859,13 @@ export class Workbench {
       ]);
       if (answer !== "save" || !(await this.save(document))) return;
     }
-    try {
-      const { id } = await this.api.post<{ id: string }>("/api/runs", { path: document.path, set: [] });
-      this.say(texts.started(id));
-      await this.runs.load();
-      const run = this.runs.runs.find((r) => r.id === id);
-      if (run) {
-        this.below.show("live");
-        await this.showRun(run);
-      }
-    } catch (error) {
-      this.fail(error);
-    }
+    const { id } = await this.api.post<{ id: string }>("/api/runs", { path: document.path, set: [], etag: document.etag });
+    this.say(texts.started(id));
+    await this.runs.load();
+    const run = this.runs.runs.find((r) => r.id === id);
+    if (!run) return;
+    this.below.show("live");
+    await this.showRun(run);
   }
 
   private async stopRun(): Promise<void> {
@@ -931,6 +960,8 @@ export class Workbench {
   }
 
   private remember(): void {
+    // What is remembered stays until it is open again.
+    if (!this.isRecalled) return;
     const state: Remembered = {
       folder: this.hello.folder,
       documents: this.editor.remembered(),
@@ -948,7 +979,7 @@ export class Workbench {
     } catch {
       // Too much for the tab's memory: without the histories, else not at all.
       try {
-        write({ ...state, documents: state.documents.map((d) => ({ ...d, state: { ...(d.state as object), history: undefined } })) });
+        write({ ...state, documents: state.documents.map((d) => (d.unsaved ? { ...d, unsaved: { ...d.unsaved, state: { ...(d.unsaved.state as object), history: undefined } } } : d)) });
       } catch {
         this.remembers = false;
       }
