@@ -279,6 +279,7 @@ export class Workbench {
     const contents = await Promise.all(documents.map(({ path, unsaved }) => (unsaved ? null : this.api.file(path).catch((error: unknown) => this.fail(error)))));
     documents.forEach(({ path, unsaved, cursor }, i) => {
       const content = contents[i];
+      if (this.editor.documents.has(path)) return;
       if (unsaved) this.editor.restore(path, unsaved);
       else if (content) this.editor.add(path, content, cursor);
     });
