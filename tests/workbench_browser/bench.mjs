@@ -127,12 +127,15 @@ export const state = (page, words) => page.locator(".check-state", { hasText: wo
 export async function delayed(page, address) {
   let go;
   const gate = new Promise((resolve) => (go = resolve));
-  await page.route(address, async (route) => {
-    await gate;
-    await route.continue();
+  const waiting = [];
+  await page.route(address, (route) => {
+    const going = gate.then(() => route.continue());
+    waiting.push(going);
+    return going;
   });
   return async () => {
     go();
+    for (const going of waiting) await going;
     await page.unroute(address);
   };
 }

@@ -76,6 +76,7 @@ await findings.check("a repair is made in the text it was found for alone; anoth
   await page.locator(".repair").first().waitFor();
   let goOn = await delayed(page, "**/api/check");
   await openFile("four_bar.yaml");
+  await page.locator('.documents .tab[aria-selected="true"]', { hasText: "four_bar.yaml" }).waitFor();
   claim((await page.locator(".problem-list li").count()) === 0 && (await button("Run").isDisabled()), "what was found of the last model stands there still");
   await goOn();
   await state(page, "Ready to run");

@@ -15,6 +15,7 @@ import { MachinePane, type SceneText } from "./machine_pane";
 import { explainHere, modelHelp, offerUnits, type ModelHelpers } from "./model_help";
 import { showMesh } from "./mesh_window";
 import { ModelSchema, type Schema } from "./model_schema";
+import { Notices } from "./notices";
 import { Outline } from "./outline";
 import { PartPane } from "./part_pane";
 import { PointPane } from "./point_pane";
@@ -91,7 +92,7 @@ export class Workbench {
   private readonly fileList = h("ul", { class: "files" });
   private readonly documentBar = h("div", { class: "tabs documents", role: "tablist", "aria-label": texts.panes.middle });
   private readonly documentArea = h("div", { class: "document-area" });
-  private readonly notices = h("div", { class: "notices", "aria-live": "polite" });
+  private readonly notices = new Notices();
   private readonly checkState = h("button", { type: "button", class: "check-state", click: () => this.showProblems() });
   private readonly announcer = h("div", { class: "visually-hidden", role: "status" });
   private readonly runButton = h("button", { type: "button", class: "main-button", click: () => void this.runModel() }, texts.run);
@@ -239,7 +240,7 @@ export class Workbench {
       h("main", { class: "pane middle", "aria-label": texts.panes.middle, tabindex: -1 }, this.documentBar, this.documentArea),
       h("aside", { class: "pane right", "aria-label": texts.panes.right, tabindex: -1 }, this.right.element),
       h("section", { class: "pane below", "aria-label": texts.panes.below, tabindex: -1 }, this.below.element),
-      this.notices,
+      this.notices.element,
       this.announcer,
     );
     return root;
@@ -307,7 +308,7 @@ export class Workbench {
       void this.runs.load().catch(() => undefined);
     } else if (event === "refused") {
       this.isReachable = false;
-      this.notice("connection", texts.tokenRefused, []);
+      this.notices.keep("connection", texts.tokenRefused);
     }
   }
 
@@ -331,12 +332,12 @@ export class Workbench {
     if (is === this.isReachable) return;
     this.isReachable = is;
     if (is) {
-      this.dropNotice("connection");
+      this.notices.drop("connection");
       this.say(texts.reachable);
       this.hear("reload", null);
       if (!this.schema) void this.loadSchema();
       this.checkSoon();
-    } else this.notice("connection", texts.unreachable, []);
+    } else this.notices.keep("connection", texts.unreachable);
   }
 
   /** Of a run whose model is the open one, unchanged since; else nobody knows it here. */
@@ -480,7 +481,7 @@ export class Workbench {
       if (answer === "save" && !(await this.save(document))) return;
       if (answer !== "save" && answer !== "drop") return;
     }
-    for (const kind of ["conflict", "save"]) this.dropNotice(`${kind}-${document.path}`);
+    for (const kind of ["conflict", "save"]) this.notices.drop(`${kind}-${document.path}`);
     this.editor.close(document);
     if (this.model === document) this.takeModel([...this.editor.documents.values()].find((d) => d.isModel) ?? null);
     this.activate(this.active === document.path ? "" : this.active);
@@ -544,14 +545,14 @@ export class Workbench {
   /** The file has this text. */
   private isOfFile(document: OpenDocument, doc: Text, etag: string | null, form: FileForm): void {
     [document.base, document.etag, document.form] = [doc, etag, form];
-    this.dropNotice(`conflict-${document.path}`);
-    this.dropNotice(`save-${document.path}`);
+    this.notices.drop(`conflict-${document.path}`);
+    this.notices.drop(`save-${document.path}`);
     this.showActive();
     this.rememberSoon();
   }
 
   private noticeConflict(document: OpenDocument): void {
-    this.notice(`conflict-${document.path}`, texts.changedOnDisk(document.name), [{ label: texts.compareTexts, act: () => void this.inTurn(document, () => this.resolve(document)) }]);
+    this.notices.keep(`conflict-${document.path}`, texts.changedOnDisk(document.name), [{ label: texts.compareTexts, act: () => void this.inTurn(document, () => this.resolve(document)) }]);
   }
 
   private async resolve(document: OpenDocument): Promise<boolean> {
@@ -601,7 +602,7 @@ export class Workbench {
         return true;
       }
       const words = error instanceof Refused ? `${error.message} ${error.advice}` : texts.unreachable;
-      this.notice(`save-${document.path}`, `${texts.notSaved(document.name)} ${words}`, []);
+      this.notices.keep(`save-${document.path}`, `${texts.notSaved(document.name)} ${words}`);
       return false;
     }
   }
@@ -933,24 +934,8 @@ export class Workbench {
     this.say(error instanceof Refused ? [error.message, error.advice].filter((t) => t).join(" ") : error instanceof Error ? error.message : String(error));
   }
 
-  /** A word that goes by itself; empty: away with the last one. */
   private say(words: string): void {
-    this.notices.querySelector(".passing")?.remove();
-    if (!words) return;
-    const line = h("p", { class: "notice passing" }, words, h("button", { type: "button", class: "quiet", "aria-label": texts.dismiss, click: () => line.remove() }, "✕"));
-    this.notices.append(line);
-    setTimeout(() => line.remove(), 4500);
-  }
-
-  /** A word that stays until its matter is settled. */
-  private notice(key: string, words: string, actions: { label: string; act: () => void }[]): void {
-    this.dropNotice(key);
-    const line = h("p", { class: "notice", "data-notice": key }, words, ...actions.map(({ label, act }) => h("button", { type: "button", class: "quiet", click: act }, label)), h("button", { type: "button", class: "quiet", "aria-label": texts.dismiss, click: () => line.remove() }, "✕"));
-    this.notices.append(line);
-  }
-
-  private dropNotice(key: string): void {
-    this.notices.querySelector(`[data-notice="${CSS.escape(key)}"]`)?.remove();
+    this.notices.say(words);
   }
 
   private remembers = true;
