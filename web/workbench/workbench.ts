@@ -2,13 +2,13 @@
 
 import type { Diagnostic } from "@codemirror/lint";
 import type { Text } from "@codemirror/state";
-import { Unreachable, Refused, type Api, type Edit, type Fault, type FileContent, type FileEntry, type RunEntry, type RunEvent, type Template } from "./api";
+import { Unreachable, Refused, type Api, type Edit, type Fault, type FileEntry, type RunEntry, type RunEvent, type Template } from "./api";
 import { h } from "../src/dom";
 import { isDark, onThemeChange, setTheme } from "../src/theme";
 import { BearingPane } from "./bearing_pane";
-import { ask, askTemplate, askTexts, showKeys } from "./dialogs";
+import { ask, askTemplate, showKeys } from "./dialogs";
+import { DocumentFiles } from "./document_files";
 import { Editor, type OpenDocument, type SavedDocument } from "./editor";
-import { formOf, normal, type FileForm } from "./file_text";
 import { splitter, Tabs, walkable } from "./layout";
 import { LivePane } from "./live_pane";
 import { MachinePane, type SceneText } from "./machine_pane";
@@ -79,6 +79,7 @@ const rememberPause = 400;
 export class Workbench {
   readonly element: HTMLElement;
   private readonly editor: Editor;
+  private readonly documentFiles: DocumentFiles;
   private readonly machine: MachinePane;
   private readonly bearing: BearingPane;
   private readonly point: PointPane;
@@ -108,7 +109,6 @@ export class Workbench {
   /** The last change by a form or a drag. */
   private valueSet: Promise<void> = Promise.resolve();
   private listings = 0;
-  private readonly turns = new WeakMap<OpenDocument, Promise<unknown>>();
   private checkTimer = 0;
   private rememberTimer = 0;
   private isReachable = true;
@@ -142,6 +142,16 @@ export class Workbench {
         { key: "Alt-h", run: () => explainHere(this.editor.view, helpers) || this.nothing(texts.explainNone) },
         { key: "Mod-Enter", run: () => (void this.runModel(), true) },
       ],
+    });
+    this.documentFiles = new DocumentFiles({
+      api,
+      editor: this.editor,
+      notices: this.notices,
+      fail: (error) => this.fail(error),
+      changed: () => {
+        this.showActive();
+        this.rememberSoon();
+      },
     });
     const text = () => (this.model ? { path: this.model.path, text: this.model.state.doc.toString() } : null);
     this.machine = new MachinePane({ api, model: text, chosen: (part) => this.goToPart(part), say });
@@ -263,7 +273,7 @@ export class Workbench {
       this.right.show(this.old.tabs["right"] ?? "machine");
       this.below.show(this.old.tabs["below"] ?? "problems");
       if (this.model) this.checkNow();
-      void this.refreshOpen();
+      void this.documentFiles.refresh();
     }
     await files;
     const wanted = this.hello.open ?? (this.files.filter(({ kind }) => kind === "model").length === 1 ? this.files.find(({ kind }) => kind === "model")!.path : null);
@@ -304,7 +314,7 @@ export class Workbench {
     else if (event === "run") this.hearRun(data as RunEvent);
     else if (event === "reload") {
       void this.loadFiles();
-      void this.refreshOpen();
+      void this.documentFiles.refresh();
       void this.runs.load().catch(() => undefined);
     } else if (event === "refused") {
       this.isReachable = false;
@@ -314,7 +324,7 @@ export class Workbench {
 
   private hearFiles(paths: string[]): void {
     void this.loadFiles();
-    void this.refreshOpen();
+    void this.documentFiles.refresh();
     const isOfRun = (path: string) => path.startsWith("runs/") || /\.(h5|lock|checkpoint)$/.test(path);
     if (paths.some(isOfRun)) void this.runs.load().catch(() => undefined);
     // A table, a mesh or a part of the model may be another one.
@@ -481,7 +491,7 @@ export class Workbench {
       if (answer === "save" && !(await this.save(document))) return;
       if (answer !== "save" && answer !== "drop") return;
     }
-    for (const kind of ["conflict", "save"]) this.notices.drop(`${kind}-${document.path}`);
+    this.documentFiles.forget(document);
     this.editor.close(document);
     if (this.model === document) this.takeModel([...this.editor.documents.values()].find((d) => d.isModel) ?? null);
     this.activate(this.active === document.path ? "" : this.active);
@@ -506,105 +516,8 @@ export class Workbench {
     this.activate(this.active === key ? "" : this.active);
   }
 
-  /** One exchange with a document's file at a time: the next one begins where the last one has left it. */
-  private inTurn<T>(document: OpenDocument, work: () => Promise<T>): Promise<T> {
-    const next = (this.turns.get(document) ?? Promise.resolve()).then(work);
-    this.turns.set(document, next.catch(() => undefined));
-    return next;
-  }
-
-  /** Texts that were changed outside: read anew where nothing is lost by it, asked about otherwise. */
-  private async refreshOpen(): Promise<void> {
-    await Promise.all([...this.editor.documents.values()].map((document) => this.inTurn(document, () => this.refresh(document)).catch((error) => this.fail(error))));
-  }
-
-  private async refresh(document: OpenDocument): Promise<void> {
-    const { etag } = document;
-    let now: FileContent;
-    try {
-      now = await this.api.file(document.path);
-    } catch (error) {
-      if (error instanceof Refused && error.status === 404 && document.etag !== null) {
-        document.etag = null;
-        this.say(texts.gone(document.name));
-        this.showActive();
-      }
-      return;
-    }
-    // Something else has been read or written meanwhile, or the text is closed.
-    if (document.etag !== etag || this.editor.documents.get(document.path) !== document || now.etag === etag) return;
-    const isSame = document.state.doc.toString() === now.text;
-    if (document.isChanged && !isSame) return this.noticeConflict(document);
-    if (!isSame) {
-      this.editor.replace(document, now.text);
-      this.say(texts.reloaded(document.name));
-    }
-    this.isOfFile(document, document.state.doc, now.etag, now.form);
-  }
-
-  /** The file has this text. */
-  private isOfFile(document: OpenDocument, doc: Text, etag: string | null, form: FileForm): void {
-    [document.base, document.etag, document.form] = [doc, etag, form];
-    this.notices.drop(`conflict-${document.path}`);
-    this.notices.drop(`save-${document.path}`);
-    this.showActive();
-    this.rememberSoon();
-  }
-
-  private noticeConflict(document: OpenDocument): void {
-    this.notices.keep(`conflict-${document.path}`, texts.changedOnDisk(document.name), [{ label: texts.compareTexts, act: () => void this.inTurn(document, () => this.resolve(document)) }]);
-  }
-
-  private async resolve(document: OpenDocument): Promise<boolean> {
-    let now: FileContent;
-    try {
-      now = await this.api.file(document.path);
-    } catch (error) {
-      this.fail(error);
-      return false;
-    }
-    const text = await askTexts(document.name, document.state.doc.toString(), now.text);
-    if (text === null) return false;
-    this.editor.replace(document, text);
-    if (text === now.text) {
-      this.isOfFile(document, document.state.doc, now.etag, now.form);
-      return true;
-    }
-    document.etag = now.etag;
-    document.form = now.form;
-    return this.write(document);
-  }
-
   private async save(document = this.editor.documents.get(this.active) ?? null): Promise<boolean> {
-    return document ? this.inTurn(document, () => this.write(document)) : false;
-  }
-
-  private async write(document: OpenDocument): Promise<boolean> {
-    const doc = document.state.doc;
-    const put = (etag: string | null) => this.api.save(document.path, doc.toString(), document.form, etag);
-    try {
-      let words = texts.saved(document.name);
-      const etag = await put(document.etag).catch((error: unknown) => {
-        if (document.etag === null || !(error instanceof Refused) || error.status !== 404) throw error;
-        words = texts.savedNew(document.name);
-        return put(null);
-      });
-      this.isOfFile(document, doc, etag, document.form);
-      this.say(words);
-      return true;
-    } catch (error) {
-      if (error instanceof Refused && error.status === 412) {
-        const raw = String(error.body["text"] ?? "");
-        if (normal(raw) !== doc.toString()) return this.resolve(document);
-        // Somebody else, or an answer that never came, has written just this.
-        this.isOfFile(document, doc, String(error.body["etag"]), formOf(raw));
-        this.say(texts.saved(document.name));
-        return true;
-      }
-      const words = error instanceof Refused ? `${error.message} ${error.advice}` : texts.unreachable;
-      this.notices.keep(`save-${document.path}`, `${texts.notSaved(document.name)} ${words}`);
-      return false;
-    }
+    return document ? this.documentFiles.save(document) : false;
   }
 
   private async beginModel(): Promise<void> {
