@@ -13,6 +13,7 @@ import { splitter, Tabs, walkable } from "./layout";
 import { LivePane } from "./live_pane";
 import { MachinePane, type SceneText } from "./machine_pane";
 import { explainHere, modelHelp, offerUnits, type ModelHelpers } from "./model_help";
+import { Memory, type OpenReport, type Remembered } from "./memory";
 import { showMesh } from "./mesh_window";
 import { ModelSchema, type Schema } from "./model_schema";
 import { Notices } from "./notices";
@@ -38,24 +39,6 @@ interface Checked extends Findings {
   scene: SceneText | null;
 }
 
-interface OpenReport {
-  /** Of the run, or of the runs compared: each has one tab. */
-  key: string;
-  title: string;
-  url: string;
-}
-
-interface Remembered {
-  folder: string;
-  documents: SavedDocument[];
-  active: string;
-  model: string;
-  reports: OpenReport[];
-  sizes: Record<string, number>;
-  tabs: Record<string, string>;
-  run: string;
-}
-
 /** Faults that only the start of a run shows, not its text. */
 const startFaults = new WeakSet<Fault>();
 const isOfStart = (fault: Fault) => startFaults.has(fault);
@@ -73,8 +56,6 @@ const pause = 45;
 const restPause = 200;
 /** So often a change is asked about while the text goes on changing. */
 const mostTries = 5;
-/** Pause before everything open is remembered [ms]. */
-const rememberPause = 400;
 
 export class Workbench {
   readonly element: HTMLElement;
@@ -94,6 +75,7 @@ export class Workbench {
   private readonly documentBar = h("div", { class: "tabs documents", role: "tablist", "aria-label": texts.panes.middle });
   private readonly documentArea = h("div", { class: "document-area" });
   private readonly notices = new Notices();
+  private readonly memory = new Memory();
   private readonly checkState = h("button", { type: "button", class: "check-state", click: () => this.showProblems() });
   private readonly announcer = h("div", { class: "visually-hidden", role: "status" });
   private readonly runButton = h("button", { type: "button", class: "main-button", click: () => void this.runModel() }, texts.run);
@@ -110,7 +92,6 @@ export class Workbench {
   private valueSet: Promise<void> = Promise.resolve();
   private listings = 0;
   private checkTimer = 0;
-  private rememberTimer = 0;
   private isReachable = true;
   private isLeaving = false;
   private isRecalled = false;
@@ -124,7 +105,7 @@ export class Workbench {
     private readonly api: Api,
     private readonly hello: Hello,
   ) {
-    this.old = this.recalled();
+    this.old = this.memory.recall(this.hello.folder);
     this.sizes = this.old?.sizes ?? {};
     const say = (text: string) => this.say(text);
     const helpers: ModelHelpers = {
@@ -189,7 +170,7 @@ export class Workbench {
     addEventListener("beforeunload", (event) => {
       this.remember();
       // The texts come back with the tab; without its memory, or without a program to come back to, they would be lost.
-      const isAtRisk = !this.remembers || (!this.isReachable && !this.isLeaving);
+      const isAtRisk = !this.memory.isWritten || (!this.isReachable && !this.isLeaving);
       if (isAtRisk && [...this.editor.documents.values()].some((d) => d.isDirty)) event.preventDefault();
     });
   }
@@ -851,17 +832,18 @@ export class Workbench {
     this.notices.say(words);
   }
 
-  private remembers = true;
-
   private rememberSoon(): void {
-    clearTimeout(this.rememberTimer);
-    this.rememberTimer = window.setTimeout(() => this.remember(), rememberPause);
+    this.memory.writeSoon(() => this.present());
   }
 
   private remember(): void {
-    // What is remembered stays until it is open again.
-    if (!this.isRecalled) return;
-    const state: Remembered = {
+    this.memory.write(this.present());
+  }
+
+  /** What is open, to be found again; null until what was open before is. */
+  private present(): Remembered | null {
+    if (!this.isRecalled) return null;
+    return {
       folder: this.hello.folder,
       documents: this.editor.remembered(),
       active: this.active,
@@ -871,26 +853,5 @@ export class Workbench {
       tabs: { right: this.right.current, below: this.below.current },
       run: this.live.shownRun,
     };
-    const write = (value: Remembered) => sessionStorage.setItem("hersey-workbench", JSON.stringify(value));
-    try {
-      write(state);
-      this.remembers = true;
-    } catch {
-      // Too much for the tab's memory: without the histories, else not at all.
-      try {
-        write({ ...state, documents: state.documents.map((d) => (d.unsaved ? { ...d, unsaved: { ...d.unsaved, state: { ...(d.unsaved.state as object), history: undefined } } } : d)) });
-      } catch {
-        this.remembers = false;
-      }
-    }
-  }
-
-  private recalled(): Remembered | null {
-    try {
-      const state = JSON.parse(sessionStorage.getItem("hersey-workbench") ?? "null") as Remembered | null;
-      return state?.folder === this.hello.folder && state.documents.length > 0 ? state : null;
-    } catch {
-      return null;
-    }
   }
 }
