@@ -216,6 +216,14 @@ await findings.check("a joint is moved through its range, the loop stays closed"
   await picture(page, "6-joint-moved");
   await page.getByLabel("main: As the model says").click();
   claim((await textOf(page)) === readFileSync(join(folder, "four_bar.yaml"), "utf8"), "the text has changed");
+  const start = await slider.inputValue();
+  await turn();
+  claim((await slider.inputValue()) !== start, "the slider has not moved");
+  await goTo(page, "");
+  await page.keyboard.insertText("# one line more\n");
+  await page.waitForFunction((value) => document.querySelector('[aria-label="main, rotation"]').value === value, start);
+  await page.keyboard.press("Control+z");
+  await says(page, "# one line more", false);
   await page.locator(".joints summary").click();
   await openFile("model.yaml");
   await state(page, "Ready to run");

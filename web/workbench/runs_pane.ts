@@ -51,7 +51,8 @@ export class RunsPane {
 
   /** The texts that the runs were made of, to tell what differs. */
   private async loadModels(): Promise<void> {
-    const unknown = this.runs.filter(({ id }) => !this.models.has(id)).slice(0, 20);
+    // Results made elsewhere do not say of which model they are.
+    const unknown = this.runs.filter(({ id, model }) => model && !this.models.has(id)).slice(0, 20);
     for (const run of unknown) {
       this.models.set(run.id, null);
       try {
