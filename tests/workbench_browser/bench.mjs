@@ -1,6 +1,6 @@
 // What the journeys stand on: a folder of models, the program that serves it, a browser, and what became of each claim.
 import { spawn } from "node:child_process";
-import { cpSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -19,12 +19,15 @@ export function launch() {
   return require("playwright-core").chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: flags });
 }
 
-/** A folder with the slider-crank, its table, a four-bar linkage, a bearing by itself and a mesh. */
+/** A folder with the slider-crank, its table, a four-bar linkage, bearings by themselves and a mesh. */
 export function folderOfModels() {
   const folder = mkdtempSync(join(tmpdir(), "hersey-workbench-"));
   for (const name of ["model.yaml", "gas_pressure.csv"]) cpSync(join(root, "examples/slider_crank", name), join(folder, name));
   cpSync(join(root, "examples/four_bar/model.yaml"), join(folder, "four_bar.yaml"));
   cpSync(join(root, "examples/bearing_alone/model.yaml"), join(folder, "bearing.yaml"));
+  // A groove whose place is no multiple of what a key moves it by.
+  const groove = readFileSync(join(root, "examples/hot_bearing/model.yaml"), "utf8").replace("angle: 90 deg, arc: 20 deg, length: 45 mm", "angle: 90.5 deg, z: 1.2 mm, arc: 20 deg, length: 20 mm");
+  writeFileSync(join(folder, "groove.yaml"), groove);
   cpSync(join(root, "examples/meshes/conrod.msh"), join(folder, "conrod.msh"));
   return folder;
 }
@@ -119,6 +122,32 @@ export async function says(page, words, has = true) {
 
 /** What the top bar says of the model, once it begins so. */
 export const state = (page, words) => page.locator(".check-state", { hasText: words }).waitFor();
+
+/** Requests of the page to `address` wait until the function that this gives is called. */
+export async function delayed(page, address) {
+  let go;
+  const gate = new Promise((resolve) => (go = resolve));
+  const waiting = [];
+  await page.route(address, (route) => {
+    const going = gate.then(() => route.continue());
+    waiting.push(going);
+    return going;
+  });
+  return async () => {
+    go();
+    for (const going of waiting) await going;
+    await page.unroute(address);
+  };
+}
+
+/** Waits until a condition is true. */
+export async function until(words, condition) {
+  for (let i = 0; i < 160; i++) {
+    if (await condition()) return;
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+  throw new Error(words);
+}
 
 /** Puts the cursor behind the first place of some words. */
 export async function goTo(page, words) {

@@ -1,9 +1,9 @@
 // node workbench_test.mjs PROGRAM [PICTURES] [ONLY]: serves a folder with `hersey open` and goes through the workbench in
 // headless Chromium, a journey for each thing it is for. Pictures of every journey are left in the folder PICTURES.
 // Needs `npm ci` in web/ and a Chromium (CHROMIUM=/path/to/it, default /usr/bin/chromium).
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { accessibilityFaults, claim, cursorLine, Findings, folderOfModels, forget, goTo, launch, open, says, serve, state, textOf } from "./bench.mjs";
+import { accessibilityFaults, claim, cursorLine, delayed, Findings, folderOfModels, forget, goTo, launch, open, says, serve, state, textOf, until } from "./bench.mjs";
 
 const [program, pictures = "build/web-test/workbench", only] = process.argv.slice(2);
 if (!program) {
@@ -67,6 +67,36 @@ await findings.check("a fault is found while typing, stands in the list, and a c
   for (let i = 0; i < 60 && (await textOf(page)) !== original; i++) await page.keyboard.press("Control+z");
   claim((await textOf(page)) === original, "undoing everything does not give the first text");
   await state(page, "Ready to run");
+});
+
+await findings.check("a repair is made in the text it was found for alone; another model begins with an empty list", async () => {
+  await goTo(page, "mass: 6 kg");
+  for (let i = 0; i < 3; i++) await page.keyboard.press("Backspace"); // " kg"
+  await state(page, "1 fault");
+  await page.locator(".repair").first().waitFor();
+  let goOn = await delayed(page, "**/api/check");
+  await openFile("four_bar.yaml");
+  await page.locator('.documents .tab[aria-selected="true"]', { hasText: "four_bar.yaml" }).waitFor();
+  claim((await page.locator(".problem-list li").count()) === 0 && (await button("Run").isDisabled()), "what was found of the last model stands there still");
+  await goOn();
+  await state(page, "Ready to run");
+  await openFile("model.yaml");
+  await state(page, "1 fault");
+  const place = page.locator(".problem-place").first();
+  const line = Number(/\d+/.exec(await place.innerText())[0]);
+  goOn = await delayed(page, "**/api/check");
+  await goTo(page, "");
+  await page.keyboard.insertText("# one line more\n");
+  const before = await textOf(page);
+  await page.locator(".repair").first().click();
+  claim((await textOf(page)) === before, "an older text's repair was made");
+  await goOn();
+  await page.waitForFunction((words) => document.querySelector(".problem-place")?.textContent === words, `line ${line + 1}`);
+  await page.locator(".repair").first().click();
+  await state(page, "Ready to run");
+  claim((await textOf(page)) === `# one line more\n${original}`, "the unit is not back");
+  for (let i = 0; i < 60 && (await textOf(page)) !== original; i++) await page.keyboard.press("Control+z");
+  claim((await textOf(page)) === original, "undoing everything does not give the first text");
 });
 
 await findings.check("keys, values, names and units complete from the schema and the text", async () => {
@@ -186,6 +216,14 @@ await findings.check("a joint is moved through its range, the loop stays closed"
   await picture(page, "6-joint-moved");
   await page.getByLabel("main: As the model says").click();
   claim((await textOf(page)) === readFileSync(join(folder, "four_bar.yaml"), "utf8"), "the text has changed");
+  const start = await slider.inputValue();
+  await turn();
+  claim((await slider.inputValue()) !== start, "the slider has not moved");
+  await goTo(page, "");
+  await page.keyboard.insertText("# one line more\n");
+  await page.waitForFunction((value) => document.querySelector('[aria-label="main, rotation"]').value === value, start);
+  await page.keyboard.press("Control+z");
+  await says(page, "# one line more", false);
   await page.locator(".joints summary").click();
   await openFile("model.yaml");
   await state(page, "Ready to run");
@@ -221,6 +259,36 @@ await findings.check("a bearing is changed in its form and its unwrapped picture
   await page.locator(".cm-content").focus();
   for (let i = 0; i < 60 && (await textOf(page)) !== original; i++) await page.keyboard.press("Control+z");
   claim((await textOf(page)) === original, "undo does not give the first text");
+});
+
+await findings.check("a groove moved one way keeps its other coordinate; two fields changed at once are both written", async () => {
+  await openFile("groove.yaml");
+  await state(page, "missing");
+  const first = await textOf(page);
+  await rightTab("Bearing");
+  const groove = page.locator('.unwrapped .handle[data-feature="groove"]');
+  await groove.focus();
+  await page.keyboard.press("ArrowUp");
+  await says(page, "angle: 90.5 deg, z: 1.3 mm");
+  await page.waitForFunction(() => document.querySelector('.unwrapped [data-feature="groove"]').getAttribute("aria-label").includes("z 1.3 mm"));
+  const box = await groove.locator("rect").nth(1).boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 60, box.y + box.height / 2 + 1, { steps: 4 });
+  await page.mouse.up();
+  await says(page, "angle: 90.5 deg", false);
+  claim((await textOf(page)).includes("z: 1.3 mm"), "dragged around, it has moved along the bearing as well");
+  const goOn = await delayed(page, "**/api/set");
+  for (const [key, value] of [["width", "61 mm"], ["diameter", "101 mm"]]) {
+    const field = page.locator(`[data-key="bearings.main.${key}"]`);
+    await field.fill(value);
+    await field.press("Enter");
+  }
+  await goOn();
+  for (const line of ["width: 61 mm", "diameter: 101 mm"]) await says(page, line);
+  await page.locator(".cm-content").focus();
+  for (let i = 0; i < 60 && (await textOf(page)) !== first; i++) await page.keyboard.press("Control+z");
+  claim((await textOf(page)) === first, "undo does not give the first text");
 });
 
 await findings.check("a bearing by itself answers as its sliders move", async () => {
@@ -291,6 +359,20 @@ await findings.check("a report opens inside; two runs differ by what was changed
   await report();
   await page.waitForTimeout(300);
   await picture(page, "11-comparison");
+  const tabs = await page.locator(".documents .tab").count();
+  await runs.first().getByRole("button", { name: /^Report/ }).click();
+  await report();
+  claim((await page.locator(".documents .tab").count()) === tabs, "the report has another tab");
+});
+
+await findings.check("results made elsewhere are listed as a run, and hide no model beside them", async () => {
+  const made = join(folder, "runs", await runs.first().getAttribute("data-run"));
+  const file = join(folder, "elsewhere.h5");
+  cpSync(join(made, readdirSync(made).find((name) => name.endsWith(".h5"))), file);
+  await page.locator('.runs li[data-run="elsewhere.h5"]').waitFor();
+  claim((await page.locator('.file[data-path="model.yaml"]').count()) === 1, "the model is not listed");
+  rmSync(file);
+  await page.locator('.runs li[data-run="elsewhere.h5"]').waitFor({ state: "detached" });
 });
 
 await findings.check("a new model is begun from a template", async () => {
@@ -340,6 +422,48 @@ await findings.check("two tabs on one folder: clean texts follow, changed ones a
   await page.locator("dialog").waitFor({ state: "detached" });
   await says(other, "width: 15.61 mm");
   claim(readFileSync(join(folder, "bearing.yaml"), "utf8").includes("diameter: 46 mm"), "the file is not as asked for");
+  claim(other.complaints.length === 0, other.complaints.join("\n"));
+  await other.close();
+});
+
+await findings.check("a file keeps its line ends, is saved twice in a row, and anew when it was removed", async () => {
+  const file = join(folder, "other.yaml");
+  const lines = readFileSync(join(folder, "bearing.yaml"), "utf8").replaceAll("\n", "\r\n");
+  writeFileSync(file, lines);
+  const holds = (title) => until(`the file has no title '${title}'`, () => existsSync(file) && readFileSync(file, "utf8") === lines.replace("title: Journal bearing", `title: Journal bearing${title}`));
+  const other = await open(context, server.address, /404|412|ERR_FAILED|Failed to fetch/);
+  await other.locator('.file[data-path="other.yaml"]').click();
+  await state(other, "missing");
+  const saved = () => other.locator(".documents .dot").waitFor({ state: "detached" });
+  const add = async (letter) => {
+    await other.keyboard.insertText(letter);
+    await other.keyboard.press("Control+s");
+  };
+  await goTo(other, "title: Journal bearing");
+  const goOn = await delayed(other, "**/api/file?*");
+  await add(" A");
+  await add("B");
+  await goOn();
+  await holds(" AB");
+  await saved();
+  // The answer is lost on its way, the text is not.
+  await other.route("**/api/file?*", async (route) => {
+    if (route.request().method() === "PUT") await route.fetch();
+    await route.abort();
+  });
+  const lost = other.waitForEvent("requestfailed", (request) => request.method() === "PUT");
+  await add("C");
+  await lost;
+  await holds(" ABC");
+  await other.unroute("**/api/file?*");
+  await other.keyboard.press("Control+s");
+  await saved();
+  rmSync(file);
+  await other.locator(".notice", { hasText: "no longer in the folder" }).waitFor();
+  await add("D");
+  await holds(" ABCD");
+  await saved();
+  claim((await other.locator("dialog").count()) === 0, "it is asked which text the file shall have");
   claim(other.complaints.length === 0, other.complaints.join("\n"));
   await other.close();
 });
@@ -416,10 +540,18 @@ await findings.check("a killed program is told, its unsaved texts come back with
   await server.stop();
   await lost.locator(".notice", { hasText: "does not answer" }).waitFor();
   await picture(lost, "17-killed");
+  let asked = "";
+  lost.once("dialog", (dialog) => {
+    asked = dialog.type();
+    void dialog.dismiss();
+  });
+  await lost.goto("about:blank").catch(() => undefined);
+  claim(asked === "beforeunload", "a page with unsaved texts goes without a question");
   server = await serve(resolve(program), folder, server.port);
-  await lost.goto("about:blank");
-  await lost.goto(server.address);
+  await lost.locator(".notice", { hasText: "started anew" }).waitFor({ timeout: 20000 });
+  await Promise.all([lost.waitForEvent("load"), lost.evaluate((address) => void (location.href = address), server.address)]);
   await lost.waitForSelector(".cm-content");
+  await lost.locator(".runs li[data-run]").nth(1).waitFor();
   claim((await textOf(lost)).includes("mass: 6.5 kg"), "what was typed is lost");
   claim((await lost.locator(".runs li[data-run]").count()) >= 2, "the runs are not found again");
   claim(lost.complaints.length === 0, lost.complaints.join("\n"));

@@ -1,5 +1,14 @@
 // What the program serves below /api/: requests with the token of the session, and the stream of events.
 
+import { formOf, normal, written, type FileForm } from "./file_text";
+
+/** What a file holds, with "\n" between its lines. */
+export interface FileContent {
+  text: string;
+  etag: string | null;
+  form: FileForm;
+}
+
 export interface Edit {
   line: number;
   column: number;
@@ -89,6 +98,8 @@ export interface Template {
 export interface RunEvent {
   id: string;
   kind: string;
+  /** Which one of a study. */
+  run?: number;
   t?: number;
   share?: number;
   text?: string;
@@ -110,20 +121,28 @@ export class Refused extends Error {
 /** Nobody answers: the program was ended. */
 export class Unreachable extends Error {}
 
+/** A stream that says nothing for so long is dead: the program says something every five seconds [ms]. */
+const longestSilence = 20_000;
+
 export class Api {
+  /** Called after every request: whether the program has answered it, and knows the token. */
+  answered: (is: boolean) => void = () => undefined;
+
   constructor(private readonly token: string) {}
 
-  async request(method: string, path: string, body?: unknown, headers: Record<string, string> = {}): Promise<Response> {
+  async request(method: string, path: string, body?: unknown, headers: Record<string, string> = {}, signal: AbortSignal | null = null): Promise<Response> {
     const all: Record<string, string> = { Authorization: `Bearer ${this.token}`, ...headers };
     let content: string | undefined;
     if (typeof body === "string") [content, all["Content-Type"]] = [body, "text/plain; charset=utf-8"];
     else if (body !== undefined) [content, all["Content-Type"]] = [JSON.stringify(body), "application/json"];
     let response: Response;
     try {
-      response = await fetch(path, { method, headers: all, ...(content === undefined ? {} : { body: content }), cache: "no-store" });
+      response = await fetch(path, { method, headers: all, ...(content === undefined ? {} : { body: content }), cache: "no-store", signal });
     } catch (error) {
+      this.answered(false);
       throw new Unreachable(String(error));
     }
+    if (response.status !== 401) this.answered(true);
     if (response.ok) return response;
     const said: Record<string, unknown> = await response.json().catch(() => ({}));
     throw new Refused(response.status, String(said["error"] ?? `${response.status} ${response.statusText}`), String(said["advice"] ?? ""), said);
@@ -139,48 +158,61 @@ export class Api {
     return (text ? JSON.parse(text) : {}) as T;
   }
 
-  async file(path: string): Promise<{ text: string; etag: string | null }> {
+  async file(path: string): Promise<FileContent> {
     const response = await this.request("GET", `/api/file?path=${encodeURIComponent(path)}`);
-    return { text: await response.text(), etag: response.headers.get("ETag") };
+    // Not text(), which drops the mark of the byte order.
+    const raw = new TextDecoder("utf-8", { ignoreBOM: true }).decode(await response.arrayBuffer());
+    return { text: normal(raw), etag: response.headers.get("ETag"), form: formOf(raw) };
   }
 
   /** Saves over what `etag` names; without one only where there is no such file yet. */
-  async save(path: string, text: string, etag: string | null): Promise<string | null> {
+  async save(path: string, text: string, form: FileForm, etag: string | null): Promise<string | null> {
     const condition: Record<string, string> = etag ? { "If-Match": etag } : { "If-None-Match": "*" };
-    const response = await this.request("PUT", `/api/file?path=${encodeURIComponent(path)}`, text, condition);
+    const response = await this.request("PUT", `/api/file?path=${encodeURIComponent(path)}`, written(text, form), condition);
     return response.headers.get("ETag");
   }
 
-  /** Hands every event on until the page goes; connects again where the stream breaks, and says so. */
-  async follow(start: number | undefined, hear: (event: string, data: unknown) => void, connected: (is: boolean) => void): Promise<never> {
+  /** Hands every event on; connects again where the stream breaks or falls silent. Ends where the token is refused. */
+  async follow(start: number | undefined, hear: (event: string, data: unknown) => void): Promise<void> {
     let after = start === undefined ? "" : String(start);
     let pause = 500;
     for (;;) {
+      const watch = new AbortController();
+      let timer = 0;
+      const heard = () => {
+        clearTimeout(timer);
+        timer = window.setTimeout(() => watch.abort(), longestSilence);
+      };
+      heard();
       try {
-        const response = await this.request("GET", `/api/events${after ? `?after=${after}` : ""}`);
-        connected(true);
+        const response = await this.request("GET", `/api/events${after ? `?after=${after}` : ""}`, undefined, {}, watch.signal);
         pause = 500;
-        for await (const { event, data, id } of messages(response.body!)) {
+        for await (const { event, data, id } of messages(response.body!, heard)) {
           if (id) after = id;
           if (event === "reload") after = "";
           hear(event, data);
         }
+        this.answered(false);
       } catch (error) {
-        if (error instanceof Refused && error.status === 401) hear("refused", null);
+        if (error instanceof Refused && error.status === 401) return hear("refused", null);
+        // One that has fallen silent is opened again, which tells whether anybody is there.
+        if (!(error instanceof Refused) && !watch.signal.aborted) this.answered(false);
+      } finally {
+        clearTimeout(timer);
       }
-      connected(false);
       await new Promise((resolve) => setTimeout(resolve, pause));
       pause = Math.min(5000, 2 * pause);
     }
   }
 }
 
-async function* messages(body: ReadableStream<Uint8Array>): AsyncGenerator<{ event: string; data: unknown; id: string }> {
+async function* messages(body: ReadableStream<Uint8Array>, heard: () => void): AsyncGenerator<{ event: string; data: unknown; id: string }> {
   const reader = body.pipeThrough(new TextDecoderStream() as unknown as ReadableWritablePair<string, Uint8Array>).getReader();
   let rest = "";
   for (;;) {
     const { value, done } = await reader.read();
     if (done) return;
+    heard();
     rest += value;
     const blocks = rest.split(/\r?\n\r?\n/);
     rest = blocks.pop()!;

@@ -85,17 +85,16 @@ export class BearingPane {
     else this.form.clear();
   }
 
-  private async move(feature: Feature, phi: number, z: number): Promise<void> {
+  private async move(feature: Feature, phi: number | null, z: number | null): Promise<void> {
     const { key } = feature;
     const { tree } = this.last ?? {};
     if (!key || !tree) return;
     const node = find(tree, key.split("."));
-    const turned = ((phi % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI);
-    const degrees = `${Number(((turned * 180) / Math.PI).toFixed(3))} deg`;
+    const degrees = (x: number) => `${Number(((((x % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) * 180 / Math.PI).toFixed(3))} deg`;
     const millimetres = (x: number) => `${Number((1e3 * x).toFixed(4))} mm`;
-    if (feature.kind === "line" || node?.kind === "scalar") return this.hooks.set(key, degrees);
+    if (feature.kind === "line" || node?.kind === "scalar") return phi === null ? undefined : this.hooks.set(key, degrees(phi));
     const { along, across } = this.bearings[this.name]!;
-    if (Math.abs(phi - feature.phi) > 1e-9) await this.hooks.set(`${key}.${along === "phi" ? "angle" : along}`, along === "phi" ? degrees : millimetres(phi));
-    if (Math.abs(z - feature.z) > 1e-9) await this.hooks.set(`${key}.${across}`, millimetres(z));
+    if (phi !== null) await this.hooks.set(`${key}.${along === "phi" ? "angle" : along}`, along === "phi" ? degrees(phi) : millimetres(phi));
+    if (z !== null) await this.hooks.set(`${key}.${across}`, millimetres(z));
   }
 }

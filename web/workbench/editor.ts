@@ -9,16 +9,18 @@ import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { Compartment, EditorSelection, EditorState, Prec, StateEffect, StateField, Text, type Extension, type Range } from "@codemirror/state";
 import { Decoration, drawSelection, dropCursor, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers, MatchDecorator, ViewPlugin, type DecorationSet, type ViewUpdate } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
-import type { Edit } from "./api";
+import type { Edit, FileContent } from "./api";
+import type { FileForm } from "./file_text";
 import { texts } from "./texts";
 import { isDark, onThemeChange } from "../src/theme";
 import { readTree, type TextNode } from "./yaml_tree";
 
 export interface SavedDocument {
   path: string;
-  state: unknown;
-  base: string;
-  etag: string | null;
+  /** Place of the cursor in the text. */
+  cursor: number;
+  /** Of a text that is not saved. */
+  unsaved: { state: unknown; base: string; etag: string | null; form: FileForm } | null;
 }
 
 export class OpenDocument {
@@ -27,16 +29,20 @@ export class OpenDocument {
     public state: EditorState,
     public base: Text,
     public etag: string | null,
+    public form: FileForm,
   ) {}
   scroll: StateEffect<unknown> | null = null;
-  /** Changed outside while it was changed here. */
-  conflict = false;
 
   get isModel(): boolean {
     return /\.ya?ml$/i.test(this.path);
   }
-  get isDirty(): boolean {
+  /** Whether the text is another one than the file had. */
+  get isChanged(): boolean {
     return !this.state.doc.eq(this.base);
+  }
+  /** Whether something is to be saved: a text whose file is gone as well. */
+  get isDirty(): boolean {
+    return this.etag === null || this.isChanged;
   }
   get name(): string {
     return this.path.split("/").pop()!;
@@ -184,29 +190,34 @@ export class Editor {
     if (update.selectionSet && !update.docChanged) this.hooks.moved(document, update.transactions.some((t) => t.isUserEvent("select.pointer")));
   }
 
-  add(path: string, text: string, etag: string | null): OpenDocument {
-    const state = EditorState.create({ doc: text, extensions: this.extensions(path) });
-    const document = new OpenDocument(path, state, state.doc, etag);
+  add(path: string, { text, etag, form }: FileContent, cursor = 0): OpenDocument {
+    const doc = Text.of(text.split("\n"));
+    const state = EditorState.create({ doc, selection: { anchor: Math.min(cursor, doc.length) }, extensions: this.extensions(path) });
+    const document = new OpenDocument(path, state, state.doc, etag, form);
     this.documents.set(path, document);
     return document;
   }
 
   /** As it was before the page was loaded anew, with its history. */
-  restore(saved: SavedDocument): OpenDocument {
-    const base = Text.of(saved.base.split("\n"));
+  restore(path: string, { state: saved, base: baseText, etag, form }: NonNullable<SavedDocument["unsaved"]>): OpenDocument {
+    const base = Text.of(baseText.split("\n"));
     let state: EditorState;
     try {
-      state = EditorState.fromJSON(saved.state, { extensions: this.extensions(saved.path) }, { history: historyField });
+      state = EditorState.fromJSON(saved, { extensions: this.extensions(path) }, { history: historyField });
     } catch {
-      state = EditorState.create({ doc: base, extensions: this.extensions(saved.path) });
+      state = EditorState.create({ doc: base, extensions: this.extensions(path) });
     }
-    const document = new OpenDocument(saved.path, state, base, saved.etag);
-    this.documents.set(saved.path, document);
+    const document = new OpenDocument(path, state, base, etag, form);
+    this.documents.set(path, document);
     return document;
   }
 
   remembered(): SavedDocument[] {
-    return [...this.documents.values()].map((d) => ({ path: d.path, state: d.state.toJSON({ history: historyField }), base: d.base.toString(), etag: d.etag }));
+    return [...this.documents.values()].map((d) => ({
+      path: d.path,
+      cursor: d.state.selection.main.head,
+      unsaved: d.isDirty ? { state: d.state.toJSON({ history: historyField }), base: d.base.toString(), etag: d.etag, form: d.form } : null,
+    }));
   }
 
   show(document: OpenDocument | null): void {

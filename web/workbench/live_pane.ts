@@ -2,8 +2,10 @@
 
 import type { Api, RunEntry, RunEvent } from "./api";
 import { h } from "../src/dom";
+import { dot } from "../src/clearance_circle";
 import { LinePlot } from "../src/line_plot";
 import { Orbit, type OrbitData } from "../src/orbit";
+import { palette } from "../src/theme";
 import { path } from "./runs_pane";
 import { texts } from "./texts";
 
@@ -17,6 +19,8 @@ interface Columns {
   power: number[];
   flow: number[];
   T_max: number[];
+  /** Radial clearance that the run says [m]. */
+  clearance: number | undefined;
 }
 
 const further: { key: Further; unit: string; shown: (value: number) => number }[] = [
@@ -35,7 +39,8 @@ class Course {
     this.time.push(t);
     for (const [name, b] of Object.entries(bearings)) {
       let own = this.bearings.get(name);
-      if (!own) this.bearings.set(name, (own = { h_min: [], p_max: [], x: [], y: [], power: [], flow: [], T_max: [] }));
+      if (!own) this.bearings.set(name, (own = { h_min: [], p_max: [], x: [], y: [], power: [], flow: [], T_max: [], clearance: undefined }));
+      own.clearance = b["clearance"] ?? own.clearance;
       own.h_min.push(1e6 * (b.h_min ?? NaN));
       own.p_max.push(1e-6 * (b.p_max ?? NaN));
       own.x.push(b.e_x ?? NaN);
@@ -52,12 +57,14 @@ class Course {
       values.splice(0, half, ...values.slice(0, half).filter((_, i) => i % 2 === 0));
     };
     keep(this.time);
-    for (const b of this.bearings.values()) Object.values(b as Columns & Record<string, number[]>).forEach(keep);
+    for (const b of this.bearings.values()) Object.values(b).filter(Array.isArray).forEach(keep);
   }
 }
 
-/** As high as the plots beside it. */
+/** As high as the plots beside it; without a circle where nobody knows its radius. */
 class LowOrbit extends Orbit {
+  isKnown = false;
+
   constructor(
     data: OrbitData,
     private readonly low: number,
@@ -65,10 +72,28 @@ class LowOrbit extends Orbit {
     super(data);
   }
 
+  protected override paintCircles(context: CanvasRenderingContext2D): void {
+    if (this.isKnown) super.paintCircles(context);
+  }
+
+  protected override paintCentre(context: CanvasRenderingContext2D, x: number, y: number): void {
+    if (this.isKnown) return super.paintCentre(context, x, y);
+    context.fillStyle = palette().accent;
+    dot(context, ...this.mapped()(x, y), 5.5);
+  }
+
+  protected override describe(px: number, py: number): string[] | null {
+    const lines = super.describe(px, py);
+    return this.isKnown ? lines : (lines?.filter((line) => !line.startsWith("ε")) ?? null);
+  }
+
   protected override heightFor(): number {
     return this.low ?? 150;
   }
 }
+
+/** Between two readings of a log that grows [ms]. */
+const logPause = 2000;
 
 export class LivePane {
   readonly element: HTMLElement;
@@ -76,17 +101,25 @@ export class LivePane {
   private readonly choice = h("select", { "aria-label": texts.liveBearing });
   private readonly title = h("span", { class: "live-title" });
   private readonly plots = h("div", { class: "live-plots" });
-  private readonly courses = new Map<string, Course>();
+  /** Of the shown run; a study has one for each of its runs. */
+  private courses = new Map<number, Course>();
+  /** Which one of a study has said something last. */
+  private newest = 0;
+  /** Events that came while the older ones were asked for. */
+  private early: RunEvent[] | null = null;
   private run: RunEntry | null = null;
   private shownBearing = "";
-  private drawn: { x: number[]; thickness: LinePlot; pressure: LinePlot; others: { key: Further; plot: LinePlot }[]; orbit: Orbit; path: { time: Float64Array; x: Float64Array; y: Float64Array; force: null; clearance: number } } | null = null;
+  private drawn: { x: number[]; thickness: LinePlot; pressure: LinePlot; others: { key: Further; plot: LinePlot }[]; orbit: LowOrbit; path: { time: Float64Array; x: Float64Array; y: Float64Array; force: null; clearance: number } } | null = null;
   private awaited = false;
   private lastDrawn = 0;
 
   constructor(
     private readonly api: Api,
-    private readonly clearance: (bearing: string) => number | undefined,
+    private readonly clearance: (run: RunEntry, bearing: string) => number | undefined,
   ) {
+    setInterval(() => {
+      if (this.run?.state === "running" && this.log.checkVisibility()) void this.readLog();
+    }, logPause);
     this.choice.addEventListener("change", () => this.build());
     this.element = h("div", { class: "live-pane" }, h("div", { class: "pane-tools" }, this.title, this.choice), this.plots);
     this.plots.append(h("p", { class: "note" }, texts.noLive));
@@ -98,49 +131,81 @@ export class LivePane {
   }
 
   async show(run: RunEntry): Promise<void> {
+    const isOther = run.id !== this.run?.id;
     this.run = run;
     this.title.textContent = run.id;
+    if (isOther) {
+      this.courses = new Map();
+      this.newest = 0;
+      this.log.textContent = "";
+      this.build();
+    }
     await this.recall(run);
+    if (this.run.id !== run.id) return;
     this.build();
     await this.readLog();
   }
 
+  /** How far the runs are now. */
+  update(runs: RunEntry[]): void {
+    this.run = runs.find(({ id }) => id === this.run?.id) ?? this.run;
+  }
+
   async readLog(): Promise<void> {
     if (!this.run) return;
+    const { id } = this.run;
+    let text: string;
     try {
-      const text = await (await this.api.request("GET", `/api/runs/${path(this.run.id)}/log`)).text();
-      const atEnd = this.log.scrollTop + this.log.clientHeight > this.log.scrollHeight - 30;
-      this.log.textContent = text || "–";
-      if (atEnd) this.log.scrollTop = this.log.scrollHeight;
+      text = await (await this.api.request("GET", `/api/runs/${path(id)}/log`)).text();
     } catch (error) {
-      this.log.textContent = error instanceof Error ? error.message : String(error);
+      text = error instanceof Error ? error.message : String(error);
     }
+    // Meanwhile another run may be shown.
+    text ||= "–";
+    if (this.run.id !== id || this.log.textContent === text) return;
+    const atEnd = this.log.scrollTop + this.log.clientHeight > this.log.scrollHeight - 30;
+    this.log.textContent = text;
+    if (atEnd) this.log.scrollTop = this.log.scrollHeight;
   }
 
   /** What the run has written before this page was there. */
   private async recall(run: RunEntry): Promise<void> {
-    const course = new Course();
+    this.early = [];
+    let text = "";
     try {
-      const text = await (await this.api.request("GET", `/api/runs/${path(run.id)}/events`)).text();
-      for (const line of text.split("\n")) {
-        if (!line.includes('"stepped"')) continue;
-        try {
-          course.take(JSON.parse(line) as RunEvent);
-        } catch {
-          // The last line may be half written.
-        }
-      }
+      text = await (await this.api.request("GET", `/api/runs/${path(run.id)}/events`)).text();
     } catch {
-      return;
+      // A run made elsewhere has none.
     }
-    this.courses.set(run.id, course);
+    if (this.run?.id !== run.id) return;
+    const early = this.early ?? [];
+    this.early = null;
+    if (text) this.courses = new Map();
+    for (const line of text.split("\n")) {
+      if (!line.includes('"stepped"')) continue;
+      try {
+        this.take(JSON.parse(line) as RunEvent);
+      } catch {
+        // The last line may be half written.
+      }
+    }
+    early.forEach((event) => this.take(event));
+  }
+
+  private take(event: RunEvent): void {
+    if (event.kind !== "stepped") return;
+    const number = event.run ?? 0;
+    const course = this.courses.get(number) ?? new Course();
+    course.take(event);
+    this.courses.set(number, course);
+    this.newest = number;
   }
 
   hear(event: RunEvent): void {
-    let course = this.courses.get(event.id);
-    if (!course) this.courses.set(event.id, (course = new Course()));
-    course.take(event);
-    if (event.id === this.run?.id) this.redrawSoon();
+    if (event.id !== this.run?.id) return;
+    if (this.early) this.early.push(event);
+    else this.take(event);
+    this.redrawSoon();
   }
 
   /** At most ten pictures a second. */
@@ -154,8 +219,12 @@ export class LivePane {
     }), Math.max(0, 100 - (performance.now() - this.lastDrawn)));
   }
 
+  private get course(): Course | undefined {
+    return this.courses.get(this.newest);
+  }
+
   private names(): string[] {
-    return [...(this.courses.get(this.shownRun)?.bearings.keys() ?? [])];
+    return [...(this.course?.bearings.keys() ?? [])];
   }
 
   private build(): void {
@@ -171,7 +240,7 @@ export class LivePane {
     this.drawn = null;
     const bearing = this.choice.value;
     this.shownBearing = bearing;
-    const course = this.courses.get(this.shownRun);
+    const { course } = this;
     const own = course?.bearings.get(bearing);
     if (!course || !own) {
       this.plots.replaceChildren(h("p", { class: "note" }, texts.noLive));
@@ -197,7 +266,7 @@ export class LivePane {
   }
 
   private redraw(): void {
-    const course = this.courses.get(this.shownRun);
+    const { course } = this;
     if (!course) return;
     if (!this.drawn || this.names().length !== this.choice.options.length) {
       if (this.names().length > 0) this.build();
@@ -215,7 +284,10 @@ export class LivePane {
     shown.time = Float64Array.from(course.time.slice(from));
     shown.x = Float64Array.from(own.x.slice(from));
     shown.y = Float64Array.from(own.y.slice(from));
-    shown.clearance = this.clearance(this.shownBearing) ?? 1.1 * Math.max(1e-9, ...own.x.map((e, i) => Math.hypot(e, own.y[i]!)));
+    const clearance = own.clearance ?? (this.run ? this.clearance(this.run, this.shownBearing) : undefined);
+    orbit.isKnown = clearance !== undefined;
+    const reach = own.x.reduce((most, e, i) => Math.max(most, Math.hypot(e, own.y[i]!) || 0), 0);
+    shown.clearance = clearance ?? 1.1 * Math.max(1e-9, reach);
     orbit.show(course.time[course.time.length - 1]!);
   }
 }

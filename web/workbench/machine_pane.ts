@@ -45,8 +45,12 @@ export class MachinePane {
   private moving: Coordinate | null = null;
   private wanted: number | null = null;
   private busy = false;
+  /** The text of which a joint was moved. */
+  private movedText: string | null = null;
   /** Shows a coordinate on its slider. */
   private readonly coordinates = new Map<string, (value: number) => void>();
+  /** Puts every slider where the model says. */
+  private resetSliders = () => {};
 
   constructor(private readonly hooks: MachineHooks) {
     const cut = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, texts.section);
@@ -90,6 +94,7 @@ export class MachinePane {
     this.staleNote.hidden = scene !== null ? !scene.open : this.scene === null;
     this.staleNote.textContent = scene?.open || texts.stale;
     if (!scene) return;
+    if (this.movedText !== null && this.movedText !== this.hooks.model()?.text) this.moveBack();
     // Comments and settings change nothing of the picture.
     const look = JSON.stringify([scene.attributes, scene.datasets]);
     const isSame = this.machine !== null && look === this.look;
@@ -110,6 +115,7 @@ export class MachinePane {
   /** Without a model. */
   clear(): void {
     this.scene = null;
+    [this.wanted, this.movedText] = [null, null];
     this.machine?.destroy();
     this.machine = null;
     this.jointNames = "";
@@ -157,6 +163,9 @@ export class MachinePane {
     if (names === this.jointNames) return;
     this.jointNames = names;
     this.coordinates.clear();
+    this.resetSliders = () => {
+      for (const c of joints) this.coordinates.get(`${c.joint}.${c.name}`)?.(c.value);
+    };
     const reach = Math.max(0.01, this.machine!.size);
     this.sliders.replaceChildren(
       ...joints.flatMap(({ joint, name, unit, value: start }) => {
@@ -171,11 +180,7 @@ export class MachinePane {
           this.moveTo({ joint, coordinate: name }, Number(slider.value));
         });
         const reset = h("button", { type: "button", class: "quiet", "aria-label": `${joint}: ${texts.jointReset}` }, "↺");
-        reset.addEventListener("click", () => {
-          for (const c of joints) this.coordinates.get(`${c.joint}.${c.name}`)?.(c.value);
-          this.wanted = null;
-          this.machine?.move(null);
-        });
+        reset.addEventListener("click", () => this.moveBack());
         say(start);
         this.coordinates.set(`${joint}.${name}`, (x) => {
           slider.value = String(x);
@@ -186,9 +191,17 @@ export class MachinePane {
     );
   }
 
+  /** As the model says. */
+  private moveBack(): void {
+    [this.wanted, this.movedText] = [null, null];
+    this.resetSliders();
+    this.machine?.move(null);
+  }
+
   /** One question at a time: the newest position waits. */
   private moveTo(coordinate: Coordinate, value: number): void {
     [this.moving, this.wanted] = [coordinate, value];
+    this.movedText = this.hooks.model()?.text ?? null;
     if (!this.busy) void this.ask();
   }
 
@@ -201,6 +214,9 @@ export class MachinePane {
       if (!model) break;
       try {
         const { bodies, joints } = await this.hooks.api.post<{ bodies: Record<string, Pose>; joints?: SceneText["joints"] }>("/api/move", { ...model, ...coordinate, value });
+        // Of an older text, or of what has been put back meanwhile.
+        const now = this.hooks.model();
+        if (now?.path !== model.path || now.text !== model.text || this.movedText === null) continue;
         this.machine?.move(bodies);
         for (const [joint, list] of Object.entries(joints ?? {}))
           for (const c of list) if (joint !== coordinate.joint || c.name !== coordinate.coordinate) this.coordinates.get(`${joint}.${c.name}`)?.(c.value);

@@ -8,6 +8,9 @@ import { followSystem, setTheme } from "../src/theme";
 import { texts } from "./texts";
 import { Workbench, type Hello } from "./workbench";
 
+/** Once the folder is shown. */
+let shown: Workbench | null = null;
+
 /** The token comes in the address, where no server sees it, and leaves it at once. */
 function takeToken(): string {
   const found = /(?:^#|&)token=([^&]+)/.exec(location.hash);
@@ -43,11 +46,17 @@ async function start(): Promise<void> {
     page.replaceChildren(h("main", { class: "token-page" }, h("p", { class: "fault" }, error instanceof Refused ? error.message : texts.unreachable)));
     return;
   }
-  const workbench = new Workbench(api, hello);
-  page.replaceChildren(workbench.element);
-  await workbench.begin();
+  shown = new Workbench(api, hello);
+  page.replaceChildren(shown.element);
+  await shown.begin();
 }
 
+// The address of a program started anew at the same port differs in this alone: the browser stays at the page.
+addEventListener("hashchange", () => {
+  if (!/token=/.test(location.hash)) return;
+  shown?.leave();
+  location.reload();
+});
 followSystem();
 const chosen = localStorage.getItem("hersey-theme");
 if (chosen === "light" || chosen === "dark") setTheme(chosen);

@@ -47,9 +47,10 @@ export class ProblemList {
     private readonly repair: (edits: Edit[]) => void,
   ) {}
 
-  show(findings: Findings | null): void {
+  /** @param instead  said where nothing is known yet */
+  show(findings: Findings | null, instead: string = texts.noModel): void {
     if (!findings) {
-      this.element.replaceChildren(h("p", { class: "note" }, texts.noModel));
+      this.element.replaceChildren(h("p", { class: "note" }, instead));
       return;
     }
     const { faults, warnings, missing } = findings;

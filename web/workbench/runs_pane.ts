@@ -2,6 +2,7 @@
 
 import type { Api, RunEntry } from "./api";
 import { h } from "../src/dom";
+import { normal } from "./file_text";
 import { texts } from "./texts";
 
 /** Of a run, in the address of a request. */
@@ -10,7 +11,7 @@ export const path = (id: string) => encodeURIComponent(id);
 export interface RunsHooks {
   api: Api;
   chosen: (run: RunEntry) => void;
-  openReport: (title: string, url: string) => void;
+  openReport: (report: { key: string; title: string; url: string }) => void;
   say: (text: string) => void;
   changed: () => void;
 }
@@ -22,6 +23,8 @@ export class RunsPane {
   private readonly list = h("ul", { class: "runs" });
   private readonly compareButton = h("button", { type: "button", class: "quiet", disabled: true, title: texts.compareHelp, click: () => void this.compare() }, texts.compare);
   private readonly compared = new Set<string>();
+  private loads = 0;
+  private taken = 0;
   private readonly models = new Map<string, string | null>();
 
   constructor(private readonly hooks: RunsHooks) {
@@ -34,9 +37,13 @@ export class RunsPane {
   }
 
   async load(): Promise<void> {
+    const count = ++this.loads;
     const { runs } = await this.hooks.api.get<{ runs: RunEntry[] }>("/api/runs");
-    const when = (run: RunEntry) => (typeof run.started === "number" ? 1e3 * run.started : Date.parse(run.started ?? "") || 0);
-    this.runs = [...runs].sort((a, b) => when(b) - when(a));
+    // An answer that a later one has overtaken is of no use.
+    if (count < this.taken) return;
+    this.taken = count;
+    this.runs = runs;
+    for (const id of this.compared) if (!runs.some((run) => run.id === id)) this.compared.delete(id);
     this.draw();
     this.hooks.changed();
     void this.loadModels();
@@ -44,7 +51,8 @@ export class RunsPane {
 
   /** The texts that the runs were made of, to tell what differs. */
   private async loadModels(): Promise<void> {
-    const unknown = this.runs.filter(({ id }) => !this.models.has(id)).slice(0, 20);
+    // Results made elsewhere do not say of which model they are.
+    const unknown = this.runs.filter(({ id, model }) => model && !this.models.has(id)).slice(0, 20);
     for (const run of unknown) {
       this.models.set(run.id, null);
       try {
@@ -54,6 +62,12 @@ export class RunsPane {
       }
     }
     if (unknown.length > 0) this.draw();
+  }
+
+  /** Of the model that a run was made of, as the editor would have it; undefined: not known. */
+  textOf(id: string): string | undefined {
+    const text = this.models.get(id);
+    return text ? normal(text) : undefined;
   }
 
   progress(id: string, share: number): void {
@@ -114,17 +128,14 @@ export class RunsPane {
 
   private async open(run: RunEntry): Promise<void> {
     const { url } = await this.hooks.api.post<{ url: string }>(`/api/runs/${path(run.id)}/report`);
-    this.hooks.openReport(run.id, url);
-  }
-
-  async openReportOf(run: RunEntry): Promise<void> {
-    await this.open(run).catch((error: Error) => this.hooks.say(error.message));
+    this.hooks.openReport({ key: `report ${run.id}`, title: run.id, url });
   }
 
   private async compare(): Promise<void> {
+    const ids = [...this.compared];
     try {
-      const { url } = await this.hooks.api.post<{ url: string }>("/api/compare", { ids: [...this.compared] });
-      this.hooks.openReport(texts.comparison, url);
+      const { url } = await this.hooks.api.post<{ url: string }>("/api/compare", { ids });
+      this.hooks.openReport({ key: `comparison ${[...ids].sort().join(" ")}`, title: texts.comparison, url });
     } catch (error) {
       this.hooks.say(error instanceof Error ? error.message : String(error));
     }

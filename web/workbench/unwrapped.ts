@@ -15,8 +15,8 @@ function svg(tag: string, properties: Record<string, string | number>, ...childr
 }
 
 export interface UnwrappedHooks {
-  /** A feature was moved by so much [rad or m; m]. */
-  moved: (feature: Feature, phi: number, z: number) => void;
+  /** A feature was moved there [rad or m; m]; null: that coordinate stays as it is written. */
+  moved: (feature: Feature, phi: number | null, z: number | null) => void;
   chosen: (feature: Feature) => void;
 }
 
@@ -84,6 +84,8 @@ export class Unwrapped {
   private followHand(handle: SVGElement, feature: Feature, along: number, width: number): void {
     const round = (value: number, step: number) => Math.round(value / step) * step;
     const steps: [number, number] = along > 6.28 && along < 6.3 ? [Math.PI / 180, 1e-4] : [1e-4, 1e-4];
+    // Where the keys have brought it, before the text's answer is there.
+    const place = { phi: feature.phi, z: feature.z };
     let start: { x: number; y: number; scale: number } | null = null;
     const shift = (event: PointerEvent): [number, number] => {
       const [dx, dy] = [(event.clientX - start!.x) * start!.scale, (event.clientY - start!.y) * start!.scale];
@@ -104,8 +106,11 @@ export class Unwrapped {
       if (!start) return;
       const [phi, z] = shift(event);
       start = null;
-      if (Math.abs((phi / along) * box.width) < 1 && Math.abs((z / width) * box.height) < 1) return;
-      this.hooks.moved(feature, round(feature.phi + phi, steps[0]), round(feature.z + z, steps[1]));
+      const [right, up] = [Math.abs((phi / along) * box.width), Math.abs((z / width) * box.height)];
+      if (right < 1 && up < 1) return handle.removeAttribute("transform");
+      // A hand that follows one direction leaves it by some pixels.
+      const isStill = (own: number, other: number) => own < 1 || (own < 4 && own < 0.2 * other);
+      this.hooks.moved(feature, isStill(right, up) ? null : round(feature.phi + phi, steps[0]), isStill(up, right) ? null : round(feature.z + z, steps[1]));
     });
     handle.addEventListener("keydown", (event) => {
       const way: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
@@ -113,7 +118,10 @@ export class Unwrapped {
       if (!step) return;
       event.preventDefault();
       const size = event.shiftKey ? 10 : 1;
-      this.hooks.moved(feature, round(feature.phi + size * step[0] * steps[0], steps[0]), round(feature.z + size * step[1] * steps[1], steps[1]));
+      const [right, up] = step;
+      if (right) place.phi = round(place.phi + size * right * steps[0], steps[0]);
+      if (up) place.z = round(place.z + size * up * steps[1], steps[1]);
+      this.hooks.moved(feature, right ? place.phi : null, up ? place.z : null);
     });
   }
 }

@@ -1,18 +1,22 @@
 // The page as a whole: which model is open, what is asked of the program when its text changes, which pane shows what.
 
 import type { Diagnostic } from "@codemirror/lint";
+import type { Text } from "@codemirror/state";
 import { Unreachable, Refused, type Api, type Edit, type Fault, type FileEntry, type RunEntry, type RunEvent, type Template } from "./api";
 import { h } from "../src/dom";
 import { isDark, onThemeChange, setTheme } from "../src/theme";
 import { BearingPane } from "./bearing_pane";
-import { ask, askTemplate, askTexts, showKeys } from "./dialogs";
+import { ask, askTemplate, showKeys } from "./dialogs";
+import { DocumentFiles } from "./document_files";
 import { Editor, type OpenDocument, type SavedDocument } from "./editor";
 import { splitter, Tabs, walkable } from "./layout";
 import { LivePane } from "./live_pane";
 import { MachinePane, type SceneText } from "./machine_pane";
 import { explainHere, modelHelp, offerUnits, type ModelHelpers } from "./model_help";
+import { Memory, type OpenReport, type Remembered } from "./memory";
 import { showMesh } from "./mesh_window";
 import { ModelSchema, type Schema } from "./model_schema";
+import { Notices } from "./notices";
 import { Outline } from "./outline";
 import { PartPane } from "./part_pane";
 import { PointPane } from "./point_pane";
@@ -35,31 +39,28 @@ interface Checked extends Findings {
   scene: SceneText | null;
 }
 
-interface Remembered {
-  folder: string;
-  documents: SavedDocument[];
-  active: string;
-  model: string;
-  reports: { title: string; url: string }[];
-  sizes: Record<string, number>;
-  tabs: Record<string, string>;
-  run: string;
-}
-
 /** Faults that only the start of a run shows, not its text. */
 const startFaults = new WeakSet<Fault>();
 const isOfStart = (fault: Fault) => startFaults.has(fault);
+
+/** The text that a repair's edits were made for: their lines and columns hold in no other one. */
+const textOfEdits = new WeakMap<Edit[], Text>();
+
+function noteText({ faults, warnings }: Findings, doc: Text): void {
+  for (const fault of [...faults, ...warnings]) for (const { edits } of fault.repairs ?? []) textOfEdits.set(edits, doc);
+}
 
 /** Pause of typing before a text is checked [ms]. */
 const pause = 45;
 /** Further pause before the start of its run is tried [ms]. */
 const restPause = 200;
-/** Pause before everything open is remembered [ms]. */
-const rememberPause = 400;
+/** So often a change is asked about while the text goes on changing. */
+const mostTries = 5;
 
 export class Workbench {
   readonly element: HTMLElement;
   private readonly editor: Editor;
+  private readonly documentFiles: DocumentFiles;
   private readonly machine: MachinePane;
   private readonly bearing: BearingPane;
   private readonly point: PointPane;
@@ -73,7 +74,8 @@ export class Workbench {
   private readonly fileList = h("ul", { class: "files" });
   private readonly documentBar = h("div", { class: "tabs documents", role: "tablist", "aria-label": texts.panes.middle });
   private readonly documentArea = h("div", { class: "document-area" });
-  private readonly notices = h("div", { class: "notices", "aria-live": "polite" });
+  private readonly notices = new Notices();
+  private readonly memory = new Memory();
   private readonly checkState = h("button", { type: "button", class: "check-state", click: () => this.showProblems() });
   private readonly announcer = h("div", { class: "visually-hidden", role: "status" });
   private readonly runButton = h("button", { type: "button", class: "main-button", click: () => void this.runModel() }, texts.run);
@@ -83,12 +85,19 @@ export class Workbench {
   private files: FileEntry[] = [];
   private model: OpenDocument | null = null;
   private findings: Findings | null = null;
-  private reports: { title: string; url: string; frame: HTMLIFrameElement }[] = [];
+  private reports: (OpenReport & { frame: HTMLIFrameElement })[] = [];
   private active = "";
   private checks = 0;
+  /** The last change by a form or a drag. */
+  private valueSet: Promise<void> = Promise.resolve();
+  private listings = 0;
   private checkTimer = 0;
-  private rememberTimer = 0;
   private isReachable = true;
+  private isLeaving = false;
+  private isRecalled = false;
+  /** Whether the model can run. */
+  private isReady = false;
+  private isStarting = false;
   private sizes: Record<string, number>;
   private readonly old: Remembered | null;
 
@@ -96,7 +105,7 @@ export class Workbench {
     private readonly api: Api,
     private readonly hello: Hello,
   ) {
-    this.old = this.recalled();
+    this.old = this.memory.recall(this.hello.folder);
     this.sizes = this.old?.sizes ?? {};
     const say = (text: string) => this.say(text);
     const helpers: ModelHelpers = {
@@ -115,6 +124,16 @@ export class Workbench {
         { key: "Mod-Enter", run: () => (void this.runModel(), true) },
       ],
     });
+    this.documentFiles = new DocumentFiles({
+      api,
+      editor: this.editor,
+      notices: this.notices,
+      fail: (error) => this.fail(error),
+      changed: () => {
+        this.showActive();
+        this.rememberSoon();
+      },
+    });
     const text = () => (this.model ? { path: this.model.path, text: this.model.state.doc.toString() } : null);
     this.machine = new MachinePane({ api, model: text, chosen: (part) => this.goToPart(part), say });
     const set = (key: string, value: string | null) => this.setValue(key, value);
@@ -122,8 +141,8 @@ export class Workbench {
     this.point = new PointPane(api, () => (this.model ? { ...text()!, tree: this.model.tree } : null), () => this.bearing.name);
     this.part = new PartPane(set);
     this.problems = new ProblemList((fault) => this.goToFault(fault), (edits) => this.repair(edits));
-    this.live = new LivePane(api, (bearing) => this.machine.run?.number(`/bearings/${bearing}`, "radial_clearance"));
-    this.runs = new RunsPane({ api, say, chosen: (run) => void this.showRun(run), openReport: (title, url) => this.openReport(title, url), changed: () => this.runsChanged() });
+    this.live = new LivePane(api, (run, bearing) => this.clearanceOf(run, bearing));
+    this.runs = new RunsPane({ api, say, chosen: (run) => void this.showRun(run), openReport: (report) => this.openReport(report), changed: () => this.runsChanged() });
     this.outline = new Outline((at) => this.goToOffset(at));
     this.right = new Tabs(texts.panes.right, [
       { key: "machine", label: texts.machine, content: this.machine.element },
@@ -150,9 +169,15 @@ export class Workbench {
     addEventListener("pagehide", () => this.remember());
     addEventListener("beforeunload", (event) => {
       this.remember();
-      // The texts come back with the tab; without its memory they would be lost.
-      if (!this.remembers && [...this.editor.documents.values()].some((d) => d.isDirty)) event.preventDefault();
+      // The texts come back with the tab; without its memory, or without a program to come back to, they would be lost.
+      const isAtRisk = !this.memory.isWritten || (!this.isReachable && !this.isLeaving);
+      if (isAtRisk && [...this.editor.documents.values()].some((d) => d.isDirty)) event.preventDefault();
     });
+  }
+
+  /** The page is about to be loaded anew, with another token. */
+  leave(): void {
+    this.isLeaving = true;
   }
 
   private layOut(): HTMLElement {
@@ -206,7 +231,7 @@ export class Workbench {
       h("main", { class: "pane middle", "aria-label": texts.panes.middle, tabindex: -1 }, this.documentBar, this.documentArea),
       h("aside", { class: "pane right", "aria-label": texts.panes.right, tabindex: -1 }, this.right.element),
       h("section", { class: "pane below", "aria-label": texts.panes.below, tabindex: -1 }, this.below.element),
-      this.notices,
+      this.notices.element,
       this.announcer,
     );
     return root;
@@ -217,45 +242,74 @@ export class Workbench {
     document.title = `${this.hello.folder.split("/").pop()} · ${texts.name}`;
     this.problems.show(null);
     this.showCheckState();
-    void this.api.get<Schema>("/api/schema").then((schema) => {
-      this.schema = new ModelSchema(schema);
-      this.showModelParts(null);
-    });
+    this.api.answered = (is) => this.connected(is);
+    void this.loadSchema();
     const files = this.loadFiles();
     const runs = this.runs.load().catch(() => undefined);
-    if (this.old) for (const document of this.old.documents) this.editor.restore(document);
-    for (const report of this.old?.reports ?? []) this.addReport(report.title, report.url);
+    await this.recallDocuments(this.old?.documents ?? []);
+    for (const report of this.old?.reports ?? []) this.addReport(report);
     if (this.old) {
       this.model = this.editor.documents.get(this.old.model) ?? null;
       this.activate(this.old.active);
       this.right.show(this.old.tabs["right"] ?? "machine");
       this.below.show(this.old.tabs["below"] ?? "problems");
       if (this.model) this.checkNow();
-      void this.refreshOpen();
+      void this.documentFiles.refresh();
     }
     await files;
     const wanted = this.hello.open ?? (this.files.filter(({ kind }) => kind === "model").length === 1 ? this.files.find(({ kind }) => kind === "model")!.path : null);
     if (!this.old && wanted) await this.openFile(wanted);
     if (!this.active) this.showActive();
-    void this.api.follow(this.hello.event, (event, data) => this.hear(event, data), (is) => this.connected(is));
+    void this.api.follow(this.hello.event, (event, data) => this.hear(event, data));
     await runs;
     const last = this.runs.runs.find(({ id }) => id === this.old?.run) ?? this.runs.running[0];
     if (last) await this.showRun(last, false);
   }
 
+  /** What was not saved comes from the tab's memory, all else from the file as it is now. */
+  private async recallDocuments(documents: SavedDocument[]): Promise<void> {
+    const contents = await Promise.all(documents.map(({ path, unsaved }) => (unsaved ? null : this.api.file(path).catch((error: unknown) => this.fail(error)))));
+    documents.forEach(({ path, unsaved, cursor }, i) => {
+      const content = contents[i];
+      if (this.editor.documents.has(path)) return;
+      if (unsaved) this.editor.restore(path, unsaved);
+      else if (content) this.editor.add(path, content, cursor);
+    });
+    this.isRecalled = true;
+  }
+
+  private async loadSchema(): Promise<void> {
+    try {
+      this.schema = new ModelSchema(await this.api.get<Schema>("/api/schema"));
+      this.showModelParts(null);
+    } catch {
+      // Asked for again once the program answers.
+    }
+  }
+
   // ---- what the program tells
 
   private hear(event: string, data: unknown): void {
-    if (event === "files") {
-      void this.loadFiles();
-      void this.refreshOpen();
-    } else if (event === "runs") void this.runs.load().catch(() => undefined);
+    if (event === "files") this.hearFiles((data as { paths?: string[] } | null)?.paths ?? []);
+    else if (event === "runs") void this.runs.load().catch(() => undefined);
     else if (event === "run") this.hearRun(data as RunEvent);
     else if (event === "reload") {
       void this.loadFiles();
-      void this.refreshOpen();
+      void this.documentFiles.refresh();
       void this.runs.load().catch(() => undefined);
-    } else if (event === "refused") this.notice("connection", texts.tokenRefused, []);
+    } else if (event === "refused") {
+      this.isReachable = false;
+      this.notices.keep("connection", texts.tokenRefused);
+    }
+  }
+
+  private hearFiles(paths: string[]): void {
+    void this.loadFiles();
+    void this.documentFiles.refresh();
+    const isOfRun = (path: string) => path.startsWith("runs/") || /\.(h5|lock|checkpoint)$/.test(path);
+    if (paths.some(isOfRun)) void this.runs.load().catch(() => undefined);
+    // A table, a mesh or a part of the model may be another one.
+    if (paths.some((path) => !isOfRun(path) && path !== this.model?.path)) this.checkSoon();
   }
 
   private hearRun(event: RunEvent): void {
@@ -269,15 +323,24 @@ export class Workbench {
     if (is === this.isReachable) return;
     this.isReachable = is;
     if (is) {
-      this.dropNotice("connection");
+      this.notices.drop("connection");
       this.say(texts.reachable);
       this.hear("reload", null);
+      if (!this.schema) void this.loadSchema();
       this.checkSoon();
-    } else this.notice("connection", texts.unreachable, []);
+    } else this.notices.keep("connection", texts.unreachable);
+  }
+
+  /** Of a run whose model is the open one, unchanged since; else nobody knows it here. */
+  private clearanceOf(run: RunEntry, bearing: string): number | undefined {
+    const isOpen = this.model && run.set.length === 0 && run.model === this.model.path && this.runs.textOf(run.id) === this.model.state.doc.toString();
+    return isOpen ? this.machine.run?.number(`/bearings/${bearing}`, "radial_clearance") : undefined;
   }
 
   private runsChanged(): void {
+    this.live.update(this.runs.runs);
     this.stopButton.disabled = this.runs.running.length === 0;
+    this.drawFiles();
     const shown = this.runs.runs.find(({ id }) => id === this.live.shownRun);
     if (shown && shown.state !== "running" && this.below.current === "log") void this.live.readLog();
   }
@@ -292,8 +355,11 @@ export class Workbench {
   // ---- files and documents
 
   private async loadFiles(): Promise<void> {
+    const count = ++this.listings;
     try {
-      this.files = (await this.api.get<{ files: FileEntry[] }>("/api/files")).files;
+      const { files } = await this.api.get<{ files: FileEntry[] }>("/api/files");
+      if (count !== this.listings) return;
+      this.files = files;
     } catch (error) {
       this.fail(error);
       return;
@@ -303,7 +369,8 @@ export class Workbench {
 
   private drawFiles(): void {
     const order = { model: 0, table: 1, mesh: 2, text: 3, report: 4, results: 5, other: 6 } as const;
-    const isOfRun = (path: string) => this.runs.runs.some(({ folder }) => path.startsWith(`${folder}/`));
+    const ofRuns = new Set(this.runs.runs.flatMap(({ results, report }) => [...results, report ?? ""]));
+    const isOfRun = (path: string) => path.startsWith("runs/") || ofRuns.has(path);
     const files = this.files.filter(({ path, kind }) => kind !== "other" && !isOfRun(path)).sort((a, b) => order[a.kind] - order[b.kind] || a.path.localeCompare(b.path));
     const focused = document.activeElement?.getAttribute("data-path");
     this.fileList.replaceChildren(
@@ -323,8 +390,8 @@ export class Workbench {
       if (kind === "mesh" && /\.(msh|inp)$/i.test(path)) return showMesh(this.api, path);
       if (kind === "results" || kind === "mesh") return this.say(texts.binary);
       try {
-        const { text, etag } = await this.api.file(path);
-        this.editor.add(path, text, etag);
+        const content = await this.api.file(path);
+        if (!this.editor.documents.has(path)) this.editor.add(path, content);
       } catch (error) {
         return this.fail(error);
       }
@@ -336,24 +403,35 @@ export class Workbench {
   /** Shows a text or a report. */
   private activate(key: string): void {
     const opened = this.editor.documents.get(key);
-    this.active = opened || this.reports.some(({ url }) => url === key) ? key : (this.editor.documents.keys().next().value ?? "");
+    this.active = opened || this.reports.some((report) => report.key === key) ? key : (this.editor.documents.keys().next().value ?? "");
     const shown = this.editor.documents.get(this.active) ?? null;
     if (shown) this.editor.show(shown);
-    if (shown?.isModel && shown !== this.model) {
-      this.model = shown;
-      this.findings = null;
-      this.machine.clear();
-      this.bearing.clear();
-      this.checkNow();
-    }
+    if (shown?.isModel && shown !== this.model) this.takeModel(shown);
     this.showActive();
     this.rememberSoon();
+  }
+
+  /** Another model: nothing that was found of the last one is said of it. */
+  private takeModel(document: OpenDocument | null): void {
+    this.model = document;
+    this.checks++;
+    this.findings = null;
+    this.machine.clear();
+    this.bearing.clear();
+    this.problems.show(null, document ? texts.state.checking : texts.noModel);
+    this.showCheckState();
+    this.checkState.classList.remove("at-work");
+    if (document) this.checkNow();
   }
 
   private showActive(): void {
     const isText = this.editor.documents.has(this.active);
     this.editor.element.hidden = !isText;
-    for (const { frame, url } of this.reports) frame.hidden = url !== this.active;
+    for (const { frame, key, url } of this.reports) {
+      frame.hidden = key !== this.active;
+      // What nobody has looked at yet is not loaded.
+      if (!frame.hidden && frame.getAttribute("src") !== url) frame.src = url;
+    }
     if (!this.editor.element.isConnected) this.documentArea.append(this.editor.element);
     this.documentArea.querySelector(".welcome")?.remove();
     if (!this.active) this.documentArea.append(h("div", { class: "welcome" }, h("p", {}, texts.noModel), h("button", { type: "button", class: "main-button", click: () => void this.beginModel() }, texts.begin)));
@@ -379,7 +457,7 @@ export class Workbench {
     };
     this.documentBar.replaceChildren(
       ...[...this.editor.documents.values()].map((d) => tab(d.path, d.name, d.path, d.isDirty, () => void this.closeDocument(d))),
-      ...this.reports.map(({ title, url }) => tab(url, title, title, false, () => this.closeReport(url))),
+      ...this.reports.map(({ key, title }) => tab(key, title, title, false, () => this.closeReport(key))),
     );
     if (had) this.documentBar.querySelector<HTMLElement>('[aria-selected="true"]')?.focus();
   }
@@ -394,103 +472,33 @@ export class Workbench {
       if (answer === "save" && !(await this.save(document))) return;
       if (answer !== "save" && answer !== "drop") return;
     }
+    this.documentFiles.forget(document);
     this.editor.close(document);
-    if (this.model === document) {
-      this.model = [...this.editor.documents.values()].find((d) => d.isModel) ?? null;
-      this.findings = null;
-      this.machine.clear();
-      this.bearing.clear();
-      this.problems.show(null);
-      this.showCheckState();
-      if (this.model) this.checkNow();
-    }
+    if (this.model === document) this.takeModel([...this.editor.documents.values()].find((d) => d.isModel) ?? null);
     this.activate(this.active === document.path ? "" : this.active);
   }
 
-  private addReport(title: string, url: string): void {
-    const frame = h("iframe", { title, src: url, class: "report-frame", sandbox: "allow-scripts allow-downloads", hidden: true });
-    this.reports.push({ title, url, frame });
+  private addReport(report: OpenReport): void {
+    const frame = h("iframe", { title: report.title, class: "report-frame", sandbox: "allow-scripts allow-downloads", hidden: true });
+    this.reports.push({ ...report, frame });
     this.documentArea.append(frame);
   }
 
-  private openReport(title: string, url: string): void {
-    if (!this.reports.some((r) => r.url === url)) this.addReport(title, url);
-    this.activate(url);
+  private openReport(report: OpenReport): void {
+    const opened = this.reports.find(({ key }) => key === report.key);
+    if (opened) opened.url = report.url;
+    else this.addReport(report);
+    this.activate(report.key);
   }
 
-  private closeReport(url: string): void {
-    this.reports.find((r) => r.url === url)?.frame.remove();
-    this.reports = this.reports.filter((r) => r.url !== url);
-    this.activate(this.active === url ? "" : this.active);
-  }
-
-  /** Texts that were changed outside: read anew where nothing is lost by it, asked about otherwise. */
-  private async refreshOpen(): Promise<void> {
-    for (const document of [...this.editor.documents.values()]) {
-      let now: { text: string; etag: string | null };
-      try {
-        now = await this.api.file(document.path);
-      } catch (error) {
-        if (error instanceof Refused && error.status === 404) this.say(texts.gone(document.name));
-        continue;
-      }
-      if (now.etag === document.etag) continue;
-      const wasDirty = document.isDirty;
-      const isSame = document.state.doc.toString() === now.text;
-      if (!wasDirty || isSame) {
-        if (!isSame) {
-          this.editor.replace(document, now.text);
-          this.say(texts.reloaded(document.name));
-        }
-        document.base = document.state.doc;
-        document.etag = now.etag;
-        this.showActive();
-      } else this.noticeConflict(document);
-    }
-  }
-
-  private noticeConflict(document: OpenDocument): void {
-    document.conflict = true;
-    this.notice(`conflict-${document.path}`, texts.changedOnDisk(document.name), [{ label: texts.compareTexts, act: () => void this.resolve(document) }]);
-  }
-
-  private async resolve(document: OpenDocument): Promise<boolean> {
-    let now: { text: string; etag: string | null };
-    try {
-      now = await this.api.file(document.path);
-    } catch (error) {
-      this.fail(error);
-      return false;
-    }
-    const text = await askTexts(document.name, document.state.doc.toString(), now.text);
-    if (text === null) return false;
-    this.dropNotice(`conflict-${document.path}`);
-    document.conflict = false;
-    document.etag = now.etag;
-    this.editor.replace(document, text);
-    if (text !== now.text) return this.save(document);
-    document.base = document.state.doc;
-    this.showActive();
-    return true;
+  private closeReport(key: string): void {
+    this.reports.find((report) => report.key === key)?.frame.remove();
+    this.reports = this.reports.filter((report) => report.key !== key);
+    this.activate(this.active === key ? "" : this.active);
   }
 
   private async save(document = this.editor.documents.get(this.active) ?? null): Promise<boolean> {
-    if (!document) return false;
-    const doc = document.state.doc;
-    try {
-      document.etag = await this.api.save(document.path, doc.toString(), document.etag);
-      document.base = doc;
-      this.say(texts.saved(document.name));
-      this.dropNotice("save");
-      this.showActive();
-      this.rememberSoon();
-      return true;
-    } catch (error) {
-      if (error instanceof Refused && error.status === 412) return this.resolve(document);
-      const words = error instanceof Refused ? `${error.message} ${error.advice}` : texts.unreachable;
-      this.notice("save", `${texts.notSaved(document.name)} ${words}`, []);
-      return false;
-    }
+    return document ? this.documentFiles.save(document) : false;
   }
 
   private async beginModel(): Promise<void> {
@@ -552,6 +560,7 @@ export class Workbench {
     try {
       const read = await ask("text", true);
       if (isOld()) return;
+      noteText(read, doc);
       const isReadable = read.faults.length === 0;
       // What the start of the run was found to be last stays until it is known of this text.
       const shown = isReadable && this.findings ? { ...read, faults: this.findings.faults.filter(isOfStart), warnings: this.findings.warnings } : read;
@@ -566,6 +575,7 @@ export class Workbench {
       if (isOld()) return;
       const started = await ask("start", false);
       if (isOld()) return;
+      noteText(started, doc);
       for (const fault of started.faults) startFaults.add(fault);
       this.showFindings(document, started);
     } catch (error) {
@@ -596,18 +606,29 @@ export class Workbench {
     const missing = this.findings?.missing ?? [];
     const isReady = faults.length === 0 && missing.length === 0;
     const ready = isReady ? texts.state.good(runs) : texts.state.missing(missing.length);
-    const words = !this.findings ? texts.state.none : faults.length > 0 ? texts.state.faults(faults.length) : [ready, ...(warnings.length > 0 ? [texts.state.warnings(warnings.length)] : [])].join(", ");
+    const words = !this.findings ? (this.model ? texts.state.checking : texts.state.none) : faults.length > 0 ? texts.state.faults(faults.length) : [ready, ...(warnings.length > 0 ? [texts.state.warnings(warnings.length)] : [])].join(", ");
     const kind = !this.findings ? "none" : faults.length > 0 ? "bad" : warnings.length > 0 || !isReady ? "warn" : "good";
     if (this.checkState.textContent !== words) this.announcer.textContent = words;
     this.checkState.textContent = words;
     this.checkState.dataset["kind"] = kind;
-    this.runButton.disabled = !this.findings || !isReady;
+    this.isReady = this.findings !== null && isReady;
+    this.showRunButton();
     const count = faults.length + warnings.length;
     this.below.label("problems", count > 0 ? `${texts.problems} (${count})` : texts.problems);
   }
 
+  /** A second start has to wait until the first one is known. */
+  private showRunButton(): void {
+    this.runButton.disabled = !this.isReady || this.isStarting;
+  }
+
   private repair(edits: Edit[]): void {
     if (!this.model) return;
+    if (!textOfEdits.get(edits)?.eq(this.model.state.doc)) {
+      this.say(texts.repairOld);
+      this.checkNow();
+      return;
+    }
     if (this.active !== this.model.path) this.activate(this.model.path);
     this.editor.edit(this.model, edits);
     this.checkNow();
@@ -623,18 +644,23 @@ export class Workbench {
   }
 
   /** A change made by a form or by hand in a picture is a change of the text. */
-  private async setValue(key: string, value: string | null): Promise<void> {
+  private setValue(key: string, value: string | null): Promise<void> {
     const document = this.model;
-    if (!document) return;
-    const { doc } = document.state;
-    try {
+    if (document) this.valueSet = this.valueSet.then(() => this.setValueOf(document, key, value)).catch((error) => this.fail(error));
+    return this.valueSet;
+  }
+
+  /** Each change is asked about of the text that the one before has left; who types meanwhile has it asked about again. */
+  private async setValueOf(document: OpenDocument, key: string, value: string | null): Promise<void> {
+    for (let i = 0; i < mostTries; i++) {
+      const { doc } = document.state;
       const { text } = await this.api.post<{ text: string; edits?: Edit[] }>("/api/set", { path: document.path, text: doc.toString(), key, value });
-      if (document.state.doc !== doc) return;
+      if (document.state.doc !== doc) continue;
       this.editor.replace(document, text);
-      this.checkNow();
-    } catch (error) {
-      this.fail(error);
+      if (document === this.model) this.checkNow();
+      return;
     }
+    this.say(texts.notSet(key));
   }
 
   // ---- from text to picture and back
@@ -709,6 +735,19 @@ export class Workbench {
   private async runModel(): Promise<void> {
     const document = this.model;
     if (!document || this.runButton.disabled) return;
+    this.isStarting = true;
+    this.showRunButton();
+    try {
+      await this.startRun(document);
+    } catch (error) {
+      this.fail(error);
+    } finally {
+      this.isStarting = false;
+      this.showRunButton();
+    }
+  }
+
+  private async startRun(document: OpenDocument): Promise<void> {
     if (document.isDirty) {
       const answer = await ask(texts.saveFirst(document.name), [
         { value: "save", label: texts.saveAndRun },
@@ -716,18 +755,13 @@ export class Workbench {
       ]);
       if (answer !== "save" || !(await this.save(document))) return;
     }
-    try {
-      const { id } = await this.api.post<{ id: string }>("/api/runs", { path: document.path, set: [] });
-      this.say(texts.started(id));
-      await this.runs.load();
-      const run = this.runs.runs.find((r) => r.id === id);
-      if (run) {
-        this.below.show("live");
-        await this.showRun(run);
-      }
-    } catch (error) {
-      this.fail(error);
-    }
+    const { id } = await this.api.post<{ id: string }>("/api/runs", { path: document.path, set: [], etag: document.etag });
+    this.say(texts.started(id));
+    await this.runs.load();
+    const run = this.runs.runs.find((r) => r.id === id);
+    if (!run) return;
+    this.below.show("live");
+    await this.showRun(run);
   }
 
   private async stopRun(): Promise<void> {
@@ -790,72 +824,34 @@ export class Workbench {
   }
 
   private fail(error: unknown): void {
-    if (error instanceof Unreachable) {
-      this.notice("connection", texts.unreachable, []);
-      this.isReachable = false;
-      return;
-    }
+    if (error instanceof Unreachable) return this.connected(false);
     this.say(error instanceof Refused ? [error.message, error.advice].filter((t) => t).join(" ") : error instanceof Error ? error.message : String(error));
   }
 
-  /** A word that goes by itself; empty: away with the last one. */
   private say(words: string): void {
-    this.notices.querySelector(".passing")?.remove();
-    if (!words) return;
-    const line = h("p", { class: "notice passing" }, words, h("button", { type: "button", class: "quiet", "aria-label": texts.dismiss, click: () => line.remove() }, "✕"));
-    this.notices.append(line);
-    setTimeout(() => line.remove(), 4500);
+    this.notices.say(words);
   }
-
-  /** A word that stays until its matter is settled. */
-  private notice(key: string, words: string, actions: { label: string; act: () => void }[]): void {
-    this.dropNotice(key);
-    const line = h("p", { class: "notice", "data-notice": key }, words, ...actions.map(({ label, act }) => h("button", { type: "button", class: "quiet", click: act }, label)), h("button", { type: "button", class: "quiet", "aria-label": texts.dismiss, click: () => line.remove() }, "✕"));
-    this.notices.append(line);
-  }
-
-  private dropNotice(key: string): void {
-    this.notices.querySelector(`[data-notice="${CSS.escape(key)}"]`)?.remove();
-  }
-
-  private remembers = true;
 
   private rememberSoon(): void {
-    clearTimeout(this.rememberTimer);
-    this.rememberTimer = window.setTimeout(() => this.remember(), rememberPause);
+    this.memory.writeSoon(() => this.present());
   }
 
   private remember(): void {
-    const state: Remembered = {
+    this.memory.write(this.present());
+  }
+
+  /** What is open, to be found again; null until what was open before is. */
+  private present(): Remembered | null {
+    if (!this.isRecalled) return null;
+    return {
       folder: this.hello.folder,
       documents: this.editor.remembered(),
       active: this.active,
       model: this.model?.path ?? "",
-      reports: this.reports.map(({ title, url }) => ({ title, url })),
+      reports: this.reports.map(({ key, title, url }) => ({ key, title, url })),
       sizes: this.sizes,
       tabs: { right: this.right.current, below: this.below.current },
       run: this.live.shownRun,
     };
-    const write = (value: Remembered) => sessionStorage.setItem("hersey-workbench", JSON.stringify(value));
-    try {
-      write(state);
-      this.remembers = true;
-    } catch {
-      // Too much for the tab's memory: without the histories, else not at all.
-      try {
-        write({ ...state, documents: state.documents.map((d) => ({ ...d, state: { ...(d.state as object), history: undefined } })) });
-      } catch {
-        this.remembers = false;
-      }
-    }
-  }
-
-  private recalled(): Remembered | null {
-    try {
-      const state = JSON.parse(sessionStorage.getItem("hersey-workbench") ?? "null") as Remembered | null;
-      return state?.folder === this.hello.folder && state.documents.length > 0 ? state : null;
-    } catch {
-      return null;
-    }
   }
 }
