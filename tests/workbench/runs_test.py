@@ -14,7 +14,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from workbench_client import Events, Workbench, write  # noqa: E402
+from workbench_client import Events, Workbench, start_of, write  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 MODEL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../cli/bearing.yaml")
@@ -164,6 +164,75 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.server.post(f"/api/runs/{name}/stop").status, 200)
         self.assertEqual(self.server.wait_for(name, "stopped")["share"] > 0, True)
 
+    def test_a_run_is_followed_whenever_its_process_becomes_known(self):
+        with subprocess.Popen(["sleep", "60"]) as process:
+            self.addCleanup(process.kill)
+            folder = os.path.join(self.folder, "runs", "quick-001")
+            events = Events(self.server)
+            self.addCleanup(events.close)
+            process_of = {"pid": process.pid, "start": start_of(process.pid)}
+            # The record is written twice, at times which the system's clock of files need not tell apart.
+            record = write(folder, "run.json", json.dumps({"model": "bearing.yaml", "started": time.time()}))
+            os.utime(record, ns=(10**18, 10**18))
+            while events.next()[1] != "runs":
+                pass
+            new = write(folder, "run.json.new", json.dumps({"model": "bearing.yaml", "started": time.time(), "process": process_of}))
+            os.utime(new, ns=(10**18, 10**18))
+            os.replace(new, record)
+            time.sleep(0.6)  # two looks at the folder
+            write(folder, "events.ndjson", '{"kind":"stepped","t":1}\n')
+            while (event := events.next())[1] != "run":
+                pass
+            self.assertEqual(event[2], {"kind": "stepped", "t": 1, "id": "quick-001"})
+            process.kill()
+
+    def test_a_run_that_is_stopped_before_it_can_report_it_is_stopped(self):
+        folder = os.path.join(self.folder, "runs", "quick-001")
+        # As a run is before it catches signals.
+        with subprocess.Popen([sys.executable, "-c", "import signal; signal.signal(signal.SIGINT, signal.SIG_DFL); print(1, flush=True); signal.pause()",
+                               folder], start_new_session=True, stdout=subprocess.PIPE) as process:
+            self.addCleanup(process.kill)
+            process.stdout.readline()
+            write(folder, "run.json", json.dumps({"model": "bearing.yaml", "started": time.time(),
+                                                  "process": {"pid": process.pid, "start": start_of(process.pid)}}))
+            self.assertEqual(self.server.run_of("quick-001")["state"], "running")
+            self.assertEqual(self.server.post("/api/runs/quick-001/stop").status, 200)
+            self.assertEqual(process.wait(), -signal.SIGINT)
+        run = self.server.wait_for("quick-001", "stopped", seconds=2)
+        self.assertIn("on request", run["message"])
+        self.assertIsNotNone(run["ended"])
+
+    def test_a_killed_run_of_the_command_line_is_lost(self):
+        with subprocess.Popen([PROGRAM, "run", "bearing.yaml", "--set", LONG[0]], cwd=self.folder, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL) as process:
+            self.addCleanup(process.kill)
+            results = os.path.join(self.folder, "results", "bearing", "results.h5")
+            end = time.time() + 20
+            while not os.path.exists(results) and time.time() < end:
+                time.sleep(0.05)
+            self.assertEqual(self.server.run_of("results:bearing:results.h5")["state"], "running")
+            process.kill()
+        self.assertTrue(os.path.exists(results + ".lock"))
+        run = self.server.run_of("results:bearing:results.h5")
+        self.assertEqual(run["state"], "lost")
+        self.assertIn("killed", run["message"])
+
+    def test_a_run_with_its_report_is_completed_though_its_events_ended(self):
+        folder = os.path.join(self.folder, "runs", "full-001")
+        write(folder, "run.json", json.dumps({"model": "bearing.yaml", "started": time.time() - 60, "process": {"pid": 99999999, "start": 1}}))
+        write(folder, "events.ndjson", '{"kind":"started"}\n{"kind":"stepped","share":0.5}\n')
+        write(folder, "results.h5", "")
+        self.assertEqual(self.server.run_of("full-001")["state"], "lost")
+        report = write(folder, "report.html", "a report")
+        run = self.server.run_of("full-001")
+        self.assertEqual((run["state"], run["share"]), ("completed", 1))
+        write(folder, "results.checkpoint", "")
+        self.assertEqual(self.server.run_of("full-001")["state"], "lost")
+        os.remove(os.path.join(folder, "results.checkpoint"))
+        before = time.time() - 120
+        os.utime(report, (before, before))  # that of the run which this one goes on with
+        self.assertEqual(self.server.run_of("full-001")["state"], "lost")
+
     def test_ctrl_c_of_the_server_ends_no_run(self):
         name = self.start(*LONG)
         self.wait_for_steps(name)
@@ -217,8 +286,7 @@ class Runs(unittest.TestCase):
 
     def test_a_record_of_someone_elses_process_ends_no_process(self):
         with subprocess.Popen(["sleep", "60"]) as victim:
-            with open(f"/proc/{victim.pid}/stat", encoding="ascii") as file:
-                start = int(file.read().rsplit(")", 1)[1].split()[19])
+            start = start_of(victim.pid)
             for process in ({"pid": victim.pid, "start": start}, {"pid": victim.pid, "start": 1}, {"pid": -1, "start": start}, {"pid": 1, "start": 0},
                             {"pid": "x"}, [], 7):
                 write(self.folder, "runs/evil-001/run.json", json.dumps({"model": "bearing.yaml", "process": process, "set": 5, "study": "no",

@@ -136,6 +136,12 @@ class Events:
         self.connection.close()
 
 
+def start_of(pid):
+    """Time of a process's start, in the system's ticks."""
+    with open(f"/proc/{pid}/stat", encoding="ascii") as file:
+        return int(file.read().rsplit(")", 1)[1].split()[19])
+
+
 def write(folder, name, text):
     path = os.path.join(folder, name)
     os.makedirs(os.path.dirname(path), exist_ok=True)
