@@ -3,6 +3,7 @@
     runs_test.py HERSEY [Class.test_name]
 """
 
+import http.client
 import json
 import os
 import shutil
@@ -10,8 +11,10 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
+import unittest.mock
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from workbench_client import Events, Workbench, start_of, write  # noqa: E402
@@ -27,6 +30,24 @@ def is_running(pid):
             return file.read().rsplit(")", 1)[1].split()[0] != "Z"
     except FileNotFoundError:
         return False
+
+
+def children_of(pid):
+    found = []
+    for task in os.listdir(f"/proc/{pid}/task"):
+        try:
+            with open(f"/proc/{pid}/task/{task}/children", encoding="ascii") as file:
+                found += [int(child) for child in file.read().split()]
+        except FileNotFoundError:
+            pass  # the thread has ended
+    return found
+
+
+def post_and_forget(server, path):
+    try:
+        server.post(path)
+    except (OSError, http.client.HTTPException):
+        pass  # the server has ended
 
 
 class Runs(unittest.TestCase):
@@ -241,6 +262,32 @@ class Runs(unittest.TestCase):
         self.server = self.open()
         self.server.post(f"/api/runs/{name}/stop")
         self.server.wait_for(name, "stopped")
+
+    def test_a_second_ctrl_c_of_the_server_ends_it_at_once(self):
+        name = self.start("duration=1 ms")
+        self.server.wait_for(name, "completed")
+        os.remove(os.path.join(self.folder, "runs", name, "report.html"))
+        with unittest.mock.patch.dict(os.environ, TMPDIR=self.top.name):
+            server = self.open()
+        # A request that takes long: its report is made by a process that is suspended.
+        suspended = None
+        for _ in range(20):
+            asking = threading.Thread(target=post_and_forget, args=(server, f"/api/runs/{name}/report"))
+            asking.start()
+            while asking.is_alive() and not suspended:
+                suspended = next(iter(children_of(server.process.pid)), None)
+            if suspended:
+                self.pids.append(suspended)
+                os.kill(suspended, signal.SIGSTOP)
+                break
+        time.sleep(0.2)
+        self.assertTrue(asking.is_alive())
+        server.process.send_signal(signal.SIGINT)
+        time.sleep(1)
+        self.assertIsNone(server.process.poll(), "it waits for the request in progress")
+        server.process.send_signal(signal.SIGINT)
+        self.assertEqual(server.process.wait(timeout=2), -signal.SIGINT)
+        asking.join()
 
     def test_a_killed_run_is_lost_and_can_go_on(self):
         name = self.start("duration=0.2 s")

@@ -119,7 +119,8 @@ class Events:
     def next(self):
         """(number, name, data) of the next event; comments are skipped."""
         number = name = data = None
-        while True:
+        end = time.time() + 20  # comments keep the connection alive
+        while time.time() < end:
             line = self.reply.readline().decode("utf-8").rstrip("\n")
             if line.startswith("id: "):
                 number = int(line[4:])
@@ -129,6 +130,7 @@ class Events:
                 data = json.loads(line[6:])
             elif not line and name is not None:
                 return number, name, data
+        raise TimeoutError("no event has come")
 
     def close(self):
         # http.client leaves the socket open as long as the reply is.
