@@ -375,10 +375,13 @@ class Security(unittest.TestCase):
             connection.close()
         self.assertTrue(self.server.is_alive())
 
-    def test_who_takes_the_page_slowly_keeps_nobody_out(self):
+    def test_who_takes_a_report_slowly_keeps_nobody_out(self):
+        write(self.folder, "results/a/results.h5", "")
+        write(self.folder, "results/a/report.html", "x" * 500_000)
+        url = self.server.post("/api/runs/results:a:results.h5/report").json["url"]
         connections = []
         self.addCleanup(lambda: [connection.close() for connection in connections])
-        ask = f"GET /workbench.js HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\n\r\n".encode()
+        ask = f"GET {url} HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\n\r\n".encode()
         for _ in range(220):  # more than it has threads
             connection = socket.socket()
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)

@@ -121,7 +121,10 @@ class Events:
         number = name = data = None
         end = time.time() + 20  # comments keep the connection alive
         while time.time() < end:
-            line = self.reply.readline().decode("utf-8").rstrip("\n")
+            line = self.reply.readline().decode("utf-8")
+            if not line:
+                raise ConnectionError("the stream has ended")
+            line = line.rstrip("\n")
             if line.startswith("id: "):
                 number = int(line[4:])
             elif line.startswith("event: "):
