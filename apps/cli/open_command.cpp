@@ -27,7 +27,11 @@ using Path = std::filesystem::path;
 
 std::atomic<bool> ends_open{false};
 
-extern "C" void end_open(int) { ends_open = true; }
+/// The first Ctrl-C ends it in order, which requests in progress delay; the second one at once.
+extern "C" void end_open(int signal) {
+  ends_open = true;
+  std::signal(signal, SIG_DFL);
+}
 
 Path running_program(const Path& named) {
   std::error_code error;

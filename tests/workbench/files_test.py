@@ -207,7 +207,13 @@ class Files(unittest.TestCase):
         self.assertEqual(server.file("pipe.yaml").status, 403)
         self.assertEqual(server.file("folder.yaml").status, 403)
         self.assertEqual(server.file("huge.csv").status, 413)
-        self.assertEqual(server.file("binary.yaml").body, bytes(range(256)))
+        # What is no text would be damaged when it is saved.
+        etag = server.file("model.yaml").headers["etag"]
+        for answer in (server.file("binary.yaml"), server.put("binary.yaml", "mine", etag=etag), server.put("binary.yaml", "mine")):
+            self.assertEqual(answer.status, 415, answer.body)
+            self.assertIn("binary.yaml is not UTF-8", answer.json["error"])
+        with open(os.path.join(self.folder, "binary.yaml"), "rb") as file:
+            self.assertEqual(file.read(), bytes(range(256)))
         self.assertEqual(server.file("missing.yaml").status, 404)
         self.assertNotIn("pipe.yaml", [file["path"] for file in server.get("/api/files").json["files"]])
 

@@ -3,6 +3,7 @@
     runs_test.py HERSEY [Class.test_name]
 """
 
+import http.client
 import json
 import os
 import shutil
@@ -10,11 +11,13 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
+import unittest.mock
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from workbench_client import Events, Workbench, write  # noqa: E402
+from workbench_client import Events, Workbench, start_of, write  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 MODEL = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../cli/bearing.yaml")
@@ -27,6 +30,24 @@ def is_running(pid):
             return file.read().rsplit(")", 1)[1].split()[0] != "Z"
     except FileNotFoundError:
         return False
+
+
+def children_of(pid):
+    found = []
+    for task in os.listdir(f"/proc/{pid}/task"):
+        try:
+            with open(f"/proc/{pid}/task/{task}/children", encoding="ascii") as file:
+                found += [int(child) for child in file.read().split()]
+        except FileNotFoundError:
+            pass  # the thread has ended
+    return found
+
+
+def post_and_forget(server, path):
+    try:
+        server.post(path)
+    except (OSError, http.client.HTTPException):
+        pass  # the server has ended
 
 
 class Runs(unittest.TestCase):
@@ -164,6 +185,75 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.server.post(f"/api/runs/{name}/stop").status, 200)
         self.assertEqual(self.server.wait_for(name, "stopped")["share"] > 0, True)
 
+    def test_a_run_is_followed_whenever_its_process_becomes_known(self):
+        with subprocess.Popen(["sleep", "60"]) as process:
+            self.addCleanup(process.kill)
+            folder = os.path.join(self.folder, "runs", "quick-001")
+            events = Events(self.server)
+            self.addCleanup(events.close)
+            process_of = {"pid": process.pid, "start": start_of(process.pid)}
+            # The record is written twice, at times which the system's clock of files need not tell apart.
+            record = write(folder, "run.json", json.dumps({"model": "bearing.yaml", "started": time.time()}))
+            os.utime(record, ns=(10**18, 10**18))
+            while events.next()[1] != "runs":
+                pass
+            new = write(folder, "run.json.new", json.dumps({"model": "bearing.yaml", "started": time.time(), "process": process_of}))
+            os.utime(new, ns=(10**18, 10**18))
+            os.replace(new, record)
+            time.sleep(0.6)  # two looks at the folder
+            write(folder, "events.ndjson", '{"kind":"stepped","t":1}\n')
+            while (event := events.next())[1] != "run":
+                pass
+            self.assertEqual(event[2], {"kind": "stepped", "t": 1, "id": "quick-001"})
+            process.kill()
+
+    def test_a_run_that_is_stopped_before_it_can_report_it_is_stopped(self):
+        folder = os.path.join(self.folder, "runs", "quick-001")
+        # As a run is before it catches signals.
+        with subprocess.Popen([sys.executable, "-c", "import signal; signal.signal(signal.SIGINT, signal.SIG_DFL); print(1, flush=True); signal.pause()",
+                               folder], start_new_session=True, stdout=subprocess.PIPE) as process:
+            self.addCleanup(process.kill)
+            process.stdout.readline()
+            write(folder, "run.json", json.dumps({"model": "bearing.yaml", "started": time.time(),
+                                                  "process": {"pid": process.pid, "start": start_of(process.pid)}}))
+            self.assertEqual(self.server.run_of("quick-001")["state"], "running")
+            self.assertEqual(self.server.post("/api/runs/quick-001/stop").status, 200)
+            self.assertEqual(process.wait(), -signal.SIGINT)
+        run = self.server.wait_for("quick-001", "stopped", seconds=2)
+        self.assertIn("on request", run["message"])
+        self.assertIsNotNone(run["ended"])
+
+    def test_a_killed_run_of_the_command_line_is_lost(self):
+        with subprocess.Popen([PROGRAM, "run", "bearing.yaml", "--set", LONG[0]], cwd=self.folder, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL) as process:
+            self.addCleanup(process.kill)
+            results = os.path.join(self.folder, "results", "bearing", "results.h5")
+            end = time.time() + 20
+            while not os.path.exists(results) and time.time() < end:
+                time.sleep(0.05)
+            self.assertEqual(self.server.run_of("results:bearing:results.h5")["state"], "running")
+            process.kill()
+        self.assertTrue(os.path.exists(results + ".lock"))
+        run = self.server.run_of("results:bearing:results.h5")
+        self.assertEqual(run["state"], "lost")
+        self.assertIn("killed", run["message"])
+
+    def test_a_run_with_its_report_is_completed_though_its_events_ended(self):
+        folder = os.path.join(self.folder, "runs", "full-001")
+        write(folder, "run.json", json.dumps({"model": "bearing.yaml", "started": time.time() - 60, "process": {"pid": 99999999, "start": 1}}))
+        write(folder, "events.ndjson", '{"kind":"started"}\n{"kind":"stepped","share":0.5}\n')
+        write(folder, "results.h5", "")
+        self.assertEqual(self.server.run_of("full-001")["state"], "lost")
+        report = write(folder, "report.html", "a report")
+        run = self.server.run_of("full-001")
+        self.assertEqual((run["state"], run["share"]), ("completed", 1))
+        write(folder, "results.checkpoint", "")
+        self.assertEqual(self.server.run_of("full-001")["state"], "lost")
+        os.remove(os.path.join(folder, "results.checkpoint"))
+        before = time.time() - 120
+        os.utime(report, (before, before))  # that of the run which this one goes on with
+        self.assertEqual(self.server.run_of("full-001")["state"], "lost")
+
     def test_ctrl_c_of_the_server_ends_no_run(self):
         name = self.start(*LONG)
         self.wait_for_steps(name)
@@ -172,6 +262,32 @@ class Runs(unittest.TestCase):
         self.server = self.open()
         self.server.post(f"/api/runs/{name}/stop")
         self.server.wait_for(name, "stopped")
+
+    def test_a_second_ctrl_c_of_the_server_ends_it_at_once(self):
+        name = self.start("duration=1 ms")
+        self.server.wait_for(name, "completed")
+        os.remove(os.path.join(self.folder, "runs", name, "report.html"))
+        with unittest.mock.patch.dict(os.environ, TMPDIR=self.top.name):
+            server = self.open()
+        # A request that takes long: its report is made by a process that is suspended.
+        suspended = None
+        for _ in range(20):
+            asking = threading.Thread(target=post_and_forget, args=(server, f"/api/runs/{name}/report"))
+            asking.start()
+            while asking.is_alive() and not suspended:
+                suspended = next(iter(children_of(server.process.pid)), None)
+            if suspended:
+                self.pids.append(suspended)
+                os.kill(suspended, signal.SIGSTOP)
+                break
+        time.sleep(0.2)
+        self.assertTrue(asking.is_alive())
+        server.process.send_signal(signal.SIGINT)
+        time.sleep(1)
+        self.assertIsNone(server.process.poll(), "it waits for the request in progress")
+        server.process.send_signal(signal.SIGINT)
+        self.assertEqual(server.process.wait(timeout=2), -signal.SIGINT)
+        asking.join()
 
     def test_a_killed_run_is_lost_and_can_go_on(self):
         name = self.start("duration=0.2 s")
@@ -217,8 +333,7 @@ class Runs(unittest.TestCase):
 
     def test_a_record_of_someone_elses_process_ends_no_process(self):
         with subprocess.Popen(["sleep", "60"]) as victim:
-            with open(f"/proc/{victim.pid}/stat", encoding="ascii") as file:
-                start = int(file.read().rsplit(")", 1)[1].split()[19])
+            start = start_of(victim.pid)
             for process in ({"pid": victim.pid, "start": start}, {"pid": victim.pid, "start": 1}, {"pid": -1, "start": start}, {"pid": 1, "start": 0},
                             {"pid": "x"}, [], 7):
                 write(self.folder, "runs/evil-001/run.json", json.dumps({"model": "bearing.yaml", "process": process, "set": 5, "study": "no",

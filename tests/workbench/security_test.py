@@ -4,10 +4,12 @@
 """
 
 import http.client
+import json
 import os
 import resource
 import socket
 import struct
+import subprocess
 import sys
 import tempfile
 import time
@@ -15,7 +17,7 @@ import unittest
 import urllib.parse
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from workbench_client import Events, Workbench, write  # noqa: E402
+from workbench_client import Events, Workbench, start_of, write  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 MODEL = "hersey: 1\ntitle: a model\n"
@@ -202,6 +204,74 @@ class Security(unittest.TestCase):
         with open(secret, encoding="utf-8") as file:
             self.assertEqual(file.read(), SECRET)
 
+    def test_a_run_with_any_link_is_not_resumed(self):
+        run = os.path.join(self.folder, "runs", "evil-001")
+        secret = os.path.join(self.top.name, "secret.yaml")
+        write(run, "results.checkpoint", "")
+        write(run, "run.json", '{"model": "model.yaml", "set": []}')
+        os.mkdir(os.path.join(run, "report_fields"))
+        for name in ("run.json.new", "report.html.new", "report_fields/film.js"):
+            with self.subTest(name=name):
+                os.symlink(secret, os.path.join(run, name))
+                self.refused(self.server.post("/api/runs/evil-001/resume"), 403, "link")
+                self.assertTrue(os.path.islink(os.path.join(run, name)))
+                os.remove(os.path.join(run, name))
+        with open(secret, encoding="utf-8") as file:
+            self.assertEqual(file.read(), SECRET)
+
+    def test_files_of_reports_are_no_links(self):
+        folder = os.path.join(self.folder, "results", "a")
+        secret = os.path.join(self.top.name, "secret.yaml")
+        write(folder, "results.h5", "")
+        write(folder, "report.html", "a report")
+        write(folder, "report_fields/film.js", "fields")
+        url = self.server.post("/api/runs/results:a:results.h5/report").json["url"]
+        self.assertEqual([self.server.get(url + name, token=False).text for name in ("", "report_fields/film.js")], ["a report", "fields"])
+        os.symlink(secret, os.path.join(folder, "report_fields", "link.js"))
+        os.rename(os.path.join(folder, "report.html"), os.path.join(folder, "old.html"))
+        os.symlink(secret, os.path.join(folder, "report.html"))
+        for name in ("report_fields/link.js", ""):
+            answer = self.server.get(url + name, token=False)
+            self.assertNotIn(SECRET.encode(), answer.body)
+            self.refused(answer, 404, "not known")
+        os.rename(os.path.join(folder, "report_fields"), os.path.join(self.top.name, "elsewhere"))
+        os.symlink(os.path.join(self.top.name, "elsewhere"), os.path.join(folder, "report_fields"))
+        self.refused(self.server.get(url + "report_fields/film.js", token=False), 404, "not known")
+
+    def test_names_that_are_no_text_are_left_out(self):
+        for name in (b"\xed\xa0\x80.yaml", b"\xe0\x80\xaf.yaml", b"\xf4\x90\x80\x80.yaml", b"\xff.yaml"):
+            with open(os.path.join(os.fsencode(self.folder), name), "wb") as file:
+                file.write(MODEL.encode())
+        time.sleep(1.2)  # two looks at the folder
+        self.assertEqual([file["path"] for file in self.server.get("/api/files").json["files"]], ["model.yaml"])
+        events = Events(self.server)
+        self.addCleanup(events.close)
+        write(self.folder, "\U0001f600.yaml", MODEL)
+        self.assertEqual(events.next()[1:], ("files", {"paths": ["\U0001f600.yaml"]}))
+
+    def test_hostile_files_of_runs_are_left_out(self):
+        with subprocess.Popen(["sleep", "60"]) as victim:
+            self.addCleanup(victim.kill)
+            run = os.path.join(self.folder, "runs", "evil-001")
+            write(run, "results.checkpoint", "")
+            write(run, "run.json", json.dumps({"model": "model.yaml", "set": [], "process": {"pid": victim.pid, "start": start_of(victim.pid)}}))
+            time.sleep(0.6)  # until the run is followed
+            events = Events(self.server)
+            self.addCleanup(events.close)
+            deep = "[" * 300_000 + "]" * 300_000
+            good = '{"kind":"stepped","t":1}\n'
+            for line in (f'{{"kind":"stepped","x":{deep}}}\n', '{"kind":"stepped","x":"' + "x" * 3_000_000 + '"}\n', "x" * 3_000_000 + "\n"):
+                with open(os.path.join(run, "events.ndjson"), "a", encoding="utf-8") as file:
+                    file.write(line + good)
+                while (event := events.next())[1] != "run":
+                    pass
+                self.assertEqual(event[2], {"kind": "stepped", "t": 1, "id": "evil-001"})
+            victim.kill()
+        write(run, "run.json", f'{{"model": "model.yaml", "set": [], "x": {deep}}}')
+        for method, call in (("GET", "/api/runs"), ("POST", "/api/runs/evil-001/resume"), ("POST", "/api/runs/evil-001/stop")):
+            self.assertEqual(self.server.request(method, call).status, 200 if method == "GET" else 409)
+        self.assertTrue(self.server.is_alive())
+
     def test_large_bodies_are_refused(self):
         body = b"x" * 100_000_000
         begin = time.time()
@@ -304,6 +374,25 @@ class Security(unittest.TestCase):
         for connection in connections:
             connection.close()
         self.assertTrue(self.server.is_alive())
+
+    def test_who_takes_a_report_slowly_keeps_nobody_out(self):
+        write(self.folder, "results/a/results.h5", "")
+        write(self.folder, "results/a/report.html", "x" * 500_000)
+        url = self.server.post("/api/runs/results:a:results.h5/report").json["url"]
+        connections = []
+        self.addCleanup(lambda: [connection.close() for connection in connections])
+        ask = f"GET {url} HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\n\r\n".encode()
+        for _ in range(220):  # more than it has threads
+            connection = socket.socket()
+            connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            connection.connect(("127.0.0.1", self.server.port))
+            connection.sendall(ask * 10)  # more than the system takes off the server
+            connections.append(connection)
+            connection.recv(1)  # it is being served
+        for _ in range(5):
+            begin = time.time()
+            self.assertEqual(self.server.get("/api/hello").status, 200)
+            self.assertLess(time.time() - begin, 1)
 
     def test_broken_event_streams_are_forgotten(self):
         for _ in range(3):

@@ -119,8 +119,12 @@ class Events:
     def next(self):
         """(number, name, data) of the next event; comments are skipped."""
         number = name = data = None
-        while True:
-            line = self.reply.readline().decode("utf-8").rstrip("\n")
+        end = time.time() + 20  # comments keep the connection alive
+        while time.time() < end:
+            line = self.reply.readline().decode("utf-8")
+            if not line:
+                raise ConnectionError("the stream has ended")
+            line = line.rstrip("\n")
             if line.startswith("id: "):
                 number = int(line[4:])
             elif line.startswith("event: "):
@@ -129,11 +133,18 @@ class Events:
                 data = json.loads(line[6:])
             elif not line and name is not None:
                 return number, name, data
+        raise TimeoutError("no event has come")
 
     def close(self):
         # http.client leaves the socket open as long as the reply is.
         self.reply.close()
         self.connection.close()
+
+
+def start_of(pid):
+    """Time of a process's start, in the system's ticks."""
+    with open(f"/proc/{pid}/stat", encoding="ascii") as file:
+        return int(file.read().rsplit(")", 1)[1].split()[19])
 
 
 def write(folder, name, text):

@@ -42,6 +42,21 @@ TEST_CASE("EventLog_AsksToReloadWhereEventsAreMissing") {
   CHECK(log.after(kMore, kNoWait).empty());
 }
 
+TEST_CASE("EventLog_KeepsNoMoreBytesThanItMay") {
+  EventLog log;
+  const std::string long_line(std::size_t{1} << 20, 'x');
+  constexpr std::uint64_t kAdded = 40;
+  for (std::uint64_t i = 0; i < kAdded; ++i) log.add("run", long_line);
+  CHECK(log.after(kAdded - 16, kNoWait).size() == 16);
+  const std::vector<Event> too_old = log.after(kAdded - 17, kNoWait);
+  REQUIRE(too_old.size() == 1);
+  CHECK(too_old[0].name == "reload");
+  // One that is longer than all that is kept is passed on.
+  log.add("run", std::string(std::size_t{17} << 20, 'y'));
+  CHECK(log.after(kAdded, kNoWait).size() == 1);
+  CHECK(log.after(kAdded, kNoWait)[0].name == "run");
+}
+
 TEST_CASE("EventLog_WakesAReader") {
   EventLog log;
   std::thread writer([&] { log.add("run", "{}"); });

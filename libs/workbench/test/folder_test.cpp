@@ -58,8 +58,8 @@ TEST_CASE("Paths_StayInTheFolder") {
   std::filesystem::create_directory(own.path / "inner2");
   std::filesystem::create_symlink("../inner2", own.path / "inner" / "beside");
   const Folder folder(own.path / "inner");
-  for (const char* good :
-       {"model.yaml", "new.yaml", "sub/new.yaml", "no/such/folder.yaml", "in", "down/x.yaml", "a..b"})
+  for (const char* good : {"model.yaml", "new.yaml", "sub/new.yaml", "no/such/folder.yaml", "in", "down/x.yaml", "a..b",
+                           "\xe0\xa0\x80", "\xed\x9f\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
     CHECK_MESSAGE(status_of_path(folder, good) == 200, good);
   for (const char* bad : {"",
                           ".",
@@ -82,7 +82,11 @@ TEST_CASE("Paths_StayInTheFolder") {
                           "a\x7f",
                           "\xff",
                           "\xc0\xae\xc0\xae/secret",
-                          "\xed\xa0"})
+                          "\xed\xa0",
+                          "\xed\xa0\x80.yaml",
+                          "\xe0\x80\xaf.yaml",
+                          "\xf0\x80\x80\xaf.yaml",
+                          "\xf4\x90\x80\x80.yaml"})
     CHECK_MESSAGE(status_of_path(folder, bad) == 403, bad);
   CHECK(status_of_path(folder, std::string("model.yaml\0x", 12)) == 403);
 }

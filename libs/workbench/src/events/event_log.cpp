@@ -8,7 +8,11 @@ void EventLog::add(const std::string& name, const std::string& data) {
   {
     const std::lock_guard lock(mutex_);
     events_.push_back({++last_, name, data});
-    if (events_.size() > kMost) events_.pop_front();
+    bytes_ += data.size();
+    while (events_.size() > kMost || (bytes_ > kMostBytes && events_.size() > 1)) {
+      bytes_ -= events_.front().data.size();
+      events_.pop_front();
+    }
   }
   added_.notify_all();
 }

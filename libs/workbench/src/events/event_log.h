@@ -29,11 +29,13 @@ class EventLog {
 
  private:
   static constexpr std::size_t kMost = 4096;  // about a minute of four runs
+  static constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 
   mutable std::mutex mutex_;
   mutable std::condition_variable added_;
   std::deque<Event> events_;
   std::uint64_t last_ = 0;
+  std::size_t bytes_ = 0;  // of their data
 };
 
 }  // namespace hersey::workbench

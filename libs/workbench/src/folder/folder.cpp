@@ -37,6 +37,13 @@ class Descriptor {
   int number_;
 };
 
+/// True if the second byte of a character of several may follow the first: others spell a character in more bytes than
+/// it needs, half of a pair of UTF-16, or a number above that of the last character.
+bool may_follow(unsigned char first, unsigned char second) {
+  return (second & 0xc0) == 0x80 && !(first == 0xe0 && second < 0xa0) && !(first == 0xed && second > 0x9f) &&
+         !(first == 0xf0 && second < 0x90) && !(first == 0xf4 && second > 0x8f);
+}
+
 bool is_utf8(std::string_view text) {
   std::size_t i = 0;
   while (i < text.size()) {
@@ -47,7 +54,8 @@ bool is_utf8(std::string_view text) {
                      : byte >= 0xf0 && byte < 0xf5 ? 3
                                                    : -1;
     if (more < 0 || i + static_cast<std::size_t>(more) >= text.size()) return false;
-    for (int k = 1; k <= more; ++k)
+    if (more > 0 && !may_follow(byte, static_cast<unsigned char>(text[i + 1]))) return false;
+    for (int k = 2; k <= more; ++k)
       if ((static_cast<unsigned char>(text[i + static_cast<std::size_t>(k)]) & 0xc0) != 0x80) return false;
     i += static_cast<std::size_t>(more) + 1;
   }
@@ -278,6 +286,8 @@ FileText Folder::read(const std::string& relative) const {
   if (static_cast<std::uintmax_t>(status.st_size) > kMostText)
     throw Refused(413, fmt::format("{} is larger than {} MB", relative, kMostText >> 20), "edit it by another program");
   FileText content{text_of(opened.number(), kMostText), ""};
+  // What a page cannot show as it is would be damaged when it is saved.
+  if (!is_utf8(content.text)) throw Refused(415, relative + " is not UTF-8 text", "convert it by another program");
   content.etag = etag_of(content.text);
   return content;
 }

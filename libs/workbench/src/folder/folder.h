@@ -45,7 +45,7 @@ class Folder {
 
   /// Files down to four folders deep, hidden ones left out, at most 2000, by name.
   [[nodiscard]] std::vector<FileEntry> list() const;
-  /// @throws Refused 404 where there is none, 413 above the size that pages edit
+  /// @throws Refused 404 where there is none, 413 above the size that pages edit, 415 if it is not UTF-8
   [[nodiscard]] FileText read(const std::string& relative) const;
   /// Replaces a file whose content still has the mark `etag`, through a temporary file beside it.
   /// @returns the new mark @throws ChangedFile if the content differs; Refused 507 on a full disk, 403 where nothing

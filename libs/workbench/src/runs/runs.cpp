@@ -20,6 +20,7 @@
 
 #include "hersey/core/version.h"
 #include "hersey/core/write_file.h"
+#include "hersey/results/output_lock.h"
 #include "hersey/session/session.h"
 
 namespace hersey::workbench {
@@ -34,6 +35,8 @@ constexpr std::uintmax_t kMostModel = std::uintmax_t{16} << 20;
 constexpr std::uintmax_t kMostTail = 64 << 10;
 constexpr std::uintmax_t kMostRecord = 1 << 20;
 constexpr double kReportTime = 300;  // [s]
+constexpr const char* kLost = "its process ended without a word: it was killed, or the machine was";
+constexpr const char* kNoObject = "?";  // in place of the beginning of a line, the rest of which is to be left out
 
 double now() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
 
@@ -52,7 +55,18 @@ bool is_own_folder(const Path& folder) {
 
 std::uintmax_t size_of(const Path& file) { return static_cast<std::uintmax_t>(status_of_own(file).st_size); }
 
-double time_of(const Path& file) { return static_cast<double>(status_of_own(file).st_mtim.tv_sec); }
+/// [s] since 1970; 0 if there is no such file.
+double time_of(const Path& file) {
+  const struct stat status = status_of_own(file);
+  return static_cast<double>(status.st_mtim.tv_sec) + 1e-9 * static_cast<double>(status.st_mtim.tv_nsec);
+}
+
+/// Differs between two contents of a file that is replaced as a whole: the second may follow the first within one tick
+/// of the clock that times files, but is another file.
+std::string record_mark(const Path& file) {
+  const struct stat status = status_of_own(file);
+  return fmt::format("{}.{:09} {} {}", status.st_mtim.tv_sec, status.st_mtim.tv_nsec, status.st_ino, status.st_size);
+}
 
 /// Bytes of a file from `begin` on, at most `most`; empty if it cannot be read.
 std::string part_of(const Path& file, std::uintmax_t begin, std::uintmax_t most) {
@@ -71,8 +85,25 @@ std::string tail_of(const Path& file, std::uintmax_t most) {
   return part_of(file, size > most ? size - most : 0, most);
 }
 
+/// False for JSON of more levels than the program writes: writing it again takes a call for each.
+bool is_shallow(const std::string& text) {
+  constexpr int kMostLevels = 32;
+  int level = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string && c == '\\') ++i;
+    if (c == '"') in_string = !in_string;
+    if (in_string) continue;
+    if ((c == '{' || c == '[') && ++level > kMostLevels) return false;
+    if (c == '}' || c == ']') --level;
+  }
+  return true;
+}
+
 /// An object from a line, null if it is none: files may have been cut off, or written by someone else.
 json object_of(const std::string& text) {
+  if (!is_shallow(text)) return {};
   json value = json::parse(text, nullptr, false);
   return value.is_object() ? value : json();
 }
@@ -176,17 +207,50 @@ void cannot_make(const Path& folder, const std::error_code& error) {
                 is_full ? "make room on the disk" : "open a folder in which you may write");
 }
 
+/// What lies in a folder; none of it if the folder cannot be read.
+std::vector<Path> entries_of(const Path& folder) {
+  std::vector<Path> entries;
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
+    entries.push_back(entry->path());
+  return entries;
+}
+
 /// Names of the runs in `folder`/runs.
 std::vector<std::string> own_runs(const Path& folder) {
   std::vector<std::string> ids;
   if (!is_own_folder(folder / "runs")) return ids;
-  std::error_code error;
-  for (const auto& run : std::filesystem::directory_iterator(folder / "runs", error)) {
-    std::string id = run.path().filename().string();
-    if (id == plain(id) && is_own_folder(run.path()) && time_of(run.path() / "run.json") > 0)
-      ids.push_back(std::move(id));
+  for (const Path& run : entries_of(folder / "runs")) {
+    std::string id = run.filename().string();
+    if (id == plain(id) && is_own_folder(run) && time_of(run / "run.json") > 0) ids.push_back(std::move(id));
   }
   return ids;
+}
+
+/// True while a run writes this file. The lock's file alone proves nothing: it outlives a run that was killed.
+bool is_being_written(const Path& results) {
+  try {
+    results::require_idle(results);
+    return false;
+  } catch (const results::FileBusy&) {
+    return true;
+  }
+}
+
+/// Name of a link in the folder of a run, empty if there is none. One in the place of any file, of those that are
+/// replaced through a temporary file as well, would be followed when it is written.
+std::string link_among(const Path& folder) {
+  std::error_code error;
+  std::filesystem::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::recursive_directory_iterator(); entry.increment(error))
+    if (std::error_code unknown; entry->is_symlink(unknown)) return entry->path().lexically_relative(folder).string();
+  if (error) cannot_make(folder, error);
+  return {};
+}
+
+std::string text_of_record(const json& record) {
+  return record.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 void write_record(const Path& file, const std::string& text) {
@@ -223,12 +287,14 @@ RunEntry Runs::entry_of(const std::string& id) const {
   run.process = process_in(record);
   const Course course = course_of(folder / "events.ndjson");
   run.share = course.share, run.message = course.message, run.ended = course.ended;
+  double reported = 0;
   std::error_code error;
-  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
-    const Path name = file.path().filename();
-    if (file.is_symlink(error)) continue;
+  for (const Path& file : entries_of(folder)) {
+    const Path name = file.filename();
+    if (std::filesystem::is_symlink(file, error)) continue;
     if (name.extension() == ".h5") run.results.push_back(run.folder + "/" + name.string());
-    if (name == "report.html" || name == "study.html") run.report = run.folder + "/" + name.string();
+    if (name == "report.html" || name == "study.html")
+      run.report = run.folder + "/" + name.string(), reported = time_of(file);
     if (name.extension() == ".checkpoint") run.can_resume = true;
   }
   std::sort(run.results.begin(), run.results.end());
@@ -246,9 +312,20 @@ RunEntry Runs::entry_of(const std::string& id) const {
     run.share = run.state == "completed" ? 1 : 0;
     run.ended = time_of(folder / "exit.txt");
     if (run.state != "completed") run.message = last_line(tail_of(folder / "log.txt", kMostTail));
+  } else if (const double began = std::max(run.started, record_number(record, "resumed"));
+             reported > began && !run.can_resume) {
+    // Its events ended before it did, on a full disk perhaps; a checkpoint would be there if it had not come to its
+    // end.
+    run.state = "completed";
+    run.share = 1;
+    run.ended = reported;
+  } else if (record_number(record, "stopping") > 0) {
+    run.state = "stopped";
+    run.message = "stopped on request";
+    run.ended = record_number(record, "stopping");
   } else {
     run.state = "lost";
-    run.message = "its process ended without a word: it was killed, or the machine was; the log may say more";
+    run.message = fmt::format("{}; the log may say more", kLost);
   }
   run.can_resume =
       run.state != "running" && run.state != "completed" && (run.can_resume || run.is_study || !run.results.empty());
@@ -267,9 +344,11 @@ std::vector<RunEntry> Runs::results_made_elsewhere() const {
     run.results = {file.path};
     run.ended = file.changed;
     run.share = 1;
-    const bool is_being_written = std::filesystem::exists(path.string() + ".lock");
+    // What a run leaves behind that was killed.
+    const bool is_left = time_of(path.string() + ".lock") > 0;
     const bool is_cut_off = std::filesystem::exists(Path(path).replace_extension(".checkpoint"));
-    run.state = is_being_written ? "running" : is_cut_off ? "stopped" : "completed";
+    run.state = is_being_written(path) ? "running" : is_left ? "lost" : is_cut_off ? "stopped" : "completed";
+    if (run.state == "lost") run.message = kLost;
     const Path page = path.parent_path() / "report.html";
     if (size_of(page) > 0 && path.filename() == "results.h5")
       run.report = page.lexically_relative(folder_.path()).generic_string();
@@ -346,16 +425,12 @@ void Runs::launch(const std::string& id, json record, bool resumes) {
     words.insert(words.end(), {"--events", (folder / "events.ndjson").string()});
     if (resumes) words.emplace_back("--resume");
   }
-  // A link in their place would be followed when they are written.
-  for (const char* name :
-       {"run.json", "log.txt", "events.ndjson", "exit.txt", "results.h5", "results.checkpoint", "report.html"})
-    if (std::error_code error; std::filesystem::is_symlink(folder / name, error))
-      throw Refused(403, fmt::format("{} of this run is a link, which may lead anywhere", name), "start the run anew");
+  if (const std::string link = link_among(folder); !link.empty())
+    throw Refused(403, fmt::format("{} of this run is a link, which may lead anywhere", link), "start the run anew");
   record["command"] = words;
-  const auto save = [&] {
-    write_record(folder / "run.json", record.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
-  };
+  const auto save = [&] { write_record(folder / "run.json", text_of_record(record)); };
   record.erase("process");
+  record.erase("stopping");
   save();
   // Studies report no events: a shell notes how they end. It outlives Ctrl-C, which both get.
   if (is_study) {
@@ -369,11 +444,21 @@ void Runs::launch(const std::string& id, json record, bool resumes) {
   events_.add("runs", json{{"id", id}}.dump());
 }
 
-void Runs::stop(const std::string& id) const {
+void Runs::stop(const std::string& id) {
+  const std::lock_guard lock(starting_);
   const RunEntry run = find(id);
   if (run.state != "running") throw Refused(409, "this run has ended already", "");
+  const Path file = folder_.path() / run.folder / "run.json";
   if (!interrupt(run.process, (folder_.path() / run.folder).string()))
     throw Refused(409, "this run was not started here, or has just ended", "stop it where it was started");
+  json record = object_of(part_of(file, 0, kMostRecord));
+  if (record.is_null() || !link_among(file.parent_path()).empty()) return;
+  record["stopping"] = now();
+  try {
+    write_record(file, text_of_record(record));
+  } catch (const Refused&) {
+    return;  // it stops without the note as well
+  }
 }
 
 void Runs::resume(const std::string& id) {
@@ -383,7 +468,7 @@ void Runs::resume(const std::string& id) {
     throw Refused(409, run.state == "running" ? "this run goes on already" : "there is nothing to resume from",
                   "start it anew");
   const Path file = folder_.path() / run.folder / "run.json";
-  json record = object_of(part_of(file, 0, size_of(file)));
+  json record = object_of(part_of(file, 0, kMostRecord));
   if (record.is_null() || run.folder != "runs/" + id)
     throw Refused(409, "this run was not started here", "resume it by `hersey run --resume`");
   record["resumed"] = now();
@@ -458,18 +543,27 @@ Path Runs::report(const std::vector<std::string>& ids) {
   return page;
 }
 
+void Runs::forget_report(const Path& page) {
+  const std::lock_guard lock(reporting_);
+  if (reports_.empty() || page.parent_path() != reports_) return;
+  std::error_code ignored;
+  std::filesystem::remove(page, ignored);
+  std::filesystem::remove_all(reports_ / (page.stem().string() + "_fields"), ignored);
+}
+
 void Runs::follow_run(const std::string& id, Tail& tail) {
   const Path file = folder_.path() / "runs" / id / "events.ndjson";
   const std::uintmax_t size = size_of(file);
   if (size <= tail.read) return;
   constexpr std::uintmax_t kMostAtOnce = 1 << 20;
+  constexpr std::size_t kMostLine = 1 << 20;
   const std::string text = part_of(file, tail.read, std::min(size - tail.read, kMostAtOnce));
   tail.read += text.size();
   std::istringstream lines(tail.rest + text);
   tail.rest.clear();
   for (std::string line; std::getline(lines, line);) {
     if (lines.eof()) {
-      tail.rest = line;
+      tail.rest = line.size() > kMostLine ? kNoObject : line;
       break;
     }
     json event = object_of(line);
@@ -485,15 +579,15 @@ void Runs::look_for_runs() {
   std::set<std::string> there;
   for (const std::string& id : own_runs(folder_.path())) {
     const Path folder = folder_.path() / "runs" / id, record = folder / "run.json";
-    const double record_time = time_of(record);
+    const std::string mark = record_mark(record);
     there.insert(id);
     const auto [entry, is_new] = tails_.try_emplace(id);
     Tail& tail = entry->second;
     // What was written before this program began is history, which pages ask for; the rest of a line in the middle of
     // being written is no object.
-    if (is_new && is_first_look) tail.read = size_of(folder / "events.ndjson"), tail.rest = "?";
-    if (!is_new && tail.record_time == record_time && !tail.runs) continue;
-    tail.record_time = record_time;
+    if (is_new && is_first_look) tail.read = size_of(folder / "events.ndjson"), tail.rest = kNoObject;
+    if (!is_new && tail.record_mark == mark && !tail.runs) continue;
+    tail.record_mark = mark;
     const bool runs = is_running(process_in(object_of(part_of(record, 0, kMostRecord))));
     is_list_new = is_list_new || is_new || runs != tail.runs;
     if (!runs) follow_run(id, tail);  // what it wrote at its end

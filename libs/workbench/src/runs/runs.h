@@ -50,7 +50,8 @@ class Runs {
   /// @param request  {path, set, etag?, threads?, study?, on?}
   /// @throws Refused 409 if the file no longer has the mark `etag`; 403, 507 if its folder cannot be made
   std::string start(const nlohmann::json& request);
-  void stop(const std::string& id) const;
+  /// Asks it to stop as Ctrl-C does, and notes so in its record: it may not have come so far as to report it itself.
+  void stop(const std::string& id);
   void resume(const std::string& id);
   /// The end of what it printed, at most 256 kB.
   [[nodiscard]] std::string log(const std::string& id) const;
@@ -61,6 +62,8 @@ class Runs {
   /// Makes the report of runs, of several as a comparison, in a temporary folder where it is not there already.
   /// @throws Refused 409 if there are no results yet, 422 if no report can be made of them
   std::filesystem::path report(const std::vector<std::string>& ids);
+  /// Removes a report that was made in the temporary folder; one in the folder of a run stays.
+  void forget_report(const std::filesystem::path& page);
 
   /// Passes on what runs have written since the last call. To be called several times a second, by one thread.
   void follow();
@@ -69,8 +72,8 @@ class Runs {
   /// How far the events of a run have been passed on.
   struct Tail {
     std::uintmax_t read = 0;
-    std::string rest;  // of a line that is not complete
-    double record_time = 0;
+    std::string rest;         // of a line that is not complete
+    std::string record_mark;  // of the record that was read last
     bool runs = false;
   };
   [[nodiscard]] RunEntry entry_of(const std::string& id) const;

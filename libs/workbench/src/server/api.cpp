@@ -150,7 +150,10 @@ Reply Api::report(const std::vector<std::string>& ids) {
   const std::lock_guard lock(tickets_mutex_);
   constexpr std::size_t kMostTickets = 200;
   tickets_.emplace_back(ticket, page);
-  if (tickets_.size() > kMostTickets) tickets_.pop_front();
+  if (tickets_.size() > kMostTickets) {
+    runs_.forget_report(tickets_.front().second);
+    tickets_.pop_front();
+  }
   return json_reply({{"url", "/report/" + ticket + "/"}});
 }
 
@@ -177,7 +180,12 @@ Reply Api::report_file(const Request& request) {
   const std::filesystem::path asked(name);
   if (!name.empty() && (asked.parent_path() != beside || asked.extension() != ".js" || asked.filename() == ".."))
     return unknown("this file");
-  std::optional<std::string> text = content_of(name.empty() ? page : page.parent_path() / asked);
+  // Links may lead out of the folder, also those that have been made since the report was asked for.
+  const std::filesystem::path file = name.empty() ? page : page.parent_path() / asked;
+  std::error_code error;
+  for (const auto& part : {file, page.parent_path() / beside})
+    if (std::filesystem::is_symlink(part, error)) return unknown("this file");
+  std::optional<std::string> text = content_of(file);
   if (!text) return {.status = 404, .body = error_json("the report is gone", "open it again from the list of runs")};
   return {.type = name.empty() ? "text/html; charset=utf-8" : "text/javascript; charset=utf-8",
           .body = std::move(*text),

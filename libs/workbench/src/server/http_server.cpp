@@ -59,8 +59,9 @@ class Connection : public httplib::Stream {
     deadline_ = Clock::now() + kHeadTime;
     return true;
   }
-  /// The head of the request has been read.
-  void begin_body() {
+  /// The head of the request has been read. @param is_public  who sends it need not have the token
+  void begin_body(bool is_public) {
+    is_public_ = is_public;
     in_head_ = false;
     deadline_ = Clock::now() + kBodyTime;
   }
@@ -73,8 +74,9 @@ class Connection : public httplib::Stream {
     while (fill()) begin_ = end_;
   }
 
-  /// True while no complete request has been received: the connection can be closed without losing anything.
-  [[nodiscard]] bool is_at_rest() const { return in_head_; }
+  /// True while no complete request of someone with the token has been received: who takes the page or a report slowly
+  /// must not keep others out.
+  [[nodiscard]] bool can_make_room() const { return in_head_ || is_public_; }
   [[nodiscard]] bool is_closing() const { return is_closing_; }
   [[nodiscard]] Clock::time_point at_rest_since() const { return at_rest_since_; }
   void close_early() {
@@ -143,6 +145,7 @@ class Connection : public httplib::Stream {
   Clock::time_point deadline_;
   std::atomic<Clock::time_point> at_rest_since_ = Clock::now();
   std::atomic<bool> in_head_ = true;
+  std::atomic<bool> is_public_ = true;
   std::atomic<bool> is_closing_ = false;
   bool closes_ = false;
   std::size_t head_bytes_ = 0;
@@ -161,7 +164,8 @@ class Connections {
     const std::lock_guard lock(mutex_);
     open_.erase(&connection);
   }
-  /// Closes the connection that has been without a request for longest, where there are as many as may be.
+  /// Closes the connection that has been without a request to the interface for longest, where there are as many as may
+  /// be.
   void make_room() {
     const std::lock_guard lock(mutex_);
     const auto staying =
@@ -169,7 +173,7 @@ class Connections {
     if (static_cast<std::size_t>(staying) < kMostConnections) return;
     Connection* oldest = nullptr;
     for (Connection* connection : open_)
-      if (!connection->is_closing() && connection->is_at_rest() &&
+      if (!connection->is_closing() && connection->can_make_room() &&
           (oldest == nullptr || connection->at_rest_since() < oldest->at_rest_since()))
         oldest = connection;
     if (oldest != nullptr) oldest->close_early();
@@ -342,9 +346,9 @@ class HttpServer::Impl : public httplib::Server {
 
   /// The head has been read, the body not yet.
   void examine(httplib::Request& request) {
-    current->begin_body();
     head_of_request = head_of(request);
     refused = refusal(head_of_request, token_);
+    current->begin_body(refused.has_value() || !head_of_request.path.starts_with("/api/"));
     // The library is to serve neither ranges nor compressed replies, and to find every route in one comparison.
     request.ranges.clear();
     request.headers.erase("Accept-Encoding");

@@ -12,7 +12,8 @@ namespace hersey::workbench {
 /// body is read. The one file that includes cpp-httplib is its source.
 ///
 /// A connection has 10 s for the head of a request, 10 s more for its body, and 10 s for each part of a reply to be
-/// taken. At most 96 connections are served; a further one replaces the one that has been idle for longest.
+/// taken. At most 96 connections are served; a further one replaces the one that has asked the interface for nothing
+/// for longest.
 class HttpServer {
  public:
   using Log = std::function<void(const std::string&)>;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -38,7 +40,11 @@ class Server::Impl {
   void serve(const std::atomic<bool>& stop) {
     std::atomic<bool> has_ended = false;
     std::thread listening([&] {
-      http_.listen();
+      try {
+        http_.listen();
+      } catch (const std::exception& error) {
+        log(error.what());
+      }
       has_ended = true;
     });
     Watch watch(folder_);
@@ -47,16 +53,24 @@ class Server::Impl {
     constexpr int kPausePerLook = 20;  // a large folder is looked at in a twentieth of the time
     using Steady = std::chrono::steady_clock;
     Steady::time_point next_look = Steady::now() + kLeastPause;
-    while (!stop) {
+    std::string last_fault;
+    while (!stop && !has_ended) {
       std::this_thread::sleep_for(kTick);
-      runs_.follow();
-      const Steady::time_point look = Steady::now();
-      if (look < next_look) continue;
-      if (const std::vector<std::string> paths = watch.changes(); !paths.empty())
-        events_.add("files", nlohmann::json{{"paths", paths}}.dump());
-      const Steady::time_point end = Steady::now();
-      next_look = end + std::max<Steady::duration>(kLeastPause, kPausePerLook * (end - look));
+      // Nothing that lies in the folder is a reason to end.
+      try {
+        runs_.follow();
+        const Steady::time_point look = Steady::now();
+        if (look < next_look) continue;
+        if (const std::vector<std::string> paths = watch.changes(); !paths.empty())
+          events_.add("files", nlohmann::json{{"paths", paths}}.dump(-1, ' ', false, kReplace));
+        const Steady::time_point end = Steady::now();
+        next_look = end + std::max<Steady::duration>(kLeastPause, kPausePerLook * (end - look));
+      } catch (const std::exception& fault) {
+        if (fault.what() != last_fault) log(fmt::format("changes in the folder cannot be followed: {}", fault.what()));
+        last_fault = fault.what();
+      }
     }
+    const bool ends_by_itself = has_ended && !stop;
     ends_ = true;
     // A stop before it has begun to listen has no effect.
     while (!has_ended) {
@@ -64,9 +78,16 @@ class Server::Impl {
       std::this_thread::sleep_for(kTick);
     }
     listening.join();
+    if (ends_by_itself) throw std::runtime_error("the port is no longer open to connections; start `hersey open` anew");
   }
 
  private:
+  static constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+
+  void log(const std::string& line) const {
+    if (options_.log) options_.log(line);
+  }
+
   void bind() {
     constexpr int kFirst = 8437, kMost = 100;
     if (options_.port != 0) {

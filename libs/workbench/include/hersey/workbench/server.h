@@ -36,6 +36,7 @@ class Server {
   [[nodiscard]] std::string address() const;
 
   /// Serves until `stop` becomes true. Runs that were started go on.
+  /// @throws std::runtime_error if the system closes the port before
   void serve(const std::atomic<bool>& stop);
 
  private:
