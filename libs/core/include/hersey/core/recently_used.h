@@ -34,7 +34,7 @@ class RecentlyUsed {
     return value;
   }
 
-  [[nodiscard]] std::size_t size() const { return kept_.size(); }
+  [[nodiscard]] std::size_t size() const { return kept_.size(); }  ///< number that is kept
 
  private:
   using Named = std::pair<std::string, std::shared_ptr<const T>>;

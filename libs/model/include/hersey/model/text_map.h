@@ -42,7 +42,7 @@ struct TextEntry {
 /// Where everything stands in the text of a model, so that single values can be changed while comments, order and
 /// layout of all the rest stay. Columns of line 1 count from behind a byte order mark. Keys that aliases, merge keys or
 /// templates bring in stand at their origin only.
-/// @verified_by text_map_test.cpp
+/// @verified_by text_map_test.cpp, text_map_edit_test.cpp
 class TextMap {
  public:
   /// @param file  names the text in faults
