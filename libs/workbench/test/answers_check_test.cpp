@@ -162,7 +162,7 @@ TEST_CASE("ARepair_InAValueOfSeveralLines_IsMadeInItsLine") {
 }
 
 TEST_CASE("OfThousandsOfFaults_FiveHundredAreListedAndTheOthersCounted") {
-  constexpr std::size_t kMany = 20'000;
+  constexpr std::size_t kMany = 2000;
   std::string unknown, parameters;
   for (std::size_t i = 0; i < kMany; ++i) {
     unknown += "  unknown_" + std::to_string(i) + ": {mass: 1}\n";
@@ -180,7 +180,7 @@ TEST_CASE("OfThousandsOfFaults_FiveHundredAreListedAndTheOthersCounted") {
   CHECK(answer["parameters"].size() == kMany + 1);
   CHECK(answer["parameters"]["p_7"] == "7 N");
   const Json few = check_of(replaced(kRig, "    mass: 0.5 kg", "    mas: 0.5 kg"));
-  CHECK(few["left_out"] == Json{{"faults", 0}, {"warnings", 0}, {"outline", 0}});
+  for (const char* key : {"faults", "warnings", "outline"}) CHECK(few["left_out"][key] == 0);
 }
 
 TEST_CASE("AByteOrderMark_ShiftsColumnsOfTheFirstLineAlone") {

@@ -163,7 +163,7 @@ bool is_plain_key(const std::string& key) {
     return is_alphanumeric(c) || c == '_' || c == '-' || static_cast<unsigned char>(c) >= 0x80U;
   };
   if (key.empty() || !std::all_of(key.begin(), key.end(), is_letter)) return false;
-  const std::optional<Node> within = one_value("{" + key + ": 1}");  // `null` and `-` are no names
+  const std::optional<Node> within = one_value("{" + key + ": 1}");  // `null` is no name
   return within && within->entries.size() == 1 && within->entries.front().key == key;
 }
 
