@@ -189,6 +189,8 @@ TEST_CASE("AByteOrderMark_ShiftsColumnsOfTheFirstLineAlone") {
                                       "{hersey: 1, parameters: {load: 500 N}, bodis: {}}");
   const std::string first_line = spoilt.substr(0, spoilt.find('\n') + 1);
   const Json plain = check_of(first_line), marked = check_of(mark + first_line);
+  REQUIRE(!plain["faults"].empty());
+  REQUIRE(plain["faults"][0]["line"] == 1);
   REQUIRE(plain["faults"].size() == marked["faults"].size());
   for (std::size_t i = 0; i < plain["faults"].size(); ++i) {
     Json before = plain["faults"][i], after = marked["faults"][i];
