@@ -23,6 +23,7 @@
 #include "hersey/core/contract.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
+#include "hersey/core/recently_used.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/task_pool.h"
 #include "hersey/core/units.h"
@@ -34,39 +35,41 @@
 
 namespace hersey::study {
 
-// Compliance and heat conduction of every mesh used so far: they take long, and most sweeps leave the bodies unchanged.
+// Compliance and heat conduction of the meshes used lately: they take long, and most sweeps leave the bodies unchanged.
 class KnownBodies {
  public:
   [[nodiscard]] std::shared_ptr<const bearing::SteadyElasticity> elasticity(const model::Model& model,
                                                                             const model::Bearing& bearing) {
     if (!bearing.shell_surface && !bearing.journal_surface) return nullptr;
-    std::string fingerprint = model::fingerprint_of_elasticity(model, bearing);
+    const std::string fingerprint = model::fingerprint_of_elasticity(model, bearing);
     const std::lock_guard lock(mutex_);
-    if (const auto found = elastic_.find(fingerprint); found != elastic_.end()) return found->second;
-    return elastic_.emplace(std::move(fingerprint), model::steady_elasticity(model, bearing)).first->second;
+    if (auto found = elastic_.find(fingerprint)) return found;
+    return elastic_.keep(fingerprint, model::steady_elasticity(model, bearing));
   }
 
   [[nodiscard]] std::shared_ptr<const film::WallConduction> conduction(const model::Model& model,
                                                                        const model::Bearing& bearing) {
-    std::string fingerprint = model::fingerprint_of_wall(model, bearing);
+    const std::string fingerprint = model::fingerprint_of_wall(model, bearing);
     const std::lock_guard lock(mutex_);
-    if (const auto found = conducting_.find(fingerprint); found != conducting_.end()) return found->second;
-    return conducting_.emplace(std::move(fingerprint), model::wall_conduction(model, bearing)).first->second;
+    if (auto found = conducting_.find(fingerprint)) return found;
+    return conducting_.keep(fingerprint, model::wall_conduction(model, bearing));
   }
 
   [[nodiscard]] std::shared_ptr<const film::JournalConduction> journal(const model::Model& model,
                                                                        const model::Bearing& bearing) {
-    std::string fingerprint = model::fingerprint_of_journal(model, bearing);
+    const std::string fingerprint = model::fingerprint_of_journal(model, bearing);
     const std::lock_guard lock(mutex_);
-    if (const auto found = journals_.find(fingerprint); found != journals_.end()) return found->second;
-    return journals_.emplace(std::move(fingerprint), model::journal_conduction(model, bearing)).first->second;
+    if (auto found = journals_.find(fingerprint)) return found;
+    return journals_.keep(fingerprint, model::journal_conduction(model, bearing));
   }
 
  private:
+  static constexpr std::size_t kMost = 32;  // more than the bearings of an engine; each may be tens of megabytes
+
   std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<const bearing::SteadyElasticity>> elastic_;
-  std::map<std::string, std::shared_ptr<const film::WallConduction>> conducting_;
-  std::map<std::string, std::shared_ptr<const film::JournalConduction>> journals_;
+  RecentlyUsed<bearing::SteadyElasticity> elastic_{kMost};
+  RecentlyUsed<film::WallConduction> conducting_{kMost};
+  RecentlyUsed<film::JournalConduction> journals_{kMost};
 };
 
 namespace {

@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <fstream>
 
 #include "answers_support.h"
 #include "hersey/session/session.h"
+#include "temporary_directory.h"
 
 namespace hersey::workbench {
 namespace answers_bearing_test {
@@ -81,6 +84,39 @@ TEST_CASE("ABearingOfAMachine_IsSolvedAtAPointOfTheRequest") {
   CHECK(status_of([&] { return answers.bearing(request.dump()); }) == 422);
   request["bearing"] = "small_end";
   CHECK(status_of([&] { return answers.bearing(request.dump()); }) == 422);
+}
+
+TEST_CASE("AfterATableHasChanged_TheModelIsReadAnew") {
+  const TemporaryDirectory folder;
+  const std::filesystem::path table = folder / "force.csv";
+  const auto write = [&](const std::string& rows) { std::ofstream(table) << rows; };
+  const auto age = [&](int hours) {
+    std::filesystem::last_write_time(table, std::filesystem::file_time_type::clock::now() - std::chrono::hours(hours));
+  };
+  const std::string text =
+      "hersey: 1\nbodies:\n  pin: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}\n"
+      "joints:\n  main: {type: revolute, between: [ground, pin]}\n"
+      "forces:\n  push: {type: force, body: pin, direction: 1 0 0, axes: ground, magnitude: {table: {file: force.csv, "
+      "x: time, y: force}}}\n"
+      "simulation: {duration: 4 ms, step: 0.1 ms}\n";
+  const Json request{{"path", "a.yaml"}, {"text", text}, {"joint", "main"}, {"value", 0.1}};
+  const Answers answers(folder.path());
+  const auto status = [&] { return status_of([&] { return answers.move(request.dump()); }); };
+  const std::string good = "time [s], force [N]\n0, 1\n1, 2\n", bad = "time [s], force [N]\n0, 1\n1, x\n";
+  write(good), age(3);
+  CHECK(status() == 0);
+  CHECK(status() == 0);
+  write(bad), age(2);  // of the same size
+  CHECK(status() == 422);
+  write(good), age(1);
+  CHECK(status() == 0);
+  // Just written: a later change may have the same time.
+  write(good);
+  const auto now = std::filesystem::last_write_time(table);
+  CHECK(status() == 0);
+  write(bad);
+  std::filesystem::last_write_time(table, now);
+  CHECK(status() == 422);
 }
 
 TEST_CASE("MeshInfo_NamesSetsAndBores") {

@@ -149,6 +149,65 @@ TEST_CASE("TheFirstRepair_OfANearName_GivesTheTextBack") {
   }
 }
 
+TEST_CASE("ARepair_InAValueOfSeveralLines_IsMadeInItsLine") {
+  for (const std::string value : {"width: 15.6\n      mmm", "width: \"15.6\n\n      mmm\""}) {
+    CAPTURE(value);
+    const std::string text = replaced(kRig, "width: 15.6 mm", value);
+    const Json answer = check_of(text);
+    REQUIRE(answer["faults"].size() == 1);
+    REQUIRE(!answer["faults"][0]["repairs"].empty());
+    const std::string mended = with_edits(text, answer["faults"][0]["repairs"][0]["edits"]);
+    CHECK(mended == replaced(text, "mmm", "mm"));
+  }
+}
+
+TEST_CASE("OfThousandsOfFaults_FiveHundredAreListedAndTheOthersCounted") {
+  constexpr std::size_t kMany = 2000;
+  std::string unknown, parameters;
+  for (std::size_t i = 0; i < kMany; ++i) {
+    unknown += "  unknown_" + std::to_string(i) + ": {mass: 1}\n";
+    parameters += "  p_" + std::to_string(i) + ": " + std::to_string(i) + " N\n";
+  }
+  const std::string text = replaced(replaced(kRig, "  pin:", unknown + "  pin:"), "parameters: {load: 500 N}\n",
+                                    "parameters:\n  load: 500 N\n" + parameters);
+  const Json answer = check_of(text);
+  CHECK(answer["faults"].size() == 500);
+  CHECK(answer["outline"].size() == 500);
+  CHECK(answer["missing"].size() <= 500);
+  CHECK(answer["left_out"]["faults"] == faults_of(text).size() - 500);
+  CHECK(answer["left_out"]["outline"] > kMany);
+  CHECK(answer["left_out"]["warnings"] == 0);
+  CHECK(answer["parameters"].size() == kMany + 1);
+  CHECK(answer["parameters"]["p_7"] == "7 N");
+  const Json few = check_of(replaced(kRig, "    mass: 0.5 kg", "    mas: 0.5 kg"));
+  for (const char* key : {"faults", "warnings", "outline"}) CHECK(few["left_out"][key] == 0);
+}
+
+TEST_CASE("AByteOrderMark_ShiftsColumnsOfTheFirstLineAlone") {
+  const std::string mark = "\xEF\xBB\xBF";
+  const std::string spoilt = replaced(kRig, "hersey: 1   # a comment\nparameters: {load: 500 N}",
+                                      "{hersey: 1, parameters: {load: 500 N}, bodis: {}}");
+  const std::string first_line = spoilt.substr(0, spoilt.find('\n') + 1);
+  const Json plain = check_of(first_line), marked = check_of(mark + first_line);
+  REQUIRE(!plain["faults"].empty());
+  REQUIRE(plain["faults"][0]["line"] == 1);
+  REQUIRE(plain["faults"].size() == marked["faults"].size());
+  for (std::size_t i = 0; i < plain["faults"].size(); ++i) {
+    Json before = plain["faults"][i], after = marked["faults"][i];
+    const bool is_placed = before["line"] == 1;
+    CHECK(after["found"] == before["found"]);
+    // The mark is one unit for a browser.
+    if (is_placed) CHECK(after["column"].get<int>() == before["column"].get<int>() + 1);
+    if (is_placed) CHECK(after["endColumn"].get<int>() == before["endColumn"].get<int>() + 1);
+    CHECK(after["repairs"].size() == before["repairs"].size());
+  }
+  const std::string later = replaced(kRig, "    mass: 0.5 kg", "    mas: 0.5 kg");
+  CHECK(check_of(mark + later)["faults"] == check_of(later)["faults"]);
+  const std::string tabs = mark + "\thersey: 1\n";
+  for (const Json& fault : check_of(tabs)["faults"])
+    for (const Json& repair : fault["repairs"]) CHECK(repair["edits"][0]["column"] == 2);
+}
+
 TEST_CASE("ColumnsCountAsBrowsersDo") {
   // Two bytes for the letter, four for the sign, which a browser counts as two.
   const std::string plain = replaced(kRig, "500 N}", "500 N, note: aaa, load_2: 1 M}");

@@ -140,6 +140,42 @@ TEST_CASE("WhatCannotBeSet_IsRefused") {
   CHECK(status("a: &x {b: 1}\nc: *x\n", "c.b", "2") == 422);  // stands in a
 }
 
+TEST_CASE("NewKeys_ArePlainWords") {
+  for (const std::string key : {"bearings.main.a: b", "bearings.main.a\nb", "bearings.main.", "bearings.main.[a]",
+                                "parameters.#", "parameters.&a", "parameters.*a", "parameters.<<", "parameters.null",
+                                "lubricants.oil.a, b", "lubricants.oil.{", "new.a: b", "a b"}) {
+    CAPTURE(key);
+    CHECK(status_of([&] { return set(kText, key, "1 m"); }) == 422);
+  }
+  for (const std::string key : {"parameters.new-key", "parameters.Größe", "parameters.3", "lubricants.oil.a_1"})
+    CHECK(value_at(set(kText, key, "1 m")["text"], key) == "1 m");
+}
+
+TEST_CASE("WhereAnythingElseWouldChange_TheRequestIsRefused") {
+  const auto status = [](const std::string& text, const std::string& key, const Json& value) {
+    return status_of([&] { return set(text, key, value); });
+  };
+  CHECK(status("? a\n: 1\nb: 2\n", "a", "3") == 422);          // a key in a form that is not known
+  CHECK(status("a: &x {b: &y 1}\nc: *y\n", "a", "2") == 422);  // c would name nothing
+  CHECK(status("a: &x {b: &y 1}\nc: *y\n", "a.b", nullptr) == 422);
+  CHECK(status("a: &x {b: 1}\nc: {<<: *x}\n", "a", "2") == 422);  // c would merge a number
+  CHECK(status("l: [a: 1, b: 2]\n", "l.0.c", "2") == 422);
+}
+
+TEST_CASE("AnchorsAndAliases_StayAtTheirPlaces") {
+  const auto text_of = [](const std::string& text, const std::string& key, const Json& value) {
+    return set(text, key, value)["text"].get<std::string>();
+  };
+  CHECK(text_of("d: &d 3\nl:\n  - *d\n  - 2\n", "l.0", "4") == "d: &d 3\nl:\n  - 4\n  - 2\n");
+  CHECK(text_of("d: &d 3\nl:\n  - *d\n  - 2\n", "l.0", nullptr) == "d: &d 3\nl:\n  - 2\n");
+  CHECK(text_of("d: &d 3\nl:\n  - 1\n  - *d\n", "l.2", "4") == "d: &d 3\nl:\n  - 1\n  - *d\n  - 4\n");
+  CHECK(text_of("l:\n  -\n  - 2\n", "l.0", "4") == "l:\n  - 4\n  - 2\n");
+  CHECK(text_of("d: &d 3\ne: *d\n", "d", "4") == "d: &d 4\ne: *d\n");
+  CHECK(text_of("d: &d {a: 1}\nm: {<<: *d}\n", "m.b", "4") == "d: &d {a: 1}\nm: {<<: *d, b: 4}\n");
+  CHECK(text_of("l:\n  - -1\n  - 2\n", "l.2", "-3") == "l:\n  - -1\n  - 2\n  - -3\n");
+  CHECK(text_of("l:\n  - -1\n  - 2\n", "l.0", nullptr) == "l:\n  - 2\n");
+}
+
 TEST_CASE("Templates_AreReadWithoutFault_AndWrittenOnce") {
   const TemporaryDirectory folder;
   const Answers answers(folder.path());

@@ -13,8 +13,11 @@ namespace {
 
 constexpr std::string_view kSpace = " \t";
 
+/// The mark of UTF-8 that some editors write first, which is no part of line 1 for the parser either.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 std::vector<std::size_t> starts_of_lines(const std::string& text) {
-  std::vector<std::size_t> lines{0};
+  std::vector<std::size_t> lines{text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0};
   for (std::size_t i = 0; i < text.size(); ++i)
     if (text[i] == '\n') lines.push_back(i + 1);
   return lines;
@@ -33,6 +36,8 @@ std::size_t behind_quotes(std::string_view text, std::size_t at) {
   }
   return text.size();
 }
+
+bool is_alphanumeric(char c) { return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9'); }
 
 bool begins_comment(std::string_view text, std::size_t at) {
   return text[at] == '#' && (at == 0 || kSpace.find(text[at - 1]) != std::string_view::npos || text[at - 1] == '\n');
@@ -95,13 +100,15 @@ std::size_t behind_plain(std::string_view text, std::size_t at, std::size_t colu
 /// Behind a block scalar, `|` or `>`, in a mapping whose keys stand in `column`, counted from 0.
 std::size_t behind_block(std::string_view text, std::size_t at, std::size_t column) {
   std::size_t end = end_of_line(text, at);
+  const bool keeps_empty_lines = text.substr(at, end - at).find('+') < 3;
   for (std::size_t line = end + 1; line < text.size();) {
     const std::size_t stop = end_of_line(text, line);
     const bool is_empty = without_trailing_space(text, line, stop) == line;
     if (!is_empty && indentation(text, line) <= column) break;
-    if (!is_empty) end = stop;
+    if (!is_empty || keeps_empty_lines) end = stop;
     line = stop + 1;
   }
+  if (keeps_empty_lines) return end > at && text[end - 1] == '\r' ? end - 1 : end;
   return without_trailing_space(text, at, end);
 }
 
@@ -145,9 +152,19 @@ std::optional<Node> one_value(const std::string& text) {
   std::vector<Fault> faults;
   std::optional<Node> node = parse_yaml("value: " + text + "\n", "", faults);
   if (!node || !faults.empty() || node->entries.size() != 1) return std::nullopt;
-  for (std::size_t i = 1; i < text.size(); ++i)
+  for (std::size_t i = 0; i < text.size(); ++i)
     if (begins_comment(text, i)) return std::nullopt;
   return std::move(node->entries.front().value);
+}
+
+/// Whether a key may be written as it is, in blocks and in braces.
+bool is_plain_key(const std::string& key) {
+  const auto is_letter = [](char c) {
+    return is_alphanumeric(c) || c == '_' || c == '-' || static_cast<unsigned char>(c) >= 0x80U;
+  };
+  if (key.empty() || !std::all_of(key.begin(), key.end(), is_letter)) return false;
+  const std::optional<Node> within = one_value("{" + key + ": 1}");  // `null` is no name
+  return within && within->entries.size() == 1 && within->entries.front().key == key;
 }
 
 bool is_same(const Node& a, const Node& b) {
@@ -163,6 +180,7 @@ bool is_same(const Node& a, const Node& b) {
 /// Text that reads as `value` within brackets too: in quotes where it has to be.
 std::string fit_for_flow(const std::string& value) {
   const std::optional<Node> plain = one_value(value);
+  if (value.find_first_not_of(kSpace) == std::string::npos) return "null";
   const std::optional<Node> within = one_value("[" + value + "]");
   if (plain && within && within->items.size() == 1 && is_same(*plain, within->items.front())) return value;
   std::string quoted = "\"";
@@ -197,12 +215,34 @@ struct TextMap::Scan {
     return behind_plain(text(), at, column, is_in_flow);
   }
 
-  /// The first character behind `at` that is no space, on the same line; npos where there is none.
-  [[nodiscard]] std::size_t next_on_line(std::size_t at) const {
-    const std::size_t next = text().find_first_not_of(kSpace, at);
-    const bool is_none = next == std::string_view::npos || text()[next] == '\n' || text()[next] == '\r' ||
-                         (text()[next] == '#' && next > at);
-    return is_none ? std::string_view::npos : next;
+  /// The first character behind `at` that is neither blank nor of a comment, on this line or a later one.
+  [[nodiscard]] std::size_t next_of_text(std::size_t at) const {
+    for (; at < text().size(); ++at) {
+      if (begins_comment(text(), at)) at = end_of_line(text(), at);
+      if (at >= text().size() || std::string_view(" \t\r\n").find(text()[at]) == std::string_view::npos) break;
+    }
+    return std::min(at, text().size());
+  }
+
+  /// Behind the name of an alias.
+  [[nodiscard]] std::size_t behind_alias(std::size_t at) const {
+    return std::min(text().find_first_of(" \t\r\n,]}", at), text().size());
+  }
+
+  /// Notes the merge key of a mapping, if that is what comes next behind `from`. @param column  of the keys, from 0, of
+  /// a block; npos within braces. @returns behind it; `from` where there is none
+  std::size_t visit_merge(std::size_t index, std::size_t from, std::size_t column) {
+    std::size_t at = next_of_text(from);
+    const bool is_flow = column == std::string::npos;
+    while (is_flow && at < text().size() && (text()[at] == ',' || text()[at] == '{')) at = next_of_text(at + 1);
+    if (!text().substr(at).starts_with("<<") || (!is_flow && column_of_key(at) != column)) return from;
+    const std::size_t colon = behind_colon(text(), at + 2);
+    const std::size_t value = next_of_text(colon);
+    if (colon == at + 2 || value >= text().size()) return from;
+    const bool is_bracket = text()[value] == '[' || text()[value] == '{';
+    const std::size_t end = is_bracket ? behind_brackets(text(), value) : behind_alias(value);
+    map.merges_[index] = {at, end};
+    return end;
   }
 
   /// Describes a value that begins at `begin`. @returns behind it
@@ -213,8 +253,9 @@ struct TextMap::Scan {
     if (node.kind == Node::Kind::scalar) {
       end = behind_scalar(begin, column, is_in_flow);
     } else if (node.kind != Node::Kind::null) {
-      is_flow = first < text().size() && (text()[first] == '{' || text()[first] == '[');
-      end = is_flow ? behind_brackets(text(), first) : begin;
+      const bool has_brackets = first < text().size() && (text()[first] == '{' || text()[first] == '[');
+      is_flow = is_in_flow || has_brackets;  // `a: 1` in a list in brackets is a mapping without any
+      end = has_brackets ? behind_brackets(text(), first) : begin;
       end = std::max(end, visit_children(index, node, is_flow));
     }
     TextEntry& entry = map.entries_[index];
@@ -227,31 +268,68 @@ struct TextMap::Scan {
   std::size_t visit_children(std::size_t index, const Node& node, bool is_flow) {
     std::size_t end = 0;
     const std::string path = map.entries_[index].path;
-    std::size_t from = 0;  // a child stands behind the one before it, or it is not written here
+    const std::size_t first = behind_properties(map.offset_of_value_[index]);
+    std::size_t from = first;  // a child stands behind the one before it, or it is not written here
     for (std::size_t i = 0; i < node.items.size(); ++i) {
-      const Node& item = node.items[i];
-      const std::size_t begin = offset(item.position);
-      const std::size_t child = add(index, path, std::to_string(i));
-      const bool is_here = begin >= from && item.position.line > 0 && item.kind != Node::Kind::null &&
-                           begin >= map.offset_of_value_[index];
-      map.offset_of_value_[child] = begin;
-      if (!is_here) {
-        map.entries_[child].is_alias = true;
-        map.entries_[child].value_at = map.entries_[child].key_at = map.extent(from, from);
-        continue;
-      }
-      const std::size_t behind = visit_value(child, item, begin, column_of_item(begin), is_flow);
-      map.entries_[child].key_at = map.entries_[child].value_at;
-      end = std::max(end, behind);
-      from = behind;
+      from = visit_item(add(index, path, std::to_string(i)), node.items[i], from, is_flow);
+      end = std::max(end, from);
     }
+    const std::size_t column = is_flow ? std::string::npos : column_of_key(std::min(first, text().size()));
+    if (node.kind == Node::Kind::mapping) from = visit_merge(index, from, column);
     for (const Entry& entry : node.entries) {
       const std::size_t at = offset(entry.position);
       if (at < from || at < map.offset_of_value_[index]) continue;  // by a merge key
-      const std::size_t behind = visit_entry(index, path, entry, at, is_flow);
-      end = std::max(end, behind);
-      from = behind;
+      from = visit_entry(index, path, entry, at, is_flow);
+      if (!map.merges_.contains(index)) from = visit_merge(index, from, column);
     }
+    return node.kind == Node::Kind::mapping ? std::max(end, from) : end;
+  }
+
+  /// Behind the dash, or the comma or bracket, after which an item stands; npos where there is none.
+  [[nodiscard]] std::size_t place_of_item(std::size_t from, bool is_flow) const {
+    const std::size_t at = next_of_text(from);
+    const std::string_view marks = is_flow ? ",[" : "-";
+    return at < text().size() && marks.find(text()[at]) != std::string_view::npos ? at + 1 : std::string::npos;
+  }
+
+  /// Where the text of a value begins that is nothing, or an alias, behind `place`; npos where it has no text.
+  /// @param column  of its key or dash, from 0
+  [[nodiscard]] std::size_t text_of_nothing(std::size_t place, std::size_t column, bool is_flow) const {
+    const std::size_t at = next_of_text(place);
+    if (at >= text().size()) return std::string::npos;
+    const bool is_its = is_flow ? std::string_view(",]}").find(text()[at]) == std::string_view::npos
+                                : at < end_of_line(text(), place) || column_of_key(at) > column;
+    return is_its ? at : std::string::npos;
+  }
+
+  /// Describes an alias, or a value that is nothing. @param place  behind its colon, dash or comma. @returns behind it
+  std::size_t visit_nothing(std::size_t child, const Node& node, std::size_t place, std::size_t column, bool is_flow) {
+    const std::size_t at = text_of_nothing(place, column, is_flow);
+    TextEntry& entry = map.entries_[child];
+    entry.is_alias = at != std::string::npos && text()[at] == '*';
+    entry.kind = kind_of(node);
+    entry.is_flow = is_flow;
+    const std::size_t end = at == std::string::npos ? place
+                            : entry.is_alias        ? behind_alias(at)
+                                                    : behind_plain(text(), at, column, is_flow);  // null or ~
+    entry.value_at = map.extent(end == place ? place : at, end);
+    return end;
+  }
+
+  std::size_t visit_item(std::size_t child, const Node& item, std::size_t from, bool is_flow) {
+    const std::size_t place = place_of_item(from, is_flow);
+    TextEntry& entry = map.entries_[child];
+    if (place == std::string::npos) {
+      entry.is_alias = true;  // it cannot be found: neither can what it has
+      return from;
+    }
+    map.offset_of_mark_[child] = place - 1;
+    const std::size_t column = column_of_key(place - 1), begin = offset(item.position), next = next_of_text(place);
+    map.offset_of_value_[child] = next;
+    const bool is_here = item.kind != Node::Kind::null && begin >= place && text()[next] != '*';
+    const std::size_t end = is_here ? visit_value(child, item, std::min(next, begin), column, is_flow)
+                                    : visit_nothing(child, item, place, column, is_flow);
+    map.entries_[child].key_at = map.entries_[child].value_at;
     return end;
   }
 
@@ -264,39 +342,18 @@ struct TextMap::Scan {
     const std::size_t colon = behind_colon(text(), key_end);
     map.entries_[child].key_at = map.extent(at, key_end);
     map.offset_of_value_[child] = colon;
-    const std::size_t begin = offset(entry.value.position);
-    const std::size_t next = next_on_line(colon);
-    if (next != std::string_view::npos && text()[next] == '*') {
-      const std::size_t end = std::min(text().find_first_of(" \t\r\n,]}", next), text().size());
-      TextEntry& alias = map.entries_[child];
-      alias.is_alias = true;
-      alias.kind = kind_of(entry.value);
-      alias.value_at = map.extent(next, end);
-      return end;
-    }
-    if (entry.value.kind == Node::Kind::null || begin < colon) {
-      const std::size_t end =
-          next == std::string_view::npos || std::string_view(",}]").find(text()[next]) != std::string_view::npos
-              ? colon
-              : behind_plain(text(), next, 0, true);  // null or ~
-      map.entries_[child].value_at = map.extent(end == colon ? colon : next, end);
-      map.entries_[child].is_flow = is_flow;
-      return end;
-    }
+    const std::size_t begin = offset(entry.value.position), column = column_of_key(at), next = next_of_text(colon);
+    const bool is_alias = entry.value.kind != Node::Kind::null && next < text().size() && text()[next] == '*';
+    if (is_alias || entry.value.kind == Node::Kind::null || begin < colon)
+      return visit_nothing(child, entry.value, colon, column, is_flow);
     // A value with an anchor begins at the anchor where that stands behind the colon.
-    const std::size_t own = next != std::string_view::npos && next < begin ? next : begin;
-    return visit_value(child, entry.value, own, column_of_key(at), is_flow);
+    const std::size_t own = std::min(next, begin);
+    map.offset_of_value_[child] = own;
+    return visit_value(child, entry.value, own, column, is_flow);
   }
 
   [[nodiscard]] std::size_t column_of_key(std::size_t at) const {
     return static_cast<std::size_t>(map.extent(at, at).column - 1);
-  }
-
-  /// Column of the dash before an item; that of the item where there is none on its line.
-  [[nodiscard]] std::size_t column_of_item(std::size_t at) const {
-    std::size_t dash = at;
-    while (dash > 0 && kSpace.find(text()[dash - 1]) != std::string_view::npos) --dash;
-    return column_of_key(dash > 0 && text()[dash - 1] == '-' ? dash - 1 : at);
   }
 
   std::size_t add(std::size_t parent, const std::string& path, const std::string& key) {
@@ -307,6 +364,7 @@ struct TextMap::Scan {
     entry.parent = parent;
     map.entries_.push_back(std::move(entry));
     map.offset_of_value_.push_back(0);
+    map.offset_of_mark_.push_back(std::string::npos);
     map.entries_[parent].children.push_back(index);
     return index;
   }
@@ -329,27 +387,32 @@ TextMap::TextMap(std::string text, std::string file, const Node& root)
     : text_(std::move(text)), file_(std::move(file)), lines_(starts_of_lines(text_)) {
   entries_.emplace_back();
   offset_of_value_.push_back(0);
+  offset_of_mark_.push_back(std::string::npos);
   if (root.kind == Node::Kind::null) {
     entries_.front().value_at = extent(text_.size(), text_.size());
     entries_.front().kind = TextEntry::Kind::mapping;
   } else {
-    Scan{*this}.visit_value(0, root, offset(root.position.line, root.position.column), 0, false);
+    const std::size_t begin = offset(root.position.line, root.position.column);
+    offset_of_value_.front() = begin;
+    Scan{*this}.visit_value(0, root, begin, 0, false);
   }
   for (std::size_t i = 1; i < entries_.size(); ++i) {
+    if (entries_[i].value_at.line == 0) continue;
     by_key_.try_emplace({entries_[i].key_at.line, entries_[i].key_at.column}, i);
     by_value_.try_emplace({entries_[i].value_at.line, entries_[i].value_at.column}, i);
   }
 }
 
 std::size_t TextMap::offset(int line, int column) const {
-  if (line < 1) return 0;
+  if (line < 1) return lines_.front();
   const auto index = static_cast<std::size_t>(line - 1);
   if (index >= lines_.size()) return text_.size();
   return std::min(lines_[index] + static_cast<std::size_t>(std::max(column, 1) - 1), end_of_line(text_, lines_[index]));
 }
 
 TextExtent TextMap::extent(std::size_t begin, std::size_t end) const {
-  const auto place = [&](std::size_t at) {
+  const auto place = [&](std::size_t offset) {
+    const std::size_t at = std::max(offset, lines_.front());
     const auto line = std::upper_bound(lines_.begin(), lines_.end(), at) - 1;
     return std::pair(static_cast<int>(line - lines_.begin()) + 1, static_cast<int>(at - *line) + 1);
   };
@@ -399,14 +462,9 @@ Fault TextMap::fault(const TextEntry& at, const std::string& path, std::string f
 
 // Column, from 1, in which the keys or dashes of a block stand, or would.
 int TextMap::column_of_children(const TextEntry& entry) const {
-  if (&entry == &entries_.front()) return entry.children.empty() ? 1 : entries_[entry.children.front()].key_at.column;
-  for (const std::size_t child : entry.children) {
-    const TextExtent& key = entries_[child].key_at;
-    if (entry.kind == TextEntry::Kind::mapping) return key.column;
-    std::size_t dash = offset(key.line, key.column);
-    while (dash > 0 && text_[dash] != '-' && text_[dash] != '\n') --dash;
-    if (text_[dash] == '-') return extent(dash, dash).column;
-  }
+  const std::vector<Piece> pieces = pieces_of(entry);
+  if (!pieces.empty()) return extent(pieces.front().first, pieces.front().first).column;
+  if (&entry == &entries_.front()) return 1;
   // Steps of the first block in the file.
   int step = 2;
   for (const TextEntry& one : entries_) {
@@ -423,15 +481,88 @@ std::size_t TextMap::end_of_content(const TextEntry& entry) const {
   return offset(entry.value_at.end_line, entry.value_at.end_column);
 }
 
+std::size_t TextMap::index_of(const TextEntry& entry) const {
+  return static_cast<std::size_t>(&entry - entries_.data());
+}
+
+// The children of a mapping or list as they stand in the text, those of a block list from their dashes, and the merge
+// key of a mapping.
+std::vector<TextMap::Piece> TextMap::pieces_of(const TextEntry& entry) const {
+  std::vector<Piece> pieces;
+  const bool has_dashes = entry.kind == TextEntry::Kind::list && !entry.is_flow;
+  for (const std::size_t child : entry.children) {
+    const TextEntry& part = entries_[child];
+    pieces.emplace_back(has_dashes ? offset_of_mark_[child] : offset(part.key_at.line, part.key_at.column),
+                        end_of_content(part));
+  }
+  if (const auto merge = merges_.find(index_of(entry)); merge != merges_.end()) pieces.push_back(merge->second);
+  std::sort(pieces.begin(), pieces.end());
+  return pieces;
+}
+
+// The words before a value that name it for aliases, with a blank behind.
+std::string TextMap::anchor_of(const TextEntry& entry) const {
+  std::string anchor;
+  const std::size_t end = end_of_content(entry);
+  for (std::size_t at = offset(entry.value_at.line, entry.value_at.column);
+       at < end && (text_[at] == '&' || text_[at] == '!');) {
+    const std::size_t behind = std::min(text_.find_first_of(" \t\r\n,]}", at), end);
+    if (text_[at] == '&') anchor += text_.substr(at, behind - at) + " ";
+    at = std::min(text_.find_first_not_of(" \t\r\n", behind), end);
+  }
+  return anchor;
+}
+
+void TextMap::require_found(const TextEntry& entry, const std::string& path) const {
+  const TextEntry& parent = entries_[entry.parent];
+  const bool is_lost = std::any_of(parent.children.begin(), parent.children.end(),
+                                   [&](std::size_t child) { return entries_[child].value_at.line == 0; });
+  if (is_lost) throw InputError(fault(parent, path, "an item whose place is not known", "a list in its usual form"));
+}
+
+// Gives an entry the value `text`.
+TextEdit TextMap::replacement(const TextEntry& entry, const std::string& text) const {
+  const std::size_t begin = offset(entry.value_at.line, entry.value_at.column), end = end_of_content(entry);
+  const TextEntry& parent = entries_[entry.parent];
+  const std::string whole = anchor_of(entry) + text;
+  if (parent.kind == TextEntry::Kind::list) {
+    const bool is_behind_mark = begin == offset_of_mark_[index_of(entry)] + 1 && begin == end;
+    return {entry.value_at, (is_behind_mark ? " " : "") + whole};
+  }
+  const std::size_t behind_key = behind_colon(text_, offset(entry.key_at.end_line, entry.key_at.end_column));
+  const bool is_block = (entry.kind == TextEntry::Kind::list || entry.kind == TextEntry::Kind::mapping) &&
+                        !entry.is_flow && !entry.is_alias;
+  if (begin > behind_key && !is_block) return {entry.value_at, whole};
+  const std::string colon = text_[behind_key - 1] == ':' ? "" : ":";
+  return {extent(behind_key, end), colon + " " + whole};
+}
+
+// The edit alone, unless it takes away an anchor that the text behind it names.
+std::vector<TextEdit> TextMap::with_anchors(const std::string& path, TextEdit edit) const {
+  const std::size_t begin = offset(edit.at.line, edit.at.column), end = offset(edit.at.end_line, edit.at.end_column);
+  for (std::size_t at = text_.find('&', begin); at < end; at = text_.find('&', at + 1)) {
+    const std::string name = text_.substr(at + 1, std::min(text_.find_first_of(" \t\r\n,]}", at), end) - at - 1);
+    const bool begins = at == 0 || std::string_view(" \t\n[{,:-").find(text_[at - 1]) != std::string_view::npos;
+    const bool stays = (edit.text + " ").find("&" + name + " ") != std::string::npos;
+    if (begins && !stays && !name.empty() && text_.find("*" + name, end) != std::string::npos)
+      throw InputError(fault(entries_.front(), path, "the anchor '&" + name + "', which aliases name",
+                             "a value without it: change the aliases first"));
+  }
+  return {std::move(edit)};
+}
+
 // The key `key` behind all others of `into`, or the item behind all others of a list.
 TextEdit TextMap::insertion(const TextEntry& into, const std::string& key, const std::string& value) const {
   const bool is_list = into.kind == TextEntry::Kind::list;
   const std::size_t end = end_of_content(into);
+  const std::vector<Piece> pieces = pieces_of(into);
   if (into.is_flow) {
     const std::size_t closing = end - 1;
+    if (text_[closing] != ']' && text_[closing] != '}')
+      throw InputError(fault(into, into.path, "a mapping without braces in a list", "braces around it"));
     const std::string piece = is_list ? fit_for_flow(value) : key + ": " + fit_for_flow(value);
-    if (into.children.empty()) return {extent(closing, closing), piece};
-    const std::size_t behind = end_of_content(entries_[into.children.back()]);
+    if (pieces.empty()) return {extent(closing, closing), piece};
+    const std::size_t behind = pieces.back().second;
     return {extent(behind, behind), ", " + piece};
   }
   const std::string indent(static_cast<std::size_t>(column_of_children(into) - 1), ' ');
@@ -457,6 +588,7 @@ std::vector<TextEdit> TextMap::set(const std::string& path, const std::string& v
                                     [&](std::size_t k) { return entries_[k].key == keys[i]; });
     if (child != entry->children.end()) {
       entry = &entries_[*child];
+      require_found(*entry, path);
       continue;
     }
     const bool is_list = entry->kind == TextEntry::Kind::list;
@@ -464,69 +596,92 @@ std::vector<TextEdit> TextMap::set(const std::string& path, const std::string& v
       throw InputError(fault(*entry, path,
                              is_list ? "a list without item " + keys[i] : "no mapping for '" + keys[i] + "'",
                              is_list ? "an item, or the next one" : "a mapping with keys"));
+    for (std::size_t k = is_list ? i + 1 : i; k < keys.size(); ++k)
+      if (!is_plain_key(keys[k]))
+        throw InputError(fault(*entry, path, "the new key '" + keys[k] + "'", "letters, digits, '_' and '-'"));
+    if (is_list && !entry->children.empty()) require_found(entries_[entry->children.back()], path);
     std::string inner = value;
     for (std::size_t k = keys.size() - 1; k > i; --k) inner = "{" + keys[k] + ": " + fit_for_flow(inner) + "}";
     if (entry->kind != TextEntry::Kind::nothing) return {insertion(*entry, keys[i], inner)};
-    // `key:` with nothing behind it
-    const std::string all = "{" + keys[i] + ": " + fit_for_flow(inner) + "}";
-    const std::size_t behind = offset(entry->value_at.line, entry->value_at.column);
-    return {{entry->value_at, (behind > 0 && text_[behind - 1] == ':' ? " " : ": ") + all}};
+    return {replacement(*entry, "{" + keys[i] + ": " + fit_for_flow(inner) + "}")};  // `key:` with nothing behind it
   }
   if (entry == &entries_.front()) throw InputError(fault(*entry, path, "no key path", "such as simulation.duration"));
-  const TextEntry& parent = entries_[entry->parent];
-  const std::string text = parent.is_flow ? fit_for_flow(value) : value;
-  const std::size_t begin = offset(entry->value_at.line, entry->value_at.column);
-  const bool is_item = parent.kind == TextEntry::Kind::list;
-  const std::size_t behind_key =
-      is_item ? begin : behind_colon(text_, offset(entry->key_at.end_line, entry->key_at.end_column));
-  const bool is_block = (entry->kind == TextEntry::Kind::list || entry->kind == TextEntry::Kind::mapping) &&
-                        !entry->is_flow && !entry->is_alias;
-  const bool is_there = begin > behind_key && !is_block;
-  if (is_item || is_there) return {{entry->value_at, text}};
-  const std::string colon = text_[behind_key - 1] == ':' ? "" : ":";
-  return {{extent(behind_key, end_of_content(*entry)), colon + " " + text}};
+  return with_anchors(path, replacement(*entry, entries_[entry->parent].is_flow ? fit_for_flow(value) : value));
 }
 
 std::vector<TextEdit> TextMap::remove(const std::string& path) const {
   const TextEntry* entry = find(path);
   if (entry == nullptr || entry == &entries_.front())
     throw InputError(fault(entries_.front(), path, "no such key", "a key of the text"));
-  const TextEntry& parent = entries_[entry->parent];
-  const bool is_item = parent.kind == TextEntry::Kind::list;
-  std::size_t begin = offset(entry->key_at.line, entry->key_at.column), end = end_of_content(*entry);
-  if (parent.children.size() == 1 && entry->parent != 0) {
-    const std::size_t first = offset(parent.value_at.line, parent.value_at.column);
-    const std::size_t colon = behind_colon(text_, offset(parent.key_at.end_line, parent.key_at.end_column));
-    const bool is_behind_key = entries_[parent.parent].kind == TextEntry::Kind::mapping && !parent.is_flow;
-    return {{extent(is_behind_key ? colon : first, end_of_content(parent)),
-             (is_behind_key ? " " : "") + std::string(is_item ? "[]" : "{}")}};
-  }
+  require_found(*entry, path);
+  return with_anchors(path, removal(*entry));
+}
+
+TextEdit TextMap::removal(const TextEntry& entry) const {
+  const TextEntry& parent = entries_[entry.parent];
+  const std::vector<Piece> pieces = pieces_of(parent);
+  if (pieces.size() == 1 && entry.parent != 0)
+    return replacement(parent, parent.kind == TextEntry::Kind::list ? "[]" : "{}");
+  const bool has_dash = parent.kind == TextEntry::Kind::list && !parent.is_flow;
+  std::size_t begin = has_dash ? offset_of_mark_[index_of(entry)] : offset(entry.key_at.line, entry.key_at.column);
+  std::size_t end = end_of_content(entry);
+  const auto self = std::find(pieces.begin(), pieces.end(), Piece{begin, end});
+  const bool is_last = self == pieces.end() || self + 1 == pieces.end();
   if (parent.is_flow) {
-    const auto self = std::find_if(parent.children.begin(), parent.children.end(),
-                                   [&](std::size_t k) { return &entries_[k] == entry; });
-    if (self != parent.children.begin()) {
-      begin = end_of_content(entries_[*(self - 1)]);
-    } else {
-      const TextEntry& next = entries_[*(self + 1)];
-      end = offset(next.key_at.line, next.key_at.column);
-    }
-    return {{extent(begin, end), ""}};
-  }
-  if (is_item) {
-    while (begin > 0 && text_[begin] != '-') --begin;
+    if (self != pieces.begin() && self != pieces.end())
+      begin = (self - 1)->second;
+    else if (!is_last)
+      end = (self + 1)->first;
+    return {extent(begin, end), ""};
   }
   // Whole lines, with a comment behind the value, where nothing else stands before.
   const std::size_t line = lines_[static_cast<std::size_t>(extent(begin, begin).line - 1)];
   if (text_.find_first_not_of(kSpace, line) == begin) {
     const std::size_t line_end = end_of_line(text_, end);
-    return {{extent(line, std::min(line_end + 1, text_.size())), ""}};
+    return {extent(line, std::min(line_end + 1, text_.size())), ""};
   }
   // `- a: 1` of a mapping in a list: the next key takes its place.
-  const auto self = std::find_if(parent.children.begin(), parent.children.end(),
-                                 [&](std::size_t k) { return &entries_[k] == entry; });
-  if (self + 1 == parent.children.end()) return {{extent(begin, end), ""}};
-  const TextEntry& next = entries_[*(self + 1)];
-  return {{extent(begin, offset(next.key_at.line, next.key_at.column)), ""}};
+  return {extent(begin, is_last ? end : (self + 1)->first), ""};
+}
+
+// What the text says besides the value at `path`, in its order: items without their numbers, which change where one is
+// removed.
+std::vector<std::string> TextMap::said_beside(const std::string& path, bool has_path) const {
+  std::vector<std::string> said;
+  const auto piece = [&](std::size_t begin, std::size_t end) { return text_.substr(begin, end - begin); };
+  const std::string below = path + ".";
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const TextEntry& entry = entries_[i];
+    const bool is_within = entry.path == path || entry.path.starts_with(below);
+    if (const auto merge = merges_.find(i); merge != merges_.end() && !(has_path && is_within))
+      said.push_back("<<" + piece(merge->second.first, merge->second.second));
+    const bool is_around = i == 0 || below.starts_with(entry.path + ".");
+    if (is_around && (entry.path != path || has_path)) continue;
+    if (has_path && is_within) continue;
+    const bool is_item = entries_[entry.parent].kind == TextEntry::Kind::list;
+    const std::string value = entry.children.empty()
+                                  ? piece(offset(entry.value_at.line, entry.value_at.column), end_of_content(entry))
+                                  : anchor_of(entry);
+    const auto depth = std::count(entry.path.begin(), entry.path.end(), '.');
+    said.push_back(std::to_string(depth) + (is_item ? "-" : entry.key) + (entry.is_alias ? "*" : ":") + value);
+  }
+  return said;
+}
+
+void TextMap::require_nothing_else(const std::string& path, const std::vector<TextEdit>& edits, bool is_removed) const {
+  const std::string changed = with_edits(text_, edits);
+  std::vector<Fault> faults, faults_before;
+  const std::optional<Node> root = parse_yaml(changed, file_, faults);
+  if (root && !faults.empty()) (void)parse_yaml(text_, file_, faults_before);
+  bool is_good = root.has_value() && faults.size() <= faults_before.size();
+  if (is_good) {
+    const TextMap after(changed, file_, *root);
+    is_good =
+        (is_removed || after.find(path) != nullptr) && said_beside(path, true) == after.said_beside(path, !is_removed);
+  }
+  if (is_good) return;
+  throw InputError(fault(entries_.front(), path, "a text in which this key cannot be changed by itself",
+                         "the usual form of YAML: change it by hand"));
 }
 
 std::string with_edits(const std::string& text, const std::vector<TextEdit>& edits) {

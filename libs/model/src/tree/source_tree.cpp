@@ -60,7 +60,8 @@ class TreeBuilder final : public YAML::EventHandler {
                 const std::string& value) override {
     Node node{.kind = Node::Kind::scalar, .position = position(mark), .text = value};
     const bool is_quoted = tag == "!";
-    const auto at = static_cast<std::size_t>(std::max(0, mark.pos)) + (is_quoted ? 1 : 0);
+    const std::size_t mark_of_utf8 = source_.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // the parser does not count it
+    const auto at = static_cast<std::size_t>(std::max(0, mark.pos)) + mark_of_utf8 + (is_quoted ? 1 : 0);
     const bool maps = at <= source_.size() && source_.compare(at, value.size(), value) == 0;
     node.text_offset = maps ? (is_quoted ? 1 : 0) : -1;
     add(std::move(node), anchor);

@@ -131,6 +131,7 @@ std::string Answers::set_value(std::string_view request) const {
     const model::TextMap map(text, file);
     const std::vector<model::TextEdit> edits =
         value->is_null() ? map.remove(key) : map.set(key, text_in(given, "value"));
+    map.require_nothing_else(key, edits, value->is_null());
     return dumped({{"text", model::with_edits(text, edits)}, {"edits", json_of(edits, TextColumns(text))}});
   } catch (const InputError& error) {
     refuse(error);

@@ -22,6 +22,7 @@ using model::TextEntry;
 using model::TextMap;
 
 constexpr std::size_t kDeepestOutline = 2;
+constexpr std::size_t kMostListed = 500;  // of faults, warnings, missing parts and parts of the outline each
 
 /// Runs that the study of a model would do, without reading each of them.
 std::size_t count_runs(const model::Model& model) {
@@ -59,6 +60,7 @@ std::vector<std::string> missing_of_faults(const std::vector<Fault>& faults) {
     const std::string where = fault.path.empty() ? "the model" : fault.path;
     const std::string what = is_key ? fault.found.substr(12) : "one of " + fault.found.substr(17);
     missing.push_back(where + ": " + what + (is_key ? " - " + fault.expected : ""));
+    if (missing.size() == kMostListed) break;
   }
   return missing;
 }
@@ -77,12 +79,23 @@ Json parameters_in(const TextMap& map) {
   return parameters;
 }
 
-Json outline_of(const TextMap& map, const TextColumns& columns) {
+Json parameters_of(const model::Model& model) {
+  Json parameters = Json::object();
+  for (const model::Parameter& parameter : model.parameters) parameters[parameter.name] = parameter.text;
+  return parameters;
+}
+
+/// @param left_out  number of parts that are too many to be listed
+Json outline_of(const TextMap& map, const TextColumns& columns, std::size_t& left_out) {
   Json outline = Json::array();
   for (const TextEntry& entry : map.entries()) {
     if (entry.path.empty() || map.entries()[entry.parent].kind == TextEntry::Kind::list) continue;
     const auto depth = static_cast<std::size_t>(std::count(entry.path.begin(), entry.path.end(), '.')) + 1;
     if (depth > kDeepestOutline) continue;
+    if (outline.size() == kMostListed) {
+      ++left_out;
+      continue;
+    }
     outline.push_back({{"path", entry.path},
                        {"line", entry.key_at.line},
                        {"column", columns.utf16(entry.key_at.line, entry.key_at.column)},
@@ -139,17 +152,22 @@ std::string Answers::check(std::string_view request) const {
   const TextColumns columns(text);
   const auto listed = [&](const std::vector<Fault>& faults) {
     Json list = Json::array();
-    for (const Fault& fault : faults)
-      list.push_back(json_of(fault, text, map ? &*map : nullptr, columns, file, kept_->folder()));
+    for (std::size_t i = 0; i < std::min(faults.size(), kMostListed); ++i)
+      list.push_back(json_of(faults[i], text, map ? &*map : nullptr, columns, file, kept_->folder()));
     return list;
   };
   Json answer{{"faults", listed(found.faults)}, {"warnings", listed(found.warnings)}, {"runs", found.runs}};
-  answer["parameters"] = map ? parameters_in(*map) : Json::object();
   if (found.model)
-    for (const model::Parameter& parameter : found.model->parameters)
-      answer["parameters"][parameter.name] = parameter.text;
+    answer["parameters"] = parameters_of(*found.model);
+  else
+    answer["parameters"] = map ? parameters_in(*map) : Json::object();
   answer["missing"] = found.model ? missing_of_model(*found.model) : missing_of_faults(found.faults);
-  answer["outline"] = map ? outline_of(*map, columns) : Json::array();
+  std::size_t outline_left_out = 0;
+  answer["outline"] = map ? outline_of(*map, columns, outline_left_out) : Json::array();
+  const auto beyond = [](std::size_t count) { return count - std::min(count, kMostListed); };
+  answer["left_out"] = {{"faults", beyond(found.faults.size())},
+                        {"warnings", beyond(found.warnings.size())},
+                        {"outline", outline_left_out}};
   answer["depth"] = depth;
   const std::string scene = found.model && map ? scene_of(*found.model, *map, columns) : "null";
   answer["time"] = std::chrono::duration<double>(Clock::now() - began).count();

@@ -1,6 +1,8 @@
 #include "answers/kept.h"
 
 #include <algorithm>
+#include <chrono>
+#include <system_error>
 
 namespace hersey::workbench {
 
@@ -12,39 +14,49 @@ std::string Kept::file(const std::string& path) const {
   return (root_ / relative).lexically_normal().string();
 }
 
+// Of the tables and meshes: the text itself comes with the request.
+std::vector<Kept::Stamp> Kept::stamps_of(const session::Session& session) {
+  std::vector<Stamp> stamps;
+  for (const std::filesystem::path& file : session.files()) {
+    if (file == session.file()) continue;
+    std::error_code ignored;
+    Stamp& stamp = stamps.emplace_back();
+    stamp.time = std::filesystem::last_write_time(file, ignored);
+    stamp.size = std::filesystem::file_size(file, ignored);
+  }
+  return stamps;
+}
+
 std::shared_ptr<const session::Session> Kept::session(const std::string& text, const std::string& file) {
+  using FileTime = std::filesystem::file_time_type;
   const std::string key = file + '\n' + text;
+  std::shared_ptr<const KeptSession> known;
   {
     const std::lock_guard lock(mutex_);
-    const auto known =
-        std::find_if(sessions_.begin(), sessions_.end(), [&](const KeptSession& one) { return one.first == key; });
-    if (known != sessions_.end()) {
-      sessions_.splice(sessions_.begin(), sessions_, known);
-      return sessions_.front().second;
-    }
+    known = sessions_.find(key);
   }
+  if (known && stamps_of(*known->session) == known->stamps) return known->session;
+  // A file written while it is read, or so shortly before that a later change could have the same time, is read again
+  // the next time.
+  const FileTime latest = FileTime::clock::now() - std::chrono::seconds(1);
   auto read = std::make_shared<const session::Session>(text, file, std::vector<std::string>{});
+  std::vector<Stamp> stamps = stamps_of(*read);
+  if (std::any_of(stamps.begin(), stamps.end(), [&](const Stamp& stamp) { return stamp.time > latest; })) return read;
   const std::lock_guard lock(mutex_);
-  sessions_.emplace_front(key, read);
-  if (sessions_.size() > kMostSessions) sessions_.pop_back();
+  sessions_.keep(key, std::make_shared<const KeptSession>(KeptSession{read, std::move(stamps)}));
   return read;
 }
 
 std::string Kept::keep(study::BearingSolution solution) {
   const std::lock_guard lock(mutex_);
   std::string id = "solution_" + std::to_string(next_++);
-  solutions_.emplace_front(id, std::make_shared<const study::BearingSolution>(std::move(solution)));
-  if (solutions_.size() > kMostSolutions) solutions_.pop_back();
+  solutions_.keep(id, std::make_shared<const study::BearingSolution>(std::move(solution)));
   return id;
 }
 
 std::shared_ptr<const study::BearingSolution> Kept::solution(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  const auto known =
-      std::find_if(solutions_.begin(), solutions_.end(), [&](const KeptSolution& one) { return one.first == id; });
-  if (known == solutions_.end()) return nullptr;
-  solutions_.splice(solutions_.begin(), solutions_, known);
-  return solutions_.front().second;
+  return solutions_.find(id);
 }
 
 }  // namespace hersey::workbench

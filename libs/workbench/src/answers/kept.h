@@ -1,14 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <list>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "hersey/core/recently_used.h"
 #include "hersey/session/session.h"
 #include "hersey/study/bearing_study.h"
 #include "hersey/workbench/refused.h"
@@ -27,7 +27,7 @@ class Kept {
   /// The file that a request names. @throws Refused with the status 403 for one outside the folder
   [[nodiscard]] std::string file(const std::string& path) const;
 
-  /// The model of a text, read once. Tables and meshes that it names are those of that time. @throws InputError
+  /// The model of a text, read anew only where a table or mesh that it names has changed. @throws InputError
   [[nodiscard]] std::shared_ptr<const session::Session> session(const std::string& text, const std::string& file);
 
   /// Keeps a solution. @returns its name
@@ -40,13 +40,25 @@ class Kept {
  private:
   static constexpr std::size_t kMostSessions = 4;
   static constexpr std::size_t kMostSolutions = 32;
-  using KeptSession = std::pair<std::string, std::shared_ptr<const session::Session>>;
-  using KeptSolution = std::pair<std::string, std::shared_ptr<const study::BearingSolution>>;
+
+  /// By what a change of a file is noticed; neither where it cannot be asked.
+  struct Stamp {
+    std::filesystem::file_time_type time;
+    std::uintmax_t size = 0;
+
+    friend bool operator==(const Stamp&, const Stamp&) = default;
+  };
+  struct KeptSession {
+    std::shared_ptr<const session::Session> session;
+    std::vector<Stamp> stamps;
+  };
+
+  static std::vector<Stamp> stamps_of(const session::Session& session);
 
   std::filesystem::path root_;
   std::mutex mutex_;
-  std::list<KeptSession> sessions_;  // asked for last first
-  std::list<KeptSolution> solutions_;
+  RecentlyUsed<KeptSession> sessions_{kMostSessions};
+  RecentlyUsed<study::BearingSolution> solutions_{kMostSolutions};
   std::size_t next_ = 1;
 };
 

@@ -16,6 +16,7 @@ using model::TextExtent;
 using model::TextMap;
 
 constexpr std::size_t kMostUnits = 4;
+constexpr std::string_view kMarkOfUtf8 = "\xEF\xBB\xBF";  // columns of a TextMap begin behind it
 
 /// The texts in single quotes, in their order.
 std::vector<std::string> words_in_quotes(std::string_view text) {
@@ -51,8 +52,11 @@ TextExtent find_word(const TextMap& map, const TextExtent& at, const std::string
     const std::size_t behind = i + word.size();
     const bool ends = behind >= text.size() || !is_of_word(text[behind]) || !is_of_word(word.back());
     if (!begins || !ends) continue;
-    const int column = at.column + static_cast<int>(i - begin);
-    return {at.line, column, at.line, column + static_cast<int>(word.size())};
+    const auto from = text.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto lines = std::count(from, from + static_cast<std::ptrdiff_t>(i - begin), '\n');
+    const int line = at.line + static_cast<int>(lines);
+    const int column = lines == 0 ? at.column + static_cast<int>(i - begin) : static_cast<int>(i - text.rfind('\n', i));
+    return {line, column, line, column + static_cast<int>(word.size())};
   }
   return {};
 }
@@ -150,7 +154,7 @@ class Repairs {
     } catch (const QuantityError&) {
       return;
     }
-    const std::size_t last = unit.find_last_of(" ");  // of "0 48 0 mm"
+    const std::size_t last = unit.rfind(' ');  // of "0 48 0 mm"
     if (last != std::string::npos) unit = unit.substr(last + 1);
     std::vector<std::string> units{unit};
     for (const Dimension& dimension : dimensions()) {
@@ -213,7 +217,7 @@ class Repairs {
 /// Tabs before a line's text, which YAML does not take.
 std::vector<Repair> without_tabs(const Fault& fault, const std::string& text) {
   if (fault.suggestion != "indent with spaces, not tabs" || fault.position.line < 1) return {};
-  std::size_t begin = 0;
+  std::size_t begin = text.starts_with(kMarkOfUtf8) ? kMarkOfUtf8.size() : 0;
   for (int line = 1; line < fault.position.line && begin != std::string::npos; ++line) {
     begin = text.find('\n', begin);
     if (begin != std::string::npos) ++begin;
@@ -230,9 +234,10 @@ std::vector<Repair> without_tabs(const Fault& fault, const std::string& text) {
 std::vector<Repair> brought_up_to_date(const Fault& fault, const std::string& text) {
   if (fault.expected.find("`hersey convert` brings this file up to date") == std::string::npos) return {};
   const int lines = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
-  const std::size_t last = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
+  const std::size_t mark = text.starts_with(kMarkOfUtf8) ? kMarkOfUtf8.size() : 0;
+  const std::size_t last = text.rfind('\n') == std::string::npos ? mark : text.rfind('\n') + 1;
   return {{"Bring the file up to date",
-           {{{1, 1, lines, static_cast<int>(text.size() - last) + 1}, model::converted(text, "").text}}}};
+           {{{1, 1, lines, static_cast<int>(text.size() - last) + 1}, model::converted(text.substr(mark), "").text}}}};
 }
 
 std::string relative_to(const std::string& folder, const std::string& file) {
@@ -261,7 +266,8 @@ TextColumns::TextColumns(std::string_view text) : text_(text), lines_{0} {
 
 int TextColumns::utf16(int line, int column) const {
   if (line < 1 || column < 1 || static_cast<std::size_t>(line) > lines_.size()) return column;
-  const std::size_t begin = lines_[static_cast<std::size_t>(line - 1)];
+  const bool has_mark = line == 1 && text_.starts_with(kMarkOfUtf8);  // one unit of its own
+  const std::size_t begin = has_mark ? kMarkOfUtf8.size() : lines_[static_cast<std::size_t>(line - 1)];
   const std::size_t end = std::min(begin + static_cast<std::size_t>(column - 1), text_.size());
   int units = static_cast<int>(column - 1 - static_cast<int>(end - begin));
   for (std::size_t i = begin; i < end; ++i) {
@@ -269,7 +275,7 @@ int TextColumns::utf16(int line, int column) const {
     if ((byte & 0xC0U) == 0x80U) continue;  // goes on a character
     units += byte >= 0xF0U ? 2 : 1;         // beyond the basic plane: a pair
   }
-  return units + 1;
+  return units + 1 + (has_mark ? 1 : 0);
 }
 
 Json json_of(const TextEdit& edit, const TextColumns& columns) {

@@ -34,14 +34,15 @@ struct TextEntry {
   TextExtent value_at;  ///< of the value; empty, behind the colon, where there is none
   Kind kind = Kind::nothing;
   bool is_flow = false;    ///< the value stands in brackets or braces
-  bool is_alias = false;   ///< the value is `*anchor`: what it holds stands elsewhere
+  bool is_alias = false;   ///< the value is `*anchor`: what it has stands elsewhere; or its place is not known
   std::size_t parent = 0;  ///< index of the mapping or list it stands in; the root is entry 0
   std::vector<std::size_t> children;
 };
 
 /// Where everything stands in the text of a model, so that single values can be changed while comments, order and
-/// layout of all the rest stay. Keys that aliases, merge keys or templates bring in stand at their origin only.
-/// @verified_by text_map_test.cpp
+/// layout of all the rest stay. Columns of line 1 count from behind a byte order mark. Keys that aliases, merge keys or
+/// templates bring in stand at their origin only.
+/// @verified_by text_map_test.cpp, text_map_edit_test.cpp
 class TextMap {
  public:
   /// @param file  names the text in faults
@@ -61,11 +62,17 @@ class TextMap {
 
   /// The edits that give the key at `path` the value `value`, a piece of YAML in one line: the value is replaced, or
   /// the key inserted behind the last one of its mapping, with mappings around it that are missing.
-  /// @throws InputError if `value` is not YAML in one line, if a part of `path` is no mapping, or stands in an alias
+  /// An anchor before the value stays.
+  /// @throws InputError if `value` is not YAML in one line, if a part of `path` is no mapping, no plain word where it
+  /// is new, or stands in an alias, and if aliases name an anchor in the old value
   [[nodiscard]] std::vector<TextEdit> set(const std::string& path, const std::string& value) const;
   /// The edits that remove the key or item at `path`, with its line if nothing else is on it.
-  /// @throws InputError if there is none
+  /// @throws InputError if there is none, and if aliases name an anchor in it
   [[nodiscard]] std::vector<TextEdit> remove(const std::string& path) const;
+  /// Makes sure that `edits`, which set or remove what is at `path`, leave everything else that the text says: reads
+  /// the text with them.
+  /// @throws InputError if they do not: then the text is written in a way that TextMap does not know
+  void require_nothing_else(const std::string& path, const std::vector<TextEdit>& edits, bool is_removed) const;
 
   /// Byte offset of a position, at most that of its line's end.
   [[nodiscard]] std::size_t offset(int line, int column) const;
@@ -75,9 +82,19 @@ class TextMap {
 
  private:
   struct Scan;
+  /// Two offsets: of the first character, and behind the last.
+  using Piece = std::pair<std::size_t, std::size_t>;
   [[nodiscard]] TextExtent extent(std::size_t begin, std::size_t end) const;
   [[nodiscard]] int column_of_children(const TextEntry& entry) const;
   [[nodiscard]] std::size_t end_of_content(const TextEntry& entry) const;
+  [[nodiscard]] std::size_t index_of(const TextEntry& entry) const;
+  [[nodiscard]] std::vector<Piece> pieces_of(const TextEntry& entry) const;
+  [[nodiscard]] std::string anchor_of(const TextEntry& entry) const;
+  [[nodiscard]] TextEdit replacement(const TextEntry& entry, const std::string& text) const;
+  [[nodiscard]] TextEdit removal(const TextEntry& entry) const;
+  [[nodiscard]] std::vector<TextEdit> with_anchors(const std::string& path, TextEdit edit) const;
+  [[nodiscard]] std::vector<std::string> said_beside(const std::string& path, bool has_path) const;
+  void require_found(const TextEntry& entry, const std::string& path) const;
   [[nodiscard]] TextEdit insertion(const TextEntry& into, const std::string& key, const std::string& value) const;
   [[nodiscard]] Fault fault(const TextEntry& at, const std::string& path, std::string found,
                             std::string expected) const;
@@ -85,6 +102,8 @@ class TextMap {
   std::string text_, file_;
   std::vector<std::size_t> lines_;            // where each begins
   std::vector<std::size_t> offset_of_value_;  // of each entry: a value that begins before stands elsewhere
+  std::vector<std::size_t> offset_of_mark_;   // of each item: its dash, or the comma or bracket before it
+  std::map<std::size_t, Piece> merges_;       // `<<: *anchor` of mappings that have one
   std::vector<TextEntry> entries_;
   std::map<std::pair<int, int>, std::size_t> by_key_, by_value_;  // entries by line and column of their beginning
 };

@@ -30,7 +30,8 @@ class Answers {
   ~Answers();
 
   /// `{path, text, set: ["load=500 N"], depth: "text"|"start", scene: true}` -> `{faults: [F], warnings: [F], runs,
-  /// parameters: {name: text}, scene: S|null, missing: [...], outline: [...], depth, time}`.
+  /// parameters: {name: text}, scene: S|null, missing: [...], outline: [...], left_out: {faults, warnings, outline},
+  /// depth, time}`. At most 500 faults, warnings and parts of the outline are listed; `left_out` counts the others.
   ///
   /// With the depth `text` faults are those of the reader; with `start`, the usual one, also those of the start of the
   /// run, which takes longer: a loop that does not close, a journal that touches its shell, and the warnings about it.
@@ -74,7 +75,7 @@ class Answers {
 
   /// `{path, text, key: "bearings.main.features.hole.phi", value: "45 deg"}` -> `{text, edits: [...]}`: the value is
   /// replaced, or the key inserted where it is missing; null removes it. Comments, order and layout of all the rest
-  /// stay.
+  /// stay; where the text is written so that anything else would change, the request is refused with 422.
   [[nodiscard]] std::string set_value(std::string_view request) const;
 
   /// The models of `hersey init`: `[{name, title, text}]`.
