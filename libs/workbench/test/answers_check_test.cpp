@@ -156,8 +156,10 @@ TEST_CASE("ARepair_InAValueOfSeveralLines_IsMadeInItsLine") {
     const Json answer = check_of(text);
     REQUIRE(answer["faults"].size() == 1);
     REQUIRE(!answer["faults"][0]["repairs"].empty());
-    const std::string mended = with_edits(text, answer["faults"][0]["repairs"][0]["edits"]);
-    CHECK(mended == replaced(text, "mmm", "mm"));
+    const Json edits = answer["faults"][0]["repairs"][0]["edits"];
+    CHECK(with_edits(text, edits) == replaced(text, "mmm", "mm"));
+    CHECK(lines_of(text)[edits[0]["line"].get<std::size_t>() - 1].find("mmm") != std::string::npos);
+    CHECK(edits[0]["column"] == 7);
   }
 }
 
