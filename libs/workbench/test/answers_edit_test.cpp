@@ -195,6 +195,12 @@ TEST_CASE("Templates_AreReadWithoutFault_AndWrittenOnce") {
   CHECK(contents_of(folder.path() / "mine.yaml") == "own");
   CHECK(status_of([&] { return answers.new_model(R"({"template": "none", "path": "b"})"); }) == 422);
   CHECK(status_of([&] { return answers.new_model(R"({"template": "bearing", "path": "../b"})"); }) == 403);
+  CHECK(status_of([&] { return answers.new_model(R"({"template": "bearing", "path": ".b"})"); }) == 403);
+  const TemporaryDirectory elsewhere;
+  std::filesystem::create_directory_symlink(elsewhere.path(), folder.path() / "link");
+  CHECK(status_of([&] { return answers.new_model(R"({"template": "bearing", "path": "link/b"})"); }) == 403);
+  CHECK(status_of([&] { return answers.mesh_info(R"({"path": "link/b.msh"})"); }) == 403);
+  CHECK(std::filesystem::is_empty(elsewhere.path()));
 }
 
 }  // namespace answers_edit_test

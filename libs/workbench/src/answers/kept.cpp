@@ -4,14 +4,14 @@
 #include <chrono>
 #include <system_error>
 
+#include "folder/folder.h"
+
 namespace hersey::workbench {
 
 std::string Kept::file(const std::string& path) const {
-  const std::filesystem::path relative(path);
-  const bool leaves = relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (path.empty() || leaves)
-    throw Refused(403, "The path '" + path + "' is not one of the folder.", "Name a file relative to the folder.");
-  return (root_ / relative).lexically_normal().string();
+  if (path.empty()) throw Refused(403, "The path '' is not one of the folder.", "Name a file relative to the folder.");
+  (void)Folder(root_).resolve(path);  // refuses hidden names and links that lead out of it
+  return (root_ / path).lexically_normal().string();
 }
 
 // Of the tables and meshes: the text itself comes with the request.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hersey/workbench/answers.h"
+#include "hersey/workbench/refused.h"
 
 namespace hersey::workbench {
 
