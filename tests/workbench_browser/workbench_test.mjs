@@ -456,7 +456,9 @@ await findings.check("a file keeps its line ends, is saved twice in a row, and a
   await lost;
   await holds(" ABC");
   await other.unroute("**/api/file?*");
+  const answered = other.waitForResponse((response) => response.request().method() === "PUT");
   await other.keyboard.press("Control+s");
+  await answered;
   await saved();
   rmSync(file);
   await other.locator(".notice", { hasText: "no longer in the folder" }).waitFor();

@@ -88,9 +88,8 @@ TEST_CASE("TextsOfSeveralLines_AreOneValue") {
 
 TEST_CASE("ExamplesOfKeys_AreTakenByTheReader") {
   // Each is a good value of its key: its type at least has no fault.
-  for (const std::string path :
-       {"bearings.main.diameter", "bearings.main.supply", "bearings.main.grid", "bodies.a.inertia", "simulation",
-        "joints.a.type", "bearings.main.kind"}) {
+  for (const std::string path : {"bearings.main.diameter", "bearings.main.supply", "bearings.main.grid",
+                                 "bodies.a.inertia", "simulation", "joints.a.type", "bearings.main.kind"}) {
     CAPTURE(path);
     const std::string text = "hersey: 1\n";
     const TextMap map(text, "a.yaml");
