@@ -381,7 +381,7 @@ Node tree_of(const std::string& text, const std::string& file) {
 
 }  // namespace
 
-TextMap::TextMap(std::string text, std::string file) : TextMap(text, file, tree_of(text, file)) {}
+TextMap::TextMap(const std::string& text, const std::string& file) : TextMap(text, file, tree_of(text, file)) {}
 
 TextMap::TextMap(std::string text, std::string file, const Node& root)
     : text_(std::move(text)), file_(std::move(file)), lines_(starts_of_lines(text_)) {

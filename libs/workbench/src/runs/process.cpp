@@ -35,14 +35,14 @@ class Arguments {
   std::vector<char*> pointers_;
 };
 
-/// In the new process: becomes the program. The descriptors 0 to 2 are replaced, all others closed.
+/// In the new process: becomes the program. The descriptors 0 to 2 are replaced, all others close as it begins.
 [[noreturn]] void become_program(const Arguments& arguments, const char* folder, int output) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ, SIGCHLD}) std::signal(signal, SIG_DFL);
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
-  ::close_range(STDERR_FILENO + 1, ~0U, 0);
+  if (::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC) != 0) ::close_range(STDERR_FILENO + 1, ~0U, 0);
   if (::chdir(folder) == 0) ::execv(arguments.words()[0], arguments.words());
   ::_exit(127);
 }
@@ -112,6 +112,9 @@ ProcessId start_detached(const std::vector<std::string>& words, const std::files
     ssize_t got = 0;
     do got = ::read(pipe[0], &program, sizeof program);
     while (got < 0 && errno == EINTR);
+    // The pipe ends as the program begins: who stops it knows it by its arguments.
+    char nothing = 0;
+    while (::read(pipe[0], &nothing, 1) < 0 && errno == EINTR) continue;
     while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
   }
   ::close(pipe[0]);

@@ -47,7 +47,7 @@ class TextMap {
  public:
   /// @param file  names the text in faults
   /// @throws InputError where the text is not YAML
-  TextMap(std::string text, std::string file);
+  TextMap(const std::string& text, const std::string& file);
   /// Of a text that has been read. @param root  its tree
   TextMap(std::string text, std::string file, const Node& root);
 
