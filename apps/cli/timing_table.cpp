@@ -14,8 +14,8 @@
 namespace hersey::cli {
 namespace {
 
-constexpr std::size_t most_films = 2;
-constexpr double visible = 5e-4;  // of the total: what is less would be printed as 0.0 %
+constexpr std::size_t most_films = 4;  // with a line of their own; the costliest has its parts besides
+constexpr double visible = 5e-4;       // of the total: what is less would be printed as 0.0 %
 
 using Lines = std::vector<std::vector<std::string>>;
 
@@ -56,12 +56,6 @@ std::string speed_of(const film::FilmWork& work, int nodes) {
                      1e-6 * nodes * static_cast<double>(work.evaluations) / work.total());
 }
 
-// Films are solved in parallel: their parts are scaled to the time that the steps waited for them.
-void add_film(const run::FilmCost& film, double waited, Times& times) {
-  times.add("    film " + film.bearing, waited, speed_of(film.work, film.nodes));
-  add_parts(film.work, film.seconds, waited / film.seconds, "        ", times);
-}
-
 // @returns part and film of each, the costliest first
 std::vector<std::pair<double, const run::FilmCost*>> costliest_films(const run::Work& work) {
   std::vector<std::pair<double, const run::FilmCost*>> films;
@@ -72,14 +66,17 @@ std::vector<std::pair<double, const run::FilmCost*>> costliest_films(const run::
   return films;
 }
 
+// Films are solved in parallel: parts are scaled to the time that the steps waited for them.
 void add_films(const run::Work& work, Times& times) {
   const auto films = costliest_films(work);
   double others = 0;
   for (std::size_t k = 0; k < films.size(); ++k) {
+    const auto& [waited, film] = films[k];
     if (k < most_films)
-      add_film(*films[k].second, films[k].first, times);
+      times.add("    film " + film->bearing, waited, speed_of(film->work, film->nodes));
     else
-      others += films[k].first;
+      others += waited;
+    if (k == 0) add_parts(film->work, film->seconds, waited / film->seconds, "        ", times);
   }
   if (films.size() > most_films)
     times.add("    other films", others, fmt::format("{} of them", films.size() - most_films));

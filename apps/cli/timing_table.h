@@ -7,8 +7,8 @@
 
 namespace hersey::cli {
 
-/// Where the computing time of a run has gone: its phases, the parts of its steps, those of its films, and what made
-/// them long. At most 25 lines for up to three films, of which the costliest are shown.
+/// Where the computing time of a run has gone: its phases, the parts of its steps, its four costliest films and the
+/// parts of the costliest. At most 25 lines, whatever the number of films.
 /// @param total  from the start of the command to its end [s]
 [[nodiscard]] std::string timing_text(const run::Summary& summary, double total);
 

@@ -1185,6 +1185,17 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
             self.assertGreater(len(file["time"]), 1)
             self.assertAlmostEqual(file["time"][-1], float(up_to.group(1)), delta=1e-4)  # printed with six digits
 
+    def test_timing_says_where_the_time_went(self):
+        for command in (["run", MODEL, "--output", self.out], ["bearing", MODEL, "--load", "200 N", "--speed", "3000 rpm"]):
+            run = hersey(*command, "--timing")
+            self.assertEqual(run.returncode, OK, run.stderr)
+            table = run.stderr[run.stderr.index("  computing time"):].splitlines()
+            self.assertLessEqual(len(table), 25)
+            phases = [line for line in table[2:] if not line.startswith("   ")]  # after the heading and the whole
+            seconds = sum(float(re.search(r" (\d+\.\d+) ", line).group(1)) for line in phases)
+            whole = float(re.search(r"in all +([\d.]+)", run.stderr).group(1))
+            self.assertAlmostEqual(seconds, whole, delta=0.01 * whole + 0.005)  # parts are rounded to a millisecond
+
     def test_report_of_a_file_that_is_no_results_file_is_refused(self):
         run = hersey("report", MODEL)
         self.assertEqual(run.returncode, WRONG_INPUT)
