@@ -14,6 +14,12 @@
 namespace hersey::study {
 namespace {
 
+// Pads that are alike are equally hot but for round-off; the first of them is named.
+bool is_hotter(double T, double than) {
+  constexpr double round_off = 1e-9;  // of the absolute temperature
+  return T > (1 + round_off) * than;
+}
+
 /// Numbers of the pads in the order of their angles, from which each film's lines are counted on.
 std::vector<std::size_t> around(const std::vector<model::Bearing>& films) {
   std::vector<std::size_t> order(films.size());
@@ -127,8 +133,9 @@ void PadFilm::add_fields(const film::FilmFields& pad) {
 void PadFilm::add_heat(const film::HeatObservables& pad, const film::Grid& grid, double oil_volume) {
   const double part = (grid.phi(grid.n_phi - 1) - grid.phi(0)) / angle_of_pads();
   if (!heat) heat.emplace();
-  if (pad.T_max > heat->T_max) heat->T_max = pad.T_max, heat->T_max_phi = pad.T_max_phi, heat->T_max_z = pad.T_max_z;
-  if (pad.T_shell_max > heat->T_shell_max)
+  if (is_hotter(pad.T_max, heat->T_max))
+    heat->T_max = pad.T_max, heat->T_max_phi = pad.T_max_phi, heat->T_max_z = pad.T_max_z;
+  if (is_hotter(pad.T_shell_max, heat->T_shell_max))
     heat->T_shell_max = pad.T_shell_max, heat->T_shell_max_phi = pad.T_shell_max_phi;
   for (const auto mean : {&film::HeatObservables::T_shell_mean, &film::HeatObservables::T_journal,
                           &film::HeatObservables::T_shell_wall, &film::HeatObservables::T_journal_wall})
