@@ -61,7 +61,7 @@ def answer_of(program, job, is_other):
         call += ["--output", folder, "--force"] if kind == "run" else ["--no-grid-error"]
         answer, errors = pathlib.Path(folder) / "answer.json", pathlib.Path(folder) / "errors.txt"
         with answer.open("w") as out, errors.open("w") as err:
-            running = subprocess.Popen(call, stdout=out, stderr=err, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
+            running = subprocess.Popen(call, stdout=out, stderr=err, env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "HERSEY_CACHE": "off"})
             _, status, used = os.wait4(running.pid, 0)
             running.returncode = os.waitstatus_to_exitcode(status)
         if running.returncode != 0:

@@ -91,7 +91,7 @@ def answer_of(program, job, settings):
         call += ["--output", folder, "--force"] if kind == "run" else ["--no-grid-error"]
         answer, errors = pathlib.Path(folder) / "answer.json", pathlib.Path(folder) / "errors.txt"
         with answer.open("w") as out, errors.open("w") as err:
-            running = subprocess.Popen(call, stdout=out, stderr=err)
+            running = subprocess.Popen(call, stdout=out, stderr=err, env=os.environ | {"HERSEY_CACHE": "off"})
             _, status, used = os.wait4(running.pid, 0)
             running.returncode = os.waitstatus_to_exitcode(status)
         if running.returncode != 0:

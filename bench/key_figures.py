@@ -52,7 +52,7 @@ def figures_of(program, example, command):
         call = [program, kind, str(SOURCE / "examples" / f"{example}.yaml"), "--json", "--threads", "1", "--jobs", "1"]
         call += [word for setting in settings for word in ("--set", setting)]
         call += ["--output", folder, "--force"] if kind == "run" else ["--no-grid-error"]
-        done = subprocess.run(call, capture_output=True, text=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}, check=False)
+        done = subprocess.run(call, capture_output=True, text=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "HERSEY_CACHE": "off"}, check=False)
         if done.returncode != 0:
             raise CannotRun(f"{example}: `hersey {kind}` ended with status {done.returncode}: {done.stderr.strip()[-400:]}")
         answer = json.loads(done.stdout)

@@ -5,6 +5,7 @@
 #include <exception>
 #include <memory>
 
+#include "cache_folder.h"
 #include "command_line.h"
 #include "crash.h"
 #include "exit_code.h"
@@ -14,6 +15,7 @@
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/version.h"
+#include "hersey/model/reduction_folder.h"
 #include "hersey/results/error.h"
 #include "hersey/results/output_lock.h"
 #include "standard_streams.h"
@@ -106,6 +108,7 @@ int main(int argc, char** argv) {
     cli::report_crashes_of_damaged_files();
     use_one_blas_thread();
     end_blas_threads();
+    model::keep_reductions_in(cli::cache_folder());
     const int code = cli::dispatch(argc, argv);
     return cli::finish_standard_output() || code != cli::kOk ? code : static_cast<int>(cli::kFailed);
   } catch (const InputError& error) {

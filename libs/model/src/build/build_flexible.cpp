@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "build/known_reductions.h"
+#include "build/reduction_folder.h"
 #include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
+#include "hersey/core/stopwatch.h"
 #include "hersey/mbd/nodal_body.h"
 
 namespace hersey::model {
@@ -38,9 +40,40 @@ fem::ReductionOptions options_of(const Flexible& flexible, const std::vector<con
 // Rods and cranks of an engine fit; of a mesh of a hundred thousand nodes with a hundred shapes, 240 MB each, one.
 constexpr std::size_t kBytesKept = 500'000'000;
 
+constexpr double kWorthAFile = 0.1;  // [s] of reducing: less is done again as fast as a file is read and compared
+
 KnownReductions& known_reductions() {
   static KnownReductions known(kBytesKept);
   return known;
+}
+
+std::shared_ptr<const fem::ReducedBody> kept_by_another_process(const Body& body, const std::string& fingerprint) {
+  const std::shared_ptr<const ReductionFolder> folder = reduction_folder();
+  std::optional<fem::ReducedBody> kept = folder ? folder->find(fingerprint) : std::nullopt;
+  if (!kept) return nullptr;
+  kept->mesh = *body.flexible->mesh;
+  kept->nodes = kept->mesh.nodes;
+  kept->materials = body.flexible->materials;
+  kept->frames = interface_frames(body);
+  return std::make_shared<const fem::ReducedBody>(std::move(*kept));
+}
+
+// Reduces the body, and keeps what took long for later processes.
+std::shared_ptr<const fem::ReducedBody> reduced_anew(const Body& body,
+                                                     const std::vector<const DeformingSurface*>& surfaces,
+                                                     const std::string& fingerprint,
+                                                     std::optional<fem::ElasticBody>& mesh) {
+  double seconds = 0;
+  mesh = assembled(body);
+  fem::Reduction reduction;
+  {
+    const Stopwatch stopwatch(seconds);
+    reduction = fem::reduce(*mesh, interface_frames(body), options_of(*body.flexible, surfaces));
+  }
+  if (!reduction.solved()) throw insufficient_supports(body, reduction.message);
+  const std::shared_ptr<const ReductionFolder> folder = reduction_folder();
+  if (folder && seconds > kWorthAFile) folder->keep(reduction.body, fingerprint);
+  return std::make_shared<const fem::ReducedBody>(std::move(reduction.body));
 }
 
 // @param mesh  receives the assembled mesh where the body had to be reduced for this
@@ -51,10 +84,8 @@ std::shared_ptr<const fem::ReducedBody> reduced(const Body& body, const std::vec
   add_reduction(body, surfaces, print);
   std::string fingerprint = print.take();
   if (auto known = known_reductions().find(fingerprint)) return known;
-  mesh = assembled(body);
-  fem::Reduction reduction = fem::reduce(*mesh, interface_frames(body), options_of(*body.flexible, surfaces));
-  if (!reduction.solved()) throw insufficient_supports(body, reduction.message);
-  auto shapes = std::make_shared<const fem::ReducedBody>(std::move(reduction.body));
+  std::shared_ptr<const fem::ReducedBody> shapes = kept_by_another_process(body, fingerprint);
+  if (!shapes) shapes = reduced_anew(body, surfaces, fingerprint, mesh);
   known_reductions().keep(std::move(fingerprint), shapes);
   return shapes;
 }
