@@ -10,6 +10,7 @@
 
 #include "bearing_page.h"
 #include "bearing_table.h"
+#include "coefficient_table.h"
 #include "commands.h"
 #include "exit_code.h"
 #include "hersey/core/input_error.h"
@@ -29,10 +30,13 @@ namespace {
 class ShortNames {
  public:
   ShortNames(const model::Model& model, const model::Bearing& bearing)
-      : model_(model), names_(model::short_names(model, bearing)) {}
+      : model_(model), bearing_(bearing), names_(model::short_names(model, bearing)) {}
 
-  // A parameter of the model comes before a short name; any other name is a key path already.
+  // A parameter of the model comes before a short name, but not before one of the operating point where the file gives
+  // none: a machine's parameter `speed` is then that of its motor. Any other name is a key path already.
   [[nodiscard]] std::string path_of(const std::string& name) const {
+    const bool is_of_point = key_path(name).find(".operating_point.") != std::string::npos;
+    if (is_of_point && !bearing_.operating_point) return key_path(name);
     const bool is_parameter = std::any_of(model_.parameters.begin(), model_.parameters.end(),
                                           [&](const model::Parameter& parameter) { return parameter.name == name; });
     return is_parameter ? name : key_path(name);
@@ -49,6 +53,7 @@ class ShortNames {
 
  private:
   const model::Model& model_;
+  const model::Bearing& bearing_;
   model::ShortNames names_;
 };
 
@@ -219,6 +224,7 @@ int bearing_command(const BearingArguments& arguments) {
   const session::Session session = given.with(runs.front().overrides);
   const model::Model& model = session.model();
   session::require_separate({{"--csv", arguments.csv},
+                             {"--coefficients", arguments.coefficients},
                              {"--fields", arguments.fields},
                              {"--vtu", arguments.vtu},
                              {"--report", arguments.report}},
@@ -244,6 +250,14 @@ int bearing_command(const BearingArguments& arguments) {
     say("hersey: {}{}{}\n", solution.run.label, solution.run.label.empty() ? "" : ": ", solution.message);
   }
   if (!arguments.csv.empty()) write(arguments.csv, bearing_csv(solutions));
+  if (!arguments.coefficients.empty() && all_solved) {
+    const TableReader reader = arguments.coefficients_for == "ross"    ? TableReader::ross
+                               : arguments.coefficients_for == "ansys" ? TableReader::ansys
+                                                                       : TableReader::hersey;
+    write(arguments.coefficients,
+          coefficient_table(solutions, study::bearing_called(model, arguments.bearing).name,
+                            std::filesystem::path(arguments.model).filename().string(), reader));
+  }
   if (!arguments.fields.empty() && all_solved) write(arguments.fields, bearing_fields_csv(solutions.front()));
   if (!arguments.vtu.empty() && all_solved) write_bodies(arguments, model, solutions.front());
   if (!arguments.report.empty()) {

@@ -101,6 +101,8 @@ struct BearingArguments {
   std::string whirl_ratios;  ///< separated by commas, at which pads follow; empty: the file's
   std::vector<std::string> sweeps;
   std::filesystem::path csv, fields, vtu, report;  ///< files to write; empty: none
+  std::filesystem::path coefficients;              ///< likewise, a table of stiffness and damping over the speed
+  std::string coefficients_for = "hersey";         ///< the program it is for: or ross, ansys
   bool json = false;
   bool no_grid_error = false;
   bool timing = false;                          ///< print where the computing time went

@@ -107,6 +107,16 @@ void add_bearing(CLI::App& app, Commands& commands) {
               "key path: load=100N:2500N:10, speed=1rpm:3000rpm:20:log or load=100N,500N; several sweeps combine")
           ->type_name("NAME=VALUES"));
   command->add_option("--csv", bearing->csv, "Write every figure of every solution as a table")->type_name("FILE");
+  command
+      ->add_option("--coefficients", bearing->coefficients,
+                   "Write stiffness and damping over the speed as a table for rotors: with --sweep speed=...")
+      ->type_name("FILE");
+  command
+      ->add_option("--coefficients-for", bearing->coefficients_for,
+                   "Which program that table is for: CSV for a `bearing_table` and spreadsheets (hersey, the default), "
+                   "TOML for ROSS, bearing characteristics for COMBI214 of Ansys")
+      ->check(CLI::IsMember({"hersey", "ross", "ansys"}).description(""))
+      ->type_name("hersey|ross|ansys");
   command->add_option("--fields", bearing->fields, "Write pressure, film thickness and fill fraction of a solution")
       ->type_name("FILE");
   command

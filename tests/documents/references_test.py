@@ -36,7 +36,7 @@ def checked_files():
 
 
 CHAPTERS = ("circuit", "damper", "film-surface", "flexible-bodies", "film", "bearing", "contact", "beams", "elastic", "hydrostatic", "integrator",
-            "mechanisms", "pads", "rings", "skirt", "slider", "thermal", "thrust", "wear", "turbulence")
+            "mechanisms", "pads", "rings", "rotors", "skirt", "slider", "thermal", "thrust", "wear", "turbulence")
 # `film.3`, and `(film.3) to (film.6)`, `film.3 to film.6`, `film.3 to 6`, also over the end of a comment's line.
 NUMBER = re.compile(rf"(?<![\w.-])({'|'.join(CHAPTERS)})\.(\d+)(?!\w)")
 RANGE = re.compile(rf"(?<![\w.-])({'|'.join(CHAPTERS)})\.(\d+)\)?(?:\s|//+|#)+to(?:\s|//+|#)+\(?(?:\1\.)?(\d+)(?!\w)")

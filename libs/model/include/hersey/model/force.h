@@ -10,6 +10,7 @@
 #include "hersey/fem/mesh.h"
 #include "hersey/mbd/bushing.h"
 #include "hersey/mbd/coordinate_laws.h"
+#include "hersey/mbd/linear_bearing.h"
 #include "hersey/mbd/piston_ring.h"
 #include "hersey/mbd/spring_damper.h"
 #include "hersey/model/function.h"
@@ -59,6 +60,14 @@ struct Bushing {
   }
 };
 
+/// A bearing by its coefficients over the speed of the shaft, `from` the housing `to` the shaft.
+struct BearingTable {
+  FrameName from, to;
+  std::shared_ptr<const mbd::BearingCoefficientTable> table;  ///< null only where faults were reported
+  /// Constructs a law for one machine.
+  [[nodiscard]] std::shared_ptr<mbd::TwoBodyForce> made() const { return std::make_shared<mbd::LinearBearing>(table); }
+};
+
 /// Friction of a piston ring, `from` the liner `to` the piston.
 struct PistonRing {
   FrameName from, to;
@@ -103,7 +112,8 @@ struct SurfaceLoad {
 /// One entry of `forces`.
 struct Force {
   std::string name;
-  std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, PistonRing, JointFriction, SpeedControl>
+  std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, BearingTable, PistonRing, JointFriction,
+               SpeedControl>
       data;
   SourcePosition position;
 

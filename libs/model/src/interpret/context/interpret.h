@@ -156,6 +156,10 @@ void require_facing_surfaces(Context& context, const Value& value, const Bearing
 [[nodiscard]] std::vector<Key> piston_ring_keys();
 [[nodiscard]] PistonRing piston_ring_of(Context& context, const Value& value);
 
+/// Keys of a bearing given by its coefficients, and the bearing; reads their file.
+[[nodiscard]] std::vector<Key> bearing_table_keys();
+[[nodiscard]] BearingTable bearing_table_of(Context& context, const Value& value);
+
 /// Returns the beam described by `beam` of `body`, none if there is no such key, and attaches `frames` to its nodes.
 /// Reports faults of its axis, section and frames.
 [[nodiscard]] std::optional<Beam> beam_of(Context& context, const Value& body, std::vector<Frame>& frames);
