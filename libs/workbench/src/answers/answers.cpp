@@ -148,13 +148,12 @@ std::string Answers::templates() const {
 std::string Answers::new_model(std::string_view request) const {
   const Json given = request_object(request);
   const std::string name = text_in(given, "template"), path = text_in(given, "path");
-  std::filesystem::path file = kept_->file(path);
-  if (file.extension() != ".yaml" && file.extension() != ".yml") file += ".yaml";
-  if (std::filesystem::exists(file) || std::filesystem::is_symlink(file))
-    throw Refused(409, "There is a file '" + path + "' already.", "Choose another name.");
+  const std::filesystem::path file = kept_->file(path);
   try {
     const std::filesystem::path written = session::write_starting_model(name, file);
     return dumped({{"path", written.lexically_relative(kept_->folder()).generic_string()}});
+  } catch (const session::FileExists&) {
+    throw Refused(409, "There is a file '" + path + "' already.", "Choose another name.");
   } catch (const InputError& error) {
     refuse(error);
   } catch (const std::runtime_error& error) {
