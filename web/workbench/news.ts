@@ -2,6 +2,7 @@
 
 import type { Api, RunEvent } from "./api";
 import type { Notices } from "./notices";
+import { SharedEvents } from "./shared_events";
 import { texts } from "./texts";
 
 export interface NewsHooks {
@@ -25,7 +26,7 @@ export class News {
 
   /** Follows the program's events after the one numbered `from`. */
   follow(api: Api, from: number | undefined): void {
-    void api.follow(from, (event, data) => this.hear(event, data));
+    void new SharedEvents(api, from, (event, data) => this.hear(event, data)).follow();
   }
 
   private hear(event: string, data: unknown): void {
