@@ -56,8 +56,12 @@ export class MachineGeometry {
 
   /** Up is against gravity; y without gravity. */
   up(): Vector3 {
-    const g = vector(this.run.dataset("/ground/gravity")?.values);
+    const g = this.gravity();
     return g.lengthSq() > 0 ? g.normalize().negate() : new Vector3(0, 1, 0);
+  }
+
+  gravity(): Vector3 {
+    return vector(this.run.dataset("/ground/gravity")?.values);
   }
 
   centreOfMass(body: string): Vector3 {
