@@ -2,6 +2,14 @@
 
 import { formOf, normal, written, type FileForm } from "./file_text";
 
+export interface Hello {
+  version: string;
+  folder: string;
+  open: string | null;
+  /** Number of the last event. */
+  event?: number;
+}
+
 /** What a file holds, with "\n" between its lines. */
 export interface FileContent {
   text: string;
