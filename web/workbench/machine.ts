@@ -215,11 +215,11 @@ export class WorkbenchMachine extends MachineView {
     this.named(`/bearings/${bearing.name}`, () => this.groups.get(bearing.inboard), () => super.addBearing(bearing, colour));
   }
 
-  /** A pane may be higher than wide, and one instant shows less than a whole motion: a step back. */
+  /** A pane may be higher than wide, one instant shows less than a whole motion, and arrows reach out: a step back. */
   protected override lookFromStart(): void {
     super.lookFromStart();
     const { target } = this.controls!;
-    this.camera.position.sub(target).multiplyScalar(1.12 / Math.min(1, this.camera.aspect)).add(target);
+    this.camera.position.sub(target).multiplyScalar((this.marks.loads.some(({ at, direction }) => at && direction) ? 1.3 : 1.12) / Math.min(1, this.camera.aspect)).add(target);
     this.controls!.update();
     this.render();
   }

@@ -144,8 +144,8 @@ export class MachineMarks {
     if (load.body === undefined || !load.at || !load.direction) return;
     const colour = palette().series[load.torque ? 3 : 1] ?? palette().accent;
     const direction = new Vector3(...load.direction).normalize();
-    const length = 0.42 * this.radius;
-    const mark = load.torque ? turnArrow(direction, 0.4 * length, colour) : arrow(direction, length, colour);
+    const length = 0.34 * this.radius;
+    const mark = load.torque ? turnArrow(direction, 0.5 * length, colour) : arrow(direction, length, colour);
     const whole = new Group();
     whole.add(mark);
     this.addLabel(whole, load.torque ? new Vector3() : direction.clone().multiplyScalar(-length), wordsOf(load), colour);

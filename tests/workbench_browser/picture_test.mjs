@@ -1,0 +1,118 @@
+// node picture_test.mjs PROGRAM [PICTURES] [ONLY]: what the workbench shows of a model beside its text, in headless
+// Chromium: forces, frames and the oil circuit; joints moved; templates and examples; CAD files; tables. See bench.mjs.
+import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { delimiter, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { accessibilityFaults, claim, cursorLine, Findings, folderOfModels, forget, goTo, launch, open, says, serve, state, textOf, until } from "./bench.mjs";
+
+const [program, pictures = "build/web-test/workbench", only] = process.argv.slice(2);
+if (!program) {
+  console.error("usage: node picture_test.mjs PROGRAM [PICTURES] [ONLY]");
+  process.exit(2);
+}
+mkdirSync(pictures, { recursive: true });
+const root = fileURLToPath(new URL("../..", import.meta.url));
+const picture = (page, name) => page.screenshot({ path: join(pictures, `${name}.png`) });
+const size = { width: 1280, height: 720 };
+const folder = folderOfModels();
+cpSync(join(root, "examples/oil_circuit/model.yaml"), join(folder, "circuit.yaml"));
+const findings = new Findings(only);
+const begun = performance.now();
+const server = await serve(resolve(program), folder);
+const browser = await launch();
+const context = await browser.newContext({ viewport: size, colorScheme: "light" });
+const page = await open(context, server.address);
+const button = (name) => page.getByRole("button", { name, exact: true });
+const openFile = (name) => page.locator(`.file[data-path="${name}"]`).click();
+const parts = page.getByLabel("Choose a part");
+
+await findings.check("forces, gravity and frames are drawn, chosen from the text and lead to it", async () => {
+  await openFile("model.yaml");
+  await state(page, "Ready to run");
+  await page.waitForSelector(".machine-space canvas");
+  const names = await page.locator(".machine-names .load").allInnerTexts();
+  claim(names.length === 1 && /gas, .*N/.test(names[0]), `loads: ${names}`);
+  await parts.selectOption("/forces/gas");
+  claim((await cursorLine(page)).trim() === "gas:", `the cursor is at ${await cursorLine(page)}`);
+  const pixels = () => page.evaluate(() => document.querySelector(".machine-space canvas").toDataURL());
+  const drawn = await pixels();
+  await button("Loads").click();
+  claim((await pixels()) !== drawn, "without loads the picture is the same");
+  await button("Loads").click();
+  const plain = await pixels();
+  await button("Frames").click();
+  claim((await pixels()) !== plain, "with frames the picture is the same");
+  await parts.selectOption("/bodies/rod/frames/big_end");
+  claim((await cursorLine(page)).trim().startsWith("big_end: {origin"), `the cursor is at ${await cursorLine(page)}`);
+  await picture(page, "20-forces-and-frames");
+  await button("Frames").click();
+  await goTo(page, "direction: 0 -1 0");
+  await page.waitForFunction(() => document.querySelector('select[aria-label="Choose a part"]').value === "/forces/gas");
+  // A changed direction is seen.
+  const before = await pixels();
+  await page.keyboard.press("Backspace");
+  await page.keyboard.type("1");
+  await until("the arrow has not turned", async () => (await pixels()) !== before);
+  await page.locator(".cm-content").focus();
+  for (let i = 0; i < 4; i++) await page.keyboard.press("Control+z");
+});
+
+await findings.check("the oil circuit is drawn; what is clicked in it is found in the text, and back", async () => {
+  await openFile("circuit.yaml");
+  await state(page, "Ready to run");
+  const plan = page.locator(".circuit-plan");
+  await plan.locator("svg").waitFor();
+  const words = await plan.innerText();
+  claim(/sump/.test(words) && /0 bar/.test(words) && /relief valve/.test(words) && !/l\/min/.test(words), `the drawing says ${words}`);
+  await plan.locator('[data-node="gallery"]').click();
+  claim((await cursorLine(page)).trim().startsWith("gallery:"), `the cursor is at ${await cursorLine(page)}`);
+  await page.mouse.click(...(await middleOf(plan.locator('.circuit-touch[data-element="jet"]'))));
+  claim((await cursorLine(page)).trim().startsWith("jet:"), `the cursor is at ${await cursorLine(page)}`);
+  await goTo(page, "drilling: {type");
+  await plan.locator('.chosen[data-element="drilling"]').first().waitFor();
+  claim((await parts.inputValue()) === "/circuit/elements/drilling", "the list of parts does not follow");
+  await picture(page, "21-circuit");
+  const faults = [...(await accessibilityFaults(page, "light")), ...(await accessibilityFaults(page, "dark"))];
+  await page.emulateMedia({ colorScheme: "light" });
+  claim(faults.length === 0, faults.join("\n"));
+});
+
+/** The middle of a line, on the page. */
+async function middleOf(line) {
+  return line.evaluate((path) => {
+    const at = path.getPointAtLength(0.5 * path.getTotalLength());
+    path.scrollIntoView({ block: "center" });
+    const { x, y } = new DOMPoint(at.x, at.y).matrixTransform(path.getScreenCTM());
+    return [x, y];
+  });
+}
+
+await findings.check("a crank moved by its slider takes the rod along that a film joins to it", async () => {
+  await openFile("model.yaml");
+  await state(page, "Ready to run");
+  await page.locator(".joints summary", { hasText: "Joints" }).click();
+  const slider = page.getByLabel("main, rotation");
+  const [answer] = await Promise.all([
+    page.waitForResponse((response) => response.url().endsWith("/api/move")),
+    slider.evaluate((e) => {
+      e.value = 1; // [rad]
+      e.dispatchEvent(new Event("input"));
+    }),
+  ]);
+  const { bodies } = await answer.json();
+  const at = ({ position, orientation: [c, , , s] }, x, y) => [position[0] + x * (c * c - s * s) - 2 * c * s * y, position[1] + 2 * c * s * x + y * (c * c - s * s)];
+  const [pin, eye] = [at(bodies.crank, 0, 0.04), at(bodies.rod, 0, -0.14)];
+  claim(Math.hypot(pin[0] - eye[0], pin[1] - eye[1]) < 1e-9, `pin ${pin}, big end ${eye}`); // assembled to round-off of metres
+  await page.waitForTimeout(100);
+  await picture(page, "22-crank-moved");
+  await page.getByLabel("main: As the model says").click();
+  await page.locator(".joints summary", { hasText: "Joints" }).click();
+});
+
+claim(page.complaints.length === 0, page.complaints.join("\n"));
+await browser.close();
+await server.stop();
+forget(folder);
+console.log(`${findings.held} held, ${findings.failed} failed, ${((performance.now() - begun) / 1000).toFixed(0)} s; pictures: ${pictures}`);
+process.exit(findings.failed > 0 ? 1 : 0);
