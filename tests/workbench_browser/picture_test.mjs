@@ -110,6 +110,40 @@ await findings.check("a crank moved by its slider takes the rod along that a fil
   await page.locator(".joints summary", { hasText: "Joints" }).click();
 });
 
+await findings.check("an empty folder shows templates and examples with pictures; an example is copied with what it reads", async () => {
+  const empty = mkdtempSync(join(tmpdir(), "hersey-empty-"));
+  const other = await serve(resolve(program), empty);
+  const begin = await open(await browser.newContext({ viewport: size, colorScheme: "light" }), other.address);
+  await begin.locator("dialog.templates").waitFor();
+  const drawn = () => begin.locator(".card img[src]").count();
+  await until("no pictures appear", async () => (await drawn()) >= 6);
+  claim((await begin.locator(".cards").count()) === 2, "no examples");
+  await begin.waitForTimeout(1500);
+  await picture(begin, "23-templates");
+  const faults = [...(await accessibilityFaults(begin, "light")), ...(await accessibilityFaults(begin, "dark"))];
+  await begin.emulateMedia({ colorScheme: "light" });
+  claim(faults.length === 0, faults.join("\n"));
+  // Arrow keys walk through the cards.
+  await begin.locator(".card input").first().focus();
+  await begin.keyboard.press("ArrowDown");
+  claim((await begin.locator("#template-path").inputValue()) === "hydrostatic.yaml", `the next is ${await begin.locator("#template-path").inputValue()}`);
+  await begin.locator('.card input[value="example conrod_pressure/model.yaml"]').check();
+  await begin.waitForTimeout(1500);
+  await picture(begin, "24-examples");
+  claim((await begin.locator("#template-path").inputValue()) === "conrod_pressure/model.yaml", "the name is another one");
+  await begin.locator("#template-path").fill("mine/rod.yaml");
+  await begin.getByRole("button", { name: "Create", exact: true }).click();
+  await begin.locator(".documents .tab", { hasText: "rod.yaml" }).waitFor();
+  await state(begin, "Ready");
+  const from = (name) => readFileSync(join(root, "examples", name));
+  claim(readFileSync(join(empty, "mine/rod.yaml")).equals(from("conrod_pressure/model.yaml")), "the copy is another text");
+  claim(readFileSync(join(empty, "meshes/conrod.msh")).equals(from("meshes/conrod.msh")), "its mesh is another one");
+  claim(begin.complaints.length === 0, begin.complaints.join("\n"));
+  await begin.context().close();
+  await other.stop();
+  forget(empty);
+});
+
 claim(page.complaints.length === 0, page.complaints.join("\n"));
 await browser.close();
 await server.stop();

@@ -99,6 +99,12 @@ export class WorkbenchMachine extends MachineView {
     if (this.renderer) this.place();
   }
 
+  /** The machine from its usual side, as the address of a picture. */
+  photograph(): string {
+    this.resetByHand();
+    return this.renderer!.domElement.toDataURL("image/png");
+  }
+
   choose(part: string | null): void {
     if (this.chosen === part) return;
     this.chosen = part;
@@ -181,7 +187,7 @@ export class WorkbenchMachine extends MachineView {
   private drawMarks(): void {
     this.drawn?.dispose();
     this.drawn = new MachineMarks(this.groups, this.bounds.radius);
-    if (this.loadsShown) {
+    if (this.loadsShown && !this.marks.plain) {
       this.drawn.addLoads(this.marks.loads);
       const down = this.geometry.gravity();
       if (down.lengthSq() > 0) {

@@ -35,6 +35,8 @@ export interface NamedFrame {
 export interface Marks {
   loads: Load[];
   frames: Record<string, NamedFrame[]>;
+  /** A small picture: no arrows and no names. */
+  plain?: boolean;
 }
 
 /** More names than that would hide the machine. */

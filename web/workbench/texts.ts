@@ -123,7 +123,10 @@ export const texts = {
   templates: {
     title: "Begin a model",
     words: "Choose what is nearest to yours. It is written as a commented text, complete and ready to run.",
+    exampleWords: "The example is copied into the folder, with the tables and meshes that it reads; the original stays as it is.",
     choose: "Templates and examples",
+    templates: "Templates",
+    examples: "Examples of the program",
     path: "Name of the new file",
     create: "Create",
     preview: "Text of the template",

@@ -103,6 +103,7 @@ Reply Api::route(const Request& request) {
     return {.body = schema_};
   }
   if (call == "GET templates") return {.body = answers_.templates()};
+  if (call == "GET examples") return {.body = answers_.examples()};
   const auto ask = [&](std::string (Answers::*question)(std::string_view) const) -> Reply {
     return {.body = (answers_.*question)(request.body)};
   };
@@ -113,6 +114,7 @@ Reply Api::route(const Request& request) {
   if (call == "POST explain") return ask(&Answers::explain);
   if (call == "POST convert") return ask(&Answers::convert);
   if (call == "POST set") return ask(&Answers::set_value);
+  if (call == "POST template") return ask(&Answers::template_scene);
   if (call == "POST new") return ask(&Answers::new_model);
   if (call == "GET runs") return run_list();
   if (call == "POST runs") return json_reply({{"id", runs_.start(json::parse(request.body))}});
