@@ -144,6 +144,56 @@ await findings.check("an empty folder shows templates and examples with pictures
   forget(empty);
 });
 
+await findings.check("a CAD file becomes a mesh with its bores, by gmsh; without gmsh the page says what to install", async () => {
+  // A stand-in for gmsh: what it makes of a file is its own affair.
+  const tools = mkdtempSync(join(tmpdir(), "hersey-tools-"));
+  const gmsh = join(tools, "gmsh");
+  const parts = mkdtempSync(join(tmpdir(), "hersey-parts-"));
+  writeFileSync(join(parts, "rod.step"), "ISO-10303-21;");
+  const path = process.env.PATH;
+  process.env.PATH = `${tools}${delimiter}/bin`;
+  const other = await serve(resolve(program), parts);
+  process.env.PATH = path;
+  const shop = await open(await browser.newContext({ viewport: size, colorScheme: "light" }), other.address, /status of 4\d\d/);
+  if (await shop.locator("dialog.templates").count()) await shop.keyboard.press("Escape");
+  await shop.locator("dialog.templates").waitFor({ state: "detached" });
+  const openPart = () => shop.locator('.file[data-path="rod.step"]').click();
+  const make = () => shop.getByRole("button", { name: "Make the mesh" }).click();
+  await openPart();
+  if (!existsSync("/bin/gmsh")) {
+    await make();
+    await shop.locator(".cad-said.fault", { hasText: "apt-get install gmsh" }).waitFor();
+  }
+  await picture(shop, "25-cad");
+  writeFileSync(gmsh, `#!/bin/sh\n/bin/cp ${join(root, "examples/meshes/conrod.msh")} part.msh\n`);
+  chmodSync(gmsh, 0o755);
+  await shop.getByLabel("Size of an element").fill("5 mm");
+  await make();
+  await shop.locator("dialog .mesh-table").waitFor();
+  const found = await shop.locator("dialog .mesh-table").innerText();
+  claim(/bore/.test(found) && found.includes("45 mm"), `found: ${found}`);
+  claim((await shop.locator("dialog .template-text").innerText()).includes("mesh: rod.msh, length_unit: 1 m}"), "no lines of a model");
+  await shop.locator('.file[data-path="rod.msh"]').waitFor();
+  await picture(shop, "26-cad-mesh");
+  await shop.keyboard.press("Escape");
+  // One that takes long is stopped.
+  writeFileSync(gmsh, "#!/bin/sh\nexec /bin/sleep 60\n");
+  await openPart();
+  await shop.getByLabel("Name of the mesh").fill("second.msh");
+  await make();
+  await shop.locator(".cad-said", { hasText: "at work" }).waitFor();
+  await shop.locator(".cad-form").getByRole("button", { name: "Stop" }).click();
+  await shop.locator(".cad-said.fault", { hasText: "stopped" }).waitFor();
+  const faults = await accessibilityFaults(shop, "light");
+  claim(faults.length === 0, faults.join("\n"));
+  claim(!existsSync(join(parts, "second.msh")), "there is a mesh");
+  claim(shop.complaints.length === 0, shop.complaints.join("\n"));
+  await shop.context().close();
+  await other.stop();
+  forget(parts);
+  forget(tools);
+});
+
 claim(page.complaints.length === 0, page.complaints.join("\n"));
 await browser.close();
 await server.stop();

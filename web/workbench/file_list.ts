@@ -2,6 +2,7 @@
 
 import type { Api, FileEntry, RunEntry, Template } from "./api";
 import { h } from "../src/dom";
+import { isCad, showCad } from "./cad_window";
 import type { Editor } from "./editor";
 import { showMesh } from "./mesh_window";
 import { askBeginning } from "./template_window";
@@ -61,6 +62,7 @@ export class FileList {
     const { api, editor, say, fail, opened } = this.hooks;
     if (!editor.documents.has(path)) {
       const kind = this.files.find((f) => f.path === path)?.kind;
+      if (isCad(path)) return showCad(api, path, () => void this.load());
       if (kind === "mesh" && /\.(msh|inp)$/i.test(path)) return showMesh(api, path);
       if (kind === "results" || kind === "mesh") return say(texts.binary);
       try {
