@@ -144,6 +144,54 @@ await findings.check("an empty folder shows templates and examples with pictures
   forget(empty);
 });
 
+await findings.check("a table is edited as a table, every other line stays as it is", async () => {
+  const file = "gas_pressure.csv";
+  const before = readFileSync(join(folder, file), "utf8").replace("10, 0.0000", "# a remark\n10,   0.0000");
+  writeFileSync(join(folder, file), before);
+  await openFile(file);
+  await page.locator(".cells input").first().waitFor();
+  const lines = () => textOf(page).then((text) => text.split("\n"));
+  const was = before.replace(/\r/g, "").split("\n");
+  claim((await lines()).join("\n") === was.join("\n"), "the text is another one at once");
+  const cell = (name, row) => page.getByLabel(`${name}, row ${row}`, { exact: true });
+  const pressure = "pressure [bar]";
+  await cell(pressure, 3).fill("0.25");
+  await cell(pressure, 3).press("Enter");
+  await says(page, "10,   0.25");
+  claim((await page.evaluate(() => document.activeElement.getAttribute("aria-label"))) === `${pressure}, row 4`, "Enter does not lead to the next row");
+  claim((await lines()).join("\n") === was.join("\n").replace("10,   0.0000", "10,   0.25"), "more than the cell has changed");
+  // What would be another column is not taken.
+  await cell(pressure, 3).fill("0,5");
+  await cell(pressure, 3).press("Enter");
+  claim((await cell(pressure, 3).inputValue()) === "0.25", "a separator is taken");
+  await picture(page, "27-table");
+  const faults = [...(await accessibilityFaults(page, "light")), ...(await accessibilityFaults(page, "dark"))];
+  await page.emulateMedia({ colorScheme: "light" });
+  claim(faults.length === 0, faults.join("\n"));
+  await cell(pressure, 2).focus();
+  await button("Row below").click();
+  await says(page, "\n7.5, 0.15\n");
+  await button("Remove row").click();
+  await says(page, "\n7.5, 0.15\n", false);
+  await page.locator(".table-columns input").nth(1).uncheck();
+  claim((await page.locator(".table-plot svg").count()) === 0, "a column is drawn that is not wanted");
+  await page.locator(".table-columns input").nth(1).check();
+  // To its last row, which is not there before it is seen.
+  await page.locator(".table-scroll").evaluate((e) => (e.scrollTop = e.scrollHeight));
+  await cell("angle [deg]", 145).waitFor();
+  await cell("angle [deg]", 145).press("Control+Enter");
+  await says(page, "\n725, ");
+  await button("Text").click();
+  await page.locator(".cm-content").focus();
+  for (let i = 0; i < 20 && (await textOf(page)) !== was.join("\n"); i++) await page.keyboard.press("Control+z");
+  claim((await textOf(page)) === was.join("\n"), "undoing everything does not give the first text");
+  await button("Table").click();
+  await cell(pressure, 3).waitFor();
+  await openFile("model.yaml");
+  await page.locator(".table-bar").waitFor({ state: "detached" });
+  await page.locator(".cm-content").waitFor();
+});
+
 await findings.check("a CAD file becomes a mesh with its bores, by gmsh; without gmsh the page says what to install", async () => {
   // A stand-in for gmsh: what it makes of a file is its own affair.
   const tools = mkdtempSync(join(tmpdir(), "hersey-tools-"));

@@ -141,6 +141,18 @@ export const texts = {
     copy: "Copy the lines",
     copied: "Copied",
   },
+  table: {
+    table: "Table",
+    text: "Text",
+    tools: "Table",
+    add: "Row below",
+    remove: "Remove row",
+    rows: (n: number) => (n === 1 ? "1 row" : `${n} rows`),
+    across: "Over",
+    columns: "Columns that are drawn",
+    cell: (name: string, row: number) => `${name}, row ${row}`,
+    plot: (name: string, over: string) => `${name} over ${over}`,
+  },
   cad: {
     words: "The program gmsh makes a mesh of this file; then bores and journals are looked for in it. Surfaces without a solid cannot be meshed.",
     size: "Size of an element",

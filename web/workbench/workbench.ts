@@ -179,6 +179,7 @@ export class Workbench {
   private textChanged(document: OpenDocument): void {
     this.rememberSoon();
     this.drawDirty(document);
+    this.documents.textChanged(document);
     if (document === this.documents.model) this.checker.soon();
   }
 
