@@ -39,8 +39,11 @@ function noteText({ faults, warnings }: Findings, doc: Text): void {
   for (const fault of [...faults, ...warnings]) for (const { edits } of fault.repairs ?? []) textOfEdits.set(edits, doc);
 }
 
-/** Pause of typing before a text is checked [ms]. */
-const pause = 45;
+/** Pause of typing before a text is checked [ms]: a share of what the last answer took, so that those who type fast do
+ *  not wait behind answers that nobody wants any longer. */
+const leastPause = 8;
+const mostPause = 150;
+const pauseShare = 0.3;
 /** Further pause before the start of its run is tried [ms]. */
 const restPause = 200;
 
@@ -48,6 +51,8 @@ export class Checker {
   findings: Findings | null = null;
   private checks = 0;
   private timer = 0;
+  /** How long the last answer took [ms]. */
+  private took = 0;
 
   constructor(private readonly hooks: CheckerHooks) {}
 
@@ -61,7 +66,7 @@ export class Checker {
 
   soon(): void {
     clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => this.now(), pause);
+    this.timer = window.setTimeout(() => this.now(), Math.min(mostPause, Math.max(leastPause, pauseShare * this.took)));
   }
 
   now(): void {
@@ -80,7 +85,9 @@ export class Checker {
     // An older text's answer is of no use once a newer one is asked about.
     const isOld = () => count !== this.checks || document !== model() || document.state.doc !== doc;
     try {
+      const asked = performance.now();
       const read = await ask("text", true);
+      this.took = performance.now() - asked;
       if (isOld()) return;
       noteText(read, doc);
       const isReadable = read.faults.length === 0;

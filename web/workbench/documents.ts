@@ -7,6 +7,7 @@ import type { DocumentFiles } from "./document_files";
 import type { Editor, OpenDocument, SavedDocument } from "./editor";
 import type { OpenReport } from "./memory";
 import { walkable } from "./layout";
+import { TableView } from "./table_view";
 import { texts } from "./texts";
 
 export interface DocumentsHooks {
@@ -25,10 +26,17 @@ export class Documents {
   model: OpenDocument | null = null;
   /** Path of a text or key of a report; empty: nothing is open. */
   active = "";
+  private readonly tables: TableView;
   private reports: (OpenReport & { frame: HTMLIFrameElement })[] = [];
 
   constructor(private readonly hooks: DocumentsHooks) {
     walkable(this.bar);
+    this.tables = new TableView(hooks.editor, () => this.show());
+  }
+
+  /** A table is drawn anew. */
+  textChanged(document: OpenDocument): void {
+    this.tables.changed(document);
   }
 
   /** The text that is shown; null where a report is. */
@@ -62,7 +70,12 @@ export class Documents {
 
   show(): void {
     const { element } = this.hooks.editor;
-    element.hidden = !this.shown;
+    const hasTable = this.tables.show(this.shown);
+    this.area.classList.toggle("with-table", hasTable);
+    if (hasTable) this.area.append(this.tables.bar, this.tables.element);
+    else for (const part of [this.tables.bar, this.tables.element]) part.remove();
+    this.tables.element.hidden = !this.tables.isTable;
+    element.hidden = !this.shown || (hasTable && this.tables.isTable);
     for (const { frame, key, url } of this.reports) {
       frame.hidden = key !== this.active;
       // What nobody has looked at yet is not loaded.

@@ -2,9 +2,10 @@
 
 import type { Api, FileEntry, RunEntry, Template } from "./api";
 import { h } from "../src/dom";
-import { askTemplate } from "./dialogs";
+import { isCad, showCad } from "./cad_window";
 import type { Editor } from "./editor";
 import { showMesh } from "./mesh_window";
+import { askBeginning } from "./template_window";
 import { texts } from "./texts";
 
 export interface FileListHooks {
@@ -61,6 +62,7 @@ export class FileList {
     const { api, editor, say, fail, opened } = this.hooks;
     if (!editor.documents.has(path)) {
       const kind = this.files.find((f) => f.path === path)?.kind;
+      if (isCad(path)) return showCad(api, path, () => void this.load());
       if (kind === "mesh" && /\.(msh|inp)$/i.test(path)) return showMesh(api, path);
       if (kind === "results" || kind === "mesh") return say(texts.binary);
       try {
@@ -73,19 +75,13 @@ export class FileList {
     opened(path);
   }
 
-  /** Asks which template, and opens what is made of it. */
+  /** Asks which template or example, and opens what is made of it. */
   async begin(): Promise<void> {
     const { api, fail } = this.hooks;
-    let templates: Template[];
     try {
-      const answer = await api.get<Template[] | { templates: Template[] }>("/api/templates");
-      templates = Array.isArray(answer) ? answer : answer.templates;
-    } catch (error) {
-      return fail(error);
-    }
-    const wanted = await askTemplate(templates);
-    if (!wanted) return;
-    try {
+      const [templates, examples] = await Promise.all([api.get<Template[]>("/api/templates"), api.get<Template[]>("/api/examples").catch(() => [])]);
+      const wanted = await askBeginning(api, templates, examples);
+      if (!wanted) return;
       const made = await api.post<{ path?: string }>("/api/new", wanted);
       await this.load();
       await this.open(made.path ?? wanted.path);

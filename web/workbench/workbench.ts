@@ -131,6 +131,7 @@ export class Workbench {
     const wanted = this.hello.open ?? (models.length === 1 ? models[0]!.path : null);
     if (!old && wanted) await fileList.open(wanted);
     if (!documents.active) documents.show();
+    if (!old && models.length === 0) void fileList.begin();
     this.news.follow(this.api, this.hello.event);
     await runs;
     await this.runs.showLast(old?.run);
@@ -178,6 +179,7 @@ export class Workbench {
   private textChanged(document: OpenDocument): void {
     this.rememberSoon();
     this.drawDirty(document);
+    this.documents.textChanged(document);
     if (document === this.documents.model) this.checker.soon();
   }
 
