@@ -20,7 +20,7 @@ export function dialog(title: string, kind: string, ...content: (HTMLElement | n
 }
 
 export function showKeys(): void {
-  dialog(texts.keys.title, "keys", h("table", { class: "keys-table" }, h("tbody", {}, ...texts.keys.list.map(([keys, words]) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, keys)), h("td", {}, words))))));
+  dialog(texts.keys.title, "keys", h("table", { class: "keys-table" }, h("tbody", {}, ...texts.keys.list.map(([keys, words]) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, keys)), h("td", {}, words))))), h("p", { class: "note" }, h("a", { href: "/licences.txt", target: "_blank", rel: "noreferrer" }, texts.licences)));
 }
 
 /** A question with a few answers; null where the window is closed. */

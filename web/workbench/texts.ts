@@ -25,6 +25,7 @@ export const texts = {
   begin: "New model",
   save: "Save",
   shortcuts: "Keys",
+  licences: "Licences of the packages in this page",
   close: "Close",
   cancel: "Cancel",
   closeTab: (name: string) => `Close ${name}`,
