@@ -1,10 +1,12 @@
-// The workbench: index.html, workbench.js and workbench.css, which the program serves.
+// The workbench: index.html, workbench.js and workbench.css, which the program serves, and licences.txt.
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
+import { licences } from "./scripts/licences.mjs";
 
 export default defineConfig({
   root: fileURLToPath(new URL("workbench", import.meta.url)),
   base: "/",
+  plugins: [licences("The page of hersey's workbench")],
   build: {
     target: "es2022",
     outDir: fileURLToPath(new URL("dist/workbench", import.meta.url)),

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <variant>
 
 #include "exit_code.h"
 #include "fault_json.h"
@@ -22,6 +23,13 @@ constexpr std::string_view kBeginning = "{\"kind\":";
 
 /// Number or null: JSON has no infinity.
 EventJson finite(double value) { return std::isfinite(value) ? EventJson(value) : EventJson(nullptr); }
+
+/// [m], as the model gives it (cold); null of films that are not between two cylinders.
+EventJson radial_clearance(const model::Bearing& bearing) {
+  const film::FilmModel& film = bearing.film;
+  const bool is_cylindrical = bearing.kind->has_axis() || std::holds_alternative<film::Skirt>(film.surface);
+  return is_cylindrical ? finite(film.c) : EventJson(nullptr);
+}
 
 EventJson json_of(const std::vector<run::BearingProgress>& bearings) {
   EventJson figures = EventJson::object();
@@ -74,9 +82,11 @@ void RunEvents::started(const model::Model& model, const std::vector<model::Stud
   const model::Simulation& plan = model.simulation;
   EventJson event{{"kind", "started"}, {"title", model.title},       {"pid", ::getpid()},
                   {"t", plan.start},   {"t_start", plan.start},      {"t_end", plan.start + plan.duration},
-                  {"share", 0},        {"runs", EventJson::array()}, {"bearings", EventJson::array()}};
+                  {"share", 0},        {"runs", EventJson::array()}, {"bearings", EventJson::object()}};
   for (const model::StudyRun& run : runs) event["runs"].push_back(run.label);
-  for (const model::Bearing& bearing : model.bearings) event["bearings"].push_back(bearing.name);
+  // The runs of a study may differ in it.
+  for (const model::Bearing& bearing : model.bearings)
+    event["bearings"][bearing.name] = {{"clearance", runs.empty() ? radial_clearance(bearing) : EventJson(nullptr)}};
   write(event);
 }
 

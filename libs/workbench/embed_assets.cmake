@@ -8,7 +8,7 @@ namespace hersey::workbench {
 Asset asset(std::string_view path) {
 ")
 foreach(entry "/|index.html|text/html; charset=utf-8" "/workbench.js|workbench.js|text/javascript; charset=utf-8"
-        "/workbench.css|workbench.css|text/css; charset=utf-8")
+        "/workbench.css|workbench.css|text/css; charset=utf-8" "/licences.txt|licences.txt|text/plain; charset=utf-8")
   string(REGEX MATCH "([^|]+)[|]([^|]+)[|](.+)" ignored "${entry}")
   set(path ${CMAKE_MATCH_1})
   set(type "${CMAKE_MATCH_3}")

@@ -5,7 +5,7 @@ add_custom_command(
   OUTPUT ${workbench_assets_source}
   COMMAND ${CMAKE_COMMAND} -DFOLDER=${workbench_assets} -DOUTPUT=${workbench_assets_source} -P ${dir}/embed_assets.cmake
   DEPENDS ${workbench_assets}/index.html ${workbench_assets}/workbench.js ${workbench_assets}/workbench.css
-          ${dir}/embed_assets.cmake
+          ${workbench_assets}/licences.txt ${dir}/embed_assets.cmake
   COMMENT "Embedding the workbench's page"
   VERBATIM)
 target_sources(hersey_workbench PRIVATE ${workbench_assets_source})

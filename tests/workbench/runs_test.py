@@ -104,7 +104,7 @@ class Runs(unittest.TestCase):
                 seen.append(data)
         self.assertEqual({event["id"] for event in seen}, {name})
         self.assertEqual([event["kind"] for event in seen], ["started", "stepped", "stepped", "finished"])
-        self.assertEqual(seen[0]["bearings"], ["main"])
+        self.assertEqual(list(seen[0]["bearings"]), ["main"])
         self.assertEqual([event["t"] for event in seen[1:3]], [0, 0.001])
         self.assertEqual(seen[2]["share"], 1)
         figures = seen[2]["bearings"]["main"]
@@ -121,6 +121,7 @@ class Runs(unittest.TestCase):
             for key in ("h_min", "p_max"):
                 self.assertEqual(bearing[key][-1], figures[key])
             self.assertEqual(list(bearing["eccentricity"][-1]), [figures["e_x"], figures["e_y"]])
+            self.assertEqual(bearing.attrs["radial_clearance"], seen[0]["bearings"]["main"]["clearance"])
 
     def test_reports_open_in_a_sandbox(self):
         first, second = self.start("duration=1 ms"), self.start("duration=1.5 ms")
@@ -370,6 +371,26 @@ class Runs(unittest.TestCase):
                               check=False)
         self.assertEqual(full.returncode, 0, full.stderr)
 
+    def test_events_of_a_run_of_any_length_are_few(self):
+        write(self.folder, "runs/long-001/run.json", json.dumps({"model": "bearing.yaml", "started": time.time()}))
+        bearings = {f"bearing_{i}": {"h_min": 1.234567e-6, "p_max": 1.234567e8, "e_x": 1.2345e-5, "e_y": -1.2345e-5} for i in range(9)}
+        steps = 100_000
+        path = os.path.join(self.folder, "runs", "long-001", "events.ndjson")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write('{"kind":"started","t":0}\n')
+            for i in range(steps):
+                file.write(f'{{"kind":"stepped","t":{i},"bearings":{json.dumps(bearings)}}}\n')
+            file.write('{"kind":"finished","t":100000,"status":"completed"}\n')
+        self.assertGreater(os.path.getsize(path), 80 << 20)
+        answer = self.server.get("/api/runs/long-001/events")
+        self.assertLess(len(answer.body), 9 << 20)
+        events = [json.loads(line) for line in answer.text.splitlines()]
+        self.assertEqual((events[0]["kind"], events[-1]["kind"]), ("started", "finished"))
+        times = [event["t"] for event in events if event["kind"] == "stepped"]
+        self.assertLessEqual(len(times), 4000)
+        self.assertEqual(times[-1], steps - 1)
+        self.assertLess(max(b - a for a, b in zip(times, times[1:])), 3 * steps / 4000)
+
     def test_runs_of_a_study(self):
         text = self.server.file("bearing.yaml").text + "study:\n  parameters:\n    load: [100 N, 200 N]\n"
         write(self.folder, "study.yaml", text)
@@ -378,6 +399,8 @@ class Runs(unittest.TestCase):
         self.assertEqual(len(run["results"]), 2)
         kinds = [json.loads(line)["kind"] for line in self.server.get(f"/api/runs/{name}/events").text.splitlines()]
         self.assertEqual(kinds.count("run_finished"), 2)
+        started = json.loads(self.server.get(f"/api/runs/{name}/events").text.splitlines()[0])
+        self.assertEqual(started["bearings"], {"main": {"clearance": None}})  # its runs may differ in it
 
     def test_a_study_by_its_own_program_says_how_it_ended(self):
         # The model has none; where the study's Python packages are missing, that is what it says.

@@ -5,7 +5,7 @@ import { gzipSync } from "node:zlib";
 
 const built = (name) => fileURLToPath(new URL(`../dist/workbench/${name}`, import.meta.url));
 const committed = (name) => fileURLToPath(new URL(`../../libs/workbench/assets/${name}`, import.meta.url));
-const files = ["index.html", "workbench.js", "workbench.css"];
+const files = ["index.html", "workbench.js", "workbench.css", "licences.txt"];
 const largest = 1.5e6; // compressed, of all
 
 function fail(message) {

@@ -9,22 +9,30 @@ const bar = { height: 24, label: 150, width: 520 };
 const litrePerMinute = 6e-5; // of mm³/s
 const widestLine = 9;
 
-interface Node {
+/** Of a run, with means of the run or of its last cycle; or of a plan, before one. */
+export interface CircuitNode {
   name: string;
-  /** Means of the run or of its last cycle [bar, l/min]. */
-  pressure: number;
+  /** [bar]; null where nobody knows it yet. */
+  pressure: number | null;
+  /** By films [l/min]; of a plan 1 where there are some. */
   drawn: number;
-  /** Mean [degC]; undefined where the oil has one temperature. */
-  temperature: number | undefined;
+  /** [degC]; undefined where the oil has one temperature. */
+  temperature?: number | undefined;
+  /** Of a plan: the films that it feeds. */
+  feeds?: string;
 }
 
-interface Element {
+export interface CircuitElement {
   name: string;
   type: string;
   from: string;
   to: string;
-  flow: number;
+  /** [l/min]; null in a plan. */
+  flow: number | null;
 }
+
+type Node = CircuitNode;
+type Element = CircuitElement;
 
 interface Place {
   x: number;
@@ -56,8 +64,9 @@ function mean(run: Run, name: string): number {
 
 /** A node comes a layer behind the first from which oil flows to it; what flows back draws no node along. */
 function layersOf(nodes: Node[], elements: Element[]): string[][] {
-  const down = elements.map(({ from, to, flow }) => (flow >= 0 ? [from, to] : [to, from]) as [string, string]);
-  const lowest = nodes.reduce((a, b) => (b.pressure < a.pressure ? b : a)).name;
+  const down = elements.map(({ from, to, flow }) => ((flow ?? 0) >= 0 ? [from, to] : [to, from]) as [string, string]);
+  const height = ({ pressure }: Node) => pressure ?? Infinity;
+  const lowest = nodes.reduce((a, b) => (height(b) < height(a) ? b : a)).name;
   const depth = new Map([[lowest, 0]]);
   const waiting = [lowest];
   for (let name = waiting.shift(); name !== undefined; name = waiting.shift())
@@ -71,7 +80,8 @@ function layersOf(nodes: Node[], elements: Element[]): string[][] {
   return layers;
 }
 
-function network(nodes: Node[], elements: Element[]): SVGElement {
+/** The circuit as a drawing: flows and pressures of a run, or what a plan has of them. */
+export function network(nodes: Node[], elements: Element[]): SVGElement {
   const layers = layersOf(nodes, elements);
   const widest = Math.max(...layers.map((layer) => layer.length));
   const places = new Map<string, Place>();
@@ -90,9 +100,10 @@ function network(nodes: Node[], elements: Element[]): SVGElement {
   const [width, height] = [box.across * layers.length + 40, box.down * widest + back];
   const svg = draw("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", class: "graph-drawing", "aria-label": "The oil circuit" });
   svg.style.maxWidth = `${width}px`;
-  const largest = Math.max(...elements.map(({ flow }) => Math.abs(flow)), ...nodes.map(({ drawn }) => Math.abs(drawn)), 1e-12);
-  const line = (flow: number) => Math.max(1, widestLine * Math.sqrt(Math.abs(flow) / largest));
-  const highest = Math.max(...nodes.map(({ pressure }) => pressure), 1e-12);
+  const largest = Math.max(...elements.map(({ flow }) => Math.abs(flow ?? 0)), ...nodes.map(({ drawn }) => Math.abs(drawn)), 1e-12);
+  const isPlan = elements.every(({ flow }) => flow === null);
+  const line = (flow: number | null) => (isPlan ? 2 : Math.max(1, widestLine * Math.sqrt(Math.abs(flow ?? 0) / largest)));
+  const highest = Math.max(...nodes.map(({ pressure }) => pressure ?? 0), 1e-12);
   const drawn = new Map<string, number>();
   svg.append(
     ...elements.flatMap((element) => link(element, places, line(element.flow), height, drawn)),
@@ -101,7 +112,7 @@ function network(nodes: Node[], elements: Element[]): SVGElement {
       const isFreeAbove = !elements.some(({ from, to }) => from === node.name && places.get(to)!.y < place.y);
       return intoFilms(node, place, line(node.drawn), isFreeAbove);
     }),
-    ...nodes.map((node) => nodeBox(node, places.get(node.name)!, Math.max(0, node.pressure / highest))),
+    ...nodes.map((node) => nodeBox(node, places.get(node.name)!, Math.max(0, (node.pressure ?? 0) / highest))),
   );
   return svg;
 }
@@ -123,18 +134,18 @@ function link(element: Element, places: Map<string, Place>, width: number, heigh
   const label = forwards ? { x: 0.4 * start + 0.6 * end, y: 0.4 * a.y + 0.6 * b.y + 20 * nth } : { x: a.x + 40 * nth, y: (a.y + box.height / 2 + low) / 2 };
   return [
     drawLine(d, width, { class: `graph-link circuit ${element.type}`, "data-element": element.name }),
-    text(`${plain(element.name)}${element.flow < 0 ? " ◂" : ""}`, label.x, label.y - 5, "graph-label"),
-    text(`${format(Math.abs(element.flow), 3)} l/min`, label.x, label.y + 8, "graph-kind"),
+    text(`${plain(element.name)}${(element.flow ?? 0) < 0 ? " ◂" : ""}`, label.x, label.y - 5, "graph-label"),
+    text(element.flow === null ? plain(element.type) : `${format(Math.abs(element.flow), 3)} l/min`, label.x, label.y + 8, "graph-kind"),
   ];
 }
 
-function intoFilms({ drawn }: Node, { x, y }: Place, width: number, isFreeAbove: boolean): SVGElement[] {
+function intoFilms({ drawn, feeds }: Node, { x, y }: Place, width: number, isFreeAbove: boolean): SVGElement[] {
   const [start, end] = [x + box.width / 2, x + box.width / 2 + 22];
   const tip = drawn > 0 ? `M${end} ${y - 6} L${end + 9} ${y} L${end} ${y + 6} Z` : `M${end + 9} ${y - 6} L${end} ${y} L${end + 9} ${y + 6} Z`;
   return [
     drawLine(`M${start} ${y} L${end} ${y}`, width, { class: "graph-link circuit" }),
     draw("path", { d: tip, class: "circuit-tip" }),
-    text(`${format(drawn, 3)} l/min`, start + 5, isFreeAbove ? y - 9 : y + 17, "graph-kind", "start"),
+    text(feeds ?? `${format(drawn, 3)} l/min`, start + 5, isFreeAbove ? y - 9 : y + 17, "graph-kind", "start"),
   ];
 }
 
@@ -145,7 +156,7 @@ function nodeBox(node: Node, { x, y }: Place, share: number): SVGElement {
     draw("rect", place),
     draw("rect", { ...place, class: "circuit-pressure", "fill-opacity": (0.35 * share).toFixed(3) }),
     text(plain(node.name), x, y - 3, "graph-name"),
-    text(`${format(node.pressure, 3)} bar${node.temperature === undefined ? "" : `, ${format(node.temperature, 3)} °C`}`, x, y + 12, "circuit-figure"),
+    text(node.pressure === null ? "" : `${format(node.pressure, 3)} bar${node.temperature === undefined ? "" : `, ${format(node.temperature, 3)} °C`}`, x, y + 12, "circuit-figure"),
   );
   return group;
 }
@@ -155,7 +166,7 @@ function takers(nodes: Node[], elements: Element[]): SVGElement {
   const places = new Map(layersOf(nodes, elements).flatMap((layer, depth) => layer.map((name) => [name, depth] as const)));
   const rows = [
     ...nodes.filter(({ drawn }) => drawn !== 0).map(({ name, drawn }) => ({ name: `films at ${plain(name)}`, flow: drawn })),
-    ...elements.filter(({ from, to }) => places.get(to) === 0 && places.get(from)! > 0).map(({ name, flow }) => ({ name: plain(name), flow })),
+    ...elements.filter(({ from, to }) => places.get(to) === 0 && places.get(from)! > 0).map(({ name, flow }) => ({ name: plain(name), flow: flow ?? 0 })),
   ].sort((a, b) => b.flow - a.flow);
   const all = rows.reduce((sum, { flow }) => sum + Math.max(0, flow), 0) || 1;
   const most = Math.max(...rows.map(({ flow }) => Math.abs(flow)), 1e-12);

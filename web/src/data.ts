@@ -10,7 +10,8 @@ export interface SummaryRow {
 
 export interface DatasetText {
   unit: string;
-  description: string;
+  /** A single instant has none. */
+  description?: string;
   shape: number[];
   type: "f4" | "f8" | "u2";
   data: string;
@@ -153,9 +154,24 @@ function decode(text: DatasetText, width: number): Numbers {
   return values;
 }
 
+/** Last parts of paths by what stands before them. */
+function namesByGroup(paths: Record<string, unknown>): Map<string, string[]> {
+  const names = new Map<string, string[]>();
+  for (const path of Object.keys(paths)) {
+    const slash = path.lastIndexOf("/");
+    const group = path.slice(0, slash);
+    const known = names.get(group);
+    if (known) known.push(path.slice(slash + 1));
+    else names.set(group, [path.slice(slash + 1)]);
+  }
+  return names;
+}
+
 /** One results file. Datasets are decoded when first asked for. */
 export class Run {
   private readonly decoded = new Map<string, Dataset | null>();
+  private groups: Map<string, string[]> | null = null;
+  private datasetsByGroup: Map<string, string[]> | null = null;
 
   constructor(private readonly text: RunText) {}
 
@@ -196,6 +212,7 @@ export class Run {
   take(datasets: Record<string, DatasetText>): void {
     for (const path of Object.keys(datasets)) this.decoded.delete(path);
     Object.assign(this.text.datasets, datasets);
+    this.datasetsByGroup = null;
     this.text.beside = this.text.beside?.filter(({ bearing }) => !Object.keys(datasets).some((path) => path.startsWith(`/bearings/${bearing}/`))) ?? [];
   }
 
@@ -212,7 +229,7 @@ export class Run {
   /** The datasets in a group with a row for each of the time series', with what the file says of them. */
   growingIn(group: string): SeriesText[] {
     return this.datasetNames(group).flatMap((name) => {
-      const { unit, description } = this.text.datasets[`${group}/${name}`]!;
+      const { unit, description = "" } = this.text.datasets[`${group}/${name}`]!;
       const width = this.widthOf(`${group}/${name}`);
       return width === undefined ? [] : [{ name, unit, description, width }];
     });
@@ -231,7 +248,7 @@ export class Run {
 
   /** All datasets with a row for each instant of the time series, and a few numbers in each. */
   seriesPaths(): { path: string; unit: string; description: string; width: number; columns: string[] }[] {
-    return Object.entries(this.text.datasets).flatMap(([path, { unit, description, columns }]) => {
+    return Object.entries(this.text.datasets).flatMap(([path, { unit, description = "", columns }]) => {
       const width = this.widthOf(path);
       return width !== undefined && width <= 9 ? [{ path, unit, description, width, columns: columns ?? [] }] : [];
     });
@@ -253,18 +270,14 @@ export class Run {
 
   /** Names of the groups directly below a group, such as the bearings below "/bearings". */
   children(group: string): string[] {
-    const prefix = `${group}/`;
-    return Object.keys(this.text.attributes)
-      .filter((path) => path.startsWith(prefix) && !path.slice(prefix.length).includes("/"))
-      .map((path) => path.slice(prefix.length));
+    this.groups ??= namesByGroup(this.text.attributes);
+    return this.groups.get(group) ?? [];
   }
 
   /** Names of the datasets directly in a group. */
   datasetNames(group: string): string[] {
-    const prefix = `${group}/`;
-    return Object.keys(this.text.datasets)
-      .filter((path) => path.startsWith(prefix) && !path.slice(prefix.length).includes("/"))
-      .map((path) => path.slice(prefix.length));
+    this.datasetsByGroup ??= namesByGroup(this.text.datasets);
+    return this.datasetsByGroup.get(group) ?? [];
   }
 
   /** The dataset at a path, or null where the file has none (or one without rows). */
@@ -276,7 +289,7 @@ export class Run {
     const found =
       text === undefined || (text.shape[0] ?? 0) === 0
         ? null
-        : { unit: text.unit, description: text.description, shape: text.shape, width, values: decode(text, width), columns: text.columns ?? [] };
+        : { unit: text.unit, description: text.description ?? "", shape: text.shape, width, values: decode(text, width), columns: text.columns ?? [] };
     this.decoded.set(path, found);
     return found;
   }

@@ -33,6 +33,8 @@ export class MachineGeometry {
   readonly joints: Link[];
   readonly bearings: Link[];
   readonly forces: Link[];
+  /** Ends of links by body. */
+  private places: Map<string, Vector3[]> | null = null;
 
   /** Of a run that may hold less than a picture needs: see `of`. */
   constructor(private readonly run: Run) {
@@ -56,8 +58,12 @@ export class MachineGeometry {
 
   /** Up is against gravity; y without gravity. */
   up(): Vector3 {
-    const g = vector(this.run.dataset("/ground/gravity")?.values);
+    const g = this.gravity();
     return g.lengthSq() > 0 ? g.normalize().negate() : new Vector3(0, 1, 0);
+  }
+
+  gravity(): Vector3 {
+    return vector(this.run.dataset("/ground/gravity")?.values);
   }
 
   centreOfMass(body: string): Vector3 {
@@ -105,10 +111,22 @@ export class MachineGeometry {
 
   /** Places where joints, bearings and forces hold a body. */
   attachments(body: string): Vector3[] {
-    return [...this.joints, ...this.bearings, ...this.forces].flatMap((link) => [
-      ...(link.inboard === body ? [link.inboardPlace] : []),
-      ...(link.outboard === body ? [link.outboardPlace] : []),
-    ]);
+    this.places ??= this.placesOfLinks();
+    return this.places.get(body) ?? [];
+  }
+
+  private placesOfLinks(): Map<string, Vector3[]> {
+    const places = new Map<string, Vector3[]>();
+    const add = (body: string, place: Vector3) => {
+      const known = places.get(body);
+      if (known) known.push(place);
+      else places.set(body, [place]);
+    };
+    for (const link of [...this.joints, ...this.bearings, ...this.forces]) {
+      add(link.inboard, link.inboardPlace);
+      add(link.outboard, link.outboardPlace);
+    }
+    return places;
   }
 
   /** How the skin of a flexible body moves; nothing of a rigid one. */

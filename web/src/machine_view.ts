@@ -36,6 +36,9 @@ export interface Increment {
   amplitudes?: Float64Array;
 }
 
+/** Names of more bodies would fill the page. */
+const mostNamed = 100;
+
 /** Modes are shown so large. */
 export const shareOfSize = 0.15;
 
@@ -60,6 +63,7 @@ export class MachineView {
   private readonly deformationNote = h("span", { class: "chip" });
   private readonly films: FilmMesh[] = [];
   private areFilmsShown = true;
+  private isSeeThrough = false;
   protected readonly forceLines: { link: Link; line: Line }[] = [];
   protected renderer: WebGLRenderer | null = null;
   protected controls: OrbitControls | null = null;
@@ -67,6 +71,9 @@ export class MachineView {
   protected bounds: Sphere;
   private time = 0;
   private increments: Map<string, Increment> | null = null;
+  /** Changes in progress: see `together`. */
+  private changing = 0;
+  private isRenderWanted = false;
 
   static of(run: Run): MachineView | null {
     const geometry = MachineGeometry.of(run);
@@ -254,7 +261,8 @@ export class MachineView {
       const mesh = shape.kind === "half_space" ? null : shapeMesh(shape, material("#000"), 1);
       if (!mesh) return [];
       mesh.updateMatrix();
-      const box = new Box3().setFromObject(mesh);
+      mesh.geometry.boundingBox ?? mesh.geometry.computeBoundingBox();
+      const box = mesh.geometry.boundingBox!.clone().applyMatrix4(mesh.matrix);
       return [box.min, box.max];
     });
     return [...pads, ...shapes];
@@ -283,10 +291,12 @@ export class MachineView {
     this.legend.replaceChildren();
     // The further frames of a flexible body move like bodies, but there is nothing of them to draw.
     for (const frame of this.geometry.bodies.filter((body) => body.name.includes("."))) this.addFrame(frame.name);
-    this.geometry.bodies.filter((body) => !body.name.includes(".")).forEach((body, i) => {
+    this.isSeeThrough = this.areFilmsShown && this.geometry.bearings.some((link) => frameOf(link) && this.geometry.film(link.name));
+    const bodies = this.geometry.bodies.filter((body) => !body.name.includes("."));
+    bodies.forEach((body, i) => {
       this.addBody(body.name, colourOf(i));
       this.addPath(body, colourOf(i));
-      this.legend.append(h("span", { class: "chip" }, h("i", { style: `background:${colourOf(i)}` }), body.name.replaceAll("_", " ")));
+      if (bodies.length <= mostNamed) this.legend.append(h("span", { class: "chip" }, h("i", { style: `background:${colourOf(i)}` }), body.name.replaceAll("_", " ")));
     });
     this.addBody("ground", colours.faint);
     this.chooseEnlargement();
@@ -294,8 +304,9 @@ export class MachineView {
     const size = 0.018 * this.bounds.radius;
     for (const joint of this.geometry.joints) this.addJoint(joint, size, colours.ink);
     for (const bearing of this.geometry.bearings) this.addBearing(bearing, colours.accent);
+    const ink = new LineBasicMaterial({ color: new Color(colours.ink) });
     for (const link of this.geometry.forces) {
-      const line = new Line(new BufferGeometry().setFromPoints([new Vector3(), new Vector3()]), new LineBasicMaterial({ color: new Color(colours.ink) }));
+      const line = new Line(new BufferGeometry().setFromPoints([new Vector3(), new Vector3()]), ink);
       this.forceLines.push({ link, line });
       this.scene.add(line);
     }
@@ -333,8 +344,7 @@ export class MachineView {
 
   /** Bodies hide no film that is shown. */
   private seeThrough(): number {
-    const { geometry } = this;
-    return this.areFilmsShown && geometry.bearings.some((link) => frameOf(link) && geometry.film(link.name)) ? 0.35 : 1;
+    return this.isSeeThrough ? 0.35 : 1;
   }
 
   /** Bars from the middle of a body's joints to each of them; a ball where its mass lies. */
@@ -434,7 +444,21 @@ export class MachineView {
   }
 
   protected render(): void {
-    this.renderer?.render(this.scene, this.camera);
+    if (this.changing > 0) this.isRenderWanted = true;
+    else this.renderer?.render(this.scene, this.camera);
+  }
+
+  /** Several changes with one picture after them all. */
+  protected together(change: () => void): void {
+    this.changing++;
+    try {
+      change();
+    } finally {
+      this.changing--;
+    }
+    if (this.changing > 0 || !this.isRenderWanted) return;
+    this.isRenderWanted = false;
+    this.render();
   }
 }
 

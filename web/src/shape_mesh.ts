@@ -16,12 +16,43 @@ import {
   Vector3,
   type Material,
 } from "three";
+import type { Numbers } from "./data";
+import { digest, kept } from "./kept_geometry";
 import type { ShapeData } from "./shape_data";
 
 const up = new Vector3(0, 1, 0);
 
+const paints = new Map<string, Material>();
+
+/** Of all meshes of a colour: nobody may change it. Each material costs the graphics card a set-up. */
 export function material(colour: string, opacity = 1): Material {
+  const name = `${colour} ${opacity}`;
+  const known = paints.get(name);
+  if (known) return known;
+  const paint = painted(colour, opacity);
+  paint.userData["kept"] = true;
+  paints.set(name, paint);
+  return paint;
+}
+
+function painted(colour: string, opacity: number): Material {
   return new MeshStandardMaterial({ color: colour, roughness: 0.55, metalness: 0.1, side: DoubleSide, transparent: opacity < 1, opacity, depthWrite: opacity === 1 });
+}
+
+const rounded = (length: number) => length.toPrecision(9);
+
+/** A scale of nothing would leave no normals. */
+const positive = (length: number) => Math.max(length, 1e-12);
+
+/** Triangles that are each flat. */
+function facets(corners: Numbers, triangles: Numbers): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(corners), 3));
+  geometry.setIndex(Array.from(triangles));
+  const flat = geometry.toNonIndexed();
+  flat.computeVertexNormals();
+  flat.computeBoundingBox();
+  return flat;
 }
 
 /** three.js lays cylinders and capsules along y around their middle. */
@@ -34,15 +65,19 @@ function between(geometry: BufferGeometry, from: Vector3, to: Vector3, paint: Ma
 }
 
 export function bar(from: Vector3, to: Vector3, radius: number, paint: Material): Mesh {
-  return between(new CapsuleGeometry(radius, from.distanceTo(to), 6, 16), from, to, paint);
+  const length = from.distanceTo(to);
+  return between(kept(`capsule ${rounded(radius)} ${rounded(length)}`, () => new CapsuleGeometry(radius, length, 6, 16)), from, to, paint);
 }
 
 export function rod(from: Vector3, to: Vector3, radius: number, paint: Material, open = false): Mesh {
-  return between(new CylinderGeometry(radius, radius, from.distanceTo(to), 48, 1, open), from, to, paint);
+  const mesh = between(kept(open ? "pipe" : "cylinder", () => new CylinderGeometry(1, 1, 1, 48, 1, open)), from, to, paint);
+  mesh.scale.set(positive(radius), positive(from.distanceTo(to)), positive(radius));
+  return mesh;
 }
 
 export function ball(centre: Vector3, radius: number, paint: Material): Mesh {
-  const mesh = new Mesh(new SphereGeometry(radius, 32, 20), paint);
+  const mesh = new Mesh(kept("sphere", () => new SphereGeometry(1, 32, 20)), paint);
+  mesh.scale.setScalar(positive(radius));
   mesh.position.copy(centre);
   return mesh;
 }
@@ -58,25 +93,23 @@ export function shapeMesh(shape: ShapeData, paint: Material, extent: number): Me
       return bar(shape.point("from"), shape.point("to"), shape.number("radius"), paint);
     case "box": {
       const size = shape.point("size");
-      const mesh = new Mesh(new BoxGeometry(size.x, size.y, size.z), paint);
+      const mesh = new Mesh(kept("box", () => new BoxGeometry(1, 1, 1)), paint);
+      mesh.scale.set(positive(size.x), positive(size.y), positive(size.z));
       const r = Array.from(shape.list("rotation"));
       if (r.length === 9) mesh.quaternion.setFromRotationMatrix(new Matrix4().set(r[0]!, r[1]!, r[2]!, 0, r[3]!, r[4]!, r[5]!, 0, r[6]!, r[7]!, r[8]!, 0, 0, 0, 0, 1));
       mesh.position.copy(shape.point("centre"));
       return mesh;
     }
     case "half_space": {
-      const mesh = new Mesh(new PlaneGeometry(3 * extent, 3 * extent), paint);
+      const mesh = new Mesh(kept("plane", () => new PlaneGeometry(3, 3)), paint);
+      mesh.scale.setScalar(positive(extent));
       mesh.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), shape.point("normal")));
       mesh.position.copy(shape.point("point"));
       return mesh;
     }
     case "mesh": {
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(Float32Array.from(shape.list("corners")), 3));
-      geometry.setIndex(Array.from(shape.list("triangles")));
-      const flat = geometry.toNonIndexed();
-      flat.computeVertexNormals();
-      return new Mesh(flat, paint);
+      const [corners, triangles] = [shape.list("corners"), shape.list("triangles")];
+      return new Mesh(kept(`mesh ${digest(corners)} ${digest(triangles)}`, () => facets(corners, triangles)), paint);
     }
     default:
       return null;

@@ -1,6 +1,14 @@
-// What the program serves below /api/: requests with the token of the session, and the stream of events.
+// What the program serves below /api/: requests with the token of the session.
 
 import { formOf, normal, written, type FileForm } from "./file_text";
+
+export interface Hello {
+  version: string;
+  folder: string;
+  open: string | null;
+  /** Number of the last event. */
+  event?: number;
+}
 
 /** What a file holds, with "\n" between its lines. */
 export interface FileContent {
@@ -121,9 +129,6 @@ export class Refused extends Error {
 /** Nobody answers: the program was ended. */
 export class Unreachable extends Error {}
 
-/** A stream that says nothing for so long is dead: the program says something every five seconds [ms]. */
-const longestSilence = 20_000;
-
 export class Api {
   /** Called after every request: whether the program has answered it, and knows the token. */
   answered: (is: boolean) => void = () => undefined;
@@ -172,65 +177,9 @@ export class Api {
     return response.headers.get("ETag");
   }
 
-  /** Hands every event on; connects again where the stream breaks or falls silent. Ends where the token is refused. */
-  async follow(start: number | undefined, hear: (event: string, data: unknown) => void): Promise<void> {
-    let after = start === undefined ? "" : String(start);
-    let pause = 500;
-    for (;;) {
-      const watch = new AbortController();
-      let timer = 0;
-      const heard = () => {
-        clearTimeout(timer);
-        timer = window.setTimeout(() => watch.abort(), longestSilence);
-      };
-      heard();
-      try {
-        const response = await this.request("GET", `/api/events${after ? `?after=${after}` : ""}`, undefined, {}, watch.signal);
-        pause = 500;
-        for await (const { event, data, id } of messages(response.body!, heard)) {
-          if (id) after = id;
-          if (event === "reload") after = "";
-          hear(event, data);
-        }
-        this.answered(false);
-      } catch (error) {
-        if (error instanceof Refused && error.status === 401) return hear("refused", null);
-        // One that has fallen silent is opened again, which tells whether anybody is there.
-        if (!(error instanceof Refused) && !watch.signal.aborted) this.answered(false);
-      } finally {
-        clearTimeout(timer);
-      }
-      await new Promise((resolve) => setTimeout(resolve, pause));
-      pause = Math.min(5000, 2 * pause);
-    }
-  }
-}
-
-async function* messages(body: ReadableStream<Uint8Array>, heard: () => void): AsyncGenerator<{ event: string; data: unknown; id: string }> {
-  const reader = body.pipeThrough(new TextDecoderStream() as unknown as ReadableWritablePair<string, Uint8Array>).getReader();
-  let rest = "";
-  for (;;) {
-    const { value, done } = await reader.read();
-    if (done) return;
-    heard();
-    rest += value;
-    const blocks = rest.split(/\r?\n\r?\n/);
-    rest = blocks.pop()!;
-    for (const block of blocks) {
-      const lines = block.split(/\r?\n/);
-      const of = (name: string) => lines.filter((line) => line.startsWith(`${name}:`)).map((line) => line.slice(name.length + 1).trimStart());
-      const data = of("data").join("\n");
-      const event = of("event")[0];
-      if (event === undefined && data === "") continue;
-      yield { event: event ?? "message", data: data ? parsed(data) : null, id: of("id")[0] ?? "" };
-    }
-  }
-}
-
-function parsed(text: string): unknown {
-  try {
-    return JSON.parse(text);
-  } catch {
-    return text;
+  /** A name for this session that does not tell its token. */
+  async sessionName(): Promise<string> {
+    const digest = await crypto.subtle.digest("SHA-256", new TextEncoder().encode(this.token));
+    return [...new Uint8Array(digest).slice(0, 8)].map((byte) => byte.toString(16).padStart(2, "0")).join("");
   }
 }

@@ -4,7 +4,6 @@ import { MergeView } from "@codemirror/merge";
 import { EditorState } from "@codemirror/state";
 import { EditorView, lineNumbers } from "@codemirror/view";
 import { yaml } from "@codemirror/lang-yaml";
-import type { Template } from "./api";
 import { h } from "../src/dom";
 import { isDark } from "../src/theme";
 import { texts } from "./texts";
@@ -21,7 +20,7 @@ export function dialog(title: string, kind: string, ...content: (HTMLElement | n
 }
 
 export function showKeys(): void {
-  dialog(texts.keys.title, "keys", h("table", { class: "keys-table" }, h("tbody", {}, ...texts.keys.list.map(([keys, words]) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, keys)), h("td", {}, words))))));
+  dialog(texts.keys.title, "keys", h("table", { class: "keys-table" }, h("tbody", {}, ...texts.keys.list.map(([keys, words]) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, keys)), h("td", {}, words))))), h("p", { class: "note" }, h("a", { href: "/licences.txt", target: "_blank", rel: "noreferrer" }, texts.licences)));
 }
 
 /** A question with a few answers; null where the window is closed. */
@@ -65,36 +64,5 @@ export function askTexts(name: string, mine: string, theirs: string): Promise<st
       view.destroy();
       resolve(answer);
     });
-  });
-}
-
-/** Which template, and what the file is called; null where nothing is begun. */
-export function askTemplate(templates: Template[]): Promise<{ template: string; path: string } | null> {
-  return new Promise((resolve) => {
-    let answer: { template: string; path: string } | null = null;
-    const preview = h("pre", { class: "template-text", tabindex: 0, "aria-label": texts.templates.preview });
-    const path = h("input", { type: "text", required: true, spellcheck: "false", autocomplete: "off", id: "template-path" });
-    const list = h("select", { size: 14, "aria-label": texts.templates.choose, class: "template-list" }, ...templates.map(({ name, title }) => h("option", { value: name }, title ? `${title} (${name})` : name)));
-    const choose = () => {
-      const template = templates.find(({ name }) => name === list.value);
-      if (!template) return;
-      preview.textContent = template.text;
-      preview.scrollTop = 0;
-      path.value = `${template.name.split("/").pop()}.yaml`;
-    };
-    list.addEventListener("change", choose);
-    const form = h(
-      "form",
-      { method: "dialog" },
-      h("p", { class: "note" }, texts.templates.words),
-      h("div", { class: "template-choice" }, list, preview),
-      h("div", { class: "window-tools" }, h("label", { for: "template-path" }, texts.templates.path), path, h("button", { type: "submit", class: "main-button" }, texts.templates.create)),
-    );
-    form.addEventListener("submit", () => (answer = { template: list.value, path: path.value.trim() }));
-    const window = dialog(texts.templates.title, "templates", form);
-    if (templates[0]) list.value = templates[0].name;
-    choose();
-    list.focus();
-    window.addEventListener("close", () => resolve(answer));
   });
 }

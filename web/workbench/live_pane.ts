@@ -19,8 +19,6 @@ interface Columns {
   power: number[];
   flow: number[];
   T_max: number[];
-  /** Radial clearance that the run says [m]. */
-  clearance: number | undefined;
 }
 
 const further: { key: Further; unit: string; shown: (value: number) => number }[] = [
@@ -39,8 +37,7 @@ class Course {
     this.time.push(t);
     for (const [name, b] of Object.entries(bearings)) {
       let own = this.bearings.get(name);
-      if (!own) this.bearings.set(name, (own = { h_min: [], p_max: [], x: [], y: [], power: [], flow: [], T_max: [], clearance: undefined }));
-      own.clearance = b["clearance"] ?? own.clearance;
+      if (!own) this.bearings.set(name, (own = { h_min: [], p_max: [], x: [], y: [], power: [], flow: [], T_max: [] }));
       own.h_min.push(1e6 * (b.h_min ?? NaN));
       own.p_max.push(1e-6 * (b.p_max ?? NaN));
       own.x.push(b.e_x ?? NaN);
@@ -57,7 +54,7 @@ class Course {
       values.splice(0, half, ...values.slice(0, half).filter((_, i) => i % 2 === 0));
     };
     keep(this.time);
-    for (const b of this.bearings.values()) Object.values(b).filter(Array.isArray).forEach(keep);
+    for (const b of this.bearings.values()) Object.values(b).forEach(keep);
   }
 }
 
@@ -103,6 +100,8 @@ export class LivePane {
   private readonly plots = h("div", { class: "live-plots" });
   /** Of the shown run; a study has one for each of its runs. */
   private courses = new Map<number, Course>();
+  /** Radial clearances of its bearings, as it says when it starts [m]. */
+  private clearances: Record<string, number> = {};
   /** Which one of a study has said something last. */
   private newest = 0;
   /** Events that came while the older ones were asked for. */
@@ -136,6 +135,7 @@ export class LivePane {
     this.title.textContent = run.id;
     if (isOther) {
       this.courses = new Map();
+      this.clearances = {};
       this.newest = 0;
       this.log.textContent = "";
       this.build();
@@ -182,7 +182,7 @@ export class LivePane {
     this.early = null;
     if (text) this.courses = new Map();
     for (const line of text.split("\n")) {
-      if (!line.includes('"stepped"')) continue;
+      if (!/"(stepped|started)"/.test(line)) continue;
       try {
         this.take(JSON.parse(line) as RunEvent);
       } catch {
@@ -193,6 +193,7 @@ export class LivePane {
   }
 
   private take(event: RunEvent): void {
+    if (event.kind === "started") for (const [name, { clearance }] of Object.entries(event.bearings ?? {})) if (typeof clearance === "number") this.clearances[name] = clearance;
     if (event.kind !== "stepped") return;
     const number = event.run ?? 0;
     const course = this.courses.get(number) ?? new Course();
@@ -284,7 +285,7 @@ export class LivePane {
     shown.time = Float64Array.from(course.time.slice(from));
     shown.x = Float64Array.from(own.x.slice(from));
     shown.y = Float64Array.from(own.y.slice(from));
-    const clearance = own.clearance ?? (this.run ? this.clearance(this.run, this.shownBearing) : undefined);
+    const clearance = this.clearances[this.shownBearing] ?? (this.run ? this.clearance(this.run, this.shownBearing) : undefined);
     orbit.isKnown = clearance !== undefined;
     const reach = own.x.reduce((most, e, i) => Math.max(most, Math.hypot(e, own.y[i]!) || 0), 0);
     shown.clearance = clearance ?? 1.1 * Math.max(1e-9, reach);

@@ -4,7 +4,9 @@ import type { Api, BearingScene, Source } from "./api";
 import { Run, type RunText } from "../src/data";
 import { h } from "../src/dom";
 import { format } from "../src/units";
+import { CircuitPlan, type CircuitScene } from "./circuit_plan";
 import { WorkbenchMachine, type Pose } from "./machine";
+import type { Load, Marks, NamedFrame } from "./machine_marks";
 import { texts } from "./texts";
 
 export type SceneText = RunText & {
@@ -12,6 +14,9 @@ export type SceneText = RunText & {
   bearings?: Record<string, BearingScene>;
   /** Coordinates that can be moved. */
   joints?: Record<string, { name: string; unit: "rad" | "m"; value: number }[]>;
+  loads?: Load[];
+  frames?: Record<string, NamedFrame[]>;
+  circuit?: CircuitScene;
   /** Why loops do not close. */
   open?: string;
 };
@@ -38,6 +43,7 @@ export class MachinePane {
   private readonly jointBox = h("details", { class: "joints" }, h("summary", {}, texts.joints), h("p", { class: "note" }, texts.jointHelp), this.sliders);
   private readonly staleNote = h("span", { class: "stale", hidden: true }, texts.stale);
   private readonly cutPlace = h("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, hidden: true, "aria-label": texts.sectionPlace });
+  private readonly circuit = new CircuitPlan((part) => this.pick(part));
   private machine: WorkbenchMachine | null = null;
   private scene: SceneText | null = null;
   private look = "";
@@ -67,6 +73,12 @@ export class MachinePane {
       frames.setAttribute("aria-pressed", String(on));
       this.machine?.showFrames(on);
     });
+    const loads = h("button", { type: "button", class: "quiet", "aria-pressed": "true" }, texts.loads);
+    loads.addEventListener("click", () => {
+      const on = loads.getAttribute("aria-pressed") !== "true";
+      loads.setAttribute("aria-pressed", String(on));
+      this.machine?.showLoads(on);
+    });
     const reset = h("button", { type: "button", class: "quiet", click: () => this.machine?.resetByHand() }, texts.resetView);
     this.partList.append(h("option", { value: "" }, texts.parts));
     this.jointBox.hidden = true;
@@ -74,9 +86,10 @@ export class MachinePane {
     this.element = h(
       "div",
       { class: "machine-pane" },
-      h("div", { class: "pane-tools" }, this.partList, cut, this.cutPlace, frames, reset),
+      h("div", { class: "pane-tools" }, this.partList, cut, this.cutPlace, loads, frames, reset),
       this.stage,
       this.legend,
+      this.circuit.element,
       this.jointBox,
     );
   }
@@ -96,18 +109,20 @@ export class MachinePane {
     if (!scene) return;
     if (this.movedText !== null && this.movedText !== this.hooks.model()?.text) this.moveBack();
     // Comments and settings change nothing of the picture.
-    const look = JSON.stringify([scene.attributes, scene.datasets]);
+    const look = JSON.stringify([scene.attributes, scene.datasets, scene.loads, scene.frames, scene.circuit]);
     const isSame = this.machine !== null && look === this.look;
     this.scene = scene;
     this.look = look;
     if (isSame) return;
     const run = new Run(scene);
-    if (this.machine) this.machine.take(run);
+    const marks: Marks = { loads: scene.loads ?? [], frames: scene.frames ?? {} };
+    if (this.machine) this.machine.take(run, marks);
     else {
-      this.machine = new WorkbenchMachine(run, (part) => (part ? this.pick(part) : this.highlight(null)));
+      this.machine = new WorkbenchMachine(run, marks, (part) => (part ? this.pick(part) : this.highlight(null)));
       this.stage.replaceChildren(this.machine.space, this.staleNote);
       this.legend.replaceChildren(this.machine.names);
     }
+    this.circuit.show(scene.circuit ?? null, run);
     this.listParts();
     this.listJoints(run);
   }
@@ -119,6 +134,7 @@ export class MachinePane {
     this.machine?.destroy();
     this.machine = null;
     this.jointNames = "";
+    this.circuit.show(null, null);
     this.stage.replaceChildren(h("p", { class: "note empty" }, texts.noScene));
     this.legend.replaceChildren();
     this.sliders.replaceChildren();
@@ -129,6 +145,7 @@ export class MachinePane {
 
   highlight(part: string | null): void {
     this.machine?.choose(part);
+    this.circuit.choose(part);
     const isListed = [...this.partList.options].some(({ value }) => value === part);
     this.partList.value = isListed ? part! : "";
   }
@@ -140,15 +157,17 @@ export class MachinePane {
 
   private listParts(): void {
     const chosen = this.partList.value;
-    const parts = this.machine!.parts();
+    const { nodes, elements } = this.scene?.circuit ?? { nodes: [], elements: [] };
+    const parts = [...this.machine!.parts(), ...nodes.map(({ name }) => `/circuit/nodes/${name}`), ...elements.map((name) => `/circuit/elements/${name}`)];
+    const groups: [string, RegExp][] = [["bodies", /^\/bodies\/[^/]+$/], ["joints", /^\/joints\//], ["bearings", /^\/bearings\//], ["forces", /^\/forces\//], ["frames", /\/frames\//], ["circuit", /^\/circuit\//]];
     this.partList.replaceChildren(
       h("option", { value: "" }, texts.parts),
-      ...["bodies", "joints", "bearings", "forces"].flatMap((group) => {
-        const own = parts.filter((part) => part.startsWith(`/${group}/`));
+      ...groups.flatMap(([group, pattern]) => {
+        const own = parts.filter((part) => pattern.test(part));
         if (own.length === 0) return [];
         const list = document.createElement("optgroup");
         list.label = group;
-        list.append(...own.map((part) => h("option", { value: part }, part.split("/").pop()!)));
+        list.append(...own.map((part) => h("option", { value: part }, group === "frames" ? part.replace(/^\/bodies\/(.*)\/frames\/(.*)$/, "$1.$2") : part.split("/").pop()!)));
         return [list];
       }),
     );

@@ -2,11 +2,11 @@ import "uplot/dist/uPlot.min.css";
 import "../src/style.css";
 import "./style.css";
 
-import { Api, Refused } from "./api";
+import { Api, Refused, type Hello } from "./api";
 import { h } from "../src/dom";
 import { followSystem, setTheme } from "../src/theme";
 import { texts } from "./texts";
-import { Workbench, type Hello } from "./workbench";
+import { Workbench } from "./workbench";
 
 /** Once the folder is shown. */
 let shown: Workbench | null = null;

@@ -20,8 +20,10 @@ interface MeshAnswer {
   mesh: Record<string, unknown>;
 }
 
-export function showMesh(api: Api, path: string): void {
+/** @param first  the unit that is taken for granted */
+export function showMesh(api: Api, path: string, first = "mm"): void {
   const unit = h("select", { "aria-label": texts.mesh.unit }, ...["mm", "m", "um", "in"].map((u) => h("option", { value: u }, u)));
+  unit.value = first;
   const body = h("div", { class: "mesh-body", "aria-live": "polite" });
   const show = async () => {
     try {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -185,12 +186,47 @@ Unit factor_unit(const UnitSystem& system, const std::string& text) {
   return unit;
 }
 
-double converted(const ut_unit* from, const ut_unit* to, double number) {
-  cv_converter* converter = ut_get_converter(const_cast<ut_unit*>(from), const_cast<ut_unit*>(to));
+struct ConverterDeleter {
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using Converter = std::unique_ptr<cv_converter, ConverterDeleter>;
+
+/// Converters of units that have been accepted: a model has thousands of quantities in a few units, and reading a unit
+/// takes twenty times as long as converting a number. Used with the lock held.
+class KnownConverters {
+ public:
+  /// Null for units that have not been accepted before.
+  [[nodiscard]] const cv_converter* find(const std::string& unit, std::string_view si_unit) const {
+    const auto target = known_.find(si_unit);
+    if (target == known_.end()) return nullptr;
+    const auto found = target->second.find(unit);
+    return found == target->second.end() ? nullptr : found->second.get();
+  }
+  const cv_converter* add(const std::string& unit, std::string_view si_unit, Converter converter) {
+    constexpr std::size_t kMost = 1000;  // of each dimension: they come from files
+    auto& units = known_[std::string(si_unit)];
+    if (units.size() >= kMost) units.clear();
+    return (units[unit] = std::move(converter)).get();
+  }
+
+ private:
+  std::map<std::string, std::map<std::string, Converter>, std::less<>> known_;
+};
+
+/// Call with the lock held.
+KnownConverters& known_converters() {
+  static KnownConverters* const known = new KnownConverters;  // like the unit system never released
+  return *known;
+}
+
+Converter converter_between(const ut_unit* from, const ut_unit* to) {
+  Converter converter(ut_get_converter(const_cast<ut_unit*>(from), const_cast<ut_unit*>(to)));
   HERSEY_REQUIRE(converter != nullptr, "units that measure the same convert");
-  const double value = cv_convert_double(converter, number);
-  cv_free(converter);
-  return value;
+  return converter;
+}
+
+double converted(const ut_unit* from, const ut_unit* to, double number) {
+  return cv_convert_double(converter_between(from, to).get(), number);
 }
 
 std::string expectation(const Dimension& dimension) { return dimension.name + ", such as " + dimension.example; }
@@ -371,16 +407,20 @@ double convert_to_si(const Quantity& quantity, std::string_view si_unit) {
   }
   const std::lock_guard guard(UnitSystem::lock());
   const UnitSystem& system = UnitSystem::instance();
-  const Unit given = system.parse_written(quantity.unit);
-  if (!given) {
-    throw QuantityError("unknown unit " + in_quotes(quantity.unit), expectation(wanted),
-                        did_you_mean(quantity.unit, wanted.spelled));
+  const cv_converter* converter = known_converters().find(quantity.unit, si_unit);
+  if (converter == nullptr) {
+    const Unit given = system.parse_written(quantity.unit);
+    if (!given) {
+      throw QuantityError("unknown unit " + in_quotes(quantity.unit), expectation(wanted),
+                          did_you_mean(quantity.unit, wanted.spelled));
+    }
+    const Unit target = system.parse(wanted.si_unit);
+    if (!is_accepted(given.get(), target.get(), si_unit)) {
+      throw QuantityError(name_of(system, given.get(), quantity.unit), expectation(wanted));
+    }
+    converter = known_converters().add(quantity.unit, si_unit, converter_between(given.get(), target.get()));
   }
-  const Unit target = system.parse(wanted.si_unit);
-  if (!is_accepted(given.get(), target.get(), si_unit)) {
-    throw QuantityError(name_of(system, given.get(), quantity.unit), expectation(wanted));
-  }
-  const double value = converted(given.get(), target.get(), quantity.number);
+  const double value = cv_convert_double(converter, quantity.number);
   require_finite(value, std::to_string(quantity.number) + " " + quantity.unit);
   require_meant(value, wanted);
   return value;

@@ -1,6 +1,7 @@
 #include "hersey/core/write_file.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -35,6 +36,21 @@ void write_file(const std::filesystem::path& path, std::initializer_list<std::st
   }
   std::filesystem::rename(unfinished, end, error);
   if (error) throw std::runtime_error(error.message());
+}
+
+bool write_new_file(const std::filesystem::path& path, std::string_view text) {
+  std::FILE* file = std::fopen(path.c_str(), "wbx");  // x: fails where there is one
+  if (file == nullptr && errno == EEXIST) return false;
+  if (file == nullptr) throw std::runtime_error(std::strerror(errno));
+  errno = 0;
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  int reason = errno;
+  const bool is_closed = std::fclose(file) == 0;
+  if (is_written && is_closed) return true;
+  if (is_written) reason = errno;
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  throw std::runtime_error(std::strerror(reason));
 }
 
 }  // namespace hersey

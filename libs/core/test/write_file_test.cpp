@@ -2,8 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "hersey/core/input_file.h"
 #include "temporary_directory.h"
@@ -24,6 +28,25 @@ TEST_CASE("WrittenFile_IsWholeOrTheOldOne") {
   write_file(page, {"other"});
   CHECK(read_input_file(page).content == "other");
   CHECK_FALSE(std::filesystem::exists(folder / "page.html.new"));
+}
+
+TEST_CASE("NewFile_ReplacesNothing_AndIsMadeByOneOfSeveral") {
+  const TemporaryDirectory folder;
+  constexpr int kMakers = 8;
+  std::atomic<int> made = 0;
+  for (int round = 0; round < 20; ++round) {
+    const std::filesystem::path file = folder / std::to_string(round);
+    std::vector<std::thread> makers;
+    for (int maker = 0; maker < kMakers; ++maker)
+      makers.emplace_back([&file, &made, maker] { made += write_new_file(file, std::to_string(maker)) ? 1 : 0; });
+    for (std::thread& maker : makers) maker.join();
+    CHECK(made == round + 1);
+    CHECK(read_input_file(file).content.size() == 1);
+  }
+  std::filesystem::create_symlink("nowhere", folder / "link");
+  CHECK_FALSE(write_new_file(folder / "link", "a"));
+  CHECK_FALSE(std::filesystem::exists(folder / "nowhere"));
+  CHECK_THROWS_WITH((void)write_new_file(folder / "none" / "file", "a"), "No such file or directory");
 }
 
 TEST_CASE("WrittenFile_FollowsLinksAndTakesDevices") {

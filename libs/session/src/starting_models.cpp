@@ -33,9 +33,8 @@ std::string text_for(const StartingModel& model, const std::string& file) {
 std::filesystem::path write_starting_model(const std::string& name, std::filesystem::path file) {
   const StartingModel& model = starting_model(name);
   if (file.extension() != ".yaml" && file.extension() != ".yml") file += ".yaml";
-  if (std::filesystem::exists(file) || std::filesystem::is_symlink(file))
-    throw InputError(Fault{{file.string(), 0, 0}, "", "a file that exists already", "another name", ""});
-  write_file(file, {text_for(model, file.string())});
+  if (!write_new_file(file, text_for(model, file.string())))
+    throw FileExists(Fault{{file.string(), 0, 0}, "", "a file that exists already", "another name", ""});
   return file;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
 #include "answers_support.h"
@@ -176,6 +177,60 @@ TEST_CASE("AnchorsAndAliases_StayAtTheirPlaces") {
   CHECK(text_of("l:\n  - -1\n  - 2\n", "l.0", nullptr) == "l:\n  - 2\n");
 }
 
+/// The environment of a test: where the examples are.
+struct ExamplesAt {
+  explicit ExamplesAt(const std::string& folder) { ::setenv("HERSEY_EXAMPLES", folder.c_str(), 1); }
+  ExamplesAt(const ExamplesAt&) = delete;
+  ExamplesAt& operator=(const ExamplesAt&) = delete;
+  ~ExamplesAt() { ::unsetenv("HERSEY_EXAMPLES"); }
+};
+
+TEST_CASE("Examples_AreCopiedWithWhatTheyRead_AndOverwriteNothing") {
+  const ExamplesAt examples(examples_folder());
+  const TemporaryDirectory folder;
+  const Answers answers(folder.path());
+  const Json list = Json::parse(answers.examples());
+  REQUIRE(list.size() > 30);
+  for (const Json& one : list) CHECK_FALSE(one["title"].get<std::string>().empty());
+  const std::string of_piston = R"({"example": "piston/model.yaml", "path": "PATH"})";
+  const auto at = [&](std::string request, const std::string& path) {
+    return request.replace(request.find("PATH"), 4, path);
+  };
+  // Its table lies in a neighbouring folder, which a file at the top of the folder has none of.
+  CHECK(status_of([&] { return answers.new_model(at(of_piston, "piston.yaml")); }) == 422);
+  CHECK(std::filesystem::is_empty(folder.path()));
+  const Json made = Json::parse(answers.new_model(at(of_piston, "own/piston")));
+  CHECK(made["path"] == "own/piston.yaml");
+  const std::string source = contents_of(examples_folder() + "/piston/model.yaml");
+  CHECK(contents_of(folder.path() / "own/piston.yaml") == source);
+  CHECK(contents_of(folder.path() / "slider_crank/gas_pressure.csv") ==
+        contents_of(examples_folder() + "/slider_crank/gas_pressure.csv"));
+  const Json checked{{"path", "own/piston.yaml"}, {"text", source}, {"depth", "text"}};
+  CHECK(Json::parse(answers.check(checked.dump()))["faults"].empty());
+  // A second copy uses the same table, unless that has become another one.
+  CHECK(status_of([&] { return answers.new_model(at(of_piston, "own/piston")); }) == 409);
+  CHECK(Json::parse(answers.new_model(at(of_piston, "own/second")))["files"].size() == 1);
+  std::ofstream(folder.path() / "slider_crank/gas_pressure.csv") << "own";
+  CHECK(status_of([&] { return answers.new_model(at(of_piston, "own/third")); }) == 409);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "own/third.yaml"));
+  CHECK(contents_of(folder.path() / "slider_crank/gas_pressure.csv") == "own");
+  CHECK(status_of([&] { return answers.new_model(R"({"example": "../piston/model.yaml", "path": "a"})"); }) == 404);
+  CHECK(status_of([&] { return answers.new_model(R"({"example": "four_bar/model.yaml", "path": "../a"})"); }) == 403);
+}
+
+TEST_CASE("TemplateScene_IsThatOfItsTextInTheFolder") {
+  const ExamplesAt examples(examples_folder());
+  const TemporaryDirectory folder;
+  const Answers answers(folder.path());
+  const auto scene = [&](const char* request) { return Json::parse(answers.template_scene(request))["scene"]; };
+  const Json copy = Json::parse(Answers(examples_folder()).check(example_request("piston/model.yaml").dump()))["scene"];
+  CHECK(scene(R"({"example": "piston/model.yaml"})") == copy);
+  CHECK(scene(R"({"template": "bearing"})")["bearings"].size() == 1);
+  // Of pads by themselves their machine is drawn.
+  CHECK(scene(R"({"template": "tilting_pads"})")["bearings"].size() == 5);
+  CHECK(status_of([&] { return answers.template_scene(R"({"template": "none"})"); }) == 422);
+}
+
 TEST_CASE("Templates_AreReadWithoutFault_AndWrittenOnce") {
   const TemporaryDirectory folder;
   const Answers answers(folder.path());
@@ -193,6 +248,9 @@ TEST_CASE("Templates_AreReadWithoutFault_AndWrittenOnce") {
   std::ofstream(folder.path() / "mine.yaml") << "own";
   CHECK(status_of([&] { return answers.new_model(request); }) == 409);
   CHECK(contents_of(folder.path() / "mine.yaml") == "own");
+  std::filesystem::create_symlink("elsewhere.yaml", folder.path() / "linked.yaml");
+  CHECK(status_of([&] { return answers.new_model(R"({"template": "bearing", "path": "linked"})"); }) == 409);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "elsewhere.yaml"));
   CHECK(status_of([&] { return answers.new_model(R"({"template": "none", "path": "b"})"); }) == 422);
   CHECK(status_of([&] { return answers.new_model(R"({"template": "bearing", "path": "../b"})"); }) == 403);
   CHECK(status_of([&] { return answers.new_model(R"({"template": "bearing", "path": ".b"})"); }) == 403);

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "answers_support.h"
+#include "hersey/core/spatial.h"
 #include "hersey/model/read.h"
 
 namespace hersey::workbench {
@@ -108,6 +109,133 @@ TEST_CASE("MoveOfASlider_TurnsItsCrank") {
   const Json by_rocker = move_of("four_bar/model.yaml", "pivot", pivot);
   for (const auto& [name, pose] : by_crank["bodies"].items())
     CHECK(distance(pose["position"], by_rocker["bodies"][name]["position"]) < 1e3 * kRoundOff);  // turned by a lever
+}
+
+/// Place of a point of a body in ground.
+Vector3 point_of(const Json& pose, const Vector3& r) {
+  const auto q = pose["orientation"].get<std::vector<double>>();
+  const auto p = pose["position"].get<std::vector<double>>();
+  return Vector3(p[0], p[1], p[2]) + Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * r;
+}
+
+TEST_CASE("MoveOfACrank_TakesTheRodOfItsFilmAlong") {
+  const Json start = move_of("slider_crank/model.yaml", "main", 0);
+  const Vector3 big_end(0, -0.14, 0), pin(0, 0.04, 0);
+  const auto apart = [&](const Json& moved) {
+    return (point_of(moved["bodies"]["rod"], big_end) - point_of(moved["bodies"]["crank"], pin)).norm();
+  };
+  for (const double angle : {0.6, -1.2, 3.0, 6.3}) {
+    const Json moved = move_of("slider_crank/model.yaml", "main", angle);
+    CHECK(moved["residual"] < kRoundOff);
+    CHECK(std::abs(apart(moved) - apart(start)) < 10 * kRoundOff);
+    // Closed form of the slider-crank.
+    const double r = 0.04, l = 0.14, s = r * std::sin(angle);
+    const double height = r * std::cos(angle) + std::sqrt(l * l - s * s);
+    CHECK(moved["bodies"]["piston"]["position"][1].get<double>() == doctest::Approx(height).epsilon(100 * kRoundOff));
+    CHECK(moved["joints"]["wrist"][0]["value"].get<double>() ==
+          doctest::Approx(-std::asin(s / l)).epsilon(100 * kRoundOff));
+  }
+}
+
+TEST_CASE("MoveOfAPiston_TurnsTheCrankThroughTheFilm") {
+  const Json by_crank = move_of("slider_crank/model.yaml", "main", 0.5);
+  const Json by_piston = move_of("slider_crank/model.yaml", "bore", by_crank["joints"]["bore"][0]["value"]);
+  // Either way round: the top, where the run starts, is the fork of both.
+  CHECK(std::abs(by_piston["joints"]["main"][0]["value"].get<double>()) ==
+        doctest::Approx(0.5).epsilon(1e4 * kRoundOff));  // turned by a lever
+}
+
+TEST_CASE("MoveOfEveryExample_KeepsItClosed") {
+  const Answers answers(examples_folder());
+  for (const std::string& path : example_models()) {
+    CAPTURE(path);
+    Json request = example_request(path);
+    request["depth"] = "text";
+    const Json joints = Json::parse(answers.check(request.dump()))["scene"]["joints"];
+    int moving = 0, all = 0;
+    for (const auto& item : joints.items()) {
+      const Json& coordinates = item.value();
+      if (coordinates.empty()) continue;
+      ++all;
+      request["joint"] = item.key(), request["coordinate"] = coordinates[0]["name"];
+      request["value"] = coordinates[0]["value"].get<double>() + 1e-3;  // [rad, m]: all of them reach so far
+      double residual = 0;
+      // A piston at its dead centre moves nothing.
+      if (status_of([&] { residual = Json::parse(answers.move(request.dump()))["residual"]; }) == 0) ++moving;
+      CHECK(residual < kRoundOff);
+    }
+    CHECK((moving > 0) == (all > 0));
+  }
+}
+
+Json scene_of(const Json& request) { return Json::parse(Answers(examples_folder()).check(request.dump()))["scene"]; }
+
+Json load_of(const Json& scene, const std::string& name) {
+  for (const Json& load : scene["loads"])
+    if (load["name"] == name) return load;
+  return {};
+}
+
+TEST_CASE("Loads_HaveTheirPointDirectionAndSize") {
+  Json request = example_request("slider_crank/model.yaml");
+  const Json gas = load_of(scene_of(request), "gas");
+  CHECK(gas["body"] == "piston");
+  CHECK(gas["kind"] == "force");
+  CHECK(gas["direction"] == Json{0, -1, 0});
+  CHECK(gas["unit"] == "N");
+  CHECK(gas["value"].get<double>() > 0);
+  std::string text = request["text"];
+  const auto replace = [&](const std::string& old, const std::string& now) {
+    REQUIRE(text.find(old) != std::string::npos);
+    text.replace(text.find(old), old.size(), now);
+  };
+  // Turned round, twice as large, at another point: the same of the arrow.
+  replace("direction: 0 -1 0", "direction: 3 4 0");
+  replace("body: piston", "body: crank.pin");
+  replace("scale: 4417.86 mm^2", "scale: 8835.72 mm^2");
+  request["text"] = text;
+  const Json other = load_of(scene_of(request), "gas");
+  CHECK(other["body"] == "crank");
+  CHECK(other["at"][1].get<double>() == doctest::Approx(0.04));
+  CHECK(other["direction"][0].get<double>() == doctest::Approx(0.6));
+  CHECK(other["direction"][1].get<double>() == doctest::Approx(0.8));
+  CHECK(other["value"].get<double>() == doctest::Approx(2 * gas["value"].get<double>()));
+}
+
+TEST_CASE("Loads_ThatBeginWithNothingShowTheirLargest") {
+  Json request = example_request("slider_crank/model.yaml");
+  const std::string text = request["text"];
+  const std::size_t from = text.find("    magnitude:"), to = text.find("    axes: ground");
+  REQUIRE(from < to);
+  const auto with = [&](const std::string& lines) {
+    request["text"] = text.substr(0, from) + lines + text.substr(to);
+    return load_of(scene_of(request), "gas");
+  };
+  const Json constant = with("    magnitude: 300 N\n");
+  CHECK(constant["when"] == "always");
+  CHECK(constant["value"] == 300);
+  const Json wave = with("    magnitude: {expression: \"-300*sin(t*1000)\", unit: N}\n");
+  CAPTURE(wave.dump());
+  CHECK(wave["when"] == "largest");
+  CHECK(wave["value"].get<double>() == doctest::Approx(300).epsilon(1e-3));  // sampled
+}
+
+TEST_CASE("FramesAndCircuit_AreWhatTheTextSays") {
+  const Json scene = scene_of(example_request("slider_crank/model.yaml"));
+  CHECK(scene["frames"]["rod"][0]["name"] == "big_end");
+  CHECK(scene["frames"]["rod"][0]["position"][1].get<double>() == doctest::Approx(-0.14));
+  CHECK(scene["sources"].contains("/bodies/rod/frames/big_end"));
+  CHECK(scene["sources"].contains("/gravity"));
+  const Json oil = scene_of(example_request("oil_circuit/model.yaml"));
+  const Json& circuit = oil["circuit"];
+  CHECK(circuit["nodes"].size() == 4);
+  CHECK(circuit["nodes"][0]["pressure"] == 0);
+  CHECK(!circuit["nodes"][1].contains("pressure"));
+  CHECK(circuit["elements"] == Json{"pump", "relief", "drilling", "jet"});
+  CHECK(oil["attributes"]["/circuit"]["element_pump"] == Json{"pump", "sump", "gallery"});
+  CHECK(circuit["feeds"].size() == 2);
+  CHECK(oil["sources"].contains("/circuit/elements/jet"));
+  CHECK(oil["sources"].contains("/circuit/nodes/gallery"));
 }
 
 TEST_CASE("MoveBeyondReach_IsRefused") {

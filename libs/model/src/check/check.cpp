@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "check/bare_numbers_in.h"
 #include "hersey/core/contract.h"
@@ -29,6 +31,16 @@ std::string enumeration(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "'" : " and '") + name + "'";
   return text;
+}
+
+bool is_word_of(const Type& type, const std::string& text) {
+  return std::any_of(type.words.begin(), type.words.end(), [&](const Word& word) { return word.text == text; });
+}
+
+std::vector<std::string> words_of(const Type& type) {
+  std::vector<std::string> names;
+  for (const Word& word : type.words) names.push_back(word.text);
+  return names;
 }
 
 /// Location and path of a value: all that a check needs besides node and type.
@@ -125,9 +137,8 @@ class Checker {
   }
 
   void check_choice(const Node& node, Value& value) {
-    std::vector<std::string> names;
-    for (const Word& word : value.type->words) names.push_back(word.text);
-    if (std::find(names.begin(), names.end(), node.text) != names.end()) return;
+    if (is_word_of(*value.type, node.text)) return;
+    const std::vector<std::string> names = words_of(*value.type);
     fault(value, description_of(node), one_of(names), did_you_mean(node.text, names));
   }
 
@@ -144,9 +155,7 @@ class Checker {
 
   void check_quantity(const Node& node, Value& value) {
     const Type& type = *value.type;
-    std::vector<std::string> names;
-    for (const Word& word : type.words) names.push_back(word.text);
-    if (std::find(names.begin(), names.end(), node.text) != names.end()) return;
+    if (is_word_of(type, node.text)) return;
     value.text.clear();
     try {
       value.numbers = parse_in_first_fitting_unit(node, type, value.unit);
@@ -155,7 +164,7 @@ class Checker {
         bare_->push_back({value.path, type.units.front(), parameter_of(node.origin)});
       // The origin names ${load} to the user at the location of the faulty text.
       const std::string from = node.origin.empty() ? "" : " (from " + node.origin + ")";
-      const std::string hint = error.suggestion.empty() ? did_you_mean(node.text, names) : error.suggestion;
+      const std::string hint = error.suggestion.empty() ? did_you_mean(node.text, words_of(type)) : error.suggestion;
       const bool is_about_the_number =
           error.is_about_size || error.expected == "a finite number" || error.expected == "a decimal point";
       return fault(value, error.found + from, is_about_the_number ? error.expected : type.expectation(), hint);
@@ -343,27 +352,38 @@ class Checker {
   }
 
   void check_keys(const Node& node, Value& value, const std::vector<const Key*>& keys) {
-    std::vector<std::string> names;
-    const bool is_tag_required = value.type->default_tag.empty();
-    if (value.type->kind == Kind::variant && is_tag_required) names.push_back(value.type->tag);
-    for (const Key* key : keys) names.push_back(key->name);
-    if (!is_tag_required) names.push_back(value.type->tag);
     for (const Entry& entry : node.entries) {
       positions_[joined(value.path, entry.key)] = entry.position;
-      if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
-      report_unknown_key(entry, value, names);
+      const auto is_called = [&](const Key* key) { return key->name == entry.key; };
+      const bool is_tag = has_tag(*value.type) && entry.key == value.type->tag;
+      if (!is_tag && std::none_of(keys.begin(), keys.end(), is_called))
+        report_unknown_key(entry, value, names_of(*value.type, keys));
     }
     for (const Key* key : keys) {
+      const auto location = [&] {
+        return Location{joined(value.path, key->name), position_of(node, key->name, value)};
+      };
       const Node* child = node.find(key->name);
-      const Location location{joined(value.path, key->name), position_of(node, key->name, value)};
       if (child != nullptr) {
-        value.members.push_back({key->name, check(*child, *key->type, location)});
+        value.members.push_back({key->name, check(*child, *key->type, location())});
       } else if (key->required) {
         report_missing(value, key->name, key->type->expectation());
       } else if (key->default_text) {
-        value.members.push_back({key->name, default_value(*key, location)});
+        value.members.push_back({key->name, default_value(*key, location())});
       }
     }
+  }
+
+  static bool has_tag(const Type& type) { return type.kind == Kind::variant || !type.default_tag.empty(); }
+
+  /// Of all keys that a mapping may have; a tag that may be left out comes last.
+  static std::vector<std::string> names_of(const Type& type, const std::vector<const Key*>& keys) {
+    std::vector<std::string> names;
+    const bool is_tag_required = type.default_tag.empty();
+    if (has_tag(type) && is_tag_required) names.push_back(type.tag);
+    for (const Key* key : keys) names.push_back(key->name);
+    if (!is_tag_required) names.push_back(type.tag);
+    return names;
   }
 
   void report_unknown_key(const Entry& entry, const Value& value, const std::vector<std::string>& names) {
@@ -390,10 +410,22 @@ class Checker {
     return value.key_position;
   }
 
+  /// The tree of a default. A model of many parts leaves the same few keys out thousands of times.
+  static Node default_node(const std::string& text) {
+    static std::mutex mutex;
+    static std::map<std::string, Node> known;
+    if (text.empty()) return Node{.kind = Node::Kind::scalar};
+    const std::lock_guard lock(mutex);
+    const auto [entry, is_new] = known.try_emplace(text);
+    std::vector<Fault> faults;
+    if (is_new) entry->second = parse_yaml(text, "", faults).value_or(Node{});
+    HERSEY_REQUIRE(faults.empty(), "defaults are good YAML");
+    return entry->second;
+  }
+
   /// The value of a key that was left out; its faults, if any, would be ours.
   Value default_value(const Key& key, const Location& location) {
-    Node node = parse_yaml(*key.default_text, "", faults_).value_or(Node{});
-    if (key.default_text->empty()) node = Node{.kind = Node::Kind::scalar};
+    Node node = default_node(*key.default_text);
     move_to(node, location.key_position);
     std::map<std::string, SourcePosition> ignored;
     Value value = Checker(faults_, ignored).check(node, *key.type, location);

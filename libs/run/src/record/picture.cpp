@@ -7,12 +7,14 @@
 #include <limits>
 #include <numbers>
 
+#include "hersey/bearing/film_coordinates.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/model/build.h"
 #include "hersey/solver/initialise.h"
 #include "series/beam_record.h"
 #include "series/bearing_record.h"
+#include "series/circuit_record.h"
 #include "series/geometry_record.h"
 #include "series/joint_record.h"
 #include "start/start_changes.h"
@@ -65,6 +67,14 @@ model::Drive moved_by_time(const std::string& joint, const std::string& coordina
   drive.motion.variables.emplace_back();
   return drive;
 }
+
+/// True if a film goes all round its journal, whose centre it keeps on the axis of its shell.
+bool surrounds(const film::FilmModel& film) {
+  return film::is_round(film.surface) && !bearing::is_on_annulus(film) && film.grid.closes();
+}
+
+/// Joints that leave their bodies apart or in a plane: what else keeps them together is a film.
+bool is_loose(mbd::JointType type) { return type == mbd::JointType::planar || type == mbd::JointType::free; }
 
 /// The pose of a body alone, as BodyRecord writes it.
 void write_pose(const std::string& body, const Pose& pose, results::Writer& writer) {
@@ -166,7 +176,7 @@ struct Picture::Impl {
 
   /// Each joint begins where it is now, and may move.
   void keep_positions(model::Model& moved) const {
-    for (std::size_t j = 0; j < moved.joints.size(); ++j) {
+    for (std::size_t j = 0; j < model.joints.size(); ++j) {
       model::Joint& joint = moved.joints[j];
       joint.initial.clear();
       joint.guess.clear();
@@ -188,13 +198,79 @@ struct Picture::Impl {
     return size > 0 ? kLargestMove * size : std::numeric_limits<double>::infinity();
   }
 
+  /// Whether a journal stays in its bearing while a coordinate moves. Where a joint places it, or is moved across the
+  /// film, it does not.
+  [[nodiscard]] bool stays(const model::Bearing& bearing, const model::Joint& moved,
+                           const mbd::Coordinate& coordinate) const {
+    const std::string &shell = bearing.shell.body, &journal = bearing.journal.body;
+    if (shell.empty() || journal.empty() || shell == journal || !surrounds(bearing.film)) return false;
+    const auto joins = [](const model::Joint& joint, const std::string& body) {
+      return joint.inboard.body == body || joint.outboard.body == body;
+    };
+    const auto places = [&](const model::Joint& joint) {
+      return !is_loose(joint.type) && joins(joint, shell) && joins(joint, journal);
+    };
+    if (std::any_of(model.joints.begin(), model.joints.end(), places)) return false;
+    const bool is_shifted = is_loose(moved.type) && !coordinate.rotational;
+    return !is_shifted || (moved.outboard.body != shell && moved.outboard.body != journal);
+  }
+
+  /// Pose of a body in ground.
+  [[nodiscard]] Pose pose_of(const std::string& name) const {
+    for (std::size_t i = 0; i < skeleton.bodies.size(); ++i)
+      if (skeleton.bodies[i].name == name) return observed.bodies[i + 1].X_WF;
+    return {};
+  }
+
+  /// A journal keeps its place in the bearing's section and may rotate, tilt and move along the axis: a spherical joint
+  /// on a body that slides in the shell.
+  void close(model::Model& moved, const model::Bearing& bearing) const {
+    const std::string name = "film of " + bearing.name;
+    const FrameOnBody shell = frame(bearing.shell), journal = frame(bearing.journal);
+    const Pose X_WS = pose_of(shell.body), X_WJ = pose_of(journal.body);
+    const Matrix3 R_WF = X_WJ.R * journal.X_BF.R;
+    const Vector3 r_WF = X_WJ.r + X_WJ.R * journal.X_BF.r;
+    model::Frame place;
+    place.name = name;
+    place.X_BF = {X_WS.R.transpose() * R_WF, X_WS.R.transpose() * (r_WF - X_WS.r)};
+    if (shell.body == "ground")
+      moved.ground.frames.push_back(place);
+    else
+      for (model::Body& body : moved.bodies)
+        if (body.name == shell.body) body.frames.push_back(place);
+    model::Body slider;
+    slider.name = name;
+    slider.mass = 1;
+    slider.inertia = Matrix3::Identity();
+    moved.bodies.push_back(std::move(slider));
+    model::Joint along, about;
+    along.name = name;
+    along.type = mbd::JointType::prismatic;
+    along.inboard = {shell.body, name, {}};
+    along.outboard = {name, "", {}};
+    along.axis = place.X_BF.R.transpose() * shell.X_BF.R.col(2);
+    about.name = name + ", rotation";
+    about.type = mbd::JointType::spherical;
+    about.inboard = {name, "", {}};
+    about.outboard = bearing.journal;
+    moved.joints.push_back(std::move(along));
+    moved.joints.push_back(std::move(about));
+  }
+
   Outcome move(const std::string& joint, const std::string& name, double value) {
     const auto [index, coordinate] = find(joint, name);
+    if (value == value_of(index, coordinate)) return {Ending::solved};
     model::Model moved = skeleton;
     moved.drives = {moved_by_time(joint, std::string(coordinate.name))};
     keep_positions(moved);
+    for (const model::Bearing& bearing : model.bearings)
+      if (stays(bearing, model.joints[index], coordinate)) close(moved, bearing);
+    return move(moved, joint, index, coordinate, value);
+  }
+
+  Outcome move(model::Model& moved, const std::string& joint, std::size_t index, const mbd::Coordinate& coordinate,
+               double value) {
     const double from = value_of(index, coordinate), distance = value - from;
-    if (distance == 0) return {Ending::solved};
     moved.simulation.start = from;
     model::Machine built = model::build(moved);
     solver::State at = built.mechanism->initial_state();
@@ -284,6 +360,7 @@ void Picture::write(results::Writer& writer) const {
     if (!bearing.shell.body.empty() && !bearing.journal.body.empty())
       write_link("/bearings/" + bearing.name + "/", impl_->frame(bearing.shell), impl_->frame(bearing.journal), writer);
   }
+  if (model.circuit) write_circuit_plan(*model.circuit, writer);
   for (const model::Contact& contact : model.contacts)
     write_link("/contacts/" + contact.name + "/", {contact.first.body, Pose{}}, {contact.second.body, Pose{}}, writer);
   for (const model::Force& force : model.forces)

@@ -185,9 +185,13 @@ const QuantityTable<CircuitRow, model::OilCircuit>& circuit_quantities() {
 
 }  // namespace
 
+void write_circuit_plan(const model::OilCircuit& circuit, results::Writer& writer) {
+  write_once(circuit_attributes(), "/circuit/", circuit, writer);
+}
+
 CircuitRecord::CircuitRecord(const model::OilCircuit& circuit, results::Writer& writer)
     : rows_(circuit_quantities(), "/circuit/", circuit, writer) {
-  write_once(circuit_attributes(), "/circuit/", circuit, writer);
+  write_circuit_plan(circuit, writer);
 }
 
 QuantityGroup CircuitRecord::describe() {

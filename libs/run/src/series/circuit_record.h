@@ -6,6 +6,9 @@
 
 namespace hersey::run {
 
+/// Writes what does not change: the type of each element and its nodes.
+void write_circuit_plan(const model::OilCircuit& circuit, results::Writer& writer);
+
 /// The oil circuit in the results file: pressures of its nodes, flows through its elements.
 class CircuitRecord {
  public:

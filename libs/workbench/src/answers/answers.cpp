@@ -14,7 +14,6 @@
 #include "hersey/core/units.h"
 #include "hersey/model/schema.h"
 #include "hersey/model/text_map.h"
-#include "hersey/session/starting_models.h"
 
 namespace hersey::workbench {
 
@@ -135,30 +134,6 @@ std::string Answers::set_value(std::string_view request) const {
     return dumped({{"text", model::with_edits(text, edits)}, {"edits", json_of(edits, TextColumns(text))}});
   } catch (const InputError& error) {
     refuse(error);
-  }
-}
-
-std::string Answers::templates() const {
-  Json list = Json::array();
-  for (const session::StartingModel& model : session::starting_models())
-    list.push_back({{"name", model.name}, {"title", session::title_of(model)}, {"text", model.text}});
-  return dumped(list);
-}
-
-std::string Answers::new_model(std::string_view request) const {
-  const Json given = request_object(request);
-  const std::string name = text_in(given, "template"), path = text_in(given, "path");
-  std::filesystem::path file = kept_->file(path);
-  if (file.extension() != ".yaml" && file.extension() != ".yml") file += ".yaml";
-  if (std::filesystem::exists(file) || std::filesystem::is_symlink(file))
-    throw Refused(409, "There is a file '" + path + "' already.", "Choose another name.");
-  try {
-    const std::filesystem::path written = session::write_starting_model(name, file);
-    return dumped({{"path", written.lexically_relative(kept_->folder()).generic_string()}});
-  } catch (const InputError& error) {
-    refuse(error);
-  } catch (const std::runtime_error& error) {
-    throw Refused(507, error.what(), "The folder may be read-only, or the disk full.");
   }
 }
 

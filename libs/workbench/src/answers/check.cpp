@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -107,22 +108,28 @@ Json outline_of(const TextMap& map, const TextColumns& columns, std::size_t& lef
 /// What has been found out about a text.
 struct Findings {
   std::vector<Fault> faults, warnings;
-  std::optional<model::Model> model;
+  std::shared_ptr<const session::Session> session;  // null where it cannot be read
   std::size_t runs = 1;
+
+  [[nodiscard]] const model::Model* model() const { return session ? &session->model() : nullptr; }
 };
 
-/// Reads a text, and with `starts` finds the starts of its runs.
-Findings examine(const model::ModelFile& file, const std::vector<std::string>& set, bool starts) {
+/// Reads a text unless `known` is its session, and with `starts` finds the starts of its runs.
+Findings examine(const model::ModelFile& file, const std::vector<std::string>& set, bool starts, Kept& kept,
+                 std::shared_ptr<const session::Session> known) {
   Findings found;
   try {
-    const session::Session session(file, set);
-    found.model = session.model();
-    found.runs = count_runs(*found.model);
-    found.warnings = found.model->warnings;
+    if (known)
+      found.session = std::move(known);
+    else
+      found.session = set.empty() ? kept.read_session(file) : std::make_shared<const session::Session>(file, set);
+    const model::Model& model = found.session->model();
+    found.runs = count_runs(model);
+    found.warnings = model.warnings;
     if (!starts) return found;
-    session::Check check = session.check();
+    session::Check check = found.session->check();
     found.warnings = std::move(check.warnings);
-    if (!found.model->study || found.model->study->is_written_out()) found.runs = check.runs;
+    if (!model.study || model.study->is_written_out()) found.runs = check.runs;
   } catch (const InputError& error) {
     found.faults = error.faults();
   }
@@ -146,9 +153,15 @@ std::string Answers::check(std::string_view request) const {
   const std::string depth = text_in(given, "depth", "start");
   if (depth != "text" && depth != "start")
     throw Refused(400, "The depth '" + depth + "' of a check is unknown.", "Ask for 'text' or 'start'.");
-  const model::ModelFile opened(text, file);
-  const Findings found = examine(opened, texts_in(given, "set"), depth == "start");
-  const std::optional<TextMap> map = opened.map();
+  const std::vector<std::string> set = texts_in(given, "set");
+  std::shared_ptr<const session::Session> known = set.empty() ? kept_->known_session(text, file) : nullptr;
+  const model::ModelFile opened = known ? known->source() : model::ModelFile(text, file);
+  const Findings found = examine(opened, set, depth == "start", *kept_, std::move(known));
+  const model::Model* model = found.model();
+  // Who asks again, about the start, has the picture already.
+  const bool is_drawn = given.value("scene", true);
+  const bool needs_map = is_drawn || model == nullptr || !found.faults.empty() || !found.warnings.empty();
+  const std::optional<TextMap> map = needs_map ? opened.map() : std::nullopt;
   const TextColumns columns(text);
   const auto listed = [&](const std::vector<Fault>& faults) {
     Json list = Json::array();
@@ -157,19 +170,19 @@ std::string Answers::check(std::string_view request) const {
     return list;
   };
   Json answer{{"faults", listed(found.faults)}, {"warnings", listed(found.warnings)}, {"runs", found.runs}};
-  if (found.model)
-    answer["parameters"] = parameters_of(*found.model);
+  if (model != nullptr)
+    answer["parameters"] = parameters_of(*model);
   else
     answer["parameters"] = map ? parameters_in(*map) : Json::object();
-  answer["missing"] = found.model ? missing_of_model(*found.model) : missing_of_faults(found.faults);
+  answer["missing"] = model != nullptr ? missing_of_model(*model) : missing_of_faults(found.faults);
   std::size_t outline_left_out = 0;
-  answer["outline"] = map ? outline_of(*map, columns, outline_left_out) : Json::array();
+  answer["outline"] = map && is_drawn ? outline_of(*map, columns, outline_left_out) : Json::array();
   const auto beyond = [](std::size_t count) { return count - std::min(count, kMostListed); };
   answer["left_out"] = {{"faults", beyond(found.faults.size())},
                         {"warnings", beyond(found.warnings.size())},
                         {"outline", outline_left_out}};
   answer["depth"] = depth;
-  const std::string scene = found.model && map ? scene_of(*found.model, *map, columns) : "null";
+  const std::string scene = is_drawn && model != nullptr && map ? scene_of(*model, *map, columns) : "null";
   answer["time"] = std::chrono::duration<double>(Clock::now() - began).count();
   std::string whole = dumped(answer);
   whole.back() = ',';

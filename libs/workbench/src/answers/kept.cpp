@@ -28,22 +28,30 @@ std::vector<Kept::Stamp> Kept::stamps_of(const session::Session& session) {
 }
 
 std::shared_ptr<const session::Session> Kept::session(const std::string& text, const std::string& file) {
-  using FileTime = std::filesystem::file_time_type;
-  const std::string key = file + '\n' + text;
+  std::shared_ptr<const session::Session> known = known_session(text, file);
+  return known ? known : read_session(model::ModelFile(text, file));
+}
+
+std::shared_ptr<const session::Session> Kept::known_session(const std::string& text, const std::string& file) {
   std::shared_ptr<const KeptSession> known;
   {
     const std::lock_guard lock(mutex_);
-    known = sessions_.find(key);
+    known = sessions_.find(file + '\n' + text);
   }
-  if (known && stamps_of(*known->session) == known->stamps) return known->session;
+  return known && stamps_of(*known->session) == known->stamps ? known->session : nullptr;
+}
+
+std::shared_ptr<const session::Session> Kept::read_session(const model::ModelFile& source) {
+  using FileTime = std::filesystem::file_time_type;
   // A file written while it is read, or so shortly before that a later change could have the same time, is read again
   // the next time.
   const FileTime latest = FileTime::clock::now() - std::chrono::seconds(1);
-  auto read = std::make_shared<const session::Session>(text, file, std::vector<std::string>{});
+  auto read = std::make_shared<const session::Session>(source, std::vector<std::string>{});
   std::vector<Stamp> stamps = stamps_of(*read);
   if (std::any_of(stamps.begin(), stamps.end(), [&](const Stamp& stamp) { return stamp.time > latest; })) return read;
   const std::lock_guard lock(mutex_);
-  sessions_.keep(key, std::make_shared<const KeptSession>(KeptSession{read, std::move(stamps)}));
+  sessions_.keep(source.file() + '\n' + source.text(),
+                 std::make_shared<const KeptSession>(KeptSession{read, std::move(stamps)}));
   return read;
 }
 

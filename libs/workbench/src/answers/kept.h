@@ -30,6 +30,11 @@ class Kept {
   /// The model of a text, read anew only where a table or mesh that it names has changed. @throws InputError
   [[nodiscard]] std::shared_ptr<const session::Session> session(const std::string& text, const std::string& file);
 
+  /// As `session`; null where the text has not been read yet, or a table or mesh has changed since.
+  [[nodiscard]] std::shared_ptr<const session::Session> known_session(const std::string& text, const std::string& file);
+  /// Reads the model of a text that has been opened, and keeps it. @throws InputError
+  std::shared_ptr<const session::Session> read_session(const model::ModelFile& source);
+
   /// Keeps a solution. @returns its name
   std::string keep(study::BearingSolution solution);
   /// A kept solution; null if it is no longer known.

@@ -4,6 +4,7 @@
 #include <array>
 #include <variant>
 
+#include "answers/scene_parts.h"
 #include "hersey/bearing/film_coordinates.h"
 #include "hersey/mbd/joint.h"
 #include "hersey/report/instant.h"
@@ -18,6 +19,8 @@ using model::TextMap;
 constexpr std::array<const char*, 9> kSections{"bodies",   "joints",    "drives",  "forces",    "contacts",
                                                "bearings", "couplings", "thermal", "lubricants"};
 constexpr std::array<const char*, 6> kInner{"frames", "shapes", "features", "arcs", "supply", "pads"};
+
+constexpr int kLastDepth = 2;  // of a part of a part
 
 Json place_of(const TextEntry& entry, const TextColumns& columns) {
   return {{"line", entry.key_at.line},
@@ -37,7 +40,7 @@ void add_sources(const TextMap& map, const TextEntry& entry, const TextColumns& 
     const TextEntry& part = map.entries()[child];
     if (depth == 1 && std::find(kInner.begin(), kInner.end(), part.key) == kInner.end()) continue;
     sources[with_slashes(part.path)] = place_of(part, columns);
-    if (depth < 2) add_sources(map, part, columns, depth + 1, sources);
+    if (depth < kLastDepth) add_sources(map, part, columns, depth + 1, sources);
   }
 }
 
@@ -58,6 +61,9 @@ Json sources_of(const model::Model& model, const TextMap& map, const TextColumns
   Json sources = Json::object();
   for (const char* section : kSections)
     if (const TextEntry* entry = map.find(section)) add_sources(map, *entry, columns, 0, sources);
+  for (const char* section : {"circuit.nodes", "circuit.elements"})
+    if (const TextEntry* entry = map.find(section)) add_sources(map, *entry, columns, kLastDepth, sources);
+  if (const TextEntry* entry = map.find("gravity")) sources["/gravity"] = place_of(*entry, columns);
   const auto add = [&](const auto& parts, const std::string& section) {
     for (const auto& part : parts) add_source(model, map, columns, section + part.name, sources);
   };
@@ -109,28 +115,6 @@ Json bearing_json(const model::Bearing& bearing, const Json& sources) {
   return json;
 }
 
-Json loads_of(const model::Model& model) {
-  Json loads = Json::array();
-  for (const model::Force& force : model.forces) {
-    const auto* load = force.as<model::BodyLoad>();
-    if (load == nullptr) continue;
-    Json json{{"name", force.name}, {"body", load->at.body}, {"torque", load->is_torque}};
-    const auto is_called = [&](const auto& one) { return one.name == load->at.body; };
-    const auto body = std::find_if(model.bodies.begin(), model.bodies.end(), is_called);
-    Pose pose;
-    for (const model::Frame& frame : body == model.bodies.end() ? model.ground.frames : body->frames)
-      if (frame.name == load->at.frame) pose = frame.X_BF;
-    json["at"] = {pose.r.x(), pose.r.y(), pose.r.z()};
-    json["axes"] = load->axes == model::Axes::body ? "body" : "ground";
-    if (load->direction) {
-      const Vector3 direction = load->axes == model::Axes::body ? Vector3(pose.R * *load->direction) : *load->direction;
-      json["direction"] = {direction.x(), direction.y(), direction.z()};
-    }
-    loads.push_back(std::move(json));
-  }
-  return loads;
-}
-
 }  // namespace
 
 Json poses_json(const run::Picture& picture) {
@@ -169,7 +153,9 @@ std::string scene_json(const model::Model& model, const run::Picture& picture, c
   beside["bearings"] = Json::object();
   for (const model::Bearing& bearing : model.bearings)
     beside["bearings"][bearing.name] = bearing_json(bearing, beside["sources"]);
-  beside["loads"] = loads_of(model);
+  beside["loads"] = loads_json(model, picture);
+  beside["frames"] = frames_json(model);
+  if (model.circuit) beside["circuit"] = circuit_json(model);
   beside["joints"] = joints_json(model, picture);
   beside["open"] = picture.assembly().solved() ? "" : picture.assembly().message;
   // One object of both, without reading the first again: it may be megabytes.

@@ -11,8 +11,8 @@
 namespace hersey::workbench {
 
 /// The scene of Answers::check as JSON text: a run of one instant, with `sources` (where each part stands in the text),
-/// `bearings` (the unwrapped films), `loads` (forces on one body, which a run does not draw), `joints` (coordinates
-/// that can be moved) and `open` (why loops do not close; else empty).
+/// `bearings` (the unwrapped films), `loads`, `frames` and `circuit` (scene_parts.h), which a run does not draw,
+/// `joints` (coordinates that can be moved) and `open` (why loops do not close; else empty).
 [[nodiscard]] std::string scene_json(const model::Model& model, const run::Picture& picture, const model::TextMap& map,
                                      const TextColumns& columns);
 

@@ -114,8 +114,8 @@ bool is_one_of(const std::string& extension, const std::array<std::string_view, 
 }
 
 std::string kind_by_name(const std::string& extension) {
-  constexpr std::array<std::string_view, 9> meshes{".msh", ".inp",  ".bdf", ".dat", ".nas",
-                                                   ".unv", ".step", ".stp", ".brep"};
+  constexpr std::array<std::string_view, 11> meshes{".msh",  ".inp", ".bdf",  ".dat",  ".nas", ".unv",
+                                                    ".step", ".stp", ".brep", ".iges", ".igs"};
   constexpr std::array<std::string_view, 2> tables{".csv", ".tsv"};
   constexpr std::array<std::string_view, 3> texts{".txt", ".md", ".json"};
   if (is_one_of(extension, meshes)) return "mesh";

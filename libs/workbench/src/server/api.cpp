@@ -103,6 +103,7 @@ Reply Api::route(const Request& request) {
     return {.body = schema_};
   }
   if (call == "GET templates") return {.body = answers_.templates()};
+  if (call == "GET examples") return {.body = answers_.examples()};
   const auto ask = [&](std::string (Answers::*question)(std::string_view) const) -> Reply {
     return {.body = (answers_.*question)(request.body)};
   };
@@ -113,12 +114,47 @@ Reply Api::route(const Request& request) {
   if (call == "POST explain") return ask(&Answers::explain);
   if (call == "POST convert") return ask(&Answers::convert);
   if (call == "POST set") return ask(&Answers::set_value);
+  if (call == "POST template") return ask(&Answers::template_scene);
   if (call == "POST new") return ask(&Answers::new_model);
+  if (call == "POST cad") return start_cad(request);
+  if (path.starts_with("/api/cad/")) return of_cad(request);
   if (call == "GET runs") return run_list();
   if (call == "POST runs") return json_reply({{"id", runs_.start(json::parse(request.body))}});
   if (call == "POST compare") return report(json::parse(request.body).at("ids").get<std::vector<std::string>>());
   if (path.starts_with("/api/runs/")) return of_run(request);
   return unknown(path);
+}
+
+Reply Api::start_cad(const Request& request) {
+  const json given = json::parse(request.body);
+  CadRequest wanted;
+  wanted.path = given.at("path").get<std::string>();
+  wanted.size = given.at("size").get<std::string>();
+  wanted.output = given.value("output", "");
+  wanted.order = given.value("order", 2);
+  wanted.around = given.value("around", 16);
+  wanted.length_unit = given.value("length_unit", "");
+  return json_reply({{"id", cad_.start(wanted)}});
+}
+
+/// /api/cad/ID and /api/cad/ID/stop
+Reply Api::of_cad(const Request& request) {
+  const std::string rest = request.path.substr(std::string_view("/api/cad/").size());
+  const std::size_t slash = rest.find('/');
+  const std::string id = rest.substr(0, slash);
+  if (request.method == "POST" && slash != std::string::npos && rest.substr(slash) == "/stop") {
+    cad_.stop(id);
+    return json_reply({{"id", id}});
+  }
+  if (request.method != "GET" || slash != std::string::npos) return unknown(request.path);
+  const CadState state = cad_.state(id);
+  using At = CadState::At;
+  return json_reply({{"state", state.at == At::running ? "running"
+                               : state.at == At::made  ? "made"
+                                                       : "failed"},
+                     {"seconds", state.seconds},
+                     {"output", state.output},
+                     {"message", state.message}});
 }
 
 Reply Api::run_list() const {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cad/cad_meshes.h"
 #include "events/event_log.h"
 #include "folder/folder.h"
 #include "hersey/workbench/answers.h"
@@ -19,9 +20,17 @@ namespace hersey::workbench {
 /// The routes of the workbench: the page, and the interface below /api/ (docs/workbench.md).
 class Api {
  public:
-  /// @param open  model that the page opens, relative to the folder; empty: none
-  Api(Folder& folder, Runs& runs, EventLog& events, std::string open, const std::atomic<bool>& stop)
-      : folder_(folder), runs_(runs), events_(events), open_(std::move(open)), stop_(stop), answers_(folder.path()) {}
+  /// @param open     model that the page opens, relative to the folder; empty: none
+  /// @param program  `hersey`, which meshes CAD files
+  Api(Folder& folder, Runs& runs, EventLog& events, std::string open, const std::atomic<bool>& stop,
+      const std::filesystem::path& program = {})
+      : folder_(folder),
+        runs_(runs),
+        events_(events),
+        open_(std::move(open)),
+        stop_(stop),
+        answers_(folder.path()),
+        cad_(folder, program) {}
 
   [[nodiscard]] Reply handle(const Request& request);
 
@@ -31,6 +40,8 @@ class Api {
   [[nodiscard]] Reply files() const;
   [[nodiscard]] Reply file(const Request& request);
   [[nodiscard]] Reply event_stream(const Request& request);
+  [[nodiscard]] Reply start_cad(const Request& request);
+  [[nodiscard]] Reply of_cad(const Request& request);
   [[nodiscard]] Reply run_list() const;
   [[nodiscard]] Reply of_run(const Request& request);
   [[nodiscard]] Reply report(const std::vector<std::string>& ids);
@@ -42,6 +53,7 @@ class Api {
   std::string open_;
   const std::atomic<bool>& stop_;
   Answers answers_;
+  CadMeshes cad_;
   std::once_flag schema_made_;
   std::string schema_;
   std::atomic<int> streams_ = 0;  // of events

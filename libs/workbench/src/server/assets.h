@@ -9,7 +9,7 @@ struct Asset {
   std::string_view content, type;
 };
 
-/// @param path  "/", "/workbench.js" or "/workbench.css"
+/// @param path  "/", "/workbench.js", "/workbench.css" or "/licences.txt"
 [[nodiscard]] Asset asset(std::string_view path);
 
 }  // namespace hersey::workbench

@@ -12,4 +12,10 @@ namespace hersey {
 /// @throws std::runtime_error stating why the file could not be written; the old file is then unchanged
 void write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
 
+/// Writes a file that must not be there yet, nor a link of its name, also not since a moment ago: two programs that
+/// want to make the same file cannot both succeed.
+/// @returns false if it is there
+/// @throws std::runtime_error stating why the file could not be written; none is left then
+[[nodiscard]] bool write_new_file(const std::filesystem::path& path, std::string_view text);
+
 }  // namespace hersey

@@ -105,7 +105,8 @@ class TextMap {
   std::vector<std::size_t> offset_of_mark_;   // of each item: its dash, or the comma or bracket before it
   std::map<std::size_t, Piece> merges_;       // `<<: *anchor` of mappings that have one
   std::vector<TextEntry> entries_;
-  std::map<std::pair<int, int>, std::size_t> by_key_, by_value_;  // entries by line and column of their beginning
+  // Entries by line and column of their beginning, sorted; of several the first.
+  std::vector<std::pair<std::pair<int, int>, std::size_t>> by_key_, by_value_;
 };
 
 /// The text with the edits made. @pre no two of them overlap

@@ -69,7 +69,7 @@ FrameName frame_of(Context& context, const Value& reference) {
   if (name.frame.empty()) return name;
   std::vector<std::string> frames = body != nullptr ? names_in(*body, "frames") : std::vector<std::string>{};
   for (const Body& read : context.model.bodies)  // a reduced body brings its frames along
-    if (read.name == name.body && read.flexible && read.flexible->reduced) {
+    if (read.flexible && read.flexible->reduced && read.name == name.body) {
       frames.clear();
       for (const Frame& frame : read.frames) frames.push_back(frame.name);
     }

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hersey/core/input_error.h"
+
 namespace hersey::session {
 
 /// A commented model to begin with, from libs/session/starting_models; `text` has the word NAME where its file is
@@ -25,8 +27,14 @@ struct StartingModel {
 /// Its text for the file `file`.
 [[nodiscard]] std::string text_for(const StartingModel& model, const std::string& file);
 
+/// The file that is to be written is there, and stays as it is.
+class FileExists : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Writes the model called `name` to `file`, with the ending .yaml if that has none. @returns the file
-/// @throws InputError for an unknown model, or a file that exists; WriteError if it cannot be written
+/// @throws InputError for an unknown model, FileExists; std::runtime_error if it cannot be written
 std::filesystem::path write_starting_model(const std::string& name, std::filesystem::path file);
 
 }  // namespace hersey::session

@@ -80,7 +80,13 @@ class Answers {
 
   /// The models of `hersey init`: `[{name, title, text}]`.
   [[nodiscard]] std::string templates() const;
-  /// `{template, path}` -> `{path}`: writes a new model into the folder. An existing file is left as it is: 409.
+  /// The examples that came with the program, if they are found: `[{name: "slider_crank/model.yaml", title, text}]`.
+  [[nodiscard]] std::string examples() const;
+  /// `{template}` or `{example}` -> `{scene}`, as of check(). Files that an example names are those beside it.
+  [[nodiscard]] std::string template_scene(std::string_view request) const;
+  /// `{template, path}` -> `{path}`: writes a new model into the folder; `{example, path}` -> `{path, files}` a copy of
+  /// an example, with the tables and meshes that it reads at the same places beside it. An existing file is left as it
+  /// is: 409.
   std::string new_model(std::string_view request) const;
 
  private:

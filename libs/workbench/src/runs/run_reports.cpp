@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "runs/runs.h"
+
+namespace hersey::workbench {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr double kReportTime = 300;  // [s]
+
+}  // namespace
+
+Path Runs::report(const std::vector<std::string>& ids) {
+  std::vector<std::string> words{program_.string(), "report"}, names;
+  std::optional<Path> ready;
+  for (const std::string& id : ids) {
+    const RunEntry run = find(id);
+    if (run.results.empty() && run.report.empty())
+      throw Refused(409, id + " has no results yet", "wait for the first of them, or look at its log");
+    for (const std::string& file : run.results) {
+      words.push_back((folder_.path() / file).string());
+      names.push_back(run.results.size() == 1 ? id : id + " " + Path(file).stem().string());
+    }
+    if (!run.report.empty() && run.state != "running") ready = folder_.path() / run.report;
+  }
+  if (ids.size() == 1 && ready) return *ready;
+  const std::lock_guard lock(reporting_);
+  if (reports_.empty()) {
+    std::string pattern = (std::filesystem::temp_directory_path() / "hersey-reports-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr)
+      throw Refused(507, fmt::format("no temporary folder can be made: {}", std::strerror(errno)),
+                    "make room on the disk");
+    reports_ = pattern;
+  }
+  const Path page = reports_ / fmt::format("{}.html", ++report_count_);
+  words.insert(words.end(), {"--output", page.string()});
+  if (ids.size() > 1) {
+    std::string joined;
+    for (const std::string& name : names) joined += (joined.empty() ? "" : ",") + name;
+    words.push_back("--names=" + joined);
+  }
+  std::string output;
+  if (run_to_end(words, folder_.path(), kReportTime, output) != 0)
+    throw Refused(422, "no report can be made: " + output.substr(0, output.find('\n')), "look at the log of the run");
+  return page;
+}
+
+void Runs::forget_report(const Path& page) {
+  const std::lock_guard lock(reporting_);
+  if (reports_.empty() || page.parent_path() != reports_) return;
+  std::error_code ignored;
+  std::filesystem::remove(page, ignored);
+  std::filesystem::remove_all(reports_ / (page.stem().string() + "_fields"), ignored);
+}
+
+}  // namespace hersey::workbench

@@ -1,0 +1,33 @@
+// How the model stands, in a few words: the button in the bar, and the same for screen readers.
+
+import { h } from "../src/dom";
+import type { Findings } from "./problems";
+import { texts } from "./texts";
+
+export class CheckState {
+  readonly button: HTMLElement;
+  readonly announcer = h("div", { class: "visually-hidden", role: "status" });
+  /** Whether the model can run. */
+  isReady = false;
+
+  constructor(clicked: () => void) {
+    this.button = h("button", { type: "button", class: "check-state", click: clicked });
+  }
+
+  atWork(is: boolean): void {
+    this.button.classList.toggle("at-work", is);
+  }
+
+  /** @param hasModel  whether there is a model at all */
+  show(findings: Findings | null, runs: number, hasModel: boolean): void {
+    const { faults, warnings, missing } = findings ?? { faults: [], warnings: [], missing: [] };
+    const isReady = faults.length === 0 && missing.length === 0;
+    const ready = isReady ? texts.state.good(runs) : texts.state.missing(missing.length);
+    const words = !findings ? (hasModel ? texts.state.checking : texts.state.none) : faults.length > 0 ? texts.state.faults(faults.length) : [ready, ...(warnings.length > 0 ? [texts.state.warnings(warnings.length)] : [])].join(", ");
+    const kind = !findings ? "none" : faults.length > 0 ? "bad" : warnings.length > 0 || !isReady ? "warn" : "good";
+    if (this.button.textContent !== words) this.announcer.textContent = words;
+    this.button.textContent = words;
+    this.button.dataset["kind"] = kind;
+    this.isReady = findings !== null && isReady;
+  }
+}

@@ -1,0 +1,72 @@
+// The panes that show the model beside its text: machine, bearing, part, operating point.
+
+import type { Api } from "./api";
+import { BearingPane } from "./bearing_pane";
+import type { OpenDocument } from "./editor";
+import { Tabs } from "./layout";
+import { MachinePane, type SceneText } from "./machine_pane";
+import type { ModelSchema } from "./model_schema";
+import { PartPane } from "./part_pane";
+import { PointPane } from "./point_pane";
+import { texts } from "./texts";
+
+export interface ModelPanesHooks {
+  api: Api;
+  model: () => OpenDocument | null;
+  schema: () => ModelSchema | null;
+  /** A form or a drag sets a key of the text. */
+  set: (key: string, value: string | null) => Promise<void>;
+  goToKey: (key: string) => void;
+  goToPart: (part: string) => void;
+  say: (words: string) => void;
+  /** Another tab is shown. */
+  changed: () => void;
+}
+
+export class ModelPanes {
+  readonly machine: MachinePane;
+  readonly bearing: BearingPane;
+  readonly part: PartPane;
+  readonly point: PointPane;
+  readonly tabs: Tabs;
+
+  constructor(private readonly hooks: ModelPanesHooks) {
+    const { api, model, set, goToKey, goToPart, say, changed } = hooks;
+    const text = () => (model() ? { path: model()!.path, text: model()!.state.doc.toString() } : null);
+    this.machine = new MachinePane({ api, model: text, chosen: goToPart, say });
+    this.bearing = new BearingPane({ set, goToKey, chosen: (name) => (this.machine.highlight(`/bearings/${name}`), this.point.refresh()) });
+    this.point = new PointPane(api, () => (model() ? { ...text()!, tree: model()!.tree } : null), () => this.bearing.name);
+    this.part = new PartPane(set);
+    const contents = { machine: this.machine.element, bearing: this.bearing.element, part: this.part.element, point: this.point.element };
+    const tabs = (["machine", "bearing", "part", "point"] as const).map((key) => ({ key, label: texts[key], content: contents[key] }));
+    this.tabs = new Tabs(texts.panes.right, tabs, (key) => {
+      if (key === "point") setTimeout(() => this.point.refresh());
+      if (key === "bearing") this.bearing.draw();
+      if (key === "part") this.part.draw();
+      changed();
+    });
+  }
+
+  clear(): void {
+    this.machine.clear();
+    this.bearing.clear();
+  }
+
+  /** @param part  that of the cursor */
+  show(scene: SceneText | null, part: () => string | null): void {
+    this.machine.show(scene);
+    this.showParts(scene);
+    this.machine.highlight(part());
+  }
+
+  /** The forms of the model. */
+  showParts(scene: SceneText | null): void {
+    const document = this.hooks.model();
+    if (!document) return;
+    const schema = this.hooks.schema();
+    const text = document.state.doc.toString();
+    this.bearing.show(scene?.bearings ?? null, schema, document.tree, text);
+    this.part.show(schema, document.tree, text);
+    if (this.tabs.current === "point") this.point.refresh();
+  }
+}

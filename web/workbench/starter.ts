@@ -1,0 +1,78 @@
+// Starting the model that is open as a run, and stopping the run that is shown.
+
+import type { Api, RunEntry } from "./api";
+import { h } from "../src/dom";
+import { ask } from "./dialogs";
+import type { OpenDocument } from "./editor";
+import type { RunsPane } from "./runs_pane";
+import { texts } from "./texts";
+
+export interface StarterHooks {
+  api: Api;
+  runs: RunsPane;
+  model: () => OpenDocument | null;
+  /** Whether the model can run. */
+  isReady: () => boolean;
+  shownRun: () => string;
+  save: (document: OpenDocument) => Promise<boolean>;
+  started: (run: RunEntry) => Promise<void>;
+  say: (words: string) => void;
+  fail: (error: unknown) => void;
+}
+
+export class Starter {
+  readonly runButton = h("button", { type: "button", class: "main-button", click: () => void this.run() }, texts.run);
+  readonly stopButton = h("button", { type: "button", class: "quiet stop", disabled: true, click: () => void this.stop() }, texts.stop);
+  private isStarting = false;
+
+  constructor(private readonly hooks: StarterHooks) {}
+
+  /** A second start has to wait until the first one is known. */
+  showButtons(): void {
+    this.runButton.disabled = !this.hooks.isReady() || this.isStarting;
+    this.stopButton.disabled = this.hooks.runs.running.length === 0;
+  }
+
+  async run(): Promise<void> {
+    const document = this.hooks.model();
+    if (!document || this.runButton.disabled) return;
+    this.isStarting = true;
+    this.showButtons();
+    try {
+      await this.start(document);
+    } catch (error) {
+      this.hooks.fail(error);
+    } finally {
+      this.isStarting = false;
+      this.showButtons();
+    }
+  }
+
+  private async start(document: OpenDocument): Promise<void> {
+    const { api, runs, save, say, started } = this.hooks;
+    if (document.isDirty) {
+      const answer = await ask(texts.saveFirst(document.name), [
+        { value: "save", label: texts.saveAndRun },
+        { value: "cancel", label: texts.cancel },
+      ]);
+      if (answer !== "save" || !(await save(document))) return;
+    }
+    const { id } = await api.post<{ id: string }>("/api/runs", { path: document.path, set: [], etag: document.etag });
+    say(texts.started(id));
+    await runs.load();
+    const run = runs.runs.find((r) => r.id === id);
+    if (run) await started(run);
+  }
+
+  async stop(): Promise<void> {
+    const { api, runs, shownRun, fail } = this.hooks;
+    const run = runs.running.find(({ id }) => id === shownRun()) ?? runs.running[0];
+    if (!run) return;
+    try {
+      await api.post(`/api/runs/${encodeURIComponent(run.id)}/stop`);
+      await runs.load();
+    } catch (error) {
+      fail(error);
+    }
+  }
+}
