@@ -8,6 +8,10 @@ export interface Hello {
   open: string | null;
   /** Number of the last event. */
   event?: number;
+  /** Of the machine that the program runs on. */
+  processors?: number;
+  /** Whether it can hand runs to a cluster. */
+  cluster?: boolean;
 }
 
 /** What a file holds, with "\n" between its lines. */

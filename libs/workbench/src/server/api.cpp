@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "hersey/core/version.h"
 #include "server/assets.h"
@@ -114,6 +116,7 @@ Reply Api::route(const Request& request) {
   if (call == "POST convert") return ask(&Answers::convert);
   if (call == "POST set") return ask(&Answers::set_value);
   if (call == "POST new") return ask(&Answers::new_model);
+  if (call == "POST plan") return {.body = studies_.plan(json::parse(request.body))};
   if (call == "GET runs") return run_list();
   if (call == "POST runs") return json_reply({{"id", runs_.start(json::parse(request.body))}});
   if (call == "POST compare") return report(json::parse(request.body).at("ids").get<std::vector<std::string>>());
@@ -136,6 +139,7 @@ Reply Api::of_run(const Request& request) {
   constexpr std::size_t kMostSteps = 4000;  // more than a screen has columns
   if (call == "GET/log") return {.type = "text/plain; charset=utf-8", .body = runs_.log(id)};
   if (call == "GET/events") return {.type = "application/x-ndjson", .body = runs_.history(id, kMostSteps)};
+  if (call == "GET/study") return {.body = studies_.course(id, request.value("after"))};
   if (call == "GET/model") return {.type = "text/plain; charset=utf-8", .body = runs_.model_text(id)};
   if (call == "POST/report") return report({id});
   if (call == "POST/stop") return runs_.stop(id), json_reply({{"id", id}});
@@ -196,7 +200,9 @@ Reply Api::hello() const {
   return json_reply({{"version", version()},
                      {"folder", folder_.path().string()},
                      {"open", open_.empty() ? json(nullptr) : json(open_)},
-                     {"event", events_.last()}});
+                     {"event", events_.last()},
+                     {"processors", std::max(1U, std::thread::hardware_concurrency())},
+                     {"cluster", Studies::has_cluster()}});
 }
 
 Reply Api::files() const {

@@ -12,6 +12,7 @@
 #include "folder/folder.h"
 #include "hersey/workbench/answers.h"
 #include "runs/runs.h"
+#include "runs/studies.h"
 #include "server/exchange.h"
 
 namespace hersey::workbench {
@@ -21,7 +22,13 @@ class Api {
  public:
   /// @param open  model that the page opens, relative to the folder; empty: none
   Api(Folder& folder, Runs& runs, EventLog& events, std::string open, const std::atomic<bool>& stop)
-      : folder_(folder), runs_(runs), events_(events), open_(std::move(open)), stop_(stop), answers_(folder.path()) {}
+      : folder_(folder),
+        runs_(runs),
+        events_(events),
+        open_(std::move(open)),
+        stop_(stop),
+        answers_(folder.path()),
+        studies_(folder, runs, runs.program()) {}
 
   [[nodiscard]] Reply handle(const Request& request);
 
@@ -42,6 +49,7 @@ class Api {
   std::string open_;
   const std::atomic<bool>& stop_;
   Answers answers_;
+  Studies studies_;
   std::once_flag schema_made_;
   std::string schema_;
   std::atomic<int> streams_ = 0;  // of events
