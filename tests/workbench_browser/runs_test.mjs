@@ -122,6 +122,58 @@ await findings.check("a run takes other values than its text has; wrong ones are
   claim((await textOf(page)) === text, "the text has changed");
 });
 
+await findings.check("the Stribeck curve and its like are drawn at the sliders' point, which stays quick; coefficients stand as tables", async () => {
+  await openFile("bearing.yaml");
+  await page.locator(".right").getByRole("tab", { name: "Operating point" }).click();
+  const thickness = page.locator('[data-figure-key="h_min"] td');
+  await thickness.waitFor();
+  const answers = [];
+  const note = async (response) => {
+    if (response.url().endsWith("/api/bearing") && response.ok()) answers.push({ asked: response.request().postDataJSON(), answer: await response.json() });
+  };
+  page.on("response", note);
+  const drawn = () => page.waitForFunction(() => performance.getEntriesByName("hersey-curves").length > 0, null, { timeout: 60000 });
+  await page.locator(".curves summary").click();
+  await drawn();
+  const curve = answers.filter(({ asked }) => asked.fields[0] === "none").map(({ asked, answer }) => ({
+    speed: parseFloat(asked.set.find((text) => text.startsWith("speed=")).slice(6)),
+    isNear: answer.started_from !== null,
+    figure: (key) => answer.figures.find((f) => f.key === key).value,
+  })).sort((a, b) => a.speed - b.speed);
+  claim(curve.length > 20 && curve[curve.length - 1].speed / curve[0].speed > 1000, `${curve.length} points from ${curve[0].speed} to ${curve[curve.length - 1].speed} rpm`);
+  claim(curve.filter(({ isNear }) => isNear).length >= curve.length - 1, "points do not start from their neighbours");
+  const friction = curve.map(({ figure }) => figure("friction_journal"));
+  const least = friction.indexOf(Math.min(...friction));
+  claim(least > 2 && least < curve.length - 3, `the least friction is that of point ${least}`);
+  const share = curve.map(({ figure }) => figure("asperity_share"));
+  claim(share.every((value, i) => i === 0 || value <= share[i - 1]) && share[0] > 0.5, `asperities bear ${share}`);
+  claim((await page.locator(".point-curve").evaluateAll((all) => all.map((e) => e.dataset.curve).join())) === "friction,h_min,p_max,loss,flow", "some curve is missing");
+  claim(await page.locator('[data-curve="friction"] .legend-entry', { hasText: "asperities" }).isVisible(), "no share of asperities");
+  await page.locator(".curves").evaluate((e) => e.scrollIntoView());
+  await picture(page, "9-stribeck");
+  // Over the load, and a slider that is moved meanwhile.
+  await page.evaluate(() => performance.clearMarks());
+  await page.getByLabel("Over", { exact: true }).selectOption("load");
+  await page.waitForFunction(() => /^[3-9] of/.test(document.querySelector(".curves .note").textContent));
+  const before = await thickness.innerText();
+  const from = performance.now();
+  await page.getByLabel("Speed", { exact: true }).fill("0.4");
+  await page.waitForFunction((old) => document.querySelector('[data-figure-key="h_min"] td').textContent !== old, before);
+  claim(performance.now() - from < 2000, `the slider took ${performance.now() - from} ms`);
+  await drawn();
+  const numbers = answers.at(-1).asked.set.map((text) => text.split("=")[0]).sort().join();
+  claim(numbers === "load,speed", `a point of the second curve sets ${numbers}`);
+  const matrix = page.locator(".point-coefficients .matrix", { hasText: "Stiffness k" });
+  const cells = await matrix.locator("[data-quantity]").allInnerTexts();
+  const last = answers.filter(({ asked }) => asked.fields[0] === "pressure").at(-1).answer.figures;
+  const first = last.find((f) => f.key === "stiffness_xx").value;
+  const told = Number(cells[0].replace(/[\s\u202f]/g, "").replace("−", "-").replace("·10", "e").replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (c) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)));
+  claim(cells.length === 4 && Math.abs(told / first - 1) < 5e-3, `the table says ${cells}, the program ${first}`); // three figures are shown
+  await matrix.scrollIntoViewIfNeeded();
+  await picture(page, "10-coefficients");
+  page.off("response", note);
+});
+
 await findings.check("the page says nothing that it must not; axe-core finds nothing in it", async () => {
   for (const scheme of ["light", "dark"]) {
     const faults = await accessibilityFaults(page, scheme);
