@@ -15,6 +15,7 @@ const picture = (page, name) => page.screenshot({ path: join(pictures, `${name}.
 const folder = folderOfModels();
 const examples = fileURLToPath(new URL("../../examples", import.meta.url));
 for (const [from, to] of [["model", "tolerances"], ["optimum", "optimum"]]) cpSync(join(examples, `bearing_tolerances/${from}.yaml`), join(folder, `${to}.yaml`));
+cpSync(join(examples, "oil_circuit/model.yaml"), join(folder, "circuit.yaml"));
 const findings = new Findings(only);
 const begun = performance.now();
 const server = await serve(resolve(program), folder);
@@ -172,6 +173,38 @@ await findings.check("the Stribeck curve and its like are drawn at the sliders' 
   await matrix.scrollIntoViewIfNeeded();
   await picture(page, "10-coefficients");
   page.off("response", note);
+});
+
+await findings.check("a run shows its film's pressure and its oil circuit while it goes on", async () => {
+  await openFile("circuit.yaml");
+  await state(page, "Ready to run");
+  await goTo(page, "duration: ");
+  await page.getByRole("button", { name: "Run with …" }).click();
+  await page.locator("dialog").getByLabel("Overrides").fill("simulation.duration=5 s\noutput.fields_every=2 ms");
+  await page.locator(".override-faults .good").waitFor();
+  await page.locator("dialog").getByRole("button", { name: "Run", exact: true }).click();
+  await page.locator(".run-state.running").waitFor();
+  await page.locator(".live-map canvas").waitFor({ timeout: 20000 });
+  const when = () => page.locator(".live-map-title").innerText();
+  const before = await when();
+  claim(/stored last at .* ms/.test(before), before);
+  await until("the map does not go on", async () => (await when()) !== before);
+  await page.locator(".live-map").scrollIntoViewIfNeeded();
+  await picture(page, "11-live-map");
+  await page.locator(".live-pane select").selectOption("Oil circuit");
+  const names = await page.locator('[data-plot="circuit_pressure"] .legend-entry').allInnerTexts();
+  claim([...names].sort().join() === "gallery,main_1,main_2,sump", `nodes: ${names}`);
+  claim((await page.locator('[data-plot="circuit_flow"] .legend-entry').count()) === 4, "not every element has its flow");
+  await page.locator('[data-plot="circuit_pressure"] canvas').waitFor();
+  await page.waitForTimeout(300);
+  await picture(page, "12-live-circuit");
+  claim(!(await page.locator(".live-map").isVisible()), "a film's map beside the circuit");
+  await page.reload();
+  await page.locator(".run-state.running").waitFor();
+  await page.locator(".live-map canvas").waitFor({ timeout: 20000 });
+  claim((await page.locator(".live-pane select option").allInnerTexts()).includes("Oil circuit"), "the circuit is not found again");
+  await page.locator(".bar .stop").click();
+  await page.locator(".run-state.stopped").waitFor();
 });
 
 await findings.check("the page says nothing that it must not; axe-core finds nothing in it", async () => {

@@ -116,6 +116,7 @@ export interface RunEvent {
   share?: number;
   text?: string;
   bearings?: Record<string, { h_min?: number; p_max?: number; e_x?: number; e_y?: number; [further: string]: number | undefined }>;
+  circuit?: { nodes: Record<string, { pressure: number | null; drawn: number | null; temperature?: number }>; flows: Record<string, number | null> };
 }
 
 /** The server said no: why, and what to do. */

@@ -119,6 +119,8 @@ export const texts = {
   showLive: "Plots",
   liveOf: "Which run",
   noLive: "Plots appear while a run goes on.",
+  liveMap: (t: string) => `Film pressure, stored last at ${t}`,
+  circuit: { title: "Oil circuit", pressure: "pressure", flow: "flow", temperature: "T" },
   noLog: "Choose a run to read its log.",
   liveBearing: "Bearing",
   hMin: "Minimum film thickness",

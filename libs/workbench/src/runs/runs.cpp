@@ -22,6 +22,7 @@
 #include "hersey/core/write_file.h"
 #include "hersey/results/output_lock.h"
 #include "hersey/session/session.h"
+#include "runs/study_start.h"
 
 namespace hersey::workbench {
 namespace {
@@ -35,7 +36,6 @@ constexpr std::uintmax_t kMostModel = std::uintmax_t{16} << 20;
 constexpr std::uintmax_t kMostTail = 64 << 10;
 constexpr std::uintmax_t kMostRecord = 1 << 20;
 constexpr double kReportTime = 300;  // [s]
-constexpr int kMostJobs = 4096;      // of a study at the same time
 constexpr const char* kLost = "its process ended without a word: it was killed, or the machine was";
 constexpr const char* kNoObject = "?";  // in place of the beginning of a line, the rest of which is to be left out
 
@@ -174,23 +174,6 @@ void check_override(const std::string& change) {
       std::none_of(change.begin(), change.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   if (!is_plain || change.find('=') == std::string::npos || change.size() > 10'000)
     throw Refused(422, fmt::format("'{}' changes nothing", change), "write it as load=500N");
-}
-
-/// How a study is to be done.
-void note_study(const json& request, json& record) {
-  record["study"] = true;
-  record["on"] = record_text(request, "on") == "slurm" ? "slurm" : "local";
-  if (const double jobs = record_number(request, "jobs"); jobs != 0) {
-    if (!(jobs >= 1 && jobs <= kMostJobs))
-      throw Refused(422, fmt::format("{} jobs at the same time", jobs),
-                    fmt::format("a number from 1 to {}", kMostJobs));
-    record["jobs"] = static_cast<int>(jobs);
-  }
-  if (const std::string partition = record_text(request, "partition"); !partition.empty()) {
-    if (partition != plain(partition))
-      throw Refused(422, fmt::format("'{}' is no name of a partition", partition), "letters, digits, - and _");
-    record["partition"] = partition;
-  }
 }
 
 /// What the events say of the last start of a run.
@@ -437,11 +420,7 @@ void Runs::launch(const std::string& id, json record, bool resumes) {
     words.push_back("--set=" + change);
   }
   if (is_study) {
-    words.insert(words.end(), {"--on", record_text(record, "on") == "slurm" ? "slurm" : "local"});
-    if (const double jobs = record_number(record, "jobs"); jobs >= 1 && jobs <= kMostJobs)
-      words.push_back(fmt::format("--jobs={:.0f}", jobs));
-    if (const std::string partition = record_text(record, "partition"); !partition.empty())
-      words.push_back("--partition=" + plain(partition));
+    add_study_words(record, words);
   } else {
     words.insert(words.end(), {"--events", (folder / "events.ndjson").string()});
     if (resumes) words.emplace_back("--resume");

@@ -5,11 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -21,6 +19,7 @@
 
 #include "hersey/workbench/refused.h"
 #include "runs/process.h"
+#include "runs/temporary_folder.h"
 
 namespace hersey::workbench {
 namespace {
@@ -31,29 +30,6 @@ using StudyPath = std::filesystem::path;
 constexpr double kPlanTime = 60;  // [s]
 constexpr std::size_t kMostRecords = 1000;
 constexpr std::uintmax_t kMostPart = std::uintmax_t{4} << 20;  // of a file of records at a time
-
-/// A folder for one question, gone with it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "hersey-plan-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-      throw Refused(507, fmt::format("no temporary folder can be made: {}", std::strerror(errno)),
-                    "make room on the disk");
-    path_ = pattern;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  [[nodiscard]] StudyPath file(const char* name) const { return path_ / name; }
-
- private:
-  StudyPath path_;
-};
 
 /// Content of a regular file that is no link, from `begin` on; empty if there is none.
 std::string study_part(const StudyPath& file, std::uintmax_t begin, std::uintmax_t most) {

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "hersey/core/version.h"
+#include "runs/latest_film.h"
 #include "server/assets.h"
 #include "server/guard.h"
 
@@ -140,6 +141,8 @@ Reply Api::of_run(const Request& request) {
   if (call == "GET/log") return {.type = "text/plain; charset=utf-8", .body = runs_.log(id)};
   if (call == "GET/events") return {.type = "application/x-ndjson", .body = runs_.history(id, kMostSteps)};
   if (call == "GET/study") return {.body = studies_.course(id, request.value("after"))};
+  if (call == "GET/film")
+    return {.body = latest_film(runs_.program(), folder_.path(), runs_.find(id), request.value("bearing"))};
   if (call == "GET/model") return {.type = "text/plain; charset=utf-8", .body = runs_.model_text(id)};
   if (call == "POST/report") return report({id});
   if (call == "POST/stop") return runs_.stop(id), json_reply({{"id", id}});
