@@ -162,8 +162,8 @@ std::string Studies::course(const std::string& id, const std::string& after) con
       const json record = study_object(line);
       if (record.is_null()) continue;
       if (const auto units = record.find("describe"); units != record.end() && units->is_object())
-        for (const auto& [figure, told] : units->items())
-          answer["units"][figure] = {{"unit", told.value("unit", "")}, {"si", told.value("si", 1.0)}};
+        for (const auto& [figure, described] : units->items())
+          answer["units"][figure] = {{"unit", described.value("unit", "")}, {"si", described.value("si", 1.0)}};
       else if (record.contains("run") && record.contains("values"))
         answer["records"].push_back(shown_record(record, wanted));
     }
