@@ -90,6 +90,16 @@ struct ReportArguments {
   bool all = false;  ///< print every figure, however many
 };
 
+struct FilmArguments {
+  std::filesystem::path results;
+  std::string bearing;
+  std::filesystem::path output;
+};
+
+/// `hersey film`: the latest stored fields of a bearing's film as JSON, for programs that show a run while it goes on.
+/// @returns an ExitCode
+[[nodiscard]] int film_command(const FilmArguments& arguments);
+
 /// `hersey report`: the HTML report of one results file, or of several as a study. @returns an ExitCode.
 [[nodiscard]] int report_command(const ReportArguments& arguments);
 

@@ -7,9 +7,12 @@
 #include "exit_code.h"
 #include "fault_json.h"
 #include "hersey/core/input_error.h"
+#include "hersey/core/write_file.h"
 #include "hersey/model/read.h"
 #include "hersey/model/schema.h"
+#include "hersey/report/latest_film.h"
 #include "hersey/report/report.h"
+#include "hersey/results/reader.h"
 #include "hersey/run/quantities.h"
 #include "hersey/session/output_file.h"
 #include "hersey/session/session.h"
@@ -91,6 +94,12 @@ int report_command(const ReportArguments& arguments) {
                             : arguments.all              ? summary_text(rows)
                                                          : screen_text(rows, "--all");
   fmt::print("{}\nreport: {}\n", table, page.string());
+  return kOk;
+}
+
+int film_command(const FilmArguments& arguments) {
+  const results::Reader reader(arguments.results);
+  write_file(arguments.output, {report::latest_film_json(reader, arguments.bearing)});
   return kOk;
 }
 

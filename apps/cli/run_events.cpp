@@ -41,6 +41,16 @@ EventJson json_of(const std::vector<run::BearingProgress>& bearings) {
   return figures;
 }
 
+EventJson json_of(const run::CircuitProgress& circuit) {
+  EventJson nodes = EventJson::object(), flows = EventJson::object();
+  for (const run::CircuitProgress::Node& node : circuit.nodes) {
+    nodes[node.name] = {{"pressure", finite(node.pressure)}, {"drawn", finite(node.drawn)}};
+    if (std::isfinite(node.temperature)) nodes[node.name]["temperature"] = node.temperature;
+  }
+  for (const run::CircuitProgress::Element& element : circuit.elements) flows[element.name] = finite(element.flow);
+  return {{"nodes", std::move(nodes)}, {"flows", std::move(flows)}};
+}
+
 const char* word(run::Status status) {
   switch (status) {
     case run::Status::completed:
@@ -112,16 +122,20 @@ void RunEvents::stepped(std::size_t run, const run::Progress& progress) {
   const double span = progress.t_end - progress.t_start;
   const double part = span > 0 ? std::clamp((progress.t - progress.t_start) / span, 0.0, 1.0) : 0.0;
   const double share = (static_cast<double>(finished_) + part) / static_cast<double>(runs_);
-  write({{"kind", "stepped"},
-         {"run", run},
-         {"t", progress.t},
-         {"t_end", progress.t_end},
-         {"share", share},
-         {"dt", progress.dt},
-         {"newton_iterations", progress.newton_iterations},
-         {"moft", finite(progress.moft)},
-         {"elapsed", progress.elapsed},
-         {"bearings", json_of(progress.bearings ? progress.bearings() : std::vector<run::BearingProgress>{})}});
+  EventJson event{{"kind", "stepped"},
+                  {"run", run},
+                  {"t", progress.t},
+                  {"t_end", progress.t_end},
+                  {"share", share},
+                  {"dt", progress.dt},
+                  {"newton_iterations", progress.newton_iterations},
+                  {"moft", finite(progress.moft)},
+                  {"elapsed", progress.elapsed},
+                  {"bearings", json_of(progress.bearings ? progress.bearings() : std::vector<run::BearingProgress>{})}};
+  if (const run::CircuitProgress circuit = progress.circuit ? progress.circuit() : run::CircuitProgress{};
+      !circuit.nodes.empty())
+    event["circuit"] = json_of(circuit);
+  write(event);
 }
 
 void RunEvents::cycle_ended(std::size_t run, const run::CycleProgress& cycle) {

@@ -80,6 +80,16 @@ void add_report(CLI::App& app, Commands& commands) {
   commands.push_back({command, [report] { return report_command(*report); }});
 }
 
+// The workbench asks it of runs that go on: a damaged file then costs this program and not that one.
+void add_film(CLI::App& app, Commands& commands) {
+  const auto film = std::make_shared<FilmArguments>();
+  CLI::App* command = app.add_subcommand("film", "Write the latest fields of a film as JSON")->group("");
+  command->add_option("RESULTS", film->results, "Results file (.h5)")->required();
+  command->add_option("--bearing", film->bearing, "Which bearing")->required();
+  command->add_option("--output", film->output, "File to write")->required();
+  commands.push_back({command, [film] { return film_command(*film); }});
+}
+
 void add_bearing(CLI::App& app, Commands& commands) {
   const auto bearing = std::make_shared<BearingArguments>();
   CLI::App* command = app.add_subcommand(
@@ -156,6 +166,7 @@ void add_run_commands(CLI::App& app, Commands& commands) {
   add_run(app, commands);
   add_check(app, commands);
   add_report(app, commands);
+  add_film(app, commands);
   add_bearing(app, commands);
 }
 

@@ -9,9 +9,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "commands.h"
 #include "exit_code.h"
@@ -164,10 +166,17 @@ std::filesystem::path own_path(const std::string& fallback) {
   return error ? std::filesystem::absolute(fallback) : path;
 }
 
+session::Session session_of(const StudyPlanArguments& arguments) {
+  if (arguments.text.empty()) return session::Session(arguments.model, arguments.overrides);
+  std::ifstream file(arguments.text, std::ios::binary);
+  if (!file) throw std::runtime_error(arguments.text + ": cannot be read");
+  return {std::string{std::istreambuf_iterator<char>(file), {}}, arguments.model, arguments.overrides};
+}
+
 }  // namespace
 
 int study_plan_command(const StudyPlanArguments& arguments) {
-  const session::Session session(arguments.model, arguments.overrides);
+  const session::Session session = session_of(arguments);
   const model::Model& model = session.model();
   if (!model.study)
     throw InputError(Fault{{arguments.model, 0, 0}, "study", "no study", "a section `study` in the model file", ""});
@@ -178,7 +187,7 @@ int study_plan_command(const StudyPlanArguments& arguments) {
   json document{{"model", std::filesystem::absolute(arguments.model).lexically_normal().string()},
                 {"title", model.title},
                 {"version", version()},
-                {"fingerprint", model::model_fingerprint(arguments.model)},
+                {"fingerprint", arguments.text.empty() ? model::model_fingerprint(arguments.model) : ""},
                 {"analysis", is_simulated(model) ? "simulation" : "steady"},
                 {"set", arguments.overrides},
                 {"plan", word(study.plan)},
@@ -231,6 +240,8 @@ int study_command(const StudyArguments& arguments) {
   if (arguments.chunk > 0) add("--chunk", std::to_string(arguments.chunk));
   if (arguments.again) words.emplace_back("--again");
   if (arguments.json) words.emplace_back("--json");
+  add("--plan", arguments.plan);
+  if (!arguments.plan.empty()) add("--text", arguments.text);
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
   for (std::string& text : words) argv.push_back(text.data());

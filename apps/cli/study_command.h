@@ -18,6 +18,8 @@ struct StudyArguments {
   int chunk = 0;                 ///< runs of one task of the cluster; 0: chosen
   bool again = false;            ///< failed runs too
   bool json = false;
+  std::string plan;     ///< file to write the planned runs to, none of which is done; -: printed
+  std::string text;     ///< file whose text stands in for the model's
   std::string program;  ///< argv[0]
 };
 
@@ -28,6 +30,7 @@ struct StudyPlanArguments {
   std::string model;
   std::vector<std::string> overrides;
   bool any_figure = false;  ///< names of figures are not checked: another program answers
+  std::string text;         ///< file whose text stands in for the model's
 };
 
 /// `hersey study-plan`: the model's study, checked, as JSON. @returns an ExitCode. @throws InputError

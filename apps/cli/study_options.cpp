@@ -32,6 +32,9 @@ void add_study(CLI::App& app, Commands& commands, const std::string& program) {
   command->add_option("--runner", study->runner, "Another program that answers runs, one line of JSON each")
       ->type_name("COMMAND");
   command->add_flag("--json", study->json, "Print the results as JSON");
+  command->add_option("--plan", study->plan, "Write the runs that are planned as JSON (-: print them), and do none")
+      ->type_name("FILE");
+  command->add_option("--text", study->text, "File with a text in place of the model's")->group("");
   commands.push_back({command, [study] { return study_command(*study); }});
 }
 
@@ -42,6 +45,7 @@ void add_study_plan(CLI::App& app, Commands& commands) {
   command->add_option("MODEL", plan->model, "Model file")->required();
   add_overrides(*command, plan->overrides);
   command->add_flag("--any-figure", plan->any_figure, "Do not check names of figures");
+  command->add_option("--text", plan->text, "File with a text in place of the model's");
   commands.push_back({command, [plan] { return study_plan_command(*plan); }});
 }
 

@@ -1,11 +1,14 @@
 """`hersey study`, called by the program with its own path."""
 
 import argparse
+import json
 import os
 import signal
 import sys
 
 OK, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+# Of a plan: more than anyone reads.
+MOST_SHOWN = 1000
 
 
 def arguments():
@@ -21,6 +24,8 @@ def arguments():
     parser.add_argument("--runner", default="")
     parser.add_argument("--again", action="store_true")
     parser.add_argument("--json", action="store_true")
+    parser.add_argument("--plan", default="", metavar="FILE")
+    parser.add_argument("--text", default="")
     return parser.parse_args()
 
 
@@ -46,12 +51,44 @@ def has_packages(settings):
     return not lacking
 
 
+def plan_shown(settings, texts, identity=None):
+    """A plan for who looks at it: its first runs with their values, and their names where `identity` gives them."""
+    runs = [{"values": list(values), **({"run": identity(values)} if identity else {})} for values in texts[:MOST_SHOWN]]
+    return {"plan": settings["plan"], "samples": settings["samples"], "analysis": settings["analysis"],
+            "parameters": [{"name": p["name"], "unit": p["unit"]} for p in settings["parameters"]],
+            "objectives": settings["objectives"], "constraints": [c["text"] for c in settings["constraints"]],
+            "wanted": settings["wanted"], "runs": runs, "total": len(texts)}
+
+
+def write_plan(settings, path):
+    """Writes the runs that a study would do, none of which is done. An optimum's follow from each other: there are none."""
+    from . import plan
+    from .study import StudyError
+
+    needs_packages = settings["plan"] not in ("full_factorial", "list", "corners", "optimise")
+    if needs_packages and not has_packages(settings):
+        return FAILED
+    try:
+        texts = [] if settings["plan"] == "optimise" else plan.runs(settings)
+    except plan.PlanError as error:
+        raise StudyError(str(error)) from None
+    text = json.dumps(plan_shown(settings, texts)) + "\n"
+    if path == "-":
+        sys.stdout.write(text)
+        return OK
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+    return OK
+
+
 def work(args):
     from . import slurm
     from .study import Study, StudyError, default_folder, load
     from .table import Table
 
-    settings = load(args.program, args.model, args.set, args.runner)
+    settings = load(args.program, args.model, args.set, args.runner, args.text)
+    if args.plan:
+        return write_plan(settings, args.plan)
     if not has_packages(settings):
         return FAILED
     folder = args.out or default_folder(args.model)
@@ -64,10 +101,12 @@ def work(args):
                                  "--on local")
             from . import optimise
 
+            study.folder.write_json("plan.json", plan_shown(settings, []))
             study.table = Table(0, 0, settings["wanted"], study.folder.units)
             texts = optimise.search(study, jobs)
         else:
             texts = study.planned()
+            study.folder.write_json("plan.json", plan_shown(settings, texts, study.identity))
             done = study.folder.done(failed_too=not args.again)
             reused = len({study.identity(t) for t in texts} & done)
             study.table = Table(len(texts), reused, settings["wanted"], study.folder.units)

@@ -21,11 +21,14 @@ class StudyError(Exception):
     """What is wrong with a study, in words for the user."""
 
 
-def load(program, model, overrides=(), runner=""):
-    """The study of a model file, checked by the program itself: its messages are those of `hersey check`."""
+def load(program, model, overrides=(), runner="", text=""):
+    """The study of a model file, checked by the program itself: its messages are those of `hersey check`. `text` names
+    a file whose text stands in for the model's."""
     command = [program, "study-plan", model, *(f"--set={change}" for change in overrides)]
     if runner:
         command.append("--any-figure")
+    if text:
+        command += ["--text", text]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         if importlib.util.find_spec("numpy"):
             importlib.import_module("numpy")  # meanwhile

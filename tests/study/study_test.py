@@ -117,6 +117,19 @@ class Studies(unittest.TestCase):
         with open(os.path.join(self.out, "results.json"), encoding="utf-8") as file:
             return json.load(file)
 
+    def test_planned_runs_are_those_that_are_done(self):
+        model = self.model("  plan: sobol\n  samples: 4\n  parameters: {clearance: {distribution: uniform, low: 30 um, high: 40 um}}\n")
+        plan = json.loads(self.study(model, "--plan", "-").stdout)
+        self.assertFalse(os.path.exists(self.out), "a plan does nothing")
+        self.assertEqual(self.study(model).returncode, OK)
+        self.assertEqual([run["values"] for run in plan["runs"]], [run["values"] for run in self.plan_on_record()["runs"]])
+        done = {record["run"]: [text for _, text in record["values"]] for record in self.records()}
+        self.assertEqual(done, {run["run"]: run["values"] for run in self.plan_on_record()["runs"]})
+
+    def plan_on_record(self):
+        with open(os.path.join(self.out, "plan.json"), encoding="utf-8") as file:
+            return json.load(file)
+
     def test_indices_of_ishigami_are_those_of_the_closed_form(self):
         run = self.study(self.model(ISHIGAMI), *self.stand_in())
         self.assertEqual(run.returncode, OK, run.stderr)

@@ -294,7 +294,7 @@ const skirt: BearingKind = {
 
 const kinds = [journal, slider, thrust, skirt];
 
-export function kindOf(bearing: BearingText): BearingKind {
+export function kindOf(bearing: Pick<BearingText, "solutions">): BearingKind {
   if (bearing.solutions.some(({ films }) => films.length > 1)) return ring;
   const surface = surfaceOfPage(bearing);
   return kinds.find((kind) => kind.surface === surface) ?? journal;

@@ -135,7 +135,7 @@ export function surfaceOf(run: Run, bearing: string): Surface {
 }
 
 /** Likewise of a bearing by itself. */
-export function surfaceOfPage(bearing: BearingText): Surface {
+export function surfaceOfPage(bearing: Pick<BearingText, "solutions">): Surface {
   const known = new Set(bearing.solutions.flatMap(({ figures }) => figures.map(({ key }) => key)));
   return first((surface) => has(surface.mark, known) && [surface.along, surface.across].every(({ figure }) => known.has(`h_min_${figure}`)));
 }

@@ -8,6 +8,10 @@ export interface Hello {
   open: string | null;
   /** Number of the last event. */
   event?: number;
+  /** Of the machine that the program runs on. */
+  processors?: number;
+  /** Whether it can hand runs to a cluster. */
+  cluster?: boolean;
 }
 
 /** What a file holds, with "\n" between its lines. */
@@ -112,6 +116,7 @@ export interface RunEvent {
   share?: number;
   text?: string;
   bearings?: Record<string, { h_min?: number; p_max?: number; e_x?: number; e_y?: number; [further: string]: number | undefined }>;
+  circuit?: { nodes: Record<string, { pressure: number | null; drawn: number | null; temperature?: number }>; flows: Record<string, number | null> };
 }
 
 /** The server said no: why, and what to do. */

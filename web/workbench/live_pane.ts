@@ -6,6 +6,8 @@ import { dot } from "../src/clearance_circle";
 import { LinePlot } from "../src/line_plot";
 import { Orbit, type OrbitData } from "../src/orbit";
 import { palette } from "../src/theme";
+import { CircuitCourse, CircuitPlots } from "./live_circuit";
+import { LiveMap } from "./live_map";
 import { path } from "./runs_pane";
 import { texts } from "./texts";
 
@@ -89,6 +91,9 @@ class LowOrbit extends Orbit {
   }
 }
 
+/** In place of a bearing; no name has such letters. */
+const circuitChoice = "<circuit>";
+
 /** Between two readings of a log that grows [ms]. */
 const logPause = 2000;
 
@@ -102,6 +107,9 @@ export class LivePane {
   private courses = new Map<number, Course>();
   /** Radial clearances of its bearings, as it says when it starts [m]. */
   private clearances: Record<string, number> = {};
+  private circuits = new Map<number, CircuitCourse>();
+  private circuitPlots: CircuitPlots | null = null;
+  private readonly map: LiveMap;
   /** Which one of a study has said something last. */
   private newest = 0;
   /** Events that came while the older ones were asked for. */
@@ -109,6 +117,7 @@ export class LivePane {
   private run: RunEntry | null = null;
   private shownBearing = "";
   private drawn: { x: number[]; thickness: LinePlot; pressure: LinePlot; others: { key: Further; plot: LinePlot }[]; orbit: LowOrbit; path: { time: Float64Array; x: Float64Array; y: Float64Array; force: null; clearance: number } } | null = null;
+  private mapHeight = 150;
   private awaited = false;
   private lastDrawn = 0;
 
@@ -116,6 +125,7 @@ export class LivePane {
     private readonly api: Api,
     private readonly clearance: (run: RunEntry, bearing: string) => number | undefined,
   ) {
+    this.map = new LiveMap(api);
     setInterval(() => {
       if (this.run?.state === "running" && this.log.checkVisibility()) void this.readLog();
     }, logPause);
@@ -136,6 +146,7 @@ export class LivePane {
     if (isOther) {
       this.courses = new Map();
       this.clearances = {};
+      this.circuits = new Map();
       this.newest = 0;
       this.log.textContent = "";
       this.build();
@@ -149,6 +160,7 @@ export class LivePane {
   /** How far the runs are now. */
   update(runs: RunEntry[]): void {
     this.run = runs.find(({ id }) => id === this.run?.id) ?? this.run;
+    this.showMap();
   }
 
   async readLog(): Promise<void> {
@@ -180,7 +192,7 @@ export class LivePane {
     if (this.run?.id !== run.id) return;
     const early = this.early ?? [];
     this.early = null;
-    if (text) this.courses = new Map();
+    if (text) [this.courses, this.circuits] = [new Map(), new Map()];
     for (const line of text.split("\n")) {
       if (!/"(stepped|started)"/.test(line)) continue;
       try {
@@ -199,6 +211,11 @@ export class LivePane {
     const course = this.courses.get(number) ?? new Course();
     course.take(event);
     this.courses.set(number, course);
+    if (event.circuit) {
+      const circuit = this.circuits.get(number) ?? new CircuitCourse();
+      circuit.take(event);
+      this.circuits.set(number, circuit);
+    }
     this.newest = number;
   }
 
@@ -224,6 +241,16 @@ export class LivePane {
     return this.courses.get(this.newest);
   }
 
+  /** As high as the pane leaves room: title, legend and scroll bar stand beside. */
+  private get height(): number {
+    return Math.max(110, this.element.clientHeight - 48);
+  }
+
+  private showMap(): void {
+    const isOfBearing = this.drawn !== null && this.shownBearing !== "";
+    this.map.show(isOfBearing ? this.run : null, this.shownBearing, this.drawn ? this.mapHeight : this.height);
+  }
+
   private names(): string[] {
     return [...(this.course?.bearings.keys() ?? [])];
   }
@@ -231,25 +258,36 @@ export class LivePane {
   private build(): void {
     const names = this.names();
     const before = this.choice.value;
-    this.choice.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
-    if (names.includes(before)) this.choice.value = before;
-    this.choice.hidden = names.length < 2;
+    const circuit = this.circuits.get(this.newest);
+    this.choice.replaceChildren(...names.map((name) => h("option", { value: name }, name)), ...(circuit ? [h("option", { value: circuitChoice }, texts.circuit.title)] : []));
+    if ([...this.choice.options].some(({ value }) => value === before)) this.choice.value = before;
+    this.choice.hidden = this.choice.options.length < 2;
+    this.circuitPlots?.destroy();
+    this.circuitPlots = null;
     this.drawn?.thickness.destroy();
     this.drawn?.pressure.destroy();
     this.drawn?.orbit.destroy();
     this.drawn?.others.forEach(({ plot }) => plot.destroy());
     this.drawn = null;
+    if (circuit && this.choice.value === circuitChoice) {
+      this.shownBearing = "";
+      this.showMap();
+      this.circuitPlots = new CircuitPlots(circuit, this.height);
+      this.plots.replaceChildren(...this.circuitPlots.elements);
+      return;
+    }
     const bearing = this.choice.value;
     this.shownBearing = bearing;
     const { course } = this;
     const own = course?.bearings.get(bearing);
     if (!course || !own) {
       this.plots.replaceChildren(h("p", { class: "note" }, texts.noLive));
+      this.showMap();
       return;
     }
     const x: number[] = [];
-    // As high as the pane leaves room: title, legend and scroll bar stand beside.
-    const height = Math.max(110, this.element.clientHeight - 48);
+    const { height } = this;
+    this.mapHeight = height;
     const line = (name: string, label: string, unit: string) => new LinePlot({ name, x: { label: texts.time, unit: "ms", values: x }, left: { label: texts.short[name as "h_min" | "p_max"], unit, fromZero: true }, curves: [{ label, unit, y: [] }], height });
     // What this run tells besides, such as no temperatures where they are not solved for.
     const others = further
@@ -261,15 +299,18 @@ export class LivePane {
       h("div", { class: "live-plot", "data-plot": "h_min" }, this.drawn.thickness.element),
       h("div", { class: "live-plot", "data-plot": "p_max" }, this.drawn.pressure.element),
       h("div", { class: "live-plot live-orbit", "data-plot": "orbit" }, this.drawn.orbit.element),
+      this.map.element,
       ...others.map(({ key, plot }) => h("div", { class: "live-plot", "data-plot": key }, plot.element)),
     );
+    this.showMap();
     this.redraw();
   }
 
   private redraw(): void {
     const { course } = this;
     if (!course) return;
-    if (!this.drawn || this.names().length !== this.choice.options.length) {
+    if (this.circuitPlots) return this.circuitPlots.redraw();
+    if (!this.drawn || this.names().length + (this.circuits.has(this.newest) ? 1 : 0) !== this.choice.options.length) {
       if (this.names().length > 0) this.build();
       return;
     }

@@ -2,12 +2,14 @@
 
 import type { Api } from "./api";
 import { fieldsOnly, type FigureText, type SolutionText } from "../src/data";
+import { kindOf } from "../src/bearing_kinds";
 import { h } from "../src/dom";
 import { FieldMap } from "../src/field_map";
 import { unitText, valueText } from "../src/figure_text";
 import { FilmFields } from "../src/film_fields";
 import { Locus } from "../src/locus";
 import { format } from "../src/units";
+import { PointCurves } from "./point_curves";
 import { texts } from "./texts";
 import { quantityPattern } from "./units_of";
 import { child, find, type TextNode } from "./yaml_tree";
@@ -38,6 +40,8 @@ const knobs: Knob[] = [
   { key: "viscosity", unit: "mPa.s", usual: 10 },
 ];
 
+const shownKnobUnit = ({ unit }: Knob) => unit.replace("um", "µm").replace("mPa.s", "mPa·s");
+
 /** Groups of figures that are worth a line each, the first ones first. */
 const groups = ["film", "films", "pads", "operating point", "friction", "power", "oil", "heat", "stability of a rigid rotor", "numbers"];
 
@@ -46,6 +50,8 @@ export class PointPane {
   private readonly figures = h("table", { class: "figures-table" });
   private readonly map = h("div", { class: "pressure-map" });
   private readonly locus = h("div", { class: "point-locus" });
+  private readonly coefficients = h("div", { class: "point-coefficients" });
+  private readonly curves: PointCurves;
   private readonly status = h("p", { class: "note", role: "status" }, texts.solveStart);
   private readonly sliders = new Map<string, { input: HTMLInputElement; value: HTMLElement; middle: number; isKnown: boolean }>();
   private readonly touched = new Set<string>();
@@ -79,7 +85,33 @@ export class PointPane {
       this.write(knob);
       return [h("span", { class: "slider-name" }, texts.sliders[knob.key]), input, value, reset];
     });
-    this.element = h("div", { class: "point-pane" }, h("div", { class: "joint-sliders" }, ...rows), this.status, h("div", { class: "point-pictures" }, this.map, this.locus), this.figures);
+    this.curves = new PointCurves({
+      abscissae: () => knobs.filter(({ key }) => this.sliders.get(key)!.isKnown || this.touched.has(key)).map((knob) => ({ key: knob.key, label: texts.sliders[knob.key], unit: shownKnobUnit(knob), value: this.current(knob) })),
+      solve: async (key, value, previous) => {
+        const { id, solved, solution } = await this.solve({ [key]: value }, ["none"], previous);
+        return { id, solved, figures: solved ? solution.figures : [] };
+      },
+      present: () => this.previous,
+    });
+    this.element = h("div", { class: "point-pane" }, h("div", { class: "joint-sliders" }, ...rows), this.status, h("div", { class: "point-pictures" }, this.map, this.locus), this.curves.element, this.figures, this.coefficients);
+  }
+
+  /** Settings of the sliders for the program; `instead` are values in place of some. */
+  private settings(tree: TextNode, instead: Partial<Record<string, number>>): string[] {
+    // A bearing of a machine may have no operating point of its own.
+    const hasPoint = find(tree, ["bearings", this.bearing, "operating_point"]) !== undefined || find(tree, ["use"]) !== undefined;
+    const written = (knob: Knob) => `${Number((instead[knob.key] ?? this.current(knob)).toPrecision(5))} ${knob.unit}`;
+    const ofPoint = (knob: Knob) => knob.key === "load" || knob.key === "speed";
+    const set = knobs.filter((knob) => (this.touched.has(knob.key) || instead[knob.key] !== undefined) && (hasPoint || !ofPoint(knob))).map((knob) => `${knob.key}=${written(knob)}`);
+    if (!hasPoint) set.unshift(`bearings.${this.bearing}.operating_point={journal_speed: ${written(knobs[1]!)}, load: ${written(knobs[0]!)}}`);
+    return set;
+  }
+
+  private solve(instead: Partial<Record<string, number>>, fields: string[], previous: string | null): Promise<Answer> {
+    const model = this.model();
+    if (!model) return Promise.reject(new Error(texts.noBearing));
+    const set = this.settings(model.tree, instead);
+    return this.api.post<Answer>("/api/bearing", { path: model.path, text: model.text, bearing: this.bearing, set, fields, ...(previous ? { previous } : {}) });
   }
 
   /** The pane has come into sight, or the text has changed. */
@@ -88,6 +120,7 @@ export class PointPane {
       this.bearing = this.name();
       this.previous = null;
       this.touched.clear();
+      this.curves.clear();
       for (const knob of knobs) {
         const slider = this.sliders.get(knob.key)!;
         slider.input.value = "0";
@@ -104,7 +137,7 @@ export class PointPane {
   }
 
   private write(knob: Knob): void {
-    this.sliders.get(knob.key)!.value.textContent = `${format(this.current(knob), 3)} ${knob.unit.replace("um", "µm").replace("mPa.s", "mPa·s")}`;
+    this.sliders.get(knob.key)!.value.textContent = `${format(this.current(knob), 3)} ${shownKnobUnit(knob)}`;
   }
 
   private ask(): void {
@@ -118,15 +151,9 @@ export class PointPane {
       this.wanted = false;
       const model = this.model();
       if (!model || !this.bearing) break;
-      // A bearing of a machine may have no operating point of its own.
-      const hasPoint = find(model.tree, ["bearings", this.bearing, "operating_point"]) !== undefined || find(model.tree, ["use"]) !== undefined;
-      const written = (knob: Knob) => `${Number(this.current(knob).toPrecision(5))} ${knob.unit}`;
-      const ofPoint = (knob: Knob) => knob.key === "load" || knob.key === "speed";
-      const set = knobs.filter((knob) => this.touched.has(knob.key) && (hasPoint || !ofPoint(knob))).map((knob) => `${knob.key}=${written(knob)}`);
-      if (!hasPoint) set.unshift(`bearings.${this.bearing}.operating_point={journal_speed: ${written(knobs[1]!)}, load: ${written(knobs[0]!)}}`);
       const begun = performance.now();
       try {
-        const answer = await this.api.post<Answer>("/api/bearing", { path: model.path, text: model.text, bearing: this.bearing, set, fields: ["pressure"], ...(this.previous ? { previous: this.previous } : {}) });
+        const answer = await this.solve({}, ["pressure"], this.previous);
         this.previous = answer.id ?? this.previous;
         this.show(answer, model, performance.now() - begun);
       } catch (error) {
@@ -142,7 +169,12 @@ export class PointPane {
     this.status.textContent = answer.solved ? texts.solved(Math.round(ms)) : answer.message;
     if (!answer.solved) return;
     this.learn(answer, model);
-    const { figures } = answer.solution;
+    const coefficients = kindOf({ solutions: [answer.solution] }).coefficients(answer.solution);
+    this.coefficients.replaceChildren(...(coefficients ? [h("h3", {}, texts.coefficients), coefficients] : []));
+    // What stands in the tables of coefficients needs no lines besides.
+    const listed = new Set([...this.coefficients.querySelectorAll("[data-quantity]")].map((cell) => cell.getAttribute("data-quantity")));
+    const figures = answer.solution.figures.filter(({ key }) => !listed.has(key));
+    this.curves.solved((without) => JSON.stringify([this.bearing, model.text, this.settings(model.tree, { [without]: 1 })]));
     const known = [...groups.filter((group) => figures.some((f) => f.group === group)), ...new Set(figures.map(({ group }) => group).filter((group) => !groups.includes(group)))];
     this.figures.replaceChildren(
       ...known.map((group) =>

@@ -1,16 +1,18 @@
 // The runs of the folder and what is shown of one of them: the list, its plots, its log; starting and stopping.
 
-import type { Api, RunEntry, RunEvent } from "./api";
+import type { Api, Hello, RunEntry, RunEvent } from "./api";
 import type { OpenDocument } from "./editor";
 import { Tabs } from "./layout";
 import { LivePane } from "./live_pane";
 import type { OpenReport } from "./memory";
 import { RunsPane } from "./runs_pane";
 import { Starter } from "./starter";
+import { StudyPane } from "./study_pane";
 import { texts } from "./texts";
 
 export interface RunPanesHooks {
   api: Api;
+  hello: Hello;
   model: () => OpenDocument | null;
   isReady: () => boolean;
   save: (document: OpenDocument) => Promise<boolean>;
@@ -29,6 +31,7 @@ export class RunPanes {
   readonly list: RunsPane;
   readonly live: LivePane;
   readonly starter: Starter;
+  readonly study: StudyPane;
   readonly tabs: Tabs;
 
   /** @param problems  what stands first below: the list of faults */
@@ -36,18 +39,25 @@ export class RunPanes {
     private readonly hooks: RunPanesHooks,
     problems: HTMLElement,
   ) {
-    const { api, model, isReady, save, openReport, changed, say, fail } = hooks;
+    const { api, hello, model, isReady, save, openReport, changed, say, fail } = hooks;
     this.live = new LivePane(api, (run, bearing) => this.clearanceOf(run, bearing));
     this.list = new RunsPane({ api, say, chosen: (run) => void this.show(run), openReport, changed: () => this.listed() });
-    const started = (run: RunEntry) => (this.tabs.show("live"), this.show(run));
-    this.starter = new Starter({ api, runs: this.list, model, isReady, shownRun: () => this.live.shownRun, save, started, say, fail });
+    const started = (run: RunEntry) => (this.tabs.show(run.study ? "study" : "live"), this.show(run));
+    const hasStudy = () => this.study.hasStudy;
+    const planStudy = () => (this.tabs.show("study"), this.study.focusStart());
+    this.starter = new Starter({ api, runs: this.list, model, isReady, shownRun: () => this.live.shownRun, save, started, hasStudy, planStudy, say, fail });
+    const studies = () => this.list.runs.filter(({ study }) => study);
+    const counted = (runs: number) => this.tabs?.label("study", texts.studyTab(runs));
+    this.study = new StudyPane({ api, machine: hello, model, studies, start: (request) => this.starter.begin(request), act: (run, what) => this.list.act(run, what), counted });
     const contents = [
       { key: "problems", label: texts.problems, content: problems },
       { key: "live", label: texts.live, content: this.live.element },
+      { key: "study", label: texts.study, content: this.study.element },
       { key: "log", label: texts.log, content: this.live.log },
     ];
     this.tabs = new Tabs(texts.panes.below, contents, (key) => {
       if (key === "log") void this.live.readLog();
+      if (key === "study") setTimeout(() => this.study.refresh());
       changed();
     });
   }
@@ -71,7 +81,8 @@ export class RunPanes {
 
   private async show(run: RunEntry, open = true): Promise<void> {
     this.list.select(run.id);
-    if (open && this.tabs.current === "problems") this.tabs.show("live");
+    if (run.study) this.study.show(run.id);
+    if (open && (run.study ? this.tabs.current !== "log" : ["problems", "study"].includes(this.tabs.current))) this.tabs.show(run.study ? "study" : "live");
     await this.live.show(run);
     this.hooks.changed();
   }
@@ -79,6 +90,7 @@ export class RunPanes {
   private listed(): void {
     this.live.update(this.list.runs);
     this.starter.showButtons();
+    this.study.listed();
     this.hooks.listed();
     const shown = this.list.runs.find(({ id }) => id === this.live.shownRun);
     if (shown && shown.state !== "running") this.readShownLog();

@@ -121,9 +121,20 @@ export class RunsPane {
         { class: "run-tools" },
         isRunning ? act(texts.stop, () => api.post(`/api/runs/${path(run.id)}/stop`)) : null,
         run.can_resume ? act(texts.resume, () => api.post(`/api/runs/${path(run.id)}/resume`)) : null,
-        !isRunning && run.results.length > 0 ? act(texts.report, () => this.open(run)) : null,
+        !isRunning && (run.results.length > 0 || run.report) ? act(texts.report, () => this.open(run)) : null,
       ),
     );
+  }
+
+  /** Stops or resumes a run, or opens its report. */
+  async act(run: RunEntry, what: "stop" | "resume" | "report"): Promise<void> {
+    try {
+      if (what === "report") return await this.open(run);
+      await this.hooks.api.post(`/api/runs/${path(run.id)}/${what}`);
+      await this.load();
+    } catch (error) {
+      this.hooks.say(error instanceof Error ? error.message : String(error));
+    }
   }
 
   private async open(run: RunEntry): Promise<void> {

@@ -1,9 +1,10 @@
-// Starting the model that is open as a run, and stopping the run that is shown.
+// Starting the model that is open as a run or a study, with values of its text or other ones, and stopping the run that is shown.
 
 import type { Api, RunEntry } from "./api";
 import { h } from "../src/dom";
 import { ask } from "./dialogs";
 import type { OpenDocument } from "./editor";
+import { askOverrides } from "./overrides";
 import type { RunsPane } from "./runs_pane";
 import { texts } from "./texts";
 
@@ -16,12 +17,24 @@ export interface StarterHooks {
   shownRun: () => string;
   save: (document: OpenDocument) => Promise<boolean>;
   started: (run: RunEntry) => Promise<void>;
+  /** Whether the model plans a study, which is shown before it is started. */
+  hasStudy: () => boolean;
+  planStudy: () => void;
   say: (words: string) => void;
   fail: (error: unknown) => void;
 }
 
+/** What a run takes besides the model. */
+export interface StartRequest {
+  set: string[];
+  study?: true;
+  on?: string;
+  jobs?: number;
+}
+
 export class Starter {
   readonly runButton = h("button", { type: "button", class: "main-button", click: () => void this.run() }, texts.run);
+  readonly runWithButton = h("button", { type: "button", class: "quiet", title: texts.overrides.help, click: () => void this.runWith() }, texts.overrides.runWith);
   readonly stopButton = h("button", { type: "button", class: "quiet stop", disabled: true, click: () => void this.stop() }, texts.stop);
   private isStarting = false;
 
@@ -29,17 +42,36 @@ export class Starter {
 
   /** A second start has to wait until the first one is known. */
   showButtons(): void {
-    this.runButton.disabled = !this.hooks.isReady() || this.isStarting;
+    const hasStudy = this.hooks.hasStudy();
+    const isReady = this.hooks.isReady() && !this.isStarting;
+    this.runButton.textContent = hasStudy ? texts.studies.open : texts.run;
+    this.runButton.disabled = !isReady && !hasStudy;
+    this.runWithButton.disabled = !isReady || hasStudy;
     this.stopButton.disabled = this.hooks.runs.running.length === 0;
   }
 
+  /** A study is planned first. */
   async run(): Promise<void> {
+    if (this.runButton.disabled) return;
+    if (this.hooks.hasStudy()) this.hooks.planStudy();
+    else await this.begin({ set: [] });
+  }
+
+  /** Asks for other values first. */
+  async runWith(): Promise<void> {
     const document = this.hooks.model();
-    if (!document || this.runButton.disabled) return;
+    if (!document || this.runWithButton.disabled) return;
+    const set = await askOverrides(this.hooks.api, document);
+    if (set) await this.begin({ set });
+  }
+
+  async begin(request: StartRequest): Promise<void> {
+    const document = this.hooks.model();
+    if (!document || this.isStarting) return;
     this.isStarting = true;
     this.showButtons();
     try {
-      await this.start(document);
+      await this.start(document, request);
     } catch (error) {
       this.hooks.fail(error);
     } finally {
@@ -48,7 +80,7 @@ export class Starter {
     }
   }
 
-  private async start(document: OpenDocument): Promise<void> {
+  private async start(document: OpenDocument, request: StartRequest): Promise<void> {
     const { api, runs, save, say, started } = this.hooks;
     if (document.isDirty) {
       const answer = await ask(texts.saveFirst(document.name), [
@@ -57,7 +89,7 @@ export class Starter {
       ]);
       if (answer !== "save" || !(await save(document))) return;
     }
-    const { id } = await api.post<{ id: string }>("/api/runs", { path: document.path, set: [], etag: document.etag });
+    const { id } = await api.post<{ id: string }>("/api/runs", { path: document.path, etag: document.etag, ...request });
     say(texts.started(id));
     await runs.load();
     const run = runs.runs.find((r) => r.id === id);

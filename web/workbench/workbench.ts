@@ -72,14 +72,14 @@ export class Workbench {
     this.checkState = new CheckState(() => this.showProblems());
     const openReport = (report: OpenReport) => this.documents.openReport(report);
     const clearance = (bearing: string) => this.panes.machine.run?.number(`/bearings/${bearing}`, "radial_clearance");
-    this.runs = new RunPanes({ api, model, isReady: () => this.checkState.isReady, save: (document) => documentFiles.save(document), openReport, clearance, listed: () => this.fileList.draw(), changed, say, fail }, this.problems.element);
+    this.runs = new RunPanes({ api, hello, model, isReady: () => this.checkState.isReady, save: (document) => documentFiles.save(document), openReport, clearance, listed: () => this.fileList.draw(), changed, say, fail }, this.problems.element);
     this.outline = new Outline((at) => this.places.goToOffset(at));
     const files = () => (void this.fileList.load(), void documentFiles.refresh());
     this.news = new News({ notices, files, runs: () => void this.runs.load(), run: (event) => this.runs.hear(event), model: () => model()?.path, modelFiles: () => this.checker.soon(), back: () => this.back() });
     const { starter } = this.runs;
     const beginButton = h("button", { type: "button", class: "quiet", click: begin }, texts.begin);
     this.element = frame({
-      bar: bar(hello.folder, [beginButton, this.saveButton, this.checkState.button], [starter.runButton, starter.stopButton]),
+      bar: bar(hello.folder, [beginButton, this.saveButton, this.checkState.button], [starter.runButton, starter.runWithButton, starter.stopButton]),
       left: [[texts.files, this.fileList.element], [texts.runs, this.runs.list.element], [texts.outline, this.outline.element]],
       middle: [this.documents.bar, this.documents.area],
       right: this.panes.tabs.element,
@@ -207,6 +207,7 @@ export class Workbench {
   private showScene(scene: SceneText | null, document: OpenDocument): void {
     this.panes.show(scene, () => this.places.partAtCursor(document));
     if (this.documents.active === document.path) this.outline.show(document.tree);
+    this.runs.study.refresh();
   }
 
   private found(findings: Findings | null, runs = 1): void {

@@ -38,6 +38,22 @@ std::vector<BearingProgress> bearings_of(const model::Model& model, const StepRe
   return figures;
 }
 
+CircuitProgress circuit_of(const model::Model& model, const StepRecord& step) {
+  CircuitProgress figures;
+  const bearing::CircuitObservation& seen = step.circuit;
+  if (!model.circuit || seen.pressures.size() == 0) return figures;
+  for (std::size_t i = 0; i < model.circuit->network.nodes.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    figures.nodes.push_back(
+        {.name = model.circuit->network.nodes[i].name, .pressure = seen.pressures[k], .drawn = seen.drawn[k]});
+    if (seen.temperatures.size() > 0) figures.nodes.back().temperature = seen.temperatures[k];
+  }
+  for (std::size_t i = 0; i < model.circuit->network.elements.size(); ++i)
+    figures.elements.push_back(
+        {.name = model.circuit->network.elements[i].name, .flow = seen.flows[static_cast<Eigen::Index>(i)]});
+  return figures;
+}
+
 }  // namespace
 
 MachineRun::MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint,
@@ -192,7 +208,8 @@ void MachineRun::report_progress(const StepRecord& step) const {
                         .newton_iterations = step.newton_iterations,
                         .moft = record_.moft(),
                         .elapsed = elapsed(),
-                        .bearings = [this, &step] { return bearings_of(model_, step); }});
+                        .bearings = [this, &step] { return bearings_of(model_, step); },
+                        .circuit = [this, &step] { return circuit_of(model_, step); }});
 }
 
 Outcome MachineRun::finish(Status status, const std::string& message, const Summary* coarse) {

@@ -10,6 +10,7 @@
 #include "runs/run_files.h"
 #include "runs/run_record.h"
 #include "runs/runs.h"
+#include "runs/study_start.h"
 
 namespace hersey::workbench {
 namespace {
@@ -49,8 +50,7 @@ std::string Runs::start(const json& request) {
     if (error) cannot_make(runs / next, error);
   }
   json record{{"version", version()}, {"model", path}, {"set", overrides}, {"started", seconds_since_1970()}};
-  if (record_flag(request, "study"))
-    record["study"] = true, record["on"] = record_text(request, "on") == "slurm" ? "slurm" : "local";
+  if (record_flag(request, "study")) note_study(request, record);
   write_text(runs / id / "model.txt", model.text);
   launch(id, std::move(record), false);
   return id;
@@ -67,7 +67,7 @@ void Runs::launch(const std::string& id, json record, bool resumes) {
     words.push_back("--set=" + change);
   }
   if (is_study) {
-    words.insert(words.end(), {"--on", record_text(record, "on") == "slurm" ? "slurm" : "local"});
+    add_study_words(record, words);
   } else {
     words.insert(words.end(), {"--events", (folder / "events.ndjson").string()});
     if (resumes) words.emplace_back("--resume");

@@ -42,12 +42,15 @@ class Runs {
   Runs& operator=(const Runs&) = delete;
   ~Runs();
 
+  /// The program that runs are started with.
+  [[nodiscard]] const std::filesystem::path& program() const { return program_; }
+
   /// All runs, the newest first: at most 500.
   [[nodiscard]] std::vector<RunEntry> list() const;
   /// @throws Refused 404
   [[nodiscard]] RunEntry find(const std::string& id) const;
   /// Starts a run of a saved model. @returns its id
-  /// @param request  {path, set, etag?, threads?, study?, on?}
+  /// @param request  {path, set, etag?, study?, on?, jobs?, partition?}; the last three of a study
   /// @throws Refused 409 if the file no longer has the mark `etag`; 403, 507 if its folder cannot be made
   std::string start(const nlohmann::json& request);
   /// Asks it to stop as Ctrl-C does, and notes so in its record: it may not have come so far as to report it itself.

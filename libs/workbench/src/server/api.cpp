@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdint>
@@ -11,8 +12,10 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "hersey/core/version.h"
+#include "runs/latest_film.h"
 #include "server/assets.h"
 #include "server/guard.h"
 
@@ -118,6 +121,7 @@ Reply Api::route(const Request& request) {
   if (call == "POST new") return ask(&Answers::new_model);
   if (call == "POST cad") return start_cad(request);
   if (path.starts_with("/api/cad/")) return of_cad(request);
+  if (call == "POST plan") return {.body = studies_.plan(json::parse(request.body))};
   if (call == "GET runs") return run_list();
   if (call == "POST runs") return json_reply({{"id", runs_.start(json::parse(request.body))}});
   if (call == "POST compare") return report(json::parse(request.body).at("ids").get<std::vector<std::string>>());
@@ -172,6 +176,9 @@ Reply Api::of_run(const Request& request) {
   constexpr std::size_t kMostSteps = 4000;  // more than a screen has columns
   if (call == "GET/log") return {.type = "text/plain; charset=utf-8", .body = runs_.log(id)};
   if (call == "GET/events") return {.type = "application/x-ndjson", .body = runs_.history(id, kMostSteps)};
+  if (call == "GET/study") return {.body = studies_.course(id, request.value("after"))};
+  if (call == "GET/film")
+    return {.body = latest_film(runs_.program(), folder_.path(), runs_.find(id), request.value("bearing"))};
   if (call == "GET/model") return {.type = "text/plain; charset=utf-8", .body = runs_.model_text(id)};
   if (call == "POST/report") return report({id});
   if (call == "POST/stop") return runs_.stop(id), json_reply({{"id", id}});
@@ -232,7 +239,9 @@ Reply Api::hello() const {
   return json_reply({{"version", version()},
                      {"folder", folder_.path().string()},
                      {"open", open_.empty() ? json(nullptr) : json(open_)},
-                     {"event", events_.last()}});
+                     {"event", events_.last()},
+                     {"processors", std::max(1U, std::thread::hardware_concurrency())},
+                     {"cluster", Studies::has_cluster()}});
 }
 
 Reply Api::files() const {

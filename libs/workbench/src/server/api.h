@@ -13,6 +13,7 @@
 #include "folder/folder.h"
 #include "hersey/workbench/answers.h"
 #include "runs/runs.h"
+#include "runs/studies.h"
 #include "server/exchange.h"
 
 namespace hersey::workbench {
@@ -20,17 +21,16 @@ namespace hersey::workbench {
 /// The routes of the workbench: the page, and the interface below /api/ (docs/workbench.md).
 class Api {
  public:
-  /// @param open     model that the page opens, relative to the folder; empty: none
-  /// @param program  `hersey`, which meshes CAD files
-  Api(Folder& folder, Runs& runs, EventLog& events, std::string open, const std::atomic<bool>& stop,
-      const std::filesystem::path& program = {})
+  /// @param open  model that the page opens, relative to the folder; empty: none
+  Api(Folder& folder, Runs& runs, EventLog& events, std::string open, const std::atomic<bool>& stop)
       : folder_(folder),
         runs_(runs),
         events_(events),
         open_(std::move(open)),
         stop_(stop),
         answers_(folder.path()),
-        cad_(folder, program) {}
+        cad_(folder, runs.program()),
+        studies_(folder, runs, runs.program()) {}
 
   [[nodiscard]] Reply handle(const Request& request);
 
@@ -54,6 +54,7 @@ class Api {
   const std::atomic<bool>& stop_;
   Answers answers_;
   CadMeshes cad_;
+  Studies studies_;
   std::once_flag schema_made_;
   std::string schema_;
   std::atomic<int> streams_ = 0;  // of events

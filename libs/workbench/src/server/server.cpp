@@ -28,7 +28,7 @@ class Server::Impl {
         folder_(options_.folder),
         token_(random_token()),
         runs_(folder_, events_, options_.program),
-        api_(folder_, runs_, events_, options_.open, ends_, options_.program),
+        api_(folder_, runs_, events_, options_.open, ends_),
         http_(
             token_, [this](const Request& request) { return api_.handle(request); }, options_.log) {
     bind();

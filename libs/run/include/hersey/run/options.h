@@ -19,6 +19,21 @@ struct BearingProgress {
   double T_max = std::numeric_limits<double>::quiet_NaN();  ///< hottest oil of a film with temperatures [K]
 };
 
+/// Figures of the oil circuit at an accepted step; empty of a machine without one.
+struct CircuitProgress {
+  struct Node {
+    std::string name;
+    double pressure = 0, drawn = 0;                                 ///< [Pa]; by films from it [m^3/s]
+    double temperature = std::numeric_limits<double>::quiet_NaN();  ///< of oil that carries heat along [K]
+  };
+  struct Element {
+    std::string name;
+    double flow = 0;  ///< [m^3/s]
+  };
+  std::vector<Node> nodes;
+  std::vector<Element> elements;
+};
+
 /// Progress of a run; handed to Options::on_progress after every accepted step.
 struct Progress {
   double t = 0, t_start = 0, t_end = 0;                   ///< [s]
@@ -29,6 +44,7 @@ struct Progress {
   /// Returns the figures of all bearings at this step; to be called, if wanted, before on_progress returns. May be
   /// empty.
   std::function<std::vector<BearingProgress>()> bearings = {};
+  std::function<CircuitProgress()> circuit = {};  ///< likewise
 };
 
 /// A cycle that has just ended; handed to Options::on_cycle.

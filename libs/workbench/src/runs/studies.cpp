@@ -1,0 +1,179 @@
+#include "runs/studies.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+#include "hersey/workbench/refused.h"
+#include "runs/process.h"
+#include "runs/temporary_folder.h"
+
+namespace hersey::workbench {
+namespace {
+
+using nlohmann::json;
+using StudyPath = std::filesystem::path;
+
+constexpr double kPlanTime = 60;  // [s]
+constexpr std::size_t kMostRecords = 1000;
+constexpr std::uintmax_t kMostPart = std::uintmax_t{4} << 20;  // of a file of records at a time
+
+/// Content of a regular file that is no link, from `begin` on; empty if there is none.
+std::string study_part(const StudyPath& file, std::uintmax_t begin, std::uintmax_t most) {
+  struct stat status {};
+  if (::lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  const auto size = static_cast<std::uintmax_t>(status.st_size);
+  if (size <= begin) return {};
+  std::ifstream stream(file, std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(begin));
+  std::string text(std::min(most, size - begin), '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  return text;
+}
+
+/// Null if it is none. What lies deeper than the program writes is left out: writing it again takes a call for each
+/// level.
+json study_object(const std::string& text) {
+  constexpr int kMostLevels = 16;
+  const json value = json::parse(
+      text, [](int depth, json::parse_event_t, json&) { return depth <= kMostLevels; }, false);
+  return value.is_object() ? value : json();
+}
+
+/// Records of the study itself, and those of tasks of a cluster, by their names relative to the folder.
+std::vector<std::string> record_files(const StudyPath& folder) {
+  std::vector<std::string> names{"records.jsonl"};
+  std::error_code error;
+  if (std::filesystem::is_symlink(folder / "shards", error)) return names;
+  std::filesystem::directory_iterator entry(folder / "shards", error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
+    if (entry->path().extension() == ".jsonl") names.push_back("shards/" + entry->path().filename().string());
+  std::sort(names.begin() + 1, names.end());
+  return names;
+}
+
+/// How far each file has been read: "120 shards/a.jsonl:300" without the first one's name.
+std::map<std::string, std::uintmax_t> places_of(const std::string& after) {
+  std::map<std::string, std::uintmax_t> places;
+  std::istringstream words(after);
+  for (std::string word; std::getline(words, word, ' ');) {
+    const std::size_t colon = word.rfind(':');
+    std::uintmax_t place = 0;
+    if (colon == std::string::npos) continue;
+    const auto [end, error] = std::from_chars(word.data() + colon + 1, word.data() + word.size(), place);
+    if (error != std::errc{} || end != word.data() + word.size())
+      throw Refused(400, "after is no place in a study", "reload the page");
+    places[word.substr(0, colon)] = place;
+  }
+  return places;
+}
+
+std::vector<std::string> wanted_in(const json& plan) {
+  std::vector<std::string> names;
+  if (const auto found = plan.find("wanted"); found != plan.end() && found->is_array())
+    for (const json& name : *found)
+      if (name.is_string()) names.push_back(name.get<std::string>());
+  return names;
+}
+
+/// Where a study names no figure, its runs show these.
+std::vector<std::string> usual_figures(const json& figures) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : figures.items())
+    for (const char* ending : {".h_min", ".p_max", ".power_film", ".moft", ".pofp", ".film_loss"})
+      if (name.ends_with(ending) && std::count(name.begin(), name.end(), '.') == 2) names.push_back(name);
+  constexpr std::size_t kMost = 8;
+  for (auto figure = figures.begin(); names.empty() && figure != figures.end() && names.size() < kMost; ++figure)
+    names.push_back(figure.key());
+  if (names.size() > kMost) names.resize(kMost);
+  return names;
+}
+
+json shown_record(const json& record, const std::vector<std::string>& wanted) {
+  json shown{{"run", record.value("run", "")}, {"status", record.value("status", "")}, {"values", json::array()}};
+  if (const auto found = record.find("values"); found != record.end() && found->is_array())
+    for (const json& pair : *found)
+      shown["values"].push_back(pair.is_array() && pair.size() == 2 ? pair.at(1) : json(nullptr));
+  if (record.contains("error")) shown["error"] = record["error"];
+  json figures = json::object();
+  if (const auto found = record.find("figures"); found != record.end() && found->is_object())
+    for (const std::string& name : wanted.empty() ? usual_figures(*found) : wanted)
+      figures[name] = found->value(name, json(nullptr));
+  shown["figures"] = std::move(figures);
+  return shown;
+}
+
+}  // namespace
+
+bool Studies::has_cluster() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty() && ::access((folder + "/sbatch").c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+std::string Studies::plan(const json& request) const {
+  const StudyPath model = folder_.resolve(request.at("path").get<std::string>());
+  const TemporaryFolder temporary;
+  const StudyPath text = temporary.file("text"), file = temporary.file("plan.json");
+  std::ofstream(text, std::ios::binary) << request.at("text").get<std::string>();
+  std::vector<std::string> words{program_.string(), "study",  model.string(), "--plan",
+                                 file.string(),     "--text", text.string()};
+  for (const json& change : request.value("set", json::array())) words.push_back("--set=" + change.get<std::string>());
+  std::string output;
+  if (run_to_end(words, folder_.path(), kPlanTime, output) != 0) {
+    output.erase(std::min(output.find_last_not_of(" \n") + 1, output.size()));
+    throw Refused(422, output.empty() ? "the study cannot be planned" : output, "");
+  }
+  std::string plan = study_part(file, 0, std::uintmax_t{16} << 20);
+  if (study_object(plan).is_null()) throw Refused(507, "the plan cannot be written", "make room on the disk");
+  return plan;
+}
+
+std::string Studies::course(const std::string& id, const std::string& after) const {
+  const RunEntry run = runs_.find(id);
+  if (!run.is_study) throw Refused(404, "this run is no study", "choose one of the list");
+  const StudyPath folder = folder_.path() / run.folder;
+  const json plan = study_object(study_part(folder / "plan.json", 0, std::uintmax_t{16} << 20));
+  const std::vector<std::string> wanted = plan.is_null() ? std::vector<std::string>{} : wanted_in(plan);
+  std::map<std::string, std::uintmax_t> places = places_of(after);
+  json answer{{"units", json::object()}, {"records", json::array()}};
+  if (after.empty()) answer["plan"] = plan;
+  for (const std::string& name : record_files(folder)) {
+    std::uintmax_t& place = places[name];
+    std::istringstream lines(study_part(folder / name, place, kMostPart));
+    for (std::string line; answer["records"].size() < kMostRecords && std::getline(lines, line) && !lines.eof();) {
+      place += line.size() + 1;
+      const json record = study_object(line);
+      if (record.is_null()) continue;
+      if (const auto units = record.find("describe"); units != record.end() && units->is_object())
+        for (const auto& [figure, described] : units->items())
+          answer["units"][figure] = {{"unit", described.value("unit", "")}, {"si", described.value("si", 1.0)}};
+      else if (record.contains("run") && record.contains("values"))
+        answer["records"].push_back(shown_record(record, wanted));
+    }
+  }
+  std::string at;
+  for (const auto& [name, place] : places) at += fmt::format("{}{}:{}", at.empty() ? "" : " ", name, place);
+  answer["at"] = at;
+  answer["more"] = answer["records"].size() == kMostRecords;
+  answer["state"] = run.state;
+  return answer.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace hersey::workbench
