@@ -192,6 +192,39 @@ await findings.check("a table is edited as a table, every other line stays as it
   await page.locator(".cm-content").waitFor();
 });
 
+await findings.check("surfaces of a mesh are chosen by the mouse and written into the model", async () => {
+  await openFile("four_bar.yaml");
+  await state(page, "Ready to run");
+  const first = await textOf(page);
+  await openFile("conrod.msh");
+  await page.locator(".mesh-space canvas").waitFor();
+  // Over the picture until something is hit: bores are small, the rod is slim.
+  const box = await page.locator(".mesh-space canvas").boundingBox();
+  const checked = () => page.locator(".mesh-table input:checked").evaluateAll((boxes) => boxes.map((e) => e.value));
+  for (let i = 1; i < 20 && (await checked()).length === 0; i++) await page.mouse.click(box.x + box.width / 2, box.y + (box.height * i) / 20);
+  const [picked] = await checked();
+  claim(picked !== undefined, "no click chooses a surface");
+  await picture(page, "28-mesh-picked");
+  const faults = await accessibilityFaults(page, "light");
+  claim(faults.length === 0, faults.join("\n"));
+  await page.getByLabel(`Choose ${picked}`).uncheck();
+  const row = page.locator(".mesh-table tr", { hasText: "45 mm" }).first();
+  await row.locator("input").check();
+  const name = (await checked())[0];
+  claim((await page.locator("dialog .template-text").innerText()).includes(`nodes: ${name}`), "the lines are not those of what was chosen");
+  await page.getByRole("button", { name: "Write them into four_bar.yaml" }).click();
+  await page.locator("dialog .note", { hasText: "1 surface written" }).waitFor();
+  await page.keyboard.press("Escape");
+  const text = await textOf(page);
+  claim(text.includes("flexible: {mesh: conrod.msh, length_unit: 1 mm}") && new RegExp(`nodes: ${name}, origin: .* mm`).test(text) && text.includes(`faces: ${name}}, diameter: 45 mm`), `the text says ${text}`);
+  await page.locator("dialog").waitFor({ state: "detached" });
+  for (let i = 0; i < 20 && (await textOf(page)) !== first; i++) {
+    await page.locator(".cm-content").focus();
+    await page.keyboard.press("Control+z");
+  }
+  claim((await textOf(page)) === first, `undo does not give the first text, but ${await textOf(page)}`);
+});
+
 await findings.check("a CAD file becomes a mesh with its bores, by gmsh; without gmsh the page says what to install", async () => {
   // A stand-in for gmsh: what it makes of a file is its own affair.
   const tools = mkdtempSync(join(tmpdir(), "hersey-tools-"));

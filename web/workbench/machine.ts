@@ -1,7 +1,7 @@
 // The machine as its text says, at its start: the report's picture, kept while the text changes; parts can be chosen,
 // joints moved, and the whole cut by a plane.
 
-import { AxesHelper, Line, Matrix4, Mesh, Plane, Quaternion, Raycaster, Vector2, Vector3, type MeshStandardMaterial, type Object3D } from "three";
+import { AxesHelper, Line, Matrix4, Mesh, Plane, Quaternion, Raycaster, Sprite, Vector2, Vector3, type MeshStandardMaterial, type Object3D } from "three";
 import type { Run } from "../src/data";
 import { MachineGeometry, type Link } from "../src/machine_geometry";
 import { MachineView } from "../src/machine_view";
@@ -67,13 +67,14 @@ export class WorkbenchMachine extends MachineView {
     this.bounds = this.boundingSphere();
     this.poses = null;
     if (!this.renderer) return;
-    const old = this.meshes();
+    const old = this.drawables();
     this.build();
     this.place();
     // Not before the new ones are drawn: shaders that nothing uses would have to be made again.
-    for (const mesh of old) {
-      mesh.geometry.dispose();
-      for (const paint of [mesh.material].flat()) paint.dispose();
+    for (const object of old) {
+      // Sprites have one geometry for all of them.
+      if (!(object instanceof Sprite)) object.geometry.dispose();
+      for (const paint of [object.material].flat()) paint.dispose();
     }
     if (this.bounds.radius > 2 * size || this.bounds.radius < 0.5 * size) this.reset();
   }
@@ -157,6 +158,13 @@ export class WorkbenchMachine extends MachineView {
     return (small ?? nearest).object.userData["part"] as string;
   }
 
+  private drawables(): (Mesh | Line | Sprite)[] {
+    const found: (Mesh | Line | Sprite)[] = this.forceLines.map(({ line }) => line);
+    for (const group of [...this.groups.values(), ...(this.drawn ? [this.drawn.group] : [])])
+      group.traverse((object: Object3D) => (object instanceof Mesh || object instanceof Line || object instanceof Sprite) && found.push(object));
+    return found;
+  }
+
   private meshes(): Mesh[] {
     const found: Mesh[] = [];
     for (const group of [...this.groups.values(), ...(this.drawn ? [this.drawn.group] : [])]) group.traverse((object: Object3D) => object instanceof Mesh && found.push(object));
@@ -185,7 +193,6 @@ export class WorkbenchMachine extends MachineView {
   }
 
   private drawMarks(): void {
-    this.drawn?.dispose();
     this.drawn = new MachineMarks(this.groups, this.bounds.radius);
     if (this.loadsShown && !this.marks.plain) {
       this.drawn.addLoads(this.marks.loads);
