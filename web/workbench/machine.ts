@@ -3,6 +3,7 @@
 
 import { AxesHelper, Line, Matrix4, Mesh, Plane, Quaternion, Raycaster, Sprite, Vector2, Vector3, type MeshStandardMaterial, type Object3D } from "three";
 import type { Run } from "../src/data";
+import { FrameHand, type FrameMark, type PlacedFrame } from "./frame_hand";
 import { MachineGeometry, type Link } from "../src/machine_geometry";
 import { MachineView } from "../src/machine_view";
 import { coil, MachineMarks, redraw, wordsOf, type Marks } from "./machine_marks";
@@ -24,8 +25,18 @@ export class WorkbenchMachine extends MachineView {
   private isTurned = false;
 
   /** @param pick  called with the part that was clicked, such as /bodies/rod; null beside them all */
-  constructor(run: Run, private marks: Marks, pick: (part: string | null) => void) {
+  constructor(run: Run, private marks: Marks, pick: (part: string | null) => void, moved: (frame: PlacedFrame) => void = () => undefined) {
     super(new MachineGeometry(run));
+    new FrameHand({
+      space: this.holder,
+      camera: this.camera,
+      turning: (is) => this.controls && (this.controls.enabled = is),
+      mark: (x, y) => this.frameAt(x, y),
+      chosen: () => (this.chosen ? this.frameCalled(this.chosen) : null),
+      size: () => this.bounds.radius,
+      draw: () => this.render(),
+      moved,
+    });
     // Who has turned the machine keeps the view; else it fits into every size of the pane.
     new ResizeObserver(() => this.controls && !this.isTurned && this.reset()).observe(this.holder);
     for (const kind of ["pointerdown", "wheel", "keydown"]) this.holder.addEventListener(kind, () => (this.isTurned = true), { passive: true });
@@ -156,6 +167,22 @@ export class WorkbenchMachine extends MachineView {
     if (!nearest) return null;
     const small = hits.find(({ object, distance }) => !/^\/bodies\/[^/]+$/.test(String(object.userData["part"])) && distance < nearest.distance + 0.04 * this.bounds.radius);
     return (small ?? nearest).object.userData["part"] as string;
+  }
+
+  /** The mark of a frame that is shown, with its body. */
+  private frameCalled(part: string): FrameMark | null {
+    const [, body, name] = /^\/bodies\/([^/]+)\/frames\/([^/]+)$/.exec(part) ?? [];
+    if (!body || !name || !this.framesShown || this.poses) return null;
+    let mark: Object3D | null = null;
+    for (const group of [...this.groups.values(), ...(this.drawn ? [this.drawn.group] : [])])
+      for (const child of group.children) if (child.userData["part"] === part) mark = child;
+    return mark ? { body, name, mark } : null;
+  }
+
+  private frameAt(x: number, y: number): FrameMark | null {
+    if (!this.framesShown) return null;
+    const part = this.partAt(x, y);
+    return part ? this.frameCalled(part) : null;
   }
 
   private drawables(): (Mesh | Line | Sprite)[] {
