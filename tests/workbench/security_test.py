@@ -70,9 +70,9 @@ class Security(unittest.TestCase):
         self.assertNotIn(self.server.token, log)
 
     def test_without_its_token_the_interface_says_nothing(self):
-        calls = [("GET", call) for call in ("hello", "files", "file?path=model.yaml", "schema", "templates", "runs", "runs/x/log",
+        calls = [("GET", call) for call in ("hello", "files", "file?path=model.yaml", "schema", "templates", "examples", "runs", "runs/x/log", "cad/1",
                                             "events", "no_such_call", "")]
-        calls += [("POST", call) for call in ("check", "explain", "new", "runs", "runs/x/stop", "compare")]
+        calls += [("POST", call) for call in ("check", "explain", "template", "new", "cad", "cad/1/stop", "runs", "runs/x/stop", "compare")]
         calls += [("PUT", "file?path=model.yaml")]
         other = self.server.token[:-1] + ("0" if self.server.token[-1] != "0" else "1")
         for token in (None, "", "Bearer", "Bearer ", "Bearer " + other, "Bearer " + self.server.token[:-1],
@@ -448,7 +448,7 @@ class Security(unittest.TestCase):
     def test_nothing_is_written_by_looking(self):
         before = sorted(os.walk(self.folder))
         self.server.get("/")
-        for call in ("hello", "files", "file?path=model.yaml", "schema", "templates", "runs"):
+        for call in ("hello", "files", "file?path=model.yaml", "schema", "templates", "examples", "runs"):
             self.assertEqual(self.server.get("/api/" + call).status, 200, call)
         self.assertEqual(self.server.post("/api/check", {"path": "model.yaml", "text": "hersey: 1\n"}).status, 200)
         events = Events(self.server)

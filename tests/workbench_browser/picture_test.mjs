@@ -144,6 +144,86 @@ await findings.check("an empty folder shows templates and examples with pictures
   forget(empty);
 });
 
+await findings.check("a frame is placed by keys and by dragging; an expression is left as it is", async () => {
+  await openFile("model.yaml");
+  await state(page, "Ready to run");
+  const first = await textOf(page);
+  await button("Frames").click();
+  await parts.selectOption("/bodies/rod/frames/big_end");
+  await page.locator(".machine-space").focus();
+  await page.keyboard.press("Alt+ArrowRight");
+  await says(page, "big_end: {origin: 1 -140 0 mm}");
+  await page.locator(".machine-space").focus();
+  await page.keyboard.press("Alt+ArrowLeft");
+  await says(page, "big_end: {origin: 0 -140 0 mm}");
+  claim((await textOf(page)) === first, "there and back is another text");
+  // Wherever the mark is drawn: the first place at which a click chooses the frame.
+  const box = await page.locator(".machine-space canvas").boundingBox();
+  await parts.selectOption("/bodies/piston");
+  let found = null;
+  for (let i = 4; i < 36 && !found; i++)
+    for (let j = -2; j <= 2 && !found; j++) {
+      const at = [box.x + box.width / 2 + 6 * j, box.y + (box.height * i) / 40];
+      await page.mouse.click(...at);
+      if ((await parts.inputValue()) === "/bodies/rod/frames/big_end") found = at;
+    }
+  claim(found !== null, "the frame is nowhere in the picture");
+  await page.mouse.move(...found);
+  await page.mouse.down();
+  await page.mouse.move(found[0] + 30, found[1], { steps: 3 });
+  await page.mouse.up();
+  await says(page, "big_end: {origin: 0 -140 0 mm}", false);
+  const [, x, y, z] = /big_end: \{origin: (\S+) (\S+) (\S+) mm\}/.exec(await textOf(page)) ?? [];
+  claim(Number(x) > 5 && Math.abs(Number(y) + 140) < 8 && z === "0", `it is at ${x} ${y} ${z}`);
+  await picture(page, "29-frame-placed");
+  await page.locator(".cm-content").focus();
+  for (let i = 0; i < 20 && (await textOf(page)) !== first; i++) await page.keyboard.press("Control+z");
+  claim((await textOf(page)) === first, "undo does not give the first text");
+  await goTo(page, "origin: 0 -140 0 mm");
+  await page.evaluate(() => {
+    const content = document.querySelector(".cm-content");
+    const { view } = content.cmTile ?? content.cmView;
+    const { head } = view.state.selection.main;
+    const words = "origin: 0 -140 0 mm";
+    view.dispatch({ changes: { from: head - words.length, to: head, insert: 'origin: [0, "-140 mm", 0]' } });
+  });
+  await state(page, "Ready to run");
+  await parts.selectOption("/bodies/rod/frames/big_end");
+  await page.locator(".machine-space").focus();
+  await page.keyboard.press("Alt+ArrowRight");
+  await page.getByText("big_end is not moved").waitFor();
+  await page.locator(".cm-content").focus();
+  for (let i = 0; i < 20 && (await textOf(page)) !== first; i++) await page.keyboard.press("Control+z");
+  await button("Frames").click();
+});
+
+await findings.check("a hole that a template brings is moved for its own bearing alone", async () => {
+  const template = readFileSync(join(root, "examples/bearing_alone/model.yaml"), "utf8");
+  claim(/^bearings:\n/m.test(template), "the example is written in another way");
+  const [head, body] = template.split(/^bearings:\n/m);
+  const lines = body.split("\n");
+  const end = lines.findIndex((line, i) => i > 0 && line !== "" && !line.startsWith("   ") && !line.startsWith("#"));
+  const own = lines.slice(1, end < 0 ? lines.length : end).map((line) => line.replace(/^ {2}/, "  "));
+  const rest = end < 0 ? [] : lines.slice(end);
+  writeFileSync(join(folder, "pair.yaml"), `${head}templates:\n  plain:\n${own.join("\n")}\n    features:\n      hole: {shape: hole, diameter: 4 mm, angle: 90 deg, pressure: 2 bar}\nbearings:\n  left: {use: plain}\n  right: {use: plain}   # the other one\n${rest.join("\n")}`);
+  await openFile("pair.yaml");
+  await page.locator('.documents .tab[aria-selected="true"]', { hasText: "pair.yaml" }).waitFor();
+  const [first] = [await textOf(page)];
+  await page.locator(".right").getByRole("tab", { name: "Bearing" }).click();
+  await page.getByLabel("Which bearing").selectOption("right");
+  const hole = page.locator('.unwrapped .handle[data-feature="hole"]');
+  await hole.focus();
+  await page.keyboard.press("ArrowRight");
+  await says(page, "angle: 91 deg");
+  claim((await textOf(page)).includes("angle: 90 deg") && (await textOf(page)).includes("# the other one"), "the template has changed");
+  await page.locator('.unwrapped .handle[aria-label*="91°"]').waitFor();
+  await page.getByLabel("Which bearing").selectOption("left");
+  await page.locator('.unwrapped .handle[aria-label*="90°"]').waitFor();
+  await page.locator(".cm-content").focus();
+  for (let i = 0; i < 20 && (await textOf(page)) !== first; i++) await page.keyboard.press("Control+z");
+  await page.locator(".right").getByRole("tab", { name: "Machine" }).click();
+});
+
 await findings.check("a table is edited as a table, every other line stays as it is", async () => {
   const file = "gas_pressure.csv";
   const before = readFileSync(join(folder, file), "utf8").replace("10, 0.0000", "# a remark\n10,   0.0000");
@@ -190,6 +270,39 @@ await findings.check("a table is edited as a table, every other line stays as it
   await openFile("model.yaml");
   await page.locator(".table-bar").waitFor({ state: "detached" });
   await page.locator(".cm-content").waitFor();
+});
+
+await findings.check("surfaces of a mesh are chosen by the mouse and written into the model", async () => {
+  await openFile("four_bar.yaml");
+  await state(page, "Ready to run");
+  const first = await textOf(page);
+  await openFile("conrod.msh");
+  await page.locator(".mesh-space canvas").waitFor();
+  // Over the picture until something is hit: bores are small, the rod is slim.
+  const box = await page.locator(".mesh-space canvas").boundingBox();
+  const checked = () => page.locator(".mesh-table input:checked").evaluateAll((boxes) => boxes.map((e) => e.value));
+  for (let i = 1; i < 20 && (await checked()).length === 0; i++) await page.mouse.click(box.x + box.width / 2, box.y + (box.height * i) / 20);
+  const [picked] = await checked();
+  claim(picked !== undefined, "no click chooses a surface");
+  await picture(page, "28-mesh-picked");
+  const faults = await accessibilityFaults(page, "light");
+  claim(faults.length === 0, faults.join("\n"));
+  await page.getByLabel(`Choose ${picked}`).uncheck();
+  const row = page.locator(".mesh-table tr", { hasText: "45 mm" }).first();
+  await row.locator("input").check();
+  const name = (await checked())[0];
+  claim((await page.locator("dialog .template-text").innerText()).includes(`nodes: ${name}`), "the lines are not those of what was chosen");
+  await page.getByRole("button", { name: "Write them into four_bar.yaml" }).click();
+  await page.locator("dialog .note", { hasText: "1 surface written" }).waitFor();
+  await page.keyboard.press("Escape");
+  const text = await textOf(page);
+  claim(text.includes("flexible: {mesh: conrod.msh, length_unit: 1 mm}") && new RegExp(`nodes: ${name}, origin: .* mm`).test(text) && text.includes(`faces: ${name}}, diameter: 45 mm`), `the text says ${text}`);
+  await page.locator("dialog").waitFor({ state: "detached" });
+  for (let i = 0; i < 20 && (await textOf(page)) !== first; i++) {
+    await page.locator(".cm-content").focus();
+    await page.keyboard.press("Control+z");
+  }
+  claim((await textOf(page)) === first, `undo does not give the first text, but ${await textOf(page)}`);
 });
 
 await findings.check("a CAD file becomes a mesh with its bores, by gmsh; without gmsh the page says what to install", async () => {

@@ -3,7 +3,7 @@
 import type { Api } from "./api";
 import { h } from "../src/dom";
 import { dialog } from "./dialogs";
-import { showMesh } from "./mesh_window";
+import { showMesh, type MeshTarget } from "./mesh_window";
 import { texts } from "./texts";
 
 interface CadState {
@@ -15,8 +15,8 @@ interface CadState {
 
 export const isCad = (path: string) => /\.(step|stp|iges|igs|brep)$/i.test(path);
 
-/** @param made  called once the folder has the mesh */
-export function showCad(api: Api, path: string, made: () => void): void {
+/** @param target  the model into which surfaces are written @param made  called once the folder has the mesh */
+export function showCad(api: Api, path: string, target: () => MeshTarget | null, made: () => void): void {
   const words = texts.cad;
   const field = (id: string, label: string, control: HTMLElement, help = "") => [h("label", { for: id }, label), control, h("span", { class: "note" }, help)];
   const size = h("input", { id: "cad-size", type: "text", value: "4 mm", required: true, spellcheck: "false", autocomplete: "off" });
@@ -69,7 +69,7 @@ export function showCad(api: Api, path: string, made: () => void): void {
       if (!window.open) return;
       window.close();
       // It is written in metres.
-      return showMesh(api, now.output, "m");
+      return showMesh(api, now.output, "m", target);
     }
   };
   form.addEventListener("submit", (event) => {

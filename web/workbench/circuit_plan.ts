@@ -13,7 +13,7 @@ export interface CircuitScene {
 }
 
 export class CircuitPlan {
-  readonly element = h("details", { class: "joints circuit-plan", open: true }, h("summary", {}, texts.circuit));
+  readonly element = h("details", { class: "circuit-plan", open: true }, h("summary", {}, texts.circuit.title));
   private readonly holder = h("div", { class: "circuit-holder" });
 
   constructor(private readonly pick: (part: string) => void) {

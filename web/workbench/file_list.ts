@@ -4,7 +4,7 @@ import type { Api, FileEntry, RunEntry, Template } from "./api";
 import { h } from "../src/dom";
 import { isCad, showCad } from "./cad_window";
 import type { Editor } from "./editor";
-import { showMesh } from "./mesh_window";
+import { showMesh, type MeshTarget } from "./mesh_window";
 import { askBeginning } from "./template_window";
 import { texts } from "./texts";
 
@@ -18,6 +18,8 @@ export interface FileListHooks {
   opened: (path: string) => void;
   say: (words: string) => void;
   fail: (error: unknown) => void;
+  /** The model that is open, to write surfaces of a mesh into it. */
+  meshTarget: () => MeshTarget | null;
 }
 
 export class FileList {
@@ -59,11 +61,11 @@ export class FileList {
   }
 
   async open(path: string): Promise<void> {
-    const { api, editor, say, fail, opened } = this.hooks;
+    const { api, editor, say, fail, opened, meshTarget } = this.hooks;
     if (!editor.documents.has(path)) {
       const kind = this.files.find((f) => f.path === path)?.kind;
-      if (isCad(path)) return showCad(api, path, () => void this.load());
-      if (kind === "mesh" && /\.(msh|inp)$/i.test(path)) return showMesh(api, path);
+      if (isCad(path)) return showCad(api, path, meshTarget, () => void this.load());
+      if (kind === "mesh" && /\.(msh|inp)$/i.test(path)) return showMesh(api, path, "mm", meshTarget);
       if (kind === "results" || kind === "mesh") return say(texts.binary);
       try {
         const content = await api.file(path);

@@ -1,9 +1,10 @@
 // The machine as its text says, at its start: the report's picture, kept while the text changes; parts can be chosen,
 // joints moved, and the whole cut by a plane.
 
-import { AxesHelper, Line, Matrix4, Mesh, Plane, Quaternion, Raycaster, Vector2, Vector3, type Material, type MeshStandardMaterial, type Object3D } from "three";
+import { AxesHelper, Line, Matrix4, Mesh, Plane, Quaternion, Raycaster, Sprite, Vector2, Vector3, type Material, type MeshStandardMaterial, type Object3D } from "three";
 import { isKept } from "../src/kept_geometry";
 import type { Run } from "../src/data";
+import { FrameHand, type FrameMark, type PlacedFrame } from "./frame_hand";
 import { MachineGeometry, type Link } from "../src/machine_geometry";
 import { MachineView } from "../src/machine_view";
 import { coil, MachineMarks, redraw, wordsOf, type Marks } from "./machine_marks";
@@ -25,8 +26,18 @@ export class WorkbenchMachine extends MachineView {
   private isTurned = false;
 
   /** @param pick  called with the part that was clicked, such as /bodies/rod; null beside them all */
-  constructor(run: Run, private marks: Marks, pick: (part: string | null) => void) {
+  constructor(run: Run, private marks: Marks, pick: (part: string | null) => void, moved: (frame: PlacedFrame) => void = () => undefined) {
     super(new MachineGeometry(run));
+    new FrameHand({
+      space: this.holder,
+      camera: this.camera,
+      turning: (is) => this.controls && (this.controls.enabled = is),
+      mark: (x, y) => this.frameAt(x, y),
+      chosen: () => (this.chosen ? this.frameCalled(this.chosen) : null),
+      size: () => this.bounds.radius,
+      draw: () => this.render(),
+      moved,
+    });
     // Who has turned the machine keeps the view; else it fits into every size of the pane.
     new ResizeObserver(() => this.controls && !this.isTurned && this.reset()).observe(this.holder);
     for (const kind of ["pointerdown", "wheel", "keydown"]) this.holder.addEventListener(kind, () => (this.isTurned = true), { passive: true });
@@ -68,16 +79,18 @@ export class WorkbenchMachine extends MachineView {
     this.bounds = this.boundingSphere();
     this.poses = null;
     if (!this.renderer) return;
-    const old = this.meshes();
+    const old = this.drawables();
     this.together(() => {
       this.build();
       this.place();
       if (this.bounds.radius > 2 * size || this.bounds.radius < 0.5 * size) this.reset();
     });
     // Not before the new ones are drawn: shaders that nothing uses would have to be made again.
-    for (const mesh of old) {
-      if (!isKept(mesh.geometry)) mesh.geometry.dispose();
-      for (const paint of [ownPaint(mesh)].flat()) if (!paint.userData["kept"]) paint.dispose();
+    for (const object of old) {
+      // Sprites have one geometry for all of them.
+      if (!(object instanceof Sprite) && !isKept(object.geometry)) object.geometry.dispose();
+      const own = object instanceof Mesh ? ownPaint(object) : object.material;
+      for (const paint of [own].flat()) if (!paint.userData["kept"]) paint.dispose();
     }
   }
 
@@ -161,6 +174,29 @@ export class WorkbenchMachine extends MachineView {
     return (small ?? nearest).object.userData["part"] as string;
   }
 
+  /** The mark of a frame that is shown, with its body. */
+  private frameCalled(part: string): FrameMark | null {
+    const [, body, name] = /^\/bodies\/([^/]+)\/frames\/([^/]+)$/.exec(part) ?? [];
+    if (!body || !name || !this.framesShown || this.poses) return null;
+    let mark: Object3D | null = null;
+    for (const group of [...this.groups.values(), ...(this.drawn ? [this.drawn.group] : [])])
+      for (const child of group.children) if (child.userData["part"] === part) mark = child;
+    return mark ? { body, name, mark } : null;
+  }
+
+  private frameAt(x: number, y: number): FrameMark | null {
+    if (!this.framesShown) return null;
+    const part = this.partAt(x, y);
+    return part ? this.frameCalled(part) : null;
+  }
+
+  private drawables(): (Mesh | Line | Sprite)[] {
+    const found: (Mesh | Line | Sprite)[] = this.forceLines.map(({ line }) => line);
+    for (const group of [...this.groups.values(), ...(this.drawn ? [this.drawn.group] : [])])
+      group.traverse((object: Object3D) => (object instanceof Mesh || object instanceof Line || object instanceof Sprite) && found.push(object));
+    return found;
+  }
+
   private meshes(): Mesh[] {
     const found: Mesh[] = [];
     for (const group of [...this.groups.values(), ...(this.drawn ? [this.drawn.group] : [])]) group.traverse((object: Object3D) => object instanceof Mesh && found.push(object));
@@ -189,7 +225,6 @@ export class WorkbenchMachine extends MachineView {
   }
 
   private drawMarks(): void {
-    this.drawn?.dispose();
     this.drawn = new MachineMarks(this.groups, this.bounds.radius);
     if (this.loadsShown && !this.marks.plain) {
       this.drawn.addLoads(this.marks.loads);

@@ -96,7 +96,13 @@ function turnArrow(axis: Vector3, radius: number, colour: string): Group {
   return group;
 }
 
-function label(words: string, colour: string): Sprite {
+/** Letters that have been drawn: a text changes more often than they do. */
+const drawnLabels = new Map<string, { map: CanvasTexture; aspect: number }>();
+
+function letters(words: string, colour: string): { map: CanvasTexture; aspect: number } {
+  const key = `${colour} ${palette().paper} ${words}`;
+  const known = drawnLabels.get(key);
+  if (known) return known;
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("2d")!;
   const font = "600 26px system-ui, sans-serif";
@@ -109,8 +115,19 @@ function label(words: string, colour: string): Sprite {
   context.fillStyle = colour;
   context.strokeText(words, 6, 27);
   context.fillText(words, 6, 27);
-  const sprite = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false, sizeAttenuation: false }));
-  sprite.userData["aspect"] = canvas.width / canvas.height;
+  if (drawnLabels.size > 4 * mostLabels) {
+    for (const { map } of drawnLabels.values()) map.dispose();
+    drawnLabels.clear();
+  }
+  const made = { map: new CanvasTexture(canvas), aspect: canvas.width / canvas.height };
+  drawnLabels.set(key, made);
+  return made;
+}
+
+function label(words: string, colour: string): Sprite {
+  const { map, aspect } = letters(words, colour);
+  const sprite = new Sprite(new SpriteMaterial({ map, depthTest: false, sizeAttenuation: false }));
+  sprite.userData["aspect"] = aspect;
   sprite.center.set(0.5, -0.15);
   sprite.renderOrder = 11;
   return sprite;
@@ -226,13 +243,6 @@ export class MachineMarks {
   scale(height: number, fieldOfView: number): void {
     const size = ((2 * labelHeight) / Math.max(100, height)) * Math.tan((0.5 * fieldOfView * Math.PI) / 180);
     for (const sprite of this.labels) sprite.scale.set(size * (sprite.userData["aspect"] as number), size, 1);
-  }
-
-  dispose(): void {
-    for (const sprite of this.labels) {
-      sprite.material.map?.dispose();
-      sprite.material.dispose();
-    }
   }
 }
 

@@ -5,6 +5,7 @@ import { Run, type RunText } from "../src/data";
 import { h } from "../src/dom";
 import { format } from "../src/units";
 import { CircuitPlan, type CircuitScene } from "./circuit_plan";
+import type { PlacedFrame } from "./frame_hand";
 import { WorkbenchMachine, type Pose } from "./machine";
 import type { Load, Marks, NamedFrame } from "./machine_marks";
 import { texts } from "./texts";
@@ -26,6 +27,8 @@ export interface MachineHooks {
   /** The model's path and text as they are now. */
   model: () => { path: string; text: string } | null;
   chosen: (part: string) => void;
+  /** A frame was placed by hand. */
+  placed: (frame: PlacedFrame) => void;
   say: (text: string) => void;
 }
 
@@ -118,7 +121,7 @@ export class MachinePane {
     const marks: Marks = { loads: scene.loads ?? [], frames: scene.frames ?? {} };
     if (this.machine) this.machine.take(run, marks);
     else {
-      this.machine = new WorkbenchMachine(run, marks, (part) => (part ? this.pick(part) : this.highlight(null)));
+      this.machine = new WorkbenchMachine(run, marks, (part) => (part ? this.pick(part) : this.highlight(null)), (frame) => this.hooks.placed(frame));
       this.stage.replaceChildren(this.machine.space, this.staleNote);
       this.legend.replaceChildren(this.machine.names);
     }
@@ -141,6 +144,11 @@ export class MachinePane {
     this.partList.replaceChildren(h("option", { value: "" }, texts.parts));
     this.jointBox.hidden = true;
     this.staleNote.hidden = true;
+  }
+
+  /** As the text says, after a hand has moved something in vain. */
+  redraw(): void {
+    if (this.scene && this.machine) this.machine.take(new Run(this.scene), { loads: this.scene.loads ?? [], frames: this.scene.frames ?? {} });
   }
 
   highlight(part: string | null): void {

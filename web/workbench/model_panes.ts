@@ -3,12 +3,14 @@
 import type { Api } from "./api";
 import { BearingPane } from "./bearing_pane";
 import type { OpenDocument } from "./editor";
+import type { PlacedFrame } from "./frame_hand";
 import { Tabs } from "./layout";
 import { MachinePane, type SceneText } from "./machine_pane";
 import type { ModelSchema } from "./model_schema";
 import { PartPane } from "./part_pane";
 import { PointPane } from "./point_pane";
 import { texts } from "./texts";
+import { find } from "./yaml_tree";
 
 export interface ModelPanesHooks {
   api: Api;
@@ -33,7 +35,7 @@ export class ModelPanes {
   constructor(private readonly hooks: ModelPanesHooks) {
     const { api, model, set, goToKey, goToPart, say, changed } = hooks;
     const text = () => (model() ? { path: model()!.path, text: model()!.state.doc.toString() } : null);
-    this.machine = new MachinePane({ api, model: text, chosen: goToPart, say });
+    this.machine = new MachinePane({ api, model: text, chosen: goToPart, placed: (frame) => void this.place(frame), say });
     this.bearing = new BearingPane({ set, goToKey, chosen: (name) => (this.machine.highlight(`/bearings/${name}`), this.point.refresh()) });
     this.point = new PointPane(api, () => (model() ? { ...text()!, tree: model()!.tree } : null), () => this.bearing.name);
     this.part = new PartPane(set);
@@ -45,6 +47,27 @@ export class ModelPanes {
       if (key === "part") this.part.draw();
       changed();
     });
+  }
+
+  /** A frame's origin becomes what a hand has made of it; coordinates that were not moved stay as they are written. */
+  private async place({ body, name, position }: PlacedFrame): Promise<void> {
+    const { model, set, say } = this.hooks;
+    const document = model();
+    if (!document || position.every((x) => x === null)) return this.machine.redraw();
+    const path = ["bodies", body, "frames", name];
+    const origin = find(document.tree, [...path, "origin"]);
+    const written = origin ? document.state.doc.sliceString(origin.valueFrom, origin.valueTo).trim() : "";
+    const words = written.split(/\s+/);
+    const unit = (/[a-z]+$/i.exec(written) ?? ["mm"])[0];
+    const scale = ({ mm: 1e3, m: 1, cm: 1e2, um: 1e6 } as Record<string, number>)[unit];
+    const isPlain = written === "" || (words.length === 4 && words.slice(0, 3).every((word) => Number.isFinite(Number(word))));
+    const hasNodes = find(document.tree, [...path, "nodes"]) !== undefined;
+    if (!isPlain || scale === undefined || (hasNodes && written === "")) {
+      say(texts.frameNotPlain(name));
+      return this.machine.redraw();
+    }
+    const old = written === "" ? ["0", "0", "0"] : words;
+    await set([...path, "origin"].join("."), `${position.map((x, i) => (x === null ? old[i] : String(Number((scale * x).toPrecision(9))))).join(" ")} ${unit}`);
   }
 
   clear(): void {

@@ -89,14 +89,14 @@ export class TableView {
       this.head.replaceChildren(h("td", {}), ...table.names.map((name) => h("th", { scope: "col" }, name)));
       this.across.replaceChildren(...table.names.map((name, i) => h("option", { value: i }, name)));
       this.along.replaceChildren(
-        ...table.names.map((name) => {
+        ...table.names.map((name, i) => {
           const box = h("input", { type: "checkbox", checked: true });
           box.addEventListener("change", () => {
             if (box.checked) this.hidden.delete(name);
             else this.hidden.add(name);
             this.draw();
           });
-          return h("label", {}, box, ` ${name}`);
+          return h("label", { "data-column": i }, box, ` ${name}`);
         }),
       );
     }
@@ -213,6 +213,7 @@ export class TableView {
     if (!this.isTable) return;
     const x = this.table.values(Number(this.across.value || 0));
     const names = this.table.names;
+    for (const choice of this.along.querySelectorAll<HTMLElement>("label")) choice.hidden = choice.dataset["column"] === (this.across.value || "0");
     const drawn = names.map((name, i) => ({ name, i })).filter(({ name, i }) => i !== Number(this.across.value || 0) && !this.hidden.has(name));
     if (x.length === 0 || drawn.length === 0) return this.plot.replaceChildren();
     // A plot for each column: their units differ.

@@ -11,6 +11,7 @@ import { FileList } from "./file_list";
 import { bar, frame, nextPane } from "./frame";
 import { listenToKeys } from "./keys";
 import type { SceneText } from "./machine_pane";
+import type { MeshTarget } from "./mesh_window";
 import { modelEditor } from "./model_editor";
 import { ModelPanes } from "./model_panes";
 import { Memory, type OpenReport, type Remembered } from "./memory";
@@ -33,6 +34,7 @@ export class Workbench {
   private readonly documents: Documents;
   private readonly fileList: FileList;
   private readonly checker: Checker;
+  private readonly values: ValueEdits;
   private readonly checkState: CheckState;
   private readonly places: Places;
   private readonly panes: ModelPanes;
@@ -63,9 +65,9 @@ export class Workbench {
     const begin = () => void this.fileList.begin();
     this.documents = new Documents({ editor, documentFiles, modelTaken: (document) => this.modelTaken(document), shown: () => this.documentShown(), begin });
     const opened = (path: string) => (this.documents.activate(path), editor.view.focus());
-    this.fileList = new FileList({ api, editor, runs: () => this.runs.list.runs, active: () => this.documents.active, opened, say, fail });
+    this.fileList = new FileList({ api, editor, runs: () => this.runs.list.runs, active: () => this.documents.active, opened, say, fail, meshTarget: () => this.meshTarget() });
     this.checker = new Checker({ api, editor, model, scene: (scene, document) => this.showScene(scene, document), found: (findings, runs) => this.found(findings, runs), atWork: (is) => this.checkState.atWork(is), showModel: () => this.documents.showModel(), say, fail });
-    const values = new ValueEdits({ api, editor, model, changed: () => this.checker.now(), say, fail });
+    const values = (this.values = new ValueEdits({ api, editor, model, changed: () => this.checker.now(), say, fail }));
     this.panes = new ModelPanes({ api, model, schema: () => this.schema, set: (key, value) => values.set(key, value), goToKey: (key) => this.places.goToKey(key), goToPart: (part) => this.places.goToPart(part), say, changed });
     this.places = new Places({ editor, documents: this.documents, fileList: this.fileList, panes: this.panes });
     this.problems = new ProblemList((fault) => this.places.goToFault(fault), (edits) => this.checker.repair(edits));
@@ -190,6 +192,11 @@ export class Workbench {
     this.documents.drawBar();
     this.fileList.draw();
     this.saveButton.disabled = !document.isDirty;
+  }
+
+  private meshTarget(): MeshTarget | null {
+    const { model } = this.documents;
+    return model && { name: model.name, path: model.path, tree: model.tree, text: model.state.doc.toString(), set: (key, value) => this.values.set(key, value) };
   }
 
   private cursorMoved(document: OpenDocument): void {

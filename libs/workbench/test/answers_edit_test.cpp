@@ -3,6 +3,8 @@
 #include <fstream>
 
 #include "answers_support.h"
+#include "hersey/fem/mesh_file.h"
+#include "hersey/fem/skin.h"
 #include "hersey/model/written.h"
 #include "temporary_directory.h"
 
@@ -259,6 +261,28 @@ TEST_CASE("Templates_AreReadWithoutFault_AndWrittenOnce") {
   CHECK(status_of([&] { return answers.new_model(R"({"template": "bearing", "path": "link/b"})"); }) == 403);
   CHECK(status_of([&] { return answers.mesh_info(R"({"path": "link/b.msh"})"); }) == 403);
   CHECK(std::filesystem::is_empty(elsewhere.path()));
+}
+
+TEST_CASE("SurfacesOfAMesh_ArePickedAndWrittenIntoAModel") {
+  const Answers answers(examples_folder() + "/meshes");
+  const Json request{{"path", "conrod.msh"}, {"length_unit", "mm"}, {"picture", true}, {"body", "rod"}};
+  const Json answer = Json::parse(answers.mesh_info(request.dump()));
+  // Every triangle of the outside belongs to one surface or to the rest.
+  std::size_t triangles = answer["picture"]["rest"]["triangles"].size() / 3;
+  for (const Json& surface : answer["picture"]["surfaces"]) {
+    triangles += surface["triangles"].size() / 3;
+    const int corners = static_cast<int>(surface["corners"].size() / 3);
+    for (const Json& corner : surface["triangles"]) CHECK(corner < corners);
+  }
+  const fem::Mesh mesh = fem::read_mesh(examples_folder() + "/meshes/conrod.msh", 1e-3);
+  CHECK(triangles == fem::skin(mesh).triangles.size());
+  // What is written for a bore is a frame and a bearing, as the lines for all of them say it.
+  const Json& uses = answer["uses"];
+  const auto bore = std::find_if(uses.begin(), uses.end(), [](const Json& use) { return use["bearing"] != ""; });
+  REQUIRE(bore != uses.end());
+  const std::string lines = answer["lines"], frame = (*bore)["frame"], bearing = (*bore)["bearing"];
+  CHECK(lines.find(": " + frame + "\n") != std::string::npos);
+  CHECK(bearing.starts_with("{shell: rod." + (*bore)["key"].get<std::string>() + ", "));
 }
 
 }  // namespace answers_edit_test

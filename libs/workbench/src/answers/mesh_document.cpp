@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "hersey/fem/skin.h"
 
@@ -101,10 +103,92 @@ std::string key_of(const FoundSurface& surface, std::size_t number) {
   const bool is_word = std::all_of(surface.name.begin(), surface.name.end(),
                                    [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
   if (is_word && surface.name.find("_at_") == std::string::npos) return surface.name;
-  return fmt::format("{}_{}", surface.use() == Use::bore ? "bore" : "journal", number);
+  if (surface.kind == Kind::plane) return fmt::format("plane_{}", number);
+  return fmt::format("{}_{}", surface.is_internal ? "bore" : "journal", number);
+}
+
+/// The value of a frame at a found surface, and of the bearing that it could be (else empty).
+struct SurfaceUse {
+  std::string key, frame, bearing;
+};
+
+SurfaceUse use_of(const FoundSurface& surface, const std::string& key, const std::string& body) {
+  SurfaceUse use{key, "", ""};
+  if (surface.kind == Kind::plane)
+    use.frame =
+        fmt::format("{{nodes: {}, origin: {} mm, connection: average}}", surface.name, position_in_mm(surface.centre));
+  else
+    use.frame = fmt::format("{{nodes: {}, origin: {} mm{}, connection: average}}", surface.name,
+                            position_in_mm(surface.centre), rotation_to(surface.axis));
+  if (surface.use() != Use::none)
+    use.bearing = fmt::format("{{{1}: {4}.{0}, {1}_surface: {{faces: {5}}}, diameter: {2} mm, width: {3} mm}}", key,
+                              surface.use() == Use::bore ? "shell" : "journal", in_mm(2 * surface.radius),
+                              in_mm(surface.width), body, surface.name);
+  return use;
+}
+
+nlohmann::json triangles_json(const Mesh& mesh, const std::vector<fem::ElementFace>& faces) {
+  const fem::Skin skin = fem::skin(mesh, faces);
+  std::vector<float> corners;
+  corners.reserve(3 * skin.nodes.size());
+  for (const int node : skin.nodes)
+    for (const double x : mesh.nodes[static_cast<std::size_t>(node)]) corners.push_back(static_cast<float>(x));
+  std::vector<int> triangles;
+  triangles.reserve(3 * skin.triangles.size());
+  for (const auto& t : skin.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  return {{"corners", corners}, {"triangles", triangles}};
+}
+
+/// Surfaces of the file that are none of those found.
+std::vector<std::string> further_surfaces(const Mesh& mesh, const std::vector<FoundSurface>& found) {
+  std::vector<std::string> names;
+  for (const auto& [name, faces] : mesh.surfaces) {
+    const auto is_it = [&, of = &name](const FoundSurface& surface) { return surface.name == *of; };
+    if (!faces.empty() && std::none_of(found.begin(), found.end(), is_it)) names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace
+
+std::string uses_json(const Mesh& mesh, const std::vector<FoundSurface>& found, const std::string& body) {
+  nlohmann::json uses = nlohmann::json::array();
+  std::size_t number = 0;
+  const auto add = [&](const std::string& name, const SurfaceUse& use) {
+    uses.push_back({{"name", name}, {"key", use.key}, {"frame", use.frame}, {"bearing", use.bearing}});
+  };
+  for (const FoundSurface& surface : found) {
+    ++number;
+    if (!mesh.surfaces.contains(surface.name)) continue;
+    add(surface.name, use_of(surface, key_of(surface, number), body));
+  }
+  for (const std::string& name : further_surfaces(mesh, found)) {
+    const bool is_word =
+        std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+    add(name, {is_word ? name : fmt::format("surface_{}", ++number), fmt::format("{{nodes: {}}}", name), ""});
+  }
+  return uses.dump();
+}
+
+std::string picture_json(const Mesh& mesh, const std::vector<FoundSurface>& found) {
+  const auto order = [](const fem::ElementFace& a, const fem::ElementFace& b) {
+    return std::pair(a.element, a.face) < std::pair(b.element, b.face);
+  };
+  std::set<fem::ElementFace, decltype(order)> shown(order);
+  nlohmann::json surfaces = nlohmann::json::array();
+  const auto add = [&](const std::string& name, const std::vector<fem::ElementFace>& faces) {
+    nlohmann::json surface = triangles_json(mesh, faces);
+    surface["name"] = name;
+    surfaces.push_back(std::move(surface));
+    shown.insert(faces.begin(), faces.end());
+  };
+  for (const FoundSurface& surface : found) add(surface.name, surface.faces);
+  for (const std::string& name : further_surfaces(mesh, found)) add(name, mesh.surfaces.at(name));
+  std::vector<fem::ElementFace> rest;
+  for (const fem::ElementFace& face : fem::outer_faces(mesh))
+    if (!shown.contains(face)) rest.push_back(face);
+  return nlohmann::json{{"surfaces", std::move(surfaces)}, {"rest", triangles_json(mesh, rest)}}.dump();
+}
 
 std::string mesh_json(const Mesh& mesh, const MeshQuality& quality) { return document_of(mesh, quality).dump(); }
 
@@ -141,11 +225,9 @@ std::string model_lines(const std::vector<FoundSurface>& found, const std::strin
     if (surface.use() == Use::none || bores + journals >= kMostWithLines) continue;
     const std::size_t number = is_bore ? ++bores : ++journals;
     const std::string key = key_of(surface, number);
-    frames += fmt::format("      {}: {{nodes: {}, origin: {} mm{}, connection: average}}\n", key, surface.name,
-                          position_in_mm(surface.centre), rotation_to(surface.axis));
-    bearings +=
-        fmt::format("  {0}: {{{1}: part.{0}, {1}_surface: {{faces: {2}}}, diameter: {3} mm, width: {4} mm}}\n", key,
-                    is_bore ? "shell" : "journal", surface.name, in_mm(2 * surface.radius), in_mm(surface.width));
+    const SurfaceUse use = use_of(surface, key, "part");
+    frames += fmt::format("      {}: {}\n", key, use.frame);
+    bearings += fmt::format("  {}: {}\n", key, use.bearing);
   }
   if (frames.empty()) return "";
   return fmt::format(

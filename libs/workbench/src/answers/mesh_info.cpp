@@ -51,6 +51,9 @@ std::string Answers::mesh_info(std::string_view request) const {
     answer["faults"] = as_list(fem::faults_of(quality, path, fem::Parts::one), kept_->folder());
     std::string whole = dumped(answer);
     whole.back() = ',';
+    whole += "\"uses\":" + uses_json(mesh, found, text_in(given, "body", "part")) + ",";
+    if (given.contains("picture") && given["picture"] == true)
+      whole += "\"picture\":" + picture_json(mesh, found) + ",";
     return whole + "\"found\":" + found_json(found) + ",\"mesh\":" + mesh_json(mesh, quality) + "}";
   } catch (const InputError& error) {
     refuse(error);

@@ -21,4 +21,13 @@ namespace hersey::workbench {
 [[nodiscard]] std::string model_lines(const std::vector<fem::FoundSurface>& found, const std::string& file,
                                       const std::string& length_unit);
 
+/// For each surface that the mesh names, a JSON list of `{name, key, frame, bearing}`: a name for keys of a model file,
+/// the value of a frame there, and that of the bearing that it could be (else empty). @param body  that has the mesh
+[[nodiscard]] std::string uses_json(const fem::Mesh& mesh, const std::vector<fem::FoundSurface>& found,
+                                    const std::string& body);
+
+/// The triangles of the outside for pictures: `{surfaces: [{name, corners, triangles}], rest: {corners, triangles}}`,
+/// those of the found and then of the file's other surfaces, and of what belongs to none.
+[[nodiscard]] std::string picture_json(const fem::Mesh& mesh, const std::vector<fem::FoundSurface>& found);
+
 }  // namespace hersey::workbench
