@@ -41,8 +41,8 @@ await findings.check("a study is planned as a table, started, filled, stopped an
   // A text that is not saved is planned as it stands.
   await goTo(page, "samples: 128");
   for (let i = 0; i < 3; i++) await page.keyboard.press("Backspace");
-  await page.keyboard.type("32");
-  await words.filter({ hasText: "sobol: 32 runs" }).waitFor();
+  await page.keyboard.type("64");
+  await words.filter({ hasText: "sobol: 64 runs" }).waitFor();
   claim(JSON.stringify(await cells(rows.nth(7))) === JSON.stringify(planned), "fewer points of the same seed are other ones");
   await page.keyboard.press("Control+s");
   await page.locator(".notice", { hasText: "Saved" }).waitFor();
@@ -54,9 +54,16 @@ await findings.check("a study is planned as a table, started, filled, stopped an
   await page.locator(".study-actions").getByRole("button", { name: "Stop" }).click();
   await page.locator(".study-actions").getByRole("button", { name: "Resume" }).waitFor();
   const done = await page.locator(".study-state.completed").count();
-  claim(done < 32, "it was not stopped");
+  claim(done < 64, "it was not stopped");
+  await page.reload();
+  await page.waitForFunction(() => document.querySelectorAll(".study-state.missing").length > 0);
+  for (const scheme of ["dark", "light"]) {
+    const faults = await accessibilityFaults(page, scheme);
+    claim(faults.length === 0, faults.join("\n"));
+  }
+  await page.emulateMedia({ colorScheme: "light" });
   await page.locator(".study-actions").getByRole("button", { name: "Resume" }).click();
-  await words.filter({ hasText: "32 of 32 runs done, completed" }).waitFor({ timeout: 60000 });
+  await words.filter({ hasText: "64 of 64 runs done, completed" }).waitFor({ timeout: 60000 });
   const id = await page.getByLabel("Which study").inputValue();
   const csv = readFileSync(join(folder, "runs", id, "runs.csv"), "utf8").trim().split("\n").map((line) => line.split(","));
   const at = csv[0].findIndex((name) => name.includes("h_min"));
@@ -89,7 +96,7 @@ await findings.check("the runs of an optimum appear as the search asks for them"
 await findings.check("a study's faults stand in its table, overrides fix its parameters", async () => {
   await openFile("tolerances.yaml");
   await page.getByRole("button", { name: "Study …" }).click();
-  await words.filter({ hasText: "32 runs" }).waitFor();
+  await words.filter({ hasText: "64 runs" }).waitFor();
   await page.locator(".study-starting").getByLabel("Overrides").fill("width=15.5 mm");
   await page.waitForFunction(() => !document.querySelector(".study-table thead")?.textContent.includes("width"));
   await page.locator(".study-starting").getByLabel("Overrides").fill("widht=15.5 mm");
@@ -97,7 +104,7 @@ await findings.check("a study's faults stand in its table, overrides fix its par
   claim(await page.getByRole("button", { name: "Start study" }).isDisabled(), "it can be started");
   await picture(page, "6-study-fault");
   await page.locator(".study-starting").getByLabel("Overrides").fill("");
-  await words.filter({ hasText: "32 runs" }).waitFor();
+  await words.filter({ hasText: "64 runs" }).waitFor();
 });
 
 await findings.check("a run takes other values than its text has; wrong ones are told, and the list says which", async () => {
