@@ -1,6 +1,7 @@
 // node runs_test.mjs PROGRAM [PICTURES] [ONLY]: studies, runs with other values and curves of a bearing in the workbench, as
 // workbench_test.mjs does it for the rest.
-import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { accessibilityFaults, claim, Findings, folderOfModels, forget, goTo, launch, open, serve, state, textOf, until } from "./bench.mjs";
@@ -18,6 +19,10 @@ for (const [from, to] of [["model", "tolerances"], ["optimum", "optimum"]]) cpSy
 cpSync(join(examples, "oil_circuit/model.yaml"), join(folder, "circuit.yaml"));
 const findings = new Findings(only);
 const begun = performance.now();
+// A machine with a cluster, as far as the page can know.
+const tools = mkdtempSync(join(tmpdir(), "hersey-tools-"));
+writeFileSync(join(tools, "sbatch"), "#!/bin/sh\necho 'sbatch: error: no controller' >&2\nexit 1\n", { mode: 0o755 });
+process.env.PATH = `${process.env.PATH}:${tools}`;
 const server = await serve(resolve(program), folder);
 const browser = await launch();
 const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, colorScheme: "light" });
@@ -91,6 +96,27 @@ await findings.check("the runs of an optimum appear as the search asks for them"
   const losses = (await Promise.all([...Array(count).keys()].map(async (i) => (await cells(rows.nth(i)))[4]))).map(Number);
   claim(losses[count - 1] < losses[0], `the loss goes from ${losses[0]} to ${losses[count - 1]}`);
   await picture(page, "5-optimum");
+});
+
+await findings.check("a study goes to the cluster where the machine has one", async () => {
+  await openFile("tolerances.yaml");
+  await page.getByRole("button", { name: "Study …" }).click();
+  await words.filter({ hasText: "sobol" }).waitFor();
+  await page.getByLabel("Where").selectOption("on the cluster (Slurm)");
+  await page.getByRole("button", { name: "Start study" }).click();
+  const choice = page.getByLabel("Which study");
+  await until("no study is shown", async () => /-\d+$/.test(await choice.inputValue()));
+  const id = await choice.inputValue();
+  const { command } = JSON.parse(readFileSync(join(folder, "runs", id, "run.json"), "utf8"));
+  claim(command[command.indexOf("--on") + 1] === "slurm", command.join(" "));
+  // Its sbatch answers nobody: the study waits for it, or says so.
+  const stop = page.locator(".study-actions").getByRole("button", { name: "Stop" });
+  const ended = page.locator(`.runs li[data-run="${id}"] .run-state:not(.running)`);
+  await stop.or(ended).first().waitFor();
+  if (await stop.isVisible()) await stop.click();
+  await ended.waitFor();
+  await page.getByLabel("Which study").selectOption("");
+  await page.getByLabel("Where").selectOption("on this machine");
 });
 
 await findings.check("a study's faults stand in its table, overrides fix its parameters", async () => {
@@ -226,5 +252,6 @@ await findings.check("the page says nothing that it must not; axe-core finds not
 await browser.close();
 await server.stop();
 forget(folder);
+forget(tools);
 console.log(`${findings.held} held, ${findings.failed} failed, ${((performance.now() - begun) / 1000).toFixed(0)} s; pictures: ${pictures}`);
 process.exit(findings.failed > 0 ? 1 : 0);
