@@ -1,6 +1,7 @@
 """`hersey study`, called by the program with its own path."""
 
 import argparse
+import contextlib
 import json
 import os
 import signal
@@ -60,6 +61,16 @@ def plan_shown(settings, texts, identity=None):
             "wanted": settings["wanted"], "runs": runs, "total": len(texts)}
 
 
+def tell_plan(study, texts):
+    """Leaves the plan in the study's folder. It is for who looks at the runs as they come: without room for it the study
+    goes on, as far as its records have room."""
+    try:
+        study.folder.write_json("plan.json", plan_shown(study.settings, texts, study.identity))
+    except OSError:
+        with contextlib.suppress(OSError):
+            os.remove(study.folder.file("plan.json.new"))
+
+
 def write_plan(settings, path):
     """Writes the runs that a study would do, none of which is done. An optimum's follow from each other: there are none."""
     from . import plan
@@ -101,12 +112,12 @@ def work(args):
                                  "--on local")
             from . import optimise
 
-            study.folder.write_json("plan.json", plan_shown(settings, []))
+            tell_plan(study, [])
             study.table = Table(0, 0, settings["wanted"], study.folder.units)
             texts = optimise.search(study, jobs)
         else:
             texts = study.planned()
-            study.folder.write_json("plan.json", plan_shown(settings, texts, study.identity))
+            tell_plan(study, texts)
             done = study.folder.done(failed_too=not args.again)
             reused = len({study.identity(t) for t in texts} & done)
             study.table = Table(len(texts), reused, settings["wanted"], study.folder.units)

@@ -1,6 +1,7 @@
 // node runs_test.mjs PROGRAM [PICTURES] [ONLY]: studies, runs with other values and curves of a bearing in the workbench, as
 // workbench_test.mjs does it for the rest.
-import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { accessibilityFaults, claim, Findings, folderOfModels, forget, goTo, launch, open, serve, state, textOf, until } from "./bench.mjs";
@@ -18,6 +19,10 @@ for (const [from, to] of [["model", "tolerances"], ["optimum", "optimum"]]) cpSy
 cpSync(join(examples, "oil_circuit/model.yaml"), join(folder, "circuit.yaml"));
 const findings = new Findings(only);
 const begun = performance.now();
+// A machine with a cluster, as far as the page can know.
+const tools = mkdtempSync(join(tmpdir(), "hersey-tools-"));
+writeFileSync(join(tools, "sbatch"), "#!/bin/sh\necho 'sbatch: error: no controller' >&2\nexit 1\n", { mode: 0o755 });
+process.env.PATH = `${process.env.PATH}:${tools}`;
 const server = await serve(resolve(program), folder);
 const browser = await launch();
 const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, colorScheme: "light" });
@@ -41,8 +46,8 @@ await findings.check("a study is planned as a table, started, filled, stopped an
   // A text that is not saved is planned as it stands.
   await goTo(page, "samples: 128");
   for (let i = 0; i < 3; i++) await page.keyboard.press("Backspace");
-  await page.keyboard.type("32");
-  await words.filter({ hasText: "sobol: 32 runs" }).waitFor();
+  await page.keyboard.type("64");
+  await words.filter({ hasText: "sobol: 64 runs" }).waitFor();
   claim(JSON.stringify(await cells(rows.nth(7))) === JSON.stringify(planned), "fewer points of the same seed are other ones");
   await page.keyboard.press("Control+s");
   await page.locator(".notice", { hasText: "Saved" }).waitFor();
@@ -54,9 +59,16 @@ await findings.check("a study is planned as a table, started, filled, stopped an
   await page.locator(".study-actions").getByRole("button", { name: "Stop" }).click();
   await page.locator(".study-actions").getByRole("button", { name: "Resume" }).waitFor();
   const done = await page.locator(".study-state.completed").count();
-  claim(done < 32, "it was not stopped");
+  claim(done < 64, "it was not stopped");
+  await page.reload();
+  await page.waitForFunction(() => document.querySelectorAll(".study-state.missing").length > 0);
+  for (const scheme of ["dark", "light"]) {
+    const faults = await accessibilityFaults(page, scheme);
+    claim(faults.length === 0, faults.join("\n"));
+  }
+  await page.emulateMedia({ colorScheme: "light" });
   await page.locator(".study-actions").getByRole("button", { name: "Resume" }).click();
-  await words.filter({ hasText: "32 of 32 runs done, completed" }).waitFor({ timeout: 60000 });
+  await words.filter({ hasText: "64 of 64 runs done, completed" }).waitFor({ timeout: 60000 });
   const id = await page.getByLabel("Which study").inputValue();
   const csv = readFileSync(join(folder, "runs", id, "runs.csv"), "utf8").trim().split("\n").map((line) => line.split(","));
   const at = csv[0].findIndex((name) => name.includes("h_min"));
@@ -86,10 +98,31 @@ await findings.check("the runs of an optimum appear as the search asks for them"
   await picture(page, "5-optimum");
 });
 
+await findings.check("a study goes to the cluster where the machine has one", async () => {
+  await openFile("tolerances.yaml");
+  await page.getByRole("button", { name: "Study …" }).click();
+  await words.filter({ hasText: "sobol" }).waitFor();
+  await page.getByLabel("Where").selectOption("on the cluster (Slurm)");
+  await page.getByRole("button", { name: "Start study" }).click();
+  const choice = page.getByLabel("Which study");
+  await until("no study is shown", async () => /-\d+$/.test(await choice.inputValue()));
+  const id = await choice.inputValue();
+  const { command } = JSON.parse(readFileSync(join(folder, "runs", id, "run.json"), "utf8"));
+  claim(command[command.indexOf("--on") + 1] === "slurm", command.join(" "));
+  // Its sbatch answers nobody: the study waits for it, or says so.
+  const stop = page.locator(".study-actions").getByRole("button", { name: "Stop" });
+  const ended = page.locator(`.runs li[data-run="${id}"] .run-state:not(.running)`);
+  await stop.or(ended).first().waitFor();
+  if (await stop.isVisible()) await stop.click();
+  await ended.waitFor();
+  await page.getByLabel("Which study").selectOption("");
+  await page.getByLabel("Where").selectOption("on this machine");
+});
+
 await findings.check("a study's faults stand in its table, overrides fix its parameters", async () => {
   await openFile("tolerances.yaml");
   await page.getByRole("button", { name: "Study …" }).click();
-  await words.filter({ hasText: "32 runs" }).waitFor();
+  await words.filter({ hasText: "64 runs" }).waitFor();
   await page.locator(".study-starting").getByLabel("Overrides").fill("width=15.5 mm");
   await page.waitForFunction(() => !document.querySelector(".study-table thead")?.textContent.includes("width"));
   await page.locator(".study-starting").getByLabel("Overrides").fill("widht=15.5 mm");
@@ -97,7 +130,7 @@ await findings.check("a study's faults stand in its table, overrides fix its par
   claim(await page.getByRole("button", { name: "Start study" }).isDisabled(), "it can be started");
   await picture(page, "6-study-fault");
   await page.locator(".study-starting").getByLabel("Overrides").fill("");
-  await words.filter({ hasText: "32 runs" }).waitFor();
+  await words.filter({ hasText: "64 runs" }).waitFor();
 });
 
 await findings.check("a run takes other values than its text has; wrong ones are told, and the list says which", async () => {
@@ -219,5 +252,6 @@ await findings.check("the page says nothing that it must not; axe-core finds not
 await browser.close();
 await server.stop();
 forget(folder);
+forget(tools);
 console.log(`${findings.held} held, ${findings.failed} failed, ${((performance.now() - begun) / 1000).toFixed(0)} s; pictures: ${pictures}`);
 process.exit(findings.failed > 0 ? 1 : 0);

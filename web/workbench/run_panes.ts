@@ -45,7 +45,7 @@ export class RunPanes {
     const started = (run: RunEntry) => (this.tabs.show(run.study ? "study" : "live"), this.show(run));
     const hasStudy = () => this.study.hasStudy;
     const planStudy = () => (this.tabs.show("study"), this.study.focusStart());
-    this.starter = new Starter({ api, runs: this.list, model, isReady, shownRun: () => this.live.shownRun, save, started, hasStudy, planStudy, say, fail });
+    this.starter = new Starter({ api, runs: this.list, model, isReady, shownRun: () => this.live.shownRun, save, started, hasStudy, isWrittenOut: () => this.study.isWrittenOut, planStudy, say, fail });
     const studies = () => this.list.runs.filter(({ study }) => study);
     const counted = (runs: number) => this.tabs?.label("study", texts.studyTab(runs));
     this.study = new StudyPane({ api, machine: hello, model, studies, start: (request) => this.starter.begin(request), act: (run, what) => this.list.act(run, what), counted });

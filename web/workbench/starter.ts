@@ -19,6 +19,8 @@ export interface StarterHooks {
   started: (run: RunEntry) => Promise<void>;
   /** Whether the model plans a study, which is shown before it is started. */
   hasStudy: () => boolean;
+  /** Whether `hersey run` does its runs as well: all combinations of lists. */
+  isWrittenOut: () => boolean;
   planStudy: () => void;
   say: (words: string) => void;
   fail: (error: unknown) => void;
@@ -46,7 +48,7 @@ export class Starter {
     const isReady = this.hooks.isReady() && !this.isStarting;
     this.runButton.textContent = hasStudy ? texts.studies.open : texts.run;
     this.runButton.disabled = !isReady && !hasStudy;
-    this.runWithButton.disabled = !isReady || hasStudy;
+    this.runWithButton.disabled = !isReady || (hasStudy && !this.hooks.isWrittenOut());
     this.stopButton.disabled = this.hooks.runs.running.length === 0;
   }
 

@@ -186,6 +186,13 @@ export class StudyPane {
     return model !== null && find(model.tree, ["study"]) !== undefined;
   }
 
+  /** All combinations of the values in its lists, which `hersey run` does as well. */
+  get isWrittenOut(): boolean {
+    const model = this.hooks.model();
+    const plan = model ? find(model.tree, ["study", "plan"]) : undefined;
+    return !plan || model!.state.sliceDoc(plan.valueFrom, plan.valueTo).trim() === "full_factorial";
+  }
+
   /** The pane has come into sight, or the model's text is another one. */
   refresh(): void {
     this.drawChoice();
