@@ -288,6 +288,16 @@ await findings.check("surfaces of a mesh are chosen by the mouse and written int
   const faults = await accessibilityFaults(page, "light");
   claim(faults.length === 0, faults.join("\n"));
   await page.getByLabel(`Choose ${picked}`).uncheck();
+  // What the file has no name for gets one in a new file.
+  await page.getByLabel("Choose plane_z_max").check();
+  await page.getByRole("button", { name: "Write conrod_named.msh" }).click();
+  await page.locator("dialog h2", { hasText: "conrod_named.msh" }).waitFor();
+  await page.getByLabel("Choose plane_z_max").check();
+  claim((await page.locator("dialog .template-text").innerText()).includes("nodes: plane_z_max, origin:"), "the plane has no frame");
+  await page.keyboard.press("Escape");
+  await page.locator("dialog").waitFor({ state: "detached" });
+  await openFile("conrod.msh");
+  await page.locator(".mesh-space canvas").waitFor();
   const row = page.locator(".mesh-table tr", { hasText: "45 mm" }).first();
   await row.locator("input").check();
   const name = (await checked())[0];

@@ -1,6 +1,6 @@
 // Marks over the picture of a machine: forces and torques as arrows with their names, springs, axes of joints, frames, gravity.
 
-import { AxesHelper, BufferGeometry, CanvasTexture, Color, ConeGeometry, Group, Line, LineDashedMaterial, Mesh, MeshStandardMaterial, Quaternion, Sprite, SpriteMaterial, TorusGeometry, Vector3, type Material, type Object3D } from "three";
+import { AxesHelper, BufferGeometry, CanvasTexture, Color, ConeGeometry, Group, Line, LineDashedMaterial, Mesh, MeshStandardMaterial, Quaternion, Sprite, SpriteMaterial, SRGBColorSpace, TorusGeometry, Vector3, type Material, type Object3D } from "three";
 import { rod } from "../src/shape_mesh";
 import { palette } from "../src/theme";
 import { format } from "../src/units";
@@ -119,7 +119,9 @@ function letters(words: string, colour: string): { map: CanvasTexture; aspect: n
     for (const { map } of drawnLabels.values()) map.dispose();
     drawnLabels.clear();
   }
-  const made = { map: new CanvasTexture(canvas), aspect: canvas.width / canvas.height };
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  const made = { map: texture, aspect: canvas.width / canvas.height };
   drawnLabels.set(key, made);
   return made;
 }

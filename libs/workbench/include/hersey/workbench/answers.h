@@ -67,6 +67,10 @@ class Answers {
   /// could be, of the body `body`. With `picture: true` also the triangles of every surface, and of the rest.
   [[nodiscard]] std::string mesh_info(std::string_view request) const;
 
+  /// `{path, length_unit, output}` -> `{path}`: writes the mesh with its found surfaces by name, as `hersey mesh --output`
+  /// does, in metres and without materials. An existing file is left as it is: 409.
+  [[nodiscard]] std::string name_surfaces(std::string_view request) const;
+
   /// `{key}` -> `{title, text, kind, unit, units, default, required, allowed: [{text, meaning}], keys: [...], example,
   /// plain}` as `hersey explain`; `plain` is its text, with all variants.
   [[nodiscard]] std::string explain(std::string_view request) const;
