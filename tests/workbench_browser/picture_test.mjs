@@ -17,6 +17,8 @@ const picture = (page, name) => page.screenshot({ path: join(pictures, `${name}.
 const size = { width: 1280, height: 720 };
 const folder = folderOfModels();
 cpSync(join(root, "examples/oil_circuit/model.yaml"), join(folder, "circuit.yaml"));
+cpSync(join(root, "examples/cam_follower/cam.stl"), join(folder, "cam.stl"));
+cpSync(join(root, "examples/cam_follower/model.yaml"), join(folder, "cam.yaml"));
 const findings = new Findings(only);
 const begun = performance.now();
 const server = await serve(resolve(program), folder);
@@ -56,6 +58,26 @@ await findings.check("forces, gravity and frames are drawn, chosen from the text
   await until("the arrow has not turned", async () => (await pixels()) !== before);
   await page.locator(".cm-content").focus();
   for (let i = 0; i < 4; i++) await page.keyboard.press("Control+z");
+});
+
+await findings.check("springs are drawn as coils between their bodies, and follow the text and the joints", async () => {
+  await openFile("cam.yaml");
+  await state(page, "Ready to run");
+  claim((await parts.locator("option").evaluateAll((all) => all.map((o) => o.value))).includes("/forces/spring"), "the spring is not listed");
+  await parts.selectOption("/forces/spring");
+  claim((await cursorLine(page)).trim().startsWith("spring:"), `the cursor is at ${await cursorLine(page)}`);
+  const pixels = () => page.evaluate(() => document.querySelector(".machine-space canvas").toDataURL());
+  const before = await pixels();
+  await page.locator(".joints summary").click();
+  const slider = page.locator(".joint-sliders input").first();
+  await slider.evaluate((e) => {
+    e.value = Number(e.value) + 0.3;
+    e.dispatchEvent(new Event("input"));
+  });
+  await until("the picture does not move", async () => (await pixels()) !== before);
+  await picture(page, "20b-spring");
+  await page.locator(".joints summary").click();
+  claim(page.complaints.length === 0, page.complaints.join("\n"));
 });
 
 await findings.check("the oil circuit is drawn; what is clicked in it is found in the text, and back", async () => {
