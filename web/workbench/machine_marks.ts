@@ -157,11 +157,14 @@ export class MachineMarks {
     private readonly radius: number,
   ) {}
 
+  /** Of many the values are in the list below the picture. */
   addLoads(loads: Load[]): void {
-    for (const load of loads) this.addLoad(load);
+    const few = 3;
+    const isFew = loads.filter(({ at, direction }) => at && direction).length <= few;
+    for (const load of loads) this.addLoad(load, isFew ? wordsOf(load) : load.name);
   }
 
-  private addLoad(load: Load): void {
+  private addLoad(load: Load, words: string): void {
     if (load.body === undefined || !load.at || !load.direction) return;
     const colour = palette().series[load.torque ? 3 : 1] ?? palette().accent;
     const direction = new Vector3(...load.direction).normalize();
@@ -169,7 +172,7 @@ export class MachineMarks {
     const mark = load.torque ? turnArrow(direction, 0.5 * length, colour) : arrow(direction, length, colour);
     const whole = new Group();
     whole.add(mark);
-    this.addLabel(whole, load.torque ? new Vector3() : direction.clone().multiplyScalar(-length), wordsOf(load), colour);
+    this.addLabel(whole, load.torque ? new Vector3() : direction.clone().multiplyScalar(-length), words, colour);
     over(whole, `/forces/${load.name}`);
     const at = new Vector3(...load.at);
     if (load.axes === "body" && this.groups.has(load.body)) {
