@@ -77,6 +77,17 @@ await findings.check("springs are drawn as coils between their bodies, and follo
   await until("the picture does not move", async () => (await pixels()) !== before);
   await picture(page, "20b-spring");
   await page.locator(".joints summary").click();
+  // One on a joint is an arrow around its axis.
+  await goTo(page, "forces:");
+  await page.keyboard.insertText("\n  wind: {type: torsion_spring, joint: shaft, stiffness: 10 N.m/rad}");
+  await state(page, "Ready to run");
+  await parts.selectOption("/bodies/follower");
+  const wound = await pixels();
+  await parts.selectOption("/forces/wind");
+  await until("the arrow does not glow", async () => (await pixels()) !== wound);
+  await picture(page, "20c-torsion-spring");
+  await page.locator(".cm-content").focus();
+  for (let i = 0; i < 10 && (await textOf(page)).includes("wind:"); i++) await page.keyboard.press("Control+z");
   claim(page.complaints.length === 0, page.complaints.join("\n"));
 });
 

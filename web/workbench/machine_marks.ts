@@ -184,6 +184,22 @@ export class MachineMarks {
     }
   }
 
+  /** A spring, friction or motor on the coordinate of a joint: around its axis, or along it. */
+  addOnJoint(load: Load, joint: { inboard: string; inboardPlace: Vector3; axis: Vector3 }): void {
+    const group = this.groups.get(joint.inboard);
+    if (!group || joint.axis.lengthSq() === 0) return;
+    const colour = palette().series[4] ?? palette().accent;
+    const axis = joint.axis.clone().normalize();
+    const size = 0.14 * this.radius;
+    const isTurn = load.coordinate?.startsWith("rotation") ?? false;
+    const whole = new Group();
+    whole.add(isTurn ? turnArrow(axis, size, colour) : arrow(axis, 2 * size, colour));
+    this.addLabel(whole, new Vector3(), load.name, colour);
+    whole.position.copy(joint.inboardPlace);
+    over(whole, `/forces/${load.name}`);
+    group.add(whole);
+  }
+
   private addLabel(to: Object3D, at: Vector3, words: string, colour: string): void {
     if (this.labels.length >= mostLabels) return;
     const sprite = label(words, colour);
