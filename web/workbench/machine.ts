@@ -269,14 +269,12 @@ export class WorkbenchMachine extends MachineView {
   }
 
   protected override place(): void {
-    // It is for lines of two points.
-    for (const { link, line } of this.forceLines) if (this.isSpring(link.name)) redraw(line, [new Vector3(), new Vector3()]);
     super.place();
     for (const [name, pose] of this.poses ?? []) this.groups.get(name)?.matrix.copy(pose);
     const end = (body: string, place: Vector3) => place.clone().applyMatrix4(this.groups.get(body)?.matrix ?? new Matrix4());
     for (const { link, line } of this.forceLines) {
       const [from, to] = [end(link.inboard, link.inboardPlace), end(link.outboard, link.outboardPlace)];
-      redraw(line, this.isSpring(link.name) ? coil(from, to, 0.03 * this.bounds.radius) : [from, to]);
+      redraw(line as Line, this.isSpring(link.name) ? coil(from, to, 0.03 * this.bounds.radius) : [from, to]);
     }
     this.drawn?.place();
     this.render();

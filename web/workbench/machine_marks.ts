@@ -267,8 +267,16 @@ export class MachineMarks {
   }
 }
 
-/** A line through more points than it had. */
+/** Of a line whose points may become more or fewer. */
+class Course extends BufferGeometry {
+  override setFromPoints(points: Vector3[]): this {
+    this.deleteAttribute("position");
+    return super.setFromPoints(points);
+  }
+}
+
+/** A line through more points than it had, or fewer. */
 export function redraw(line: Line, points: Vector3[]): void {
   line.geometry.dispose();
-  line.geometry = new BufferGeometry().setFromPoints(points);
+  line.geometry = new Course().setFromPoints(points);
 }
