@@ -72,7 +72,7 @@ class Security(unittest.TestCase):
     def test_without_its_token_the_interface_says_nothing(self):
         calls = [("GET", call) for call in ("hello", "files", "file?path=model.yaml", "schema", "templates", "examples", "runs", "runs/x/log", "cad/1",
                                             "events", "no_such_call", "")]
-        calls += [("POST", call) for call in ("check", "explain", "template", "new", "cad", "cad/1/stop", "runs", "runs/x/stop", "compare")]
+        calls += [("POST", call) for call in ("check", "explain", "template", "new", "name_surfaces", "cad", "cad/1/stop", "runs", "runs/x/stop", "compare")]
         calls += [("PUT", "file?path=model.yaml")]
         other = self.server.token[:-1] + ("0" if self.server.token[-1] != "0" else "1")
         for token in (None, "", "Bearer", "Bearer ", "Bearer " + other, "Bearer " + self.server.token[:-1],

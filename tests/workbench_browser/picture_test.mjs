@@ -17,6 +17,8 @@ const picture = (page, name) => page.screenshot({ path: join(pictures, `${name}.
 const size = { width: 1280, height: 720 };
 const folder = folderOfModels();
 cpSync(join(root, "examples/oil_circuit/model.yaml"), join(folder, "circuit.yaml"));
+cpSync(join(root, "examples/cam_follower/cam.stl"), join(folder, "cam.stl"));
+cpSync(join(root, "examples/cam_follower/model.yaml"), join(folder, "cam.yaml"));
 const findings = new Findings(only);
 const begun = performance.now();
 const server = await serve(resolve(program), folder);
@@ -56,6 +58,37 @@ await findings.check("forces, gravity and frames are drawn, chosen from the text
   await until("the arrow has not turned", async () => (await pixels()) !== before);
   await page.locator(".cm-content").focus();
   for (let i = 0; i < 4; i++) await page.keyboard.press("Control+z");
+});
+
+await findings.check("springs are drawn as coils between their bodies, and follow the text and the joints", async () => {
+  await openFile("cam.yaml");
+  await state(page, "Ready to run");
+  claim((await parts.locator("option").evaluateAll((all) => all.map((o) => o.value))).includes("/forces/spring"), "the spring is not listed");
+  await parts.selectOption("/forces/spring");
+  claim((await cursorLine(page)).trim().startsWith("spring:"), `the cursor is at ${await cursorLine(page)}`);
+  const pixels = () => page.evaluate(() => document.querySelector(".machine-space canvas").toDataURL());
+  const before = await pixels();
+  await page.locator(".joints summary").click();
+  const slider = page.locator(".joint-sliders input").first();
+  await slider.evaluate((e) => {
+    e.value = Number(e.value) + 0.3;
+    e.dispatchEvent(new Event("input"));
+  });
+  await until("the picture does not move", async () => (await pixels()) !== before);
+  await picture(page, "20b-spring");
+  await page.locator(".joints summary").click();
+  // One on a joint is an arrow around its axis.
+  await goTo(page, "forces:");
+  await page.keyboard.insertText("\n  wind: {type: torsion_spring, joint: shaft, stiffness: 10 N.m/rad}");
+  await state(page, "Ready to run");
+  await parts.selectOption("/bodies/follower");
+  const wound = await pixels();
+  await parts.selectOption("/forces/wind");
+  await until("the arrow does not glow", async () => (await pixels()) !== wound);
+  await picture(page, "20c-torsion-spring");
+  await page.locator(".cm-content").focus();
+  for (let i = 0; i < 10 && (await textOf(page)).includes("wind:"); i++) await page.keyboard.press("Control+z");
+  claim(page.complaints.length === 0, page.complaints.join("\n"));
 });
 
 await findings.check("the oil circuit is drawn; what is clicked in it is found in the text, and back", async () => {
@@ -288,6 +321,16 @@ await findings.check("surfaces of a mesh are chosen by the mouse and written int
   const faults = await accessibilityFaults(page, "light");
   claim(faults.length === 0, faults.join("\n"));
   await page.getByLabel(`Choose ${picked}`).uncheck();
+  // What the file has no name for gets one in a new file.
+  await page.getByLabel("Choose plane_z_max").check();
+  await page.getByRole("button", { name: "Write conrod_named.msh" }).click();
+  await page.locator("dialog h2", { hasText: "conrod_named.msh" }).waitFor();
+  await page.getByLabel("Choose plane_z_max").check();
+  claim((await page.locator("dialog .template-text").innerText()).includes("nodes: plane_z_max, origin:"), "the plane has no frame");
+  await page.keyboard.press("Escape");
+  await page.locator("dialog").waitFor({ state: "detached" });
+  await openFile("conrod.msh");
+  await page.locator(".mesh-space canvas").waitFor();
   const row = page.locator(".mesh-table tr", { hasText: "45 mm" }).first();
   await row.locator("input").check();
   const name = (await checked())[0];

@@ -228,6 +228,10 @@ export class WorkbenchMachine extends MachineView {
     this.drawn = new MachineMarks(this.groups, this.bounds.radius);
     if (this.loadsShown && !this.marks.plain) {
       this.drawn.addLoads(this.marks.loads);
+      for (const load of this.marks.loads) {
+        const joint = this.geometry.joints.find(({ name }) => name === load.joint);
+        if (joint) this.drawn.addOnJoint(load, joint);
+      }
       const down = this.geometry.gravity();
       if (down.lengthSq() > 0) {
         const up = this.geometry.up();

@@ -1,6 +1,6 @@
 // Marks over the picture of a machine: forces and torques as arrows with their names, springs, axes of joints, frames, gravity.
 
-import { AxesHelper, BufferGeometry, CanvasTexture, Color, ConeGeometry, Group, Line, LineDashedMaterial, Mesh, MeshStandardMaterial, Quaternion, Sprite, SpriteMaterial, TorusGeometry, Vector3, type Material, type Object3D } from "three";
+import { AxesHelper, BufferGeometry, CanvasTexture, Color, ConeGeometry, Group, Line, LineDashedMaterial, Mesh, MeshStandardMaterial, Quaternion, Sprite, SpriteMaterial, SRGBColorSpace, TorusGeometry, Vector3, type Material, type Object3D } from "three";
 import { rod } from "../src/shape_mesh";
 import { palette } from "../src/theme";
 import { format } from "../src/units";
@@ -119,7 +119,9 @@ function letters(words: string, colour: string): { map: CanvasTexture; aspect: n
     for (const { map } of drawnLabels.values()) map.dispose();
     drawnLabels.clear();
   }
-  const made = { map: new CanvasTexture(canvas), aspect: canvas.width / canvas.height };
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  const made = { map: texture, aspect: canvas.width / canvas.height };
   drawnLabels.set(key, made);
   return made;
 }
@@ -155,11 +157,14 @@ export class MachineMarks {
     private readonly radius: number,
   ) {}
 
+  /** Of many the values are in the list below the picture. */
   addLoads(loads: Load[]): void {
-    for (const load of loads) this.addLoad(load);
+    const few = 3;
+    const isFew = loads.filter(({ at, direction }) => at && direction).length <= few;
+    for (const load of loads) this.addLoad(load, isFew ? wordsOf(load) : load.name);
   }
 
-  private addLoad(load: Load): void {
+  private addLoad(load: Load, words: string): void {
     if (load.body === undefined || !load.at || !load.direction) return;
     const colour = palette().series[load.torque ? 3 : 1] ?? palette().accent;
     const direction = new Vector3(...load.direction).normalize();
@@ -167,7 +172,7 @@ export class MachineMarks {
     const mark = load.torque ? turnArrow(direction, 0.5 * length, colour) : arrow(direction, length, colour);
     const whole = new Group();
     whole.add(mark);
-    this.addLabel(whole, load.torque ? new Vector3() : direction.clone().multiplyScalar(-length), wordsOf(load), colour);
+    this.addLabel(whole, load.torque ? new Vector3() : direction.clone().multiplyScalar(-length), words, colour);
     over(whole, `/forces/${load.name}`);
     const at = new Vector3(...load.at);
     if (load.axes === "body" && this.groups.has(load.body)) {
@@ -177,6 +182,22 @@ export class MachineMarks {
       this.carried.push({ object: whole, body: load.body, at });
       this.group.add(whole);
     }
+  }
+
+  /** A spring, friction or motor on the coordinate of a joint: around its axis, or along it. */
+  addOnJoint(load: Load, joint: { inboard: string; inboardPlace: Vector3; axis: Vector3 }): void {
+    const group = this.groups.get(joint.inboard);
+    if (!group || joint.axis.lengthSq() === 0) return;
+    const colour = palette().series[4] ?? palette().accent;
+    const axis = joint.axis.clone().normalize();
+    const size = 0.14 * this.radius;
+    const isTurn = load.coordinate?.startsWith("rotation") ?? false;
+    const whole = new Group();
+    whole.add(isTurn ? turnArrow(axis, size, colour) : arrow(axis, 2 * size, colour));
+    this.addLabel(whole, new Vector3(), load.name, colour);
+    whole.position.copy(joint.inboardPlace);
+    over(whole, `/forces/${load.name}`);
+    group.add(whole);
   }
 
   private addLabel(to: Object3D, at: Vector3, words: string, colour: string): void {
@@ -246,8 +267,16 @@ export class MachineMarks {
   }
 }
 
-/** A line through more points than it had. */
+/** Of a line whose points may become more or fewer. */
+class Course extends BufferGeometry {
+  override setFromPoints(points: Vector3[]): this {
+    this.deleteAttribute("position");
+    return super.setFromPoints(points);
+  }
+}
+
+/** A line through more points than it had, or fewer. */
 export function redraw(line: Line, points: Vector3[]): void {
   line.geometry.dispose();
-  line.geometry = new BufferGeometry().setFromPoints(points);
+  line.geometry = new Course().setFromPoints(points);
 }

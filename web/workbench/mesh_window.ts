@@ -48,11 +48,20 @@ export function showMesh(api: Api, path: string, first = "mm", target: () => Mes
   unit.value = first;
   const body = h("div", { class: "mesh-body", "aria-live": "polite" });
   let picture: MeshPicture | null = null;
+  const nameAll = async (output: string) => {
+    try {
+      await api.post("/api/name_surfaces", { path, length_unit: unit.value, output });
+      window.close();
+      showMesh(api, output, "m", target);
+    } catch (error) {
+      body.prepend(h("p", { class: "fault" }, error instanceof Error ? error.message : String(error)));
+    }
+  };
   const show = async () => {
     try {
       const answer = await api.post<MeshAnswer>("/api/mesh", { path, length_unit: unit.value, picture: true, body: bodyOf(target(), path) });
       picture?.end();
-      picture = fill(body, answer, path, target);
+      picture = fill(body, answer, path, target, nameAll);
     } catch (error) {
       body.replaceChildren(h("p", { class: "fault" }, error instanceof Error ? error.message : String(error)));
     }
@@ -76,7 +85,7 @@ function bodyOf(target: MeshTarget | null, path: string): string {
   return own?.key ?? (bodies.some(({ key }) => key === "part") ? "mesh_part" : "part");
 }
 
-function fill(body: HTMLElement, { found, uses, lines, mesh, picture: scene, length_unit: unit }: MeshAnswer, path: string, target: () => MeshTarget | null): MeshPicture {
+function fill(body: HTMLElement, { found, uses, lines, mesh, picture: scene, length_unit: unit }: MeshAnswer, path: string, target: () => MeshTarget | null, nameAll: (output: string) => void): MeshPicture {
   const count = (key: string) => (typeof mesh[key] === "number" ? (mesh[key] as number) : null);
   const facts = [count("nodes") !== null ? texts.mesh.nodes(count("nodes")!) : "", count("elements") !== null ? texts.mesh.elements(count("elements")!) : ""].filter((t) => t);
   const chosen = new Set<string>();
@@ -87,9 +96,10 @@ function fill(body: HTMLElement, { found, uses, lines, mesh, picture: scene, len
     else chosen.add(name);
     for (const box of body.querySelectorAll<HTMLInputElement>(".mesh-table input")) box.checked = chosen.has(box.value);
     picture.choose(chosen);
-    text.textContent = chosen.size > 0 ? linesOf() : lines;
+    text.textContent = chosenUses().length > 0 ? linesOf() : lines;
     const unnamed = [...chosen].filter((one) => !uses.some((use) => use.name === one));
-    say.textContent = unnamed.length > 0 ? texts.mesh.unnamed(unnamed.join(", "), path) : "";
+    const named = path.replace(/\.[^./]+$/, "_named.msh");
+    say.replaceChildren(...(unnamed.length > 0 ? [`${texts.mesh.unnamed(unnamed.join(", "))} `, h("button", { type: "button", class: "quiet", click: () => nameAll(named) }, texts.mesh.name(named))] : []));
     write.disabled = chosenUses().length === 0 || !target();
   };
   const chosenUses = () => uses.filter((use) => chosen.has(use.name));

@@ -283,6 +283,16 @@ TEST_CASE("SurfacesOfAMesh_ArePickedAndWrittenIntoAModel") {
   const std::string lines = answer["lines"], frame = (*bore)["frame"], bearing = (*bore)["bearing"];
   CHECK(lines.find(": " + frame + "\n") != std::string::npos);
   CHECK(bearing.starts_with("{shell: rod." + (*bore)["key"].get<std::string>() + ", "));
+  // With names for all surfaces there are uses of all.
+  const TemporaryDirectory folder;
+  std::filesystem::copy_file(examples_folder() + "/meshes/conrod.msh", folder.path() / "conrod.msh");
+  const Answers in_folder(folder.path());
+  const std::string naming = R"({"path": "conrod.msh", "length_unit": "mm", "output": "named.msh"})";
+  CHECK(Json::parse(in_folder.name_surfaces(naming))["path"] == "named.msh");
+  CHECK(status_of([&] { return in_folder.name_surfaces(naming); }) == 409);
+  const Json named = Json::parse(in_folder.mesh_info(R"({"path": "named.msh", "length_unit": "m"})"));
+  CHECK(named["unnamed"] == 0);
+  CHECK(named["uses"].size() >= answer["found"].size());
 }
 
 }  // namespace answers_edit_test

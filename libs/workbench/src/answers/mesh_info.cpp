@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "answers/kept.h"
 #include "answers/repairs.h"
 #include "answers/request.h"
 #include "hersey/core/units.h"
+#include "hersey/fem/gmsh_file.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/workbench/answers.h"
@@ -57,6 +61,34 @@ std::string Answers::mesh_info(std::string_view request) const {
     return whole + "\"found\":" + found_json(found) + ",\"mesh\":" + mesh_json(mesh, quality) + "}";
   } catch (const InputError& error) {
     refuse(error);
+  }
+}
+
+std::string Answers::name_surfaces(std::string_view request) const {
+  const Json given = request_object(request);
+  const std::string file = kept_->file(text_in(given, "path")), output = text_in(given, "output");
+  const std::filesystem::path to = kept_->file(output);
+  if (to.extension() != ".msh")
+    throw Refused(422, "The mesh is to be called '" + output + "'.", "Give a name that ends with .msh.");
+  if (std::filesystem::exists(to) || std::filesystem::is_symlink(to))
+    throw Refused(409, "There is a file '" + output + "' already.", "Choose another name.");
+  const double length = length_unit_of(text_in(given, "length_unit", "m"));
+  try {
+    fem::Mesh mesh = fem::read_mesh(file, length);
+    const bool has_beams = std::any_of(mesh.elements.begin(), mesh.elements.end(),
+                                       [](const auto& element) { return element.type == fem::ElementType::beam2; });
+    if (has_beams || !mesh.ties.empty())
+      throw Refused(422, "The mesh has beams or ties, which the format that is written does not have.",
+                    "Name the surfaces in the program that made the mesh.");
+    fem::add_surfaces(mesh, fem::find_surfaces(mesh));
+    fem::write_gmsh(to, mesh);
+    return dumped({{"path", output}});
+  } catch (const InputError& error) {
+    refuse(error);
+  } catch (const Refused&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw Refused(507, error.what(), "The folder may be read-only, or the disk full.");
   }
 }
 

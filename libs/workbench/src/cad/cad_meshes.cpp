@@ -100,11 +100,16 @@ CadMeshes::Job& CadMeshes::job(const std::string& name) {
 
 CadState CadMeshes::state(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  const Job& one = job(name);
+  Job& one = job(name);
   CadState state;
   state.output = one.output_name;
   state.seconds = std::chrono::duration<double>(Clock::now() - one.began).count();
-  if (is_running(one.process)) return state;
+  if (is_running(one.process)) {
+    // One that was just beginning may not have heard it.
+    constexpr std::chrono::seconds kPatience(2);
+    if (one.is_stopped && Clock::now() - one.asked_to_stop > kPatience) ask_to_stop(one);
+    return state;
+  }
   std::error_code ignored;
   const bool is_made = std::filesystem::exists(one.output, ignored);
   state.at = is_made ? CadState::At::made : CadState::At::failed;
@@ -114,8 +119,13 @@ CadState CadMeshes::state(const std::string& name) {
 
 void CadMeshes::stop(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  Job& one = job(name);
-  one.is_stopped = interrupt(one.process, one.file.string());
+  ask_to_stop(job(name));
+}
+
+void CadMeshes::ask_to_stop(Job& job) {
+  job.is_stopped = true;
+  job.asked_to_stop = Clock::now();
+  interrupt(job.process, job.file.string());
 }
 
 }  // namespace hersey::workbench

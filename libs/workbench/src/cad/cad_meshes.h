@@ -51,9 +51,10 @@ class CadMeshes {
     ProcessId process;
     std::filesystem::path file, output, log;
     std::string output_name;
-    std::chrono::steady_clock::time_point began;
+    std::chrono::steady_clock::time_point began, asked_to_stop;
     bool is_stopped = false;
   };
+  static void ask_to_stop(Job& job);
   [[nodiscard]] Job& job(const std::string& name);
 
   const Folder& folder_;

@@ -114,6 +114,7 @@ Reply Api::route(const Request& request) {
   if (call == "POST move") return ask(&Answers::move);
   if (call == "POST bearing") return ask(&Answers::bearing);
   if (call == "POST mesh") return ask(&Answers::mesh_info);
+  if (call == "POST name_surfaces") return ask(&Answers::name_surfaces);
   if (call == "POST explain") return ask(&Answers::explain);
   if (call == "POST convert") return ask(&Answers::convert);
   if (call == "POST set") return ask(&Answers::set_value);

@@ -62,10 +62,14 @@ class Answers {
   [[nodiscard]] std::string bearing(std::string_view request) const;
 
   /// `{path, length_unit: "mm"}` -> what `hersey mesh --json` tells of a mesh file of the folder: sizes, sets,
-  /// `found` surfaces that could be bores or journals; and `lines`, the text of a model that uses them. `uses`: for each
-  /// surface that the file names `{name, key, frame, bearing}`, the value of a frame there and of the bearing that it
-  /// could be, of the body `body`. With `picture: true` also the triangles of every surface, and of the rest.
+  /// `found` surfaces that could be bores or journals; and `lines`, the text of a model that uses them. `uses`: for
+  /// each surface that the file names `{name, key, frame, bearing}`, the value of a frame there and of the bearing that
+  /// it could be, of the body `body`. With `picture: true` also the triangles of every surface, and of the rest.
   [[nodiscard]] std::string mesh_info(std::string_view request) const;
+
+  /// `{path, length_unit, output}` -> `{path}`: writes the mesh with its found surfaces by name, as `hersey mesh
+  /// --output` does, in metres and without materials. An existing file is left as it is: 409.
+  [[nodiscard]] std::string name_surfaces(std::string_view request) const;
 
   /// `{key}` -> `{title, text, kind, unit, units, default, required, allowed: [{text, meaning}], keys: [...], example,
   /// plain}` as `hersey explain`; `plain` is its text, with all variants.
