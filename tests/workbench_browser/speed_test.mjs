@@ -49,9 +49,6 @@ for (const [name, what, place, count, pause] of [
     const times = await timesOf(page, place, count, pause);
     console.log(`        median ${times[count >> 1].toFixed(0)} ms, worst ${times.at(-1).toFixed(0)} ms`);
     claim(times[0] > 0, `${times}`);
-    const asked = performance.now();
-    await ready(page);
-    console.log(`        ready to run ${(performance.now() - asked).toFixed(0)} ms later`);
     claim(page.complaints.length === 0, page.complaints.join("\n"));
     await page.close();
   });
