@@ -189,7 +189,9 @@ export class WorkbenchMachine extends MachineView {
   }
 
   private drawMarks(): void {
-    this.drawn?.dispose();
+    // Not before the new ones are drawn, as with meshes.
+    const old = this.drawn;
+    if (old) setTimeout(() => old.dispose());
     this.drawn = new MachineMarks(this.groups, this.bounds.radius);
     if (this.loadsShown && !this.marks.plain) {
       this.drawn.addLoads(this.marks.loads);
