@@ -75,6 +75,7 @@ await journey("a read-only folder is shown; what cannot be written is said, and 
   await dot(page).first().waitFor();
   await page.waitForTimeout(600); // the tab remembers after a pause of typing
   await page.reload();
+  await page.waitForSelector(".cm-content");
   await says(page, "mass: 6.5 kg");
   await dot(page).first().waitFor();
   claim(readFileSync(join(folder, "model.yaml"), "utf8") === before && readdirSync(folder).join() === entries, "something has been written");
