@@ -32,12 +32,37 @@ export function folderOfModels() {
   return folder;
 }
 
+/** The text of a chain of bodies that hinges join and springs hold. */
+export function chainOfBodies(count) {
+  const numbers = [...Array(count).keys()];
+  const body = (i) => `  link_${i}:
+    mass: 0.5 kg
+    centre_of_mass: 25 0 0 mm
+    inertia: {xx: 1e-5 kg.m^2, yy: 2e-4 kg.m^2, zz: 2e-4 kg.m^2}
+    frames: {end: {origin: 50 0 0 mm}}
+    shapes: {bar: {shape: capsule, to: 50 0 0 mm, diameter: 8 mm}}
+`;
+  const hinge = (i) => `  hinge_${i}: {type: revolute, between: [${i === 0 ? "ground" : `link_${i - 1}.end`}, link_${i}], axis: z}\n`;
+  const spring = (i) => `  spring_${i}: {type: spring_damper, between: [ground.anchor, link_${i}.end], stiffness: 10 N/m, damping: 1 N.s/m, free_length: 100 mm}\n`;
+  return `hersey: 1
+title: Chain of ${count} bodies
+gravity: 0 -9.81 0 m/s^2
+bodies:
+  ground: {frames: {anchor: {origin: 0 1000 0 mm}}}
+${numbers.map(body).join("")}joints:
+${numbers.map(hinge).join("")}forces:
+${numbers.map(spring).join("")}simulation:
+  duration: 10 ms
+  step: 1 ms
+`;
+}
+
 export const forget = (folder) => rmSync(folder, { recursive: true, force: true });
 
-/** `hersey open`, once it has printed its address. */
-export function serve(program, folder, port) {
+/** `hersey open`, once it has printed its address. @param how  further options of the process, such as its user */
+export function serve(program, folder, port, how = {}) {
   return new Promise((resolve, reject) => {
-    const child = spawn(program, ["open", folder, "--no-browser", ...(port ? ["--port", String(port)] : [])], { stdio: ["ignore", "pipe", "pipe"] });
+    const child = spawn(program, ["open", folder, "--no-browser", ...(port ? ["--port", String(port)] : [])], { stdio: ["ignore", "pipe", "pipe"], ...how });
     let said = "";
     const hear = (text) => {
       said += text;

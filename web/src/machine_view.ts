@@ -184,6 +184,8 @@ export class MachineView {
       this.observer.disconnect();
       return false;
     }
+    // Asking after faults of the shaders, which are three.js's own, waits for all that is being drawn.
+    this.renderer.debug.checkShaderErrors = false;
     this.holder.append(this.renderer.domElement);
     this.camera.up.copy(this.geometry.up());
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);

@@ -131,6 +131,11 @@ export class Refused extends Error {
   }
 }
 
+/** Why, and what to do. */
+export function sentences({ message, advice }: Refused): string {
+  return advice ? `${message}${/[.!?]$/.test(message) ? "" : ";"} ${advice}` : message;
+}
+
 /** Nobody answers: the program was ended. */
 export class Unreachable extends Error {}
 

@@ -1,7 +1,7 @@
 // Open texts and their files: reading anew what was changed outside, saving, and what is asked where both have changed.
 
 import type { Text } from "@codemirror/state";
-import { Refused, type Api, type FileContent } from "./api";
+import { Refused, sentences, type Api, type FileContent } from "./api";
 import { askTexts } from "./dialogs";
 import type { Editor, OpenDocument } from "./editor";
 import { formOf, normal, type FileForm } from "./file_text";
@@ -123,7 +123,7 @@ export class DocumentFiles {
         this.hooks.notices.say(texts.saved(document.name));
         return true;
       }
-      const words = error instanceof Refused ? `${error.message} ${error.advice}` : texts.unreachable;
+      const words = error instanceof Refused ? sentences(error) : texts.unreachable;
       this.hooks.notices.keep(`save-${document.path}`, `${texts.notSaved(document.name)} ${words}`);
       return false;
     }

@@ -1,6 +1,6 @@
 // The page as a whole: what joins its panes, the texts that are open, and what the program says.
 
-import { Unreachable, Refused, type Api, type Hello } from "./api";
+import { Unreachable, Refused, sentences, type Api, type Hello } from "./api";
 import { h } from "../src/dom";
 import { CheckState } from "./check_state";
 import { Checker } from "./checker";
@@ -241,7 +241,7 @@ export class Workbench {
 
   private fail(error: unknown): void {
     if (error instanceof Unreachable) return this.news.connected(false);
-    this.notices.say(error instanceof Refused ? [error.message, error.advice].filter((t) => t).join(" ") : error instanceof Error ? error.message : String(error));
+    this.notices.say(error instanceof Refused ? sentences(error) : error instanceof Error ? error.message : String(error));
   }
 
   private rememberSoon(): void {

@@ -46,6 +46,7 @@ class Session {
   /// The same text with other overrides, in place of the present ones. @throws InputError
   [[nodiscard]] Session with(std::vector<std::string> overrides) const;
 
+  /// The file that the text comes from, as it was opened.
   [[nodiscard]] const model::ModelFile& source() const { return source_; }
   /// The text as it was given, without overrides.
   [[nodiscard]] const std::string& text() const { return source_.text(); }
