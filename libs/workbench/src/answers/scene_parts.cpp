@@ -169,6 +169,7 @@ struct LoadDrawing {
 
   void operator()(const model::SpringDamper& force) const { between("spring_damper", force); }
   void operator()(const model::Bushing& force) const { between("bushing", force); }
+  void operator()(const model::BearingTable& force) const { between("bearing_table", force); }
   void operator()(const model::PistonRing& force) const { between("piston_ring", force); }
   void operator()(const model::CoordinateSpring& force) const {
     on(model::is_rotation(force.on.coordinate) ? "torsion_spring" : "sliding_spring", force.on);

@@ -28,7 +28,7 @@ using nlohmann::json;
 using StudyPath = std::filesystem::path;
 
 constexpr double kPlanTime = 60;  // [s]
-constexpr std::size_t kMostRecords = 1000;
+constexpr std::size_t kMostRecordsAtOnce = 1000;
 constexpr std::uintmax_t kMostPart = std::uintmax_t{4} << 20;  // of a file of records at a time
 
 /// Content of a regular file that is no link, from `begin` on; empty if there is none.
@@ -157,7 +157,7 @@ std::string Studies::course(const std::string& id, const std::string& after) con
   for (const std::string& name : record_files(folder)) {
     std::uintmax_t& place = places[name];
     std::istringstream lines(study_part(folder / name, place, kMostPart));
-    for (std::string line; answer["records"].size() < kMostRecords && std::getline(lines, line) && !lines.eof();) {
+    for (std::string line; answer["records"].size() < kMostRecordsAtOnce && std::getline(lines, line) && !lines.eof();) {
       place += line.size() + 1;
       const json record = study_object(line);
       if (record.is_null()) continue;
@@ -171,7 +171,7 @@ std::string Studies::course(const std::string& id, const std::string& after) con
   std::string at;
   for (const auto& [name, place] : places) at += fmt::format("{}{}:{}", at.empty() ? "" : " ", name, place);
   answer["at"] = at;
-  answer["more"] = answer["records"].size() == kMostRecords;
+  answer["more"] = answer["records"].size() == kMostRecordsAtOnce;
   answer["state"] = run.state;
   return answer.dump(-1, ' ', false, json::error_handler_t::replace);
 }

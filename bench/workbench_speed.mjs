@@ -1,18 +1,18 @@
-// node speed_test.mjs PROGRAM: from a keystroke to faults and redrawn machine, of the in-line four with nine films and of a
+// node bench/workbench_speed.mjs PROGRAM: from a keystroke to faults and redrawn machine, of the in-line four with nine films and of a
 // chain of 1000 bodies. The times are printed; that they are there at all is the test: they depend on what else the
 // machine does. The aims on two cores: 100 ms in the median and 200 ms at worst, and 1 s.
 import { cpSync, mkdtempSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { chainOfBodies, claim, Findings, forget, goTo, launch, open, serve } from "./bench.mjs";
+import { chainOfBodies, claim, Findings, forget, goTo, launch, open, serve } from "../tests/workbench_browser/bench.mjs";
 
 const [program, only] = process.argv.slice(2);
 if (!program) {
-  console.error("usage: node speed_test.mjs PROGRAM [ONLY]");
+  console.error("usage: node bench/workbench_speed.mjs PROGRAM [ONLY]");
   process.exit(2);
 }
-const engine = fileURLToPath(new URL("../../examples/engine_oil/", import.meta.url));
+const engine = fileURLToPath(new URL("../examples/engine_oil/", import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), "hersey-speed-"));
 for (const [from, to] of [["model.yaml", "engine.yaml"], ["gas_pressure.csv", "gas_pressure.csv"]]) cpSync(join(engine, from), join(folder, to));
 writeFileSync(join(folder, "chain.yaml"), chainOfBodies(1000));
