@@ -247,6 +247,11 @@ struct ConvertArguments {
 /// @throws InputError with the faults of the written file; std::runtime_error if it cannot be written.
 [[nodiscard]] int convert_command(const ConvertArguments& arguments);
 
+/// `hersey recipes`: prints a recipe, or the list of all, as text or as JSON.
+/// @param name  empty: the list
+/// @returns an ExitCode. @throws InputError for an unknown name.
+[[nodiscard]] int recipes_command(const std::string& name, bool as_json);
+
 /// `hersey explain`: prints the description of a key of the model file, from the format itself.
 /// @param path  empty: the sections
 /// @returns an ExitCode.

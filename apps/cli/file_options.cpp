@@ -113,6 +113,17 @@ void add_init(CLI::App& app, Commands& commands) {
   commands.push_back({command, [init] { return init_command(*init); }});
 }
 
+void add_recipes(CLI::App& app, Commands& commands) {
+  const auto name = std::make_shared<std::string>();
+  const auto as_json = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand(
+      "recipes",
+      "Print how a task is done, step by step, with commands that work as they stand; alone: list the tasks");
+  command->add_option("NAME", *name, "Which one, such as size-a-bearing");
+  command->add_flag("--json", *as_json, "Print it, or all of them, as JSON");
+  commands.push_back({command, [name, as_json] { return recipes_command(*name, *as_json); }});
+}
+
 void add_explain(CLI::App& app, Commands& commands) {
   const auto key = std::make_shared<std::string>();
   CLI::App* command =
@@ -136,6 +147,7 @@ void add_file_commands(CLI::App& app, Commands& commands) {
   add_oil(app, commands);
   add_export(app, commands);
   add_init(app, commands);
+  add_recipes(app, commands);
   add_convert(app, commands);
   add_explain(app, commands);
   add_schema(app, commands);

@@ -17,7 +17,7 @@ int list_models() {
     lines.push_back({std::string(model.name), session::title_of(model)});
   fmt::print(
       "Models to begin with:\n{}\n`hersey init big_end my_rod` writes my_rod.yaml and says what to do with it.\n",
-      aligned(lines, 2));
+      aligned(lines, 1));
   return kOk;
 }
 

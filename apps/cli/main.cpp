@@ -31,6 +31,7 @@ constexpr const char* kAbout =
 constexpr const char* kFooter =
     "Examples:\n"
     "  hersey init big_end my_rod                                    a commented model to begin with\n"
+    "  hersey recipes size-a-bearing                                 a task step by step\n"
     "  hersey explain bearings.main.supply                           what a key means, its unit and default\n"
     "  hersey open my_rod.yaml                                       write it and see it in the browser\n"
     "  hersey run examples/paper_big_end/model.yaml                  all runs of its study\n"

@@ -47,6 +47,19 @@ class FirstSteps(unittest.TestCase):
         for name in ("bearing", "hydrostatic", "tilting_pads", "thrust", "tilting_thrust", "floating_ring", "damper", "skirt", "rotor", "big_end", "engine", "turbocharger", "flexible_rod"):
             self.assertIn(f"\n  {name} ", run.stdout)
 
+    def test_recipes_are_the_pages_of_the_documentation(self):
+        pages = {page.stem: page.read_text(encoding="utf-8") for page in (SOURCE / "docs" / "recipes").glob("*.md")}
+        told = {recipe["name"]: recipe["text"] for recipe in json.loads(self.hersey("recipes", "--json").stdout)}
+        self.assertEqual(told, pages)
+        listed = self.hersey("recipes").stdout
+        for name, text in pages.items():
+            self.assertRegex(listed, rf"\n  {name} +{re.escape(text.splitlines()[0][2:])}\n")
+            self.assertEqual(self.hersey("recipes", name).stdout, text)
+            self.assertIn("```sh\n", text)  # which the test of its page runs
+        wrong = self.hersey("recipes", "sise-a-bearing")
+        self.assertEqual(wrong.returncode, WRONG_INPUT)
+        self.assertIn("did you mean 'size-a-bearing'?", wrong.stderr)
+
     def test_init_bearing_runs(self):
         self.begin_and_run("bearing")
 

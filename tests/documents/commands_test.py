@@ -71,7 +71,10 @@ def main():
     with tempfile.TemporaryDirectory(prefix="hersey-docs-") as folder:
         stand_in_for_the_repository(folder)
         for line, commands in found:
+            # Recipes name the program alone, as where it is installed.
+            path = os.pathsep.join([os.path.join(folder, "build/release"), os.environ["PATH"]])
             run = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, text=True, capture_output=True,
+                                 env=os.environ | {"PATH": path},
                                  stdin=subprocess.DEVNULL, timeout=None if WHOLE else 280, check=False)
             if run.returncode != 0:
                 failed += 1
