@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -153,6 +156,8 @@ void require_one(const BearingArguments& arguments, const model::Model& model, s
   for (const auto& [option, file] : {std::pair("--fields", arguments.fields), std::pair("--vtu", arguments.vtu)})
     if (!file.empty() && runs > 1)
       throw InputError(Fault{{option, 0, 0}, "", fmt::format("{} solutions", runs), "a single one", ""});
+  if (arguments.coefficients.empty() && arguments.coefficients_for != "hersey")
+    throw InputError(Fault{{"--coefficients-for", 0, 0}, "", "no file for it", "--coefficients FILE as well", ""});
   const model::Bearing& bearing = study::bearing_called(model, arguments.bearing);
   if (arguments.vtu.empty() || bearing.heated_shell || bearing.heated_journal) return;
   throw InputError(Fault{{"--vtu", 0, 0},
@@ -216,10 +221,17 @@ void print(const BearingArguments& arguments, const std::vector<study::BearingSo
   }
 }
 
+session::Session session_of(const BearingArguments& arguments) {
+  if (arguments.text.empty()) return session::Session(arguments.model, arguments.overrides);
+  std::ifstream file(arguments.text, std::ios::binary);
+  if (!file) throw std::runtime_error(arguments.text + ": cannot be read");
+  return {std::string{std::istreambuf_iterator<char>(file), {}}, arguments.model, arguments.overrides};
+}
+
 }  // namespace
 
 int bearing_command(const BearingArguments& arguments) {
-  const session::Session given(arguments.model, arguments.overrides);
+  const session::Session given = session_of(arguments);
   const std::vector<model::StudyRun> runs = runs_of(given, plan_of(arguments, given.model()));
   const session::Session session = given.with(runs.front().overrides);
   const model::Model& model = session.model();

@@ -43,11 +43,15 @@ CoefficientRow row_of(const study::BearingSolution& solution) {
   if (row.speed <= 0)
     throw no_table(fmt::format("a journal speed of {:.6g} rpm", row.speed / kRpm),
                    "positive speeds, about the z-axis of the bearing: rotors of other programs rotate from x to y");
+  if (si.contains("shell_speed") && si.at("shell_speed") != 0)
+    throw no_table("a shell that rotates", "a shell at rest: a table's speed is that of the shaft alone");
   for (std::size_t p = 0; p < kPlaces.size(); ++p) {
     row.K[p] = number(std::string("stiffness_") + kPlaces[p]);
     row.C[p] = number(std::string("damping_") + kPlaces[p]);
   }
-  row.position = solution.state.e.head<2>();
+  // Of a floating ring the position of a solution is that of the journal in the ring.
+  const bool has_ring = solution.pads && solution.pads->ring;
+  row.position = has_ring ? solution.pads->ring->journal : Eigen::Vector2d(solution.state.e.head<2>());
   row.force = -solution.state.load.head<2>();
   return row;
 }
@@ -57,8 +61,9 @@ std::vector<CoefficientRow> rows_of(const std::vector<study::BearingSolution>& s
   for (const study::BearingSolution& solution : solutions) rows.push_back(row_of(solution));
   std::sort(rows.begin(), rows.end(),
             [](const CoefficientRow& a, const CoefficientRow& b) { return a.speed < b.speed; });
+  constexpr double kWritten = 0.01;  // [rpm], the last digit of Ansys's columns
   for (std::size_t k = 1; k < rows.size(); ++k)
-    if (rows[k].speed == rows[k - 1].speed)
+    if (rows[k].speed - rows[k - 1].speed < kWritten * kRpm)
       throw no_table(fmt::format("two solutions at {:.6g} rpm", rows[k].speed / kRpm),
                      "one for each speed: --sweep speed=1000rpm:9000rpm:9");
   return rows;

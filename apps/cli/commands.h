@@ -111,6 +111,7 @@ struct BearingArguments {
   std::string whirl_ratios;  ///< separated by commas, at which pads follow; empty: the file's
   std::vector<std::string> sweeps;
   std::filesystem::path csv, fields, vtu, report;  ///< files to write; empty: none
+  std::string text;                                ///< file with a text in place of the model's; empty: none
   std::filesystem::path coefficients;              ///< likewise, a table of stiffness and damping over the speed
   std::string coefficients_for = "hersey";         ///< the program it is for: or ross, ansys
   bool json = false;

@@ -135,6 +135,7 @@ void add_bearing(CLI::App& app, Commands& commands) {
       ->type_name("FILE");
   command->add_option("--report", bearing->report, "Write a page with figures, maps and curves of all solutions")
       ->type_name("FILE");
+  command->add_option("--text", bearing->text, "File with a text in place of the model's")->group("");
   command->add_flag("--json", bearing->json, "Print every figure as JSON");
   command->add_flag("--no-grid-error", bearing->no_grid_error, "Leave out the estimate of the grid's error");
   command->add_flag("--timing", bearing->timing, "Print where the computing time of a single solution went");

@@ -123,6 +123,10 @@ TEST_CASE("BearingCoefficients_AreThoseOfTheTableAndConstantBeyondIt") {
   CHECK(t->slope(900).stiffness.isZero());
   CHECK(t->at(-200).force == coefficients(1).force);
   const BearingCoefficientTable constant({0}, {coefficients(2)});
+  for (const double speed : {0.0, 50.0, -4.0, 504.0}) CHECK(t->fault_at(speed).empty());
+  for (const double speed : {-10.0, 510.0})
+    CHECK(t->fault_at(speed).find("the frames in the other order") != std::string::npos);
+  CHECK(constant.fault_at(-900).empty());
   CHECK(constant.at(-300).stiffness == coefficients(2).stiffness);
   CHECK(constant.slope(0).damping.isZero());
 }

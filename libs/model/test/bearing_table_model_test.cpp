@@ -77,6 +77,7 @@ TEST_CASE("FaultsOfABearingTable_NameTheColumnOrTheKey") {
   has(of_table("speed [rpm], k_xx [N/m]\n1, 2\n"), "no column 'k_yy'");
   has(of_table("speed [rpm], k_xx, k_yy [N/m]\n1, 2, 3\n"), "column 'k_xx' in no unit");
   has(of_table("speed [rpm], k_xx [kg], k_yy [N/m]\n1, 2, 3\n"), "column 'k_xx'");
+  has(of_table("speed [rpm], k_xx [N/m], k_yy [N/m], k_xx [N/m]\n1, 2, 3, 4\n"), "a second time");
   has(of_table(kHeader + "900" + kRow + "100" + kRow), "speeds that ascend");
   has(of_table(kHeader + "900" + kRow + "900" + kRow), "a speed that is not above the one before");
   has(of_table("speed [rpm], k_xx [N/m], k_yy [N/m], m_xx [kg], m_xy [kg]\n1, 2, 3, 4, 5\n"),

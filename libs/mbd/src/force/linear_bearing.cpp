@@ -1,6 +1,10 @@
 #include "hersey/mbd/linear_bearing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "hersey/core/contract.h"
@@ -68,8 +72,21 @@ BearingCoefficients BearingCoefficientTable::slope(double speed) const {
   return slope;
 }
 
+std::string BearingCoefficientTable::fault_at(double speed) const {
+  constexpr double kBeyond = 0.01;  // of the fastest: searches and vibrations overshoot
+  constexpr double kRpm = std::numbers::pi / 30;
+  const double fastest = std::max(std::abs(lowest_), std::abs(highest_)), margin = kBeyond * fastest;
+  const double low = std::min(lowest_, 0.0) - margin, high = std::max(highest_, 0.0) + margin;
+  if (lowest_ == highest_ || (speed >= low && speed <= high)) return {};
+  return fmt::format(
+      "the shaft rotates at {:.4g} rpm against the housing, and the table of coefficients has speeds from {:.4g} to "
+      "{:.4g} rpm: a table of that speed, or the frames in the other order, is needed",
+      speed / kRpm, lowest_ / kRpm, highest_ / kRpm);
+}
+
 void LinearBearing::evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) {
   const Across at(motion);
+  speed_ = at.omega.z();
   const BearingCoefficients c = table_->at(at.omega.z());
   const Vector2d e = at.r.head<2>() - c.position, u = at.u.head<2>(), rate = at.rate.head<2>();
   Vector3 f = Vector3::Zero();

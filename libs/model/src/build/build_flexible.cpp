@@ -180,6 +180,7 @@ void add_reduction(const Body& body, const std::vector<const DeformingSurface*>&
     const fem::FilmSurface& film = *surface->surface;
     print.add(film.cylinder.X.R), print.add(film.cylinder.X.r), print.add(film.cylinder.R), print.add(film.cylinder.L);
     print.add(film.functions.around()), print.add(film.functions.along()), print.add(film.faces);
+    print.add(static_cast<int>(film.cylinder.is_bore));
     if (const auto& arc = film.cylinder.arc) print.add(arc->from), print.add(arc->over);
     print.add(surface->modes.value_or(-1));
   }

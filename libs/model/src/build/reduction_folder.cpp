@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <csignal>
+#include <exception>
 #include <fstream>
 #include <mutex>
 #include <stdexcept>
@@ -87,6 +90,27 @@ std::vector<unsigned char> unsealed(std::vector<unsigned char> bytes) {
   return bytes;
 }
 
+/// A limit to the size of files fails the write, as a full disk does, and does not end the program.
+class IgnoredFileSizeSignal {
+ public:
+  IgnoredFileSizeSignal() : before_(std::signal(SIGXFSZ, SIG_IGN)) {}
+  IgnoredFileSizeSignal(const IgnoredFileSizeSignal&) = delete;
+  IgnoredFileSizeSignal& operator=(const IgnoredFileSizeSignal&) = delete;
+  ~IgnoredFileSizeSignal() { std::signal(SIGXFSZ, before_); }
+
+ private:
+  void (*before_)(int);
+};
+
+/// True for the files that keep() writes, finished or not: 0123456789abcdef.reduction, and .reduction.4711.
+bool is_ours(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending == kEnding) return true;
+  const bool is_number = ending.size() > 1 && std::all_of(ending.begin() + 1, ending.end(),
+                                                          [](unsigned char c) { return std::isdigit(c) != 0; });
+  return is_number && file.stem().extension() == kEnding;
+}
+
 std::mutex folder_mutex;
 std::shared_ptr<const ReductionFolder> the_folder;
 
@@ -116,7 +140,15 @@ std::optional<fem::ReducedBody> ReductionFolder::find(const std::string& fingerp
 }
 
 void ReductionFolder::keep(const fem::ReducedBody& reduced, const std::string& fingerprint) const {
-  if (program_.empty()) return;
+  try {
+    if (!program_.empty()) write(reduced, fingerprint);
+  } catch (const std::exception&) {
+    return;  // such as of memory that does not suffice for the copy: the run needs none
+  }
+}
+
+void ReductionFolder::write(const fem::ReducedBody& reduced, const std::string& fingerprint) const {
+  const IgnoredFileSizeSignal ignored;
   Archive archive;
   fem::ReducedBody stored = reduced;
   persist(archive, stored);
@@ -156,7 +188,7 @@ void ReductionFolder::remove_beyond(std::uintmax_t most) const {
   std::vector<Kept> kept;
   std::error_code error;
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->path().filename().string().find(kEnding) == std::string::npos) continue;
+    if (!is_ours(entry->path())) continue;
     std::error_code gone;
     const auto size = entry->file_size(gone);
     const auto used = gone ? fs::file_time_type() : entry->last_write_time(gone);

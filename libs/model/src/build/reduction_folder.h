@@ -23,6 +23,7 @@ class ReductionFolder {
   void keep(const fem::ReducedBody& reduced, const std::string& fingerprint) const;
 
  private:
+  void write(const fem::ReducedBody& reduced, const std::string& fingerprint) const;
   [[nodiscard]] std::filesystem::path file_of(const std::string& fingerprint) const;
   void remove_beyond(std::uintmax_t most) const;
 

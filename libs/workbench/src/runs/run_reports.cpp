@@ -3,14 +3,18 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "runs/runs.h"
+#include "runs/temporary_folder.h"
 
 namespace hersey::workbench {
 namespace {
 
+using nlohmann::json;
 using Path = std::filesystem::path;
 
 constexpr double kReportTime = 300;  // [s]
@@ -32,14 +36,7 @@ Path Runs::report(const std::vector<std::string>& ids) {
   }
   if (ids.size() == 1 && ready) return *ready;
   const std::lock_guard lock(reporting_);
-  if (reports_.empty()) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "hersey-reports-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-      throw Refused(507, fmt::format("no temporary folder can be made: {}", std::strerror(errno)),
-                    "make room on the disk");
-    reports_ = pattern;
-  }
-  const Path page = reports_ / fmt::format("{}.html", ++report_count_);
+  const Path page = next_report();
   words.insert(words.end(), {"--output", page.string()});
   if (ids.size() > 1) {
     std::string joined;
@@ -50,6 +47,37 @@ Path Runs::report(const std::vector<std::string>& ids) {
   if (run_to_end(words, folder_.path(), kReportTime, output) != 0)
     throw Refused(422, "no report can be made: " + output.substr(0, output.find('\n')), "look at the log of the run");
   return page;
+}
+
+Path Runs::bearing_report(const json& request) {
+  const Path model = folder_.resolve(request.at("path").get<std::string>());
+  const std::lock_guard lock(reporting_);
+  const Path page = next_report();
+  const TemporaryFolder temporary;
+  const Path text = temporary.file("text");
+  std::ofstream stream(text, std::ios::binary);
+  stream << request.at("text").get<std::string>();
+  stream.close();
+  if (!stream) throw Refused(507, "the text cannot be written into a temporary folder", "make room on the disk");
+  std::vector<std::string> words{
+      program_.string(), "bearing",  model.string(), "--text",
+      text.string(),     "--report", page.string(),  "--bearing=" + request.at("bearing").get<std::string>()};
+  for (const json& change : request.value("set", json::array())) words.push_back("--set=" + change.get<std::string>());
+  std::string output;
+  if (run_to_end(words, folder_.path(), kReportTime, output) != 0)
+    throw Refused(422, "no report can be made: " + output.substr(0, output.find('\n')), "change the operating point");
+  return page;
+}
+
+Path Runs::next_report() {
+  if (reports_.empty()) {
+    std::string pattern = (std::filesystem::temp_directory_path() / "hersey-reports-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr)
+      throw Refused(507, fmt::format("no temporary folder can be made: {}", std::strerror(errno)),
+                    "make room on the disk");
+    reports_ = pattern;
+  }
+  return reports_ / fmt::format("{}.html", ++report_count_);
 }
 
 void Runs::forget_report(const Path& page) {

@@ -65,6 +65,10 @@ class Runs {
   /// Makes the report of runs, of several as a comparison, in a temporary folder where it is not there already.
   /// @throws Refused 409 if there are no results yet, 422 if no report can be made of them
   std::filesystem::path report(const std::vector<std::string>& ids);
+  /// Makes the report of one bearing by itself: `{path, text, bearing, set}` -> as `hersey bearing --report` of that
+  /// text.
+  /// @throws Refused 422 where there is no solution
+  std::filesystem::path bearing_report(const nlohmann::json& request);
   /// Removes a report that was made in the temporary folder; one in the folder of a run stays.
   void forget_report(const std::filesystem::path& page);
 
@@ -81,6 +85,8 @@ class Runs {
   };
   [[nodiscard]] RunEntry entry_of(const std::string& id) const;
   [[nodiscard]] std::vector<RunEntry> results_made_elsewhere() const;
+  /// The next file in the temporary folder of reports, which is made with the first; with `reporting_` locked.
+  std::filesystem::path next_report();
   void launch(const std::string& id, nlohmann::json record, bool resumes);
   void look_for_runs();
   void follow_run(const std::string& id, Tail& tail);

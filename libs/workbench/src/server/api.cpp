@@ -125,6 +125,7 @@ Reply Api::route(const Request& request) {
   if (call == "POST plan") return {.body = studies_.plan(json::parse(request.body))};
   if (call == "GET runs") return run_list();
   if (call == "POST runs") return json_reply({{"id", runs_.start(json::parse(request.body))}});
+  if (call == "POST bearing_report") return ticket_for(runs_.bearing_report(json::parse(request.body)));
   if (call == "POST compare") return report(json::parse(request.body).at("ids").get<std::vector<std::string>>());
   if (path.starts_with("/api/runs/")) return of_run(request);
   return unknown(path);
@@ -189,7 +190,10 @@ Reply Api::of_run(const Request& request) {
 
 Reply Api::report(const std::vector<std::string>& ids) {
   if (ids.empty()) throw Refused(400, "no run is named", "choose one of the list");
-  const std::filesystem::path page = runs_.report(ids);
+  return ticket_for(runs_.report(ids));
+}
+
+Reply Api::ticket_for(const std::filesystem::path& page) {
   const std::string ticket = random_token();
   const std::lock_guard lock(tickets_mutex_);
   constexpr std::size_t kMostTickets = 200;

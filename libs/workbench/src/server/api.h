@@ -45,6 +45,8 @@ class Api {
   [[nodiscard]] Reply run_list() const;
   [[nodiscard]] Reply of_run(const Request& request);
   [[nodiscard]] Reply report(const std::vector<std::string>& ids);
+  /// `{url}` under which a report is shown as long as the server lives.
+  [[nodiscard]] Reply ticket_for(const std::filesystem::path& page);
   [[nodiscard]] Reply report_file(const Request& request);
 
   Folder& folder_;

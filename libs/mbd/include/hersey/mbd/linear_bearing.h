@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "hersey/core/scalar_function.h"
@@ -17,8 +18,8 @@ struct BearingCoefficients {
   Eigen::Vector2d force = Eigen::Vector2d::Zero();      ///< on the journal there [N]
 };
 
-/// Bearing coefficients over the speed of the shaft: between its speeds monotone cubics (TableFunction), beyond them
-/// constant.
+/// Bearing coefficients over the speed of the shaft: between its speeds monotone cubics (TableFunction), nearer to rest
+/// constant. A table of one speed holds at every speed.
 /// @verified_by linear_bearing_test.cpp
 class BearingCoefficientTable {
  public:
@@ -31,6 +32,10 @@ class BearingCoefficientTable {
   [[nodiscard]] BearingCoefficients at(double speed) const;
   /// Returns their derivatives by the speed, 0 beyond the table.
   [[nodiscard]] BearingCoefficients slope(double speed) const;
+
+  /// Returns why the table says nothing about a speed [rad/s]: one in the other sense of rotation, or more than a
+  /// hundredth beyond its fastest; else empty.
+  [[nodiscard]] std::string fault_at(double speed) const;
 
   [[nodiscard]] double lowest() const { return lowest_; }    ///< speed [rad/s]
   [[nodiscard]] double highest() const { return highest_; }  ///< speed [rad/s]
@@ -58,9 +63,11 @@ class LinearBearing final : public TwoBodyForce {
   /// Whatever is not stored: damping, what cross-coupled stiffness circulates (negative where it drives the shaft), and
   /// what a change of speed does to the coefficients.
   [[nodiscard]] double lost_power(const RelativeMotion& motion) const override;
+  [[nodiscard]] std::string domain_error() const override { return table_->fault_at(speed_); }
 
  private:
   std::shared_ptr<const BearingCoefficientTable> table_;
+  double speed_ = 0;  ///< of the shaft at the last evaluation [rad/s]
 };
 
 }  // namespace hersey::mbd

@@ -73,23 +73,28 @@ std::optional<std::vector<double>> in_si(Context& context, const Value& file, co
   try {
     for (const double value : column.values) values.push_back(convert_to_si({value, column.unit}, si_unit));
   } catch (const QuantityError& error) {
-    context.fault(file, "column '" + column.name + "' in " + (column.unit.empty() ? "no unit" : error.found),
-                  "a unit in brackets, such as " + column.name + " [" + si_unit + "]", error.suggestion);
+    if (column.unit.empty())
+      context.fault(file, "column '" + column.name + "' in no unit",
+                    "a unit in brackets, such as " + column.name + " [" + si_unit + "]");
+    else
+      context.fault(file, "column '" + column.name + "' in " + error.found, error.expected, error.suggestion);
     return std::nullopt;
   }
   return values;
 }
 
-/// Reports columns that are none of a bearing's, of which a misspelt one would be lost without a word.
+/// Reports columns that are none of a bearing's, of which a misspelt one would be lost without a word, and second ones.
 void require_known(Context& context, const Value& file, const CsvTable& table) {
   std::vector<std::string> names{"speed"};
   for (const KnownColumn& known : known_columns()) names.push_back(known.name);
   for (const Column& column : table.columns) {
     const bool is_known = std::any_of(names.begin(), names.end(),
                                       [&](const std::string& name) { return found_column(table, name) == &column; });
-    if (!is_known)
-      context.fault(file, "column '" + column.name + "' in " + table.file, one_of(names),
-                    did_you_mean(column.name, names));
+    const std::string where = "column '" + column.name + "' in " + table.file;
+    if (table.find(column.name) != &column)
+      context.fault(file, where + " a second time", "each column once");
+    else if (!is_known)
+      context.fault(file, where, one_of(names), did_you_mean(column.name, names));
   }
 }
 
@@ -188,7 +193,7 @@ std::vector<Key> bearing_table_keys() {
                "`speed`, `k_xx`, "
                "`k_xy`, `k_yx`, `k_yy`, `c_xx`.., `m_xx`.., the position `x`, `y` of equilibrium and `force_x`, "
                "`force_y` on the shaft "
-               "there, units in brackets. Smooth between its speeds, constant beyond them."),
+               "there, units in brackets. Smooth between its speeds, constant down to rest."),
       optional("stiffness", matrix_format("four coefficients of stiffness", "N/m", "1e8 N/m"),
                "Instead of a file: the same at every speed. `xy` is minus the force along x by the motion along y."),
       optional("damping", matrix_format("four coefficients of damping", "N.s/m", "2e5 N.s/m"),
