@@ -176,6 +176,19 @@ struct LoadDrawing {
   }
   void operator()(const model::JointFriction& force) const { on("joint_friction", force.on); }
   void operator()(const model::SpeedControl& force) const { on("speed_control", force.on); }
+  /// Of kinds without a drawing of their own it is shown what they act on.
+  template <class Force>
+  requires requires(const Force& force) {
+    force.from.body;
+    force.to.body;
+  }
+  void operator()(const Force& force) const { between("between_frames", force); }
+  template <class Force>
+  requires requires(const Force& force) {
+    force.on.joint;
+    force.on.coordinate;
+  }
+  void operator()(const Force& force) const { on("on_coordinate", force.on); }
 
  private:
   template <class Force>
@@ -226,7 +239,9 @@ Json circuit_json(const model::Model& model) {
   for (std::size_t k = 0; k < circuit.network.nodes.size(); ++k) {
     Json node{{"name", circuit.network.nodes[k].name}, {"given", circuit.network.nodes[k].is_given}};
     const std::optional<model::Function>& given = circuit.pressures[k];
-    if (given) {
+    // One over anything else has its value where the machine has its position: in the results.
+    const auto is_time = [](const model::Variable& variable) { return variable.kind == model::Variable::Kind::time; };
+    if (given && std::all_of(given->variables.begin(), given->variables.end(), is_time)) {
       try {
         const std::vector<double> start(given->variables.size(), model.simulation.start);
         node["pressure"] = given->value->value(start);

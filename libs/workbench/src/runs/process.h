@@ -19,6 +19,12 @@ struct ProcessId {
 [[nodiscard]] ProcessId start_detached(const std::vector<std::string>& words, const std::filesystem::path& folder,
                                        const std::filesystem::path& log);
 
+/// The same for a program that is of no use without this one: it is interrupted, as by Ctrl-C, when this program ends,
+/// also if it is killed.
+/// @throws std::system_error if it cannot be started
+[[nodiscard]] ProcessId start_attached(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                                       const std::filesystem::path& log);
+
 [[nodiscard]] bool is_running(const ProcessId& process);
 
 /// Asks a process that was started detached, and its children, to stop, as Ctrl-C does. @returns false if it does not
