@@ -239,9 +239,7 @@ Json circuit_json(const model::Model& model) {
   for (std::size_t k = 0; k < circuit.network.nodes.size(); ++k) {
     Json node{{"name", circuit.network.nodes[k].name}, {"given", circuit.network.nodes[k].is_given}};
     const std::optional<model::Function>& given = circuit.pressures[k];
-    // One over anything else has its value where the machine has its position: in the results.
-    const auto is_time = [](const model::Variable& variable) { return variable.kind == model::Variable::Kind::time; };
-    if (given && std::all_of(given->variables.begin(), given->variables.end(), is_time)) {
+    if (given) {
       try {
         const std::vector<double> start(given->variables.size(), model.simulation.start);
         node["pressure"] = given->value->value(start);

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "hersey/workbench/refused.h"
@@ -45,6 +46,10 @@ CadMeshes::CadMeshes(const Folder& folder, std::filesystem::path program)
 
 CadMeshes::~CadMeshes() {
   for (const auto& [name, job] : jobs_) interrupt(job.process, job.file.string());
+  // At the end of this program they are interrupted once more: one that is tidying up is left the time for it.
+  const Clock::time_point end = Clock::now() + std::chrono::seconds(2);
+  for (const auto& [name, job] : jobs_)
+    while (is_running(job.process) && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::error_code ignored;
   if (!logs_.empty()) std::filesystem::remove_all(logs_, ignored);
 }
