@@ -27,8 +27,8 @@ struct ProcessId {
 
 [[nodiscard]] bool is_running(const ProcessId& process);
 
-/// Asks a process that was started detached, and its children, to stop, as Ctrl-C does. @returns false if it does not
-/// run, or if none of its arguments is `argument`: a number from a file could be that of any process.
+/// Asks a process that was started by one of the above, and its children, to stop, as Ctrl-C does. @returns false if it
+/// does not run, or if none of its arguments is `argument`: a number from a file could be that of any process.
 bool interrupt(const ProcessId& process, const std::string& argument);
 
 /// Runs `words` to its end. @returns its exit code, or -1 if it was killed or took more than `most_seconds`
