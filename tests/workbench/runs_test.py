@@ -192,7 +192,8 @@ class Runs(unittest.TestCase):
         os.chmod(write(tools, "gmsh", f"#!/bin/sh\necho $$ > {noted}.new; mv {noted}.new {noted}\nexec sleep 60\n"), 0o755)
         write(self.folder, "part.step", "solid")
         for end in (Workbench.kill, Workbench.stop):
-            with unittest.mock.patch.dict(os.environ, PATH=tools + ":" + os.environ["PATH"]):
+            scratch = tempfile.mkdtemp(dir=self.top.name)
+            with unittest.mock.patch.dict(os.environ, PATH=tools + ":" + os.environ["PATH"], TMPDIR=scratch):
                 server = self.open()
             answer = server.post("/api/cad", {"path": "part.step", "size": "4 mm"})
             self.assertEqual(answer.status, 200, answer.body)
@@ -215,6 +216,7 @@ class Runs(unittest.TestCase):
             while is_running(gmsh) or is_running(mesh):
                 self.assertLess(time.monotonic(), deadline, "the mesh goes on without the server")
                 time.sleep(0.02)
+        self.assertEqual(os.listdir(scratch), [], "a server that is stopped leaves nothing")
 
     def test_a_run_is_followed_whenever_its_process_becomes_known(self):
         with subprocess.Popen(["sleep", "60"]) as process:
