@@ -81,6 +81,7 @@ class Extending(unittest.TestCase):
         for change in changes().values():
             self.apply(change)
             sources += [path for path in files_of(change) if path.endswith(".cpp")]
+        sources.append("libs/workbench/src/answers/scene_parts.cpp")  # draws every kind of force
         includes = [f"-I{path}" for place in ("libs/*/include", "libs/*/src") for path in glob.glob(f"{self.folder}/{place}")]
         includes += [f"-I{self.folder}", f"-I{self.folder}/verification", f"-I{self.folder}/tests/support"]
         # All of them as one, as `make` compiles them: what they include is read once.

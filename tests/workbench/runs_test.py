@@ -186,6 +186,38 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.server.post(f"/api/runs/{name}/stop").status, 200)
         self.assertEqual(self.server.wait_for(name, "stopped")["share"] > 0, True)
 
+    def test_a_mesh_that_is_being_made_ends_with_the_server(self):
+        # A stand-in for gmsh that never ends.
+        tools, noted = os.path.join(self.top.name, "tools"), os.path.join(self.top.name, "pid")
+        os.chmod(write(tools, "gmsh", f"#!/bin/sh\necho $$ > {noted}.new; mv {noted}.new {noted}\nexec sleep 60\n"), 0o755)
+        write(self.folder, "part.step", "solid")
+        for end in (Workbench.kill, Workbench.stop):
+            scratch = tempfile.mkdtemp(dir=self.top.name)
+            with unittest.mock.patch.dict(os.environ, PATH=tools + ":" + os.environ["PATH"], TMPDIR=scratch):
+                server = self.open()
+            answer = server.post("/api/cad", {"path": "part.step", "size": "4 mm"})
+            self.assertEqual(answer.status, 200, answer.body)
+            deadline = time.monotonic() + 20
+            while not os.path.exists(noted):
+                self.assertLess(time.monotonic(), deadline, server.get("/api/cad/1").text)
+                time.sleep(0.02)
+            with open(noted, encoding="ascii") as file:
+                gmsh = int(file.read())
+            os.remove(noted)
+            with open(f"/proc/{gmsh}/stat", encoding="ascii") as file:
+                mesh = int(file.read().rsplit(")", 1)[1].split()[1])
+            self.pids += [gmsh, mesh]
+            # The connection that has asked for it has ended long since, as its thread has: the mesh goes on.
+            time.sleep(0.5)
+            self.assertEqual(server.get("/api/cad/1").json["state"], "running")
+            self.assertTrue(is_running(gmsh) and is_running(mesh))
+            end(server)
+            deadline = time.monotonic() + 10
+            while is_running(gmsh) or is_running(mesh):
+                self.assertLess(time.monotonic(), deadline, "the mesh goes on without the server")
+                time.sleep(0.02)
+        self.assertEqual(os.listdir(scratch), [], "a server that is stopped leaves nothing")
+
     def test_a_run_is_followed_whenever_its_process_becomes_known(self):
         with subprocess.Popen(["sleep", "60"]) as process:
             self.addCleanup(process.kill)

@@ -7,7 +7,9 @@ import http.client
 import json
 import os
 import resource
+import shutil
 import socket
+import stat
 import struct
 import subprocess
 import sys
@@ -203,6 +205,26 @@ class Security(unittest.TestCase):
         self.assertEqual(os.listdir(os.path.join(self.top.name, "elsewhere")), ["evil-001"])
         with open(secret, encoding="utf-8") as file:
             self.assertEqual(file.read(), SECRET)
+
+    def test_unfinished_files_are_no_way_out(self):
+        secret = os.path.join(self.top.name, "secret.yaml")
+        shutil.copy(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/meshes/conrod.msh"), self.folder)
+        for number, target in enumerate((secret, os.path.join(self.top.name, "none"))):
+            with self.subTest(target=target):
+                named = f"named{number}.msh"
+                os.symlink(target, os.path.join(self.folder, named + ".new"))
+                answer = self.server.post("/api/name_surfaces", {"path": "conrod.msh", "length_unit": "mm", "output": named})
+                self.assertEqual(answer.status, 200, answer.body)
+                self.assertTrue(stat.S_ISREG(os.lstat(os.path.join(self.folder, named)).st_mode))
+        self.assertEqual(sorted(os.listdir(self.top.name)), ["log", "models", "secret.yaml"])
+        with open(secret, encoding="utf-8") as file:
+            self.assertEqual(file.read(), SECRET)
+
+    def test_elements_of_another_order_are_refused(self):
+        write(self.folder, "part.step", "solid")
+        for key, value in (("order", 3), ("order", 1.5), ("order", "2"), ("order", 1e300), ("around", True), ("around", 2.5)):
+            with self.subTest(key=key, value=value):
+                self.refused(self.server.post("/api/cad", {"path": "part.step", "size": "4 mm", key: value}), 422, key)
 
     def test_a_run_with_any_link_is_not_resumed(self):
         run = os.path.join(self.folder, "runs", "evil-001")

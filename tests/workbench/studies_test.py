@@ -7,6 +7,7 @@ import csv
 import importlib.util
 import json
 import os
+import resource
 import shutil
 import sys
 import tempfile
@@ -137,12 +138,67 @@ class Studies(unittest.TestCase):
         os.symlink("/etc/passwd", os.path.join(folder, "plan.json"))
         self.assertIsNone(self.course(name).json["plan"])
 
+    @unittest.skipIf(LACKING, f"Python lacks {', '.join(LACKING)}")
+    def test_hostile_records_neither_hide_the_others_nor_stop_them(self):
+        name = self.start()
+        self.finished(name)
+        whole = self.course(name).json["records"]
+        folder = os.path.join(self.folder, "runs", name)
+        with open(os.path.join(folder, "records.jsonl"), "r+", encoding="utf-8") as file:
+            good = file.read()
+            file.seek(0)
+            # Of other types than the program writes; and longer than what is read at once, as one line and in its middle.
+            file.write('{"run": 7, "values": []}\n{"run": "a", "values": [], "status": {}}\n{"describe": {"f": 1}}\n{"describe": {"f": {"si": ""}}}\n')
+            file.write('{"run": "long", "values": [], "x": "' + "x" * 9_000_000 + '"}\n' + good)
+        seen, at = [], ""
+        for _ in range(10):
+            course = self.course(name, at).json
+            seen, at = seen + course["records"], course["at"]
+            if not course["more"]:
+                break
+        self.assertEqual(seen, whole)
+        self.assertFalse(self.course(name, at).json["more"])
+        # What is written while the page looks is read when it is complete.
+        for part, new in (('{"run": "la', []), ('te", "values": []}\n', ["late"])):
+            with open(os.path.join(folder, "records.jsonl"), "a", encoding="utf-8") as file:
+                file.write(part)
+            course = self.course(name, at).json
+            self.assertEqual([record["run"] for record in course["records"]], new)
+            at = course["at"]
+
+    def test_records_of_many_tasks_come_once_each(self):
+        # A study that another program has written; 700 records of each task, so that the second one's come in two answers.
+        folder = os.path.join(self.folder, "runs", "shared-001")
+        write(folder, "run.json", json.dumps({"model": "list.yaml", "set": [], "study": True}))
+        write(folder, "records.jsonl", "")
+        for shard in ("a-0.jsonl", "a-1.jsonl", "b 2:3.jsonl"):
+            lines = (json.dumps({"run": f"{shard} {number}", "values": []}) + "\n" for number in range(700))
+            write(folder, "shards/" + shard, "".join(lines))
+        seen, at = [], ""
+        for expected in (1000, 400, 0):
+            course = self.course("shared-001", at).json
+            self.assertEqual((len(course["records"]), course["more"]), (expected, expected == 1000))
+            seen, at = seen + [record["run"] for record in course["records"]], course["at"]
+        self.assertEqual(seen, [f"a-{shard}.jsonl {number}" for shard in (0, 1) for number in range(700)])
+
+    def test_a_text_that_does_not_fit_the_disk_is_not_planned_in_part(self):
+        def full():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+
+        server = Workbench(PROGRAM, self.folder, os.path.join(self.top.name, "log2"), preexec=full)
+        self.addCleanup(server.stop)
+        answer = server.post("/api/plan", {"path": "list.yaml", "text": self.text + "#" * 200_000, "set": []}, timeout=90)
+        self.assertEqual(answer.status, 507, answer.text)
+        self.assertIn("make room", answer.json["advice"])
+
     def test_only_studies_have_a_course(self):
         answer = self.server.post("/api/runs", {"path": "list.yaml", "set": []})
         self.assertEqual(self.course(answer.json["id"]).status, 404)
         self.assertEqual(self.course("nothing-001").status, 404)
+        before = sorted(os.listdir(os.path.join(self.folder, "runs")))
         self.assertEqual(self.server.post("/api/runs", {"path": "list.yaml", "study": True, "jobs": -1}).status, 422)
         self.assertEqual(self.server.post("/api/runs", {"path": "list.yaml", "study": True, "partition": "a b"}).status, 422)
+        self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "runs"))), before, "what is refused leaves no folder")
 
     def test_a_cluster_is_offered_where_there_is_one(self):
         self.assertFalse(self.serve(PATH="/nowhere").get("/api/hello").json["cluster"])

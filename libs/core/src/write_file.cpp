@@ -1,19 +1,29 @@
 #include "hersey/core/write_file.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 namespace hersey {
 namespace {
 
-bool write(const std::filesystem::path& path, std::initializer_list<std::string_view> parts) {
-  std::ofstream file(path, std::ios::binary);
-  for (const std::string_view part : parts) file << part;
-  file.close();
-  return static_cast<bool>(file);
+/// Writes a file that is opened by the `mode` of fopen. @returns 0, or the error
+int write(const std::filesystem::path& path, const char* mode, std::initializer_list<std::string_view> parts) {
+  std::FILE* file = std::fopen(path.c_str(), mode);
+  if (file == nullptr) return errno;
+  int reason = 0;
+  for (const std::string_view part : parts)
+    if (reason == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) reason = errno;
+  if (std::fclose(file) != 0 && reason == 0) reason = errno;
+  return reason;
+}
+
+/// Removes what an interrupted program has left: a file, or a link. @returns 0, or the error
+int remove_leftover(const std::filesystem::path& unfinished) {
+  return ::unlink(unfinished.c_str()) == 0 || errno == ENOENT ? 0 : errno;
 }
 
 }  // namespace
@@ -22,16 +32,17 @@ void write_file(const std::filesystem::path& path, std::initializer_list<std::st
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    if (!write(path, parts)) throw std::runtime_error(std::strerror(errno));
+    if (const int reason = write(path, "wb", parts); reason != 0) throw std::runtime_error(std::strerror(reason));
     return;
   }
   const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
   const std::filesystem::path end = error ? path : target;
   std::filesystem::path unfinished = end;
   unfinished += ".new";
-  if (!write(unfinished, parts)) {
-    const int reason = errno;
-    std::filesystem::remove(unfinished, error);
+  // A link of this name may lead anywhere, and another one may be made meanwhile: x fails where there is anything.
+  if (const int reason = remove_leftover(unfinished); reason != 0) throw std::runtime_error(std::strerror(reason));
+  if (const int reason = write(unfinished, "wbx", parts); reason != 0) {
+    if (reason != EEXIST) std::filesystem::remove(unfinished, error);
     throw std::runtime_error(std::strerror(reason));
   }
   std::filesystem::rename(unfinished, end, error);

@@ -30,6 +30,25 @@ TEST_CASE("WrittenFile_IsWholeOrTheOldOne") {
   CHECK_FALSE(std::filesystem::exists(folder / "page.html.new"));
 }
 
+TEST_CASE("WrittenFile_FollowsNoLinkOfItsUnfinishedName") {
+  const TemporaryDirectory folder, elsewhere;
+  write_file(elsewhere / "outside.txt", {"theirs"});
+  const std::filesystem::path page = folder / "page.html", unfinished = folder / "page.html.new";
+  for (const std::filesystem::path& target : {elsewhere / "outside.txt", elsewhere / "none.txt"}) {
+    std::filesystem::create_symlink(target, unfinished);
+    write_file(page, {"own"});
+    CHECK(read_input_file(page).content == "own");
+    CHECK_FALSE(std::filesystem::is_symlink(page));
+    CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(unfinished)));
+  }
+  CHECK(read_input_file(elsewhere / "outside.txt").content == "theirs");
+  CHECK_FALSE(std::filesystem::exists(elsewhere / "none.txt"));
+  // What an interrupted program has left is replaced.
+  write_file(unfinished, {"a longer text that was left"});
+  write_file(page, {"new"});
+  CHECK(read_input_file(page).content == "new");
+}
+
 TEST_CASE("NewFile_ReplacesNothing_AndIsMadeByOneOfSeveral") {
   const TemporaryDirectory folder;
   constexpr int kMakers = 8;

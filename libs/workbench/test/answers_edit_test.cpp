@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -216,8 +218,21 @@ TEST_CASE("Examples_AreCopiedWithWhatTheyRead_AndOverwriteNothing") {
   CHECK(status_of([&] { return answers.new_model(at(of_piston, "own/third")); }) == 409);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "own/third.yaml"));
   CHECK(contents_of(folder.path() / "slider_crank/gas_pressure.csv") == "own");
+  // A pipe is not waited for.
+  std::filesystem::remove(folder.path() / "slider_crank/gas_pressure.csv");
+  REQUIRE(::mkfifo((folder.path() / "slider_crank/gas_pressure.csv").c_str(), 0600) == 0);
+  CHECK(status_of([&] { return answers.new_model(at(of_piston, "own/third")); }) == 409);
   CHECK(status_of([&] { return answers.new_model(R"({"example": "../piston/model.yaml", "path": "a"})"); }) == 404);
   CHECK(status_of([&] { return answers.new_model(R"({"example": "four_bar/model.yaml", "path": "../a"})"); }) == 403);
+}
+
+TEST_CASE("Examples_MayBeNamedRelativeToWhereTheProgramIs") {
+  const ExamplesAt examples(std::filesystem::relative(examples_folder()).string());
+  const TemporaryDirectory folder;
+  const Answers answers(folder.path());
+  const Json made = Json::parse(answers.new_model(R"({"example": "piston/model.yaml", "path": "own/piston"})"));
+  CHECK(made["files"].size() == 2);
+  CHECK(contents_of(folder.path() / "own/piston.yaml") == contents_of(examples_folder() + "/piston/model.yaml"));
 }
 
 TEST_CASE("TemplateScene_IsThatOfItsTextInTheFolder") {
@@ -293,6 +308,46 @@ TEST_CASE("SurfacesOfAMesh_ArePickedAndWrittenIntoAModel") {
   const Json named = Json::parse(in_folder.mesh_info(R"({"path": "named.msh", "length_unit": "m"})"));
   CHECK(named["unnamed"] == 0);
   CHECK(named["uses"].size() >= answer["found"].size());
+}
+
+TEST_CASE("NamesOfAMesh_AreQuotedWhereYamlNeedsIt") {
+  const std::string mesh = contents_of(examples_folder() + "/meshes/conrod.msh");
+  const TemporaryDirectory folder;
+  const Answers answers(folder.path());
+  const auto info_with = [&](const std::string& name, const std::string& body) {
+    std::string text = mesh;
+    text.replace(text.find("big_end"), 7, name);
+    std::ofstream(folder.path() / "the rod.msh", std::ios::binary) << text;
+    const Json request{{"path", "the rod.msh"}, {"length_unit", "mm"}, {"body", body}, {"picture", true}};
+    return Json::parse(answers.mesh_info(request.dump()));
+  };
+  for (const std::string name : {"big end", "a, b", "bore: {1", "it's #1", "back\\slash", "true", "1e3", "bore"}) {
+    CAPTURE(name);
+    const Json answer = info_with(name, "rod: 2");
+    const auto use = [&] {
+      for (const Json& one : answer["uses"])
+        if (one["name"] == name) return one;
+      return Json();
+    }();
+    REQUIRE(use.is_object());
+    // Both texts, and the lines for all, are read as what they say.
+    const auto written = [&](const std::string& text, const std::string& key) {
+      return Json::parse(model::written_json(text, "a.yaml", {}, key));
+    };
+    const std::string frame = use["frame"], bearing = use["bearing"], lines = answer["lines"], key = use["key"];
+    CHECK(written("bodies: {rod: {frames: {a: " + frame + "}}}", "bodies.rod.frames.a.nodes") == name);
+    const std::string whole = "bearings: {a: " + bearing + "}";
+    CHECK(written(whole, "bearings.a.shell") == "rod: 2." + key);
+    CHECK(written(whole, "bearings.a.shell_surface.faces") == name);
+    const std::string model = lines.substr(lines.find('\n') + 1);
+    CHECK(written(model, "bodies.part.flexible.mesh") == "the rod.msh");
+    CHECK(written(model, "bodies.part.frames." + key + ".nodes") == name);
+    CHECK((bearing.find('"') != std::string::npos));
+    CHECK((frame.find('"') == std::string::npos) == (name == "bore"));
+  }
+  // Bytes that are no text are shown as such.
+  const Json answer = info_with("\xff", "rod");
+  CHECK(answer["mesh"]["sets"]["surfaces"].contains("\xef\xbf\xbd"));
 }
 
 }  // namespace answers_edit_test

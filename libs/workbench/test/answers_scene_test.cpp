@@ -236,6 +236,17 @@ TEST_CASE("FramesAndCircuit_AreWhatTheTextSays") {
   CHECK(circuit["feeds"].size() == 2);
   CHECK(oil["sources"].contains("/circuit/elements/jet"));
   CHECK(oil["sources"].contains("/circuit/nodes/gallery"));
+  // A function of time is shown as it begins; one of anything else is a fault, and nothing is drawn.
+  Json request = example_request("oil_circuit/model.yaml");
+  const std::string text = request["text"];
+  const auto sump = [&](const std::string& pressure) {
+    const std::string from = "pressure: 0 bar";
+    request["text"] = std::string(text).replace(text.find(from), from.size(), "pressure: " + pressure);
+    const Json scene = scene_of(request);
+    return scene.is_null() ? scene : scene["circuit"]["nodes"][0]["pressure"];
+  };
+  CHECK(sump("{expression: 2 + t, unit: bar}") == 2e5);
+  CHECK(sump("{expression: 2 + turning.rotation, unit: bar}").is_null());
 }
 
 TEST_CASE("MoveBeyondReach_IsRefused") {

@@ -63,6 +63,27 @@ TEST_CASE("CadMesh_IsWhatTheProgramWrites_ByTheOptionsThatWereAskedFor") {
   CHECK(status_of([&] { meshes.start({.path = "none.step", .output = "", .size = "4 mm"}); }) == 404);
   CHECK(status_of([&] { meshes.start({.path = "part.msh", .output = "", .size = "4 mm"}); }) == 422);
   CHECK(status_of([&] { (void)meshes.state("77"); }) == 404);
+  for (const int order : {0, 3, -1}) {
+    CAPTURE(order);
+    const CadRequest request{.path = "part.step", .output = "b.msh", .size = "4 mm", .order = order};
+    CHECK(status_of([&] { meshes.start(request); }) == 422);
+  }
+}
+
+TEST_CASE("CadMesh_ThatIsBeingMade_IsNotMadeTwice") {
+  const TemporaryDirectory elsewhere, place;
+  std::ofstream(place / "part.step") << "solid";
+  const Folder folder(place.path());
+  CadMeshes meshes(folder, program(elsewhere, "sleep 60\n"));
+  const CadRequest first{.path = "part.step", .output = "a.msh", .size = "4 mm"};
+  CadRequest second = first;
+  const std::string name = meshes.start(first);
+  CHECK(status_of([&] { meshes.start(second); }) == 409);
+  second.output = "b.msh";
+  CHECK(status_of([&] { meshes.stop(meshes.start(second)); }) == 0);
+  meshes.stop(name);
+  end_of(meshes, name);
+  CHECK(status_of([&] { meshes.start(first); }) == 0);
 }
 
 TEST_CASE("CadMesh_ThatFailsSaysWhy_AndOneThatTakesLongIsStopped") {

@@ -34,8 +34,8 @@ bool holds_examples(const path& folder) {
 }  // namespace
 
 path examples_folder_of_program() {
-  if (const char* named = std::getenv("HERSEY_EXAMPLES")) return named;
   std::error_code error;
+  if (const char* named = std::getenv("HERSEY_EXAMPLES")) return std::filesystem::absolute(named, error);
   const path program = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) return {};
   const path folder = program.parent_path();

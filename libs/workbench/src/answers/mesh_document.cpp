@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
+#include <string_view>
 #include <utility>
 
+#include "answers/request.h"
 #include "hersey/fem/skin.h"
 
 namespace hersey::workbench {
@@ -107,6 +110,30 @@ std::string key_of(const FoundSurface& surface, std::size_t number) {
   return fmt::format("{}_{}", surface.is_internal ? "bore" : "journal", number);
 }
 
+/// A name as YAML takes it for a text, also within braces: in quotes where it is no plain word.
+std::string in_yaml(const std::string& name) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+  };
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  constexpr std::array<std::string_view, 9> values{"null", "true", "false", "yes", "no", "on", "off", "y", "n"};
+  const bool begins_plain = !name.empty() && (std::isalpha(static_cast<unsigned char>(name[0])) != 0 || name[0] == '_');
+  if (begins_plain && std::all_of(name.begin(), name.end(), is_plain) &&
+      std::find(values.begin(), values.end(), lower) == values.end())
+    return name;
+  std::string quoted = "\"";
+  for (const char c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (code < 0x20 || code == 0x7f)
+      quoted += fmt::format("\\x{:02x}", code);
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
 /// The value of a frame at a found surface, and of the bearing that it could be (else empty).
 struct SurfaceUse {
   std::string key, frame, bearing;
@@ -114,16 +141,16 @@ struct SurfaceUse {
 
 SurfaceUse use_of(const FoundSurface& surface, const std::string& key, const std::string& body) {
   SurfaceUse use{key, "", ""};
+  const std::string name = in_yaml(surface.name);
   if (surface.kind == Kind::plane)
-    use.frame =
-        fmt::format("{{nodes: {}, origin: {} mm, connection: average}}", surface.name, position_in_mm(surface.centre));
+    use.frame = fmt::format("{{nodes: {}, origin: {} mm, connection: average}}", name, position_in_mm(surface.centre));
   else
-    use.frame = fmt::format("{{nodes: {}, origin: {} mm{}, connection: average}}", surface.name,
-                            position_in_mm(surface.centre), rotation_to(surface.axis));
+    use.frame = fmt::format("{{nodes: {}, origin: {} mm{}, connection: average}}", name, position_in_mm(surface.centre),
+                            rotation_to(surface.axis));
   if (surface.use() != Use::none)
-    use.bearing = fmt::format("{{{1}: {4}.{0}, {1}_surface: {{faces: {5}}}, diameter: {2} mm, width: {3} mm}}", key,
-                              surface.use() == Use::bore ? "shell" : "journal", in_mm(2 * surface.radius),
-                              in_mm(surface.width), body, surface.name);
+    use.bearing = fmt::format("{{{1}: {0}, {1}_surface: {{faces: {4}}}, diameter: {2} mm, width: {3} mm}}",
+                              in_yaml(body + "." + key), surface.use() == Use::bore ? "shell" : "journal",
+                              in_mm(2 * surface.radius), in_mm(surface.width), name);
   return use;
 }
 
@@ -165,9 +192,9 @@ std::string uses_json(const Mesh& mesh, const std::vector<FoundSurface>& found, 
   for (const std::string& name : further_surfaces(mesh, found)) {
     const bool is_word =
         std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-    add(name, {is_word ? name : fmt::format("surface_{}", ++number), fmt::format("{{nodes: {}}}", name), ""});
+    add(name, {is_word ? name : fmt::format("surface_{}", ++number), fmt::format("{{nodes: {}}}", in_yaml(name)), ""});
   }
-  return uses.dump();
+  return dumped(uses);
 }
 
 std::string picture_json(const Mesh& mesh, const std::vector<FoundSurface>& found) {
@@ -187,10 +214,10 @@ std::string picture_json(const Mesh& mesh, const std::vector<FoundSurface>& foun
   std::vector<fem::ElementFace> rest;
   for (const fem::ElementFace& face : fem::outer_faces(mesh))
     if (!shown.contains(face)) rest.push_back(face);
-  return nlohmann::json{{"surfaces", std::move(surfaces)}, {"rest", triangles_json(mesh, rest)}}.dump();
+  return dumped({{"surfaces", std::move(surfaces)}, {"rest", triangles_json(mesh, rest)}});
 }
 
-std::string mesh_json(const Mesh& mesh, const MeshQuality& quality) { return document_of(mesh, quality).dump(); }
+std::string mesh_json(const Mesh& mesh, const MeshQuality& quality) { return dumped(document_of(mesh, quality)); }
 
 std::string found_json(const std::vector<FoundSurface>& found) {
   const auto list = [](const Vector3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
@@ -213,7 +240,7 @@ std::string found_json(const std::vector<FoundSurface>& found) {
     }
     surfaces.push_back(std::move(entry));
   }
-  return surfaces.dump();
+  return dumped(surfaces);
 }
 
 std::string model_lines(const std::vector<FoundSurface>& found, const std::string& file,
@@ -233,7 +260,7 @@ std::string model_lines(const std::vector<FoundSurface>& found, const std::strin
   return fmt::format(
       "in a model file, with what else the bearing needs (`hersey explain bearings`):\n"
       "bodies:\n  part:\n    flexible: {{mesh: {}, length_unit: {}}}   # and a material\n    frames:\n{}bearings:\n{}",
-      file, length_unit, frames, bearings);
+      in_yaml(file), length_unit, frames, bearings);
 }
 
 }  // namespace hersey::workbench

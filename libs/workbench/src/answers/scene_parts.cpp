@@ -176,6 +176,19 @@ struct LoadDrawing {
   }
   void operator()(const model::JointFriction& force) const { on("joint_friction", force.on); }
   void operator()(const model::SpeedControl& force) const { on("speed_control", force.on); }
+  /// Of kinds without a drawing of their own it is shown what they act on.
+  template <class Force>
+  requires requires(const Force& force) {
+    force.from.body;
+    force.to.body;
+  }
+  void operator()(const Force& force) const { between("between_frames", force); }
+  template <class Force>
+  requires requires(const Force& force) {
+    force.on.joint;
+    force.on.coordinate;
+  }
+  void operator()(const Force& force) const { on("on_coordinate", force.on); }
 
  private:
   template <class Force>

@@ -54,7 +54,9 @@ std::vector<std::string> copy_example(const std::string& name, const std::string
     FileCopy copy{to, bytes_of(file)};
     const Path there = kept.file(to);
     copy.is_there = std::filesystem::exists(there) || std::filesystem::is_symlink(there);
-    if (copy.is_there && (is_model || bytes_of(there) != copy.content))
+    // A pipe would be waited for.
+    const bool is_file = std::filesystem::is_regular_file(there);
+    if (copy.is_there && (is_model || !is_file || bytes_of(there) != copy.content))
       throw Refused(409, "There is a file '" + to + "' already.", "Choose another name, in another folder.");
     copies.push_back(std::move(copy));
   }

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "hersey/workbench/refused.h"
@@ -45,6 +46,10 @@ CadMeshes::CadMeshes(const Folder& folder, std::filesystem::path program)
 
 CadMeshes::~CadMeshes() {
   for (const auto& [name, job] : jobs_) interrupt(job.process, job.file.string());
+  // At the end of this program they are interrupted once more: one that is tidying up is left the time for it.
+  const Clock::time_point end = Clock::now() + std::chrono::seconds(2);
+  for (const auto& [name, job] : jobs_)
+    while (is_running(job.process) && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::error_code ignored;
   if (!logs_.empty()) std::filesystem::remove_all(logs_, ignored);
 }
@@ -63,11 +68,16 @@ std::string CadMeshes::start(const CadRequest& request) {
                         : request.output;
   if (std::filesystem::path(job.output_name).extension() != ".msh")
     throw Refused(422, "The mesh is to be called '" + job.output_name + "'.", "Give a name that ends with .msh.");
+  if (request.order != 1 && request.order != 2)
+    throw Refused(422, "Elements of the order " + std::to_string(request.order) + ".", "The order is 1 or 2.");
   job.output = folder_.resolve(job.output_name);
+  const std::lock_guard lock(mutex_);
   if (std::filesystem::exists(job.output) || std::filesystem::is_symlink(job.output))
     throw Refused(409, "There is a file '" + job.output_name + "' already.", "Choose another name.");
-  const std::lock_guard lock(mutex_);
   const auto is_at_work = [](const auto& one) { return is_running(one.second.process); };
+  if (std::any_of(jobs_.begin(), jobs_.end(),
+                  [&](const auto& one) { return one.second.output == job.output && is_at_work(one); }))
+    throw Refused(409, "The mesh '" + job.output_name + "' is being made already.", "Wait for it, or stop it.");
   if (static_cast<std::size_t>(std::count_if(jobs_.begin(), jobs_.end(), is_at_work)) >= kMostAtWork)
     throw Refused(503, "Two meshes are being made already.", "Wait for one of them, or stop it.");
   if (logs_.empty()) {
@@ -87,7 +97,7 @@ std::string CadMeshes::start(const CadRequest& request) {
                                  "--output=" + job.output.string()};
   if (!request.length_unit.empty()) words.push_back("--length-unit=" + request.length_unit);
   job.began = Clock::now();
-  job.process = start_detached(words, folder_.path(), job.log);
+  job.process = start_attached(words, folder_.path(), job.log);
   jobs_[name] = std::move(job);
   return name;
 }

@@ -16,7 +16,7 @@ struct CadRequest {
   std::string path;              ///< of the CAD file, relative to the folder
   std::string output;            ///< of the mesh, likewise; empty: beside it, with the ending .msh
   std::string size;              ///< of the elements, "4 mm"
-  int order = 2, around = 16;    ///< of the elements; how many of them a full circle has
+  int order = 2, around = 16;    ///< of the elements, 1 or 2; how many of them a full circle has
   std::string length_unit = {};  ///< of a BREP file
 };
 
@@ -40,7 +40,8 @@ class CadMeshes {
   /// Stops those that are being made.
   ~CadMeshes();
 
-  /// Starts one. @returns its name @throws Refused for a file that is no CAD file or not there, or an existing output
+  /// Starts one. @returns its name @throws Refused for a file that is no CAD file or not there, an unknown order of
+  /// elements, or an output that exists or is being made
   std::string start(const CadRequest& request);
   /// @throws Refused 404 for an unknown name
   [[nodiscard]] CadState state(const std::string& name);

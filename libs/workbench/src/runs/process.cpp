@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,9 +13,12 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <future>
 #include <iterator>
 #include <sstream>
 #include <system_error>
+#include <thread>
+#include <utility>
 
 namespace hersey::workbench {
 namespace {
@@ -121,6 +125,40 @@ ProcessId start_detached(const std::vector<std::string>& words, const std::files
   errno = error;
   if (program <= 0) no_process(words.front());
   return {program, status_of(program).start};
+}
+
+ProcessId start_attached(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                         const std::filesystem::path& log) {
+  std::promise<ProcessId> starting;
+  std::future<ProcessId> started = starting.get_future();
+  // The system takes the end of the thread that has started a program for that of its parent: this one waits for it.
+  std::thread([words, folder = folder.string(), log, starting = std::move(starting)]() mutable {
+    const Arguments arguments(words);
+    const int output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    std::array<int, 2> pipe{-1, -1};
+    const pid_t parent = ::getpid();
+    const pid_t child = output < 0 || ::pipe2(pipe.data(), O_CLOEXEC) != 0 ? -1 : ::fork();
+    if (child == 0) {
+      ::setsid();
+      ::prctl(PR_SET_PDEATHSIG, SIGINT);
+      if (::getppid() != parent) ::_exit(127);  // it ended before this could be asked for
+      become_program(arguments, folder.c_str(), output);
+    }
+    const int error = errno;
+    for (const int descriptor : {output, pipe[1]})
+      if (descriptor >= 0) ::close(descriptor);
+    // The pipe ends as the program begins: who stops it knows it by its arguments.
+    char nothing = 0;
+    while (child > 0 && ::read(pipe[0], &nothing, 1) < 0 && errno == EINTR) continue;
+    if (pipe[0] >= 0) ::close(pipe[0]);
+    if (child < 0) {
+      const auto what = words.front() + " cannot be started";
+      return starting.set_exception(std::make_exception_ptr(std::system_error(error, std::generic_category(), what)));
+    }
+    starting.set_value({child, status_of(child).start});
+    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
+  }).detach();
+  return started.get();
 }
 
 bool is_running(const ProcessId& process) {

@@ -19,10 +19,16 @@ struct ProcessId {
 [[nodiscard]] ProcessId start_detached(const std::vector<std::string>& words, const std::filesystem::path& folder,
                                        const std::filesystem::path& log);
 
+/// The same for a program that is of no use without this one: it is interrupted, as by Ctrl-C, when this program ends,
+/// also if it is killed.
+/// @throws std::system_error if it cannot be started
+[[nodiscard]] ProcessId start_attached(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                                       const std::filesystem::path& log);
+
 [[nodiscard]] bool is_running(const ProcessId& process);
 
-/// Asks a process that was started detached, and its children, to stop, as Ctrl-C does. @returns false if it does not
-/// run, or if none of its arguments is `argument`: a number from a file could be that of any process.
+/// Asks a process that was started by one of the above, and its children, to stop, as Ctrl-C does. @returns false if it
+/// does not run, or if none of its arguments is `argument`: a number from a file could be that of any process.
 bool interrupt(const ProcessId& process, const std::string& argument);
 
 /// Runs `words` to its end. @returns its exit code, or -1 if it was killed or took more than `most_seconds`

@@ -36,6 +36,9 @@ std::string Runs::start(const json& request) {
     throw Refused(409, path + " has been changed since", "save it, then run it");
   const std::vector<std::string> overrides = record_texts(request, "set");
   for (const std::string& change : overrides) check_override(change);
+  // What is refused leaves no folder.
+  json record{{"version", version()}, {"model", path}, {"set", overrides}, {"started", seconds_since_1970()}};
+  if (record_flag(request, "study")) note_study(request, record);
   const std::lock_guard lock(starting_);
   const std::string name = plain_name(session::model_name((folder_.path() / path).string()));
   const Path runs = folder_.path() / "runs";
@@ -49,8 +52,6 @@ std::string Runs::start(const json& request) {
     if (std::filesystem::create_directory(runs / next, error)) id = next;
     if (error) cannot_make(runs / next, error);
   }
-  json record{{"version", version()}, {"model", path}, {"set", overrides}, {"started", seconds_since_1970()}};
-  if (record_flag(request, "study")) note_study(request, record);
   write_text(runs / id / "model.txt", model.text);
   launch(id, std::move(record), false);
   return id;

@@ -17,6 +17,7 @@
 #include <system_error>
 #include <vector>
 
+#include "hersey/core/write_file.h"
 #include "hersey/workbench/refused.h"
 #include "runs/process.h"
 #include "runs/temporary_folder.h"
@@ -54,6 +55,51 @@ json study_object(const std::string& text) {
   return value.is_object() ? value : json();
 }
 
+/// A name with a blank or with bytes beyond ASCII would not come back whole in the `after` of the next request.
+bool is_name_of_shard(const std::string& name) {
+  return name.ends_with(".jsonl") && std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < 0x7f; });
+}
+
+/// Lines of a file that are complete, from a place on; one too long to be read whole is stepped over.
+class StudyLines {
+ public:
+  StudyLines(const StudyPath& file, std::uintmax_t& place) : place_(place) {
+    // The byte before tells whether the place is amid a line that was too long.
+    const std::uintmax_t begin = place == 0 ? 0 : place - 1;
+    text_ = study_part(file, begin, kMostPart);
+    is_full_ = text_.size() == kMostPart;
+    if (place == 0 || text_.empty()) return;
+    const std::size_t end = text_.find('\n');
+    next_ = end == std::string::npos ? text_.size() : end + 1;
+    if (end != std::string::npos || is_full_) place_ = begin + next_;
+    has_line_ = next_ > 1;
+  }
+
+  /// @returns false at the end of what could be read at once
+  bool next(std::string& line) {
+    const std::size_t end = text_.find('\n', next_);
+    if (end == std::string::npos) {
+      // The line is too long: its rest is looked for the next time.
+      if (is_full_ && !has_line_ && next_ < text_.size()) place_ += text_.size() - next_;
+      return false;
+    }
+    has_line_ = true;
+    line = text_.substr(next_, end - next_);
+    place_ += end + 1 - next_;
+    next_ = end + 1;
+    return true;
+  }
+
+  /// True where the file may go on behind what could be read at once.
+  [[nodiscard]] bool may_go_on() const { return is_full_; }
+
+ private:
+  std::uintmax_t& place_;
+  std::string text_;
+  std::size_t next_ = 0;
+  bool is_full_ = false, has_line_ = false;
+};
+
 /// Records of the study itself, and those of tasks of a cluster, by their names relative to the folder.
 std::vector<std::string> record_files(const StudyPath& folder) {
   std::vector<std::string> names{"records.jsonl"};
@@ -61,7 +107,8 @@ std::vector<std::string> record_files(const StudyPath& folder) {
   if (std::filesystem::is_symlink(folder / "shards", error)) return names;
   std::filesystem::directory_iterator entry(folder / "shards", error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
-    if (entry->path().extension() == ".jsonl") names.push_back("shards/" + entry->path().filename().string());
+    if (const std::string name = entry->path().filename().string(); is_name_of_shard(name))
+      names.push_back("shards/" + name);
   std::sort(names.begin() + 1, names.end());
   return names;
 }
@@ -103,6 +150,7 @@ std::vector<std::string> usual_figures(const json& figures) {
   return names;
 }
 
+/// @throws json::exception for a record of another form
 json shown_record(const json& record, const std::vector<std::string>& wanted) {
   json shown{{"run", record.value("run", "")}, {"status", record.value("status", "")}, {"values", json::array()}};
   if (const auto found = record.find("values"); found != record.end() && found->is_array())
@@ -115,6 +163,20 @@ json shown_record(const json& record, const std::vector<std::string>& wanted) {
       figures[name] = found->value(name, json(nullptr));
   shown["figures"] = std::move(figures);
   return shown;
+}
+
+/// Adds what a line says, units or the record of a run; one of another form is left out.
+void add_line(const json& record, const std::vector<std::string>& wanted, json& answer) {
+  try {
+    if (record.is_null()) return;
+    if (const auto units = record.find("describe"); units != record.end() && units->is_object())
+      for (const auto& [figure, described] : units->items())
+        answer["units"][figure] = {{"unit", described.value("unit", "")}, {"si", described.value("si", 1.0)}};
+    else if (record.contains("run") && record.contains("values"))
+      answer["records"].push_back(shown_record(record, wanted));
+  } catch (const json::exception&) {
+    return;
+  }
 }
 
 }  // namespace
@@ -131,7 +193,13 @@ std::string Studies::plan(const json& request) const {
   const StudyPath model = folder_.resolve(request.at("path").get<std::string>());
   const TemporaryFolder temporary;
   const StudyPath text = temporary.file("text"), file = temporary.file("plan.json");
-  std::ofstream(text, std::ios::binary) << request.at("text").get<std::string>();
+  const auto content = request.at("text").get<std::string>();
+  try {
+    (void)write_new_file(text, content);
+  } catch (const std::runtime_error& error) {
+    throw Refused(507, fmt::format("the text cannot be written to be planned: {}", error.what()),
+                  "make room on the disk");
+  }
   std::vector<std::string> words{program_.string(), "study",  model.string(), "--plan",
                                  file.string(),     "--text", text.string()};
   for (const json& change : request.value("set", json::array())) words.push_back("--set=" + change.get<std::string>());
@@ -154,24 +222,18 @@ std::string Studies::course(const std::string& id, const std::string& after) con
   std::map<std::string, std::uintmax_t> places = places_of(after);
   json answer{{"units", json::object()}, {"records", json::array()}};
   if (after.empty()) answer["plan"] = plan;
+  bool goes_on = false;
+  const auto is_full = [&] { return answer["records"].size() >= kMostRecordsAtOnce; };
   for (const std::string& name : record_files(folder)) {
-    std::uintmax_t& place = places[name];
-    std::istringstream lines(study_part(folder / name, place, kMostPart));
-    for (std::string line; answer["records"].size() < kMostRecordsAtOnce && std::getline(lines, line) && !lines.eof();) {
-      place += line.size() + 1;
-      const json record = study_object(line);
-      if (record.is_null()) continue;
-      if (const auto units = record.find("describe"); units != record.end() && units->is_object())
-        for (const auto& [figure, described] : units->items())
-          answer["units"][figure] = {{"unit", described.value("unit", "")}, {"si", described.value("si", 1.0)}};
-      else if (record.contains("run") && record.contains("values"))
-        answer["records"].push_back(shown_record(record, wanted));
-    }
+    if (is_full()) break;
+    StudyLines lines(folder / name, places[name]);
+    for (std::string line; !is_full() && lines.next(line);) add_line(study_object(line), wanted, answer);
+    goes_on = goes_on || lines.may_go_on();
   }
   std::string at;
   for (const auto& [name, place] : places) at += fmt::format("{}{}:{}", at.empty() ? "" : " ", name, place);
   answer["at"] = at;
-  answer["more"] = answer["records"].size() == kMostRecordsAtOnce;
+  answer["more"] = goes_on || is_full();
   answer["state"] = run.state;
   return answer.dump(-1, ' ', false, json::error_handler_t::replace);
 }

@@ -23,7 +23,7 @@ class Studies {
 
   /// `{plan, units: {figure: {unit, si}}, records: [{run, values, status, error, figures}], at}`: with an empty `after`
   /// all that the study has on record, else what has come since the answer whose `at` it is. At most 1000 records at a
-  /// time; `more` says that some are left.
+  /// time; `more` says that some are left. Lines of another form are left out, as are those above 4 MB.
   /// @throws Refused 404 for a run that is no study
   [[nodiscard]] std::string course(const std::string& id, const std::string& after) const;
 

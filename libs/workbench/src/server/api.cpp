@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <memory>
@@ -74,6 +75,17 @@ std::string event_text(const Event& event) {
   return fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.number, event.name, event.data);
 }
 
+/// A whole number of a request. @throws Refused 422 for any other value
+int whole_number(const json& request, const char* key, int otherwise) {
+  const auto found = request.find(key);
+  if (found == request.end()) return otherwise;
+  constexpr double kMost = 1e9;  // fits an int
+  const double value = found->is_number() ? found->get<double>() : kMost;
+  if (std::abs(value) >= kMost || value != std::floor(value))
+    throw Refused(422, fmt::format("{} is no whole number", key), "give one such as 2");
+  return static_cast<int>(value);
+}
+
 }  // namespace
 
 Reply Api::handle(const Request& request) {
@@ -137,8 +149,8 @@ Reply Api::start_cad(const Request& request) {
   wanted.path = given.at("path").get<std::string>();
   wanted.size = given.at("size").get<std::string>();
   wanted.output = given.value("output", "");
-  wanted.order = given.value("order", 2);
-  wanted.around = given.value("around", 16);
+  wanted.order = whole_number(given, "order", wanted.order);
+  wanted.around = whole_number(given, "around", wanted.around);
   wanted.length_unit = given.value("length_unit", "");
   return json_reply({{"id", cad_.start(wanted)}});
 }

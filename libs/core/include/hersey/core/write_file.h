@@ -8,7 +8,7 @@ namespace hersey {
 
 /// Replaces a file atomically: writes a file of the same name with ".new" appended and renames it when it is complete.
 /// Readers find either the complete old file or the complete new one, even if the program is interrupted. Links are
-/// followed; devices and pipes are written directly.
+/// followed, but for one with ".new", which is replaced; devices and pipes are written directly.
 /// @throws std::runtime_error stating why the file could not be written; the old file is then unchanged
 void write_file(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
 
