@@ -99,6 +99,7 @@ double power_put_in(const Solution& s) {
 }
 
 Group friction() {
+  const auto is_rough = [](const Solution& s) { return s.numbers.film_ratio > 0; };
   using Film = film::FilmObservables;
   using Number = bearing::BearingNumbers;
   return {
@@ -124,7 +125,7 @@ Group friction() {
        {"power_put_in", "power put in by torques and load", kWatt, power_put_in},
        power_not_explained(power_put_in),
        {"asperity_share", kNone, numbers(&Number::asperity_share)},
-       {"film_ratio", kNone, numbers(&Number::film_ratio)}}};
+       {"film_ratio", kNone, numbers(&Number::film_ratio), {.only = is_rough}}}};
 }
 
 Group oil() {

@@ -149,6 +149,15 @@ TEST_CASE("TheFirstRepair_OfANearName_GivesTheTextBack") {
   }
 }
 
+TEST_CASE("AStudyWithoutParameters_GetsThatOfTheModel") {
+  const std::string text = kRig + "study:\n";
+  const Json answer = check_of(text);
+  REQUIRE(answer["faults"].size() == 1);
+  const std::string mended = with_edits(text, answer["faults"][0]["repairs"][0]["edits"]);
+  CHECK(mended.find("parameters: {load: [500 N]}") != std::string::npos);
+  CHECK(check_of(mended)["faults"].empty());
+}
+
 TEST_CASE("ARepair_InAValueOfSeveralLines_IsMadeInItsLine") {
   for (const std::string value : {"width: 15.6\n      mmm", "width: \"15.6\n\n      mmm\""}) {
     CAPTURE(value);

@@ -161,6 +161,12 @@ void FilmForce::report_contact() {
   if (hot.has_shape || thermal_->growth() != 0)
     domain_error_ += fmt::format("; its clearance of {:.4g} um is {:.4g} um at the temperatures of its walls",
                                  1e6 * clearance(model()), 1e6 * hot.smallest);
+  if (smallest_gap() < -clearance(model())) {
+    domain_error_ +=
+        "; the surfaces do not face each other where the joints place them: do lengths, frames and the "
+        "position of the bearing agree?";
+    return;
+  }
   if (model().asperities.model != film::AsperityModel::none) return;
   domain_error_ += model().compliance > 0 ? "; where no film pressure parts them, as at the edges, only `asperities` do"
                                           : "; smooth surfaces have nothing but the film between them: `asperities` "

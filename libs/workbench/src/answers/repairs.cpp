@@ -75,6 +75,16 @@ std::string first_name(const TextMap& map, const std::string& section) {
   return entry == nullptr || entry->children.empty() ? "" : map.entries()[entry->children.front()].key;
 }
 
+/// The first parameter of the text with the value that it has, for a study: `{load: [2500 N]}`.
+std::string first_parameter(const TextMap& map) {
+  const std::string name = first_name(map, "parameters");
+  const TextEntry* entry = name.empty() ? nullptr : map.find("parameters." + name);
+  if (entry == nullptr || entry->kind != TextEntry::Kind::scalar) return "";
+  const std::size_t begin = map.offset(entry->value_at.line, entry->value_at.column);
+  const std::size_t end = map.offset(entry->value_at.end_line, entry->value_at.end_column);
+  return "{" + name + ": [" + map.text().substr(begin, end - begin) + "]}";
+}
+
 /// Value for a key that is missing: a name of the model where a name is wanted, else the format's example.
 std::string value_for(const TextMap& map, const std::string& path, const std::string& expected) {
   static const std::array<std::pair<const char*, const char*>, 3> sections{
@@ -82,6 +92,8 @@ std::string value_for(const TextMap& map, const std::string& path, const std::st
   for (const auto& [words, section] : sections)
     if (expected.starts_with(words))
       if (std::string name = first_name(map, section); !name.empty()) return name;
+  if (path == "study.parameters")
+    if (std::string parameter = first_parameter(map); !parameter.empty()) return parameter;
   try {
     return model::example_value(path);
   } catch (const InputError&) {
