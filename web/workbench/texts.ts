@@ -110,7 +110,7 @@ export const texts = {
     asperities: "Share of the load on asperities",
     share: "share on asperities",
     progress: (done: number, all: number) => `${done} of ${all} points`,
-    ends: "The curves end where there is no solution.",
+    notFound: (values: string, unit: string) => `not found at ${values} ${unit}`,
   },
   noRuns: "No run yet. Run starts one.",
   runState: { running: "running", completed: "completed", failed: "failed", stopped: "stopped", lost: "lost" },
