@@ -10,7 +10,7 @@ import type { ModelSchema } from "./model_schema";
 import { PartPane } from "./part_pane";
 import { PointPane } from "./point_pane";
 import { texts } from "./texts";
-import { find } from "./yaml_tree";
+import { find, type TextNode } from "./yaml_tree";
 
 export interface ModelPanesHooks {
   api: Api;
@@ -31,6 +31,8 @@ export class ModelPanes {
   readonly part: PartPane;
   readonly point: PointPane;
   readonly tabs: Tabs;
+  /** The tab before the operating point was shown by itself; empty: it was not. */
+  private tabBefore = "";
 
   constructor(private readonly hooks: ModelPanesHooks) {
     const { api, model, set, goToKey, goToPart, say, changed } = hooks;
@@ -68,6 +70,17 @@ export class ModelPanes {
     }
     const old = written === "" ? ["0", "0", "0"] : words;
     await set([...path, "origin"].join("."), `${position.map((x, i) => (x === null ? old[i] : String(Number((scale * x).toPrecision(9))))).join(" ")} ${unit}`);
+  }
+
+  /** Of a model that is opened: a bearing by itself has nothing to be seen of a machine. */
+  showFirst(tree: TextNode): void {
+    const has = (key: string) => find(tree, [key]) !== undefined;
+    const before = this.tabBefore;
+    this.tabBefore = "";
+    if (has("bearings") && !has("bodies") && !has("simulation") && !has("use")) {
+      this.tabBefore = before || this.tabs.current;
+      this.tabs.show("point");
+    } else if (before && this.tabs.current === "point") this.tabs.show(before);
   }
 
   clear(): void {

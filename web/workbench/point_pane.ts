@@ -56,6 +56,8 @@ export class PointPane {
   private readonly sliders = new Map<string, { input: HTMLInputElement; value: HTMLElement; middle: number; isKnown: boolean }>();
   private readonly touched = new Set<string>();
   private bearing = "";
+  /** Path of the model that the sliders are of. */
+  private path = "";
   private previous: string | null = null;
   private wanted = false;
   private busy = false;
@@ -116,8 +118,10 @@ export class PointPane {
 
   /** The pane has come into sight, or the text has changed. */
   refresh(): void {
-    if (this.name() !== this.bearing) {
+    const path = this.model()?.path ?? "";
+    if (this.name() !== this.bearing || path !== this.path) {
       this.bearing = this.name();
+      this.path = path;
       this.previous = null;
       this.touched.clear();
       this.curves.clear();
@@ -125,6 +129,7 @@ export class PointPane {
         const slider = this.sliders.get(knob.key)!;
         slider.input.value = "0";
         slider.isKnown = false;
+        slider.value.textContent = "–";
       }
     }
     if (!this.bearing) this.status.textContent = texts.noBearing;
@@ -151,9 +156,12 @@ export class PointPane {
       this.wanted = false;
       const model = this.model();
       if (!model || !this.bearing) break;
+      const { bearing, path } = this;
       const begun = performance.now();
       try {
         const answer = await this.solve({}, ["pressure"], this.previous);
+        // Of a model or bearing that is no longer shown.
+        if (this.bearing !== bearing || this.path !== path || this.model()?.path !== path) continue;
         this.previous = answer.id ?? this.previous;
         this.show(answer, model, performance.now() - begun);
       } catch (error) {
