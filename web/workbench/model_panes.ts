@@ -1,6 +1,6 @@
 // The panes that show the model beside its text: machine, bearing, part, operating point.
 
-import type { Api } from "./api";
+import type { Api, Fault } from "./api";
 import { BearingPane } from "./bearing_pane";
 import type { OpenDocument } from "./editor";
 import type { PlacedFrame } from "./frame_hand";
@@ -91,8 +91,15 @@ export class ModelPanes {
   /** @param part  that of the cursor */
   show(scene: SceneText | null, part: () => string | null): void {
     this.machine.show(scene);
+    this.point.faulty(scene === null);
     this.showParts(scene);
     this.machine.highlight(part());
+  }
+
+  /** What is wrong with the text, for the forms. */
+  mark(faults: Fault[]): void {
+    this.bearing.mark(faults);
+    this.part.mark(faults);
   }
 
   /** The forms of the model. */

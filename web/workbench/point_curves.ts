@@ -127,7 +127,22 @@ export class PointCurves {
     this.status.textContent = "";
   }
 
+  /** While the text is faulty nothing is solved; then what is shown is of an older one. */
+  faulty(is: boolean): void {
+    this.choice.disabled = is;
+    this.element.classList.toggle("old", is);
+    if (!is) {
+      if (this.status.textContent === texts.faultyText) this.status.textContent = "";
+      return;
+    }
+    this.sweeps++;
+    clearTimeout(this.timer);
+    this.of = "";
+    this.status.textContent = texts.faultyText;
+  }
+
   private again(): void {
+    if (this.choice.disabled) return;
     this.of = "";
     this.sweeps++;
     const at = this.element.open ? this.hooks.abscissae().find(({ key }) => key === this.choice.value) : undefined;

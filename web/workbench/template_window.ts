@@ -49,21 +49,38 @@ export function askBeginning(api: Api, templates: Template[], examples: Template
       path.value = card.isExample ? card.name : `${card.name.split("/").pop()}.yaml`;
       hint.textContent = card.isExample ? texts.templates.exampleWords : texts.templates.words;
     };
+    const shown: { element: HTMLElement; radio: HTMLInputElement; words: string }[] = [];
     const cardOf = (card: Card) => {
       const radio = h("input", { type: "radio", name: "template", value: keyOf(card) });
       radio.addEventListener("change", () => choose(card));
       const image = h("img", { alt: "", width: 150, height: 96 });
       const element = h("label", { class: "card" }, radio, image, h("span", { class: "card-title" }, card.title || card.name), h("span", { class: "card-name" }, card.name));
       pictures.watch(card, image, element);
+      shown.push({ element, radio, words: `${card.title} ${card.name} ${/^description:.*$/m.exec(card.text)?.[0] ?? ""}`.toLowerCase() });
       return element;
     };
     const group = (title: string, list: Card[]) => (list.length > 0 ? h("fieldset", { class: "cards" }, h("legend", {}, title), ...list.map(cardOf)) : null);
     const list = h("div", { class: "template-list", role: "group", "aria-label": texts.templates.choose }, group(texts.templates.templates, cards.filter((c) => !c.isExample)), group(texts.templates.examples, cards.filter((c) => c.isExample)));
+    const nothing = h("p", { class: "note", role: "status", hidden: true }, texts.templates.nothing);
+    const search = h("input", { type: "search", class: "card-search", placeholder: texts.templates.search, "aria-label": texts.templates.search, autocomplete: "off", spellcheck: "false" });
+    // Cards with all the words; the first of them is chosen where the chosen one is not among them.
+    const find = () => {
+      const words = search.value.toLowerCase().split(/\s+/);
+      for (const card of shown) card.element.hidden = !words.every((word) => card.words.includes(word));
+      for (const cards of list.querySelectorAll<HTMLElement>(".cards")) cards.hidden = cards.querySelector(".card:not([hidden])") === null;
+      const found = shown.filter(({ element }) => !element.hidden);
+      nothing.hidden = found.length > 0;
+      if (found.length > 0 && !found.some(({ radio }) => radio.checked)) found[0]!.radio.click();
+    };
+    search.addEventListener("input", find);
+    search.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") event.preventDefault();
+    });
     const form = h(
       "form",
       { method: "dialog" },
       hint,
-      h("div", { class: "template-choice" }, list, preview),
+      search, nothing, h("div", { class: "template-choice" }, list, preview),
       h("div", { class: "window-tools" }, h("label", { for: "template-path" }, texts.templates.path), path, h("button", { type: "submit", class: "main-button" }, texts.templates.create)),
       refusal,
     );

@@ -223,6 +223,7 @@ export class Workbench {
     const { model } = this.documents;
     this.problems.show(findings, model ? texts.state.checking : texts.noModel);
     this.checkState.show(findings, runs, model !== null);
+    this.panes.mark(findings?.faults ?? []);
     this.runs.starter.showButtons();
     const count = (findings?.faults.length ?? 0) + (findings?.warnings.length ?? 0);
     this.runs.tabs.label("problems", count > 0 ? `${texts.problems} (${count})` : texts.problems);
