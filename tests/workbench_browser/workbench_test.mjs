@@ -333,9 +333,42 @@ await findings.check("a bearing by itself is ready for its operating point, to w
   await state(page, "Ready to run");
 });
 
+await findings.check("a wrong value is said below its field, and the sliders wait for the text; a value is typed beside its slider", async () => {
+  await openFile("light.yaml");
+  await state(page, "Ready: operating point");
+  await page.locator('[data-figure-key="load"] td').waitFor();
+  const load = page.getByLabel("Load, value with unit");
+  await load.fill("1.7 kN");
+  await load.press("Enter");
+  await page.waitForFunction(() => document.querySelector('[data-figure-key="load"] td').textContent.replace(/\s/g, "").startsWith("1700"));
+  await load.fill("1.7 bar");
+  await load.press("Enter");
+  claim((await load.getAttribute("aria-invalid")) === "true", "a load in bar is taken");
+  await rightTab("Bearing");
+  const field = page.locator('.bearing-pane [data-key="bearings.main.diameter"]');
+  const first = await field.inputValue();
+  await field.fill("45 kg");
+  await field.press("Enter");
+  await page.locator(".bearing-pane .field-fault").waitFor();
+  claim((await field.getAttribute("aria-invalid")) === "true", "the field is not marked");
+  await picture(page, "8b-field-fault");
+  await rightTab("Operating point");
+  claim((await load.isDisabled()) && /faults/.test(await page.locator(".point-pane > .note").innerText()), "the sliders do not wait");
+  await page.locator(".cm-content").focus();
+  await page.keyboard.press("Control+z");
+  await state(page, "Ready: operating point");
+  await page.waitForFunction(() => !document.querySelector(".point-pane input.slider-value").disabled);
+  await picture(page, "8c-values");
+  await rightTab("Bearing");
+  claim((await field.inputValue()) === first && (await page.locator(".bearing-pane .field-fault").count()) === 0, `after undo the field shows ${await field.inputValue()}`);
+});
+
 await findings.check("a new model with the name of another one stays in its window, which says so", async () => {
   await button("New model").click();
   const name = page.locator("#template-path");
+  await page.getByLabel("Search", { exact: true }).fill("hydrostatic");
+  claim((await name.inputValue()) === "hydrostatic.yaml", `found: ${await name.inputValue()}`);
+  await picture(page, "8d-search");
   await name.fill("model.yaml");
   await button("Create").click();
   await page.locator(".field-fault", { hasText: "model.yaml" }).waitFor();
