@@ -207,7 +207,12 @@ export class MachinePane {
         const half = isAngle ? Math.PI : reach;
         const [low, high] = [start - half, start + half];
         const value = h("output", { class: "slider-value" });
-        const words = (x: number) => (isAngle ? `${format((x * 180) / Math.PI, 3)}°` : `${format(1e3 * x, 3)} mm`);
+        // The mechanism's own residue is nothing to read.
+        const residue = 1e-6 * (high - low);
+        const words = (x: number) => {
+          const seen = Math.abs(x) < residue ? 0 : x;
+          return isAngle ? `${format((seen * 180) / Math.PI, 3)}°` : `${format(1e3 * seen, 3)} mm`;
+        };
         const say = (x: number) => (value.textContent = words(x));
         this.reached.set(`${joint}.${name}`, { value: start, words });
         const slider = h("input", { type: "range", min: low, max: high, step: (high - low) / 720, value: start, "aria-label": `${joint}, ${name}` });

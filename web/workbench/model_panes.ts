@@ -86,6 +86,7 @@ export class ModelPanes {
   clear(): void {
     this.machine.clear();
     this.bearing.clear();
+    this.point.clear();
   }
 
   /** @param part  that of the cursor */

@@ -83,6 +83,8 @@ export class PointPane {
       const value = h("input", { type: "text", class: "slider-value", spellcheck: "false", autocomplete: "off", "aria-label": texts.sliderField(texts.sliders[knob.key]) });
       this.sliders.set(knob.key, { input, value, middle: knob.usual, isKnown: false, exact: null });
       value.addEventListener("change", () => this.take(knob));
+      // What cannot be taken gives way to the value that counts.
+      value.addEventListener("blur", () => value.hasAttribute("aria-invalid") && this.write(knob));
       input.addEventListener("input", () => {
         this.touched.add(knob.key);
         this.sliders.get(knob.key)!.exact = null;
@@ -129,22 +131,34 @@ export class PointPane {
     return this.api.post<Answer>("/api/bearing", { path: model.path, text: model.text, bearing: this.bearing, set, fields, ...(previous ? { previous } : {}) });
   }
 
+  /** Another model or bearing: nothing of the last one stays, and the sliders wait for what this one says. */
+  clear(): void {
+    this.bearing = this.path = "";
+    this.previous = null;
+    this.touched.clear();
+    this.curves.clear();
+    for (const slider of this.sliders.values()) {
+      slider.input.value = "0";
+      slider.isKnown = false;
+      slider.exact = null;
+      slider.value.value = "–";
+      slider.value.removeAttribute("aria-invalid");
+      slider.input.disabled = slider.value.disabled = true;
+    }
+    this.drawn.map?.destroy();
+    this.drawn.locus?.destroy();
+    this.drawn = { map: null, locus: null };
+    for (const part of [this.figures, this.map, this.locus, this.coefficients]) part.replaceChildren();
+    this.status.textContent = texts.solveStart;
+  }
+
   /** The pane has come into sight, or the text has changed. */
   refresh(): void {
     const path = this.model()?.path ?? "";
     if (this.name() !== this.bearing || path !== this.path) {
+      this.clear();
       this.bearing = this.name();
       this.path = path;
-      this.previous = null;
-      this.touched.clear();
-      this.curves.clear();
-      for (const knob of knobs) {
-        const slider = this.sliders.get(knob.key)!;
-        slider.input.value = "0";
-        slider.isKnown = false;
-        slider.exact = null;
-        slider.value.value = "–";
-      }
     }
     if (this.isFaulty) return;
     if (!this.bearing) this.status.textContent = texts.noBearing;
@@ -225,7 +239,11 @@ export class PointPane {
   private show(answer: Answer, model: { text: string; tree: TextNode }, ms: number): void {
     this.element.classList.toggle("old", !answer.solved);
     this.status.textContent = answer.solved ? texts.solved(Math.round(ms)) : answer.message;
-    if (!answer.solved) return;
+    if (!answer.solved) {
+      // Other values may have a solution.
+      for (const { input, value } of this.sliders.values()) if (value.value !== "–" || !this.previous) input.disabled = value.disabled = false;
+      return;
+    }
     this.learn(answer, model);
     const coefficients = kindOf({ solutions: [answer.solution] }).coefficients(answer.solution);
     this.coefficients.replaceChildren(...(coefficients ? [h("h3", {}, texts.coefficients), coefficients] : []));
