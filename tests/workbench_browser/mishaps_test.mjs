@@ -113,7 +113,7 @@ await journey("eight tabs on one folder: each hears and is answered, also when t
   for (let i = 0; i < 8; i++) {
     const page = await open(context, server.address);
     await openFile(page, "bearing.yaml");
-    await state(page, "missing");
+    await state(page, "Ready: operating point");
     pages.push(page);
   }
   claim(streams === 1, `${streams} streams are open`);

@@ -208,6 +208,38 @@ await findings.check("the Stribeck curve and its like are drawn at the sliders' 
   page.off("response", note);
 });
 
+await findings.check("a curve goes on beyond a point without a solution, which is tried by itself and named", async () => {
+  await openFile("bearing.yaml");
+  await page.locator(".right").getByRole("tab", { name: "Operating point" }).click();
+  await page.locator('[data-figure-key="h_min"] td').waitFor();
+  // As if there were none near 250 rpm from a neighbour, and none at all near 600 rpm.
+  const asked = [];
+  const [isFar, isNone] = [(speed) => speed > 200 && speed < 320, (speed) => speed > 500 && speed < 700];
+  await page.route("**/api/bearing", async (route) => {
+    const { fields, set, previous } = route.request().postDataJSON();
+    const speed = fields[0] === "none" ? parseFloat(set.find((text) => text.startsWith("speed="))?.slice(6)) : NaN;
+    asked.push({ speed, isCold: !previous });
+    if (!isNone(speed) && !(isFar(speed) && previous)) return route.continue();
+    const response = await route.fetch();
+    await route.fulfill({ response, json: { ...(await response.json()), id: null, solved: false } });
+  });
+  await page.evaluate(() => performance.clearMarks());
+  if (!(await page.locator(".curves").evaluate((e) => e.open))) await page.locator(".curves summary").click();
+  const over = page.getByLabel("Over", { exact: true });
+  if ((await over.inputValue()) !== "speed") await over.selectOption("speed");
+  await page.waitForFunction(() => performance.getEntriesByName("hersey-curves").length > 0, null, { timeout: 60000 });
+  const words = await page.locator(".curves .note").innerText();
+  const named = (/^not found at ([\d., ]+) rpm$/.exec(words)?.[1] ?? "").split(", ").map(Number);
+  claim(named.length > 0 && named.every(isNone), `it says: ${words}`);
+  for (const place of [isFar, isNone]) {
+    const tries = asked.filter(({ speed }) => place(speed));
+    claim(tries.some(({ isCold }) => isCold) && tries.some(({ isCold }) => !isCold), `tries: ${JSON.stringify(tries)}`);
+  }
+  const least = Math.min(...asked.map(({ speed }) => speed).filter((speed) => speed > 0));
+  claim(least < 100, `the curve ends at ${least} rpm`);
+  await page.unroute("**/api/bearing");
+});
+
 await findings.check("a run shows its film's pressure and its oil circuit while it goes on", async () => {
   await openFile("circuit.yaml");
   await state(page, "Ready to run");

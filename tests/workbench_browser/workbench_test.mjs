@@ -20,7 +20,7 @@ const begun = performance.now();
 let server = await serve(resolve(program), folder);
 const browser = await launch();
 const context = await browser.newContext({ viewport: size, colorScheme: "light" });
-const page = await open(context, server.address);
+const page = await open(context, server.address, /409/);
 const button = (name) => page.getByRole("button", { name, exact: true });
 const rightTab = (name) => page.locator(".right").getByRole("tab", { name }).click();
 const openFile = (name) => page.locator(`.file[data-path="${name}"]`).click();
@@ -263,7 +263,7 @@ await findings.check("a bearing is changed in its form and its unwrapped picture
 
 await findings.check("a groove moved one way keeps its other coordinate; two fields changed at once are both written", async () => {
   await openFile("groove.yaml");
-  await state(page, "missing");
+  await state(page, "Ready: operating point");
   const first = await textOf(page);
   await rightTab("Bearing");
   const groove = page.locator('.unwrapped .handle[data-feature="groove"]');
@@ -304,6 +304,82 @@ await findings.check("a bearing by itself answers as its sliders move", async ()
   const number = (text) => parseFloat(text.replace("−", "-"));
   claim(number(await thickness.innerText()) < number(before), `more load, but ${before} becomes ${await thickness.innerText()}`);
   await picture(page, "8-operating-point");
+});
+
+await findings.check("a bearing by itself is ready for its operating point, to which Run leads; the sliders begin anew with each model", async () => {
+  writeFileSync(join(folder, "light.yaml"), readFileSync(join(folder, "bearing.yaml"), "utf8").replace("load: 2500 N", "load: 1300 N"));
+  await openFile("model.yaml");
+  await rightTab("Machine");
+  await openFile("bearing.yaml");
+  await state(page, "Ready: operating point");
+  claim((await page.locator(".check-state").getAttribute("data-kind")) === "good", "its state is not good");
+  const point = page.locator(".right").getByRole("tab", { name: "Operating point", selected: true });
+  await point.waitFor();
+  const load = page.getByLabel("Load", { exact: true });
+  const figure = page.locator('[data-figure-key="load"] td');
+  const reads = (words) => page.waitForFunction((text) => document.querySelector('[data-figure-key="load"] td')?.textContent.replace(/\s/g, "").startsWith(text), words);
+  await figure.waitFor();
+  await load.fill("0.4");
+  await page.waitForFunction(() => !document.querySelector('[data-figure-key="load"] td').textContent.replace(/\s/g, "").startsWith("2500"));
+  await openFile("light.yaml");
+  await reads("1300");
+  claim((await load.inputValue()) === "0", `the slider stands at ${await load.inputValue()}`);
+  await rightTab("Machine");
+  claim(await page.locator(".machine-pane .alone").isVisible(), "nothing says why there is no machine");
+  await button("Run").click();
+  await point.waitFor();
+  claim((await page.locator(".runs li[data-run]").count()) === 0, "it was started as a run");
+  await openFile("model.yaml");
+  await state(page, "Ready to run");
+});
+
+await findings.check("a wrong value is said below its field, and the sliders wait for the text; a value is typed beside its slider", async () => {
+  await openFile("light.yaml");
+  await state(page, "Ready: operating point");
+  await page.locator('[data-figure-key="load"] td').waitFor();
+  const load = page.getByLabel("Load, value with unit");
+  await load.fill("1.7 kN");
+  await load.press("Enter");
+  await page.waitForFunction(() => document.querySelector('[data-figure-key="load"] td').textContent.replace(/\s/g, "").startsWith("1700"));
+  await load.fill("1.7 bar");
+  await load.press("Enter");
+  claim((await load.getAttribute("aria-invalid")) === "true", "a load in bar is taken");
+  await rightTab("Bearing");
+  const field = page.locator('.bearing-pane [data-key="bearings.main.diameter"]');
+  const first = await field.inputValue();
+  await field.fill("45 kg");
+  await field.press("Enter");
+  await page.locator(".bearing-pane .field-fault").waitFor();
+  claim((await field.getAttribute("aria-invalid")) === "true", "the field is not marked");
+  await picture(page, "8b-field-fault");
+  await rightTab("Operating point");
+  claim((await load.isDisabled()) && /faults/.test(await page.locator(".point-pane > .note").innerText()), "the sliders do not wait");
+  await page.locator(".cm-content").focus();
+  await page.keyboard.press("Control+z");
+  await state(page, "Ready: operating point");
+  await page.waitForFunction(() => !document.querySelector(".point-pane input.slider-value").disabled);
+  await picture(page, "8c-values");
+  await rightTab("Bearing");
+  claim((await field.inputValue()) === first && (await page.locator(".bearing-pane .field-fault").count()) === 0, `after undo the field shows ${await field.inputValue()}`);
+});
+
+await findings.check("a new model with the name of another one stays in its window, which says so", async () => {
+  await button("New model").click();
+  const name = page.locator("#template-path");
+  await page.getByLabel("Search", { exact: true }).fill("hydrostatic");
+  claim((await name.inputValue()) === "hydrostatic.yaml", `found: ${await name.inputValue()}`);
+  await picture(page, "8d-search");
+  await name.fill("model.yaml");
+  await button("Create").click();
+  await page.locator(".field-fault", { hasText: "model.yaml" }).waitFor();
+  claim((await name.getAttribute("aria-invalid")) === "true" && (await name.inputValue()) === "model.yaml", "the name is not marked");
+  await name.fill("begun.yaml");
+  claim(!(await page.locator(".field-fault").isVisible()), "the message stays");
+  await button("Create").click();
+  await page.locator("dialog").waitFor({ state: "detached" });
+  await page.locator('.documents .tab[aria-selected="true"]', { hasText: "begun.yaml" }).waitFor();
+  await page.locator('.documents .tab[aria-selected="true"] .tab-close').click();
+  rmSync(join(folder, "begun.yaml"));
 });
 
 await findings.check("a run is started, followed, left, found again after a reload, stopped and resumed", async () => {
@@ -401,7 +477,7 @@ await findings.check("a mesh of the folder shows the bores found in it", async (
 await findings.check("two tabs on one folder: clean texts follow, changed ones are asked about, nothing is lost", async () => {
   const other = await open(context, server.address, /412/);
   await other.locator('.file[data-path="bearing.yaml"]').click();
-  await state(other, "2 parts missing to run");
+  await state(other, "Ready: operating point");
   await openFile("bearing.yaml");
   await goTo(other, "diameter: 45");
   await other.keyboard.press("Backspace");
@@ -433,7 +509,7 @@ await findings.check("a file keeps its line ends, is saved twice in a row, and a
   const holds = (title) => until(`the file has no title '${title}'`, () => existsSync(file) && readFileSync(file, "utf8") === lines.replace("title: Journal bearing", `title: Journal bearing${title}`));
   const other = await open(context, server.address, /404|412|ERR_FAILED|Failed to fetch/);
   await other.locator('.file[data-path="other.yaml"]').click();
-  await state(other, "missing");
+  await state(other, "Ready: operating point");
   const saved = () => other.locator(".documents .dot").waitFor({ state: "detached" });
   const add = async (letter) => {
     await other.keyboard.insertText(letter);

@@ -1,6 +1,6 @@
 // The pane of one bearing: its unwrapped surface, and its keys as a form.
 
-import type { BearingScene, Feature } from "./api";
+import type { BearingScene, Fault, Feature } from "./api";
 import { h } from "../src/dom";
 import { PartForm, type SetValue } from "./form";
 import type { ModelSchema } from "./model_schema";
@@ -72,6 +72,11 @@ export class BearingPane {
     this.form.clear();
     this.body.hidden = true;
     this.note.hidden = false;
+  }
+
+  /** What is wrong with the text. */
+  mark(faults: Fault[]): void {
+    this.form.mark(faults);
   }
 
   /** Once it comes into sight: what nobody sees takes no time. */

@@ -105,6 +105,7 @@ export class Documents {
       ...[...this.hooks.editor.documents.values()].map((d) => tab(d.path, d.name, d.path, d.isDirty, () => void this.close(d))),
       ...this.reports.map(({ key, title }) => tab(key, title, title, false, () => this.closeReport(key))),
     );
+    this.bar.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest", inline: "nearest" });
     if (had) this.bar.querySelector<HTMLElement>('[aria-selected="true"]')?.focus();
   }
 

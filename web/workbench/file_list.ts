@@ -82,11 +82,14 @@ export class FileList {
     const { api, fail } = this.hooks;
     try {
       const [templates, examples] = await Promise.all([api.get<Template[]>("/api/templates"), api.get<Template[]>("/api/examples").catch(() => [])]);
-      const wanted = await askBeginning(api, templates, examples);
-      if (!wanted) return;
-      const made = await api.post<{ path?: string }>("/api/new", wanted);
+      let made = "";
+      await askBeginning(api, templates, examples, async (wanted) => {
+        const { path } = await api.post<{ path?: string }>("/api/new", wanted);
+        made = path ?? wanted.path;
+      });
+      if (!made) return;
       await this.load();
-      await this.open(made.path ?? wanted.path);
+      await this.open(made);
     } catch (error) {
       fail(error);
     }

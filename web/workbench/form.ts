@@ -1,7 +1,9 @@
 // A form for one part of the model, its fields made from the schema. Every change is an edit of the text.
 
 import { h } from "../src/dom";
+import type { Fault } from "./api";
 import type { ModelSchema } from "./model_schema";
+import { sentence } from "./problems";
 import { texts } from "./texts";
 import { child, type TextNode } from "./yaml_tree";
 
@@ -12,6 +14,10 @@ const deepest = 3;
 export class PartForm {
   readonly element = h("div", { class: "part-form" });
   private shape = "";
+  private faults: Fault[] = [];
+  /** The field in which a hand types, or whose value is on its way into the text. */
+  private typed: Element | null = null;
+  private refill = () => {};
 
   constructor(private readonly set: SetValue) {}
 
@@ -22,7 +28,32 @@ export class PartForm {
       this.shape = shape;
       this.element.replaceChildren(...this.fields(schema, node, text, path, 0));
     }
-    this.fill(node, text, path);
+    this.refill = () => this.fill(node, text, path);
+    this.refill();
+    this.drawFaults();
+  }
+
+  /** What is wrong with the text: said below the fields that it is about. */
+  mark(faults: Fault[]): void {
+    this.faults = faults;
+    this.drawFaults();
+  }
+
+  private drawFaults(): void {
+    for (const field of this.element.querySelectorAll<HTMLElement>("[data-key]")) {
+      const own = this.faults.filter(({ path }) => path === field.dataset["key"]);
+      const words = own.map(sentence).join("\n");
+      const id = `${field.id}-fault`;
+      const row = field.closest(".field")!;
+      const before = row.querySelector(".field-fault");
+      if ((before?.textContent ?? "") === words) continue;
+      before?.remove();
+      if (words) row.append(h("p", { class: "field-fault", id }, words));
+      field.toggleAttribute("aria-invalid", false);
+      if (words) field.setAttribute("aria-invalid", "true");
+      if (words) field.setAttribute("aria-describedby", id);
+      else field.removeAttribute("aria-describedby");
+    }
   }
 
   clear(): void {
@@ -71,7 +102,17 @@ export class PartForm {
     const options = words.map((word) => h("option", { value: word }, word));
     const isChoice = isClosed && words.length > 0;
     const field = isChoice ? h("select", { id, "data-key": key }, ...options) : h("input", { id, type: "text", "data-key": key, spellcheck: "false", autocomplete: "off", ...(words.length > 0 ? { list: `${id}-words` } : {}) });
-    field.addEventListener("change", () => void this.set(key, field.value));
+    field.addEventListener("input", () => (this.typed = field));
+    field.addEventListener("change", () => {
+      this.typed = field;
+      void this.set(key, field.value).finally(() => {
+        if (this.typed === field) this.typed = null;
+      });
+    });
+    // As the text says, which may have changed meanwhile.
+    field.addEventListener("blur", () => {
+      if (this.typed !== field) this.refill();
+    });
     return h("div", { class: "field" }, label, field, !isChoice && words.length > 0 ? h("datalist", { id: `${id}-words` }, ...options) : null);
   }
 
@@ -92,7 +133,7 @@ export class PartForm {
         if (c.kind === "loose") continue;
         const own = `${key}.${c.key}`;
         const field = this.element.querySelector<HTMLInputElement | HTMLSelectElement>(`[data-key="${CSS.escape(own)}"]`);
-        if (field && document.activeElement !== field) {
+        if (field && (document.activeElement !== field || this.typed !== field)) {
           const value = text.slice(c.valueFrom, c.valueTo).replace(/^(["'])(.*)\1$/, "$2");
           if (field instanceof HTMLSelectElement && ![...field.options].some((o) => o.value === value)) field.append(h("option", { value }, value));
           field.value = value;

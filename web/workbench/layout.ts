@@ -52,6 +52,7 @@ export class Tabs {
       this.buttons.get(own)!.setAttribute("aria-selected", String(is));
       this.buttons.get(own)!.tabIndex = is ? 0 : -1;
     }
+    this.buttons.get(key)!.scrollIntoView({ block: "nearest", inline: "nearest" });
     this.shown(key);
   }
 }

@@ -1,6 +1,6 @@
 // The pane with the machine: its picture, its parts as a list, its joints as sliders.
 
-import type { Api, BearingScene, Source } from "./api";
+import { Refused, type Api, type BearingScene, type Source } from "./api";
 import { Run, type RunText } from "../src/data";
 import { h } from "../src/dom";
 import { format } from "../src/units";
@@ -45,6 +45,7 @@ export class MachinePane {
   private readonly sliders = h("div", { class: "joint-sliders" });
   private readonly jointBox = h("details", { class: "joints" }, h("summary", {}, texts.joints), h("p", { class: "note" }, texts.jointHelp), this.sliders);
   private readonly staleNote = h("span", { class: "stale", hidden: true }, texts.stale);
+  private readonly aloneNote = h("p", { class: "note empty alone", hidden: true }, texts.noMachine);
   private readonly cutPlace = h("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, hidden: true, "aria-label": texts.sectionPlace });
   private readonly circuit = new CircuitPlan((part) => this.pick(part));
   private machine: WorkbenchMachine | null = null;
@@ -58,6 +59,8 @@ export class MachinePane {
   private movedText: string | null = null;
   /** Shows a coordinate on its slider. */
   private readonly coordinates = new Map<string, (value: number) => void>();
+  /** Where the mechanism went together last, by coordinate, and in words. */
+  private readonly reached = new Map<string, { value: number; words: (value: number) => string }>();
   /** Puts every slider where the model says. */
   private resetSliders = () => {};
 
@@ -109,6 +112,8 @@ export class MachinePane {
   show(scene: SceneText | null): void {
     this.staleNote.hidden = scene !== null ? !scene.open : this.scene === null;
     this.staleNote.textContent = scene?.open || texts.stale;
+    // What the text does not say is moved nowhere.
+    for (const input of this.sliders.querySelectorAll("input")) input.disabled = scene === null;
     if (!scene) return;
     if (this.movedText !== null && this.movedText !== this.hooks.model()?.text) this.moveBack();
     // Comments and settings change nothing of the picture.
@@ -122,10 +127,11 @@ export class MachinePane {
     if (this.machine) this.machine.take(run, marks);
     else {
       this.machine = new WorkbenchMachine(run, marks, (part) => (part ? this.pick(part) : this.highlight(null)), (frame) => this.hooks.placed(frame));
-      this.stage.replaceChildren(this.machine.space, this.staleNote);
+      this.stage.replaceChildren(this.machine.space, this.staleNote, this.aloneNote);
       this.legend.replaceChildren(this.machine.names);
     }
     this.circuit.show(scene.circuit ?? null, run);
+    this.aloneNote.hidden = run.children("/bodies").length > 0;
     this.listParts();
     this.listJoints(run);
   }
@@ -190,6 +196,7 @@ export class MachinePane {
     if (names === this.jointNames) return;
     this.jointNames = names;
     this.coordinates.clear();
+    this.reached.clear();
     this.resetSliders = () => {
       for (const c of joints) this.coordinates.get(`${c.joint}.${c.name}`)?.(c.value);
     };
@@ -200,7 +207,14 @@ export class MachinePane {
         const half = isAngle ? Math.PI : reach;
         const [low, high] = [start - half, start + half];
         const value = h("output", { class: "slider-value" });
-        const say = (x: number) => (value.textContent = isAngle ? `${format((x * 180) / Math.PI, 3)}°` : `${format(1e3 * x, 3)} mm`);
+        // The mechanism's own residue is nothing to read.
+        const residue = 1e-6 * (high - low);
+        const words = (x: number) => {
+          const seen = Math.abs(x) < residue ? 0 : x;
+          return isAngle ? `${format((seen * 180) / Math.PI, 3)}°` : `${format(1e3 * seen, 3)} mm`;
+        };
+        const say = (x: number) => (value.textContent = words(x));
+        this.reached.set(`${joint}.${name}`, { value: start, words });
         const slider = h("input", { type: "range", min: low, max: high, step: (high - low) / 720, value: start, "aria-label": `${joint}, ${name}` });
         slider.addEventListener("input", () => {
           say(Number(slider.value));
@@ -212,6 +226,7 @@ export class MachinePane {
         this.coordinates.set(`${joint}.${name}`, (x) => {
           slider.value = String(x);
           say(x);
+          this.reached.set(`${joint}.${name}`, { value: x, words });
         });
         return [h("span", { class: "slider-name" }, joint), slider, value, reset];
       }),
@@ -245,11 +260,20 @@ export class MachinePane {
         const now = this.hooks.model();
         if (now?.path !== model.path || now.text !== model.text || this.movedText === null) continue;
         this.machine?.move(bodies);
+        const reached = this.reached.get(`${coordinate.joint}.${coordinate.coordinate}`);
+        if (reached) reached.value = value;
         for (const [joint, list] of Object.entries(joints ?? {}))
           for (const c of list) if (joint !== coordinate.joint || c.name !== coordinate.coordinate) this.coordinates.get(`${joint}.${c.name}`)?.(c.value);
         this.hooks.say("");
       } catch (error) {
-        this.hooks.say(error instanceof Error ? error.message : String(error));
+        const name = `${coordinate.joint}.${coordinate.coordinate}`;
+        const reached = this.reached.get(name);
+        const now = this.hooks.model();
+        if (error instanceof Refused && error.status === 422 && reached && now?.text === model.text && now.path === model.path) {
+          // Where the hand is farther on already, it is put back by that answer.
+          if (this.wanted === null) this.coordinates.get(name)?.(reached.value);
+          this.hooks.say(texts.jointEnd(coordinate.joint, reached.words(reached.value)));
+        } else this.hooks.say(error instanceof Error ? error.message : String(error));
       }
     }
     this.busy = false;

@@ -1,6 +1,6 @@
 // The panes that show the model beside its text: machine, bearing, part, operating point.
 
-import type { Api } from "./api";
+import type { Api, Fault } from "./api";
 import { BearingPane } from "./bearing_pane";
 import type { OpenDocument } from "./editor";
 import type { PlacedFrame } from "./frame_hand";
@@ -10,7 +10,7 @@ import type { ModelSchema } from "./model_schema";
 import { PartPane } from "./part_pane";
 import { PointPane } from "./point_pane";
 import { texts } from "./texts";
-import { find } from "./yaml_tree";
+import { find, type TextNode } from "./yaml_tree";
 
 export interface ModelPanesHooks {
   api: Api;
@@ -31,6 +31,8 @@ export class ModelPanes {
   readonly part: PartPane;
   readonly point: PointPane;
   readonly tabs: Tabs;
+  /** The tab before the operating point was shown by itself; empty: it was not. */
+  private tabBefore = "";
 
   constructor(private readonly hooks: ModelPanesHooks) {
     const { api, model, set, goToKey, goToPart, say, changed } = hooks;
@@ -70,16 +72,35 @@ export class ModelPanes {
     await set([...path, "origin"].join("."), `${position.map((x, i) => (x === null ? old[i] : String(Number((scale * x).toPrecision(9))))).join(" ")} ${unit}`);
   }
 
+  /** Of a model that is opened: a bearing by itself has nothing to be seen of a machine. */
+  showFirst(tree: TextNode): void {
+    const has = (key: string) => find(tree, [key]) !== undefined;
+    const before = this.tabBefore;
+    this.tabBefore = "";
+    if (has("bearings") && !has("bodies") && !has("simulation") && !has("use")) {
+      this.tabBefore = before || this.tabs.current;
+      this.tabs.show("point");
+    } else if (before && this.tabs.current === "point") this.tabs.show(before);
+  }
+
   clear(): void {
     this.machine.clear();
     this.bearing.clear();
+    this.point.clear();
   }
 
   /** @param part  that of the cursor */
   show(scene: SceneText | null, part: () => string | null): void {
     this.machine.show(scene);
+    this.point.faulty(scene === null);
     this.showParts(scene);
     this.machine.highlight(part());
+  }
+
+  /** What is wrong with the text, for the forms. */
+  mark(faults: Fault[]): void {
+    this.bearing.mark(faults);
+    this.part.mark(faults);
   }
 
   /** The forms of the model. */

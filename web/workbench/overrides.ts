@@ -20,7 +20,7 @@ export class OverridesField {
   }
 
   get values(): string[] {
-    return this.field.value.split("\n").map((line) => line.trim()).filter((line) => line !== "");
+    return this.field.value.split("\n").map((line) => line.trim().replace(/^([^=]*?)\s*=\s*/, "$1=")).filter((line) => line !== "");
   }
 
   say(lines: string[], kind: "bad" | "good" = "bad"): void {

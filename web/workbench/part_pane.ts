@@ -1,5 +1,6 @@
 // The keys of the part that was chosen, in the machine or by the cursor, as a form.
 
+import type { Fault } from "./api";
 import { h } from "../src/dom";
 import { PartForm, type SetValue } from "./form";
 import type { ModelSchema } from "./model_schema";
@@ -28,6 +29,11 @@ export class PartPane {
   show(schema: ModelSchema | null, tree: TextNode, text: string): void {
     this.last = { schema, tree, text };
     this.draw();
+  }
+
+  /** What is wrong with the text. */
+  mark(faults: Fault[]): void {
+    this.form.mark(faults);
   }
 
   /** Once it comes into sight. */

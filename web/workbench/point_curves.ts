@@ -4,7 +4,7 @@
 import { h } from "../src/dom";
 import type { FigureText } from "../src/data";
 import { LinePlot, type Curve } from "../src/line_plot";
-import { shownUnit } from "../src/units";
+import { format, shownUnit } from "../src/units";
 import { texts } from "./texts";
 
 /** What a bearing can be varied by. */
@@ -60,6 +60,13 @@ function valueOf(figures: FigureText[], keys: string[]): { value: number; unit: 
     if (parts.length > 0) return { value: parts.reduce((sum, f) => sum + f.value!, 0), unit: shownUnit(parts[0]!.unit) };
   }
   return null;
+}
+
+/** The first of some values in their order, and how many there are besides. */
+function listed(values: number[]): string {
+  const most = 4;
+  const first = [...values].sort((a, b) => a - b).slice(0, most).map((value) => format(value, 3));
+  return values.length > most ? `${first.join(", ")} … (${values.length})` : first.join(", ");
 }
 
 /** Geometric, from one end to the other through `value`. */
@@ -120,7 +127,22 @@ export class PointCurves {
     this.status.textContent = "";
   }
 
+  /** While the text is faulty nothing is solved; then what is shown is of an older one. */
+  faulty(is: boolean): void {
+    this.choice.disabled = is;
+    this.element.classList.toggle("old", is);
+    if (!is) {
+      if (this.status.textContent === texts.faultyText) this.status.textContent = "";
+      return;
+    }
+    this.sweeps++;
+    clearTimeout(this.timer);
+    this.of = "";
+    this.status.textContent = texts.faultyText;
+  }
+
   private again(): void {
+    if (this.choice.disabled) return;
     this.of = "";
     this.sweeps++;
     const at = this.element.open ? this.hooks.abscissae().find(({ key }) => key === this.choice.value) : undefined;
@@ -147,27 +169,20 @@ export class PointCurves {
     let previous = this.hooks.present();
     let first: string | null = null;
     let done = 0;
-    let failed = 0;
-    let isOver = false;
+    const failed: number[] = [];
     for (const i of order) {
-      if (i === middle - 1) {
-        isOver = false;
-        previous = first ?? this.hooks.present();
-      }
+      if (i === middle - 1) previous = first ?? this.hooks.present();
       done++;
-      // Where a point has no solution, those beyond it in the same direction have none either.
-      if (isOver) continue;
       try {
-        const answer = await this.hooks.solve(at.key, places[i]!, previous);
+        let answer = await this.hooks.solve(at.key, places[i]!, previous);
+        // A neighbour may lie on another branch, or too far away: the point is tried by itself, as the command line does.
+        if (!answer.solved && previous !== null && count === this.sweeps) answer = await this.hooks.solve(at.key, places[i]!, null);
         if (count !== this.sweeps) return;
         if (answer.solved) {
           answers[i] = answer.figures;
           previous = answer.id ?? previous;
           if (i === middle) first = answer.id;
-        } else {
-          failed++;
-          isOver = true;
-        }
+        } else failed.push(places[i]!);
       } catch (error) {
         if (count !== this.sweeps) return;
         this.status.textContent = error instanceof Error ? error.message : String(error);
@@ -177,7 +192,7 @@ export class PointCurves {
       if (done === 1) this.build(at, places, answers);
       else this.draw(answers);
     }
-    this.status.textContent = failed > 0 ? texts.curves.ends : "";
+    this.status.textContent = failed.length > 0 ? texts.curves.notFound(listed(failed), at.unit) : "";
     this.build(at, places, answers);
     performance.mark("hersey-curves");
   }

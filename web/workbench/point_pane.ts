@@ -40,6 +40,14 @@ const knobs: Knob[] = [
   { key: "viscosity", unit: "mPa.s", usual: 10 },
 ];
 
+/** Of units that may be typed, in that of the slider. */
+const factors: Record<Knob["key"], Record<string, number>> = {
+  load: { N: 1, kN: 1e3, lbf: 4.4482216152605 },
+  speed: { rpm: 1, "rad/s": 30 / Math.PI, "deg/s": 1 / 6, Hz: 60 },
+  clearance: { um: 1, mm: 1e3, m: 1e6, in: 25400 },
+  viscosity: { "mPa.s": 1, "Pa.s": 1e3, cP: 1 },
+};
+
 const shownKnobUnit = ({ unit }: Knob) => unit.replace("um", "µm").replace("mPa.s", "mPa·s");
 
 /** Groups of figures that are worth a line each, the first ones first. */
@@ -53,12 +61,16 @@ export class PointPane {
   private readonly coefficients = h("div", { class: "point-coefficients" });
   private readonly curves: PointCurves;
   private readonly status = h("p", { class: "note", role: "status" }, texts.solveStart);
-  private readonly sliders = new Map<string, { input: HTMLInputElement; value: HTMLElement; middle: number; isKnown: boolean }>();
+  /** `exact`: what was typed, where no position of the slider is. */
+  private readonly sliders = new Map<string, { input: HTMLInputElement; value: HTMLInputElement; middle: number; isKnown: boolean; exact: number | null }>();
   private readonly touched = new Set<string>();
   private bearing = "";
+  /** Path of the model that the sliders are of. */
+  private path = "";
   private previous: string | null = null;
   private wanted = false;
   private busy = false;
+  private isFaulty = false;
   private drawn: { map: FieldMap | null; locus: Locus | null } = { map: null, locus: null };
 
   constructor(
@@ -68,16 +80,21 @@ export class PointPane {
   ) {
     const rows = knobs.flatMap((knob) => {
       const input = h("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, "aria-label": texts.sliders[knob.key] });
-      const value = h("output", { class: "slider-value" });
-      this.sliders.set(knob.key, { input, value, middle: knob.usual, isKnown: false });
+      const value = h("input", { type: "text", class: "slider-value", spellcheck: "false", autocomplete: "off", "aria-label": texts.sliderField(texts.sliders[knob.key]) });
+      this.sliders.set(knob.key, { input, value, middle: knob.usual, isKnown: false, exact: null });
+      value.addEventListener("change", () => this.take(knob));
+      // What cannot be taken gives way to the value that counts.
+      value.addEventListener("blur", () => value.hasAttribute("aria-invalid") && this.write(knob));
       input.addEventListener("input", () => {
         this.touched.add(knob.key);
+        this.sliders.get(knob.key)!.exact = null;
         this.write(knob);
         this.ask();
       });
       const reset = h("button", { type: "button", class: "quiet", "aria-label": `${texts.sliders[knob.key]}: ${texts.jointReset}` }, "↺");
       reset.addEventListener("click", () => {
         this.touched.delete(knob.key);
+        this.sliders.get(knob.key)!.exact = null;
         input.value = "0";
         this.write(knob);
         this.ask();
@@ -114,30 +131,81 @@ export class PointPane {
     return this.api.post<Answer>("/api/bearing", { path: model.path, text: model.text, bearing: this.bearing, set, fields, ...(previous ? { previous } : {}) });
   }
 
+  /** Another model or bearing: nothing of the last one stays, and the sliders wait for what this one says. */
+  clear(): void {
+    this.bearing = this.path = "";
+    this.previous = null;
+    this.touched.clear();
+    this.curves.clear();
+    for (const slider of this.sliders.values()) {
+      slider.input.value = "0";
+      slider.isKnown = false;
+      slider.exact = null;
+      slider.value.value = "–";
+      slider.value.removeAttribute("aria-invalid");
+      slider.input.disabled = slider.value.disabled = true;
+    }
+    this.drawn.map?.destroy();
+    this.drawn.locus?.destroy();
+    this.drawn = { map: null, locus: null };
+    for (const part of [this.figures, this.map, this.locus, this.coefficients]) part.replaceChildren();
+    this.status.textContent = texts.solveStart;
+  }
+
   /** The pane has come into sight, or the text has changed. */
   refresh(): void {
-    if (this.name() !== this.bearing) {
+    const path = this.model()?.path ?? "";
+    if (this.name() !== this.bearing || path !== this.path) {
+      this.clear();
       this.bearing = this.name();
-      this.previous = null;
-      this.touched.clear();
-      this.curves.clear();
-      for (const knob of knobs) {
-        const slider = this.sliders.get(knob.key)!;
-        slider.input.value = "0";
-        slider.isKnown = false;
-      }
+      this.path = path;
     }
+    if (this.isFaulty) return;
     if (!this.bearing) this.status.textContent = texts.noBearing;
     else if (this.element.checkVisibility()) this.ask();
   }
 
   private current(knob: Knob): number {
-    const { input, middle } = this.sliders.get(knob.key)!;
+    const { input, middle, exact } = this.sliders.get(knob.key)!;
+    if (exact !== null) return exact;
     return middle * spread ** Number(input.value);
   }
 
   private write(knob: Knob): void {
-    this.sliders.get(knob.key)!.value.textContent = `${format(this.current(knob), 3)} ${shownKnobUnit(knob)}`;
+    const { value, exact } = this.sliders.get(knob.key)!;
+    value.value = `${format(this.current(knob), exact === null ? 3 : 5)} ${shownKnobUnit(knob)}`;
+    value.removeAttribute("aria-invalid");
+  }
+
+  /** A value that was typed, with its unit or in that of the slider. */
+  private take(knob: Knob): void {
+    const slider = this.sliders.get(knob.key)!;
+    const found = /^([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(\S*)$/i.exec(slider.value.value.trim().replace("·", ".").replace("µ", "u"));
+    const factor = found ? (found[2] ? factors[knob.key][found[2]] : 1) : undefined;
+    const value = found && factor !== undefined ? Number(found[1]) * factor : NaN;
+    if (!(value > 0)) {
+      slider.value.setAttribute("aria-invalid", "true");
+      this.status.textContent = texts.sliderOdd(slider.value.value, Object.keys(factors[knob.key]).join(", "));
+      return;
+    }
+    this.touched.add(knob.key);
+    slider.exact = value;
+    slider.input.value = String(Math.log(value / slider.middle) / Math.log(spread));
+    this.write(knob);
+    this.ask();
+  }
+
+  /** While the text is faulty nothing is solved. */
+  faulty(is: boolean): void {
+    if (is === this.isFaulty) return;
+    this.isFaulty = is;
+    for (const { input, value } of this.sliders.values()) input.disabled = value.disabled = is;
+    this.curves.faulty(is);
+    this.element.classList.toggle("old", is);
+    if (is) {
+      this.wanted = false;
+      this.status.textContent = texts.faultyText;
+    }
   }
 
   private ask(): void {
@@ -151,12 +219,16 @@ export class PointPane {
       this.wanted = false;
       const model = this.model();
       if (!model || !this.bearing) break;
+      const { bearing, path } = this;
       const begun = performance.now();
       try {
         const answer = await this.solve({}, ["pressure"], this.previous);
+        // Of a model or bearing that is no longer shown.
+        if (this.bearing !== bearing || this.path !== path || this.model()?.path !== path || this.isFaulty) continue;
         this.previous = answer.id ?? this.previous;
         this.show(answer, model, performance.now() - begun);
       } catch (error) {
+        if (this.isFaulty) continue;
         this.status.textContent = error instanceof Error ? error.message : String(error);
         this.element.classList.add("old");
       }
@@ -167,7 +239,11 @@ export class PointPane {
   private show(answer: Answer, model: { text: string; tree: TextNode }, ms: number): void {
     this.element.classList.toggle("old", !answer.solved);
     this.status.textContent = answer.solved ? texts.solved(Math.round(ms)) : answer.message;
-    if (!answer.solved) return;
+    if (!answer.solved) {
+      // Other values may have a solution.
+      for (const { input, value } of this.sliders.values()) if (value.value !== "–" || !this.previous) input.disabled = value.disabled = false;
+      return;
+    }
     this.learn(answer, model);
     const coefficients = kindOf({ solutions: [answer.solution] }).coefficients(answer.solution);
     this.coefficients.replaceChildren(...(coefficients ? [h("h3", {}, texts.coefficients), coefficients] : []));
@@ -208,10 +284,10 @@ export class PointPane {
       const value = values[knob.key];
       if (this.touched.has(knob.key)) continue;
       slider.isKnown = value !== undefined && value > 0;
-      slider.input.disabled = !slider.isKnown;
+      slider.input.disabled = slider.value.disabled = !slider.isKnown;
       if (slider.isKnown) slider.middle = value! / spread ** Number(slider.input.value);
       this.write(knob);
-      if (!slider.isKnown) slider.value.textContent = "–";
+      if (!slider.isKnown) slider.value.value = "–";
     }
   }
 

@@ -13,6 +13,11 @@ export interface Findings {
   missing: string[];
 }
 
+/** Whether a text without faults is complete as bearings by themselves: only a machine around them is missing. */
+export function isAlone({ faults, missing }: Findings): boolean {
+  return faults.length === 0 && missing.length > 0 && missing.every((text) => /^(bodies|simulation):/.test(text));
+}
+
 export function sentence(fault: Fault): string {
   const parts = [fault.message || fault.found];
   if (!fault.message && fault.expected) parts.push(texts.expected(fault.expected));
@@ -57,7 +62,7 @@ export class ProblemList {
     const rows = [...faults.map((f) => this.row(f, "fault")), ...warnings.map((f) => this.row(f, "warning"))];
     this.element.replaceChildren(
       ...(rows.length > 0 ? [h("ul", { class: "problem-list" }, ...rows)] : [h("p", { class: "good-news" }, texts.noProblems)]),
-      ...(missing.length > 0 ? [h("h3", {}, texts.missing), h("ul", { class: "missing" }, ...missing.map((text) => h("li", {}, text)))] : []),
+      ...(missing.length > 0 ? [h("h3", {}, isAlone(findings) ? texts.missingInMachine : texts.missing), h("ul", { class: "missing" }, ...missing.map((text) => h("li", {}, text)))] : []),
     );
   }
 

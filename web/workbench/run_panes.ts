@@ -15,6 +15,9 @@ export interface RunPanesHooks {
   hello: Hello;
   model: () => OpenDocument | null;
   isReady: () => boolean;
+  isAlone: () => boolean;
+  /** Shows the operating point of a bearing by itself. */
+  showPoint: () => void;
   save: (document: OpenDocument) => Promise<boolean>;
   openReport: (report: OpenReport) => void;
   /** Radial clearance of a bearing of the model as it is drawn [m]. */
@@ -39,13 +42,13 @@ export class RunPanes {
     private readonly hooks: RunPanesHooks,
     problems: HTMLElement,
   ) {
-    const { api, hello, model, isReady, save, openReport, changed, say, fail } = hooks;
+    const { api, hello, model, isReady, isAlone, showPoint, save, openReport, changed, say, fail } = hooks;
     this.live = new LivePane(api, (run, bearing) => this.clearanceOf(run, bearing));
     this.list = new RunsPane({ api, say, chosen: (run) => void this.show(run), openReport, changed: () => this.listed() });
     const started = (run: RunEntry) => (this.tabs.show(run.study ? "study" : "live"), this.show(run));
     const hasStudy = () => this.study.hasStudy;
     const planStudy = () => (this.tabs.show("study"), this.study.focusStart());
-    this.starter = new Starter({ api, runs: this.list, model, isReady, shownRun: () => this.live.shownRun, save, started, hasStudy, isWrittenOut: () => this.study.isWrittenOut, planStudy, say, fail });
+    this.starter = new Starter({ api, runs: this.list, model, isReady, isAlone, showPoint, shownRun: () => this.live.shownRun, save, started, hasStudy, isWrittenOut: () => this.study.isWrittenOut, planStudy, say, fail });
     const studies = () => this.list.runs.filter(({ study }) => study);
     const counted = (runs: number) => this.tabs?.label("study", texts.studyTab(runs));
     this.study = new StudyPane({ api, machine: hello, model, studies, start: (request) => this.starter.begin(request), act: (run, what) => this.list.act(run, what), counted });

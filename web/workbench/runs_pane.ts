@@ -114,7 +114,7 @@ export class RunsPane {
       { "data-run": run.id, class: run.id === this.selected ? "chosen" : "" },
       h("div", { class: "run-head" }, take, pick, h("span", { class: `run-state ${run.state}` }, texts.runState[run.state] ?? run.state)),
       share,
-      run.message && run.state !== "completed" ? h("p", { class: "run-message" }, run.message) : null,
+      run.message && run.state !== "completed" ? h("p", { class: `run-message ${run.state}` }, run.message) : null,
       ...this.difference(run, index),
       h(
         "div",

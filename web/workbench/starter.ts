@@ -14,6 +14,9 @@ export interface StarterHooks {
   model: () => OpenDocument | null;
   /** Whether the model can run. */
   isReady: () => boolean;
+  /** Whether it is a bearing by itself, whose operating point is shown instead. */
+  isAlone: () => boolean;
+  showPoint: () => void;
   shownRun: () => string;
   save: (document: OpenDocument) => Promise<boolean>;
   started: (run: RunEntry) => Promise<void>;
@@ -47,7 +50,9 @@ export class Starter {
     const hasStudy = this.hooks.hasStudy();
     const isReady = this.hooks.isReady() && !this.isStarting;
     this.runButton.textContent = hasStudy ? texts.studies.open : texts.run;
-    this.runButton.disabled = !isReady && !hasStudy;
+    const isAlone = this.hooks.isAlone() && !hasStudy;
+    this.runButton.title = isAlone ? texts.runAlone : "";
+    this.runButton.disabled = !isReady && !hasStudy && !isAlone;
     this.runWithButton.disabled = !isReady || (hasStudy && !this.hooks.isWrittenOut());
     this.stopButton.disabled = this.hooks.runs.running.length === 0;
   }
@@ -56,6 +61,7 @@ export class Starter {
   async run(): Promise<void> {
     if (this.runButton.disabled) return;
     if (this.hooks.hasStudy()) this.hooks.planStudy();
+    else if (this.hooks.isAlone()) this.hooks.showPoint();
     else await this.begin({ set: [] });
   }
 

@@ -88,12 +88,12 @@ class StudyTable {
   }
 
   private drawHead(): void {
-    const column = (name: string, words = name) => h("th", { scope: "col", title: name }, words);
+    const column = (name: string, words = name, kind = "") => h("th", { scope: "col", title: name, class: kind }, words);
     const figure = (name: string) => {
       const unit = this.units[name]?.unit;
-      return column(name, `${name.replace(/^bearings\./, "")}${unit ? ` [${unit.replace(/^um$/, "µm")}]` : ""}`);
+      return column(name, `${name.replace(/^bearings\./, "")}${unit ? ` [${unit.replace(/^um$/, "µm")}]` : ""}`, "number");
     };
-    this.head.replaceChildren(column(texts.studies.run), ...this.plan.parameters.map(({ name }) => column(name)), column(texts.studies.state), ...(this.names ?? []).map(figure));
+    this.head.replaceChildren(column(texts.studies.run), ...this.plan.parameters.map(({ name }) => column(name, name, "number")), column(texts.studies.state), ...(this.names ?? []).map(figure));
   }
 
   private add(run: string, values: (string | null)[]): Row[] {

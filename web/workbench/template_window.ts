@@ -1,7 +1,7 @@
 // What to begin with: the templates and examples as cards with their pictures, drawn from their texts when they come into
 // sight.
 
-import type { Api, BearingScene, Template } from "./api";
+import { Refused, sentences, type Api, type BearingScene, type Template } from "./api";
 import { Run } from "../src/data";
 import { h } from "../src/dom";
 import { dialog } from "./dialogs";
@@ -23,43 +23,90 @@ interface Card extends Template {
 const made = new Map<string, string>();
 const keyOf = ({ name, isExample }: Card) => (isExample ? `example ${name}` : name);
 
-/** Which template or example, and what the file is called; null where nothing is begun. */
-export function askBeginning(api: Api, templates: Template[], examples: Template[]): Promise<Beginning | null> {
+/**
+ * Which template or example, and what the file is called; null where nothing is begun.
+ * @param create  makes it; what it refuses, such as a name that there is, is said in the window, which stays open
+ */
+export function askBeginning(api: Api, templates: Template[], examples: Template[], create: (wanted: Beginning) => Promise<void>): Promise<Beginning | null> {
   return new Promise((resolve) => {
     let answer: Beginning | null = null;
     const cards: Card[] = [...templates.map((t) => ({ ...t, isExample: false })), ...examples.map((t) => ({ ...t, isExample: true }))];
     const preview = h("pre", { class: "template-text", tabindex: 0, "aria-label": texts.templates.preview });
-    const path = h("input", { type: "text", required: true, spellcheck: "false", autocomplete: "off", id: "template-path" });
+    const path = h("input", { type: "text", required: true, spellcheck: "false", autocomplete: "off", id: "template-path", "aria-describedby": "template-refusal" });
     const hint = h("p", { class: "note" }, texts.templates.words);
+    const refusal = h("p", { class: "field-fault", role: "alert", id: "template-refusal", hidden: true });
+    const allow = () => {
+      refusal.hidden = true;
+      path.removeAttribute("aria-invalid");
+    };
     const pictures = new Pictures(api);
     let chosen: Card | undefined;
     const choose = (card: Card) => {
       chosen = card;
       preview.textContent = card.text;
       preview.scrollTop = 0;
+      allow();
       path.value = card.isExample ? card.name : `${card.name.split("/").pop()}.yaml`;
       hint.textContent = card.isExample ? texts.templates.exampleWords : texts.templates.words;
     };
+    const shown: { element: HTMLElement; radio: HTMLInputElement; words: string }[] = [];
     const cardOf = (card: Card) => {
       const radio = h("input", { type: "radio", name: "template", value: keyOf(card) });
       radio.addEventListener("change", () => choose(card));
       const image = h("img", { alt: "", width: 150, height: 96 });
       const element = h("label", { class: "card" }, radio, image, h("span", { class: "card-title" }, card.title || card.name), h("span", { class: "card-name" }, card.name));
       pictures.watch(card, image, element);
+      shown.push({ element, radio, words: `${card.title} ${card.name} ${/^description:.*$/m.exec(card.text)?.[0] ?? ""}`.toLowerCase() });
       return element;
     };
     const group = (title: string, list: Card[]) => (list.length > 0 ? h("fieldset", { class: "cards" }, h("legend", {}, title), ...list.map(cardOf)) : null);
     const list = h("div", { class: "template-list", role: "group", "aria-label": texts.templates.choose }, group(texts.templates.templates, cards.filter((c) => !c.isExample)), group(texts.templates.examples, cards.filter((c) => c.isExample)));
+    const nothing = h("p", { class: "note", role: "status", hidden: true }, texts.templates.nothing);
+    const search = h("input", { type: "search", class: "card-search", placeholder: texts.templates.search, "aria-label": texts.templates.search, autocomplete: "off", spellcheck: "false" });
+    // Cards with all the words; the first of them is chosen where the chosen one is not among them.
+    const find = () => {
+      const words = search.value.toLowerCase().split(/\s+/);
+      for (const card of shown) card.element.hidden = !words.every((word) => card.words.includes(word));
+      for (const cards of list.querySelectorAll<HTMLElement>(".cards")) cards.hidden = cards.querySelector(".card:not([hidden])") === null;
+      const found = shown.filter(({ element }) => !element.hidden);
+      nothing.hidden = found.length > 0;
+      if (found.length > 0 && !found.some(({ radio }) => radio.checked)) found[0]!.radio.click();
+    };
+    search.addEventListener("input", find);
+    search.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") event.preventDefault();
+    });
     const form = h(
       "form",
       { method: "dialog" },
       hint,
-      h("div", { class: "template-choice" }, list, preview),
+      search, nothing, h("div", { class: "template-choice" }, list, preview),
       h("div", { class: "window-tools" }, h("label", { for: "template-path" }, texts.templates.path), path, h("button", { type: "submit", class: "main-button" }, texts.templates.create)),
+      refusal,
     );
-    form.addEventListener("submit", () => {
-      if (chosen) answer = { ...(chosen.isExample ? { example: chosen.name } : { template: chosen.name }), path: path.value.trim() };
+    let isBusy = false;
+    const submit = async () => {
+      if (!chosen || isBusy) return;
+      isBusy = true;
+      const wanted = { ...(chosen.isExample ? { example: chosen.name } : { template: chosen.name }), path: path.value.trim() };
+      try {
+        await create(wanted);
+        answer = wanted;
+        window.close();
+      } catch (error) {
+        refusal.textContent = error instanceof Refused ? sentences(error) : error instanceof Error ? error.message : String(error);
+        refusal.hidden = false;
+        path.setAttribute("aria-invalid", "true");
+        path.focus();
+        path.select();
+      }
+      isBusy = false;
+    };
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      void submit();
     });
+    path.addEventListener("input", () => allow());
     const window = dialog(texts.templates.title, "templates", form);
     pictures.begin(list, window);
     const first = list.querySelector<HTMLInputElement>("input");

@@ -70,10 +70,11 @@ export class Unwrapped {
     const handle = svg("g", { class: key ? "handle" : "", "data-feature": feature.name, ...(key ? { tabindex: 0, role: "button", "aria-label": `${feature.name}, ${feature.kind}, at ${place}, z ${format(1e3 * feature.z, 3)} mm` } : {}) });
     const turn = isPlane ? [0] : [-along, 0, along];
     for (const shift of turn) {
+      const copy = shift === 0 ? {} : { class: "copy" };
       const [cx, cy] = [x(feature.phi + shift), y(feature.z)];
-      if (feature.arc === 0) handle.append(svg("path", { class: "line", d: `M${cx} ${cy - t / 2}v${t}` }), svg("path", { class: "touch", d: `M${cx} ${cy - t / 2}v${t}` }));
-      else if (round) handle.append(svg("ellipse", { cx, cy, rx: Math.max(3, w / 2), ry: Math.max(3, t / 2) }));
-      else handle.append(svg("rect", { x: cx - Math.max(2, w / 2), y: cy - t / 2, width: Math.max(4, w), height: t, rx: 1.5 }));
+      if (feature.arc === 0) handle.append(svg("path", { class: shift === 0 ? "line" : "line copy", d: `M${cx} ${cy - t / 2}v${t}` }), svg("path", { class: "touch", d: `M${cx} ${cy - t / 2}v${t}` }));
+      else if (round) handle.append(svg("ellipse", { cx, cy, rx: Math.max(3, w / 2), ry: Math.max(3, t / 2), ...copy }));
+      else handle.append(svg("rect", { x: cx - Math.max(2, w / 2), y: cy - t / 2, width: Math.max(4, w), height: t, rx: 1.5, ...copy }));
       if (shift === 0) handle.append(svg("text", { class: "feature-name", x: Math.min(box.left + box.width - 4, Math.max(box.left + 4, cx)), y: Math.max(box.top + 13, cy - t / 2 - 4), "text-anchor": cx > box.left + box.width - 60 ? "end" : cx < box.left + 60 ? "start" : "middle" }, feature.name));
     }
     group.append(handle);

@@ -74,7 +74,7 @@ export class Workbench {
     this.checkState = new CheckState(() => this.showProblems());
     const openReport = (report: OpenReport) => this.documents.openReport(report);
     const clearance = (bearing: string) => this.panes.machine.run?.number(`/bearings/${bearing}`, "radial_clearance");
-    this.runs = new RunPanes({ api, hello, model, isReady: () => this.checkState.isReady, save: (document) => documentFiles.save(document), openReport, clearance, listed: () => this.fileList.draw(), changed, say, fail }, this.problems.element);
+    this.runs = new RunPanes({ api, hello, model, isReady: () => this.checkState.isReady, isAlone: () => this.checkState.isAlone, showPoint: () => this.panes.tabs.show("point"), save: (document) => documentFiles.save(document), openReport, clearance, listed: () => this.fileList.draw(), changed, say, fail }, this.problems.element);
     this.outline = new Outline((at) => this.places.goToOffset(at));
     const files = () => (void this.fileList.load(), void documentFiles.refresh());
     this.news = new News({ notices, files, runs: () => void this.runs.load(), run: (event) => this.runs.hear(event), model: () => model()?.path, modelFiles: () => this.checker.soon(), back: () => this.back() });
@@ -167,7 +167,9 @@ export class Workbench {
   private modelTaken(document: OpenDocument | null): void {
     this.checker.forget();
     this.panes.clear();
-    if (document) this.checker.now();
+    if (!document) return;
+    this.panes.showFirst(document.tree);
+    this.checker.now();
   }
 
   private documentShown(): void {
@@ -221,6 +223,7 @@ export class Workbench {
     const { model } = this.documents;
     this.problems.show(findings, model ? texts.state.checking : texts.noModel);
     this.checkState.show(findings, runs, model !== null);
+    this.panes.mark(findings?.faults ?? []);
     this.runs.starter.showButtons();
     const count = (findings?.faults.length ?? 0) + (findings?.warnings.length ?? 0);
     this.runs.tabs.label("problems", count > 0 ? `${texts.problems} (${count})` : texts.problems);
