@@ -206,6 +206,10 @@ await findings.check("the Stribeck curve and its like are drawn at the sliders' 
   await matrix.scrollIntoViewIfNeeded();
   await picture(page, "10-coefficients");
   page.off("response", note);
+  await page.locator(".point-head").getByRole("button", { name: "Report" }).click();
+  const report = page.frameLocator(".report-frame:not([hidden])");
+  await report.getByText("minimum film thickness").first().waitFor({ timeout: 60_000 });
+  await picture(page, "11-point-report");
 });
 
 await findings.check("a curve goes on beyond a point without a solution, which is tried by itself and named", async () => {

@@ -6,6 +6,7 @@ import type { OpenDocument } from "./editor";
 import type { PlacedFrame } from "./frame_hand";
 import { Tabs } from "./layout";
 import { MachinePane, type SceneText } from "./machine_pane";
+import type { OpenReport } from "./memory";
 import type { ModelSchema } from "./model_schema";
 import { PartPane } from "./part_pane";
 import { PointPane } from "./point_pane";
@@ -21,6 +22,7 @@ export interface ModelPanesHooks {
   goToKey: (key: string) => void;
   goToPart: (part: string) => void;
   say: (words: string) => void;
+  openReport: (report: OpenReport) => void;
   /** Another tab is shown. */
   changed: () => void;
 }
@@ -39,7 +41,7 @@ export class ModelPanes {
     const text = () => (model() ? { path: model()!.path, text: model()!.state.doc.toString() } : null);
     this.machine = new MachinePane({ api, model: text, chosen: goToPart, placed: (frame) => void this.place(frame), say });
     this.bearing = new BearingPane({ set, goToKey, chosen: (name) => (this.machine.highlight(`/bearings/${name}`), this.point.refresh()) });
-    this.point = new PointPane(api, () => (model() ? { ...text()!, tree: model()!.tree } : null), () => this.bearing.name);
+    this.point = new PointPane(api, () => (model() ? { ...text()!, tree: model()!.tree } : null), () => this.bearing.name, hooks.openReport);
     this.part = new PartPane(set);
     const contents = { machine: this.machine.element, bearing: this.bearing.element, part: this.part.element, point: this.point.element };
     const tabs = (["machine", "bearing", "part", "point"] as const).map((key) => ({ key, label: texts[key], content: contents[key] }));

@@ -9,6 +9,7 @@ import { unitText, valueText } from "../src/figure_text";
 import { FilmFields } from "../src/film_fields";
 import { Locus } from "../src/locus";
 import { format } from "../src/units";
+import type { OpenReport } from "./memory";
 import { PointCurves } from "./point_curves";
 import { texts } from "./texts";
 import { quantityPattern } from "./units_of";
@@ -22,6 +23,8 @@ interface Answer {
   position: { e: [number, number]; clearance: number; ratio: number } | null;
   solution: SolutionText;
   time: number;
+  /** What the program has changed of the text for it. */
+  set: string[];
 }
 
 /** Around the value of the model, so many times less and more. */
@@ -61,6 +64,9 @@ export class PointPane {
   private readonly coefficients = h("div", { class: "point-coefficients" });
   private readonly curves: PointCurves;
   private readonly status = h("p", { class: "note", role: "status" }, texts.solveStart);
+  private readonly report = h("button", { type: "button", disabled: true }, texts.pointReport);
+  /** Of the answer that is shown. */
+  private set: string[] = [];
   /** `exact`: what was typed, where no position of the slider is. */
   private readonly sliders = new Map<string, { input: HTMLInputElement; value: HTMLInputElement; middle: number; isKnown: boolean; exact: number | null }>();
   private readonly touched = new Set<string>();
@@ -77,7 +83,9 @@ export class PointPane {
     private readonly api: Api,
     private readonly model: () => { path: string; text: string; tree: TextNode } | null,
     private readonly name: () => string,
+    private readonly openReport: (report: OpenReport) => void,
   ) {
+    this.report.addEventListener("click", () => void this.makeReport());
     const rows = knobs.flatMap((knob) => {
       const input = h("input", { type: "range", min: -1, max: 1, step: 0.01, value: 0, "aria-label": texts.sliders[knob.key] });
       const value = h("input", { type: "text", class: "slider-value", spellcheck: "false", autocomplete: "off", "aria-label": texts.sliderField(texts.sliders[knob.key]) });
@@ -110,7 +118,7 @@ export class PointPane {
       },
       present: () => this.previous,
     });
-    this.element = h("div", { class: "point-pane" }, h("div", { class: "joint-sliders" }, ...rows), this.status, h("div", { class: "point-pictures" }, this.map, this.locus), this.curves.element, this.figures, this.coefficients);
+    this.element = h("div", { class: "point-pane" }, h("div", { class: "joint-sliders" }, ...rows), h("div", { class: "point-head" }, this.status, this.report), h("div", { class: "point-pictures" }, this.map, this.locus), this.curves.element, this.figures, this.coefficients);
   }
 
   /** Settings of the sliders for the program; `instead` are values in place of some. */
@@ -122,6 +130,22 @@ export class PointPane {
     const set = knobs.filter((knob) => (this.touched.has(knob.key) || instead[knob.key] !== undefined) && (hasPoint || !ofPoint(knob))).map((knob) => `${knob.key}=${written(knob)}`);
     if (!hasPoint) set.unshift(`bearings.${this.bearing}.operating_point={journal_speed: ${written(knobs[1]!)}, load: ${written(knobs[0]!)}}`);
     return set;
+  }
+
+  /** The page of `hersey bearing --report` at these values, in a tab of its own. */
+  private async makeReport(): Promise<void> {
+    const model = this.model();
+    if (!model) return;
+    this.report.disabled = true;
+    this.status.textContent = texts.pointReportMade;
+    try {
+      const { url } = await this.api.post<{ url: string }>("/api/bearing_report", { path: model.path, text: model.text, bearing: this.bearing, set: this.set });
+      this.status.textContent = "";
+      this.openReport({ key: `bearing ${model.path} ${this.bearing} ${this.set.join(" ")}`, title: texts.pointReportTitle(this.bearing), url });
+    } catch (error) {
+      this.status.textContent = error instanceof Error ? error.message : String(error);
+    }
+    this.report.disabled = false;
   }
 
   private solve(instead: Partial<Record<string, number>>, fields: string[], previous: string | null): Promise<Answer> {
@@ -145,6 +169,7 @@ export class PointPane {
       slider.value.removeAttribute("aria-invalid");
       slider.input.disabled = slider.value.disabled = true;
     }
+    this.report.disabled = true;
     this.drawn.map?.destroy();
     this.drawn.locus?.destroy();
     this.drawn = { map: null, locus: null };
@@ -239,6 +264,8 @@ export class PointPane {
   private show(answer: Answer, model: { text: string; tree: TextNode }, ms: number): void {
     this.element.classList.toggle("old", !answer.solved);
     this.status.textContent = answer.solved ? texts.solved(Math.round(ms)) : answer.message;
+    this.report.disabled = !answer.solved;
+    this.set = answer.set;
     if (!answer.solved) {
       // Other values may have a solution.
       for (const { input, value } of this.sliders.values()) if (value.value !== "–" || !this.previous) input.disabled = value.disabled = false;

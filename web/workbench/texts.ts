@@ -109,6 +109,9 @@ export const texts = {
   faultyText: "The text has faults: it is solved once they are mended.",
   solved: (ms: number) => `Solved in ${ms} ms`,
   solving: "Solving …",
+  pointReport: "Report",
+  pointReportMade: "Making the report …",
+  pointReportTitle: (bearing: string) => `bearing ${bearing}`,
   solveStart: "Answers follow as the sliders move. Nothing of the text changes.",
   coefficients: "Stiffness and damping",
   curves: {

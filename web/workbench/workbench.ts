@@ -68,11 +68,11 @@ export class Workbench {
     this.fileList = new FileList({ api, editor, runs: () => this.runs.list.runs, active: () => this.documents.active, opened, say, fail, meshTarget: () => this.meshTarget() });
     this.checker = new Checker({ api, editor, model, scene: (scene, document) => this.showScene(scene, document), found: (findings, runs) => this.found(findings, runs), atWork: (is) => this.checkState.atWork(is), showModel: () => this.documents.showModel(), say, fail });
     const values = (this.values = new ValueEdits({ api, editor, model, changed: () => this.checker.now(), say, fail }));
-    this.panes = new ModelPanes({ api, model, schema: () => this.schema, set: (key, value) => values.set(key, value), goToKey: (key) => this.places.goToKey(key), goToPart: (part) => this.places.goToPart(part), say, changed });
+    const openReport = (report: OpenReport) => this.documents.openReport(report);
+    this.panes = new ModelPanes({ api, openReport, model, schema: () => this.schema, set: (key, value) => values.set(key, value), goToKey: (key) => this.places.goToKey(key), goToPart: (part) => this.places.goToPart(part), say, changed });
     this.places = new Places({ editor, documents: this.documents, fileList: this.fileList, panes: this.panes });
     this.problems = new ProblemList((fault) => this.places.goToFault(fault), (edits) => this.checker.repair(edits));
     this.checkState = new CheckState(() => this.showProblems());
-    const openReport = (report: OpenReport) => this.documents.openReport(report);
     const clearance = (bearing: string) => this.panes.machine.run?.number(`/bearings/${bearing}`, "radial_clearance");
     this.runs = new RunPanes({ api, hello, model, isReady: () => this.checkState.isReady, isAlone: () => this.checkState.isAlone, showPoint: () => this.panes.tabs.show("point"), save: (document) => documentFiles.save(document), openReport, clearance, listed: () => this.fileList.draw(), changed, say, fail }, this.problems.element);
     this.outline = new Outline((at) => this.places.goToOffset(at));
