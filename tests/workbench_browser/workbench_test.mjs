@@ -20,7 +20,7 @@ const begun = performance.now();
 let server = await serve(resolve(program), folder);
 const browser = await launch();
 const context = await browser.newContext({ viewport: size, colorScheme: "light" });
-const page = await open(context, server.address, /409/);
+const page = await open(context, server.address, /409.*api\/new|422.*api\/move/);
 const button = (name) => page.getByRole("button", { name, exact: true });
 const rightTab = (name) => page.locator(".right").getByRole("tab", { name }).click();
 const openFile = (name) => page.locator(`.file[data-path="${name}"]`).click();
@@ -227,6 +227,20 @@ await findings.check("a joint is moved through its range, the loop stays closed"
   await page.locator(".joints summary").click();
   await openFile("model.yaml");
   await state(page, "Ready to run");
+});
+
+await findings.check("a joint that cannot be moved any farther springs back to where the mechanism went together", async () => {
+  await openFile("model.yaml");
+  await rightTab("Machine");
+  const slider = page.getByLabel("bore, translation");
+  await slider.waitFor({ state: "attached" });
+  const before = await slider.inputValue();
+  await slider.evaluate((e) => {
+    e.value = e.max;
+    e.dispatchEvent(new Event("input"));
+  });
+  await page.locator(".notice", { hasText: "bore cannot be moved farther than 0 mm" }).waitFor();
+  claim((await slider.inputValue()) === before, `the slider stands at ${await slider.inputValue()}, not ${before}`);
 });
 
 await findings.check("a bearing is changed in its form and its unwrapped picture; the text follows and can be undone", async () => {
