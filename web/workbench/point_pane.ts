@@ -64,7 +64,7 @@ export class PointPane {
   private readonly coefficients = h("div", { class: "point-coefficients" });
   private readonly curves: PointCurves;
   private readonly status = h("p", { class: "note", role: "status" }, texts.solveStart);
-  private readonly report = h("button", { type: "button", disabled: true }, texts.pointReport);
+  private readonly report = h("button", { type: "button", class: "quiet", disabled: true }, texts.pointReport);
   /** Of the answer that is shown. */
   private set: string[] = [];
   /** `exact`: what was typed, where no position of the slider is. */
