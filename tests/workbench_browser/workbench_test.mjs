@@ -367,7 +367,7 @@ await findings.check("a wrong value is said below its field, and the sliders wai
   claim((await field.getAttribute("aria-invalid")) === "true", "the field is not marked");
   await picture(page, "8b-field-fault");
   await rightTab("Operating point");
-  claim((await load.isDisabled()) && /faults/.test(await page.locator(".point-pane > .note").innerText()), "the sliders do not wait");
+  claim((await load.isDisabled()) && /faults/.test(await page.locator(".point-head > .note").innerText()), "the sliders do not wait");
   await page.locator(".cm-content").focus();
   await page.keyboard.press("Control+z");
   await state(page, "Ready: operating point");
