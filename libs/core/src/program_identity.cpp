@@ -26,7 +26,7 @@ std::string build_id_in(const char* notes, std::size_t size) {
     const char* const owner = notes + sizeof note;
     const char* const content = owner + aligned(note.n_namesz);
     if (content + note.n_descsz > end) return {};
-    if (note.n_type == NT_GNU_BUILD_ID && std::string_view(owner, note.n_namesz) == std::string_view("GNU", 4)) {
+    if (note.n_type == NT_GNU_BUILD_ID && std::string_view(owner, note.n_namesz) == std::string_view("GNU\0", 4)) {
       for (std::size_t i = 0; i < note.n_descsz; ++i)
         fmt::format_to(std::back_inserter(id), "{:02x}", static_cast<unsigned char>(content[i]));
       return id;
@@ -51,6 +51,7 @@ int take_build_id(dl_phdr_info* object, std::size_t, void* id) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& segment = object->dlpi_phdr[i];
     if (segment.p_type != PT_NOTE) continue;
+    // The loader gives addresses as numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
     const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr);
     std::string found = build_id_in(notes, segment.p_memsz);
     if (!found.empty()) *static_cast<std::string*>(id) = std::move(found);
