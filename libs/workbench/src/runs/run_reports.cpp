@@ -3,11 +3,11 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
+#include "runs/run_record.h"
 #include "runs/runs.h"
 #include "runs/temporary_folder.h"
 
@@ -55,10 +55,7 @@ Path Runs::bearing_report(const json& request) {
   const Path page = next_report();
   const TemporaryFolder temporary;
   const Path text = temporary.file("text");
-  std::ofstream stream(text, std::ios::binary);
-  stream << request.at("text").get<std::string>();
-  stream.close();
-  if (!stream) throw Refused(507, "the text cannot be written into a temporary folder", "make room on the disk");
+  write_text(text, request.at("text").get<std::string>());
   std::vector<std::string> words{
       program_.string(), "bearing",  model.string(), "--text",
       text.string(),     "--report", page.string(),  "--bearing=" + request.at("bearing").get<std::string>()};

@@ -1,14 +1,12 @@
 #include "runs/studies.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -20,6 +18,8 @@
 #include "hersey/core/write_file.h"
 #include "hersey/workbench/refused.h"
 #include "runs/process.h"
+#include "runs/run_files.h"
+#include "runs/run_record.h"
 #include "runs/temporary_folder.h"
 
 namespace hersey::workbench {
@@ -32,29 +32,6 @@ constexpr double kPlanTime = 60;  // [s]
 constexpr std::size_t kMostRecordsAtOnce = 1000;
 constexpr std::uintmax_t kMostPart = std::uintmax_t{4} << 20;  // of a file of records at a time
 
-/// Content of a regular file that is no link, from `begin` on; empty if there is none.
-std::string study_part(const StudyPath& file, std::uintmax_t begin, std::uintmax_t most) {
-  struct stat status {};
-  if (::lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
-  const auto size = static_cast<std::uintmax_t>(status.st_size);
-  if (size <= begin) return {};
-  std::ifstream stream(file, std::ios::binary);
-  stream.seekg(static_cast<std::streamoff>(begin));
-  std::string text(std::min(most, size - begin), '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
-  return text;
-}
-
-/// Null if it is none. What lies deeper than the program writes is left out: writing it again takes a call for each
-/// level.
-json study_object(const std::string& text) {
-  constexpr int kMostLevels = 16;
-  const json value = json::parse(
-      text, [](int depth, json::parse_event_t, json&) { return depth <= kMostLevels; }, false);
-  return value.is_object() ? value : json();
-}
-
 /// A name with a blank or with bytes beyond ASCII would not come back whole in the `after` of the next request.
 bool is_name_of_shard(const std::string& name) {
   return name.ends_with(".jsonl") && std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < 0x7f; });
@@ -66,7 +43,7 @@ class StudyLines {
   StudyLines(const StudyPath& file, std::uintmax_t& place) : place_(place) {
     // The byte before tells whether the place is amid a line that was too long.
     const std::uintmax_t begin = place == 0 ? 0 : place - 1;
-    text_ = study_part(file, begin, kMostPart);
+    text_ = part_of(file, begin, kMostPart);
     is_full_ = text_.size() == kMostPart;
     if (place == 0 || text_.empty()) return;
     const std::size_t end = text_.find('\n');
@@ -208,8 +185,8 @@ std::string Studies::plan(const json& request) const {
     output.erase(std::min(output.find_last_not_of(" \n") + 1, output.size()));
     throw Refused(422, output.empty() ? "the study cannot be planned" : output, "");
   }
-  std::string plan = study_part(file, 0, std::uintmax_t{16} << 20);
-  if (study_object(plan).is_null()) throw Refused(507, "the plan cannot be written", "make room on the disk");
+  std::string plan = part_of(file, 0, std::uintmax_t{16} << 20);
+  if (object_of(plan).is_null()) throw Refused(507, "the plan cannot be written", "make room on the disk");
   return plan;
 }
 
@@ -217,7 +194,7 @@ std::string Studies::course(const std::string& id, const std::string& after) con
   const RunEntry run = runs_.find(id);
   if (!run.is_study) throw Refused(404, "this run is no study", "choose one of the list");
   const StudyPath folder = folder_.path() / run.folder;
-  const json plan = study_object(study_part(folder / "plan.json", 0, std::uintmax_t{16} << 20));
+  const json plan = object_of(part_of(folder / "plan.json", 0, std::uintmax_t{16} << 20));
   const std::vector<std::string> wanted = plan.is_null() ? std::vector<std::string>{} : wanted_in(plan);
   std::map<std::string, std::uintmax_t> places = places_of(after);
   json answer{{"units", json::object()}, {"records", json::array()}};
@@ -227,7 +204,7 @@ std::string Studies::course(const std::string& id, const std::string& after) con
   for (const std::string& name : record_files(folder)) {
     if (is_full()) break;
     StudyLines lines(folder / name, places[name]);
-    for (std::string line; !is_full() && lines.next(line);) add_line(study_object(line), wanted, answer);
+    for (std::string line; !is_full() && lines.next(line);) add_line(object_of(line), wanted, answer);
     goes_on = goes_on || lines.may_go_on();
   }
   std::string at;
