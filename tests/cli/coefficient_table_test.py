@@ -87,6 +87,11 @@ class CoefficientTables(unittest.TestCase):
             for a, b in zip(at, beside):
                 self.assertAlmostEqual(a, b, delta=1e-6 * 60e-6)
 
+        # A table says nothing of the other sense of rotation, nor of faster shafts.
+        for speed in ("-3000rpm", "4100rpm"):
+            done = self.hersey("run", self.folder / "table.yaml", "--set", f"speed={speed}", "--output", self.folder / "out", "--force", code=1)
+            self.assertIn("the table of coefficients has speeds from 2000 to 4000 rpm", done.stderr)
+
     def test_tables_of_other_programs_are_read_by_their_rules(self):
         sweep = ("--sweep", "speed=3000rpm,1000rpm,9000rpm")
         text, solutions = self.table(ALONE, "c.toml", "--coefficients-for", "ross", *sweep)
