@@ -89,7 +89,7 @@ class CoefficientTables(unittest.TestCase):
 
         # A table says nothing of the other sense of rotation, nor of faster shafts.
         for speed in ("-3000rpm", "4100rpm"):
-            done = self.hersey("run", self.folder / "table.yaml", "--set", f"speed={speed}", "--output", self.folder / "out", "--force", code=1)
+            done = self.hersey("run", self.folder / "table.yaml", "--set", f"speed={speed}", "--output", self.folder / "out", "--force", code=2)
             self.assertIn("the table of coefficients has speeds from 2000 to 4000 rpm", done.stderr)
 
     def test_tables_of_other_programs_are_read_by_their_rules(self):

@@ -163,8 +163,7 @@ void FilmForce::report_contact() {
                                  1e6 * clearance(model()), 1e6 * hot.smallest);
   if (smallest_gap() < -clearance(model())) {
     domain_error_ +=
-        "; the surfaces do not face each other where the joints place them: do lengths, frames and the "
-        "position of the bearing agree?";
+        "; the joints place the surfaces through each other: do lengths, frames and the bearing's place agree?";
     return;
   }
   if (model().asperities.model != film::AsperityModel::none) return;

@@ -80,7 +80,7 @@ std::string BearingCoefficientTable::fault_at(double speed) const {
   if (lowest_ == highest_ || (speed >= low && speed <= high)) return {};
   return fmt::format(
       "the shaft rotates at {:.4g} rpm against the housing, and the table of coefficients has speeds from {:.4g} to "
-      "{:.4g} rpm: a table of that speed, or the frames in the other order, is needed",
+      "{:.4g} rpm",
       speed / kRpm, lowest_ / kRpm, highest_ / kRpm);
 }
 

@@ -91,6 +91,10 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
     return {fault_at(model, summary.message, summary.message, "frames whose z-axes are those of bore and journal",
                      "turn the frame of the shell or of the journal, or the bodies by the joints' `initial` values")};
   }
+  if (summary.status == Status::domain_error && summary.message.find("table of coefficients") != std::string::npos) {
+    return {fault_at(model, summary.message, summary.message, "a shaft at a speed of the table",
+                     "write a row for that speed, or the housing's frame first in `between`")};
+  }
   if (summary.status == Status::domain_error && path_of(summary.message).starts_with("circuit")) {
     return {fault_at(
         model, summary.message, summary.message, "pumps that turn forwards, and a way out for all oil that comes in",
