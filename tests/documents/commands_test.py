@@ -25,6 +25,7 @@ SHORTENED = {
     "examples/flexible_slider_crank/model.yaml": "simulation.duration=60deg",
     "examples/oil_whirl/flexible.yaml": "simulation.duration=0.06s",
     "examples/oil_whirl/model.yaml": "simulation.duration=0.06s",
+    "examples/oil_whirl/unbalance.yaml": "study.parameters.speed=[9000rpm]",
     "examples/paper_big_end/model.yaml": "study.parameters.load=[2500N]",
     "examples/slider_crank/model.yaml --output build/slider_crank": "simulation.duration=60deg",
     "examples/slider_crank/pin_hole.yaml": "simulation.duration=60deg",

@@ -109,6 +109,16 @@ TEST_CASE("ConstraintJacobian_MatchesFiniteDifferencesAndTangent") {
   }
 }
 
+TEST_CASE("Difference_InvertsRetract") {
+  const auto m = test::nasty_mechanism();
+  const State state = test::wild_state(*m);
+  VectorXd dq(m->nv()), moved;
+  for (Index k = 0; k < dq.size(); ++k) dq[k] = 0.3 * std::sin(1.7 * static_cast<double>(k) + 1);
+  m->retract(state.q, dq, moved);
+  CHECK((m->difference(state.q, moved) - dq).cwiseAbs().maxCoeff() < 1e-12);  // round-off
+  CHECK((m->difference(moved, state.q) + m->difference(state.q, moved)).cwiseAbs().maxCoeff() < 1e-12);
+}
+
 /// The state that the motion through `centre` reaches `s` seconds later, to second order.
 State drift(const Mechanism& m, const State& centre, double s) {
   State moved = centre;

@@ -70,6 +70,7 @@ class Summary {
   std::vector<SummaryRow> rows() {
     mode_rows();
     convergence_rows();
+    multiplier_rows();
     bearing_rows();
     group_rows();
     thermal_rows();
@@ -347,6 +348,17 @@ class Summary {
     if (!change.empty()) add("cycles", static_cast<double>(change.size()), "");
     if (const std::vector<double> p_f = values("friction_mean_effective_pressure"); !p_f.empty())
       add("friction mean effective pressure of films and rings", 1e-5 * p_f.back(), "bar");
+  }
+
+  void multiplier_rows() {
+    group_ = "cycles";
+    path_ = "/cycles/multipliers/fields/";
+    const std::vector<double> magnitude = values("magnitude"), frequency = values("frequency"),
+                              growth = values("growth");
+    for (std::size_t i = 0; i < magnitude.size(); ++i)
+      add(fmt::format("Floquet multiplier {}", i + 1), magnitude[i], "",
+          fmt::format("{} at {:.4g}/s, {:.4g} Hz{}", growth[i] > 0 ? "grows" : "decays", std::abs(growth[i]),
+                      frequency[i], growth[i] > 0 ? "; unstable" : ""));
   }
 
   void mode_rows() {

@@ -443,6 +443,11 @@ std::string FilmForce::name_of_internal_residual() const {
   return fmt::format("film node ({}, {})", node / n_z, node % n_z);
 }
 
+void FilmForce::place_surfaces(const mbd::RelativeMotion& motion) {
+  evaluate_surfaces(motion);
+  accepted_surfaces_ = surfaces_;
+}
+
 BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   BearingObservation shown{.position = gap_->position(motion)};
   shown.film = film_->observe(accepted_surfaces_, axis_offset(shown.position.e), shown.position.tilt);

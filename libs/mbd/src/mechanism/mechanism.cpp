@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "hersey/core/contract.h"
 #include "hersey/core/stopwatch.h"
@@ -95,6 +96,25 @@ void Mechanism::retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Ei
   }
   const Index own = parts_->nv - parts_->tree.nv;
   q.tail(own) = q0.tail(own) + dq.segment(parts_->tree.nv, own);
+}
+
+Eigen::VectorXd Mechanism::difference(const Eigen::VectorXd& q0, const Eigen::VectorXd& q) const {
+  Eigen::VectorXd dq = Eigen::VectorXd::Zero(nv());
+  const auto at = [](const Link& link, const Eigen::VectorXd& of) {
+    const Eigen::Vector4d p = of.segment<4>(link.first_q);
+    return Eigen::Quaterniond(p[0], p[1], p[2], p[3]);
+  };
+  for (const Link& link : parts_->tree.links) {
+    if (link.motion == Motion::ball) {
+      dq.segment<3>(link.first_v) = rotation_log(at(link, q0).conjugate() * at(link, q));
+    } else if (link.columns == 1) {
+      const double way = q[link.first_q] - q0[link.first_q];
+      dq[link.first_v] = link.motion == Motion::revolute ? std::remainder(way, 2 * std::numbers::pi) : way;
+    }
+  }
+  const Index own = parts_->nv - parts_->tree.nv;
+  dq.tail(own) = q.tail(own) - q0.tail(own);
+  return dq;
 }
 
 void Mechanism::increment_rate(const Eigen::VectorXd& dq, const Eigen::VectorXd& v, Eigen::VectorXd& rate) const {
@@ -483,10 +503,6 @@ RelativeMotion Mechanism::relative_motion(const State& state, ForceId force) {
 
 void Mechanism::persist(Archive& archive) {
   MechanismParts& m = *parts_;
-  archive.each("accepted_forces", m.accepted, [](Archive& a, ForceResponse& response) {
-    a.io("wrench", response.W_B_A);
-    a.io("shape_forces", response.Q);
-  });
   for (std::size_t i = 0; i < m.drives.size(); ++i) {
     const Archive::Group group(archive, "drive " + m.spec.drives[i].name);
     m.drives[i].motion.persist(archive);
@@ -495,6 +511,15 @@ void Mechanism::persist(Archive& archive) {
     const Archive::Group group(archive, "coordinate force " + force.name);
     force.force->persist(archive);
   }
+  persist_between_bodies(archive);
+}
+
+void Mechanism::persist_between_bodies(Archive& archive) {
+  MechanismParts& m = *parts_;
+  archive.each("accepted_forces", m.accepted, [](Archive& a, ForceResponse& response) {
+    a.io("wrench", response.W_B_A);
+    a.io("shape_forces", response.Q);
+  });
   for (const MechanismSpec::Force& force : m.spec.forces) {
     const Archive::Group group(archive, "force " + force.name);
     force.force->persist(archive);

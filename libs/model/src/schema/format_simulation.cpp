@@ -32,6 +32,10 @@ TypePtr cycle_format() {
           defaulted("most", integer(20, {.low = 1, .high = 100000}), "20", "Cycles after which the run ends anyway."),
           defaulted("lead_in", choice(lead_in_words), "none",
                     "Cheaper cycles before those of the run, for machines whose cycles take long to repeat."),
+          defaulted("multipliers", integer(0, {.low = 0, .high = 20}), "0",
+                    "Floquet multipliers to find of the motion that repeats, with `lead_in: shooting`: the factors by "
+                    "which small deviations change in a cycle; one above 1 is of a motion that no machine keeps. Each "
+                    "costs up to four cycles."),
       });
 }
 

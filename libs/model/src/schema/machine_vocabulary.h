@@ -65,11 +65,16 @@ inline constexpr Vocabulary<ModesAbout, 4> modes_about_words{{
      "the state at the end of a run over `duration`; bearings by their tangent there, over its last step"},
 }};
 
-inline constexpr Vocabulary<LeadIn, 2> lead_in_words{{
+inline constexpr Vocabulary<LeadIn, 3> lead_in_words{{
     {LeadIn::none, "none", "the cycles of the run begin with the state at the start of the model"},
     {LeadIn::half_grids, "half_grids",
      "cycles with films on grids of half as many lines and rows are run until they repeat, and discarded; the cycles "
      "of the run begin with the motion, oil and temperatures that they end with, and are compared as without them"},
+    {LeadIn::shooting, "shooting",
+     "cycles on the grids of the run, each begun where those before predict that they repeat, are run until they do, "
+     "and "
+     "discarded; the cycles of the run go on from there: for motions that decay slowly, as of a shaft near the "
+     "threshold of its whirl"},
 }};
 
 inline constexpr Vocabulary<Integrator, 2> integrator_words{{

@@ -21,6 +21,7 @@
 #include "series/group_record.h"
 #include "series/joint_record.h"
 #include "series/mode_record.h"
+#include "series/multiplier_record.h"
 #include "series/ring_record.h"
 #include "series/surface_load_record.h"
 #include "series/system_record.h"
@@ -99,7 +100,7 @@ const std::vector<QuantityGroup>& result_quantities() {
     };
     add(describe_header());
     add(describe_work());
-    add({describe_step_errors(), SystemRecord::describe(), CycleRecord::describe()});
+    add({describe_step_errors(), SystemRecord::describe(), CycleRecord::describe(), MultiplierRecord::describe()});
     add(BearingRecord::describe());
     add({GroupRecord::describe(), ThermalRecord::describe(), CircuitRecord::describe()});
     add({body_group(), shapes_of_bodies(), describe_ground(), describe_shapes("/ground/shapes/<s>/"), joint_group()});

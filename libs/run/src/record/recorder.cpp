@@ -103,7 +103,10 @@ void Recorder::declare() {
   for (const model::Composite& composite : model_.composites)
     if (GroupRecord::is_in(model_, composite)) groups_.emplace_back(model_, machine_, composite, writer_);
   cycle_maps_.emplace(model_, machine_, writer_);
-  if (model_.simulation.cycle) cycles_.emplace(model_, writer_);
+  if (model_.simulation.cycle) {
+    cycles_.emplace(model_, writer_);
+    if (model_.simulation.cycle->multipliers > 0) multipliers_.emplace(model_, writer_);
+  }
   write_geometry(model_, spec, hidden.joints, writer_);
   if (model_.simulation.analysis == model::Analysis::modes) modes_.emplace(model_, machine_, writer_);
 }

@@ -25,6 +25,7 @@
 #include "series/group_record.h"
 #include "series/joint_record.h"
 #include "series/mode_record.h"
+#include "series/multiplier_record.h"
 #include "series/ring_record.h"
 #include "series/surface_load_record.h"
 #include "series/system_record.h"
@@ -60,6 +61,9 @@ class Recorder {
     return cycles;
   }
   /// Small motions about `state`.
+  void write_multipliers(const std::vector<std::complex<double>>& found) const {
+    multipliers_->write(found, model_.simulation.cycle->period);
+  }
   void write_modes(const solver::State& state, const solver::Modes& found) { modes_->append(state, found); }
   void flush_if_due() { writer_.flush_if_due(); }
   void flush() { writer_.flush(); }
@@ -102,6 +106,7 @@ class Recorder {
   EngineFrictionSums friction_sums_;
   EngineFriction friction_;  ///< of the cycle last closed
   std::optional<CycleRecord> cycles_;
+  std::optional<MultiplierRecord> multipliers_;
   std::optional<ModeRecord> modes_;
 };
 

@@ -35,6 +35,7 @@ class RunRecord {
   void flush() { recorder_.flush(); }
   /// Time of the row last passed to the file [s]; none since the run was begun or resumed.
   [[nodiscard]] std::optional<double> last_row() const { return last_row_; }
+  void write_multipliers(const std::vector<std::complex<double>>& found) { recorder_.write_multipliers(found); }
   void write_modes(const solver::State& state, const solver::Modes& found) { recorder_.write_modes(state, found); }
   void finish(results::Status status, const std::string& message, double wall_time, const Work& work);
 

@@ -4,13 +4,16 @@
 
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <variant>
 
 #include "hersey/core/error_text.h"
 #include "hersey/film/grid_transfer.h"
+#include "time_stepping/floquet.h"
 #include "time_stepping/machine_run.h"
+#include "time_stepping/shooting.h"
 
 namespace hersey::run {
 namespace {
@@ -30,48 +33,63 @@ void halve_grid(model::Bearing& bearing) {
   wall->around = film::GridTransfer::by_position(fine, bearing.film.grid).around(wall->around);
 }
 
-model::Model on_half_grids(model::Model model) {
-  for (model::Bearing& bearing : model.bearings) halve_grid(bearing);
-  model.simulation.cycle->lead_in = model::LeadIn::none;
+// The model whose cycles are tried: all of them are run, and none ends the run.
+model::Model for_trials(model::Model model, bool is_coarse) {
+  if (is_coarse)
+    for (model::Bearing& bearing : model.bearings) halve_grid(bearing);
+  model::Cycle& cycle = *model.simulation.cycle;
+  cycle.lead_in = model::LeadIn::none;
+  cycle.tolerance = 0;
+  const int most = cycle.most + (cycle.multipliers > 0 ? most_periods_for_multipliers(cycle.multipliers) : 0);
+  model.simulation.duration = most * cycle.period;
   model.output.meshes_at.clear();  // files besides the results
   model.output.fields_every = model.simulation.duration;
   return model;
 }
 
-// Drives and functions of angles begin again at the start of the run. Revolutions are taken back each by itself, since
-// they do not commute.
-void unwind(const mbd::Mechanism& mechanism, const Eigen::VectorXd& travelled, Eigen::VectorXd& q) {
-  const Eigen::VectorXd scales = mechanism.position_scales();
-  for (Eigen::Index row = 0; row < travelled.size(); ++row) {
-    const double revolutions = std::round(travelled[row] / (2 * std::numbers::pi));
-    if (scales[row] != 1 || revolutions == 0) continue;
-    Eigen::VectorXd back = Eigen::VectorXd::Zero(travelled.size()), unwound;
-    back[row] = -2 * std::numbers::pi * revolutions;
-    mechanism.retract(q, back, unwound);
-    q = unwound;
+void find_multipliers(PeriodMap& map, const Shooting& found, int count, PeriodicStart& start) {
+  const FloquetMultipliers multipliers = floquet_multipliers(map, found, count);
+  start.multipliers = multipliers.values;
+  start.cycles += multipliers.periods;
+  if (!multipliers.solved()) {
+    start.message += "; no multipliers: " + multipliers.message;
+    return;
   }
+  const double largest = std::abs(multipliers.values.front());
+  start.message +=
+      fmt::format(" and {} for {} of its multipliers, the largest {:.4g}{}", multipliers.periods, multipliers.values.size(),
+                  largest, largest > 1 ? ": the motion is unstable, and small deviations grow" : "");
 }
 
 PeriodicStart run_cycles(const model::Model& model, const Options& options) {
-  const model::Model coarse = on_half_grids(model);
+  const bool is_coarse = model.simulation.cycle->lead_in == model::LeadIn::half_grids;
+  const model::Model trial = for_trials(model, is_coarse);
+  const model::Cycle& cycle = *model.simulation.cycle;
+  double change = std::numeric_limits<double>::quiet_NaN();
   Options quiet;
-  quiet.stop = options.stop;
-  if (options.on_cycle)
-    quiet.on_cycle = [&options](CycleProgress cycle) {
-      cycle.leads_in = true;
-      options.on_cycle(cycle);
-    };
-  MachineRun run(coarse, quiet);
+  quiet.on_cycle = [&options, &change](CycleProgress progress) {
+    change = progress.change;
+    progress.leads_in = true;
+    if (options.on_cycle) options.on_cycle(progress);
+  };
+  MachineRun run(trial, quiet);
   run.begin();
-  Eigen::VectorXd travelled = Eigen::VectorXd::Zero(run.mechanism().nv());  // integral of the velocities
-  while (!run.is_at_end()) {
-    if (quiet.stop != nullptr && quiet.stop->load()) return {.message = "the lead-in was stopped"};
-    if (const Outcome step = run.step(); !step.solved()) throw std::runtime_error(step.message);
-    travelled += run.last_dt() * run.state().v;
+  const Eigen::VectorXd q_start = run.state().q;
+  PeriodMap map(run, cycle.period, options.stop);
+  const Shooting found = shoot(
+      map, {.tolerance = cycle.tolerance, .most = cycle.most, .repeats = [&] { return change <= cycle.tolerance; }});
+  if (!found.solved()) throw std::runtime_error(found.message);
+  PeriodicStart start{.cycles = found.periods, .state = run.state()};
+  start.message = fmt::format("begun after {} cycles {}", start.cycles, is_coarse ? "on half grids" : "of shooting");
+  if (cycle.multipliers > 0) find_multipliers(map, found, cycle.multipliers, start);
+  run.move_to(found.motion);
+  // Drives and functions of angles begin again at the start of the run.
+  run.mechanism().retract(q_start, run.mechanism().difference(q_start, run.state().q), start.state.q);
+  if (!is_coarse) {
+    start.motion = run.motion();
+    start.motion->q = start.state.q;
+    return start;
   }
-  PeriodicStart start{.cycles = run.summary().cycles, .state = run.state()};
-  start.message = fmt::format("begun after {} cycles on half grids", start.cycles);
-  unwind(run.mechanism(), travelled, start.state.q);
   for (std::size_t i = 0; i < model.bearings.size(); ++i)
     start.films.push_back(run.machine().bearings[i].bearing->on_grid(model.bearings[i].film.grid));
   if (run.machine().network) {

@@ -80,9 +80,11 @@ std::string MachineRun::ending() const {
 
 void MachineRun::begin() {
   if (!resumes_) {
+    if (start_.motion) move_to(*start_.motion);
     StepRecord start = observe({});
     stepper_.plan(state_, start.mechanism);
     record(std::move(start));
+    if (!start_.multipliers.empty()) record_.write_multipliers(start_.multipliers);
   }
   work_.begin();
 }
@@ -160,6 +162,36 @@ void MachineRun::persist(Archive& archive) {
   }
   const Archive::Group group(archive, "record");
   record_.persist(archive);
+}
+
+void MachineRun::persist_motion(Archive& archive) {
+  archive.io("v", state_.v), archive.io("vdot", state_.vdot), archive.io("lambda", state_.lambda);
+  {
+    const Archive::Group group(archive, "mechanism");
+    machine_.mechanism->persist_between_bodies(archive);
+  }
+  {
+    const Archive::Group group(archive, "history");
+    stepper_.persist_history(archive, state_);
+  }
+  if (!machine_.network) return;
+  const Archive::Group group(archive, "thermal_network");
+  machine_.network->persist(archive);
+}
+
+Motion MachineRun::motion() {
+  Archive archive;
+  persist_motion(archive);
+  return {state_.q, archive.content()};
+}
+
+void MachineRun::move_to(const Motion& motion) {
+  const Eigen::VectorXd here = state_.q;
+  mechanism().retract(here, mechanism().difference(here, motion.q), state_.q);
+  Archive archive(motion.memory);
+  persist_motion(archive);
+  for (const model::BuiltBearing& bearing : machine_.bearings)
+    bearing.bearing->place_surfaces(mechanism().relative_motion(state_, bearing.force));
 }
 
 void MachineRun::write_checkpoint(bool in_any_case) {

@@ -18,6 +18,7 @@
 #include "record/run_record.h"
 #include "series/work_record.h"
 #include "time_stepping/checkpoint.h"
+#include "time_stepping/motion.h"
 #include "time_stepping/periodic_start.h"
 #include "time_stepping/time_stepper.h"
 
@@ -47,6 +48,12 @@ class MachineRun {
 
   /// Restarts the integrator after a jump of what acts on the machine: TimeStepper::take_jump.
   void take_jump(bool moves) { stepper_.take_jump(state_, moves); }
+  /// Returns the motion at the end of the last step.
+  [[nodiscard]] Motion motion();
+  /// Goes on in `motion`, of this machine at the same instant of another period, in place of its own. Joints keep the
+  /// whole revolutions that they have made.
+  void move_to(const Motion& motion);
+
   /// Distance below which two instants count as one [s].
   [[nodiscard]] double slack() const { return stepper_.slack(); }
 
@@ -91,6 +98,7 @@ class MachineRun {
   };
 
   void restore_file(Archive::Content checkpoint);
+  void persist_motion(Archive& archive);
   [[nodiscard]] StepRecord observe(const TimeStep& step);
   void record(const TimeStep& step);
   void record(StepRecord step);

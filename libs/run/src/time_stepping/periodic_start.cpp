@@ -35,7 +35,7 @@ void move_to(const PeriodicStart& start, model::Machine& machine, solver::State&
 }  // namespace
 
 PeriodicStart begin_in(PeriodicStart start, const model::Model& model, model::Machine& machine, solver::State& state) {
-  if (start.cycles == 0) return start;
+  if (start.cycles == 0 || start.motion) return start;
   try {
     move_to(start, machine, state);
   } catch (const std::exception& error) {

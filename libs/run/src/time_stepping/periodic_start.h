@@ -1,5 +1,7 @@
 #pragma once
 
+#include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,7 @@
 #include "hersey/model/build.h"
 #include "hersey/model/model.h"
 #include "hersey/solver/equations.h"
+#include "time_stepping/motion.h"
 
 namespace hersey::run {
 
@@ -18,6 +21,8 @@ struct PeriodicStart {
   solver::State state;                      ///< at the end of a cycle, less whole revolutions
   std::vector<bearing::FilmAtStart> films;  ///< of each bearing
   Archive::Content network;                 ///< temperatures of the thermal network
+  std::optional<Motion> motion;             ///< on the grids of the run: all of it, in place of the three before
+  std::vector<std::complex<double>> multipliers = {};  ///< of the motion (FloquetMultipliers), where it asks for them
 };
 
 /// Moves a machine into that motion (theory manual, integrator.43): pressures, accelerations and multipliers follow

@@ -283,6 +283,11 @@ TimeStep TimeStepper::take_controlled(solver::State& state, double target) {
   }
 }
 
+void TimeStepper::persist_history(Archive& archive, const solver::State& state) {
+  integrator_->persist(archive);
+  if (archive.restores()) energy_.begin(state);
+}
+
 void TimeStepper::persist(Archive& archive) {
   {
     const Archive::Group group(archive, "integrator");

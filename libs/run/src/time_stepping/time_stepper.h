@@ -61,6 +61,9 @@ class TimeStepper {
   [[nodiscard]] int rejected_steps() const { return rejected_; }
 
   void persist(Archive& archive);
+  /// Saves or restores the method's history alone; with one that has been restored, steps go on from `state`, to which
+  /// no step has led.
+  void persist_history(Archive& archive, const solver::State& state);
 
  private:
   [[nodiscard]] TimeStep follow_drives(solver::State& state, double target);

@@ -177,6 +177,10 @@ class FilmForce : public mbd::TwoBodyForce {
   /// Names a lining that has been worn off at the state last accepted; empty where there is none.
   [[nodiscard]] std::string wear_failure() const;
 
+  /// Puts the surfaces of the state last accepted where those of `motion` are: where a film restored by persist() is
+  /// observed before a step has led to it.
+  void place_surfaces(const mbd::RelativeMotion& motion);
+
   /// Returns all figures of the state last accepted (or initialised).
   [[nodiscard]] BearingObservation observe(const mbd::RelativeMotion& motion) const;
 

@@ -51,6 +51,14 @@ class Mechanism final : public solver::Equations {
   /// Returns the state given by the joints' initial values at t = 0; it is not yet consistent: see solver::initialise.
   [[nodiscard]] solver::State initial_state() const;
 
+  /// Returns the smallest increment dq with q = q0 (+) dq, the inverse of retract(): rotations of revolute joints less
+  /// whole revolutions.
+  [[nodiscard]] Eigen::VectorXd difference(const Eigen::VectorXd& q0, const Eigen::VectorXd& q) const;
+
+  /// Saves or restores what `persist` does, apart from drives and forces of joints, which depend on the time and on
+  /// angles that grow with it.
+  void persist_between_bodies(Archive& archive);
+
   /// Returns the velocity components whose initial position the user prescribed: InitialiseOptions::fixed.
   [[nodiscard]] std::vector<Index> given_coordinates() const;
 

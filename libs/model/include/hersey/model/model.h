@@ -367,6 +367,7 @@ struct Settle {
 enum class LeadIn {
   none,
   half_grids,  ///< cycles with films on grids of half as many lines and rows, until they repeat
+  shooting,    ///< cycles of the run itself, each begun where those before predict that they repeat
 };
 
 /// Ends the run early once a cycle repeats the one before.
@@ -375,6 +376,7 @@ struct Cycle {
   double tolerance = 0.01;  ///< relative difference of the figures of two cycles; 0: all cycles are run
   int most = 20;            ///< cycles, >= 1
   LeadIn lead_in = LeadIn::none;
+  int multipliers = 0;  ///< number of Floquet multipliers to find of the motion that repeats; with LeadIn::shooting
 };
 
 /// Steps chosen by their error.

@@ -285,9 +285,9 @@ void interpret_lead_in(Context& context, const Value& value) {
   if (cycle.tolerance == 0)
     context.fault(value, "a lead-in to cycles that are all run", "cycles that end the run once they repeat",
                   "give `until_converged` a value above 0");
-  if (has_elastic_surfaces(context.model))
+  if (cycle.lead_in == LeadIn::half_grids && has_elastic_surfaces(context.model))
     context.fault(value, "a lead-in of films on half grids between surfaces that deform", "rigid surfaces of all films",
-                  "leave `lead_in` out");
+                  "`lead_in: shooting` keeps the grids");
 }
 
 /// Cycles that end the run, if its duration does not.
@@ -303,6 +303,10 @@ void interpret_cycle(Context& context, const Value& parent) {
                            number_of(*value, "until_converged"), integer_of(*value, "most")};
   if (const Value* lead_in = value->find("lead_in"); lead_in != nullptr && !lead_in->broken)
     interpret_lead_in(context, *lead_in);
+  simulation.cycle->multipliers = integer_of(*value, "multipliers");
+  if (simulation.cycle->multipliers > 0 && simulation.cycle->lead_in != LeadIn::shooting)
+    context.fault(*value->find("multipliers"), "multipliers of a motion that is not looked for",
+                  "`lead_in: shooting` beside them");
   const double longest = simulation.cycle->most * simulation.cycle->period;
   simulation.duration = parent.find("duration") != nullptr ? std::min(simulation.duration, longest) : longest;
 }

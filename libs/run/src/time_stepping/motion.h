@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "hersey/core/archive.h"
+#include "hersey/mbd/mechanism.h"
+
+namespace hersey::run {
+
+/// Motion of a machine at one instant of its period: all that the next period depends on, apart from the time and from
+/// drives and forces of joints that follow it.
+struct Motion {
+  Eigen::VectorXd q;        ///< positions
+  Archive::Content memory;  ///< velocities and accelerations, films, contacts, elastic bodies, temperatures
+};
+
+/// Combines motions at the same instant of different periods (theory manual, integrator.44). What cannot be combined,
+/// marks and counts, is that of the first.
+/// @param weights  of each, their sum is 1
+[[nodiscard]] Motion combine(const mbd::Mechanism& mechanism, const std::vector<Motion>& motions,
+                             const Eigen::VectorXd& weights);
+
+/// Sizes with which positions and velocities of a motion are compared: how far they go in a period.
+class Swing {
+ public:
+  /// @param period  [s], > 0
+  Swing(const mbd::Mechanism& mechanism, double period);
+  /// Begins with the state at the start of a period.
+  void begin(const solver::State& state);
+  /// Takes another one.
+  void take(const solver::State& state);
+  /// Returns that of all positions, then of all velocities, each at least a share of the machine's size: shape (2 nv).
+  [[nodiscard]] Eigen::VectorXd sizes() const;
+
+ private:
+  const mbd::Mechanism& mechanism_;
+  double period_;
+  Eigen::VectorXd start_, lowest_, highest_;
+};
+
+/// Returns the way from one motion to another at the same instant of another period: of positions and velocities, then
+/// of the fill fractions and temperatures of films, each film with the weight of a coordinate over its swing.
+[[nodiscard]] Eigen::VectorXd way_between(const mbd::Mechanism& mechanism, const Motion& from, const Motion& to);
+
+}  // namespace hersey::run
