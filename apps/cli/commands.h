@@ -128,6 +128,23 @@ struct BearingArguments {
 /// @returns an ExitCode.
 [[nodiscard]] int bearing_command(const BearingArguments& arguments);
 
+struct RotorArguments {
+  std::string model;
+  std::vector<std::string> overrides;
+  std::vector<std::string> sweeps;
+  std::vector<std::string> stations;      ///< frames of the shaft whose motion is wanted; empty: those of its bearings
+  std::string operating;                  ///< speed in service, or `low:high`; empty: none
+  std::string cross_coupling;             ///< `station=Q`; empty: none
+  std::string stiffness_map;              ///< `low:high`; empty: none
+  std::filesystem::path results, report;  ///< files to write; empty: none
+  bool json = false;
+  int threads = 0;  ///< 0: one per processor
+};
+
+/// `hersey rotor`: modes, unbalance response and critical speeds of a shaft on its bearings, over its speeds.
+/// @returns an ExitCode.
+[[nodiscard]] int rotor_command(const RotorArguments& arguments);
+
 struct MeshArguments {
   std::string file;                  ///< a mesh or a CAD file
   std::string length_unit;           ///< empty: of a mesh m, of a BREP file mm

@@ -39,6 +39,7 @@ constexpr const char* kFooter =
     "  hersey run model.yaml --resume                                goes on after Ctrl-C or a crash\n"
     "  hersey run model.yaml --set bearings.big_end.grid.circumferential=120\n"
     "  hersey bearing model.yaml --sweep load=100N:2500N:10          one bearing by itself\n"
+    "  hersey rotor rotor.yaml --sweep speed=1000rpm:9000rpm:41      its modes and unbalance response over speed\n"
     "  hersey check model.yaml                                       every fault, nothing simulated\n"
     "  hersey mesh conrod.msh --length-unit mm                       a mesh: sets, mass, quality, bores\n"
     "  hersey mesh conrod.step --size 4mm                            a mesh of a CAD file, by gmsh\n"

@@ -161,6 +161,44 @@ void add_bearing(CLI::App& app, Commands& commands) {
                       }});
 }
 
+void add_rotor(CLI::App& app, Commands& commands) {
+  const auto rotor = std::make_shared<RotorArguments>();
+  CLI::App* command = app.add_subcommand(
+      "rotor", "Modes, stability, unbalance response and critical speeds of a shaft on its bearings, over its speeds");
+  command->add_option("MODEL", rotor->model, "Model file of a machine with a shaft that a drive rotates")->required();
+  add_overrides(*command, rotor->overrides);
+  repeatable(command
+                 ->add_option("--sweep", rotor->sweeps,
+                              "Speeds, by a parameter or key path of the model: speed=1000rpm:9000rpm:41")
+                 ->type_name("NAME=VALUES"));
+  command
+      ->add_option("--stations", rotor->stations,
+                   "Frames on the shaft's axis whose motion is wanted: shaft.middle,shaft.end (default: all bearings)")
+      ->delimiter(',')
+      ->type_name("A,B");
+  command
+      ->add_option("--operating", rotor->operating,
+                   "Speed in service, or the range of them, for separation margins: 7000rpm:9000rpm")
+      ->type_name("SPEED");
+  command
+      ->add_option(
+          "--cross-coupling", rotor->cross_coupling,
+          "Anticipated cross-coupled stiffness at a station, for the screening of stability: shaft.middle=2MN/m")
+      ->type_name("STATION=Q");
+  command
+      ->add_option("--stiffness-map", rotor->stiffness_map,
+                   "Undamped critical speeds over this range of the bearings' stiffness: 1MN/m:10GN/m")
+      ->type_name("LOW:HIGH");
+  command->add_option("--results", rotor->results, "Write everything as JSON")->type_name("FILE");
+  command->add_option("--report", rotor->report, "Write a page with diagrams and tables")->type_name("FILE");
+  command->add_flag("--json", rotor->json, "Print everything as JSON");
+  add_threads(*command, rotor->threads);
+  commands.push_back({command, [rotor] {
+                        use_threads(rotor->threads);
+                        return rotor_command(*rotor);
+                      }});
+}
+
 }  // namespace
 
 void add_run_commands(CLI::App& app, Commands& commands) {
@@ -169,6 +207,7 @@ void add_run_commands(CLI::App& app, Commands& commands) {
   add_report(app, commands);
   add_film(app, commands);
   add_bearing(app, commands);
+  add_rotor(app, commands);
 }
 
 }  // namespace hersey::cli

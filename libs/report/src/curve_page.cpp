@@ -59,9 +59,10 @@ std::string row_of(const std::vector<std::string>& cells, const char* element) {
   return row + "</tr>";
 }
 
-std::string table_of(const std::vector<std::vector<std::string>>& lines) {
+std::string table_of(const std::vector<std::vector<std::string>>& lines, const std::string& heading = "") {
   if (lines.size() < 2) return "";
-  std::string table = "<section class=\"wide\"><table><thead>" + row_of(lines[0], "th") + row_of(lines[1], "th");
+  std::string table =
+      "<section class=\"wide\">" + heading + "<table><thead>" + row_of(lines[0], "th") + row_of(lines[1], "th");
   table += "</thead><tbody>";
   for (std::size_t k = 2; k < lines.size(); ++k) table += row_of(lines[k], "td");
   return table + "</tbody></table></section>";
@@ -83,6 +84,9 @@ void write_html(const CurvePage& page, const std::filesystem::path& out) {
   body += "</dl><div class=\"charts\">";
   for (const CurveChart& chart : page.charts) body += chart_of(chart);
   body += "</div>" + table_of(page.table);
+  for (const CurvePage::Table& table : page.tables)
+    body += table_of(table.lines,
+                     fmt::format("<h2>{}</h2><p class=\"note\">{}</p>", escaped(table.title), escaped(table.note)));
   const std::string head = fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\"><title>{} · hersey</title><style>",

@@ -145,9 +145,13 @@ std::string svg_of(const CurveChart& chart) {
     for (const double value : line.x) of_x.take(value);
     for (const double value : line.y) of_y.take(value);
   }
-  Axis x(chart.x_is_logarithmic, left, width - right), y(true, height - bottom, top);
+  Axis x(chart.x_is_logarithmic, left, width - right), y(chart.y_is_logarithmic, height - bottom, top);
   x.reach(of_x.low, of_x.high);
-  y.reach(of_y.low / 1.15, of_y.high * 1.15);
+  const double room = 0.05 * (of_y.high - of_y.low);
+  if (chart.y_is_logarithmic)
+    y.reach(of_y.low / 1.15, of_y.high * 1.15);
+  else
+    y.reach(of_y.low - (of_y.low == 0 ? 0 : room), of_y.high + room);
   std::string svg =
       fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width, height, escaped(chart.title));
   svg += axes_of(chart, x, y);

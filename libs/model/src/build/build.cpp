@@ -12,6 +12,7 @@
 #include "hersey/core/contract.h"
 #include "hersey/fem/load_distributions.h"
 #include "hersey/mbd/coordinate_laws.h"
+#include "hersey/mbd/unbalance.h"
 #include "hersey/model/wall_conduction.h"
 
 namespace hersey::model {
@@ -109,6 +110,7 @@ class Builder {
     if (model_.circuit) add_circuit(*model_.circuit);
     add_network();
     machine_.grooves = model_.thermal.grooves;
+    machine_.frames = frames_;
     machine_.mechanism = mechanism_.finalise();
     return std::move(machine_);
   }
@@ -302,6 +304,11 @@ class Builder {
       mechanism_.add_force(name, frame(law.from), frame(law.to), law.made());
     else
       mechanism_.add_coordinate_force(name, coordinate(law.on), law.made());
+  }
+
+  void add(const std::string& name, const Unbalance& law) {
+    mechanism_.add_force(name, frame(law.from), frame(law.to),
+                         std::make_shared<mbd::Unbalance>(law.moment, model_.gravity));
   }
 
   void add(const std::string& name, const PistonRing& ring) {

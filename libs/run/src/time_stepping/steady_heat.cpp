@@ -35,8 +35,10 @@ constexpr double kColdestNode = 200, kHottestNode = 600;
 
 class WarmSearch {
  public:
-  WarmSearch(model::Machine& machine, solver::State& state, const solver::EquilibriumOptions& options)
-      : machine_(machine),
+  WarmSearch(solver::Equations& equations, model::Machine& machine, solver::State& state,
+             const solver::EquilibriumOptions& options)
+      : equations_(equations),
+        machine_(machine),
         state_(state),
         options_(options),
         mixing_(solver::Acceleration::quasi_newton, 1, kAlternationsKept) {
@@ -46,12 +48,12 @@ class WarmSearch {
   }
 
   solver::EquilibriumSummary run() {
-    if (films_.empty() && circuit_ == nullptr) return solver::find_equilibrium(*machine_.mechanism, state_, options_);
+    if (films_.empty() && circuit_ == nullptr) return solver::find_equilibrium(equations_, state_, options_);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(temperatures().size()), last;
     int iterations = 0, halvings = 0;
     for (int k = 0; k < kMostAlternations; ++k) {
       set_temperatures(x);
-      solver::EquilibriumSummary found = solver::find_equilibrium(*machine_.mechanism, state_, options_);
+      solver::EquilibriumSummary found = solver::find_equilibrium(equations_, state_, options_);
       found.iterations = iterations += found.iterations;
       if (!found.solved()) {
         if (last.size() == 0 || ++halvings > kMostHalvings) return found;
@@ -117,6 +119,7 @@ class WarmSearch {
     return T;
   }
 
+  solver::Equations& equations_;
   model::Machine& machine_;
   solver::State& state_;
   solver::EquilibriumOptions options_;
@@ -129,7 +132,12 @@ class WarmSearch {
 
 solver::EquilibriumSummary find_warm_steady_motion(model::Machine& machine, solver::State& state,
                                                    const solver::EquilibriumOptions& options) {
-  return WarmSearch(machine, state, options).run();
+  return find_warm_steady_motion(*machine.mechanism, machine, state, options);
+}
+
+solver::EquilibriumSummary find_warm_steady_motion(solver::Equations& equations, model::Machine& machine,
+                                                   solver::State& state, const solver::EquilibriumOptions& options) {
+  return WarmSearch(equations, machine, state, options).run();
 }
 
 }  // namespace hersey::run

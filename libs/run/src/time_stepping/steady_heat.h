@@ -11,4 +11,9 @@ namespace hersey::run {
 [[nodiscard]] solver::EquilibriumSummary find_warm_steady_motion(model::Machine& machine, solver::State& state,
                                                                  const solver::EquilibriumOptions& options);
 
+/// The same for other equations of the machine, such as those of its spinning shafts.
+[[nodiscard]] solver::EquilibriumSummary find_warm_steady_motion(solver::Equations& equations, model::Machine& machine,
+                                                                 solver::State& state,
+                                                                 const solver::EquilibriumOptions& options);
+
 }  // namespace hersey::run

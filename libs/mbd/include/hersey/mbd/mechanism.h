@@ -97,6 +97,21 @@ class Mechanism final : public solver::Equations {
   /// Returns the relative motion of a two-body force at `state`, with dt = 0.
   [[nodiscard]] RelativeMotion relative_motion(const solver::State& state, ForceId force);
 
+  /// Returns the velocities with which the bodies move at given twists, each at ground's origin in ground's axes; those
+  /// that move no body are zero. Joints that do not permit the motion take the nearest one.
+  /// @param q       configuration
+  /// @param twists  shape (6, bodies), ground included
+  /// @param misfit  unless null, the largest difference left over the largest twist
+  [[nodiscard]] Eigen::VectorXd velocities_of(const Eigen::VectorXd& q,
+                                              const Eigen::Matrix<double, 6, Eigen::Dynamic>& twists,
+                                              double* misfit = nullptr);
+
+  /// Returns the velocity components between each body and the next one towards ground, from ground outwards.
+  [[nodiscard]] std::vector<std::vector<Index>> chains() const;
+
+  /// Returns the first of each three velocity components of a rotation in space, which belong to the axes that rotate.
+  [[nodiscard]] std::vector<Index> rotations_in_space() const;
+
   /// Returns the specification of the mechanism.
   [[nodiscard]] const MechanismSpec& spec() const;
 

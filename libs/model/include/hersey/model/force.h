@@ -68,6 +68,12 @@ struct BearingTable {
   [[nodiscard]] std::shared_ptr<mbd::TwoBodyForce> made() const { return std::make_shared<mbd::LinearBearing>(table); }
 };
 
+/// An unbalance of a shaft, `from` ground, whose axes do not rotate, `to` its station.
+struct Unbalance {
+  FrameName from, to;
+  Vector3 moment = Vector3::Zero();  ///< mass times eccentricity, in the station's axes [kg m]
+};
+
 /// Friction of a piston ring, `from` the liner `to` the piston.
 struct PistonRing {
   FrameName from, to;
@@ -112,8 +118,8 @@ struct SurfaceLoad {
 /// One entry of `forces`.
 struct Force {
   std::string name;
-  std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, BearingTable, PistonRing, JointFriction,
-               SpeedControl>
+  std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, BearingTable, Unbalance, PistonRing,
+               JointFriction, SpeedControl>
       data;
   SourcePosition position;
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hersey/bearing/film_force.h"
@@ -85,6 +87,7 @@ struct Machine {
   std::vector<BuiltSurfaceLoad> surface_loads;
   std::vector<BuiltRing> rings;
   std::vector<BuiltBeam> beams;
+  std::map<std::pair<std::string, std::string>, mbd::FrameId> frames;  ///< by body and frame; "": the body's own
 };
 
 }  // namespace hersey::model

@@ -156,6 +156,10 @@ void require_facing_surfaces(Context& context, const Value& value, const Bearing
 [[nodiscard]] std::vector<Key> piston_ring_keys();
 [[nodiscard]] PistonRing piston_ring_of(Context& context, const Value& value);
 
+/// Keys of an unbalance of a shaft, and the unbalance.
+[[nodiscard]] std::vector<Key> unbalance_keys();
+[[nodiscard]] Unbalance unbalance_of(Context& context, const Value& value);
+
 /// Keys of a bearing given by its coefficients, and the bearing; reads their file.
 [[nodiscard]] std::vector<Key> bearing_table_keys();
 [[nodiscard]] BearingTable bearing_table_of(Context& context, const Value& value);

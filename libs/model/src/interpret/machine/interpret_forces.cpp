@@ -319,6 +319,7 @@ const std::vector<ForceKind>& force_kinds() {
         "a bearing, seal or magnetic bearing by its stiffness and damping, over the speed of the shaft",
         bearing_table_keys()},
        bearing_table_of},
+      {{"unbalance", "an unbalance of a shaft: mass off its axis", unbalance_keys()}, unbalance_of},
       {{"piston_ring", "friction of a piston ring on its liner by tension, gas and a Stribeck curve",
         piston_ring_keys()},
        piston_ring_of},

@@ -11,11 +11,11 @@ struct CurveLine {
   std::vector<double> x, y;
 };
 
-/// Values over one variable; y is logarithmic.
+/// Values over one variable.
 struct CurveChart {
   std::string title, note;
   std::string x_name, x_unit, y_name, y_unit;
-  bool x_is_logarithmic = false;
+  bool x_is_logarithmic = false, y_is_logarithmic = true;
   std::vector<CurveLine> lines;
 };
 

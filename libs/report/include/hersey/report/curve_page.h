@@ -16,6 +16,12 @@ struct CurvePage {
   std::vector<std::pair<std::string, std::string>> conditions;  ///< name and text
   std::vector<CurveChart> charts;
   std::vector<std::vector<std::string>> table;  ///< names, units, then rows
+  /// A further table with a heading.
+  struct Table {
+    std::string title, note;
+    std::vector<std::vector<std::string>> lines;  ///< names, units, then rows
+  };
+  std::vector<Table> tables;
 };
 
 /// Writes it. @throws results::WriteError
