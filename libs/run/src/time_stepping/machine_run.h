@@ -47,6 +47,8 @@ class MachineRun {
 
   /// Restarts the integrator after a jump of what acts on the machine: TimeStepper::take_jump.
   void take_jump(bool moves) { stepper_.take_jump(state_, moves); }
+  /// True: steps are solved down to round-off.
+  void solve_to_round_off(bool is_on) { stepper_.solve_to_round_off(is_on); }
   /// Distance below which two instants count as one [s].
   [[nodiscard]] double slack() const { return stepper_.slack(); }
 

@@ -31,6 +31,12 @@ model::Model require_motion(model::Model model) {
                          "a motion over time to step through: analysis `dynamics` or `kinematics`", ""});
 }
 
+/// Share of an input, or of what stands for it, by which the neighbours of an advance differ from it. Central
+/// differences of them leave its square, and round-off over it.
+constexpr double kNeighbour = 1e-5;
+/// Share of the largest output in an input's unit that stands for an input of 0.
+constexpr double kOfTheMachine = 1e-2;
+
 /// "/bearings/big_end/h_min" as "bearings.big_end.h_min".
 std::string dotted(const std::string& path) {
   std::string name = path.substr(1);
@@ -39,6 +45,17 @@ std::string dotted(const std::string& path) {
 }
 
 }  // namespace
+
+std::string why_no_derivatives(const model::Model& model) {
+  const model::Simulation& plan = model.simulation;
+  if (plan.error_control) return "steps of fixed length: a number for `simulation.step`";
+  if (plan.analysis != model::Analysis::dynamics) return "analysis `dynamics`";
+  if (plan.integrator != model::Integrator::generalized_alpha) return "`integrator: generalized_alpha`";
+  for (const model::Bearing& bearing : model.bearings)
+    if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
+      return "`coupling: monolithic` in bearing " + bearing.name + ": an exchange of forces has no exact tangent";
+  return {};
+}
 
 struct Simulation::Impl {
   Impl(model::Model given, Options options_)
@@ -120,6 +137,50 @@ struct Simulation::Impl {
     is_shown = true;
   }
 
+  void return_to(Archive::Content saved) {
+    Archive archive(std::move(saved));
+    persist(archive);
+    failure.clear();
+    is_shown = false;
+  }
+
+  void keep_start(Simulation& simulation) {
+    derivatives.clear();
+    if (keeps_starts) begun = simulation.save();
+  }
+
+  [[nodiscard]] std::vector<std::vector<double>> all_values() {
+    std::vector<std::vector<double>> values;
+    for (std::size_t i = 0; i < rows.size(); ++i) values.push_back(values_of(i));
+    return values;
+  }
+
+  // What an input is compared with: itself, or what the machine has in its unit.
+  [[nodiscard]] double size_of(const Inputs::Input& input, double value,
+                               const std::vector<std::vector<double>>& at) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      if (outputs[i].unit == input.info.unit)
+        for (const double one : at[i])
+          if (std::isfinite(one)) largest = std::max(largest, std::abs(one));
+    const double size = std::max(std::abs(value), kOfTheMachine * largest);
+    return size > 0 ? size : 1;
+  }
+
+  // Outputs at the end of the last advance, had the input been a little larger (sign 1) or smaller.
+  std::vector<std::vector<double>> neighbour(Inputs::Input& input, int sign, const std::vector<std::vector<double>>& at,
+                                             double end, double& value) {
+    return_to(*begun);
+    const double there = Inputs::value_of(input, model.simulation, run.state().t);
+    if (!std::isfinite(there)) throw std::runtime_error("it is a function of the motion until it is set");
+    value = there + sign * kNeighbour * size_of(input, there, at);
+    change(input, [&] { input.function->set(value); });
+    while (run.state().t < end - run.slack())
+      if (const Advance step = take(end); step.status != Advance::Status::advanced)
+        throw std::runtime_error(step.message);
+    return all_values();
+  }
+
   void persist(Archive& archive) {
     {
       const Archive::Group group(archive, "inputs");
@@ -146,6 +207,9 @@ struct Simulation::Impl {
   std::vector<std::vector<double>> restored;  // outputs at a state that was restored; empty behind a step
   bool is_shown = false, is_finished = false;
   std::string failure;
+  bool keeps_starts = false;
+  std::optional<Archive::Content> begun;                                // state at the start of the last advance
+  std::map<std::string, std::vector<std::vector<double>>> derivatives;  // of the last advance, by input
 };
 
 Simulation::Simulation(model::Model model, Options options)
@@ -167,9 +231,12 @@ double Simulation::time() const { return impl_->run.state().t; }
 double Simulation::start() const { return impl_->model.simulation.start; }
 double Simulation::end() const { return start() + impl_->model.simulation.duration; }
 
-Advance Simulation::step() { return impl_->take(std::numeric_limits<double>::infinity()); }
+Advance Simulation::step() {
+  impl_->keep_start(*this);
+  return impl_->take(std::numeric_limits<double>::infinity());
+}
 
-Advance Simulation::advance_to(double t) {
+Advance Simulation::advance_to(double t, const std::function<bool()>& goes_on) {
   const double slack = impl_->run.slack();
   if (!(t >= time() - slack) || std::isinf(t))
     throw InputError(Fault{{},
@@ -177,9 +244,10 @@ Advance Simulation::advance_to(double t) {
                            fmt::format("an advance to t = {:.9g} s", t),
                            fmt::format("an instant not before {:.9g} s", time()),
                            ""});
+  if (time() < t - slack) impl_->keep_start(*this);
   while (time() < t - slack) {
     const Advance step = impl_->take(t);
-    if (step.status != Advance::Status::advanced) return step;
+    if (step.status != Advance::Status::advanced || (goes_on && !goes_on())) return step;
   }
   return {{Advance::Status::advanced}};
 }
@@ -229,10 +297,46 @@ void Simulation::restore(Archive::Content saved) {
   std::string warning;
   require_identity(saved, impl_->model, "the state", warning);
   if (!warning.empty()) throw ArchiveError(warning);
-  Archive archive(std::move(saved));
-  impl_->persist(archive);
-  impl_->failure.clear();
-  impl_->is_shown = false;
+  impl_->return_to(std::move(saved));
+  impl_->begun.reset();
+  impl_->derivatives.clear();
+}
+
+void Simulation::keep_starts(bool is_on) {
+  if (const std::string why = why_no_derivatives(impl_->model); is_on && !why.empty())
+    throw InputError(Fault{impl_->model.position_of("simulation"), "", "derivatives of a step", why, ""});
+  impl_->keeps_starts = is_on;
+  if (!is_on) impl_->begun.reset();
+}
+
+// (integrator.44): neighbours of the advance by the same steps, each solved to round-off by the exact tangent.
+const std::vector<std::vector<double>>& Simulation::derivative(const std::string& name) {
+  Inputs::Input& input = impl_->inputs.find(name);
+  if (const auto known = impl_->derivatives.find(name); known != impl_->derivatives.end()) return known->second;
+  if (!impl_->begun)
+    throw InputError(Fault{{}, name, "derivatives without an advance", "a step taken before, with its start kept", ""});
+  const double end_time = time();
+  const std::vector<std::vector<double>> outputs = impl_->all_values();
+  Archive::Content end = save();
+  const std::string failure = impl_->failure;
+  std::vector<std::vector<double>> derivative;
+  std::string why;
+  impl_->run.solve_to_round_off(true);
+  try {
+    double above = 0, below = 0;
+    const std::vector<std::vector<double>> upper = impl_->neighbour(input, 1, outputs, end_time, above);
+    derivative = impl_->neighbour(input, -1, outputs, end_time, below);
+    for (std::size_t i = 0; i < derivative.size(); ++i)
+      for (std::size_t k = 0; k < derivative[i].size(); ++k)
+        derivative[i][k] = (upper[i][k] - derivative[i][k]) / (above - below);
+  } catch (const std::exception& error) {
+    why = error_text(error);
+  }
+  impl_->run.solve_to_round_off(false);
+  impl_->return_to(std::move(end));
+  impl_->failure = failure;
+  if (!why.empty()) throw std::runtime_error("no derivative with respect to " + name + ": " + why);
+  return impl_->derivatives[name] = std::move(derivative);
 }
 
 Summary Simulation::summary() const {
