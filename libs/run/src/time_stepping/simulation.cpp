@@ -89,6 +89,7 @@ struct Simulation::Impl {
       failure = fmt::format("t = {:.6g} s: {}", run.state().t, error_text(error));
     }
     if (!failure.empty()) return {{Advance::Status::failed, failure}};
+    instants.push_back(run.state().t);
     return {{Advance::Status::advanced}};
   }
 
@@ -146,6 +147,7 @@ struct Simulation::Impl {
 
   void keep_start(Simulation& simulation) {
     derivatives.clear();
+    instants.clear();
     if (keeps_starts) begun = simulation.save();
   }
 
@@ -169,15 +171,18 @@ struct Simulation::Impl {
 
   // Outputs at the end of the last advance, had the input been a little larger (sign 1) or smaller.
   std::vector<std::vector<double>> neighbour(Inputs::Input& input, int sign, const std::vector<std::vector<double>>& at,
-                                             double end, double& value) {
+                                             double& value) {
     return_to(*begun);
     const double there = Inputs::value_of(input, model.simulation, run.state().t);
     if (!std::isfinite(there)) throw std::runtime_error("it is a function of the motion until it is set");
     value = there + sign * kNeighbour * size_of(input, there, at);
     change(input, [&] { input.function->set(value); });
-    while (run.state().t < end - run.slack())
-      if (const Advance step = take(end); step.status != Advance::Status::advanced)
-        throw std::runtime_error(step.message);
+    const std::vector<double> ends = std::exchange(instants, {});
+    for (const double t : ends)
+      while (run.state().t < t - run.slack())
+        if (const Advance step = take(t); step.status != Advance::Status::advanced)
+          throw std::runtime_error(step.message);
+    instants = ends;
     return all_values();
   }
 
@@ -209,6 +214,7 @@ struct Simulation::Impl {
   std::string failure;
   bool keeps_starts = false;
   std::optional<Archive::Content> begun;                                // state at the start of the last advance
+  std::vector<double> instants;                                         // ends of the solver's steps since then
   std::map<std::string, std::vector<std::vector<double>>> derivatives;  // of the last advance, by input
 };
 
@@ -236,7 +242,7 @@ Advance Simulation::step() {
   return impl_->take(std::numeric_limits<double>::infinity());
 }
 
-Advance Simulation::advance_to(double t, const std::function<bool()>& goes_on) {
+Advance Simulation::advance_to(double t, const std::function<double()>& until) {
   const double slack = impl_->run.slack();
   if (!(t >= time() - slack) || std::isinf(t))
     throw InputError(Fault{{},
@@ -245,9 +251,10 @@ Advance Simulation::advance_to(double t, const std::function<bool()>& goes_on) {
                            fmt::format("an instant not before {:.9g} s", time()),
                            ""});
   if (time() < t - slack) impl_->keep_start(*this);
-  while (time() < t - slack) {
-    const Advance step = impl_->take(t);
-    if (step.status != Advance::Status::advanced || (goes_on && !goes_on())) return step;
+  for (double end = t; time() < end - slack;) {
+    const Advance step = impl_->take(end);
+    if (step.status != Advance::Status::advanced) return step;
+    if (until) end = std::min(t, until());
   }
   return {{Advance::Status::advanced}};
 }
@@ -315,17 +322,17 @@ const std::vector<std::vector<double>>& Simulation::derivative(const std::string
   if (const auto known = impl_->derivatives.find(name); known != impl_->derivatives.end()) return known->second;
   if (!impl_->begun)
     throw InputError(Fault{{}, name, "derivatives without an advance", "a step taken before, with its start kept", ""});
-  const double end_time = time();
   const std::vector<std::vector<double>> outputs = impl_->all_values();
   Archive::Content end = save();
   const std::string failure = impl_->failure;
+  const std::vector<double> instants = impl_->instants;
   std::vector<std::vector<double>> derivative;
   std::string why;
   impl_->run.solve_to_round_off(true);
   try {
     double above = 0, below = 0;
-    const std::vector<std::vector<double>> upper = impl_->neighbour(input, 1, outputs, end_time, above);
-    derivative = impl_->neighbour(input, -1, outputs, end_time, below);
+    const std::vector<std::vector<double>> upper = impl_->neighbour(input, 1, outputs, above);
+    derivative = impl_->neighbour(input, -1, outputs, below);
     for (std::size_t i = 0; i < derivative.size(); ++i)
       for (std::size_t k = 0; k < derivative[i].size(); ++k)
         derivative[i][k] = (upper[i][k] - derivative[i][k]) / (above - below);
@@ -335,6 +342,7 @@ const std::vector<std::vector<double>>& Simulation::derivative(const std::string
   impl_->run.solve_to_round_off(false);
   impl_->return_to(std::move(end));
   impl_->failure = failure;
+  impl_->instants = instants;
   if (!why.empty()) throw std::runtime_error("no derivative with respect to " + name + ": " + why);
   return impl_->derivatives[name] = std::move(derivative);
 }

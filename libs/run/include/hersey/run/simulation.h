@@ -68,9 +68,9 @@ class Simulation {
   /// Takes the steps needed to reach `t`, within a millionth of a step.
   /// @pre finite
   /// @throws InputError if t is before time()
-  /// @param goes_on  called after each of them; false ends the advance there, in order, with time() before t. It may
-  ///        read outputs and must change nothing.
-  Advance advance_to(double t, const std::function<bool()>& goes_on = {});
+  /// @param until  called after each of them, for where the advance is to end from there on: t, or an earlier instant,
+  ///        at most time() to end at once. It may read outputs and must change nothing.
+  Advance advance_to(double t, const std::function<double()>& until = {});
 
   /// All inputs of this model.
   [[nodiscard]] const std::vector<InputInfo>& inputs() const;
