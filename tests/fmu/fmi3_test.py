@@ -30,7 +30,7 @@ class Fmi3OnlyTest(unittest.TestCase):
         model = os.path.join(cls.folder, "rig.yaml")
         with open(model, "w", encoding="utf-8") as file:
             file.write(fmu_test.RIG.replace("supply: {line: widest_gap, pressure: 1 bar}",
-                                            "features: {groove: {shape: axial_groove, angle: 90 deg, arc: 20 deg, "
+                                            "features: {groove: {shape: axial_groove, angle: 90 deg, arc: 40 deg, "
                                             "length: 9 mm, pressure: 1 bar}}"))
         fmu_test.run("export", model, "--fmu", os.path.join(cls.folder, "rig.fmu"), "--fmi", 3)
         cls.fmu = Fmu(os.path.join(cls.folder, "rig.fmu"), os.path.join(cls.folder, "unpacked"))
