@@ -44,8 +44,8 @@ constexpr double kLooksSolved = 10;
 /// three times the estimated error, so that a third of a percent of the latter remains.
 constexpr double kOfPrediction = 1e-3;
 
-/// Newton's corrections of a solution within its tolerance that leave round-off: each squares what is left of 1e-8.
-constexpr int kLastCorrections = 2;
+/// A correction by Newton's method of a solution within its tolerance squares what is left of 1e-8: round-off.
+constexpr int kLastCorrections = 1;
 
 /// The largest residual left in this way, relative to the terms balanced.
 constexpr double kLargestLeft = 1e-7;

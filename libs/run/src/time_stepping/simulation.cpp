@@ -147,10 +147,13 @@ struct Simulation::Impl {
     is_shown = false;
   }
 
-  void keep_start(Simulation& simulation) {
+  void keep_start() {
     derivatives.clear();
     instants.clear();
-    if (keeps_starts) begun = simulation.save();
+    if (!keeps_starts) return;
+    Archive archive;
+    persist_machine(archive);
+    begun = archive.content();
   }
 
   [[nodiscard]] std::vector<std::vector<double>> all_values() {
@@ -174,7 +177,9 @@ struct Simulation::Impl {
   // Outputs at the end of the last advance, had the input been a little larger (sign 1) or smaller.
   std::vector<std::vector<double>> neighbour(Inputs::Input& input, int sign, const std::vector<std::vector<double>>& at,
                                              double& value) {
-    return_to(*begun);
+    Archive start(*begun);
+    persist_machine(start);
+    failure.clear();
     const double there = Inputs::value_of(input, model.simulation, run.state().t);
     if (!std::isfinite(there)) throw std::runtime_error("it is a function of the motion until it is set");
     value = there + sign * kNeighbour * size_of(input, there, at);
@@ -189,12 +194,17 @@ struct Simulation::Impl {
   }
 
   void persist(Archive& archive) {
+    persist_outputs(archive);
+    persist_machine(archive);
+  }
+
+  // What later steps depend on.
+  void persist_machine(Archive& archive) {
     {
       const Archive::Group group(archive, "inputs");
       inputs.persist(archive);
       archive.io("jump", jump);
     }
-    persist_outputs(archive);
     if (archive.restores())
       run.restore(archive);
     else
@@ -240,7 +250,7 @@ double Simulation::start() const { return impl_->model.simulation.start; }
 double Simulation::end() const { return start() + impl_->model.simulation.duration; }
 
 Advance Simulation::step() {
-  impl_->keep_start(*this);
+  impl_->keep_start();
   return impl_->take(std::numeric_limits<double>::infinity());
 }
 
@@ -252,7 +262,7 @@ Advance Simulation::advance_to(double t, const std::function<double()>& until) {
                            fmt::format("an advance to t = {:.9g} s", t),
                            fmt::format("an instant not before {:.9g} s", time()),
                            ""});
-  if (time() < t - slack) impl_->keep_start(*this);
+  if (time() < t - slack) impl_->keep_start();
   for (double end = t; time() < end - slack;) {
     const Advance step = impl_->take(end);
     if (step.status != Advance::Status::advanced) return step;
