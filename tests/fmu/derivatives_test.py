@@ -163,6 +163,31 @@ class Fmi3Test(Cases, unittest.TestCase):
         self.assertIn("seeds", one.log[-1][1])
         one.free()
 
+    def test_neighbours_are_near_enough_for_a_jump_of_speed_against_a_film(self):
+        """A crank whose speed jumps moves its rod as by an impulse: the cavitated film answers along a bent line."""
+        root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+        with open(os.path.join(root, "examples", "slider_crank", "model.yaml"), encoding="utf-8") as file:
+            fmu = self.export("crank", file.read(), "simulation.tolerance=1e-11")
+        step = float(fmu.description.find("DefaultExperiment").get("stepSize"))
+        force, h = [f"bearings.big_end.force.{axis}" for axis in "xy"], 1e-3
+        one = fmu_test.Instance(fmu).initialise(stop=100 * step)
+        for first in (3, 40):
+            one.march(first - round(one.get("time") / step), step, round(one.get("time") / step))
+            before, speed = one.state(), one.get(SPEED)
+            self.assertEqual(one.step(first * step, step), OK, one.log)
+            found = np.array([row[0] for row in one.jacobian(force, [SPEED])])
+            ends = []
+            for value in (speed + h, speed - h):
+                one.restore(before)
+                self.assertEqual(one.set(SPEED, value), OK)
+                self.assertEqual(one.step(first * step, step), OK, one.log)
+                ends.append(np.array([one.get(name) for name in force]))
+            expected = (ends[0] - ends[1]) / (2 * h)
+            self.assertLessEqual(np.abs(found - expected).max(), 1e-6 * np.abs(expected).max())  # what is asked of derivatives
+            one.restore(before)
+            one.release(before)
+        one.free()
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,11 +32,17 @@ model::Model require_motion(model::Model model) {
                          "a motion over time to step through: analysis `dynamics` or `kinematics`", ""});
 }
 
-/// Share of an input, or of what stands for it, by which the neighbours of an advance differ from it. Central
-/// differences of them leave its square, 1e-8 of the response's curvature, and round-off over it; twice and half of it
-/// change nothing that counts, at a hundredth weak responses as that of a film's peak pressure to the speed lose
-/// digits.
+/// Share of an input, or of what stands for it, by which the neighbours of an advance differ from it at first. Central
+/// differences of them leave its square, 1e-8 of the response's curvature, and round-off over it; at a hundredth weak
+/// responses as that of a film's peak pressure to the speed lose digits.
 constexpr double kNeighbour = 1e-4;
+/// Bend of the response over that of a straight one with which neighbours are near enough: its square, the error, is
+/// 1e-6. A jump of a drive's speed against a film that cavitates needs them a thousand times nearer.
+constexpr double kStraight = 1e-3;
+constexpr double kSmallestShare = 1e-3;  // of neighbours that are moved nearer
+constexpr int kMostPairs = 4;            // of neighbours; bends of a film whose nodes switch remain at any distance
+constexpr double kResponds = 1e-9;       // of the largest output in its unit, by which one differs above round-off
+
 /// Share of the largest output in an input's unit that stands for an input of 0.
 constexpr double kOfTheMachine = 1e-2;
 
@@ -149,6 +156,7 @@ struct Simulation::Impl {
 
   void keep_start() {
     derivatives.clear();
+    middles.clear();
     instants.clear();
     if (!keeps_starts) return;
     Archive archive;
@@ -174,15 +182,66 @@ struct Simulation::Impl {
     return size > 0 ? size : 1;
   }
 
-  // Outputs at the end of the last advance, had the input been a little larger (sign 1) or smaller.
-  std::vector<std::vector<double>> neighbour(Inputs::Input& input, int sign, const std::vector<std::vector<double>>& at,
-                                             double& value) {
+  // How far the responses of outputs are from straight lines: |above - 2 there + below| over |above - below|, the ninth
+  // of ten of those that respond: by more than round-off of the largest output in their unit. Shares of a film that
+  // count nodes do so in jumps, and are few.
+  [[nodiscard]] double bend(const std::vector<std::vector<double>>& above,
+                            const std::vector<std::vector<double>>& there,
+                            const std::vector<std::vector<double>>& below) const {
+    const auto vector = [](const std::vector<double>& row) {
+      return Eigen::Map<const Eigen::VectorXd>(row.data(), static_cast<Eigen::Index>(row.size()));
+    };
+    std::map<std::string, double> sizes;
+    for (std::size_t i = 0; i < there.size(); ++i)
+      if (const double size = vector(there[i]).norm(); std::isfinite(size))
+        sizes[outputs[i].unit] = std::max(sizes[outputs[i].unit], size);
+    std::vector<double> bends;
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      const auto up = vector(above[i]), middle = vector(there[i]), down = vector(below[i]);
+      const double across = (up - down).norm();
+      if (across > kResponds * sizes[outputs[i].unit]) bends.push_back((up - 2 * middle + down).norm() / across);
+    }
+    if (bends.empty()) return 0;
+    const auto ninth = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() * 9 / 10);
+    std::nth_element(bends.begin(), ninth, bends.end());
+    return *ninth;
+  }
+
+  // Central differences of neighbours that are near enough.
+  std::vector<std::vector<double>> differences(Inputs::Input& input, const std::vector<std::vector<double>>& at) {
+    double share = kNeighbour;
+    if (!middles.contains(input.jump)) {
+      double value = 0;
+      middles[input.jump] = neighbour(input, 0, at, value);
+    }
+    std::vector<std::vector<double>> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int pair = 0; pair < kMostPairs; ++pair) {
+      double above = 0, below = 0;
+      const std::vector<std::vector<double>> upper = neighbour(input, share, at, above);
+      std::vector<std::vector<double>> lower = neighbour(input, -share, at, below);
+      const double bent = bend(upper, middles[input.jump], lower);
+      // Round-off and nodes that switch bend no less nearer by: the farther neighbours have more digits then.
+      if (pair > 0 && bent > least / 2) return best;
+      for (std::size_t i = 0; i < lower.size(); ++i)
+        for (std::size_t k = 0; k < lower[i].size(); ++k) lower[i][k] = (upper[i][k] - lower[i][k]) / (above - below);
+      best = std::move(lower);
+      least = bent;
+      if (bent <= kStraight) break;
+      share *= std::clamp(kStraight / (2 * bent), kSmallestShare, 0.5);
+    }
+    return best;
+  }
+
+  // Outputs at the end of the last advance, had the input been larger by a share of its size.
+  std::vector<std::vector<double>> neighbour(Inputs::Input& input, double share,
+                                             const std::vector<std::vector<double>>& at, double& value) {
     Archive start(*begun);
     persist_machine(start);
     failure.clear();
     const double there = Inputs::value_of(input, model.simulation, run.state().t);
     if (!std::isfinite(there)) throw std::runtime_error("it is a function of the motion until it is set");
-    value = there + sign * kNeighbour * size_of(input, there, at);
+    value = there + share * size_of(input, there, at);
     change(input, [&] { input.function->set(value); });
     const std::vector<double> ends = std::exchange(instants, {});
     for (const double t : ends)
@@ -225,8 +284,10 @@ struct Simulation::Impl {
   bool is_shown = false, is_finished = false;
   std::string failure;
   bool keeps_starts = false;
-  std::optional<Archive::Content> begun;                                // state at the start of the last advance
-  std::vector<double> instants;                                         // ends of the solver's steps since then
+  std::optional<Archive::Content> begun;  // state at the start of the last advance
+  std::map<Jump, std::vector<std::vector<double>>>
+      middles;                   // its outputs to round-off, by the jump that it begins with
+  std::vector<double> instants;  // ends of the solver's steps since then
   std::map<std::string, std::vector<std::vector<double>>> derivatives;  // of the last advance, by input
 };
 
@@ -342,12 +403,7 @@ const std::vector<std::vector<double>>& Simulation::derivative(const std::string
   std::string why;
   impl_->run.solve_to_round_off(true);
   try {
-    double above = 0, below = 0;
-    const std::vector<std::vector<double>> upper = impl_->neighbour(input, 1, outputs, above);
-    derivative = impl_->neighbour(input, -1, outputs, below);
-    for (std::size_t i = 0; i < derivative.size(); ++i)
-      for (std::size_t k = 0; k < derivative[i].size(); ++k)
-        derivative[i][k] = (upper[i][k] - derivative[i][k]) / (above - below);
+    derivative = impl_->differences(input, outputs);
   } catch (const std::exception& error) {
     why = error_text(error);
   }

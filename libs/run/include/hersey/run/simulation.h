@@ -96,7 +96,7 @@ class Simulation {
   /// Derivatives of all outputs at time() with respect to an input fixed over the last advance, in the order of
   /// outputs(): (integrator.44). Inputs that were functions of time keep their value at its start in place of them. The
   /// advance begins with a jump of this input, also where it was not changed. Nothing that follows changes by a bit.
-  /// @cost about three times that of the advance for the first time, nothing for a second one
+  /// @cost about four times that of the advance for the first time, nothing for a second one
   /// @pre  keep_starts(true) before an advance
   /// @throws InputError if there is no such input, it cannot be set, or no advance has begun since the last restore()
   /// @throws std::runtime_error where the neighbours of the advance have no answer
