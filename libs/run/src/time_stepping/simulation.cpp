@@ -39,9 +39,9 @@ constexpr double kNeighbour = 1e-4;
 /// Bend of the response over that of a straight one with which neighbours are near enough: its square, the error, is
 /// 1e-6. A jump of a drive's speed against a film that cavitates needs them a thousand times nearer.
 constexpr double kStraight = 1e-3;
-constexpr double kSmallestShare = 1e-3;  // of neighbours that are moved nearer
-constexpr int kMostPairs = 4;            // of neighbours; bends of a film whose nodes switch remain at any distance
-constexpr double kResponds = 1e-9;       // of the largest output in its unit, by which one differs above round-off
+constexpr double kSmallestCut = 1e-3;  // of neighbours that are moved nearer
+constexpr int kMostPairs = 4;          // of neighbours; bends of a film whose nodes switch remain at any distance
+constexpr double kResponds = 1e-9;     // of the largest output in its unit, by which one differs above round-off
 
 /// Share of the largest output in an input's unit that stands for an input of 0.
 constexpr double kOfTheMachine = 1e-2;
@@ -228,7 +228,7 @@ struct Simulation::Impl {
       best = std::move(lower);
       least = bent;
       if (bent <= kStraight) break;
-      share *= std::clamp(kStraight / (2 * bent), kSmallestShare, 0.5);
+      share *= std::clamp(kStraight / (2 * bent), kSmallestCut, 0.5);
     }
     return best;
   }
