@@ -35,6 +35,8 @@ const std::map<std::string, Exponents>& known_units() {
   return units;
 }
 
+}  // namespace
+
 std::string escaped(const std::string& text) {
   std::string xml;
   for (const char c : text) {
@@ -54,6 +56,8 @@ std::string escaped(const std::string& text) {
   }
   return xml;
 }
+
+namespace {
 
 // Pure numbers have no unit, nor have columns that measure several things.
 bool is_named(const std::string& unit) { return !unit.empty() && unit != "1" && unit != "SI"; }
@@ -117,8 +121,11 @@ std::string variables_3(const Variables& variables) {
       "variability=\"continuous\" unit=\"s\"/>\n";
   for (std::size_t i = 0; i < variables.list.size(); ++i) {
     const Variable& one = variables.list[i];
-    xml += fmt::format("    <Float64 name=\"{}\" valueReference=\"{}\" description=\"{}\" {}{}/>\n", escaped(one.name),
-                       i + 1, escaped(one.text), role_of(one), values_of(one));
+    const bool is_output = one.kind == Variable::Kind::output;
+    xml += fmt::format("    <Float64 name=\"{}\" valueReference=\"{}\" description=\"{}\" {}{}{}", escaped(one.name),
+                       i + 1, escaped(one.text), role_of(one), is_output ? " intermediateUpdate=\"true\"" : "",
+                       values_of(one));
+    xml += one.size > 0 ? fmt::format("><Dimension start=\"{}\"/></Float64>\n", one.size) : "/>\n";
   }
   return xml;
 }
@@ -183,8 +190,8 @@ std::string description_xml(const model::Model& model, const Variables& variable
                "maxOutputDerivativeOrder=\"0\" canRunAsynchronuously=\"false\" "
                "canBeInstantiatedOnlyOncePerProcess=\"false\" canNotUseMemoryManagementFunctions=\"true\" "
                "canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" "
-               "providesDirectionalDerivative=\"false\"/>\n",
-               kModelIdentifier) +
+               "providesDirectionalDerivative=\"{}\"/>\n",
+               kModelIdentifier, run::why_no_derivatives(model).empty()) +
            unit_definitions(variables) + kLogCategories + experiment + "  <ModelVariables>\n" + variables_2(variables) +
            "  </ModelVariables>\n  <ModelStructure>\n    <Outputs>\n" +
            unknowns(variables, "      <Unknown index=\"{1}\" dependencies=\"\"/>\n") +
@@ -194,11 +201,13 @@ std::string description_xml(const model::Model& model, const Variables& variable
          fmt::format("<fmiModelDescription fmiVersion=\"3.0\" instantiationToken=\"{}\" {}>\n", variables.token,
                      about) +
          fmt::format(
-             "  <CoSimulation modelIdentifier=\"{}\" needsExecutionTool=\"false\" "
+             "  <CoSimulation modelIdentifier=\"{0}\" needsExecutionTool=\"false\" "
              "canBeInstantiatedOnlyOncePerProcess=\"false\" canGetAndSetFMUState=\"true\" "
-             "canSerializeFMUState=\"true\" canHandleVariableCommunicationStepSize=\"true\" "
-             "canReturnEarlyAfterIntermediateUpdate=\"false\" hasEventMode=\"false\"/>\n",
-             kModelIdentifier) +
+             "canSerializeFMUState=\"true\" providesDirectionalDerivatives=\"{1}\" "
+             "providesAdjointDerivatives=\"{1}\" canHandleVariableCommunicationStepSize=\"true\" "
+             "providesIntermediateUpdate=\"true\" mightReturnEarlyFromDoStep=\"true\" "
+             "canReturnEarlyAfterIntermediateUpdate=\"true\" hasEventMode=\"false\"/>\n",
+             kModelIdentifier, run::why_no_derivatives(model).empty()) +
          unit_definitions(variables) + kLogCategories + experiment + "  <ModelVariables>\n" + variables_3(variables) +
          "  </ModelVariables>\n  <ModelStructure>\n" +
          unknowns(variables, "    <Output valueReference=\"{0}\" dependencies=\"\"/>\n") +

@@ -81,7 +81,7 @@ HERSEY_EXPORT fmi2Status fmi2Reset(fmi2Component component) { return ask(compone
 
 HERSEY_EXPORT fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference* references, std::size_t count,
                                      fmi2Real* values) {
-  return ask(component, &Instance::get, references, count, values);
+  return ask(component, &Instance::get, references, count, values, count);
 }
 HERSEY_EXPORT fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference* references, std::size_t count,
                                      const fmi2Real* values) {
@@ -123,10 +123,12 @@ HERSEY_EXPORT fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const 
   return ask(component, &Instance::deserialise, reinterpret_cast<const unsigned char*>(bytes), size, state);
 }
 
-HERSEY_EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference*, std::size_t,
-                                                      const fmi2ValueReference*, std::size_t, const fmi2Real*,
-                                                      fmi2Real*) {
-  return unsupported(component, "directional derivatives");
+HERSEY_EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference* unknowns,
+                                                      std::size_t unknown_count, const fmi2ValueReference* knowns,
+                                                      std::size_t known_count, const fmi2Real* seed,
+                                                      fmi2Real* derivative) {
+  return ask(component, &Instance::directional_derivative, unknowns, unknown_count, knowns, known_count, seed,
+             known_count, derivative, unknown_count);
 }
 HERSEY_EXPORT fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueReference*,
                                                      std::size_t count, const fmi2Integer*, const fmi2Real*) {

@@ -33,9 +33,20 @@ fmi3Instance refuse(fmi3InstanceEnvironment environment, fmi3LogMessageCallback 
   return nullptr;
 }
 
+// Inputs are set between communication steps only. Outputs can be read behind every step of the solver.
+Instance::IntermediateUpdate intermediate_update_of(fmi3InstanceEnvironment environment,
+                                                    fmi3IntermediateUpdateCallback update, bool can_return_early) {
+  return [environment, update, can_return_early](double time) -> std::optional<double> {
+    fmi3Boolean is_requested = false;
+    fmi3Float64 early_time = time;
+    update(environment, time, false, true, true, can_return_early, &is_requested, &early_time);
+    return can_return_early && is_requested ? std::optional(early_time) : std::nullopt;
+  };
+}
+
 CallStatus require_one_value_each(Instance& instance, std::size_t count, std::size_t value_count) {
   return count == value_count ? CallStatus::ok
-                              : instance.error("every variable has one value: as many of both are due");
+                              : instance.error("every variable that is set has one value: as many of both are due");
 }
 
 }  // namespace
@@ -57,17 +68,21 @@ HERSEY_EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String, fmi3String, 
 
 HERSEY_EXPORT fmi3Instance fmi3InstantiateCoSimulation(
     fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean /*visible*/, fmi3Boolean logging,
-    fmi3Boolean /*event_mode_used*/, fmi3Boolean /*early_return_allowed*/,
-    const fmi3ValueReference* /*intermediate_variables*/, std::size_t /*count*/, fmi3InstanceEnvironment environment,
-    fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback /*intermediate_update*/) {
+    fmi3Boolean /*event_mode_used*/, fmi3Boolean early_return_allowed, const fmi3ValueReference* intermediate_variables,
+    std::size_t count, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+    fmi3IntermediateUpdateCallback intermediate_update) {
   const Instance::Log report = log_of(environment, log);
   return hersey::fmu::instantiate(report, [&] {
     // A path; FMI 2, and importers that have grown up with it, name a URI.
     const std::string folder = resources != nullptr ? resources : "";
-    return std::make_unique<Instance>(
+    auto made = std::make_unique<Instance>(
         name, token, "an instantiation token",
         folder.starts_with("file:") ? hersey::fmu::path_of_uri(folder) : std::filesystem::path(folder), logging,
         report);
+    if (intermediate_update != nullptr)
+      made->update_intermediately(intermediate_update_of(environment, intermediate_update, early_return_allowed),
+                                  intermediate_variables, intermediate_variables == nullptr ? 0 : count);
+    return made;
   });
 }
 
@@ -96,10 +111,7 @@ HERSEY_EXPORT fmi3Status fmi3Reset(fmi3Instance instance) { return ask(instance,
 
 HERSEY_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference* references, std::size_t count,
                                         fmi3Float64* values, std::size_t value_count) {
-  return ask(instance, [&](Instance& one) {
-    const CallStatus counted = require_one_value_each(one, count, value_count);
-    return counted == CallStatus::ok ? one.get(references, count, values) : counted;
-  });
+  return ask(instance, &Instance::get, references, count, values, value_count);
 }
 HERSEY_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference* references, std::size_t count,
                                         const fmi3Float64* values, std::size_t value_count) {
@@ -174,7 +186,7 @@ HERSEY_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi
     const CallStatus outcome = one.step(time, length);
     if (needs_events != nullptr) *needs_events = false;
     if (ends != nullptr) *ends = one.has_ended();
-    if (is_early != nullptr) *is_early = false;
+    if (is_early != nullptr) *is_early = one.has_returned_early();
     if (last_successful_time != nullptr) *last_successful_time = one.last_successful_time();
     // A normal end is not a failure: the importer is asked to terminate.
     return one.has_ended() ? CallStatus::ok : outcome;
@@ -197,15 +209,21 @@ HERSEY_EXPORT fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3
                                                      std::size_t) {
   return unsupported(instance, "dependencies of variables are");
 }
-HERSEY_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference*, std::size_t,
-                                                      const fmi3ValueReference*, std::size_t, const fmi3Float64*,
-                                                      std::size_t, fmi3Float64*, std::size_t) {
-  return unsupported(instance, "directional derivatives are");
+HERSEY_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference* unknowns,
+                                                      std::size_t unknown_count, const fmi3ValueReference* knowns,
+                                                      std::size_t known_count, const fmi3Float64* seed,
+                                                      std::size_t seed_count, fmi3Float64* derivative,
+                                                      std::size_t derivative_count) {
+  return ask(instance, &Instance::directional_derivative, unknowns, unknown_count, knowns, known_count, seed,
+             seed_count, derivative, derivative_count);
 }
-HERSEY_EXPORT fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference*, std::size_t,
-                                                  const fmi3ValueReference*, std::size_t, const fmi3Float64*,
-                                                  std::size_t, fmi3Float64*, std::size_t) {
-  return unsupported(instance, "adjoint derivatives are");
+HERSEY_EXPORT fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference* unknowns,
+                                                  std::size_t unknown_count, const fmi3ValueReference* knowns,
+                                                  std::size_t known_count, const fmi3Float64* seed,
+                                                  std::size_t seed_count, fmi3Float64* derivative,
+                                                  std::size_t derivative_count) {
+  return ask(instance, &Instance::adjoint_derivative, unknowns, unknown_count, knowns, known_count, seed, seed_count,
+             derivative, derivative_count);
 }
 HERSEY_EXPORT fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference*, std::size_t,
                                                   const std::int32_t*, fmi3Float64*, std::size_t) {

@@ -91,6 +91,8 @@ void Instance::build() {
   time_ = plan.start;
   simulation_.reset();
   simulation_ = std::make_unique<run::Simulation>(session.simulation());
+  simulation_->keep_starts(run::why_no_derivatives(simulation_->model()).empty());
+  has_stepped_ = false;
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < simulation_->outputs().size(); ++i) index_of[simulation_->outputs()[i].name] = i;
   outputs_.assign(variables_.list.size(), 0);
@@ -129,27 +131,50 @@ const Variable& Instance::variable(unsigned reference) const {
   return variables_.list[reference - 1];
 }
 
-double Instance::get_one(unsigned reference) const {
-  if (reference == 0) return time_;
+void Instance::get_one(unsigned reference, double* values) const {
+  if (reference == 0) {
+    *values = time_;
+    return;
+  }
   const Variable& one = variable(reference);
   const std::size_t i = reference - 1;
-  if (one.kind == Variable::Kind::parameter || is_set_[i]) return values_[i];
-  if (one.kind == Variable::Kind::input) {
+  if (one.kind == Variable::Kind::parameter || is_set_[i]) {
+    *values = values_[i];
+  } else if (one.kind == Variable::Kind::input) {
     const double now = simulation_ ? simulation_->input(one.source) : one.start;
-    return std::isfinite(now) ? now : one.start;
+    *values = std::isfinite(now) ? now : one.start;
+  } else if (!simulation_) {
+    throw std::runtime_error(one.name + " is known from the initialisation on");
+  } else if (const std::vector<double>& row = simulation_->output(outputs_[i]); one.size > 0) {
+    std::copy_n(row.begin(), one.size, values);
+  } else {
+    *values = row.at(one.column);
   }
-  if (!simulation_) throw std::runtime_error(one.name + " is known from the initialisation on");
-  return simulation_->output(outputs_[i]).at(one.column);
 }
 
-CallStatus Instance::get(const unsigned* references, std::size_t count, double* values) {
+std::size_t Instance::count_values(const unsigned* references, std::size_t count) const {
+  std::size_t values = 0;
+  for (std::size_t k = 0; k < count; ++k) values += references[k] == 0 ? 1 : size_of(variable(references[k]));
+  return values;
+}
+
+CallStatus Instance::get(const unsigned* references, std::size_t count, double* values, std::size_t value_count) {
   if (count > 0 && (references == nullptr || values == nullptr)) return error("no room for values");
   return guarded([&] {
     // Parameters set in the initialisation make another machine.
     if (phase_ == Phase::initialisation && !simulation_) build();
-    for (std::size_t k = 0; k < count; ++k) values[k] = get_one(references[k]);
+    if (const std::size_t due = count_values(references, count); due != value_count)
+      return error(fmt::format("room for {} values of variables that have {}", value_count, due));
+    for (std::size_t k = 0; k < count; ++k) {
+      get_one(references[k], values);
+      values += count_values(references + k, 1);
+    }
     return CallStatus::ok;
   });
+}
+
+CallStatus Instance::refuse_in_update() {
+  return is_in_update_ ? error("in an intermediate update values are read, and nothing else") : CallStatus::ok;
 }
 
 void Instance::set_one(unsigned reference, double value) {
@@ -173,6 +198,7 @@ void Instance::set_one(unsigned reference, double value) {
 }
 
 CallStatus Instance::set(const unsigned* references, std::size_t count, const double* values) {
+  if (const CallStatus refused = refuse_in_update(); refused != CallStatus::ok) return refused;
   if (count > 0 && (references == nullptr || values == nullptr)) return error("no values are given");
   if (phase_ == Phase::terminated || phase_ == Phase::failed)
     return error("nothing can be set any more: reset, or restore a state");
@@ -182,23 +208,38 @@ CallStatus Instance::set(const unsigned* references, std::size_t count, const do
   });
 }
 
+// Where a communication step is to end from here on: `end`, or what the importer asks for in an intermediate update.
+double Instance::after_solver_step(double end) {
+  if (!update_) return end;
+  const double before = std::exchange(time_, simulation_->time());
+  is_in_update_ = true;
+  const std::optional<double> asked = update_(time_);
+  is_in_update_ = false;
+  time_ = before;
+  return asked && *asked < end ? std::max(*asked, simulation_->time()) : end;
+}
+
 CallStatus Instance::step(double time, double length) {
+  if (const CallStatus refused = refuse_in_update(); refused != CallStatus::ok) return refused;
   last_successful_time_ = time_;
-  has_ended_ = false;
+  has_ended_ = has_returned_early_ = false;
   if (phase_ != Phase::stepping) return error("steps are taken behind the initialisation, and not behind a failure");
   if (!std::isfinite(length) || length < 0) return error(fmt::format("a communication step of {} s", length));
   if (!(std::abs(time - time_) <= kSameTime * std::max({std::abs(time), std::abs(time_), length})))
     return error(fmt::format("a step from t = {:.12g} s, though the last one ended at t = {:.12g} s", time, time_));
   return guarded([&] {
-    const run::Advance advance = simulation_->advance_to(time + length);
+    double end = time + length;
+    const run::Advance advance = simulation_->advance_to(end, [&] { return end = after_solver_step(end); });
+    has_stepped_ = true;
     if (advance.status == run::Advance::Status::advanced) {
-      last_successful_time_ = time_ = time + length;
+      has_returned_early_ = end < time + length;
+      last_successful_time_ = time_ = has_returned_early_ ? simulation_->time() : end;
       say(CallStatus::ok, "logAll", fmt::format("t = {:.9g} s", time_));
       return CallStatus::ok;
     }
     last_successful_time_ = time_ = simulation_->time();
     if (advance.status == run::Advance::Status::ended) {
-      has_ended_ = true;
+      has_ended_ = has_returned_early_ = true;
       say(CallStatus::discard, "logStatusDiscard", advance.message);
       return CallStatus::discard;
     }
@@ -208,12 +249,14 @@ CallStatus Instance::step(double time, double length) {
 }
 
 CallStatus Instance::terminate() {
+  if (const CallStatus refused = refuse_in_update(); refused != CallStatus::ok) return refused;
   if (phase_ != Phase::stepping && phase_ != Phase::failed) return error("there is nothing to terminate");
   phase_ = Phase::terminated;
   return CallStatus::ok;
 }
 
 CallStatus Instance::reset() {
+  if (const CallStatus refused = refuse_in_update(); refused != CallStatus::ok) return refused;
   simulation_.reset();
   phase_ = Phase::instantiated;
   values_.clear();
@@ -222,7 +265,7 @@ CallStatus Instance::reset() {
   is_set_up_ = false;
   stop_time_.reset();
   start_time_ = time_ = last_successful_time_ = 0;
-  has_ended_ = false;
+  has_ended_ = has_returned_early_ = has_stepped_ = false;
   return CallStatus::ok;
 }
 
@@ -264,6 +307,7 @@ void Instance::take(const InstanceState& state) {
   } else {
     if (!is_same_machine) build();
     simulation_->restore(*state.simulation);
+    has_stepped_ = simulation_->time() > simulation_->start();
   }
   time_ = state.time;
   phase_ = state.phase;

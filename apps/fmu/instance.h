@@ -46,6 +46,9 @@ struct KeptState {
 /// reported through `log`.
 class Instance {
  public:
+  /// Called in the course of a communication step behind each step of the solver, with its time [s]. Returns the
+  /// instant at which the step is to end early; none: it goes on to its end.
+  using IntermediateUpdate = std::function<std::optional<double>(double time)>;
   using Log = std::function<void(CallStatus, const char* category, const std::string& message)>;
 
   /// Reads all resources of the FMU: its folder is needed later only if parameters change a model that names files.
@@ -60,12 +63,27 @@ class Instance {
   [[nodiscard]] CallStatus set_up(double start_time, std::optional<double> stop_time);
   [[nodiscard]] CallStatus enter_initialisation();
   [[nodiscard]] CallStatus exit_initialisation();
-  [[nodiscard]] CallStatus get(const unsigned* references, std::size_t count, double* values);
+  /// @param value_count  arrays have more values than one
+  [[nodiscard]] CallStatus get(const unsigned* references, std::size_t count, double* values, std::size_t value_count);
   [[nodiscard]] CallStatus set(const unsigned* references, std::size_t count, const double* values);
+  /// Derivatives of outputs at the end of the last communication step with respect to inputs that act over it, times a
+  /// direction of the inputs. In the initialisation and before the first step they are 0: no input has acted yet.
+  [[nodiscard]] CallStatus directional_derivative(const unsigned* unknowns, std::size_t unknown_count,
+                                                  const unsigned* knowns, std::size_t known_count, const double* seed,
+                                                  std::size_t seed_count, double* derivative,
+                                                  std::size_t derivative_count);
+  /// The same derivatives, transposed, times weights of the outputs.
+  [[nodiscard]] CallStatus adjoint_derivative(const unsigned* unknowns, std::size_t unknown_count,
+                                              const unsigned* knowns, std::size_t known_count, const double* seed,
+                                              std::size_t seed_count, double* derivative, std::size_t derivative_count);
+  /// @throws std::runtime_error if a variable of `references` is no output
+  void update_intermediately(IntermediateUpdate update, const unsigned* references, std::size_t count);
   /// Advances from `time` by `length`.
   [[nodiscard]] CallStatus step(double time, double length);
   /// Time at the end of the last step [s]; 0 before the first.
   [[nodiscard]] double last_successful_time() const { return last_successful_time_; }
+  /// True if the last step ended before its length, by the importer's wish or at the end of the simulation.
+  [[nodiscard]] bool has_returned_early() const { return has_returned_early_; }
   /// True if the last step met the end of the simulation.
   [[nodiscard]] bool has_ended() const { return has_ended_; }
   [[nodiscard]] CallStatus terminate();
@@ -92,8 +110,15 @@ class Instance {
   void take(const InstanceState& state);
   [[nodiscard]] CallStatus guarded(const std::function<CallStatus()>& action);
   void build();
+  [[nodiscard]] double after_solver_step(double end);
+  [[nodiscard]] const std::vector<std::vector<double>>* derivatives_by(unsigned known);
+  [[nodiscard]] CallStatus derivative(bool is_adjoint, const std::vector<unsigned>& unknowns,
+                                      const std::vector<unsigned>& knowns, const double* seed, std::size_t seed_count,
+                                      double* found, std::size_t found_count);
+  [[nodiscard]] CallStatus refuse_in_update();
   void set_one(unsigned reference, double value);
-  [[nodiscard]] double get_one(unsigned reference) const;
+  void get_one(unsigned reference, double* values) const;
+  [[nodiscard]] std::size_t count_values(const unsigned* references, std::size_t count) const;
   [[nodiscard]] const Variable& variable(unsigned reference) const;
   void say(CallStatus outcome, const char* category, const std::string& message) const;
 
@@ -105,7 +130,10 @@ class Instance {
   std::vector<double> values_;
   std::vector<bool> is_set_;
   double start_time_ = 0, time_ = 0, last_successful_time_ = 0;
-  bool has_ended_ = false;
+  bool has_ended_ = false, has_returned_early_ = false;
+  bool has_stepped_ = false;  // since the initialisation
+  IntermediateUpdate update_;
+  bool is_in_update_ = false;
   bool is_set_up_ = false;
   std::optional<double> stop_time_;
   std::unique_ptr<run::Simulation> simulation_;

@@ -59,6 +59,7 @@ void keep(InstanceState state, void** kept) {
 }  // namespace
 
 CallStatus Instance::save(void** kept) {
+  if (const CallStatus refused = refuse_in_update(); refused != CallStatus::ok) return refused;
   if (kept == nullptr) return error("no room for a state");
   return guarded([&] {
     keep(state_now(), kept);
@@ -67,6 +68,7 @@ CallStatus Instance::save(void** kept) {
 }
 
 CallStatus Instance::restore(void* kept) {
+  if (const CallStatus refused = refuse_in_update(); refused != CallStatus::ok) return refused;
   if (kept == nullptr) return error("no state to restore");
   return guarded([&] {
     take(static_cast<KeptState*>(kept)->state);

@@ -16,6 +16,7 @@
 #include "hersey/session/session.h"
 #include "licence.h"
 #include "package.h"
+#include "terminals.h"
 #include "variables.h"
 
 namespace hersey::fmu {
@@ -90,7 +91,7 @@ int export_fmu(const Arguments& arguments) {
   }
   run::Simulation simulation = session.simulation();
   Variables variables;
-  variables.list = variables_of(session.text(), simulation);
+  variables.list = variables_of(session.text(), simulation, arguments.version);
   const PackedModel packed = pack(model, session.text(), arguments.overrides);
   variables.overrides = packed.overrides;
   variables.token = token_of(description_xml(model, variables, arguments.version), packed, model);
@@ -100,13 +101,17 @@ int export_fmu(const Arguments& arguments) {
     files.insert(files.end(), more.begin(), more.end());
   std::filesystem::path unfinished = target;
   unfinished += ".unfinished";
-  write_zip(unfinished,
-            {{"modelDescription.xml", description_xml(model, variables, arguments.version)},
-             {"resources/variables.json", to_json(variables)},
-             {"resources/model.yaml", packed.text},
-             {"documentation/index.html", documentation_html(model, variables, arguments.version)},
-             {"documentation/licenses/license.txt", kLicence}},
-            files);
+  std::vector<std::pair<std::string, std::string>> texts{
+      {"modelDescription.xml", description_xml(model, variables, arguments.version)},
+      {"resources/variables.json", to_json(variables)},
+      {"resources/model.yaml", packed.text},
+      {"documentation/index.html", documentation_html(model, variables, arguments.version)},
+      {"documentation/licenses/license.txt", kLicence}};
+  if (arguments.version == 3) {
+    texts.emplace_back("terminalsAndIcons/terminalsAndIcons.xml", terminals_xml(model, variables));
+    texts.emplace_back("terminalsAndIcons/icon.png", icon());
+  }
+  write_zip(unfinished, texts, files);
   std::filesystem::rename(unfinished, target);
   const auto count = [&](Variable::Kind kind) {
     return std::count_if(variables.list.begin(), variables.list.end(),

@@ -133,6 +133,21 @@ void add_output(const run::OutputInfo& output, std::vector<Variable>& list) {
   }
 }
 
+bool is_numbered(const run::OutputInfo& output) {
+  return !output.components.empty() && std::ranges::all_of(output.components, [](const std::string& component) {
+    return !component.empty() && std::isdigit(static_cast<unsigned char>(component[0])) != 0;
+  });
+}
+
+Variable array_of(const run::OutputInfo& output) {
+  return {.kind = Variable::Kind::output,
+          .name = structured(output.name),
+          .unit = output.unit,
+          .text = output.text,
+          .source = output.name,
+          .size = output.components.size()};
+}
+
 }  // namespace
 
 std::vector<Variable> parameters_of(const std::string& text, const std::vector<run::InputInfo>& inputs) {
@@ -141,7 +156,7 @@ std::vector<Variable> parameters_of(const std::string& text, const std::vector<r
   return collector.take();
 }
 
-std::vector<Variable> variables_of(const std::string& text, run::Simulation& simulation) {
+std::vector<Variable> variables_of(const std::string& text, run::Simulation& simulation, int version) {
   std::vector<Variable> all = parameters_of(text, simulation.inputs());
   for (const run::InputInfo& input : simulation.inputs())
     all.push_back({.kind = Variable::Kind::input,
@@ -152,6 +167,9 @@ std::vector<Variable> variables_of(const std::string& text, run::Simulation& sim
                    .start = input.start});
   for (const run::OutputInfo& output : simulation.outputs())
     if (output.name != "time") add_output(output, all);
+  if (version == 3)
+    for (const run::OutputInfo& output : simulation.outputs())
+      if (is_numbered(output)) all.push_back(array_of(output));
   // What is read keeps its name; what is given beside it says so.
   std::set<std::string> outputs;
   for (const Variable& variable : all)
@@ -170,6 +188,7 @@ std::string to_json(const Variables& variables) {
                {"source", variable.source},
                {"column", variable.column}};
     if (std::isfinite(variable.start)) entry["start"] = variable.start;
+    if (variable.size > 0) entry["size"] = variable.size;
     list.push_back(std::move(entry));
   }
   return Json{{"token", variables.token}, {"overrides", variables.overrides}, {"variables", std::move(list)}}.dump(1);
@@ -187,6 +206,7 @@ Variables from_json(const std::string& text) {
                               .text = "",
                               .source = entry.at("source").get<std::string>(),
                               .column = entry.at("column").get<std::size_t>(),
+                              .size = entry.value("size", std::size_t{0}),
                               .start = entry.value("start", 0.0)});
   return variables;
 }

@@ -18,6 +18,7 @@ struct Variable {
   std::string text;        ///< description
   std::string source;      ///< key path of the model file, name of an input or of an output
   std::size_t column = 0;  ///< of an output's row
+  std::size_t size = 0;    ///< of an array, which is the whole row; 0: one number
   double start = 0;        ///< of a parameter or input [SI]
 };
 
@@ -33,8 +34,12 @@ struct Variables {
 /// @param text  of the model file, as given
 [[nodiscard]] std::vector<Variable> parameters_of(const std::string& text, const std::vector<run::InputInfo>& inputs);
 
-/// Parameters, inputs and outputs, each name once.
-[[nodiscard]] std::vector<Variable> variables_of(const std::string& text, run::Simulation& simulation);
+/// Parameters, inputs and outputs, each name once. In FMI 3 rows of numbered columns are arrays, too: a further
+/// variable behind all others, so that names and value references of the others are the same in both versions.
+[[nodiscard]] std::vector<Variable> variables_of(const std::string& text, run::Simulation& simulation, int version);
+
+/// Values that a variable has.
+[[nodiscard]] inline std::size_t size_of(const Variable& variable) { return variable.size == 0 ? 1 : variable.size; }
 
 /// As the FMU keeps them in resources/variables.json.
 [[nodiscard]] std::string to_json(const Variables& variables);

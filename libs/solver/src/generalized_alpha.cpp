@@ -44,6 +44,9 @@ constexpr double kLooksSolved = 10;
 /// three times the estimated error, so that a third of a percent of the latter remains.
 constexpr double kOfPrediction = 1e-3;
 
+/// A correction by Newton's method of a solution within its tolerance squares what is left of 1e-8: round-off.
+constexpr int kLastCorrections = 1;
+
 /// The largest residual left in this way, relative to the terms balanced.
 constexpr double kLargestLeft = 1e-7;
 
@@ -382,10 +385,16 @@ StepSummary GeneralizedAlpha::attempt(Equations& equations, State& state, double
   const bool needs_tangent = equations.needs_tangent();
   w.enough = is_chosen ? std::min(kOfPrediction * w.worst_row, kLargestLeft / options_.rtol) : 0;
   bool keeps_factors = false;
+  int corrections = has_last_corrections_ ? kLastCorrections : 0;
   double last = std::numeric_limits<double>::infinity();  // the residual one iteration ago
   for (;;) {
     const bool may_go_on = summary.iterations < options_.max_iterations;
-    if (w.is_solved(keeps_factors && may_go_on ? kWithOldFactors : 1)) {
+    const bool is_solved = w.is_solved(keeps_factors && may_go_on ? kWithOldFactors : 1);
+    const bool is_corrected = is_solved && may_go_on && corrections > 0;
+    if (is_corrected) {
+      --corrections;
+      keeps_factors = false;
+    } else if (is_solved) {
       if (equations.is_step_consistent()) break;
       if (!w.assemble(equations, options_)) return fail(StepStatus::domain_error, w.why_outside);
       keeps_factors = false;
@@ -401,7 +410,7 @@ StepSummary GeneralizedAlpha::attempt(Equations& equations, State& state, double
     const double before = w.worst();
     if (!(keeps_factors || w.factorise(equations.nv())) || !w.solve_increment(equations.nv()))
       return fail(StepStatus::singular, "the equations are singular here; worst equation: " + w.worst_name(equations));
-    const bool with_tangent = !may_keep_factors && (needs_tangent || !looks_solved(last, before));
+    const bool with_tangent = !may_keep_factors && (needs_tangent || is_corrected || !looks_solved(last, before));
     last = before;
     if (!w.move(equations, state, options_, with_tangent)) return fail(StepStatus::domain_error, w.why_outside);
     keeps_factors = may_keep_factors && w.worst() < kFastEnough * before;

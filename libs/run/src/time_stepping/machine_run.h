@@ -54,6 +54,8 @@ class MachineRun {
   /// whole revolutions that they have made.
   void move_to(const Motion& motion);
 
+  /// True: steps are solved down to round-off.
+  void solve_to_round_off(bool is_on) { stepper_.solve_to_round_off(is_on); }
   /// Distance below which two instants count as one [s].
   [[nodiscard]] double slack() const { return stepper_.slack(); }
 

@@ -52,6 +52,9 @@ class TimeStepper {
   /// @param moves  prescribed velocities have jumped too: the machine's velocities follow, as by an impulse
   void take_jump(solver::State& state, bool moves);
 
+  /// True: steps are solved beyond their tolerance, down to round-off; solver::Integrator::solve_to_round_off.
+  void solve_to_round_off(bool is_on) { integrator_->solve_to_round_off(is_on); }
+
   [[nodiscard]] const solver::Integrator& integrator() const { return *integrator_; }
   /// Length of the last step; 0 before the first [s].
   [[nodiscard]] double last_dt() const { return last_dt_; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -25,6 +26,10 @@ enum class AdvanceStatus {
 struct [[nodiscard]] Advance : OutcomeOf<AdvanceStatus, AdvanceStatus::advanced, AdvanceStatus::ended> {
   using Status = AdvanceStatus;
 };
+
+/// Why outputs of a model have no derivatives with respect to its inputs: steps chosen by their error, or methods
+/// without an exact tangent. Empty where they have.
+[[nodiscard]] std::string why_no_derivatives(const model::Model& model);
 
 /// One machine, stepped from outside: for control, co-simulation, and programs that decide during the run.
 ///
@@ -63,7 +68,9 @@ class Simulation {
   /// Takes the steps needed to reach `t`, within a millionth of a step.
   /// @pre finite
   /// @throws InputError if t is before time()
-  Advance advance_to(double t);
+  /// @param until  called after each of them, for where the advance is to end from there on: t, or an earlier instant,
+  ///        at most time() to end at once. It may read outputs and must change nothing.
+  Advance advance_to(double t, const std::function<double()>& until = {});
 
   /// All inputs of this model.
   [[nodiscard]] const std::vector<InputInfo>& inputs() const;
@@ -82,6 +89,19 @@ class Simulation {
   [[nodiscard]] const std::vector<double>& output(const std::string& name) const;
   /// Value of an output by its index in outputs().
   [[nodiscard]] const std::vector<double>& output(std::size_t index) const;
+
+  /// True: each advance keeps the state it begins from, which derivative() needs. Costs a save() for each.
+  /// @throws InputError with why_no_derivatives() where it says anything
+  void keep_starts(bool is_on);
+  /// Derivatives of all outputs at time() with respect to an input fixed over the last advance, in the order of
+  /// outputs(): (integrator.46). Inputs that were functions of time keep their value at its start in place of them. The
+  /// advance begins with a jump of this input, also where it was not changed. Nothing that follows changes by a bit.
+  /// @cost about four times that of the advance for the first time, nothing for a second one
+  /// @pre  keep_starts(true) before an advance
+  /// @throws InputError if there is no such input, it cannot be set, or no advance has begun since the last restore()
+  /// @throws std::runtime_error where the neighbours of the advance have no answer
+  /// @verified_by step_derivatives_test.cpp
+  [[nodiscard]] const std::vector<std::vector<double>>& derivative(const std::string& input);
 
   /// State and inputs, in memory: going on from it gives the same bits. Of this model and version of the program.
   [[nodiscard]] Archive::Content save();

@@ -46,6 +46,7 @@ class GeneralizedAlpha final : public Integrator {
   GeneralizedAlpha& operator=(GeneralizedAlpha&&) noexcept;
 
   void reset() override;
+  void solve_to_round_off(bool is_on) override { has_last_corrections_ = is_on; }
 
   /// Advances `state` by `dt` > 0, film and other condensed unknowns included.
   /// @throws InputError if spectral_radius is 1, the equations have constraints and the step is not chosen by its
@@ -75,6 +76,7 @@ class GeneralizedAlpha final : public Integrator {
 
   struct Workspace;
   GeneralizedAlphaOptions options_;
+  bool has_last_corrections_ = false;
   std::unique_ptr<Workspace> work_;
 };
 

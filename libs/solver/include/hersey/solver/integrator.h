@@ -34,6 +34,11 @@ class Integrator {
   /// Call it after every discontinuous change of the state or the equations.
   virtual void reset() {}
 
+  /// True: from now on steps end with Newton's corrections by the exact tangent at their solution, beyond the tolerance
+  /// and down to round-off (theory manual, after integrator.46). For neighbours of a step, whose difference is a
+  /// derivative; they do not have the bits of a step to its tolerance. A method without iterations has nothing to do.
+  virtual void solve_to_round_off(bool /*is_on*/) {}
+
   /// Advances `state` by `dt` > 0 and accepts the step only if `is_accurate`, where it is not empty, returns true for
   /// the estimate of its local error; otherwise the step is `inaccurate`, and everything is as before it.
   [[nodiscard]] virtual StepSummary step(Equations& equations, State& state, double dt,
