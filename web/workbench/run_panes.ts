@@ -22,6 +22,8 @@ export interface RunPanesHooks {
   openReport: (report: OpenReport) => void;
   /** Radial clearance of a bearing of the model as it is drawn [m]. */
   clearance: (bearing: string) => number | undefined;
+  /** Shows the part of its model that a failed run is about. */
+  showPlace: (run: RunEntry) => void;
   /** The list of runs is another one. */
   listed: () => void;
   /** Another run or tab is shown. */
@@ -42,9 +44,9 @@ export class RunPanes {
     private readonly hooks: RunPanesHooks,
     problems: HTMLElement,
   ) {
-    const { api, hello, model, isReady, isAlone, showPoint, save, openReport, changed, say, fail } = hooks;
+    const { api, hello, model, isReady, isAlone, showPoint, save, openReport, showPlace, changed, say, fail } = hooks;
     this.live = new LivePane(api, (run, bearing) => this.clearanceOf(run, bearing));
-    this.list = new RunsPane({ api, say, chosen: (run) => void this.show(run), openReport, changed: () => this.listed() });
+    this.list = new RunsPane({ api, say, chosen: (run) => void this.show(run), openReport, showPlace, changed: () => this.listed() });
     const started = (run: RunEntry) => (this.tabs.show(run.study ? "study" : "live"), this.show(run));
     const hasStudy = () => this.study.hasStudy;
     const planStudy = () => (this.tabs.show("study"), this.study.focusStart());

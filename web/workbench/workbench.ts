@@ -74,7 +74,7 @@ export class Workbench {
     this.problems = new ProblemList((fault) => this.places.goToFault(fault), (edits) => this.checker.repair(edits));
     this.checkState = new CheckState(() => this.showProblems());
     const clearance = (bearing: string) => this.panes.machine.run?.number(`/bearings/${bearing}`, "radial_clearance");
-    this.runs = new RunPanes({ api, hello, model, isReady: () => this.checkState.isReady, isAlone: () => this.checkState.isAlone, showPoint: () => this.panes.tabs.show("point"), save: (document) => documentFiles.save(document), openReport, clearance, listed: () => this.fileList.draw(), changed, say, fail }, this.problems.element);
+    this.runs = new RunPanes({ api, hello, model, isReady: () => this.checkState.isReady, isAlone: () => this.checkState.isAlone, showPoint: () => this.panes.tabs.show("point"), save: (document) => documentFiles.save(document), openReport, clearance, showPlace: (run) => void this.places.goToPlace(run.at?.file || run.model, run.at ?? null), listed: () => this.fileList.draw(), changed, say, fail }, this.problems.element);
     this.outline = new Outline((at) => this.places.goToOffset(at));
     const files = () => (void this.fileList.load(), void documentFiles.refresh());
     this.news = new News({ notices, files, runs: () => void this.runs.load(), run: (event) => this.runs.hear(event), model: () => model()?.path, modelFiles: () => this.checker.soon(), back: () => this.back() });
