@@ -63,6 +63,16 @@ export interface Feature {
   source?: Source | null;
 }
 
+/** An arc of a bore, with where its film begins and ends [rad]. */
+export interface BoreArc {
+  name: string;
+  from: number;
+  to: number;
+  /** The key that holds it, or the whole `bore` of equal arcs. */
+  key: string;
+  isOfBore: boolean;
+}
+
 export interface BearingScene {
   radius: number;
   width: number;
@@ -72,6 +82,7 @@ export interface BearingScene {
   across: string;
   grid: { circumferential: number; axial: number; along: number[]; across: number[]; closes: boolean; arcs?: number[] };
   features: Feature[];
+  arcs?: BoreArc[];
   supply?: { at: "angle" | "widest_gap"; phi: number };
 }
 

@@ -12,6 +12,8 @@ export interface PlotKind {
   unit: string;
   fromZero: boolean;
   shown: (value: number) => number;
+  /** Leaves out what is nothing all the time. */
+  hidesZeros?: boolean;
 }
 
 /** A figure of an event: of which plot, called how. */
@@ -47,9 +49,10 @@ export class NamedCourse {
     if (this.time.length > 4000) this.thin();
   }
 
-  /** Names of a plot with values other than nothing. */
-  names(plot: string): string[] {
-    return [...this.columns.get(plot)!].filter(([, column]) => column.some((value) => value !== 0 && !Number.isNaN(value))).map(([name]) => name);
+  /** Names of a plot that are drawn. */
+  names({ key, hidesZeros }: PlotKind): string[] {
+    const isDrawn = (column: number[]) => !hidesZeros || column.some((value) => value !== 0 && !Number.isNaN(value));
+    return [...this.columns.get(key)!].filter(([, column]) => isDrawn(column)).map(([name]) => name);
   }
 
   /** Every second instant of the first half goes. */
@@ -73,7 +76,7 @@ export class NamedPlots {
     prefix: string,
     height: number,
   ) {
-    const wanted = course.kinds.map((kind) => ({ kind, names: course.names(kind.key) })).filter(({ names }) => names.length > 0);
+    const wanted = course.kinds.map((kind) => ({ kind, names: course.names(kind) })).filter(({ names }) => names.length > 0);
     this.plots = wanted.map(({ kind: { key, label, unit, fromZero }, names }) => {
       const curves = names.map((name) => ({ label: name, unit, y: [] }));
       const plot = new LinePlot({ name: `${prefix}_${key}`, x: { label: texts.time, unit: "ms", values: this.x }, left: { label, unit, fromZero }, curves, height });
@@ -86,7 +89,7 @@ export class NamedPlots {
   /** Whether there are curves by now that are not drawn. */
   get isOutdated(): boolean {
     const drawn = this.plots.reduce((sum, { names }) => sum + names.length, 0);
-    return drawn !== this.course.kinds.reduce((sum, { key }) => sum + this.course.names(key).length, 0);
+    return drawn !== this.course.kinds.reduce((sum, kind) => sum + this.course.names(kind).length, 0);
   }
 
   redraw(): void {

@@ -4,7 +4,7 @@ import type { RunEvent } from "./api";
 import { NamedCourse, type Figure, type PlotKind } from "./live_columns";
 import { texts } from "./texts";
 
-const watts = { unit: "W", fromZero: true, shown: (x: number) => x };
+const watts = { unit: "W", fromZero: true, hidesZeros: true, shown: (x: number) => x };
 const kinds: PlotKind[] = [
   { key: "balance", label: texts.powers.balance, ...watts },
   { key: "friction", label: texts.powers.friction, ...watts },

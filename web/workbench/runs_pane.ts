@@ -159,10 +159,10 @@ export class RunsPane {
       h(
         "div",
         { class: "run-tools" },
+        run.state === "failed" && run.at ? act(texts.showInText, async () => this.hooks.showPlace(run), false) : null,
         isRunning ? act(texts.stop, () => api.post(`/api/runs/${path(run.id)}/stop`)) : null,
         run.can_resume ? act(texts.resume, () => api.post(`/api/runs/${path(run.id)}/resume`)) : null,
         !isRunning && (run.results.length > 0 || run.report) ? act(texts.report, () => this.open(run)) : null,
-        run.state === "failed" && run.at ? act(texts.showInText, async () => this.hooks.showPlace(run), false) : null,
         isRunning ? null : act(texts.remove, () => this.remove(run), false),
       ),
     );

@@ -62,13 +62,13 @@ export class Workbench {
     const changed = () => this.rememberSoon();
     const editor = (this.editor = modelEditor({ api, schema: () => this.schema, changed: (document) => this.textChanged(document), moved: (document) => this.cursorMoved(document), repair: () => this.checker.repairHere(), run: () => void this.runs.starter.run(), say }));
     const documentFiles = (this.documentFiles = new DocumentFiles({ api, editor, notices, fail, changed: () => this.documents.show() }));
+    const openReport = (report: OpenReport) => this.documents.openReport(report);
     const begin = () => void this.fileList.begin();
     this.documents = new Documents({ editor, documentFiles, modelTaken: (document) => this.modelTaken(document), shown: () => this.documentShown(), begin });
     const opened = (path: string) => (this.documents.activate(path), editor.view.focus());
-    this.fileList = new FileList({ api, editor, runs: () => this.runs.list.runs, active: () => this.documents.active, opened, say, fail, meshTarget: () => this.meshTarget() });
+    this.fileList = new FileList({ api, editor, runs: () => this.runs.list.runs, active: () => this.documents.active, openReport, opened, say, fail, meshTarget: () => this.meshTarget() });
     this.checker = new Checker({ api, editor, model, scene: (scene, document) => this.showScene(scene, document), found: (findings, runs) => this.found(findings, runs), atWork: (is) => this.checkState.atWork(is), showModel: () => this.documents.showModel(), say, fail });
     const values = (this.values = new ValueEdits({ api, editor, model, changed: () => this.checker.now(), say, fail }));
-    const openReport = (report: OpenReport) => this.documents.openReport(report);
     this.panes = new ModelPanes({ api, openReport, model, schema: () => this.schema, set: (key, value) => values.set(key, value), goToKey: (key) => this.places.goToKey(key), goToPart: (part) => this.places.goToPart(part), say, changed });
     this.places = new Places({ editor, documents: this.documents, fileList: this.fileList, panes: this.panes });
     this.problems = new ProblemList((fault) => this.places.goToFault(fault), (edits) => this.checker.repair(edits));

@@ -141,6 +141,8 @@ Reply Api::route(const Request& request) {
   if (call == "GET runs") return run_list();
   if (call == "POST runs") return json_reply({{"id", runs_.start(json::parse(request.body))}});
   if (call == "POST bearing_report") return ticket_for(runs_.bearing_report(json::parse(request.body)));
+  if (call == "POST file_report")
+    return ticket_for(folder_.page(json::parse(request.body).at("path").get<std::string>()));
   if (call == "POST compare") {
     const json given = json::parse(request.body);
     using Texts = std::vector<std::string>;
