@@ -17,7 +17,9 @@ const folder = folderOfModels();
 const examples = fileURLToPath(new URL("../../examples", import.meta.url));
 for (const [from, to] of [["model", "tolerances"], ["optimum", "optimum"]]) cpSync(join(examples, `bearing_tolerances/${from}.yaml`), join(folder, `${to}.yaml`));
 cpSync(join(examples, "oil_circuit/model.yaml"), join(folder, "circuit.yaml"));
-cpSync(fileURLToPath(new URL("../cli/bearing.yaml", import.meta.url)), join(folder, "bearing_run.yaml"));
+const small = fileURLToPath(new URL("../cli/bearing.yaml", import.meta.url));
+cpSync(small, join(folder, "bearing_run.yaml"));
+writeFileSync(join(folder, "moving.yaml"), `${readFileSync(small, "utf8").replace("duration: 2 ms", "duration: 600 ms")}\nstudy:\n  plan: list\n  parameters: {load: [100 N, 200 N, 300 N]}\n  outputs: [bearings.main.moft]\n`);
 const findings = new Findings(only);
 const begun = performance.now();
 // A machine with a cluster, as far as the page can know.
@@ -82,6 +84,33 @@ await findings.check("a study is planned as a table, started, filled, stopped an
   await page.frameLocator(".report-frame:not([hidden])").locator("h1").first().waitFor({ timeout: 15000 });
   await page.waitForTimeout(300);
   await picture(page, "4-study-report");
+});
+
+await findings.check("runs of a study that go on are told in its table, and lead to their plots", async () => {
+  await openFile("moving.yaml");
+  await page.getByRole("button", { name: "Study …" }).click();
+  await words.filter({ hasText: "list: 3 runs" }).waitFor();
+  await page.getByLabel("Jobs").fill("1");
+  await page.getByRole("button", { name: "Start study" }).click();
+  const under = page.locator(".study-state.running button");
+  await under.first().waitFor({ timeout: 20_000 });
+  claim((await under.count()) === 1 && (await page.locator(".study-state.waiting").count()) >= 1, "more runs go on than are done at the same time");
+  const share = async () => parseInt((await under.first().innerText()).split(",")[1]);
+  const first = await share();
+  await until("it does not go on", async () => (await share()) > first);
+  await picture(page, "5b-study-running");
+  await under.first().focus();
+  await page.keyboard.press("Enter");
+  await page.locator('[data-plot="h_min"] canvas').waitFor();
+  claim(/, run [1-3]$/.test(await page.locator(".live-title").innerText()), `it is called ${await page.locator(".live-title").innerText()}`);
+  await page.locator(".live-pane select").selectOption("Power balance");
+  await page.locator('[data-plot="powers_balance"] canvas').waitFor();
+  await page.waitForTimeout(1500);
+  await picture(page, "5c-study-run-live");
+  await below("Study");
+  await page.locator(".study-actions").getByRole("button", { name: "Stop" }).click();
+  await page.locator(".study-actions").getByRole("button", { name: "Resume" }).waitFor();
+  await until("something goes on", async () => (await under.count()) === 0);
 });
 
 await findings.check("the runs of an optimum appear as the search asks for them", async () => {

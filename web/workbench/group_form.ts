@@ -39,7 +39,7 @@ export class GroupForm {
   /** Needed keys first. */
   private draw(): void {
     const { keys } = this.group.kinds.find(({ word }) => !this.kind || word === this.kind.value) ?? this.group.kinds[0]!;
-    const rows = [...keys].sort((a, b) => Number(b.required) - Number(a.required)).map((field) => {
+    const rows = keys.filter(({ key }) => key !== "use").sort((a, b) => Number(b.required) - Number(a.required)).map((field) => {
       const id = `${this.element.getAttribute("aria-label")}-${field.key}`.replace(/[^\w-]+/g, "-");
       const help = this.schema.wordsOf(field.schema);
       const words = help.filter(({ kind }) => kind === "word").map(({ value }) => value);

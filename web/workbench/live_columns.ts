@@ -72,7 +72,7 @@ export class NamedPlots {
 
   /** @param prefix  of the plots' names */
   constructor(
-    private readonly course: NamedCourse,
+    readonly course: NamedCourse,
     prefix: string,
     height: number,
   ) {

@@ -99,6 +99,8 @@ const powersChoice = "<powers>";
 
 /** Between two readings of a log that grows [ms]. */
 const logPause = 2000;
+/** Between two readings of a study's run [ms]. */
+const partPause = 1000;
 
 export class LivePane {
   readonly element: HTMLElement;
@@ -119,6 +121,8 @@ export class LivePane {
   /** Events that came while the older ones were asked for. */
   private early: RunEvent[] | null = null;
   private run: RunEntry | null = null;
+  /** Of a study, the run that is shown. */
+  private part: { id: string; label: string } | null = null;
   private shownBearing = "";
   private drawn: { x: number[]; thickness: LinePlot; pressure: LinePlot; others: { key: Further; plot: LinePlot }[]; orbit: LowOrbit; path: { time: Float64Array; x: Float64Array; y: Float64Array; force: null; clearance: number } } | null = null;
   private mapHeight = 150;
@@ -133,6 +137,10 @@ export class LivePane {
     setInterval(() => {
       if (this.run?.state === "running" && this.log.checkVisibility()) void this.readLog();
     }, logPause);
+    // Runs of a study send no events by themselves.
+    setInterval(() => {
+      if (this.run?.state === "running" && this.part && this.element.checkVisibility()) void this.recall(this.run).then(() => this.redrawSoon());
+    }, partPause);
     this.choice.addEventListener("change", () => this.build());
     this.element = h("div", { class: "live-pane" }, h("div", { class: "pane-tools" }, this.title, this.choice), this.plots);
     this.plots.append(h("p", { class: "note" }, texts.noLive));
@@ -143,10 +151,12 @@ export class LivePane {
     return this.run?.id ?? "";
   }
 
-  async show(run: RunEntry): Promise<void> {
-    const isOther = run.id !== this.run?.id;
+  /** @param part  of a study, the run of it */
+  async show(run: RunEntry, part: { id: string; label: string } | null = null): Promise<void> {
+    const isOther = run.id !== this.run?.id || part?.id !== this.part?.id;
     this.run = run;
-    this.title.textContent = run.id;
+    this.part = part;
+    this.title.textContent = part ? `${run.id}, ${part.label}` : run.id;
     if (isOther) {
       this.courses = new Map();
       this.clearances = {};
@@ -187,14 +197,15 @@ export class LivePane {
 
   /** What the run has written before this page was there. */
   private async recall(run: RunEntry): Promise<void> {
+    const { part } = this;
     this.early = [];
     let text = "";
     try {
-      text = await (await this.api.request("GET", `/api/runs/${path(run.id)}/events`)).text();
+      text = await (await this.api.request("GET", `/api/runs/${path(run.id)}/events${part ? `?run=${path(part.id)}` : ""}`)).text();
     } catch {
       // A run made elsewhere has none.
     }
-    if (this.run?.id !== run.id) return;
+    if (this.run?.id !== run.id || this.part?.id !== part?.id) return;
     const early = this.early ?? [];
     this.early = null;
     if (text) [this.courses, this.circuits, this.powers] = [new Map(), new Map(), new Map()];
@@ -255,7 +266,7 @@ export class LivePane {
 
   private showMap(): void {
     const isOfBearing = this.drawn !== null && this.shownBearing !== "";
-    this.map.show(isOfBearing ? this.run : null, this.shownBearing, this.drawn ? this.mapHeight : this.height);
+    this.map.show(isOfBearing && !this.part ? this.run : null, this.shownBearing, this.drawn ? this.mapHeight : this.height);
   }
 
   private names(): string[] {
@@ -326,7 +337,8 @@ export class LivePane {
     const { course } = this;
     if (!course) return;
     const isOther = this.names().length + this.systems().length !== this.choice.options.length;
-    if (this.namedPlots && !isOther && !this.namedPlots.isOutdated) return this.namedPlots.redraw();
+    const system = this.systems().find(({ value }) => value === this.choice.value);
+    if (this.namedPlots && !isOther && !this.namedPlots.isOutdated && system?.course === this.namedPlots.course) return this.namedPlots.redraw();
     if (this.namedPlots || !this.drawn || isOther) {
       if (this.names().length + this.systems().length > 0) this.build();
       return;

@@ -53,7 +53,7 @@ export class RunPanes {
     this.starter = new Starter({ api, runs: this.list, model, isReady, isAlone, showPoint, shownRun: () => this.live.shownRun, save, started, hasStudy, isWrittenOut: () => this.study.isWrittenOut, planStudy, say, fail });
     const studies = () => this.list.runs.filter(({ study }) => study);
     const counted = (runs: number) => this.tabs?.label("study", texts.studyTab(runs));
-    this.study = new StudyPane({ api, machine: hello, model, studies, start: (request) => this.starter.begin(request), act: (run, what) => this.list.act(run, what), counted });
+    this.study = new StudyPane({ api, machine: hello, model, studies, start: (request) => this.starter.begin(request), act: (run, what) => this.list.act(run, what), showLive: (id, part, label) => void this.showPart(id, part, label), counted });
     const contents = [
       { key: "problems", label: texts.problems, content: problems },
       { key: "live", label: texts.live, content: this.live.element },
@@ -90,6 +90,14 @@ export class RunPanes {
     if (open && (run.study ? this.tabs.current !== "log" : ["problems", "study"].includes(this.tabs.current))) this.tabs.show(run.study ? "study" : "live");
     await this.live.show(run);
     this.hooks.changed();
+  }
+
+  /** One run of a study that goes on. */
+  private async showPart(id: string, part: string, label: string): Promise<void> {
+    const run = this.list.runs.find((r) => r.id === id);
+    if (!run) return;
+    this.tabs.show("live");
+    await this.live.show(run, { id: part, label });
   }
 
   private listed(): void {

@@ -184,7 +184,9 @@ export const texts = {
     done: (done: number, all: number, failed: number) => `${all > 0 ? `${done} of ${all} runs done` : `${done} runs done`}${failed > 0 ? `, ${failed} failed` : ""}`,
     run: "run",
     state: "state",
-    states: { planned: "planned", waiting: "waiting", completed: "done", failed: "failed", missing: "not done" } as Record<string, string>,
+    runNumber: (number: string) => `run ${number}`,
+    showLive: "Show its plots",
+    states: { planned: "planned", waiting: "waiting", running: "running", completed: "done", failed: "failed", missing: "not done" } as Record<string, string>,
   },
   overrides: {
     label: "Overrides",

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "model_text.h"
 #include "source_dir.h"
 
@@ -464,27 +466,32 @@ TEST_CASE("MisspelledKey_IsOneFault") {
 
 TEST_CASE("WrongUnitOfAParameter_LeadsToIt") {
   CHECK(faults_after("speed: 3000 rpm", "speed: 3000 mm") ==
-        "m.yaml:5:10: parameters.speed: a length (mm), used in line 17 by drives.motor.speed; expected a frequency or "
-        "angular speed, such as 3000 rpm");
-  // Several uses that all want the same are one fault; where others take the value, the use is wrong.
+        "m.yaml:5:10: parameters.speed: a length (mm), used in line 17 by drives.motor.speed; expected an angular "
+        "velocity or a velocity, such as 3570 rpm");
+  // Where another use takes the value, the use is wrong.
   const std::string twice = edited(good_model, "mass: 2 kg", "mass: \"${load}\"");
   CHECK(faults_of(twice).find("m.yaml:12:15: bodies.rod.mass: a force (N) (from parameter load in line 4)") !=
         std::string::npos);
+  // Several uses that all want the same are one fault.
   std::string lengths = edited(good_model, "load: 500 N", "load: 500 N\n  size: 5 kg");
-  lengths = edited(edited(lengths, "diameter: 45 mm", "diameter: \"${size}\""), "width: 15.6 mm", "width: \"${size}\"");
+  lengths = edited(lengths, "diameter: 45 mm", "diameter: \"${size}\"");
+  lengths = edited(lengths, "width: 15.6 mm", "width: \"${size}\"");
+  lengths = edited(lengths, "radial_clearance: 34 um", "radial_clearance: \"${size}\"");
+  const std::string merged = faults_of(lengths);
   CHECK(
-      faults_of(edited(lengths, "radial_clearance: 34 um", "radial_clearance: \"${size}\"")).find("parameters.size") ==
-      std::string::npos);  // their examples differ: each is told
+      merged.starts_with("m.yaml:5:9: parameters.size: a mass (kg), used in line 27 by bearings.big_end.diameter and "
+                         "at 2 more places; expected a length > 0"));
+  CHECK(std::count(merged.begin(), merged.end(), '\n') == 0);
 }
 
 TEST_CASE("WrongIndentation_IsToldWithWhatIsAllowed") {
   CHECK(faults_after("    width: 15.6 mm", "     width: 15.6 mm") ==
         "m.yaml:27:6: 'width' indented by 5 spaces, deeper than 'diameter' in line 26, which has a value already; "
-        "keys that belong together stand exactly below each other; expected 4 spaces, as 'diameter' in line 26, or 2 "
-        "spaces, as 'big_end' in line 23, or no spaces, as 'bearings' in line 22");
+        "expected 4 spaces, as 'diameter' in line 26, or 2 spaces, as 'big_end' in line 23, or no spaces, as "
+        "'bearings' in line 22; keys that belong together stand exactly below each other");
   CHECK(faults_after("    width: 15.6 mm", "   width: 15.6 mm")
-            .starts_with("m.yaml:27:4: 'width' indented by 3 spaces; keys that belong together stand exactly below "
-                         "each other; expected 4 spaces, as 'diameter' in line 26, or 2 spaces, as 'big_end'"));
+            .starts_with("m.yaml:27:4: 'width' indented by 3 spaces; expected 4 spaces, as 'diameter' in line 26, or 2 "
+                         "spaces, as 'big_end'"));
   CHECK(faults_after("simulation:", " simulation:").starts_with("m.yaml:30:2: 'simulation' indented by 1 space; "));
   // A colon that does not fit for another reason.
   CHECK(faults_after("title: Test", "title: Test: more").find("a ':' that does not fit here") != std::string::npos);

@@ -52,7 +52,7 @@ bool makes_file(Place place, std::string_view name) {
     case Place::run:
       return is_file_of_results(name) || std::find(known.begin(), known.end(), name) != known.end();
     case Place::runs_of_study:
-      return is_file_of_results(name) || name.ends_with(".html");
+      return is_file_of_results(name) || name.ends_with(".html") || name.ends_with(".events");
     case Place::fields_of_report:
       return name.ends_with(".js");
     case Place::records_of_tasks:

@@ -68,6 +68,8 @@ class Runs {
   [[nodiscard]] std::string model_text(const std::string& id) const;
   /// Its events, steps thinned out to at most `most`, one line of JSON each.
   [[nodiscard]] std::string history(const std::string& id, std::size_t most) const;
+  /// The same of a run of a study, as long as it goes on; empty before and afterwards. @throws Refused 404
+  [[nodiscard]] std::string history_in_study(const std::string& id, const std::string& run, std::size_t most) const;
   /// Makes the report of runs, of several as a comparison, in a temporary folder where it is not there already.
   /// @param names  of the runs in a comparison, in their order; empty: their ids
   /// @throws Refused 409 if there are no results yet, 422 if no report can be made of them

@@ -198,6 +198,8 @@ Reply Api::of_run(const Request& request) {
   const std::string id = rest.substr(0, slash), call = request.method + rest.substr(slash);
   constexpr std::size_t kMostSteps = 4000;  // more than a screen has columns
   if (call == "GET/log") return {.type = "text/plain; charset=utf-8", .body = runs_.log(id)};
+  if (const std::string part = request.value("run"); call == "GET/events" && !part.empty())
+    return {.type = "application/x-ndjson", .body = runs_.history_in_study(id, part, kMostSteps)};
   if (call == "GET/events") return {.type = "application/x-ndjson", .body = runs_.history(id, kMostSteps)};
   if (call == "GET/study") return {.body = studies_.course(id, request.value("after"))};
   if (call == "GET/film")

@@ -52,6 +52,9 @@ void rename_keys(Node& node, const std::vector<Misspelling>& misspellings) {
   for (Node& item : node.items) rename_keys(item, misspellings);
 }
 
+/// "a length > 0" of "a length > 0, such as 20 mm".
+std::string without_example(const std::string& expected) { return expected.substr(0, expected.find(", such as")); }
+
 std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
@@ -86,8 +89,9 @@ void lead_to_parameters(const std::string& text, const Node& root, std::vector<F
     if (first == faults.end()) continue;
     // Where another use takes the value, or others expect something else, the use is as likely to be wrong.
     const auto count = static_cast<std::size_t>(std::count_if(faults.begin(), faults.end(), is_of_it));
-    const bool is_one = std::all_of(
-        first, faults.end(), [&](const Fault& fault) { return !is_of_it(fault) || fault.expected == first->expected; });
+    const bool is_one = std::all_of(first, faults.end(), [&](const Fault& fault) {
+      return !is_of_it(fault) || without_example(fault.expected) == without_example(first->expected);
+    });
     if (!is_one || count != count_of(text, "${" + parameter.key + "}")) continue;
     Fault cause = *first;
     cause.found.resize(cause.found.size() - origin.size());
