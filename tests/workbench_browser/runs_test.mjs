@@ -356,7 +356,7 @@ await findings.check("a run shows its film's pressure and its oil circuit while 
   await page.locator(".live-map canvas").waitFor({ timeout: 20000 });
   claim((await page.locator(".live-pane select option").allInnerTexts()).includes("Oil circuit"), "the circuit is not found again");
   await page.locator(".bar .stop").click();
-  await page.locator(".run-state.stopped").waitFor();
+  await page.locator('.runs li[data-run^="circuit-"] .run-state.stopped').waitFor();
 });
 
 await findings.check("the page says nothing that it must not; axe-core finds nothing in it", async () => {
