@@ -9,7 +9,6 @@
 
 #include "commands.h"
 #include "exit_code.h"
-#include "hersey/core/error_text.h"
 #include "hersey/model/study.h"
 #include "hersey/report/report.h"
 #include "hersey/results/error.h"
@@ -289,7 +288,7 @@ int run_command(const RunArguments& arguments) {
     events.ended(code);
     return code;
   } catch (const std::exception& error) {
-    events.failed(error_text(error));
+    events.failed(error);
     throw;
   }
 }

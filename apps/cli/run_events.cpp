@@ -13,6 +13,7 @@
 
 #include "exit_code.h"
 #include "fault_json.h"
+#include "hersey/core/error_text.h"
 
 namespace hersey::cli {
 namespace {
@@ -33,12 +34,44 @@ EventJson radial_clearance(const model::Bearing& bearing) {
 
 EventJson json_of(const std::vector<run::BearingProgress>& bearings) {
   EventJson figures = EventJson::object();
-  for (const run::BearingProgress& bearing : bearings)
-    figures[bearing.name] = {{"h_min", finite(bearing.h_min)}, {"p_max", finite(bearing.p_max)},
-                             {"e_x", finite(bearing.e_x)},     {"e_y", finite(bearing.e_y)},
-                             {"power", finite(bearing.power)}, {"flow", finite(bearing.flow)},
-                             {"T_max", finite(bearing.T_max)}};
+  for (const run::BearingProgress& bearing : bearings) {
+    EventJson& own = figures[bearing.name];
+    own = {{"h_min", finite(bearing.h_min)}, {"p_max", finite(bearing.p_max)},
+           {"e_x", finite(bearing.e_x)},     {"e_y", finite(bearing.e_y)},
+           {"power", finite(bearing.power)}, {"flow", finite(bearing.flow)},
+           {"T_max", finite(bearing.T_max)}, {"power_asperity", finite(bearing.power_asperity)}};
+    if (!bearing.has_heat) continue;
+    own["heat"] = {{"to_oil", finite(bearing.heat_to_oil)},
+                   {"to_shell", finite(bearing.heat_to_shell)},
+                   {"to_journal", finite(bearing.heat_to_journal)},
+                   {"stored", finite(bearing.heat_stored)}};
+  }
   return figures;
+}
+
+EventJson json_of(const run::PowerProgress& power) {
+  EventJson figures{{"drives", finite(power.drives)},
+                    {"loads", finite(power.loads)},
+                    {"gravity", finite(power.gravity)},
+                    {"springs", finite(power.springs)},
+                    {"contacts", finite(power.contacts)},
+                    {"bearings", finite(power.bearings)},
+                    {"elastic", finite(power.elastic)},
+                    {"kinetic_rate", finite(power.kinetic_rate)},
+                    {"balance_error", finite(power.error)},
+                    {"film_friction", finite(power.film_friction)},
+                    {"asperity_friction", finite(power.asperity_friction)}};
+  if (power.has_network)
+    figures["heat"] = {{"surroundings", finite(power.heat_to_surroundings)}, {"bodies", finite(power.heat_in_bodies)}};
+  return figures;
+}
+
+/// Of the run that is over: where in the text its message leads.
+EventJson json_of(const run::NamedPart& part) {
+  return {{"path", part.path},
+          {"file", part.position.file},
+          {"line", part.position.line},
+          {"column", part.position.column}};
 }
 
 EventJson json_of(const run::CircuitProgress& circuit) {
@@ -89,6 +122,7 @@ RunEvents::~RunEvents() {
 void RunEvents::started(const model::Model& model, const std::vector<model::StudyRun>& runs) {
   if (fd_ < 0) return;
   runs_ = std::max<std::size_t>(runs.size(), 1);
+  positions_ = model.positions;
   const model::Simulation& plan = model.simulation;
   EventJson event{{"kind", "started"}, {"title", model.title},       {"pid", ::getpid()},
                   {"t", plan.start},   {"t_start", plan.start},      {"t_end", plan.start + plan.duration},
@@ -135,6 +169,7 @@ void RunEvents::stepped(std::size_t run, const run::Progress& progress) {
   if (const run::CircuitProgress circuit = progress.circuit ? progress.circuit() : run::CircuitProgress{};
       !circuit.nodes.empty())
     event["circuit"] = json_of(circuit);
+  if (progress.powers) event["powers"] = json_of(progress.powers());
   write(event);
 }
 
@@ -155,28 +190,44 @@ void RunEvents::finished(std::size_t run, const study::RunResult& result) {
   const bool ran = result.solved();
   t_ = ran ? result.summary.t_end : t_;
   message_ = ran ? result.summary.message : result.message;
+  const bool has_failed = !ran || result.summary.status == run::Status::failed;
+  place_ = has_failed ? run::named_part(message_, positions_) : std::nullopt;
   if (ran)
     for (const run::BearingSummary& bearing : result.summary.bearings)
       for (const std::string& text : bearing.warnings)
         write({{"kind", "warning"}, {"run", run}, {"text", "bearing " + bearing.name + ", " + text}});
   if (runs_ == 1) return;
-  write({{"kind", "run_finished"},
-         {"run", run},
-         {"t", t_},
-         {"share", static_cast<double>(finished_) / static_cast<double>(runs_)},
-         {"status", ran ? word(result.summary.status) : "failed"},
-         {"message", message_}});
+  EventJson event{{"kind", "run_finished"},
+                  {"run", run},
+                  {"t", t_},
+                  {"share", static_cast<double>(finished_) / static_cast<double>(runs_)},
+                  {"status", ran ? word(result.summary.status) : "failed"},
+                  {"message", message_}};
+  write_end(event);
 }
 
 void RunEvents::ended(int code) {
   if (fd_ < 0) return;
   const char* status = code == kOk ? "completed" : code == kInterrupted ? "stopped" : "failed";
-  write({{"kind", "finished"}, {"t", t_}, {"status", status}, {"message", message_}, {"code", code}});
+  EventJson event{{"kind", "finished"}, {"t", t_}, {"status", status}, {"message", message_}, {"code", code}};
+  write_end(event);
 }
 
-void RunEvents::failed(const std::string& message) {
+void RunEvents::failed(const std::exception& error) {
   if (fd_ < 0) return;
-  write({{"kind", "finished"}, {"t", t_}, {"status", "failed"}, {"message", message}, {"code", kFailed}});
+  const std::string message = error_text(error);
+  place_ = run::named_part(message, positions_);
+  if (const auto* input = dynamic_cast<const InputError*>(&error); input != nullptr && !input->faults().empty()) {
+    const Fault& first = input->faults().front();
+    if (first.position.line > 0) place_ = run::NamedPart{first.path, first.position};
+  }
+  EventJson event{{"kind", "finished"}, {"t", t_}, {"status", "failed"}, {"message", message}, {"code", kFailed}};
+  write_end(event);
+}
+
+void RunEvents::write_end(nlohmann::ordered_json& event) {
+  if (place_) event["at"] = json_of(*place_);
+  write(event);
 }
 
 void RunEvents::write(const nlohmann::ordered_json& event) {

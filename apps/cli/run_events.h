@@ -2,14 +2,18 @@
 
 #include <chrono>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hersey/core/input_error.h"
 #include "hersey/model/model.h"
 #include "hersey/model/study.h"
+#include "hersey/run/named_part.h"
 #include "hersey/run/options.h"
 #include "hersey/study/study.h"
 
@@ -38,18 +42,22 @@ class RunEvents {
   /// All runs have ended, and the report is written. @param code  ExitCode of the command
   void ended(int code);
   /// The command ends by an error.
-  void failed(const std::string& message);
+  void failed(const std::exception& error);
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void write(const nlohmann::ordered_json& event);
+  /// With the part of the model that the message is about, where it is known.
+  void write_end(nlohmann::ordered_json& event);
 
   int fd_ = -1;
   std::size_t runs_ = 1, finished_ = 0;
   Clock::time_point last_step_;
   double t_ = 0;
   std::string message_;  // of the run that finished last
+  std::optional<run::NamedPart> place_;
+  std::map<std::string, SourcePosition> positions_;  // of the keys of the model
 };
 
 }  // namespace hersey::cli

@@ -10,20 +10,26 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "exit_code.h"
 #include "hersey/core/error_text.h"
 #include "hersey/core/task_pool.h"
+#include "hersey/core/write_file.h"
 #include "hersey/report/report.h"
 #include "hersey/results/reader.h"
 #include "hersey/session/session.h"
 #include "hersey/study/bearing_study.h"
 #include "hersey/study/run_figures.h"
 #include "hersey/study/sensitivity.h"
+#include "run_events.h"
 #include "standard_streams.h"
 #include "study_command.h"
 
@@ -42,6 +48,37 @@ void answer(const json& line) {
     done += static_cast<std::size_t>(written);
   }
 }
+
+/// The course of a run, for pages that show it while it goes on; it goes with the run's end. A file that cannot be
+/// written ends no run.
+class Course : public session::Listener {
+ public:
+  /// @param file  empty: nothing is written
+  Course(std::filesystem::path file, const json& request, const model::Model& model) : file_(std::move(file)) {
+    if (file_.empty()) return;
+    try {
+      const json first{
+          {"kind", "of_study"}, {"run", request.at("run")}, {"values", request.value("values", json::array())}};
+      write_file(file_, {first.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"});
+      events_.emplace(file_);
+      events_->started(model, {});
+    } catch (const std::runtime_error&) {
+      events_.reset();
+    }
+  }
+  ~Course() override {
+    std::error_code ignored;
+    if (!file_.empty()) std::filesystem::remove(file_, ignored);
+  }
+
+  void stepped(std::size_t run, const run::Progress& progress) override {
+    if (events_) events_->stepped(run, progress);
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::optional<RunEvents> events_;
+};
 
 /// Computes runs and writes their answers; the description of a figure is written once, before its first value.
 class Task {
@@ -134,8 +171,9 @@ class Task {
     if (request.contains("values"))
       for (const json& value : request.at("values"))
         options.study_parameters.push_back({value.at(0).get<std::string>(), value.at(1).get<std::string>()});
-    session::Listener nobody;
-    const run::Summary summary = session::Session(arguments_.model, run.overrides).run(file, options, nobody);
+    const session::Session session(arguments_.model, run.overrides);
+    Course course(request.value("events", ""), request, session.model());
+    const run::Summary summary = session.run(file, options, course);
     if (summary.status != run::Status::completed) throw std::runtime_error(summary.message);
     const results::Reader reader(file);
     for (const study::RunFigure& figure : study::figures_of(reader, arguments_.outputs))

@@ -91,6 +91,7 @@ class Study:
             request["slopes"] = {p["name"]: p.get("key", p["name"]) for p in settings["parameters"]}
         if settings["analysis"] == "simulation":
             request["results"] = self.folder.file("runs", run + ".h5")
+            request["events"] = self.folder.file("runs", run + ".events")  # while the run goes on
             # Spectra are read from the results file.
             spectra = settings["diagram"] == "run_up" and settings["keep"] == "figures"
             request["keep"] = "results" if spectra else settings["keep"]

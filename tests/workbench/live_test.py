@@ -70,6 +70,29 @@ class Live(unittest.TestCase):
             for element, flow in circuit["flows"].items():
                 self.assertEqual(flow, stored[f"flow_{element}"][-1])
 
+    def test_events_of_the_powers_are_the_results(self):
+        for model in ("bearing.yaml", "warm.yaml"):
+            name = self.start(model, "simulation.duration=2 ms") if model == "warm.yaml" else self.start(model)
+            self.server.wait_for(name, "completed", seconds=120)
+            lines = self.server.get(f"/api/runs/{name}/events").text.splitlines()
+            last = [event for event in map(json.loads, lines) if event["kind"] == "stepped"][-1]
+            results = self.results(name)
+            stored = results["power"]
+            for key, value in last["powers"].items():
+                if key != "heat":
+                    self.assertEqual(value, stored[key][-1], key)
+            for bearing, figures in last["bearings"].items():
+                own = results["bearings"][bearing]
+                self.assertEqual(figures["power_asperity"], own["power_asperity"][-1])
+                self.assertEqual("heat" in figures, "heat_to_oil" in own)
+                for key, value in figures.get("heat", {}).items():
+                    self.assertEqual(value, own["heat_stored" if key == "stored" else f"heat_{key}"][-1], key)
+            put_in = sum(last["powers"][key] for key in ("drives", "loads", "gravity", "springs", "contacts", "bearings", "elastic"))
+            largest = max(abs(value) for key, value in last["powers"].items() if key != "heat")
+            # Round-off of seven sums.
+            self.assertAlmostEqual(put_in - last["powers"]["kinetic_rate"], last["powers"]["balance_error"], delta=1e-12 * largest)
+            self.assertEqual("heat" in last["powers"], "thermal" in results)
+
     def test_machines_without_a_circuit_have_none(self):
         name = self.start("bearing.yaml")
         self.server.wait_for(name, "completed")

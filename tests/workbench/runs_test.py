@@ -108,7 +108,7 @@ class Runs(unittest.TestCase):
         self.assertEqual([event["t"] for event in seen[1:3]], [0, 0.001])
         self.assertEqual(seen[2]["share"], 1)
         figures = seen[2]["bearings"]["main"]
-        self.assertEqual(set(figures), {"h_min", "p_max", "e_x", "e_y", "power", "flow", "T_max"})
+        self.assertEqual(set(figures), {"h_min", "p_max", "e_x", "e_y", "power", "power_asperity", "flow", "T_max"})
         self.assertEqual(seen[3]["status"], "completed")
         run = self.server.wait_for(name, "completed")
         self.assertEqual((run["share"], run["model"], run["set"], run["can_resume"]), (1, "bearing.yaml", ["duration=1 ms"], False))
@@ -150,6 +150,82 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.server.get(url, token=False, headers={"Host": "evil.example:80"}).status, 403)
         self.assertEqual(self.server.post("/api/compare", {"ids": []}).status, 400)
         self.assertEqual(self.server.post("/api/compare", {"ids": [first, "none"]}).status, 404)
+
+    def test_compared_runs_have_the_names_that_are_given(self):
+        runs = [self.start(f"duration={time} ms") for time in (1, 2)]
+        for name in runs:
+            self.server.wait_for(name, "completed")
+        answer = self.server.post("/api/compare", {"ids": runs, "names": ["load = 1, 2 N", "load\n= <3> N"]})
+        page = self.server.get(answer.json["url"], token=False).text
+        self.assertIn('"load = 1; 2 N"', page)
+        self.assertIn("load = ", page)
+        self.assertNotIn(f'"{runs[0]}"', page)
+        # Names that nothing can be called by are the runs' own.
+        page = self.server.get(self.server.post("/api/compare", {"ids": runs, "names": [" ", "x" * 300]}).json["url"], token=False).text
+        for name in runs:
+            self.assertIn(f'"{name}"', page)
+        self.assertEqual(self.server.post("/api/compare", {"ids": runs, "names": ["one"]}).status, 400)
+
+    def test_a_failed_run_says_which_part_of_its_text_it_is_about(self):
+        name = self.start("load=1e9 N", "duration=100 ms")
+        run = self.server.wait_for(name, "failed")
+        with open(os.path.join(self.folder, "bearing.yaml"), encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        self.assertIn("bearing main", run["message"])
+        self.assertEqual((run["at"]["path"], run["at"]["file"]), ("bearings.main", "bearing.yaml"))
+        self.assertEqual(lines[run["at"]["line"] - 1].strip(), "main:")
+        # A fault that the start finds, of an override: the first fault's own place.
+        with open(os.path.join(self.folder, "bearing.yaml"), encoding="utf-8") as file:
+            text = file.read()
+        write(self.folder, "wrong.yaml", text.replace("duration", "duratoin"))
+        run = self.server.wait_for(self.start(path="wrong.yaml"), "failed")
+        self.assertEqual(run["at"]["path"], "simulation")
+        self.assertIn("duratoin", text.replace("duration", "duratoin").splitlines()[run["at"]["line"] - 1])
+        self.assertEqual(run["at"]["file"], "wrong.yaml")
+        run = self.server.wait_for(self.start("duration=1 ms"), "completed")
+        self.assertIsNone(run["at"])
+
+    def test_a_run_is_removed_with_its_folder_and_nothing_else(self):
+        first, second = self.start("duration=1 ms"), self.start("duration=1 ms")
+        for name in (first, second):
+            self.server.wait_for(name, "completed")
+        write(self.folder, f"runs/{first}/report_fields/0_1.js", "fields")
+        write(self.folder, f"runs/{first}/notes.md", "mine")
+        answer = self.server.post(f"/api/runs/{first}/remove")
+        self.assertEqual(answer.status, 409, answer.body)
+        self.assertIn("notes.md", answer.json["error"])
+        self.assertTrue(os.path.exists(os.path.join(self.folder, "runs", first, "results.h5")))
+        os.remove(os.path.join(self.folder, "runs", first, "notes.md"))
+        events = Events(self.server)
+        self.addCleanup(events.close)
+        self.assertEqual(self.server.post(f"/api/runs/{first}/remove").status, 200)
+        self.assertEqual(os.listdir(os.path.join(self.folder, "runs")), [second])
+        while events.next()[1] != "runs":
+            pass
+        self.assertEqual(self.server.post(f"/api/runs/{first}/remove").status, 404)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["bearing.yaml", "runs"])
+        self.assertEqual([run["id"] for run in self.server.get("/api/runs").json["runs"]], [second])
+
+    def test_a_run_that_goes_on_is_not_removed(self):
+        name = self.start(*LONG)
+        self.wait_for_steps(name)
+        self.assertEqual(self.server.post(f"/api/runs/{name}/remove").status, 409)
+        self.assertTrue(is_running(self.pids[-1]))
+        self.server.post(f"/api/runs/{name}/stop")
+        self.server.wait_for(name, "stopped")
+        self.assertEqual(self.server.post(f"/api/runs/{name}/remove").status, 200)
+        self.assertEqual(os.listdir(os.path.join(self.folder, "runs")), [])
+
+    def test_results_of_the_command_line_are_removed_alone(self):
+        results = os.path.join(self.folder, "results")
+        subprocess.run([PROGRAM, "run", os.path.join(self.folder, "bearing.yaml"), "--set", "duration=1 ms", "--output", os.path.join(results, "a")],
+                       check=True, capture_output=True)
+        write(self.folder, "results/a/notes.md", "mine")
+        write(self.folder, "results/foreign.h5", "no results")
+        for call, status in (("results:foreign.h5", 409), ("results:a:results.h5", 200), ("results:a:results.h5", 404)):
+            self.assertEqual(self.server.post(f"/api/runs/{call}/remove").status, status, call)
+        self.assertEqual(os.listdir(os.path.join(results, "a")), ["notes.md"])
+        self.assertEqual(sorted(os.listdir(results)), ["a", "foreign.h5"])
 
     def test_a_run_is_stopped_and_goes_on(self):
         name = self.start("duration=0.2 s")

@@ -14,6 +14,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 import urllib.parse
@@ -240,6 +241,83 @@ class Security(unittest.TestCase):
                 os.remove(os.path.join(run, name))
         with open(secret, encoding="utf-8") as file:
             self.assertEqual(file.read(), SECRET)
+
+    def test_nothing_is_removed_but_runs(self):
+        write(self.top.name, "outside/run.json", '{"model": "model.yaml", "set": []}')
+        write(self.folder, "runs/good-001/run.json", '{"model": "model.yaml", "set": []}')
+        write(self.folder, "runs/bare-001/log.txt", "no record: no run")
+        os.symlink("../../outside", os.path.join(self.folder, "runs", "evil-001"))
+        os.symlink("../runs", os.path.join(self.folder, "results"))
+        names = ("evil-001", "bare-001", "..", "../models", "%2e%2e", "../../outside", "good-001/..", "", ".", "good-001%00", "model.yaml", "results:good-001")
+        for name in names:
+            with self.subTest(name=name):
+                self.assertIn(self.server.post(f"/api/runs/{name}/remove").status, (400, 404))
+        # Links within a run, to a file and to a folder, of names that runs have: none is followed, none is removed.
+        run = os.path.join(self.folder, "runs", "good-001")
+        secret = os.path.join(self.top.name, "secret.yaml")
+        for name, target in (("results.h5", secret), ("log.txt", secret), ("report_fields", os.path.join(self.top.name, "outside")), ("tasks", self.folder)):
+            with self.subTest(name=name):
+                os.symlink(target, os.path.join(run, name))
+                self.refused(self.server.post("/api/runs/good-001/remove"), 409, name)
+                self.assertTrue(os.path.islink(os.path.join(run, name)))
+                os.remove(os.path.join(run, name))
+        # Folders that no run makes, and files in those that it makes.
+        for path in ("mine/a.h5", "report_fields/page.html", "report_fields/more/a.js", "runs/more/a.h5", "tasks/a/deep/task.sh", "shards/a.h5"):
+            with self.subTest(path=path):
+                write(run, path, "")
+                self.refused(self.server.post("/api/runs/good-001/remove"), 409, "not of the run")
+                self.assertTrue(os.path.exists(os.path.join(run, path)))
+                shutil.rmtree(os.path.join(run, path.split("/")[0]))
+        self.assertEqual(os.listdir(run), ["run.json"])
+        for method in ("GET", "DELETE", "PUT"):
+            self.assertIn(self.server.request(method, "/api/runs/good-001/remove").status, (400, 404, 405), method)
+        self.assertEqual(self.server.request("POST", "/api/runs/good-001/remove", token=False).status, 401)
+        self.assertEqual(os.listdir(run), ["run.json"])
+        self.assertEqual(self.server.post("/api/runs/good-001/remove").status, 200)
+        self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "runs"))), ["bare-001", "evil-001"])
+        # The folder of all runs is a link.
+        os.rename(os.path.join(self.folder, "runs"), os.path.join(self.top.name, "elsewhere"))
+        write(self.top.name, "elsewhere/good-001/run.json", '{"model": "model.yaml", "set": []}')
+        os.symlink("../elsewhere", os.path.join(self.folder, "runs"))
+        self.assertEqual(self.server.post("/api/runs/good-001/remove").status, 404)
+        self.assertEqual(os.listdir(os.path.join(self.top.name, "elsewhere", "good-001")), ["run.json"])
+        self.assertEqual(os.listdir(os.path.join(self.top.name, "outside")), ["run.json"])
+        with open(secret, encoding="utf-8") as file:
+            self.assertEqual(file.read(), SECRET)
+
+    def test_a_link_that_is_made_while_a_mesh_is_read_is_not_followed(self):
+        shutil.copy(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/meshes/conrod.msh"), self.folder)
+        secret, link = os.path.join(self.top.name, "secret.yaml"), os.path.join(self.folder, "named.msh")
+        answers = []
+
+        def ask():
+            answers.append(self.server.post("/api/name_surfaces", {"path": "conrod.msh", "length_unit": "mm", "output": "named.msh"}))
+
+        begun = time.monotonic()
+        ask()
+        took = time.monotonic() - begun
+        self.assertEqual(answers.pop().status, 200)
+        os.remove(link)
+        # Some of these moments lie between the look whether there is such a file and its being written.
+        in_time = 0
+        for part in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6):
+            asking = threading.Thread(target=ask)
+            asking.start()
+            time.sleep(part * took)
+            try:
+                os.symlink(secret, link)
+            except FileExistsError:  # it has been written already
+                asking.join()
+                self.assertEqual(answers.pop().status, 200)
+            else:
+                asking.join()
+                self.assertIn(answers.pop().status, (403, 409))
+                self.assertEqual(os.readlink(link), secret)
+                in_time += 1
+            os.remove(link)
+            with open(secret, encoding="utf-8") as file:
+                self.assertEqual(file.read(), SECRET)
+        self.assertGreater(in_time, 1)
 
     def test_files_of_reports_are_no_links(self):
         folder = os.path.join(self.folder, "results", "a")

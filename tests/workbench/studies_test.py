@@ -51,7 +51,7 @@ class Studies(unittest.TestCase):
         return self.server.post("/api/plan", {"path": path, "text": text, "set": list(overrides)}, timeout=90)
 
     def start(self, **more):
-        answer = self.server.post("/api/runs", {"path": "list.yaml", "set": [], "study": True, **more})
+        answer = self.server.post("/api/runs", {"path": "list.yaml", "set": [], "study": True} | more)
         self.assertEqual(answer.status, 200, answer.text)
         return answer.json["id"]
 
@@ -123,6 +123,38 @@ class Studies(unittest.TestCase):
             self.assertAlmostEqual(value, written[run], delta=1e-6 * value)  # runs.csv has seven figures or more
         thin = [by_run[run["run"]] for run in plan["runs"]]
         self.assertEqual(thin, sorted(thin, reverse=True), "more load, but no thinner film")
+
+    @unittest.skipIf(LACKING, f"Python lacks {', '.join(LACKING)}")
+    def test_runs_under_way_are_told_with_their_share_and_their_events(self):
+        with open(os.path.join(os.path.dirname(MODEL), "../../tests/cli/bearing.yaml"), encoding="utf-8") as file:
+            text = file.read().replace("duration: 2 ms", "duration: 150 ms")
+        write(self.folder, "moving.yaml", text + "\nstudy:\n  plan: list\n  parameters: {load: [100 N, 200 N]}\n  outputs: [bearings.main.moft]\n")
+        name = self.start(path="moving.yaml", jobs=1)
+        seen, times = {}, []
+        deadline = time.monotonic() + 120
+        while (run := self.server.run_of(name))["state"] == "running":
+            self.assertLess(time.monotonic(), deadline)
+            for part in self.course(name).json["running"]:
+                seen.setdefault(part["run"], {"values": part["values"], "shares": []})["shares"].append(part["share"])
+                events = [json.loads(line) for line in self.server.get(f"/api/runs/{name}/events?run={part['run']}").text.splitlines()]
+                times += [event["t"] for event in events if event["kind"] == "stepped"][-1:]
+            time.sleep(0.05)
+        self.assertEqual(run["state"], "completed", self.server.get(f"/api/runs/{name}/log").text)
+        planned = {entry["run"]: entry["values"] for entry in self.course(name).json["plan"]["runs"]}
+        self.assertEqual({run: part["values"] for run, part in seen.items()}, planned)
+        for part in seen.values():
+            self.assertEqual(part["shares"], sorted(part["shares"]))
+            self.assertGreater(part["shares"][-1], part["shares"][0])
+        self.assertGreater(max(times), 0)
+        # Nothing of it is left, and what asks for other files gets none.
+        self.assertEqual(self.course(name).json["running"], [])
+        runs = os.path.join(self.folder, "runs", name, "runs")
+        self.assertEqual([file for file in os.listdir(runs) if file.endswith(".events")], [])
+        write(self.folder, f"runs/{name}/secret.events", '{"kind":"of_study"}')
+        for wrong in ("../secret", "..%2fsecret", ".", "a.b"):
+            self.assertEqual(self.server.get(f"/api/runs/{name}/events?run={wrong}").status, 404, wrong)
+        os.symlink("../secret.events", os.path.join(runs, "linked.events"))
+        self.assertEqual(self.server.get(f"/api/runs/{name}/events?run=linked").text, "")
 
     @unittest.skipIf(LACKING, f"Python lacks {', '.join(LACKING)}")
     def test_records_that_are_none_are_left_out(self):

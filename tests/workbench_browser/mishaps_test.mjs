@@ -4,7 +4,7 @@ import { spawnSync } from "node:child_process";
 import { chmodSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { claim, Findings, folderOfModels, forget, goTo, launch, open, says, serve, state, until } from "./bench.mjs";
+import { claim, cursorLine, Findings, folderOfModels, forget, goTo, launch, open, says, serve, state, until } from "./bench.mjs";
 
 const [program, pictures = "build/web-test/workbench", only] = process.argv.slice(2);
 if (!program) {
@@ -51,6 +51,16 @@ await journey("a failing run says why and where, keeps what it has found, and th
   await page.locator(".below").getByRole("tab", { name: "Log" }).click();
   await page.waitForFunction(() => document.querySelector(".log").textContent.length > 20);
   await picture(page, "20-failing-run");
+  // What it is about stands in the text, which is found in the file's present lines.
+  await goTo(page, "parameters:");
+  await page.keyboard.type("\n  further: 1 N");
+  await openFile(page, "bearing.yaml");
+  const show = page.locator(".runs").getByRole("button", { name: /^Show in the text/ });
+  await show.focus();
+  await page.keyboard.press("Enter");
+  await until("it leads elsewhere", async () => /^ +main:/.test(await cursorLine(page)));
+  claim((await page.locator('.documents .tab[aria-selected="true"]').innerText()).startsWith("heavy.yaml"), "another text is shown");
+  await picture(page, "20-failing-place");
   await page.locator(".runs").getByRole("button", { name: /^Report/ }).click();
   await page.frameLocator(".report-frame:not([hidden])").locator("h1, .verdict-line").first().waitFor({ timeout: 15_000 });
   await openFile(page, "model.yaml");

@@ -1,6 +1,6 @@
 // node runs_test.mjs PROGRAM [PICTURES] [ONLY]: studies, runs with other values and curves of a bearing in the workbench, as
 // workbench_test.mjs does it for the rest.
-import { cpSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -17,6 +17,9 @@ const folder = folderOfModels();
 const examples = fileURLToPath(new URL("../../examples", import.meta.url));
 for (const [from, to] of [["model", "tolerances"], ["optimum", "optimum"]]) cpSync(join(examples, `bearing_tolerances/${from}.yaml`), join(folder, `${to}.yaml`));
 cpSync(join(examples, "oil_circuit/model.yaml"), join(folder, "circuit.yaml"));
+const small = fileURLToPath(new URL("../cli/bearing.yaml", import.meta.url));
+cpSync(small, join(folder, "bearing_run.yaml"));
+writeFileSync(join(folder, "moving.yaml"), `${readFileSync(small, "utf8").replace("duration: 2 ms", "duration: 600 ms")}\nstudy:\n  plan: list\n  parameters: {load: [100 N, 200 N, 300 N]}\n  outputs: [bearings.main.moft]\n`);
 const findings = new Findings(only);
 const begun = performance.now();
 // A machine with a cluster, as far as the page can know.
@@ -26,7 +29,7 @@ process.env.PATH = `${process.env.PATH}:${tools}`;
 const server = await serve(resolve(program), folder);
 const browser = await launch();
 const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, colorScheme: "light" });
-const page = await open(context, server.address, /422/);
+const page = await open(context, server.address, /422|409.*remove/);
 const openFile = (name) => page.locator(`.file[data-path="${name}"]`).click();
 const below = (name) => page.locator(".below").getByRole("tab", { name }).click();
 const rows = page.locator(".study-table tbody tr");
@@ -81,6 +84,33 @@ await findings.check("a study is planned as a table, started, filled, stopped an
   await page.frameLocator(".report-frame:not([hidden])").locator("h1").first().waitFor({ timeout: 15000 });
   await page.waitForTimeout(300);
   await picture(page, "4-study-report");
+});
+
+await findings.check("runs of a study that go on are told in its table, and lead to their plots", async () => {
+  await openFile("moving.yaml");
+  await page.getByRole("button", { name: "Study …" }).click();
+  await words.filter({ hasText: "list: 3 runs" }).waitFor();
+  await page.getByLabel("Jobs").fill("1");
+  await page.getByRole("button", { name: "Start study" }).click();
+  const under = page.locator(".study-state.running button");
+  await under.first().waitFor({ timeout: 20_000 });
+  claim((await under.count()) === 1 && (await page.locator(".study-state.waiting").count()) >= 1, "more runs go on than are done at the same time");
+  const share = async () => parseInt((await under.first().innerText()).split(",")[1]);
+  const first = await share();
+  await until("it does not go on", async () => (await share()) > first);
+  await picture(page, "5b-study-running");
+  await under.first().focus();
+  await page.keyboard.press("Enter");
+  await page.locator('[data-plot="h_min"] canvas').waitFor();
+  claim(/, run [1-3]$/.test(await page.locator(".live-title").innerText()), `it is called ${await page.locator(".live-title").innerText()}`);
+  await page.locator(".live-pane select").selectOption("Power balance");
+  await page.locator('[data-plot="powers_balance"] canvas').waitFor();
+  await page.waitForTimeout(1500);
+  await picture(page, "5c-study-run-live");
+  await below("Study");
+  await page.locator(".study-actions").getByRole("button", { name: "Stop" }).click();
+  await page.locator(".study-actions").getByRole("button", { name: "Resume" }).waitFor();
+  await until("something goes on", async () => (await under.count()) === 0);
 });
 
 await findings.check("the runs of an optimum appear as the search asks for them", async () => {
@@ -152,8 +182,55 @@ await findings.check("a run takes other values than its text has; wrong ones are
   await field.press("Control+Enter");
   const first = page.locator('.runs li[data-run^="model-"], .runs li[data-run^="hersey-workbench"]').first();
   await first.locator(".run-state.completed").waitFor({ timeout: 20000 });
-  claim((await first.locator(".run-set").innerText()) === "simulation.duration=30 deg, bodies.piston.mass=0.5 kg", await first.innerText());
+  claim((await first.locator(".run-what").innerText()) === "duration = 30 deg, mass = 0.5 kg", await first.innerText());
   claim((await textOf(page)) === text, "the text has changed");
+});
+
+await findings.check("compared runs are called by the values in which they differ; a run is removed after a question, by keys", async () => {
+  await openFile("bearing_run.yaml");
+  await state(page, "Ready to run");
+  const ours = page.locator('.runs li[data-run^="bearing_run-"]');
+  const start = async (count) => {
+    await page.locator(".bar .main-button").click();
+    await page.locator("dialog").getByRole("button", { name: "Save and run" }).click({ timeout: 1500 }).catch(() => undefined);
+    await until("no run completes", async () => (await ours.locator(".run-state.completed").count()) === count);
+  };
+  await start(1);
+  await goTo(page, "load: 100");
+  for (let i = 0; i < 3; i++) await page.keyboard.press("Backspace");
+  await page.keyboard.type("150");
+  await state(page, "Ready to run");
+  await start(2);
+  claim((await ours.first().locator(".run-what").innerText()) === "load = 150 N", await ours.first().innerText());
+  for (const i of [0, 1]) await ours.nth(i).getByRole("checkbox").check();
+  await page.getByRole("button", { name: "Compare", exact: true }).click();
+  const report = page.frameLocator(".report-frame:not([hidden])");
+  await report.getByText("load = 150 N").first().waitFor({ timeout: 15_000 });
+  await report.getByText("load = 100 N").first().waitFor();
+  await page.waitForTimeout(300);
+  await picture(page, "13-named-runs");
+  const id = await ours.first().getAttribute("data-run");
+  const made = join(folder, "runs", id);
+  await ours.first().locator(".run-name").focus();
+  await page.keyboard.press("Delete");
+  const question = page.locator("dialog", { hasText: `Remove` });
+  await question.waitFor();
+  await picture(page, "14-remove");
+  await page.keyboard.press("Enter"); // the answer that keeps it is the first
+  await question.waitFor({ state: "detached" });
+  claim(existsSync(made) && (await ours.count()) === 2, "it is removed without a word");
+  await page.keyboard.press("Delete");
+  await question.getByRole("button", { name: "Remove" }).click();
+  await until("it is still listed", async () => (await ours.count()) === 1);
+  claim(!existsSync(made), "its folder is there");
+  claim(await page.evaluate(() => document.activeElement?.classList.contains("run-name")), "nothing is focused");
+  // A file that is not of the run keeps it.
+  const other = join(folder, "runs", await ours.first().getAttribute("data-run"));
+  writeFileSync(join(other, "notes.md"), "mine");
+  await ours.first().getByRole("button", { name: /^Remove/ }).click();
+  await question.getByRole("button", { name: "Remove" }).click();
+  await page.locator(".notice", { hasText: "notes.md" }).waitFor();
+  claim(existsSync(join(other, "results.h5")), "it is removed in part");
 });
 
 await findings.check("the Stribeck curve and its like are drawn at the sliders' point, which stays quick; coefficients stand as tables", async () => {
@@ -268,12 +345,18 @@ await findings.check("a run shows its film's pressure and its oil circuit while 
   await page.waitForTimeout(300);
   await picture(page, "12-live-circuit");
   claim(!(await page.locator(".live-map").isVisible()), "a film's map beside the circuit");
+  await page.locator(".live-pane select").selectOption("Power balance");
+  const sources = await page.locator('[data-plot="powers_balance"] .legend-entry').allInnerTexts();
+  claim(sources.includes("films (forces)") && sources.includes("drives"), `powers: ${sources}`);
+  await page.locator('[data-plot="powers_friction"] .legend-entry', { hasText: "oil films" }).waitFor();
+  await page.waitForTimeout(300);
+  await picture(page, "12-live-powers");
   await page.reload();
   await page.locator(".run-state.running").waitFor();
   await page.locator(".live-map canvas").waitFor({ timeout: 20000 });
   claim((await page.locator(".live-pane select option").allInnerTexts()).includes("Oil circuit"), "the circuit is not found again");
   await page.locator(".bar .stop").click();
-  await page.locator(".run-state.stopped").waitFor();
+  await page.locator('.runs li[data-run^="circuit-"] .run-state.stopped').waitFor();
 });
 
 await findings.check("the page says nothing that it must not; axe-core finds nothing in it", async () => {

@@ -45,11 +45,15 @@ export function setTheme(theme: "light" | "dark"): void {
   for (const listener of listeners) listener();
 }
 
-/** Follows the system, and paper: a print is always light. */
+/** Follows the system, or the page that shows this one within it, and paper: a print is always light. */
 export function followSystem(): void {
   const dark = matchMedia("(prefers-color-scheme: dark)");
   setTheme(dark.matches ? "dark" : "light");
   dark.addEventListener("change", () => setTheme(dark.matches ? "dark" : "light"));
+  addEventListener("message", ({ source, data }: MessageEvent<{ theme?: unknown } | null>) => {
+    const theme = source === parent && parent !== window ? data?.theme : undefined;
+    if (theme === "light" || theme === "dark") setTheme(theme);
+  });
   let beforePrint: "light" | "dark" = "light";
   addEventListener("beforeprint", () => {
     beforePrint = isDark() ? "dark" : "light";

@@ -63,6 +63,16 @@ export interface Feature {
   source?: Source | null;
 }
 
+/** An arc of a bore, with where its film begins and ends [rad]. */
+export interface BoreArc {
+  name: string;
+  from: number;
+  to: number;
+  /** The key that holds it, or the whole `bore` of equal arcs. */
+  key: string;
+  isOfBore: boolean;
+}
+
 export interface BearingScene {
   radius: number;
   width: number;
@@ -72,6 +82,7 @@ export interface BearingScene {
   across: string;
   grid: { circumferential: number; axial: number; along: number[]; across: number[]; closes: boolean; arcs?: number[] };
   features: Feature[];
+  arcs?: BoreArc[];
   supply?: { at: "angle" | "widest_gap"; phi: number };
 }
 
@@ -96,6 +107,8 @@ export interface RunEntry {
   message: string;
   results: string[];
   report: string | null;
+  /** Of a failed one: the part of its model that the message is about; no `file` where it is outside the folder. */
+  at?: { path: string; file: string; line: number } | null;
   can_resume?: boolean;
   study?: boolean;
 }
@@ -104,6 +117,20 @@ export interface Template {
   name: string;
   title: string;
   text: string;
+}
+
+export interface BearingFigures {
+  clearance?: number | null;
+  h_min?: number;
+  p_max?: number;
+  e_x?: number;
+  e_y?: number;
+  power?: number;
+  power_asperity?: number;
+  flow?: number;
+  T_max?: number;
+  /** Of a film with temperatures [W]. */
+  heat?: { to_oil: number | null; to_shell: number | null; to_journal: number | null; stored: number | null };
 }
 
 /** A line of a run's events: small, at most ten a second. */
@@ -115,7 +142,9 @@ export interface RunEvent {
   t?: number;
   share?: number;
   text?: string;
-  bearings?: Record<string, { h_min?: number; p_max?: number; e_x?: number; e_y?: number; [further: string]: number | undefined }>;
+  bearings?: Record<string, BearingFigures>;
+  /** Of the whole machine [W]. */
+  powers?: { [key: string]: number | null } & { heat?: { surroundings: number | null; bodies: number | null } };
   circuit?: { nodes: Record<string, { pressure: number | null; drawn: number | null; temperature?: number }>; flows: Record<string, number | null> };
 }
 

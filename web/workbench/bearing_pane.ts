@@ -1,6 +1,6 @@
 // The pane of one bearing: its unwrapped surface, and its keys as a form.
 
-import type { BearingScene, Fault, Feature } from "./api";
+import type { BearingScene, BoreArc, Fault, Feature } from "./api";
 import { h } from "../src/dom";
 import { PartForm, type SetValue } from "./form";
 import type { ModelSchema } from "./model_schema";
@@ -25,7 +25,7 @@ export class BearingPane {
   private last: { schema: ModelSchema | null; tree: TextNode; text: string } | null = null;
 
   constructor(private readonly hooks: BearingHooks) {
-    this.unwrapped = new Unwrapped({ moved: (feature, phi, z) => void this.move(feature, phi, z), chosen: (feature) => feature.key && hooks.goToKey(feature.key) });
+    this.unwrapped = new Unwrapped({ moved: (feature, phi, z) => void this.move(feature, phi, z), arcMoved: (arc, end, phi) => void this.moveArc(arc, end, phi), chosen: ({ key }) => key && hooks.goToKey(key) });
     this.form = new PartForm(hooks.set);
     this.choice.addEventListener("change", () => {
       hooks.chosen(this.choice.value);
@@ -101,5 +101,20 @@ export class BearingPane {
     const { along, across } = this.bearings[this.name]!;
     if (phi !== null) await this.hooks.set(`${key}.${along === "phi" ? "angle" : along}`, along === "phi" ? degrees(phi) : millimetres(phi));
     if (z !== null) await this.hooks.set(`${key}.${across}`, millimetres(z));
+  }
+
+  /** An arc by itself has a middle and an angle; those of a bore leave a groove between them, and are all alike. */
+  private async moveArc({ key, isOfBore, from, to }: BoreArc, end: "from" | "to", phi: number): Promise<void> {
+    if (!key) return;
+    const degrees = (x: number) => `${Number(((x * 180) / Math.PI).toFixed(3))} deg`;
+    const [begin, finish] = end === "from" ? [phi, to] : [from, phi];
+    if (isOfBore) {
+      const count = this.bearings[this.name]!.arcs!.length;
+      const growth = finish - begin - (to - from);
+      const groove = (2 * Math.PI) / count - (to - from) - 2 * growth;
+      return this.hooks.set(`${key}.groove`, degrees(Math.max(0, groove)));
+    }
+    await this.hooks.set(`${key}.middle`, degrees(0.5 * (begin + finish)));
+    await this.hooks.set(`${key}.arc`, degrees(finish - begin));
   }
 }

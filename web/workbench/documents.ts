@@ -2,6 +2,7 @@
 
 import type { Api } from "./api";
 import { h } from "../src/dom";
+import { isDark, onThemeChange } from "../src/theme";
 import { ask } from "./dialogs";
 import type { DocumentFiles } from "./document_files";
 import type { Editor, OpenDocument, SavedDocument } from "./editor";
@@ -20,6 +21,11 @@ export interface DocumentsHooks {
   begin: () => void;
 }
 
+/** A report has no origin of its own that a word could be addressed to; this one may be heard by anybody. */
+function tellTheme(frame: HTMLIFrameElement): void {
+  frame.contentWindow?.postMessage({ theme: isDark() ? "dark" : "light" }, "*");
+}
+
 export class Documents {
   readonly bar = h("div", { class: "tabs documents", role: "tablist", "aria-label": texts.panes.middle });
   readonly area = h("div", { class: "document-area" });
@@ -32,6 +38,7 @@ export class Documents {
   constructor(private readonly hooks: DocumentsHooks) {
     walkable(this.bar);
     this.tables = new TableView(hooks.editor, () => this.show());
+    onThemeChange(() => this.reports.forEach(({ frame }) => tellTheme(frame)));
   }
 
   /** A table is drawn anew. */
@@ -141,6 +148,7 @@ export class Documents {
 
   private addReport(report: OpenReport): void {
     const frame = h("iframe", { title: report.title, class: "report-frame", sandbox: "allow-scripts allow-downloads", hidden: true });
+    frame.addEventListener("load", () => tellTheme(frame));
     this.reports.push({ ...report, frame });
     this.area.append(frame);
   }

@@ -14,6 +14,7 @@ export interface FileListHooks {
   runs: () => RunEntry[];
   /** Path of the text that is shown. */
   active: () => string;
+  openReport: (report: { key: string; title: string; url: string }) => void;
   /** A file has been opened by a click, and its text is to be shown. */
   opened: (path: string) => void;
   say: (words: string) => void;
@@ -61,13 +62,14 @@ export class FileList {
   }
 
   async open(path: string): Promise<void> {
-    const { api, editor, say, fail, opened, meshTarget } = this.hooks;
+    const { api, editor, say, fail, opened, openReport, meshTarget } = this.hooks;
     if (!editor.documents.has(path)) {
       const kind = this.files.find((f) => f.path === path)?.kind;
       if (isCad(path)) return showCad(api, path, meshTarget, () => void this.load());
       if (kind === "mesh" && /\.(msh|inp)$/i.test(path)) return showMesh(api, path, "mm", meshTarget);
       if (kind === "results" || kind === "mesh") return say(texts.binary);
       try {
+        if (kind === "report") return openReport({ key: `file ${path}`, title: path, ...(await api.post<{ url: string }>("/api/file_report", { path })) });
         const content = await api.file(path);
         if (!editor.documents.has(path)) editor.add(path, content);
       } catch (error) {

@@ -2,12 +2,15 @@
 
 import { h } from "../src/dom";
 import type { Fault } from "./api";
-import type { ModelSchema } from "./model_schema";
+import { GroupForm } from "./group_form";
+import type { KeyHelp, ModelSchema, Schema } from "./model_schema";
 import { sentence } from "./problems";
 import { texts } from "./texts";
 import { child, type TextNode } from "./yaml_tree";
 
 export type SetValue = (key: string, value: string | null) => Promise<void>;
+
+type MissingField = KeyHelp & { schema: Schema };
 
 const deepest = 3;
 
@@ -69,7 +72,7 @@ export class PartForm {
 
   private fields(schema: ModelSchema, node: TextNode, text: string, path: string, depth: number): HTMLElement[] {
     const rows: HTMLElement[] = [];
-    const missing: { key: string; description: string }[] = [];
+    const missing: MissingField[] = [];
     for (const field of schema.fields(node, text)) {
       if (field.key === "use") continue;
       const own = child(node, field.key);
@@ -92,7 +95,7 @@ export class PartForm {
         if (depth < deepest) rows.push(h("fieldset", {}, h("legend", {}, own.key), ...this.fields(schema, own, text, key, depth + 1)));
       } else rows.push(this.row(own.key, "", key, [], false));
     }
-    if (missing.length > 0) rows.push(this.adder(missing, path));
+    if (missing.length > 0) rows.push(this.adder(schema, missing, path));
     return rows;
   }
 
@@ -116,15 +119,24 @@ export class PartForm {
     return h("div", { class: "field" }, label, field, !isChoice && words.length > 0 ? h("datalist", { id: `${id}-words` }, ...options) : null);
   }
 
-  private adder(missing: { key: string; description: string }[], path: string): HTMLElement {
+  private adder(schema: ModelSchema, missing: MissingField[], path: string): HTMLElement {
     const choice = h("select", { "aria-label": `${texts.add}: ${path}` }, h("option", { value: "" }, `${texts.add} …`), ...missing.map(({ key, description }) => h("option", { value: key, title: description }, key)));
     const value = h("input", { type: "text", "aria-label": `${path}: value`, hidden: true, spellcheck: "false" });
+    const further = h("div", {});
     choice.addEventListener("change", () => {
-      value.hidden = choice.value === "";
-      if (!value.hidden) value.focus();
+      const field = missing.find(({ key }) => key === choice.value);
+      const group = field ? schema.group(field.schema) : null;
+      value.hidden = !field || group !== null;
+      further.replaceChildren();
+      if (!field) return;
+      if (!group) return value.focus();
+      const name = `${path}.${field.key}`;
+      const form = new GroupForm(schema, group, name, (text) => void this.set(name, text));
+      further.append(form.element);
+      form.focus();
     });
     value.addEventListener("change", () => choice.value && value.value && void this.set(`${path}.${choice.value}`, value.value));
-    return h("div", { class: "field adder" }, choice, value);
+    return h("div", {}, h("div", { class: "field adder" }, choice, value), further);
   }
 
   private fill(node: TextNode, text: string, path: string): void {

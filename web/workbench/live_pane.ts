@@ -6,7 +6,9 @@ import { dot } from "../src/clearance_circle";
 import { LinePlot } from "../src/line_plot";
 import { Orbit, type OrbitData } from "../src/orbit";
 import { palette } from "../src/theme";
-import { CircuitCourse, CircuitPlots } from "./live_circuit";
+import { circuitCourse } from "./live_circuit";
+import { NamedPlots, type NamedCourse } from "./live_columns";
+import { powerCourse } from "./live_powers";
 import { LiveMap } from "./live_map";
 import { path } from "./runs_pane";
 import { texts } from "./texts";
@@ -93,9 +95,12 @@ class LowOrbit extends Orbit {
 
 /** In place of a bearing; no name has such letters. */
 const circuitChoice = "<circuit>";
+const powersChoice = "<powers>";
 
 /** Between two readings of a log that grows [ms]. */
 const logPause = 2000;
+/** Between two readings of a study's run [ms]. */
+const partPause = 1000;
 
 export class LivePane {
   readonly element: HTMLElement;
@@ -107,14 +112,17 @@ export class LivePane {
   private courses = new Map<number, Course>();
   /** Radial clearances of its bearings, as it says when it starts [m]. */
   private clearances: Record<string, number> = {};
-  private circuits = new Map<number, CircuitCourse>();
-  private circuitPlots: CircuitPlots | null = null;
+  private circuits = new Map<number, NamedCourse>();
+  private powers = new Map<number, NamedCourse>();
+  private namedPlots: NamedPlots | null = null;
   private readonly map: LiveMap;
   /** Which one of a study has said something last. */
   private newest = 0;
   /** Events that came while the older ones were asked for. */
   private early: RunEvent[] | null = null;
   private run: RunEntry | null = null;
+  /** Of a study, the run that is shown. */
+  private part: { id: string; label: string } | null = null;
   private shownBearing = "";
   private drawn: { x: number[]; thickness: LinePlot; pressure: LinePlot; others: { key: Further; plot: LinePlot }[]; orbit: LowOrbit; path: { time: Float64Array; x: Float64Array; y: Float64Array; force: null; clearance: number } } | null = null;
   private mapHeight = 150;
@@ -129,6 +137,10 @@ export class LivePane {
     setInterval(() => {
       if (this.run?.state === "running" && this.log.checkVisibility()) void this.readLog();
     }, logPause);
+    // Runs of a study send no events by themselves.
+    setInterval(() => {
+      if (this.run?.state === "running" && this.part && this.element.checkVisibility()) void this.recall(this.run).then(() => this.redrawSoon());
+    }, partPause);
     this.choice.addEventListener("change", () => this.build());
     this.element = h("div", { class: "live-pane" }, h("div", { class: "pane-tools" }, this.title, this.choice), this.plots);
     this.plots.append(h("p", { class: "note" }, texts.noLive));
@@ -139,14 +151,17 @@ export class LivePane {
     return this.run?.id ?? "";
   }
 
-  async show(run: RunEntry): Promise<void> {
-    const isOther = run.id !== this.run?.id;
+  /** @param part  of a study, the run of it */
+  async show(run: RunEntry, part: { id: string; label: string } | null = null): Promise<void> {
+    const isOther = run.id !== this.run?.id || part?.id !== this.part?.id;
     this.run = run;
-    this.title.textContent = run.id;
+    this.part = part;
+    this.title.textContent = part ? `${run.id}, ${part.label}` : run.id;
     if (isOther) {
       this.courses = new Map();
       this.clearances = {};
       this.circuits = new Map();
+      this.powers = new Map();
       this.newest = 0;
       this.log.textContent = "";
       this.build();
@@ -182,17 +197,18 @@ export class LivePane {
 
   /** What the run has written before this page was there. */
   private async recall(run: RunEntry): Promise<void> {
+    const { part } = this;
     this.early = [];
     let text = "";
     try {
-      text = await (await this.api.request("GET", `/api/runs/${path(run.id)}/events`)).text();
+      text = await (await this.api.request("GET", `/api/runs/${path(run.id)}/events${part ? `?run=${path(part.id)}` : ""}`)).text();
     } catch {
       // A run made elsewhere has none.
     }
-    if (this.run?.id !== run.id) return;
+    if (this.run?.id !== run.id || this.part?.id !== part?.id) return;
     const early = this.early ?? [];
     this.early = null;
-    if (text) [this.courses, this.circuits] = [new Map(), new Map()];
+    if (text) [this.courses, this.circuits, this.powers] = [new Map(), new Map(), new Map()];
     for (const line of text.split("\n")) {
       if (!/"(stepped|started)"/.test(line)) continue;
       try {
@@ -211,11 +227,13 @@ export class LivePane {
     const course = this.courses.get(number) ?? new Course();
     course.take(event);
     this.courses.set(number, course);
-    if (event.circuit) {
-      const circuit = this.circuits.get(number) ?? new CircuitCourse();
-      circuit.take(event);
-      this.circuits.set(number, circuit);
-    }
+    const note = (courses: Map<number, NamedCourse>, make: () => NamedCourse) => {
+      const own = courses.get(number) ?? make();
+      own.take(event);
+      courses.set(number, own);
+    };
+    if (event.circuit) note(this.circuits, circuitCourse);
+    if (event.powers) note(this.powers, powerCourse);
     this.newest = number;
   }
 
@@ -248,32 +266,41 @@ export class LivePane {
 
   private showMap(): void {
     const isOfBearing = this.drawn !== null && this.shownBearing !== "";
-    this.map.show(isOfBearing ? this.run : null, this.shownBearing, this.drawn ? this.mapHeight : this.height);
+    this.map.show(isOfBearing && !this.part ? this.run : null, this.shownBearing, this.drawn ? this.mapHeight : this.height);
   }
 
   private names(): string[] {
     return [...(this.course?.bearings.keys() ?? [])];
   }
 
+  /** What is shown of the whole machine in place of a bearing. */
+  private systems(): { value: string; title: string; name: string; course: NamedCourse }[] {
+    const [powers, circuit] = [this.powers.get(this.newest), this.circuits.get(this.newest)];
+    return [
+      ...(powers ? [{ value: powersChoice, title: texts.powers.title, name: "powers", course: powers }] : []),
+      ...(circuit ? [{ value: circuitChoice, title: texts.circuit.title, name: "circuit", course: circuit }] : []),
+    ];
+  }
+
   private build(): void {
     const names = this.names();
     const before = this.choice.value;
-    const circuit = this.circuits.get(this.newest);
-    this.choice.replaceChildren(...names.map((name) => h("option", { value: name }, name)), ...(circuit ? [h("option", { value: circuitChoice }, texts.circuit.title)] : []));
+    this.choice.replaceChildren(...names.map((name) => h("option", { value: name }, name)), ...this.systems().map(({ value, title }) => h("option", { value }, title)));
     if ([...this.choice.options].some(({ value }) => value === before)) this.choice.value = before;
     this.choice.hidden = this.choice.options.length < 2;
-    this.circuitPlots?.destroy();
-    this.circuitPlots = null;
+    this.namedPlots?.destroy();
+    this.namedPlots = null;
     this.drawn?.thickness.destroy();
     this.drawn?.pressure.destroy();
     this.drawn?.orbit.destroy();
     this.drawn?.others.forEach(({ plot }) => plot.destroy());
     this.drawn = null;
-    if (circuit && this.choice.value === circuitChoice) {
+    const system = this.systems().find(({ value }) => value === this.choice.value);
+    if (system) {
       this.shownBearing = "";
       this.showMap();
-      this.circuitPlots = new CircuitPlots(circuit, this.height);
-      this.plots.replaceChildren(...this.circuitPlots.elements);
+      this.namedPlots = new NamedPlots(system.course, system.name, this.height);
+      this.plots.replaceChildren(...this.namedPlots.elements);
       return;
     }
     const bearing = this.choice.value;
@@ -309,9 +336,11 @@ export class LivePane {
   private redraw(): void {
     const { course } = this;
     if (!course) return;
-    if (this.circuitPlots) return this.circuitPlots.redraw();
-    if (!this.drawn || this.names().length + (this.circuits.has(this.newest) ? 1 : 0) !== this.choice.options.length) {
-      if (this.names().length > 0) this.build();
+    const isOther = this.names().length + this.systems().length !== this.choice.options.length;
+    const system = this.systems().find(({ value }) => value === this.choice.value);
+    if (this.namedPlots && !isOther && !this.namedPlots.isOutdated && system?.course === this.namedPlots.course) return this.namedPlots.redraw();
+    if (this.namedPlots || !this.drawn || isOther) {
+      if (this.names().length + this.systems().length > 0) this.build();
       return;
     }
     const own = course.bearings.get(this.shownBearing);

@@ -32,6 +32,13 @@ export interface KeyHelp {
   isMap: boolean;
 }
 
+/** What a group of keys may be, by the word that decides about its further keys. */
+export interface Group {
+  /** Key of that word; empty where there is one kind alone. */
+  decides: string;
+  kinds: { word: string; keys: (KeyHelp & { schema: Schema })[] }[];
+}
+
 export interface ValueHelp {
   value: string;
   description: string;
@@ -104,6 +111,24 @@ export class ModelSchema {
       for (const [key, schema] of Object.entries(one.properties ?? {}))
         if (!found.has(key)) found.set(key, { ...this.describe(key, schema), required: (one.required ?? one.then?.required ?? []).includes(key), schema });
     return [...found.values()];
+  }
+
+  /** Of a key whose value is a group of keys; null where it may be something else, words aside, or names of one's own. */
+  group(schema: Schema): Group | null {
+    const flat = this.flat(schema);
+    const maps = flat.filter((one) => one.properties);
+    const isOther = (one: Schema) => !one.properties && one.const === undefined && one.enum === undefined && !(one.pattern ?? "").includes("\\$\\{");
+    if (maps.length === 0 || flat.some(isOther)) return null;
+    const words = Object.keys(maps[0]!.properties!).filter((key) => maps.every((one) => one.properties![key]?.const !== undefined));
+    const decides = maps.length > 1 ? (words[0] ?? "") : "";
+    if (maps.length > 1 && !decides) return null;
+    const kinds = maps.map((one) => {
+      const needed = one.required ?? one.then?.required ?? [];
+      const keys = Object.entries(one.properties!).filter(([key]) => key !== decides).map(([key, own]) => ({ ...this.describe(key, own), required: needed.includes(key), schema: own }));
+      // Groups within the group are added to it afterwards.
+      return { word: decides ? String(one.properties![decides]!.const) : "", keys: keys.filter(({ required, isMap }) => required || !isMap) };
+    });
+    return { decides, kinds };
   }
 
   private describe(key: string, schema: Schema): KeyHelp {

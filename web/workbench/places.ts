@@ -70,6 +70,18 @@ export class Places {
     editor.goTo(line.number, at - line.from + 1, focus);
   }
 
+  /** Opens a file at a part of its model; where the text no longer has that, at the line where it was. */
+  async goToPlace(file: string, at: { path: string; line: number } | null): Promise<void> {
+    const { editor, fileList } = this.hooks;
+    if (!at) return;
+    await fileList.open(file);
+    const document = editor.active;
+    if (document?.path !== file) return;
+    const node = at.path ? find(document.tree, at.path.split(".")) : undefined;
+    if (node) return this.goToOffset(node.from);
+    if (at.line > 0) editor.goTo(Math.min(at.line, document.state.doc.lines), 1);
+  }
+
   goToFault(fault: Fault): void {
     const { editor, fileList, documents } = this.hooks;
     const document = documents.model;

@@ -22,6 +22,8 @@ export interface RunPanesHooks {
   openReport: (report: OpenReport) => void;
   /** Radial clearance of a bearing of the model as it is drawn [m]. */
   clearance: (bearing: string) => number | undefined;
+  /** Shows the part of its model that a failed run is about. */
+  showPlace: (run: RunEntry) => void;
   /** The list of runs is another one. */
   listed: () => void;
   /** Another run or tab is shown. */
@@ -42,16 +44,16 @@ export class RunPanes {
     private readonly hooks: RunPanesHooks,
     problems: HTMLElement,
   ) {
-    const { api, hello, model, isReady, isAlone, showPoint, save, openReport, changed, say, fail } = hooks;
+    const { api, hello, model, isReady, isAlone, showPoint, save, openReport, showPlace, changed, say, fail } = hooks;
     this.live = new LivePane(api, (run, bearing) => this.clearanceOf(run, bearing));
-    this.list = new RunsPane({ api, say, chosen: (run) => void this.show(run), openReport, changed: () => this.listed() });
+    this.list = new RunsPane({ api, say, chosen: (run) => void this.show(run), openReport, showPlace, changed: () => this.listed() });
     const started = (run: RunEntry) => (this.tabs.show(run.study ? "study" : "live"), this.show(run));
     const hasStudy = () => this.study.hasStudy;
     const planStudy = () => (this.tabs.show("study"), this.study.focusStart());
     this.starter = new Starter({ api, runs: this.list, model, isReady, isAlone, showPoint, shownRun: () => this.live.shownRun, save, started, hasStudy, isWrittenOut: () => this.study.isWrittenOut, planStudy, say, fail });
     const studies = () => this.list.runs.filter(({ study }) => study);
     const counted = (runs: number) => this.tabs?.label("study", texts.studyTab(runs));
-    this.study = new StudyPane({ api, machine: hello, model, studies, start: (request) => this.starter.begin(request), act: (run, what) => this.list.act(run, what), counted });
+    this.study = new StudyPane({ api, machine: hello, model, studies, start: (request) => this.starter.begin(request), act: (run, what) => this.list.act(run, what), showLive: (id, part, label) => void this.showPart(id, part, label), counted });
     const contents = [
       { key: "problems", label: texts.problems, content: problems },
       { key: "live", label: texts.live, content: this.live.element },
@@ -88,6 +90,14 @@ export class RunPanes {
     if (open && (run.study ? this.tabs.current !== "log" : ["problems", "study"].includes(this.tabs.current))) this.tabs.show(run.study ? "study" : "live");
     await this.live.show(run);
     this.hooks.changed();
+  }
+
+  /** One run of a study that goes on. */
+  private async showPart(id: string, part: string, label: string): Promise<void> {
+    const run = this.list.runs.find((r) => r.id === id);
+    if (!run) return;
+    this.tabs.show("live");
+    await this.live.show(run, { id: part, label });
   }
 
   private listed(): void {

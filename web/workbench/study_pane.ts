@@ -32,6 +32,8 @@ interface Course {
   records: StudyRecord[];
   at: string;
   more: boolean;
+  /** Runs that go on, with how far they are. */
+  running?: { run: string; values: (string | null)[]; share: number }[];
   state: RunEntry["state"];
 }
 
@@ -42,6 +44,8 @@ export interface StudyPaneHooks {
   studies: () => RunEntry[];
   start: (request: { set: string[]; study: true; on: string; jobs: number }) => Promise<void>;
   act: (run: RunEntry, what: "stop" | "resume" | "report") => Promise<void>;
+  /** Shows the plots of one run of a study while it goes on. @param label  as the table calls it */
+  showLive: (study: string, run: string, label: string) => void;
   /** How many runs are planned; 0: no study. */
   counted: (runs: number) => void;
 }
@@ -79,6 +83,7 @@ class StudyTable {
   constructor(
     private readonly plan: Planned,
     private readonly state: string,
+    private readonly showLive: (run: string, label: string) => void = () => undefined,
   ) {
     this.names = plan.wanted.length > 0 ? plan.wanted : null;
     this.drawHead();
@@ -137,9 +142,30 @@ class StudyTable {
     });
   }
 
+  /** Runs that go on: how far they are, and a button that leads to their plots. */
+  private underWay(running: NonNullable<Course["running"]>): Set<string> {
+    const names = new Set<string>();
+    for (const { run, values, share } of running) {
+      if (this.counted.has(run)) continue;
+      names.add(run);
+      for (const { row, state } of this.rows.get(run) ?? (this.plan.total === 0 ? this.add(run, values) : [])) {
+        const words = `${texts.studies.states["running"]!}, ${Math.round(100 * share)} %`;
+        const before = state.querySelector("button");
+        state.className = "study-state running";
+        if (before) before.textContent = words;
+        else {
+          const label = texts.studies.runNumber(row.querySelector("th")!.textContent ?? "");
+          state.replaceChildren(h("button", { type: "button", class: "quiet", title: texts.studies.showLive, "aria-label": `${texts.studies.showLive}: ${label}`, click: () => this.showLive(run, label) }, words));
+        }
+      }
+    }
+    return names;
+  }
+
   /** What has no record yet. */
-  rest(state: "waiting" | "missing"): void {
-    for (const { state: cell } of [...this.rows].flatMap(([run, rows]) => (this.counted.has(run) ? [] : rows))) {
+  rest(state: "waiting" | "missing", running: NonNullable<Course["running"]> = []): void {
+    const names = this.underWay(running);
+    for (const { state: cell } of [...this.rows].flatMap(([run, rows]) => (this.counted.has(run) || names.has(run) ? [] : rows))) {
       cell.className = `study-state ${state}`;
       cell.textContent = texts.studies.states[state]!;
     }
@@ -317,14 +343,14 @@ export class StudyPane {
     if (!this.table) {
       // It plans its runs before it begins with them.
       if (!course.plan) return course.state === "running" ? this.readSoon() : void (this.words.textContent = texts.runState[course.state]);
-      this.table = new StudyTable(course.plan, "waiting");
+      this.table = new StudyTable(course.plan, "waiting", (part, label) => this.hooks.showLive(run, part, label));
       this.total = course.plan.total;
       this.content.replaceChildren(this.table.element);
     }
     this.at = course.at;
     this.table.take(course);
     const isRunning = course.state === "running";
-    this.table.rest(isRunning ? "waiting" : "missing");
+    this.table.rest(isRunning ? "waiting" : "missing", course.running);
     this.words.textContent = `${texts.studies.done(this.table.done, this.total, this.table.failed)}, ${texts.runState[course.state]}`;
     if (course.more) return void this.read();
     if (isRunning) this.readSoon();

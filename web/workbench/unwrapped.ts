@@ -1,6 +1,6 @@
 // The surface of a bearing unwrapped: grid, holes, grooves and pads; what has a place in the text can be moved.
 
-import type { BearingScene, Feature } from "./api";
+import type { BearingScene, BoreArc, Feature } from "./api";
 import { h } from "../src/dom";
 import { format } from "../src/units";
 import { texts } from "./texts";
@@ -17,8 +17,14 @@ function svg(tag: string, properties: Record<string, string | number>, ...childr
 export interface UnwrappedHooks {
   /** A feature was moved there [rad or m; m]; null: that coordinate stays as it is written. */
   moved: (feature: Feature, phi: number | null, z: number | null) => void;
-  chosen: (feature: Feature) => void;
+  /** An end of an arc was moved to an angle [rad]. */
+  arcMoved: (arc: BoreArc, end: "from" | "to", phi: number) => void;
+  chosen: (part: { key?: string }) => void;
 }
+
+const turn = 2 * Math.PI;
+const wrapped = (phi: number) => ((phi % turn) + turn) % turn;
+const degree = Math.PI / 180;
 
 const box = { left: 44, top: 10, width: 540, height: 190 };
 
@@ -34,8 +40,11 @@ export class Unwrapped {
     }
     const { along: nodes, across: rows, closes } = bearing.grid;
     const isPlane = bearing.along !== "phi";
-    const low = closes ? 0 : nodes[0]!;
-    const along = closes ? 2 * Math.PI : nodes[nodes.length - 1]! - low;
+    const arcs = bearing.arcs ?? [];
+    // Around arcs there is the whole turn: their ends can be moved into the grooves.
+    const isRound = closes || arcs.length > 0;
+    const low = isRound ? 0 : nodes[0]!;
+    const along = isRound ? turn : nodes[nodes.length - 1]! - low;
     const bottom = rows[0]!;
     const width = rows[rows.length - 1]! - bottom;
     // The line that supplies it is a feature without extent around it.
@@ -43,10 +52,16 @@ export class Unwrapped {
     const all = [...bearing.features, ...line];
     const focused = (document.activeElement as Element | null)?.getAttribute?.("data-feature");
     const x = (phi: number) => box.left + ((phi - low) / along) * box.width;
+    const lineAt = (phi: number) => x(arcs.length > 0 ? wrapped(phi) : phi);
     const y = (z: number) => box.top + (1 - (z - bottom) / width) * box.height;
     const drawing = svg("svg", { viewBox: `0 0 ${box.left + box.width + 14} ${box.top + box.height + 40}`, role: "group", "aria-label": texts.unwrapped(name) });
-    drawing.append(svg("rect", { class: "paper", x: box.left, y: box.top, width: box.width, height: box.height }));
-    const lines = [...nodes.map((node) => `M${x(node)} ${box.top}v${box.height}`), ...rows.map((row) => `M${box.left} ${y(row)}h${box.width}`)];
+    drawing.append(svg("rect", { class: arcs.length > 0 ? "paper between-arcs" : "paper", x: box.left, y: box.top, width: box.width, height: box.height }));
+    for (const { from, to } of arcs)
+      for (const shift of [-turn, 0, turn]) {
+        const [left, right] = [Math.max(0, wrapped(from) + shift), Math.min(turn, wrapped(from) + to - from + shift)];
+        if (right > left) drawing.append(svg("rect", { class: "paper", x: x(left), y: box.top, width: x(right) - x(left), height: box.height }));
+      }
+    const lines = [...nodes.map((node) => `M${lineAt(node)} ${box.top}v${box.height}`), ...rows.map((row) => `M${box.left} ${y(row)}h${box.width}`)];
     drawing.append(svg("path", { class: "grid", d: lines.join("") }));
     for (let k = 0; k <= 4; k++) {
       const value = low + (k / 4) * along;
@@ -57,6 +72,7 @@ export class Unwrapped {
     const clip = svg("clipPath", { id: "unwrapped-clip" }, svg("rect", { x: box.left, y: box.top, width: box.width, height: box.height }));
     drawing.append(svg("defs", {}, clip));
     for (const feature of all) drawing.append(this.draw(feature, along, width, x, y, isPlane));
+    for (const arc of arcs) drawing.append(...(["from", "to"] as const).map((end) => this.drawEnd(arc, end, arcs, lineAt)));
     this.element.replaceChildren(drawing);
     if (focused) this.element.querySelector<SVGElement>(`[data-feature="${CSS.escape(focused)}"]`)?.focus();
   }
@@ -68,8 +84,7 @@ export class Unwrapped {
     const place = isPlane ? `${format(1e3 * feature.phi, 3)} mm` : `${format((feature.phi * 180) / Math.PI, 4)}°`;
     const group = svg("g", { class: `feature ${feature.kind} ${feature.surface ?? "fixed"}`, "clip-path": "url(#unwrapped-clip)" });
     const handle = svg("g", { class: key ? "handle" : "", "data-feature": feature.name, ...(key ? { tabindex: 0, role: "button", "aria-label": `${feature.name}, ${feature.kind}, at ${place}, z ${format(1e3 * feature.z, 3)} mm` } : {}) });
-    const turn = isPlane ? [0] : [-along, 0, along];
-    for (const shift of turn) {
+    for (const shift of isPlane ? [0] : [-along, 0, along]) {
       const copy = shift === 0 ? {} : { class: "copy" };
       const [cx, cy] = [x(feature.phi + shift), y(feature.z)];
       if (feature.arc === 0) handle.append(svg("path", { class: shift === 0 ? "line" : "line copy", d: `M${cx} ${cy - t / 2}v${t}` }), svg("path", { class: "touch", d: `M${cx} ${cy - t / 2}v${t}` }));
@@ -80,6 +95,51 @@ export class Unwrapped {
     group.append(handle);
     if (key) this.followHand(handle, feature, along, width);
     return group;
+  }
+
+  /** An end of an arc, as a line across the bearing with a grip. */
+  private drawEnd(arc: BoreArc, end: "from" | "to", arcs: BoreArc[], lineAt: (phi: number) => number): SVGElement {
+    const at = lineAt(arc[end]);
+    const words = `${texts.arcEnd[end](arc.name)}, ${format(arc[end] / degree, 4)}°`;
+    const handle = svg("g", { class: "handle arc-end", "data-feature": `arc ${arc.name} ${end}`, tabindex: 0, role: "button", "aria-label": words });
+    const middle = box.top + box.height / 2;
+    const out = end === "from" ? 1 : -1; // into the arc
+    handle.append(svg("title", {}, words), svg("path", { class: "line", d: `M${at} ${box.top}v${box.height}` }), svg("path", { class: "grip", d: `M${at} ${middle - 9}l${7 * out} 9l${-7 * out} 9z` }), svg("path", { class: "touch", d: `M${at} ${box.top}v${box.height}` }));
+    // Neighbours, the arc's other end and whole degrees limit it; where keys have brought it, before the text's answer.
+    let place = arc[end];
+    const limited = (phi: number) => {
+      const grid = Math.round(phi / degree) * degree;
+      const own = end === "from" ? Math.min(grid, arc.to - degree) : Math.max(grid, arc.from + degree);
+      const room = arcs.length > 1 || arc.isOfBore ? Infinity : turn;
+      return end === "from" ? Math.max(own, arc.to - room) : Math.min(own, arc.from + room);
+    };
+    let start: { x: number; scale: number } | null = null;
+    const moved = (event: PointerEvent) => ((event.clientX - start!.x) * start!.scale * turn) / box.width;
+    handle.addEventListener("pointerdown", (event) => {
+      const drawing = handle.ownerSVGElement!;
+      start = { x: event.clientX, scale: drawing.viewBox.baseVal.width / drawing.getBoundingClientRect().width };
+      handle.setPointerCapture(event.pointerId);
+      this.hooks.chosen(arc);
+    });
+    handle.addEventListener("pointermove", (event) => {
+      if (start) handle.setAttribute("transform", `translate(${((limited(arc[end] + moved(event)) - arc[end]) / turn) * box.width} 0)`);
+    });
+    handle.addEventListener("pointerup", (event) => {
+      if (!start) return;
+      const phi = limited(arc[end] + moved(event));
+      const isMoved = Math.abs(moved(event)) > 0.5 * degree;
+      start = null;
+      if (!isMoved) return handle.removeAttribute("transform");
+      this.hooks.arcMoved(arc, end, phi);
+    });
+    handle.addEventListener("keydown", (event) => {
+      const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+      if (!way) return;
+      event.preventDefault();
+      place = limited(place + way * (event.shiftKey ? 10 : 1) * degree);
+      this.hooks.arcMoved(arc, end, place);
+    });
+    return handle;
   }
 
   private followHand(handle: SVGElement, feature: Feature, along: number, width: number): void {

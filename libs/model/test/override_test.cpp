@@ -128,10 +128,11 @@ TEST_CASE("FormulasThatDoNotFit_AreReported") {
   const auto faults = [](const std::string& force, const std::string& a) {
     return faults_of(with_force_in_x(force, "  a: \"" + a + "\"\n"));
   };
-  CHECK(faults("\"2*${a}\"", "3 mm") ==
-        "m.yaml:20:47: forces.push.components.0: a length (mm) (from parameter a in line 4); expected a force, such as "
-        "500 N");
-  CHECK(faults("\"${a}+1 s\"", "3 N").find("(from parameter a in line 4)") != std::string::npos);
+  CHECK(
+      faults("\"2*${a}\"", "3 mm") ==
+      "m.yaml:4:6: parameters.a: a length (mm), used in line 20 by forces.push.components.0; expected a force, such as "
+      "500 N");
+  CHECK(faults("\"${a}+1 s\"", "3 N").find("used in line 20 by forces.push.components.0") != std::string::npos);
   CHECK(faults("{expression: \"2*${a}*t\", unit: N}", "500 N").find("parameters in expressions are bare numbers") !=
         std::string::npos);
   // A number beside a parameter is no number with it.
@@ -163,13 +164,13 @@ TEST_CASE("FaultyOverrides_AreNamed") {
         "--set: bearings.big_end.diameter: nothing; expected a length > 0, such as 45 mm");
 }
 
-TEST_CASE("FaultyParameter_IsReportedWhereItIsUsed") {
+TEST_CASE("FaultyParameter_IsReportedWhereItIsGiven") {
   CHECK(
       faults_of(good_model, {"load=5 kPa"}) ==
       "m.yaml:19:52: forces.push.components.1: a pressure (kPa) (from parameter load set by --set); expected a force, "
       "such as 500 N");
   CHECK(faults_after("load: 500 N", "load: 5 kPa") ==
-        "m.yaml:19:52: forces.push.components.1: a pressure (kPa) (from parameter load in line 4); expected a force, "
+        "m.yaml:4:9: parameters.load: a pressure (kPa), used in line 19 by forces.push.components.1; expected a force, "
         "such as 500 N");
 }
 

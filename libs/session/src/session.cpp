@@ -78,7 +78,10 @@ Check Session::check() const {
   return found;
 }
 
-std::vector<model::StudyRun> Session::runs() const { return model::expand_study(source_, overrides_); }
+std::vector<model::StudyRun> Session::runs() const {
+  if (!model_.study) return {};  // the text is not read anew for that
+  return model::expand_study(source_, overrides_);
+}
 
 std::vector<model::StudyParameter> Session::study_parameters() const { return model::check_study(source_, overrides_); }
 

@@ -243,6 +243,30 @@ TEST_CASE("SyntaxErrors_AreFaults") {
   CHECK(with_edits(tabs, repair["edits"]) == "hersey: 1\nbodies:\n  pin: {}\n");
 }
 
+TEST_CASE("WrongIndentation_IsMendedToAnyDepthThatIsAllowed") {
+  for (const char* spaces : {"     ", "   "}) {
+    const std::string text = replaced(kRig, "    width: 15.6 mm", spaces + std::string("width: 15.6 mm"));
+    const Json faults = check_of(text)["faults"];
+    REQUIRE(faults.size() == 1);
+    const Json& repairs = faults[0]["repairs"];
+    REQUIRE(repairs.size() == 3);
+    CHECK(repairs[0]["label"] == "Indent as 'diameter'");
+    CHECK(with_edits(text, repairs[0]["edits"]) == kRig);
+    CHECK(with_edits(text, repairs[2]["edits"]) == replaced(kRig, "    width: 15.6 mm", "width: 15.6 mm"));
+  }
+}
+
+TEST_CASE("MisspelledKey_IsMendedByOneRepair") {
+  for (const char* key : {"bodies:", "lubricants:", "joints:", "    diameter:"}) {
+    const std::string word(key),
+        wrong = word.substr(0, word.size() - 3) + word[word.size() - 2] + word[word.size() - 3] + ":";
+    const std::string text = replaced(kRig, "\n" + word, "\n" + wrong);
+    const Json faults = check_of(text)["faults"];
+    REQUIRE(faults.size() == 1);
+    CHECK(with_edits(text, faults[0]["repairs"][0]["edits"]) == kRig);
+  }
+}
+
 TEST_CASE("WhatIsMissingToRun_IsListed") {
   const Json unfinished = check_of(replaced(kRig, "    lubricant: oil\n", ""));
   REQUIRE(unfinished["missing"].size() == 1);

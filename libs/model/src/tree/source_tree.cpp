@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -227,6 +228,72 @@ std::string line_of(const std::string& text, int line) {
   return content;
 }
 
+/// A key of the block style that is open at some line: keys below it stand deeper.
+struct OpenKey {
+  std::size_t indentation = 0;
+  int line = 0;  ///< from 1
+  std::string key;
+  bool has_value = false;  ///< on its own line: nothing may stand deeper
+};
+
+/// The key that a line begins with; empty where it begins with none.
+std::string key_of_line(const std::string& line, std::size_t indentation, bool& has_value) {
+  if (indentation >= line.size() || std::string_view("#-{}[],&*!|>'\"%@`").find(line[indentation]) != std::string::npos)
+    return "";
+  std::size_t colon = line.find(':', indentation);
+  while (colon != std::string::npos && colon + 1 < line.size() && line[colon + 1] != ' ' && line[colon + 1] != '\r')
+    colon = line.find(':', colon + 1);
+  if (colon == std::string::npos) return "";
+  const std::string key = line.substr(indentation, colon - indentation);
+  if (key.find_first_of("#{}[],") != std::string::npos) return "";
+  const std::size_t value = line.find_first_not_of(" \r", colon + 1);
+  has_value = value != std::string::npos && line[value] != '#';
+  return key;
+}
+
+std::string spaces_text(std::size_t count) {
+  return count == 0 ? "no spaces" : std::to_string(count) + (count == 1 ? " space" : " spaces");
+}
+
+/// Of a line that stands as deep as no line that it could belong to, with what it could: nothing for other lines.
+std::optional<Fault> indentation_fault(const std::string& text, int line, const std::string& file) {
+  std::vector<OpenKey> open;
+  std::istringstream stream(text);
+  std::string content;
+  for (int i = 1; i <= line && std::getline(stream, content); ++i) {
+    const std::size_t indentation = content.find_first_not_of(' ');
+    bool has_value = false;
+    const std::string key = indentation == std::string::npos ? "" : key_of_line(content, indentation, has_value);
+    if (key.empty()) continue;
+    if (i < line) {
+      while (!open.empty() && open.back().indentation >= indentation) open.pop_back();
+      open.push_back({indentation, i, key, has_value});
+      continue;
+    }
+    const bool is_aligned =
+        std::any_of(open.begin(), open.end(), [&](const OpenKey& other) { return other.indentation == indentation; });
+    const bool is_deepest = open.empty() || indentation > open.back().indentation;
+    if (open.empty() || is_aligned || (is_deepest && !open.back().has_value)) return std::nullopt;
+    std::string found = "'" + key + "' indented by " + spaces_text(indentation);
+    if (is_deepest)
+      found += ", deeper than '" + open.back().key + "' in line " + std::to_string(open.back().line) +
+               ", which has a value already";
+    std::string expected;
+    constexpr std::size_t most = 3;
+    for (std::size_t k = 0; k < std::min(open.size(), most); ++k) {
+      const OpenKey& other = open[open.size() - 1 - k];
+      expected += (k == 0 ? "" : ", or ") + spaces_text(other.indentation) + ", as '" + other.key + "' in line " +
+                  std::to_string(other.line);
+    }
+    return Fault{{file, line, static_cast<int>(indentation) + 1},
+                 "",
+                 std::move(found),
+                 std::move(expected),
+                 "keys that belong together stand exactly below each other"};
+  }
+  return std::nullopt;
+}
+
 /// The parser's messages in the user's words, with the usual cause where the line shows it.
 Fault syntax_fault(const YAML::Exception& error, const std::string& text, const std::string& file) {
   static const std::map<std::string, std::string> meanings = {
@@ -238,10 +305,17 @@ Fault syntax_fault(const YAML::Exception& error, const std::string& text, const 
   const auto meaning = meanings.find(error.msg);
   const std::string line = line_of(text, error.mark.line);
   const bool has_tab = line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos;
+  const bool may_be_indentation = error.msg == YAML::ErrorMsg::MAP_VALUE || error.msg == YAML::ErrorMsg::END_OF_MAP;
+  if (may_be_indentation && !has_tab)
+    if (std::optional<Fault> fault = indentation_fault(text, error.mark.line + 1, file)) return *std::move(fault);
   std::string hint;
-  if (has_tab) {
-    hint = "indent with spaces, not tabs";
-  } else if (line.find("${") != std::string::npos && line.find("\"${") == std::string::npos) {
+  if (has_tab)
+    return {{file, error.mark.line + 1, error.mark.column + 1},
+            "",
+            "a tab before the text of its line",
+            "spaces before it",
+            "indent with spaces, not tabs"};
+  if (line.find("${") != std::string::npos && line.find("\"${") == std::string::npos) {
     hint = "inside braces and brackets write \"${name}\" in quotes";
   } else if (error.msg == YAML::ErrorMsg::MAP_VALUE) {
     hint = "check the indentation, and quote text that contains ': '";

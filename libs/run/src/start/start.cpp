@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hersey/core/input_error.h"
+#include "hersey/run/named_part.h"
 #include "hersey/solver/initialise.h"
 #include "hersey/solver/kinematics.h"
 #include "hersey/solver/static_deformation.h"
@@ -19,36 +20,9 @@
 namespace hersey::run {
 namespace {
 
-// Returns the key path of the first name in a message: "joint main, rotation" -> joints.main; "t = 0 s: bearing
-// big_end: ..." -> bearings.big_end.
-std::string path_of(const std::string& message) {
-  const std::string of_circuit = "circuit: ", of_pump = of_circuit + "pump ";
-  if (const std::size_t pump = message.find(of_pump); pump != std::string::npos) {
-    const std::size_t name = pump + of_pump.size();
-    return "circuit.elements." + message.substr(name, message.find(' ', name) - name);
-  }
-  if (message.find(of_circuit) != std::string::npos) return "circuit";
-  const std::array<std::pair<const char*, const char*>, 6> sections{{{"joint ", "joints."},
-                                                                     {"drive ", "drives."},
-                                                                     {"coupling ", "couplings."},
-                                                                     {"contact ", "contacts."},
-                                                                     {"bearing ", "bearings."},
-                                                                     {"body ", "bodies."}}};
-  std::size_t first = std::string::npos;
-  std::string path;
-  for (const auto& [word, section] : sections) {
-    const std::size_t at = message.find(word);
-    if (at >= first) continue;
-    first = at;
-    const std::size_t name = at + std::string(word).size();
-    path = section + message.substr(name, message.find_first_of(",: ", name) - name);
-  }
-  return path;
-}
-
 Fault fault_at(const model::Model& model, const std::string& row, std::string found, std::string expected,
                std::string suggestion) {
-  const std::string path = path_of(row);
+  const std::string path = path_of_named_part(row);
   SourcePosition position = path.empty() ? SourcePosition{model.file, 0, 0} : model.position_of(path);
   return {std::move(position), path, std::move(found), std::move(expected), std::move(suggestion)};
 }
@@ -78,7 +52,7 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
                               "give the bodies behind it mass and inertia, or hold it with a drive"));
   }
   if (!faults.empty()) return faults;
-  if (summary.status == Status::domain_error && path_of(summary.message).starts_with("contacts.")) {
+  if (summary.status == Status::domain_error && path_of_named_part(summary.message).starts_with("contacts.")) {
     return {fault_at(model, summary.message, summary.message, "shapes apart or just touching at the start",
                      "move the joints' `initial` values or the shapes; of a half-space or mesh, see that its normals "
                      "point out of the solid")};
@@ -95,12 +69,12 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
     return {fault_at(model, summary.message, summary.message, "a shaft at a speed of the table",
                      "write a row for that speed, or the housing's frame first in `between`")};
   }
-  if (summary.status == Status::domain_error && path_of(summary.message).starts_with("circuit")) {
+  if (summary.status == Status::domain_error && path_of_named_part(summary.message).starts_with("circuit")) {
     return {fault_at(
         model, summary.message, summary.message, "pumps that turn forwards, and a way out for all oil that comes in",
         "a negative `ratio` turns a pump the other way than its joint; a relief valve takes what is too much")};
   }
-  if (summary.status == Status::domain_error && path_of(summary.message).starts_with("bodies.")) {
+  if (summary.status == Status::domain_error && path_of_named_part(summary.message).starts_with("bodies.")) {
     return {fault_at(model, summary.message, summary.message,
                      "a body whose motion at the start its material can follow",
                      "see that speeds, loads and stiffness are in the units meant, or start from rest and let a drive "

@@ -33,8 +33,36 @@ std::vector<BearingProgress> bearings_of(const model::Model& model, const StepRe
                        .e_y = observed.position.e[1],
                        .power = observed.film.power_film + observed.film.power_asperity,
                        .flow = observed.film.flow_out()});
-    if (observed.heat) figures.back().T_max = observed.heat->T_max;
+    BearingProgress& own = figures.back();
+    own.power_asperity = observed.film.power_asperity;
+    if (!observed.heat) continue;
+    const film::HeatBalance& heat = observed.heat->balance;
+    own.T_max = observed.heat->T_max;
+    own.has_heat = true;
+    own.heat_to_oil = heat.to_oil, own.heat_to_shell = heat.to_shell;
+    own.heat_to_journal = heat.to_journal, own.heat_stored = heat.stored;
   }
+  return figures;
+}
+
+PowerProgress powers_of(const StepRecord& step) {
+  const PowerBalance& power = step.power;
+  PowerProgress figures{.drives = power.drives,
+                        .loads = power.loads,
+                        .gravity = power.gravity,
+                        .springs = power.springs,
+                        .contacts = power.contacts,
+                        .bearings = power.bearings,
+                        .elastic = power.elastic,
+                        .kinetic_rate = power.kinetic_rate,
+                        .error = power.error()};
+  for (const bearing::BearingObservation& observed : step.bearings) {
+    figures.film_friction += observed.film.power_film;
+    figures.asperity_friction += observed.film.power_asperity;
+  }
+  figures.has_network = step.network.T.size() > 0;
+  if (figures.has_network)
+    figures.heat_to_surroundings = step.network.to_fixed, figures.heat_in_bodies = step.network.stored;
   return figures;
 }
 
@@ -241,7 +269,8 @@ void MachineRun::report_progress(const StepRecord& step) const {
                         .moft = record_.moft(),
                         .elapsed = elapsed(),
                         .bearings = [this, &step] { return bearings_of(model_, step); },
-                        .circuit = [this, &step] { return circuit_of(model_, step); }});
+                        .circuit = [this, &step] { return circuit_of(model_, step); },
+                        .powers = [&step] { return powers_of(step); }});
 }
 
 Outcome MachineRun::finish(Status status, const std::string& message, const Summary* coarse) {

@@ -2,16 +2,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
 
 #include "answers/kept.h"
 #include "answers/repairs.h"
 #include "answers/request.h"
+#include "folder/folder.h"
 #include "hersey/core/units.h"
 #include "hersey/fem/gmsh_file.h"
 #include "hersey/fem/mesh_file.h"
 #include "hersey/fem/mesh_quality.h"
 #include "hersey/workbench/answers.h"
 #include "hersey/workbench/mesh_document.h"
+#include "runs/temporary_folder.h"
 
 namespace hersey::workbench {
 namespace {
@@ -23,6 +27,15 @@ double length_unit_of(const std::string& text) {
   } catch (const QuantityError& error) {
     throw Refused(422, "The length unit is " + error.found + ".", "Give one such as mm.");
   }
+}
+
+/// A file of this program's own.
+std::string whole_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(std::filesystem::file_size(file), '\0');
+  if (!stream.read(text.data(), static_cast<std::streamsize>(text.size())))
+    throw std::runtime_error("a temporary file cannot be read");
+  return text;
 }
 
 Json as_list(const std::vector<Fault>& faults, const std::string& folder) {
@@ -81,10 +94,16 @@ std::string Answers::name_surfaces(std::string_view request) const {
       throw Refused(422, "The mesh has beams or ties, which the format that is written does not have.",
                     "Name the surfaces in the program that made the mesh.");
     fem::add_surfaces(mesh, fem::find_surfaces(mesh));
-    fem::write_gmsh(to, mesh);
+    // Whatever is put in its place meanwhile, a link perhaps, is neither followed nor replaced.
+    const TemporaryFolder temporary;
+    const std::filesystem::path made = temporary.file("named.msh");
+    fem::write_gmsh(made, mesh);
+    (void)Folder(kept_->folder()).create(output, whole_text(made));
     return dumped({{"path", output}});
   } catch (const InputError& error) {
     refuse(error);
+  } catch (const ChangedFile&) {
+    throw Refused(409, "There is a file '" + output + "' already.", "Choose another name.");
   } catch (const Refused&) {
     throw;
   } catch (const std::runtime_error& error) {

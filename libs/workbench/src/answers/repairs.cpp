@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 #include "hersey/core/units.h"
 #include "hersey/model/convert.h"
@@ -242,6 +243,30 @@ std::vector<Repair> without_tabs(const Fault& fault, const std::string& text) {
   return {{"Indent with spaces", {{at, spaces}}}};
 }
 
+/// Depths that a line may have, of a fault of its indentation: "4 spaces, as 'mass' in line 4, or no spaces, as ...".
+std::vector<Repair> indented(const Fault& fault) {
+  if (fault.found.find("' indented by ") == std::string::npos || fault.position.line < 1) return {};
+  std::vector<Repair> repairs;
+  const std::string& allowed = fault.expected;
+  for (std::size_t at = 0; at != std::string::npos;) {
+    const std::size_t end = allowed.find(" space", at), name = allowed.find(", as '", at);
+    if (end == std::string::npos || name == std::string::npos) break;
+    const std::string count = allowed.substr(at, end - at);
+    const std::vector<std::string> as = words_in_quotes(std::string_view(allowed).substr(name));
+    constexpr std::size_t kDeepest = 1000;  // [columns]
+    const std::size_t spaces =
+        count == "no" ? 0 : std::min<std::size_t>(std::strtoul(count.c_str(), nullptr, 10), kDeepest);
+    if (!as.empty())
+      repairs.push_back(
+          {"Indent as '" + as.front() + "'",
+           {{{fault.position.line, 1, fault.position.line, fault.position.column}, std::string(spaces, ' ')}}});
+    const std::string next = ", or ";
+    at = allowed.find(next, name);
+    if (at != std::string::npos) at += next.size();
+  }
+  return repairs;
+}
+
 /// The whole text as this version writes it.
 std::vector<Repair> brought_up_to_date(const Fault& fault, const std::string& text) {
   if (fault.expected.find("`hersey convert` brings this file up to date") == std::string::npos) return {};
@@ -260,7 +285,11 @@ std::string relative_to(const std::string& folder, const std::string& file) {
 }  // namespace
 
 std::vector<Repair> repairs_of(const Fault& fault, const std::string& text, const TextMap* map) {
-  if (map == nullptr) return without_tabs(fault, text);
+  if (map == nullptr) {
+    std::vector<Repair> repairs = without_tabs(fault, text);
+    for (Repair& repair : indented(fault)) repairs.push_back(std::move(repair));
+    return repairs;
+  }
   std::vector<Repair> repairs = brought_up_to_date(fault, text);
   if (fault.position.line < 1) return repairs;
   try {

@@ -94,7 +94,25 @@ Json feature_json(const film::SurfaceFeature& feature, const film::FilmModel& fi
   return json;
 }
 
-Json bearing_json(const model::Bearing& bearing, const Json& sources) {
+/// The arcs of a bore and the keys that hold them: each its own, or that of the bore which makes them alike.
+Json arcs_json(const model::Bearing& bearing, const model::Model& model) {
+  Json list = Json::array();
+  const std::string path = "bearings." + bearing.name;
+  const bool is_of_bore = model.positions.contains(path + ".bore");
+  for (const film::Profile& profile : bearing.film.profiles) {
+    const auto* arcs = std::get_if<film::Arcs>(&profile.shape);
+    if (arcs == nullptr) continue;
+    for (const film::Arc& arc : arcs->arcs)
+      list.push_back({{"name", arc.name},
+                      {"from", arc.from},
+                      {"to", arc.to},
+                      {"key", is_of_bore ? path + ".bore" : path + ".arcs." + arc.name},
+                      {"isOfBore", is_of_bore}});
+  }
+  return list;
+}
+
+Json bearing_json(const model::Bearing& bearing, const model::Model& model, const Json& sources) {
   const film::FilmModel& film = bearing.film;
   const bearing::FilmCoordinate along = bearing::coordinate_along(film), across = bearing::coordinate_across(film);
   Json json{
@@ -109,6 +127,7 @@ Json bearing_json(const model::Bearing& bearing, const Json& sources) {
   for (const film::SurfaceFeature& feature : film.features)
     json["features"].push_back(
         feature_json(feature, film, "bearings." + bearing.name + ".features." + feature.name, sources));
+  if (Json arcs = arcs_json(bearing, model); !arcs.empty()) json["arcs"] = std::move(arcs);
   if (film.supply.kind != film::SupplyKind::none)
     json["supply"] = {{"at", film.supply.kind == film::SupplyKind::widest_gap ? Json("widest_gap") : Json("angle")},
                       {"phi", film.supply.phi}};
@@ -152,7 +171,7 @@ std::string scene_json(const model::Model& model, const run::Picture& picture, c
   Json beside{{"sources", sources_of(model, map, columns)}};
   beside["bearings"] = Json::object();
   for (const model::Bearing& bearing : model.bearings)
-    beside["bearings"][bearing.name] = bearing_json(bearing, beside["sources"]);
+    beside["bearings"][bearing.name] = bearing_json(bearing, model, beside["sources"]);
   beside["loads"] = loads_json(model, picture);
   beside["frames"] = frames_json(model);
   if (model.circuit) beside["circuit"] = circuit_json(model);

@@ -292,6 +292,16 @@ FileText Folder::read(const std::string& relative) const {
   return content;
 }
 
+Path Folder::page(const std::string& relative) const {
+  const Path file = resolve(relative);
+  if (kind_by_name(file.extension().string()) != "report")
+    throw Refused(422, relative + " is no page", "open it as a text");
+  struct stat status {};
+  if (::lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
+    throw Refused(404, relative + " is not there", "choose a file of the list");
+  return file;
+}
+
 std::string Folder::replace(const std::string& relative, const std::string& text, const std::string& etag) {
   const Path file = resolve(relative);
   const std::lock_guard lock(writing_);

@@ -51,6 +51,8 @@ class Folder {
   /// @returns the new mark @throws ChangedFile if the content differs; Refused 507 on a full disk, 403 where nothing
   /// may be written; the old file is whole then
   std::string replace(const std::string& relative, const std::string& text, const std::string& etag);
+  /// A page of the folder, to be shown as a report is. @throws Refused 422 for other files, 404 where there is none
+  [[nodiscard]] std::filesystem::path page(const std::string& relative) const;
   /// Writes a file that does not exist. @returns its mark @throws ChangedFile if it exists; Refused as `replace`
   std::string create(const std::string& relative, const std::string& text);
 

@@ -43,6 +43,7 @@ double share_of_study(const Path& folder) {
 /// What the events say of the last start of a run.
 struct Course {
   std::string status, message;  // of its end; empty: none yet
+  json at;                      // the part of the model that its failure is about; null: none is known
   double share = 0, ended = 0;
 };
 
@@ -55,7 +56,11 @@ Course course_of(const Path& events) {
     const std::string kind = record_text(event, "kind");
     if (kind == "started") course = {};
     if (kind == "stepped" || kind == "run_finished") course.share = record_number(event, "share");
+    // Of a study the first run that failed.
+    if (kind == "run_finished" && record_text(event, "status") == "failed" && course.at.is_null())
+      course.at = event.value("at", json());
     if (kind != "finished") continue;
+    if (const json at = event.value("at", json()); at.is_object()) course.at = at;
     course.status = record_text(event, "status");
     course.message = record_text(event, "message");
     if (course.status == "completed") course.share = 1;
@@ -89,6 +94,12 @@ RunEntry Runs::entry_of(const std::string& id) const {
   run.process = process_in(record);
   const Course course = course_of(folder / "events.ndjson");
   run.share = course.share, run.message = course.message, run.ended = course.ended;
+  if (course.at.is_object()) {
+    run.at_path = record_text(course.at, "path");
+    run.at_line = static_cast<int>(std::clamp(record_number(course.at, "line"), 0.0, 1e9));
+    const Path file = Path(record_text(course.at, "file")).lexically_relative(folder_.path());
+    run.at_file = file.empty() || *file.begin() == ".." ? "" : file.generic_string();
+  }
   double reported = 0;
   std::error_code error;
   for (const Path& file : entries_of(folder)) {

@@ -19,18 +19,34 @@ using Path = std::filesystem::path;
 
 constexpr double kReportTime = 300;  // [s]
 
+/// A name as the list on the command line takes it: the comma parts names, and a page has little room.
+std::string label_of(const std::string& name, const std::string& id) {
+  constexpr std::size_t kMostLabel = 200;
+  std::string label;
+  for (const char c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    label += c == ',' ? ';' : code < 0x20 || code == 0x7f ? ' ' : c;
+  }
+  if (label.find_first_not_of(' ') == std::string::npos || label.size() > kMostLabel) return id;
+  return label;
+}
+
 }  // namespace
 
-Path Runs::report(const std::vector<std::string>& ids) {
-  std::vector<std::string> words{program_.string(), "report"}, names;
+Path Runs::report(const std::vector<std::string>& ids, const std::vector<std::string>& names) {
+  if (!names.empty() && names.size() != ids.size())
+    throw Refused(400, "the runs have other names than they are", "reload the page");
+  std::vector<std::string> words{program_.string(), "report"}, labels;
   std::optional<Path> ready;
-  for (const std::string& id : ids) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::string& id = ids[i];
     const RunEntry run = find(id);
+    const std::string name = names.empty() ? id : label_of(names[i], id);
     if (run.results.empty() && run.report.empty())
       throw Refused(409, id + " has no results yet", "wait for the first of them, or look at its log");
     for (const std::string& file : run.results) {
       words.push_back((folder_.path() / file).string());
-      names.push_back(run.results.size() == 1 ? id : id + " " + Path(file).stem().string());
+      labels.push_back(run.results.size() == 1 ? name : name + " " + Path(file).stem().string());
     }
     if (!run.report.empty() && run.state != "running") ready = folder_.path() / run.report;
   }
@@ -40,7 +56,7 @@ Path Runs::report(const std::vector<std::string>& ids) {
   words.insert(words.end(), {"--output", page.string()});
   if (ids.size() > 1) {
     std::string joined;
-    for (const std::string& name : names) joined += (joined.empty() ? "" : ",") + name;
+    for (const std::string& label : labels) joined += (joined.empty() ? "" : ",") + label;
     words.push_back("--names=" + joined);
   }
   std::string output;

@@ -21,6 +21,12 @@ std::string Runs::model_text(const std::string& id) const {
   return tail_of(file, kMostModel);
 }
 
+std::string Runs::history_in_study(const std::string& id, const std::string& run, std::size_t most) const {
+  const Path runs = folder_.path() / find(id).folder / "runs";
+  if (run != plain_name(run) || !is_own_folder(runs)) throw Refused(404, "there is no such run in this study", "");
+  return thinned_events(runs / (run + ".events"), most);
+}
+
 std::string Runs::history(const std::string& id, std::size_t most) const {
   return thinned_events(folder_.path() / find(id).folder / "events.ndjson", most);
 }

@@ -24,6 +24,8 @@ struct RunEntry {
   double share = 0;               ///< done, from 0 to 1
   double started = 0, ended = 0;  ///< seconds since 1970; 0: not known
   std::string message;
+  std::string at_path, at_file;  ///< of a failed run: the part of its model that the message is about; empty: none
+  int at_line = 0;
   std::vector<std::string> results;  ///< relative paths
   std::string report;                ///< relative path; empty: none yet
   bool can_resume = false;
@@ -56,15 +58,22 @@ class Runs {
   /// Asks it to stop as Ctrl-C does, and notes so in its record: it may not have come so far as to report it itself.
   void stop(const std::string& id);
   void resume(const std::string& id);
+  /// Removes a run with its folder, or a results file that was made elsewhere with what belongs to it. No link is
+  /// followed, and nothing is removed where the folder has anything that no run makes.
+  /// @throws Refused 404; 409 if it goes on or something else is there; 403 without the right, and for links
+  void remove(const std::string& id);
   /// The end of what it printed, at most 256 kB.
   [[nodiscard]] std::string log(const std::string& id) const;
   /// Text of its model as it was started, for comparisons.
   [[nodiscard]] std::string model_text(const std::string& id) const;
   /// Its events, steps thinned out to at most `most`, one line of JSON each.
   [[nodiscard]] std::string history(const std::string& id, std::size_t most) const;
+  /// The same of a run of a study, as long as it goes on; empty before and afterwards. @throws Refused 404
+  [[nodiscard]] std::string history_in_study(const std::string& id, const std::string& run, std::size_t most) const;
   /// Makes the report of runs, of several as a comparison, in a temporary folder where it is not there already.
+  /// @param names  of the runs in a comparison, in their order; empty: their ids
   /// @throws Refused 409 if there are no results yet, 422 if no report can be made of them
-  std::filesystem::path report(const std::vector<std::string>& ids);
+  std::filesystem::path report(const std::vector<std::string>& ids, const std::vector<std::string>& names = {});
   /// Makes the report of one bearing by itself: `{path, text, bearing, set}` -> as `hersey bearing --report` of that
   /// text.
   /// @throws Refused 422 where there is no solution

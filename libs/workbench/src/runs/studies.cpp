@@ -90,6 +90,32 @@ std::vector<std::string> record_files(const StudyPath& folder) {
   return names;
 }
 
+/// The runs of a study that go on, by what they write about themselves: `{run, values, share}`.
+json runs_under_way(const StudyPath& folder) {
+  constexpr std::size_t kMostUnderWay = 256;
+  constexpr std::uintmax_t kMostLine = 64 << 10;
+  json list = json::array();
+  const StudyPath runs = folder / "runs";
+  if (!is_own_folder(runs)) return list;
+  for (const StudyPath& file : entries_of(runs)) {
+    if (file.extension() != ".events" || list.size() == kMostUnderWay) continue;
+    const std::string head = part_of(file, 0, kMostLine);
+    const json first = object_of(head.substr(0, head.find('\n')));
+    if (first.is_null() || record_text(first, "run") != file.stem().string()) continue;
+    json run{{"run", record_text(first, "run")}, {"values", json::array()}, {"share", 0}};
+    if (const auto values = first.find("values"); values != first.end() && values->is_array())
+      for (const json& pair : *values)
+        run["values"].push_back(pair.is_array() && pair.size() == 2 && pair.at(1).is_string() ? pair.at(1) : json());
+    std::string tail = tail_of(file, kMostLine);
+    tail.erase(tail.rfind('\n') == std::string::npos ? 0 : tail.rfind('\n'));
+    const std::size_t begin = tail.rfind('\n');
+    if (const json last = object_of(begin == std::string::npos ? tail : tail.substr(begin + 1)); !last.is_null())
+      run["share"] = record_number(last, "share");
+    list.push_back(std::move(run));
+  }
+  return list;
+}
+
 /// How far each file has been read: "120 shards/a.jsonl:300" without the first one's name.
 std::map<std::string, std::uintmax_t> places_of(const std::string& after) {
   std::map<std::string, std::uintmax_t> places;
@@ -212,6 +238,7 @@ std::string Studies::course(const std::string& id, const std::string& after) con
   answer["at"] = at;
   answer["more"] = goes_on || is_full();
   answer["state"] = run.state;
+  answer["running"] = run.state == "running" ? runs_under_way(folder) : json::array();
   return answer.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

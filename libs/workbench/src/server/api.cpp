@@ -53,6 +53,9 @@ json json_of(const RunEntry& run) {
           {"started", run.started == 0 ? json(nullptr) : json(run.started)},
           {"ended", run.ended == 0 ? json(nullptr) : json(run.ended)},
           {"message", run.message},
+          {"at", run.at_path.empty() && run.at_line == 0
+                     ? json(nullptr)
+                     : json{{"path", run.at_path}, {"file", run.at_file}, {"line", run.at_line}}},
           {"results", run.results},
           {"report", run.report.empty() ? json(nullptr) : json(run.report)},
           {"can_resume", run.can_resume},
@@ -138,7 +141,13 @@ Reply Api::route(const Request& request) {
   if (call == "GET runs") return run_list();
   if (call == "POST runs") return json_reply({{"id", runs_.start(json::parse(request.body))}});
   if (call == "POST bearing_report") return ticket_for(runs_.bearing_report(json::parse(request.body)));
-  if (call == "POST compare") return report(json::parse(request.body).at("ids").get<std::vector<std::string>>());
+  if (call == "POST file_report")
+    return ticket_for(folder_.page(json::parse(request.body).at("path").get<std::string>()));
+  if (call == "POST compare") {
+    const json given = json::parse(request.body);
+    using Texts = std::vector<std::string>;
+    return report(given.at("ids").get<Texts>(), given.value("names", Texts{}));
+  }
   if (path.starts_with("/api/runs/")) return of_run(request);
   return unknown(path);
 }
@@ -189,6 +198,8 @@ Reply Api::of_run(const Request& request) {
   const std::string id = rest.substr(0, slash), call = request.method + rest.substr(slash);
   constexpr std::size_t kMostSteps = 4000;  // more than a screen has columns
   if (call == "GET/log") return {.type = "text/plain; charset=utf-8", .body = runs_.log(id)};
+  if (const std::string part = request.value("run"); call == "GET/events" && !part.empty())
+    return {.type = "application/x-ndjson", .body = runs_.history_in_study(id, part, kMostSteps)};
   if (call == "GET/events") return {.type = "application/x-ndjson", .body = runs_.history(id, kMostSteps)};
   if (call == "GET/study") return {.body = studies_.course(id, request.value("after"))};
   if (call == "GET/film")
@@ -196,13 +207,14 @@ Reply Api::of_run(const Request& request) {
   if (call == "GET/model") return {.type = "text/plain; charset=utf-8", .body = runs_.model_text(id)};
   if (call == "POST/report") return report({id});
   if (call == "POST/stop") return runs_.stop(id), json_reply({{"id", id}});
+  if (call == "POST/remove") return runs_.remove(id), json_reply({{"id", id}});
   if (call == "POST/resume") return runs_.resume(id), json_reply({{"id", id}});
   return unknown(request.path);
 }
 
-Reply Api::report(const std::vector<std::string>& ids) {
+Reply Api::report(const std::vector<std::string>& ids, const std::vector<std::string>& names) {
   if (ids.empty()) throw Refused(400, "no run is named", "choose one of the list");
-  return ticket_for(runs_.report(ids));
+  return ticket_for(runs_.report(ids, names));
 }
 
 Reply Api::ticket_for(const std::filesystem::path& page) {

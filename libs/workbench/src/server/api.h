@@ -44,7 +44,7 @@ class Api {
   [[nodiscard]] Reply of_cad(const Request& request);
   [[nodiscard]] Reply run_list() const;
   [[nodiscard]] Reply of_run(const Request& request);
-  [[nodiscard]] Reply report(const std::vector<std::string>& ids);
+  [[nodiscard]] Reply report(const std::vector<std::string>& ids, const std::vector<std::string>& names = {});
   /// `{url}` under which a report is shown as long as the server lives.
   [[nodiscard]] Reply ticket_for(const std::filesystem::path& page);
   [[nodiscard]] Reply report_file(const Request& request);

@@ -9,6 +9,7 @@
 #include "hersey/model/convert.h"
 #include "interpret/context/interpret.h"
 #include "interpret/context/interpret_size.h"
+#include "interpret/read/fault_causes.h"
 #include "interpret/read/reader.h"
 #include "interpret/read/templates.h"
 #include "schema/format.h"
@@ -211,6 +212,16 @@ Model ModelFile::read(const std::vector<std::string>& overrides) const {
   if (content_->root) model = read_tree(*content_->root, content_->file, changes, faults);
   if (!faults.empty()) {
     tidy(faults);
+    if (content_->root) {
+      faults = without_consequences(std::move(faults), *content_->root, [&](const Node& meant) {
+        std::vector<Fault> others;
+        (void)read_tree(meant, content_->file, changes, others);
+        tidy(others);
+        return others;
+      });
+      lead_to_parameters(content_->text, *content_->root, faults);
+      tidy(faults);
+    }
     if (content_->root) suggest_conversion(content_->text, content_->file, faults);
     throw InputError(std::move(faults));
   }

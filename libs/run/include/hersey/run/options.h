@@ -17,6 +17,19 @@ struct BearingProgress {
   double power = 0;             ///< friction power of film and asperities [W]
   double flow = 0;              ///< oil leaving over the edges [m^3/s]
   double T_max = std::numeric_limits<double>::quiet_NaN();  ///< hottest oil of a film with temperatures [K]
+  double power_asperity = 0;                                ///< part of `power`: boundary friction [W]
+  bool has_heat = false;                                    ///< a film with temperatures
+  double heat_to_oil = 0, heat_to_shell = 0, heat_to_journal = 0, heat_stored = 0;  ///< with them: where it goes [W]
+};
+
+/// Powers of the whole machine at an accepted step [W]: those of the results' group `power`, and the heat of the bodies
+/// where the model has a thermal network.
+struct PowerProgress {
+  double drives = 0, loads = 0, gravity = 0, springs = 0, contacts = 0, bearings = 0, elastic = 0, kinetic_rate = 0;
+  double error = 0;                                     ///< sum of the others less the kinetic rate
+  double film_friction = 0, asperity_friction = 0;      ///< dissipated in all films
+  bool has_network = false;                             ///< whether there are bodies that the films warm
+  double heat_to_surroundings = 0, heat_in_bodies = 0;  ///< where the network carries it, and where it stays
 };
 
 /// Figures of the oil circuit at an accepted step; empty of a machine without one.
@@ -45,6 +58,7 @@ struct Progress {
   /// empty.
   std::function<std::vector<BearingProgress>()> bearings = {};
   std::function<CircuitProgress()> circuit = {};  ///< likewise
+  std::function<PowerProgress()> powers = {};     ///< likewise
 };
 
 /// A cycle that has just ended; handed to Options::on_cycle.
