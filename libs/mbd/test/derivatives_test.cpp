@@ -115,8 +115,9 @@ TEST_CASE("Difference_InvertsRetract") {
   VectorXd dq(m->nv()), moved;
   for (Index k = 0; k < dq.size(); ++k) dq[k] = 0.3 * std::sin(1.7 * static_cast<double>(k) + 1);
   m->retract(state.q, dq, moved);
-  CHECK((m->difference(state.q, moved) - dq).cwiseAbs().maxCoeff() < 1e-12);  // round-off
-  CHECK((m->difference(moved, state.q) + m->difference(state.q, moved)).cwiseAbs().maxCoeff() < 1e-12);
+  constexpr double round_off = 1e-12;  // of quaternions
+  CHECK((m->difference(state.q, moved) - dq).cwiseAbs().maxCoeff() < round_off);
+  CHECK((m->difference(moved, state.q) + m->difference(state.q, moved)).cwiseAbs().maxCoeff() < round_off);
 }
 
 /// The state that the motion through `centre` reaches `s` seconds later, to second order.

@@ -118,15 +118,30 @@ TEST_CASE("MirroredMachine_HasTheSameMultipliers") {
     return answer_of(edited(text, "sin(main.rotation)", "sin(-main.rotation)"));
   };
   const Answer a = with(""), b = with("-");
-  REQUIRE(a.magnitude.size() == b.magnitude.size());
+  REQUIRE(a.magnitude.size() == 1);
+  REQUIRE(b.magnitude.size() == 1);
   CHECK(a.magnitude[0] < 1);
   CHECK(a.magnitude[0] == doctest::Approx(b.magnitude[0]).epsilon(2e-3));  // to which multipliers are found
-  CHECK(largest_difference(a.h_min, b.h_min) < 1e-4);
+  CHECK(largest_difference(a.h_min, b.h_min) < 1e-4);                      // of the orbit
 }
 
 TEST_CASE("MultipliersOfAMotionThatIsNotLookedFor_AreRefused") {
   const std::string text = edited(rig_by("half_grids"), "lead_in: half_grids", "lead_in: half_grids, multipliers: 2");
   CHECK_THROWS_WITH_AS((void)rig(text), doctest::Contains("`lead_in: shooting` beside them"), InputError);
+}
+
+TEST_CASE("ShootingOfMachinesThatNeverRepeat_IsRefused") {
+  const std::string wears = edited(rig_by("shooting"), "    supply: {line",
+                                   "    wear: {shell: {coefficient: 2e-15 1/Pa}}\n    "
+                                   "asperities: {model: greenwood_tripp, roughness: 1 "
+                                   "um, composite_modulus: 115 GPa, friction: 0.1}\n    supply: {line");
+  CHECK_THROWS_WITH_AS((void)rig(wears), doctest::Contains("between surfaces that wear"), InputError);
+  std::string controlled =
+      edited(rig_by("shooting"), "  motor: {joint: main, coordinate: rotation, speed: 3000 rpm}\n", "");
+  controlled =
+      edited(controlled, "forces:\n",
+             "forces:\n  motor: {type: speed_control, joint: main, speed: 3000 rpm, proportional: 1 N.m.s/rad}\n");
+  CHECK_THROWS_WITH_AS((void)rig(controlled), doctest::Contains("whose controller stores"), InputError);
 }
 
 }  // namespace shooting_test

@@ -42,8 +42,8 @@ std::vector<Found> ritz_values(const Eigen::MatrixXd& H, double next) {
 std::size_t count_of_found(const std::vector<Found>& values, const std::vector<Found>& before, bool are_complete) {
   const auto is_found = [&](std::size_t i) {
     const double enough = kAccuracy * std::max(std::abs(values[i].value), kSmallest);
-    if (values[i].error > enough) return false;
-    return are_complete || (i < before.size() && std::abs(values[i].value - before[i].value) <= enough);
+    if (are_complete) return values[i].error <= kNothingNew;
+    return i < before.size() && values[i].error <= enough && std::abs(values[i].value - before[i].value) <= enough;
   };
   std::size_t count = 0;
   while (count < values.size() && is_found(count)) ++count;

@@ -56,9 +56,9 @@ void find_multipliers(PeriodMap& map, const Shooting& found, int count, Periodic
     return;
   }
   const double largest = std::abs(multipliers.values.front());
-  start.message +=
-      fmt::format(" and {} for {} of its multipliers, the largest {:.4g}{}", multipliers.periods, multipliers.values.size(),
-                  largest, largest > 1 ? ": the motion is unstable, and small deviations grow" : "");
+  start.message += fmt::format(" and {} for {} of its multipliers, the largest {:.4g}{}", multipliers.periods,
+                               multipliers.values.size(), largest,
+                               largest > 1 ? ": the motion is unstable, and small deviations grow" : "");
 }
 
 PeriodicStart run_cycles(const model::Model& model, const Options& options) {
@@ -79,10 +79,11 @@ PeriodicStart run_cycles(const model::Model& model, const Options& options) {
   const Shooting found = shoot(
       map, {.tolerance = cycle.tolerance, .most = cycle.most, .repeats = [&] { return change <= cycle.tolerance; }});
   if (!found.solved()) throw std::runtime_error(found.message);
-  PeriodicStart start{.cycles = found.periods, .state = run.state()};
+  PeriodicStart start{.cycles = found.periods};
   start.message = fmt::format("begun after {} cycles {}", start.cycles, is_coarse ? "on half grids" : "of shooting");
   if (cycle.multipliers > 0) find_multipliers(map, found, cycle.multipliers, start);
   run.move_to(found.motion);
+  start.state = run.state();
   // Drives and functions of angles begin again at the start of the run.
   run.mechanism().retract(q_start, run.mechanism().difference(q_start, run.state().q), start.state.q);
   if (!is_coarse) {

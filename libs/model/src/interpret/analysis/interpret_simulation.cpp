@@ -278,6 +278,26 @@ bool has_elastic_surfaces(const Model& model) {
          std::any_of(model.bodies.begin(), model.bodies.end(), is_nodal);
 }
 
+bool wears(const Model& model) {
+  return std::any_of(model.bearings.begin(), model.bearings.end(),
+                     [](const Bearing& bearing) { return bearing.wear.has_value(); });
+}
+
+bool has_controller(const Model& model) {
+  return std::any_of(model.forces.begin(), model.forces.end(),
+                     [](const Force& force) { return std::holds_alternative<SpeedControl>(force.data); });
+}
+
+// Wear grows from cycle to cycle, and what a controller has stored belongs to the time of its run.
+void refuse_shooting(Context& context, const Value& value) {
+  if (wears(context.model))
+    context.fault(value, "a motion that repeats between surfaces that wear", "surfaces without `wear`",
+                  "find the motion without it, or leave `lead_in` out");
+  if (has_controller(context.model))
+    context.fault(value, "a motion that repeats of a machine whose controller stores what it integrates",
+                  "a `drive` in place of `type: speed_control`", "leave `lead_in` out");
+}
+
 void interpret_lead_in(Context& context, const Value& value) {
   Cycle& cycle = *context.model.simulation.cycle;
   cycle.lead_in = meaning_of(value, lead_in_words);
@@ -288,6 +308,7 @@ void interpret_lead_in(Context& context, const Value& value) {
   if (cycle.lead_in == LeadIn::half_grids && has_elastic_surfaces(context.model))
     context.fault(value, "a lead-in of films on half grids between surfaces that deform", "rigid surfaces of all films",
                   "`lead_in: shooting` keeps the grids");
+  if (cycle.lead_in == LeadIn::shooting) refuse_shooting(context, value);
 }
 
 /// Cycles that end the run, if its duration does not.
