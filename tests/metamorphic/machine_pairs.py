@@ -103,7 +103,7 @@ PAIRS = {"order of entries": reordered, "other units": in_other_units, "turned a
 
 
 # A key of another form of the same mapping, or one that the mapping takes only in company.
-NOT_OF_THIS_FORM = re.compile(r"unknown key|which (kind|type|shape|profile|model|law|wall) \S+ does not have|unknown coordinate|of a beam|of surroundings that keep")
+NOT_OF_THIS_FORM = re.compile(r"unknown key|which (kind|type|shape|profile|model|law|wall) \S+ does not have|unknown coordinate|of a beam|of surroundings that keep|a film that has none inside")
 
 
 def default_that_acts(pair, path, default):

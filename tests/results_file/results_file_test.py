@@ -33,6 +33,8 @@ RUNS = {
     "examples/flexible_rotor/modes.yaml": [],
     "examples/hot_pedestal/with_shaft.yaml": ["--set", "simulation.duration=0.2ms", "--set", "bearings.main.grid.circumferential=36",
                                               "--set", "bearings.main.grid.axial=7"],
+    "examples/oil_whirl/unbalance.yaml": ["--set", "study.parameters.speed=[9000rpm]", "--set", "bearings.left.grid.circumferential=24",
+                                          "--set", "bearings.right.grid.circumferential=24"],
     "examples/plane_slider/carriage.yaml": ["--set", "simulation.duration=2ms", "--set",
                                             "simulation.cycle={period: 1 ms, most: 2}", "--set",
                                             "bearings.pad.thermal={model: film, supply_temperature: 40 degC}"],

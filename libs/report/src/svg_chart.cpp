@@ -57,16 +57,16 @@ struct Reach {
   void take(double value) { low = std::min(low, value), high = std::max(high, value); }
 };
 
-/// A tick as one writes it: 0.02, 5, 200, 10^6.
+/// A tick as one writes it: 0.02, 5, 12000, 1.2 10^6.
 std::string tick_text(double value) {
   if (std::abs(value) < 1e-300) return "0";  // of either sign
   const double decade = std::log10(std::abs(value));
-  if (decade >= 4 || decade < -3) {
+  if (decade >= 5 || decade < -3) {
     const double power = std::floor(decade + 1e-9), digit = value / std::pow(10, power);
     const std::string ten = fmt::format("10<tspan dy=\"-5\" font-size=\"9\">{:.0f}</tspan>", power);
-    return std::abs(digit - 1) < 1e-6 ? ten : fmt::format("{:.0f}·{}", digit, ten);  // round-off of the division
+    return std::abs(digit - 1) < 1e-6 ? ten : fmt::format("{:.3g}·{}", digit, ten);  // round-off of the division
   }
-  return fmt::format("{:.4g}", value);
+  return fmt::format("{:.5g}", value);
 }
 
 /// Positions of labels beside the ends of lines, moved apart where they would overlap.
