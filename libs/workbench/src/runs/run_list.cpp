@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "hersey/results/output_lock.h"
@@ -40,12 +42,25 @@ double share_of_study(const Path& folder) {
   return all > 0 ? std::min(done / all, 1.0) : 0;
 }
 
+/// The part of a model that the failure of a run is about.
+struct Place {
+  std::string path, file;
+  int line = 0;
+};
+
 /// What the events say of the last start of a run.
 struct Course {
   std::string status, message;  // of its end; empty: none yet
-  json at;                      // the part of the model that its failure is about; null: none is known
+  std::optional<Place> place;   // of its failure, where it is known
   double share = 0, ended = 0;
 };
+
+std::optional<Place> place_in(const json& event) {
+  const auto at = event.find("at");
+  if (at == event.end() || !at->is_object()) return std::nullopt;
+  const double line = std::clamp(record_number(*at, "line"), 0.0, 1e9);
+  return Place{record_text(*at, "path"), record_text(*at, "file"), static_cast<int>(line)};
+}
 
 Course course_of(const Path& events) {
   Course course;
@@ -57,10 +72,10 @@ Course course_of(const Path& events) {
     if (kind == "started") course = {};
     if (kind == "stepped" || kind == "run_finished") course.share = record_number(event, "share");
     // Of a study the first run that failed.
-    if (kind == "run_finished" && record_text(event, "status") == "failed" && course.at.is_null())
-      course.at = event.value("at", json());
+    if (kind == "run_finished" && record_text(event, "status") == "failed" && !course.place)
+      course.place = place_in(event);
     if (kind != "finished") continue;
-    if (const json at = event.value("at", json()); at.is_object()) course.at = at;
+    if (std::optional<Place> place = place_in(event)) course.place = std::move(place);
     course.status = record_text(event, "status");
     course.message = record_text(event, "message");
     if (course.status == "completed") course.share = 1;
@@ -94,10 +109,10 @@ RunEntry Runs::entry_of(const std::string& id) const {
   run.process = process_in(record);
   const Course course = course_of(folder / "events.ndjson");
   run.share = course.share, run.message = course.message, run.ended = course.ended;
-  if (course.at.is_object()) {
-    run.at_path = record_text(course.at, "path");
-    run.at_line = static_cast<int>(std::clamp(record_number(course.at, "line"), 0.0, 1e9));
-    const Path file = Path(record_text(course.at, "file")).lexically_relative(folder_.path());
+  if (course.place) {
+    run.at_path = course.place->path;
+    run.at_line = course.place->line;
+    const Path file = Path(course.place->file).lexically_relative(folder_.path());
     run.at_file = file.empty() || *file.begin() == ".." ? "" : file.generic_string();
   }
   double reported = 0;
