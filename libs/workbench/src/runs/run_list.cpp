@@ -43,23 +43,23 @@ double share_of_study(const Path& folder) {
 }
 
 /// The part of a model that the failure of a run is about.
-struct Place {
+struct PlaceInText {
   std::string path, file;
   int line = 0;
 };
 
 /// What the events say of the last start of a run.
 struct Course {
-  std::string status, message;  // of its end; empty: none yet
-  std::optional<Place> place;   // of its failure, where it is known
+  std::string status, message;       // of its end; empty: none yet
+  std::optional<PlaceInText> place;  // of its failure, where it is known
   double share = 0, ended = 0;
 };
 
-std::optional<Place> place_in(const json& event) {
+std::optional<PlaceInText> place_in(const json& event) {
   const auto at = event.find("at");
   if (at == event.end() || !at->is_object()) return std::nullopt;
   const double line = std::clamp(record_number(*at, "line"), 0.0, 1e9);
-  return Place{record_text(*at, "path"), record_text(*at, "file"), static_cast<int>(line)};
+  return PlaceInText{record_text(*at, "path"), record_text(*at, "file"), static_cast<int>(line)};
 }
 
 Course course_of(const Path& events) {
@@ -75,7 +75,7 @@ Course course_of(const Path& events) {
     if (kind == "run_finished" && record_text(event, "status") == "failed" && !course.place)
       course.place = place_in(event);
     if (kind != "finished") continue;
-    if (std::optional<Place> place = place_in(event)) course.place = std::move(place);
+    if (std::optional<PlaceInText> place = place_in(event)) course.place = std::move(place);
     course.status = record_text(event, "status");
     course.message = record_text(event, "message");
     if (course.status == "completed") course.share = 1;
