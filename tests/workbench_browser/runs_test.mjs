@@ -19,7 +19,7 @@ for (const [from, to] of [["model", "tolerances"], ["optimum", "optimum"]]) cpSy
 cpSync(join(examples, "oil_circuit/model.yaml"), join(folder, "circuit.yaml"));
 const small = fileURLToPath(new URL("../cli/bearing.yaml", import.meta.url));
 cpSync(small, join(folder, "bearing_run.yaml"));
-writeFileSync(join(folder, "moving.yaml"), `${readFileSync(small, "utf8").replace("duration: 2 ms", "duration: 600 ms")}\nstudy:\n  plan: list\n  parameters: {load: [100 N, 200 N, 300 N]}\n  outputs: [bearings.main.moft]\n`);
+writeFileSync(join(folder, "moving.yaml"), `${readFileSync(small, "utf8").replace("duration: 2 ms", "duration: 6 s")}\nstudy:\n  plan: list\n  parameters: {load: [100 N, 200 N, 300 N]}\n  outputs: [bearings.main.moft]\n`);
 const findings = new Findings(only);
 const begun = performance.now();
 // A machine with a cluster, as far as the page can know.
