@@ -145,6 +145,13 @@ export async function says(page, words, has = true) {
   throw new Error(`the text ${has ? "does not say" : "still says"} ${words}`);
 }
 
+/** Opens a file of the list; a text is the one shown when this returns. */
+export const showFile = async (page, name) => {
+  const file = `.file[data-path="${name}"]`;
+  await page.locator(file).click();
+  if (/\.(yaml|csv)$/.test(name)) await page.locator(`${file}[aria-current="true"]`).waitFor();
+};
+
 /** What the top bar says of the model, once it begins so. */
 export const state = (page, words) => page.locator(".check-state", { hasText: words }).waitFor();
 

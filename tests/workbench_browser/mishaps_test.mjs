@@ -4,7 +4,7 @@ import { spawnSync } from "node:child_process";
 import { chmodSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { claim, cursorLine, Findings, folderOfModels, forget, goTo, launch, open, says, serve, state, until } from "./bench.mjs";
+import { claim, cursorLine, Findings, folderOfModels, forget, goTo, launch, open, says, serve, showFile, state, until } from "./bench.mjs";
 
 const [program, pictures = "build/web-test/workbench", only] = process.argv.slice(2);
 if (!program) {
@@ -15,7 +15,7 @@ mkdirSync(pictures, { recursive: true });
 const findings = new Findings(only);
 const browser = await launch();
 const picture = (page, name) => page.screenshot({ path: join(pictures, `${name}.png`) });
-const openFile = (page, name) => page.locator(`.file[data-path="${name}"]`).click();
+const openFile = showFile;
 const button = (page, name) => page.getByRole("button", { name, exact: true });
 const notice = (page, words) => page.locator(".notice", { hasText: words }).first().waitFor();
 const dot = (page) => page.locator(".documents .dot");

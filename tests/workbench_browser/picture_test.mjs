@@ -4,7 +4,7 @@ import { chmodSync, cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, wr
 import { tmpdir } from "node:os";
 import { delimiter, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { accessibilityFaults, claim, cursorLine, Findings, folderOfModels, forget, goTo, launch, open, says, serve, state, textOf, until } from "./bench.mjs";
+import { accessibilityFaults, claim, cursorLine, Findings, folderOfModels, forget, goTo, launch, open, says, serve, showFile, state, textOf, until } from "./bench.mjs";
 
 const [program, pictures = "build/web-test/workbench", only] = process.argv.slice(2);
 if (!program) {
@@ -26,7 +26,7 @@ const browser = await launch();
 const context = await browser.newContext({ viewport: size, colorScheme: "light" });
 const page = await open(context, server.address);
 const button = (name) => page.getByRole("button", { name, exact: true });
-const openFile = (name) => page.locator(`.file[data-path="${name}"]`).click();
+const openFile = (name) => showFile(page, name);
 const parts = page.getByLabel("Choose a part");
 
 await findings.check("forces, gravity and frames are drawn, chosen from the text and lead to it", async () => {

@@ -4,7 +4,7 @@ import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { accessibilityFaults, claim, Findings, folderOfModels, forget, goTo, launch, open, serve, state, textOf, until } from "./bench.mjs";
+import { accessibilityFaults, claim, Findings, folderOfModels, forget, goTo, launch, open, serve, showFile, state, textOf, until } from "./bench.mjs";
 
 const [program, pictures = "build/web-test/workbench-runs", only] = process.argv.slice(2);
 if (!program) {
@@ -30,7 +30,7 @@ const server = await serve(resolve(program), folder);
 const browser = await launch();
 const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, colorScheme: "light" });
 const page = await open(context, server.address, /422|409.*remove/);
-const openFile = (name) => page.locator(`.file[data-path="${name}"]`).click();
+const openFile = (name) => showFile(page, name);
 const below = (name) => page.locator(".below").getByRole("tab", { name }).click();
 const rows = page.locator(".study-table tbody tr");
 const words = page.locator(".study-words");

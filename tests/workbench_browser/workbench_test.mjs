@@ -3,7 +3,7 @@
 // Needs `npm ci` in web/ and a Chromium (CHROMIUM=/path/to/it, default /usr/bin/chromium).
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { accessibilityFaults, claim, cursorLine, delayed, Findings, folderOfModels, forget, goTo, launch, open, says, serve, state, textOf, until } from "./bench.mjs";
+import { accessibilityFaults, claim, cursorLine, delayed, Findings, folderOfModels, forget, goTo, launch, open, says, serve, showFile, state, textOf, until } from "./bench.mjs";
 
 const [program, pictures = "build/web-test/workbench", only] = process.argv.slice(2);
 if (!program) {
@@ -23,7 +23,7 @@ const context = await browser.newContext({ viewport: size, colorScheme: "light" 
 const page = await open(context, server.address, /409.*api\/new|422.*api\/move/);
 const button = (name) => page.getByRole("button", { name, exact: true });
 const rightTab = (name) => page.locator(".right").getByRole("tab", { name }).click();
-const openFile = (name) => page.locator(`.file[data-path="${name}"]`).click();
+const openFile = (name) => showFile(page, name);
 const runs = page.locator(".runs li[data-run]");
 
 await findings.check("a folder opens: its models are listed, the machine is drawn, the token has left the address", async () => {
