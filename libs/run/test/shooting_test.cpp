@@ -141,6 +141,8 @@ TEST_CASE("ShootingOfMachinesThatNeverRepeat_IsRefused") {
   controlled =
       edited(controlled, "forces:\n",
              "forces:\n  motor: {type: speed_control, joint: main, speed: 3000 rpm, proportional: 1 N.m.s/rad}\n");
+  const std::string chosen = edited(rig_by("shooting"), "step: 2 deg", "step: {tolerance: 1e-4}");
+  CHECK_THROWS_WITH_AS((void)rig(chosen), doctest::Contains("steps chosen by their error"), InputError);
   CHECK_THROWS_WITH_AS((void)rig(controlled), doctest::Contains("whose controller stores"), InputError);
 }
 

@@ -25,12 +25,13 @@ struct Found {
 // Eigenvalues of the map in the space of the deviations, largest first, each with the norm of its residual.
 std::vector<Found> ritz_values(const Eigen::MatrixXd& H, double next) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(H);
+  const Eigen::MatrixXcd vectors = solver.eigenvectors();
   std::vector<Found> found;
   const Eigen::Index last = H.rows() - 1;
   for (Eigen::Index i = 0; i < H.rows(); ++i) {
     const Complex value = solver.eigenvalues()[i];
     if (value.imag() < 0) continue;
-    const auto vector = solver.eigenvectors().col(i);
+    const auto vector = vectors.col(i);
     found.push_back({value, next * std::abs(vector[last]) / vector.norm()});
   }
   std::ranges::sort(found, [](const Found& a, const Found& b) { return std::abs(a.value) > std::abs(b.value); });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -47,6 +48,15 @@ model::Model for_trials(model::Model model, bool is_coarse) {
   return model;
 }
 
+// Wear and what a controller has stored are no parts of a motion that repeats.
+bool can_be_combined(const model::Model& model) {
+  return std::none_of(model.bearings.begin(), model.bearings.end(),
+                      [](const model::Bearing& bearing) { return bearing.wear.has_value(); }) &&
+         std::none_of(model.forces.begin(), model.forces.end(), [](const model::Force& force) {
+           return std::holds_alternative<model::SpeedControl>(force.data);
+         });
+}
+
 void find_multipliers(PeriodMap& map, const Shooting& found, int count, PeriodicStart& start) {
   const FloquetMultipliers multipliers = floquet_multipliers(map, found, count);
   start.multipliers = multipliers.values;
@@ -76,8 +86,10 @@ PeriodicStart run_cycles(const model::Model& model, const Options& options) {
   run.begin();
   const Eigen::VectorXd q_start = run.state().q;
   PeriodMap map(run, cycle.period, options.stop);
-  const Shooting found = shoot(
-      map, {.tolerance = cycle.tolerance, .most = cycle.most, .repeats = [&] { return change <= cycle.tolerance; }});
+  const Shooting found =
+      shoot(map, {.tolerance = cycle.tolerance, .most = cycle.most, .predicts = can_be_combined(model), .repeats = [&] {
+                    return change <= cycle.tolerance;
+                  }});
   if (!found.solved()) throw std::runtime_error(found.message);
   PeriodicStart start{.cycles = found.periods};
   start.message = fmt::format("begun after {} cycles {}", start.cycles, is_coarse ? "on half grids" : "of shooting");

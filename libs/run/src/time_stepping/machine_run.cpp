@@ -218,6 +218,10 @@ void MachineRun::move_to(const Motion& motion) {
   mechanism().retract(here, mechanism().difference(here, motion.q), state_.q);
   Archive archive(motion.memory);
   persist_motion(archive);
+  place_surfaces();
+}
+
+void MachineRun::place_surfaces() {
   for (const model::BuiltBearing& bearing : machine_.bearings)
     bearing.bearing->place_surfaces(mechanism().relative_motion(state_, bearing.force));
 }
@@ -240,6 +244,7 @@ void MachineRun::restore(Archive& archive) {
   if (!is_finite) throw ArchiveError("its state has a number that is not finite");
   for (const std::string& name : archive.unread())
     if (!is_identity(name)) throw ArchiveError("it holds '" + name + "', of which this program knows nothing");
+  place_surfaces();
   TimeStep last;
   last.dt = stepper_.last_dt();
   last_step_ = observe(last);

@@ -101,6 +101,7 @@ class MachineRun {
 
   void restore_file(Archive::Content checkpoint);
   void persist_motion(Archive& archive);
+  void place_surfaces();
   [[nodiscard]] StepRecord observe(const TimeStep& step);
   void record(const TimeStep& step);
   void record(StepRecord step);

@@ -51,6 +51,7 @@ Shooting shoot(PeriodMap& map, const ShootingOptions& options) {
     }
     Motion end = map.motion();
     Eigen::VectorXd residual = way_between(map.mechanism(), start, end);
+    if (!options.predicts) trials.keep(0);
     trials.add(std::move(end), std::move(residual));
     std::vector<Eigen::VectorXd> residuals = trials.residuals;
     for (Eigen::VectorXd& way : residuals) map.compare_by_swing(way);
@@ -63,7 +64,7 @@ Shooting shoot(PeriodMap& map, const ShootingOptions& options) {
     const double distance = largest(map.way(trials.ends.front(), start).head(map.coordinates()));
     const bool repeats = largest(residuals.front().head(map.coordinates())) <= options.tolerance &&
                          distance <= options.tolerance && options.repeats();
-    if (repeats && trials.ends.size() >= kFewestTrials) {
+    if (repeats && (trials.ends.size() >= kFewestTrials || !options.predicts)) {
       found.motion = std::move(start);
       found.near = std::move(trials.ends);
       found.set_solved(true);

@@ -10,6 +10,7 @@ namespace hersey::run {
 struct ShootingOptions {
   double tolerance = 1e-3;        ///< of the distance from the periodic motion, in shares of every coordinate's swing
   int most = 20;                  ///< periods
+  bool predicts = true;           ///< false: each period begins where the one before has ended
   std::function<bool()> repeats;  ///< whether the figures of the period that has ended are those of the one before
 };
 

@@ -364,6 +364,10 @@ void interpret_simulation(Context& context) {
   interpret_cycle(context, *value);
   interpret_step(context, *value);
   require_whole_steps(context, *value);
+  if (simulation.error_control && simulation.cycle && simulation.cycle->lead_in == LeadIn::shooting) {
+    context.fault(*value->find("step"), "steps chosen by their error where periods are compared with each other",
+                  "a fixed step for `lead_in: shooting`, such as 0.1 ms");
+  }
   if (simulation.error_control && simulation.analysis == Analysis::kinematics) {
     context.fault(*value->find("step"), "an error control of a kinematic analysis, which integrates nothing",
                   "the time between its instants, such as 0.1 ms");
