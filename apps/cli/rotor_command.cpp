@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -69,14 +70,9 @@ const study::RotorAtSpeed& in_service(const RotorFindings& found,
   });
 }
 
-void screen(const RotorArguments& arguments, const study::RotorAtSpeed& at, RotorFindings& found) {
-  const std::size_t equals = arguments.cross_coupling.find('=');
-  const double Q = quantity_of("--cross-coupling", arguments.cross_coupling.substr(equals + 1), "N/m");
-  const auto& stations = at.state.stations;
-  const auto station = std::find_if(stations.begin(), stations.end(),
-                                    [&](const run::RotorStation& one) { return one.name == found.screened_at; });
+void screen(const study::RotorAtSpeed& at, double Q, RotorFindings& found) {
   found.screened_speed = at.state.speed;
-  found.screening = study::screen_stability(at.state, {static_cast<std::size_t>(station - stations.begin()), Q});
+  found.screening = study::screen_stability(at.state, {at.state.places.at(found.screened_at), Q});
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
@@ -89,6 +85,7 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 
 RotorFindings find(const RotorArguments& arguments, const session::Session& session) {
   RotorFindings found;
+  std::optional<double> cross_coupling;
   if (!arguments.operating.empty()) {
     const auto [low, high] = range_of("--operating", arguments.operating, "rad/s");
     found.operating = study::OperatingRange{low, high};
@@ -102,7 +99,10 @@ RotorFindings find(const RotorArguments& arguments, const session::Session& sess
                              "a station and a stiffness: shaft.middle=2MN/m",
                              ""});
     found.screened_at = arguments.cross_coupling.substr(0, equals);
+    cross_coupling = quantity_of("--cross-coupling", arguments.cross_coupling.substr(equals + 1), "N/m");
   }
+  std::optional<std::pair<double, double>> mapped;
+  if (!arguments.stiffness_map.empty()) mapped = range_of("--stiffness-map", arguments.stiffness_map, "N/m");
   const auto read = [&](const std::vector<std::string>& overrides) { return session.with(overrides).model(); };
   found.rotor =
       study::rotor_over_speeds(read, speeds_of(arguments, session), stations_of(arguments, found.screened_at));
@@ -112,11 +112,9 @@ RotorFindings find(const RotorArguments& arguments, const session::Session& sess
   for (const study::RotorAtSpeed& at : found.rotor)
     if (at.state.solved()) solved.push_back(&at);
   if (solved.empty()) return found;
-  if (!arguments.cross_coupling.empty()) screen(arguments, in_service(found, solved), found);
-  if (!arguments.stiffness_map.empty()) {
-    const auto [low, high] = range_of("--stiffness-map", arguments.stiffness_map, "N/m");
-    found.map = study::critical_speed_map(solved[solved.size() / 2]->state, low, high, kMapPoints);
-  }
+  if (cross_coupling) screen(in_service(found, solved), *cross_coupling, found);
+  if (mapped)
+    found.map = study::critical_speed_map(solved[solved.size() / 2]->state, mapped->first, mapped->second, kMapPoints);
   return found;
 }
 

@@ -30,7 +30,7 @@ constexpr int kModesShown = 6;  // lines that one can tell apart
 constexpr int kStationsShown = 6;
 
 const char* whirl_word(Whirl whirl) {
-  constexpr std::array<const char*, 5> words{"forward", "backward", "mixed", "planar", "none"};
+  constexpr std::array<const char*, 6> words{"forward", "backward", "mixed", "planar", "none", "diverges"};
   return words.at(static_cast<std::size_t>(whirl));
 }
 
@@ -38,6 +38,13 @@ const char* whirl_word(Whirl whirl) {
 double lag_of(const std::complex<double>& amplitude) {
   const double lag = -std::arg(amplitude) / kDegree;
   return lag < 0 ? lag + 360 : lag;
+}
+
+/// Of motions that do not oscillate there is none.
+std::string decrement_text(double log_decrement) {
+  return std::isfinite(log_decrement) ? fmt::format("{:.4f}", log_decrement)
+         : log_decrement < 0          ? "diverges"
+                                      : "no whirl";
 }
 
 json number_or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
@@ -63,7 +70,7 @@ json mode_json(const run::WhirlMode& mode, int track) {
           {"damped_frequency", mode.mode.damped_frequency},
           {"frequency", mode.mode.frequency},
           {"damping_ratio", mode.mode.damping_ratio},
-          {"log_decrement", mode.log_decrement},
+          {"log_decrement", number_or_null(mode.log_decrement)},
           {"growth_rate", mode.mode.s.real()},
           {"whirl", whirl_word(mode.whirl)}};
 }
@@ -146,6 +153,7 @@ void add_modes(const RotorFindings& found, CurvePage& page) {
     }
   std::size_t number = 0;
   for (const auto& [track, along] : tracks_of(found)) {
+    if (along.back().second->whirl == Whirl::diverging) continue;
     if (++number > kModesShown) break;
     CurveLine frequency{track_name(along.back(), static_cast<std::size_t>(track) + 1), {}, {}}, damping = frequency;
     for (const auto& [at, mode] : along) {
@@ -284,7 +292,7 @@ CurvePage::Table stability_table(const RotorFindings& found) {
     table.lines.push_back({fmt::format("{}", track + 1), fmt::format("{:.0f}", at->state.speed / kRpm),
                            fmt::format("{:.3f}", mode->mode.damped_frequency),
                            fmt::format("{:.3f}", mode->mode.s.imag() / at->state.speed),
-                           fmt::format("{:.4f}", mode->log_decrement), whirl_word(mode->whirl)});
+                           decrement_text(mode->log_decrement), whirl_word(mode->whirl)});
   }
   return table;
 }
@@ -294,11 +302,12 @@ CurvePage::Table screening_table(const RotorFindings& found) {
   CurvePage::Table table{fmt::format("Stability with a cross-coupled stiffness at {}, {:.0f} rpm", found.screened_at,
                                      found.screened_speed / kRpm),
                          "Level 1 of API 617: a log decrement of 0.1 at the anticipated Q_A, and a threshold Q_0 of "
-                         "twice Q_A at least; else level 2 is asked for.",
+                         "twice Q_A at least; else level 2 is asked for. What the standard asks of machines with dense "
+                         "gas beside these two is not looked into.",
                          {}};
   table.lines = {{"Q_A", "log decrement there", "Q_0", "Q_0/Q_A", "enough"}, {"N/m", "1", "N/m", "1", ""}};
   const bool is_finite = std::isfinite(screening.threshold);
-  table.lines.push_back({fmt::format("{:.4g}", screening.anticipated), fmt::format("{:.4f}", screening.at_anticipated),
+  table.lines.push_back({fmt::format("{:.4g}", screening.anticipated), decrement_text(screening.at_anticipated),
                          is_finite ? fmt::format("{:.4g}", screening.threshold) : "-",
                          is_finite ? fmt::format("{:.3g}", screening.threshold / screening.anticipated) : "above 10",
                          screening.is_enough() ? "yes" : "no"});
@@ -336,7 +345,7 @@ json rotor_json(const RotorFindings& found, const std::string& file) {
                                   {"Q", screening.Q},
                                   {"log_decrement", screening.log_decrement},
                                   {"anticipated_Q", screening.anticipated},
-                                  {"log_decrement_at_anticipated", screening.at_anticipated},
+                                  {"log_decrement_at_anticipated", number_or_null(screening.at_anticipated)},
                                   {"threshold_Q", number_or_null(screening.threshold)},
                                   {"is_enough", screening.is_enough()}};
   }

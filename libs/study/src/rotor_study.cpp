@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
+
+#include "hersey/core/input_error.h"
 
 namespace hersey::study {
 namespace {
@@ -24,6 +27,17 @@ double likeness(const WhirlMode& a, const WhirlMode& b) {
     of_b += std::norm(b.orbits[k].x) + std::norm(b.orbits[k].y);
   }
   return of_a > 0 && of_b > 0 ? std::norm(both) / (of_a * of_b) : 0;
+}
+
+/// True if the rotor differs in its speed alone: neighbours are points of one curve.
+bool is_over_speeds(const std::vector<RotorAtSpeed>& rotor) {
+  double last = 0;
+  for (const RotorAtSpeed& at : rotor) {
+    if (!at.state.solved()) continue;
+    if (!(at.state.speed > last)) return false;
+    last = at.state.speed;
+  }
+  return true;
 }
 
 /// How alike two modes at neighbouring speeds are: shape times frequency, 0 to 1.
@@ -94,6 +108,7 @@ double least_log_decrement(const run::RotorState& rotor) {
   double least = std::numeric_limits<double>::infinity();
   for (const WhirlMode& mode : run::whirl_modes(rotor)) {
     if (mode.whirl == Whirl::none) continue;
+    if (mode.whirl == Whirl::diverging) return mode.log_decrement;
     if (mode.mode.s.imag() > fastest * rotor.speed && std::isfinite(least)) break;
     least = std::min(least, mode.log_decrement);
   }
@@ -105,16 +120,24 @@ double least_log_decrement(const run::RotorState& rotor) {
 std::vector<RotorAtSpeed> rotor_over_speeds(const ModelReader& read, const std::vector<model::StudyRun>& runs,
                                             const std::vector<std::string>& stations) {
   std::vector<RotorAtSpeed> rotor;
+  std::optional<InputError> refused;  // where no speed has an answer
   for (const model::StudyRun& one : runs) {
     RotorAtSpeed at;
     at.label = one.label;
-    at.state = run::find_rotor_state(read(one.overrides), stations);
+    try {
+      at.state = run::find_rotor_state(read(one.overrides), stations);
+    } catch (const InputError& error) {
+      at.state.fail(error.what());
+      if (!refused) refused = error;
+    }
     if (at.state.solved()) {
       at.modes = run::whirl_modes(at.state);
       if (at.state.unbalances > 0) at.response = run::unbalance_response(at.state);
     }
     rotor.push_back(std::move(at));
   }
+  if (refused && std::none_of(rotor.begin(), rotor.end(), [](const RotorAtSpeed& at) { return at.state.solved(); }))
+    throw InputError(*refused);
   std::stable_sort(rotor.begin(), rotor.end(),
                    [](const RotorAtSpeed& a, const RotorAtSpeed& b) { return a.state.speed < b.state.speed; });
   const RotorAtSpeed none;
@@ -129,6 +152,7 @@ std::vector<RotorAtSpeed> rotor_over_speeds(const ModelReader& read, const std::
 }
 
 std::vector<DampedCriticalSpeed> damped_critical_speeds(const std::vector<RotorAtSpeed>& rotor) {
+  if (!is_over_speeds(rotor)) return {};
   std::vector<DampedCriticalSpeed> found;
   const RotorAtSpeed* before = nullptr;
   for (const RotorAtSpeed& at : rotor) {
@@ -170,6 +194,7 @@ std::vector<ResponsePeak> peaks_of(const std::vector<double>& x, const std::vect
 }
 
 std::vector<ResponsePeak> response_peaks(const std::vector<RotorAtSpeed>& rotor) {
+  if (!is_over_speeds(rotor)) return {};
   std::vector<double> speeds;
   std::vector<const run::UnbalanceResponse*> responses;
   for (const RotorAtSpeed& at : rotor)

@@ -22,6 +22,7 @@ constexpr Complex kI(0, 1);
 constexpr double kMoves = 1e-6;
 constexpr double kPlanar = 0.02;      // minor over major axis: an orbit that nobody would call a circle or an ellipse
 constexpr double kOscillates = 1e-6;  // damped over natural frequency
+constexpr double kDiverges = 1e-4;    // 1/s over the speed [rad/s]: less is a free motion with its round-off
 
 Orbit orbit_of(const MatrixXd& across, const VectorXcd& y) {
   const Eigen::Vector2cd r = across * y;
@@ -118,21 +119,31 @@ std::vector<WhirlMode> whirl_modes(const RotorState& rotor) {
   linear.M = rotor.M, linear.C = rotor.C, linear.K = rotor.K;
   std::vector<solver::Mode> all = solver::find_modes(linear).modes;
   std::vector<Motion> motions;
-  std::erase_if(all, [](const solver::Mode& mode) { return !(mode.damped_frequency > kOscillates * mode.frequency); });
+  const auto oscillates = [](const solver::Mode& mode) { return mode.damped_frequency > kOscillates * mode.frequency; };
+  const auto diverges = [&](const solver::Mode& mode) {
+    return !oscillates(mode) && mode.s.real() > kDiverges * rotor.speed &&
+           moves_axis(rotor, mode.shape, orbits_of(rotor, mode.shape));
+  };
+  std::erase_if(all, [&](const solver::Mode& mode) { return !oscillates(mode) && !diverges(mode); });
   for (const solver::Mode& mode : all)
-    if (moves_axis(rotor, mode.shape, orbits_of(rotor, mode.shape))) motions.push_back({mode.s, mode.shape});
+    if (oscillates(mode) && moves_axis(rotor, mode.shape, orbits_of(rotor, mode.shape)))
+      motions.push_back({mode.s, mode.shape});
   part_by_whirl(rotor, motions);
   std::vector<WhirlMode> modes;
   auto parted = motions.begin();
   for (const solver::Mode& mode : all) {
     WhirlMode found;
     found.mode = mode;
-    const bool moves = moves_axis(rotor, mode.shape, orbits_of(rotor, mode.shape));
+    const bool moves = oscillates(mode) && moves_axis(rotor, mode.shape, orbits_of(rotor, mode.shape));
     if (moves) found.mode.shape = parted++->y;
     const double zeta = mode.damping_ratio;
     found.log_decrement = 2 * std::numbers::pi * zeta / std::sqrt(1 - zeta * zeta);
     found.orbits = orbits_of(rotor, found.mode.shape);
     if (moves) found.whirl = whirl_of(found.orbits, rotor.sense);
+    if (!oscillates(mode)) {
+      found.whirl = Whirl::diverging;
+      found.log_decrement = -std::numeric_limits<double>::infinity();
+    }
     double size = 0;
     for (const Orbit& orbit : found.orbits) size = std::max(size, orbit.major());
     if (size > 0)

@@ -25,10 +25,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Twists = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-constexpr double kMisfit = 1e-9;     // of what joints must permit: round-off of a few rotations
-constexpr double kAlike = 1e-5;      // of the forces of a row: how much those of a shaft may change as it spins on
-constexpr double kSpinOn = 0.7;      // rad, of no symmetry that a machine is likely to have
-constexpr double kSameSpeed = 1e-9;  // relative
+constexpr double kMisfit = 1e-9;        // of what joints must permit: round-off of a few rotations
+constexpr double kAlike = 1e-5;         // of the forces of a row: how much those of a shaft may change as it spins on
+constexpr double kSpinOn = 0.7;         // rad, of no symmetry that a machine is likely to have
+constexpr double kSameSpeed = 1e-9;     // relative
+constexpr double kParallel = 1e-6;      // sine of the angle between axes that are one
+constexpr double kAlikeMotions = 1e-4;  // relative difference of displacements
 
 /// How a body spins: about a line that it carries along.
 struct BodySpin {
@@ -112,6 +114,9 @@ class SpinningMachine {
 
   [[nodiscard]] solver::Linearisation linearise() { return solver::linearise(*equations_, state_, 0); }
 
+  /// Lets the shaft spin on, to an angle of no symmetry.
+  void spin_on() { state_ = equations_->spun(state_, time_of_spinning_on()); }
+
   /// The state of the mechanism, its shaft spinning, in the configuration found.
   [[nodiscard]] solver::State spinning_state() const { return equations_->inner_state(state_); }
   [[nodiscard]] const solver::State& state() const { return state_; }
@@ -159,11 +164,15 @@ class SpinningMachine {
                             "`beam` in place of `flexible`");
   }
 
-  /// Why the motion is not steady; empty if it is: a shaft that has spun on has to be in balance as it is.
-  [[nodiscard]] std::string what_differs_later() {
+  [[nodiscard]] double time_of_spinning_on() const {
     double speed = 0;
     for (const BodySpin& spin : spins_) speed = std::max(speed, spin.omega.norm());
-    const solver::State later = equations_->spun(state_, kSpinOn / speed);
+    return kSpinOn / speed;
+  }
+
+  /// Why the motion is not steady; empty if it is: a shaft that has spun on has to be in balance as it is.
+  [[nodiscard]] std::string what_differs_later() {
+    const solver::State later = equations_->spun(state_, time_of_spinning_on());
     const solver::Stage stage{.dt = 0, .k = 1, .c = 0, .m = 0, .dq = {}};
     VectorXd now_residual, then_residual, scale;
     solver::Equations::SparseMatrix tangent;
@@ -272,6 +281,19 @@ class RotorFinder {
     rotor.unbalance.setZero(linear_.Z.cols());
   }
 
+  void add_all(const std::vector<std::string>& stations) {
+    add_stations(stations);
+    add_bearings();
+    add_bodies();
+  }
+
+  void add_unbalances(const std::vector<model::Unbalance>& unbalances) {
+    for (const model::Unbalance& unbalance : unbalances) add_unbalance(unbalance);
+    rotor_.unbalances = static_cast<int>(unbalances.size());
+    rotor_.unbalance *= std::exp(std::complex<double>(0, -angle_of_mark()));
+  }
+
+ private:
   void add_stations(const std::vector<std::string>& names) {
     for (const std::string& name : names) add_station(frame_called(name), name);
   }
@@ -288,17 +310,14 @@ class RotorFinder {
     const mbd::MechanismSpec& spec = spinning_.mechanism().spec();
     for (std::size_t i = 0; i < spec.forces.size(); ++i) {
       const mbd::MechanismSpec::Force& force = spec.forces[i];
-      if (spinning_.does_spin(force.a) || !spinning_.does_spin(force.b)) continue;  // coefficients in axes at rest
+      if (spinning_.does_spin(force.a) == spinning_.does_spin(force.b)) continue;
+      if (spinning_.does_spin(force.a))  // its coefficients would be those in axes that rotate
+        throw rotor_fault(model_, "force '" + force.name + "' from the shaft to what carries it",
+                          "between: [housing, shaft]", "exchange its two frames");
       add_bearing(force, {static_cast<int>(i)});
     }
   }
 
-  void add_unbalances(const std::vector<model::Unbalance>& unbalances) {
-    for (const model::Unbalance& unbalance : unbalances) add_unbalance(unbalance);
-    rotor_.unbalances = static_cast<int>(unbalances.size());
-  }
-
- private:
   [[nodiscard]] BodySpin spin_of(std::size_t frame) const {
     const mbd::MechanismSpec& spec = spinning_.machine().mechanism->spec();
     return spinning_.spins()[static_cast<std::size_t>(spec.frames[frame].body.index)];
@@ -307,6 +326,25 @@ class RotorFinder {
     const mbd::MechanismSpec& spec = spinning_.machine().mechanism->spec();
     const auto body = static_cast<std::size_t>(spec.frames[frame].body.index);
     return frames_.poses[static_cast<std::size_t>(spec.body_frames[body].index)];
+  }
+
+  /// Angle in the sense of rotation from the direction x to the x-axis of the first body of the shaft.
+  [[nodiscard]] double angle_of_mark() const {
+    const mbd::MechanismSpec& spec = spinning_.machine().mechanism->spec();
+    for (std::size_t b = 1; b < spec.bodies.size(); ++b) {
+      if (!spinning_.does_spin(spec.body_frames[b])) continue;
+      const Pose& X = frames_.poses[static_cast<std::size_t>(spec.body_frames[b].index)];
+      const Eigen::Vector2d mark = axis_.across * X.R.col(across_spin(spinning_.spins()[b].omega));
+      return std::atan2(axis_.sense * mark.y(), mark.x());
+    }
+    return 0;
+  }
+
+  /// Axis of a body that is x where the body spins about its z-axis, else the next one after that about which it does.
+  [[nodiscard]] static Index across_spin(const Vector3& spin) {
+    Index along = 0;
+    spin.cwiseAbs().maxCoeff(&along);
+    return (along + 1) % 3;
   }
 
   /// Of the fastest shaft.
@@ -344,14 +382,15 @@ class RotorFinder {
       return std::abs(other.along - along) < 1e-9 * (1 + std::abs(along)) &&
              bodies_[other.name] == body_of(frame);  // round-off
     });
-    if (same != rotor_.stations.end()) return static_cast<std::size_t>(same - rotor_.stations.begin());
+    if (same != rotor_.stations.end())
+      return rotor_.places[name] = static_cast<std::size_t>(same - rotor_.stations.begin());
     const MatrixXd displacement = frames_.of_point(frame, point);
     MatrixXd along_and_about(2, displacement.cols());
     along_and_about << axis_.axis.transpose() * displacement,
         axis_.axis.transpose() * frames_.twists[frame].topRows<3>();
     rotor_.stations.push_back({name, along, axis_.across * displacement, along_and_about});
     bodies_[name] = body_of(frame);
-    return rotor_.stations.size() - 1;
+    return rotor_.places[name] = rotor_.stations.size() - 1;
   }
 
   [[nodiscard]] int body_of(std::size_t frame) const {
@@ -409,6 +448,9 @@ class RotorFinder {
     const double speed = omega.norm();
     if (std::abs(speed - rotor_.speed) > kSameSpeed * rotor_.speed)
       throw rotor_fault(model_, "unbalances on shafts of different speeds", "unbalances on one shaft, the fastest", "");
+    if ((omega / speed).cross(X.R.col(2)).norm() > kParallel)
+      throw rotor_fault(model_, "an unbalance at '" + name + "', whose z-axis is not that of the shaft",
+                        "a frame with its z-axis along the shaft", "");
     const Vector3 u = X.R * unbalance.moment;
     const Eigen::Vector3cd moment = u.cast<std::complex<double>>() -
                                     std::complex<double>(0, 1) * (omega / speed).cross(u).cast<std::complex<double>>();
@@ -430,6 +472,17 @@ class RotorFinder {
   std::map<std::string, int> bodies_;  // of stations
 };
 
+/// Displacements of all stations by forces that grow as exp(omega t), in space: without resonances.
+MatrixXd displacements(const RotorState& rotor) {
+  MatrixXd across(2 * static_cast<Index>(rotor.stations.size()), rotor.M.rows());
+  for (std::size_t s = 0; s < rotor.stations.size(); ++s)
+    across.middleRows(2 * static_cast<Index>(s), 2) = rotor.stations[s].across;
+  const MatrixXd dynamic = rotor.K + rotor.speed * rotor.C + rotor.speed * rotor.speed * rotor.M;
+  return across * dynamic.partialPivLu().solve(across.transpose());
+}
+
+bool are_alike(const MatrixXd& a, const MatrixXd& b) { return (a - b).norm() <= kAlikeMotions * a.norm(); }
+
 }  // namespace
 
 RotorState find_rotor_state(const model::Model& model, const std::vector<std::string>& stations) {
@@ -440,10 +493,14 @@ RotorState find_rotor_state(const model::Model& model, const std::vector<std::st
   rotor.message = found.message;
   if (!found.solved()) return rotor;
   RotorFinder finder(balanced, spinning, rotor);
-  finder.add_stations(stations);
-  finder.add_bearings();
+  finder.add_all(stations);
   finder.add_unbalances(unbalances);
-  finder.add_bodies();
+  spinning.spin_on();
+  RotorState later;
+  RotorFinder(balanced, spinning, later).add_all(stations);
+  if (!are_alike(displacements(rotor), displacements(later)))
+    throw rotor_fault(model, "a shaft whose inertias, sections or films differ between directions across its axis",
+                      "discs, sections and journals that are alike in all of them", "");
   rotor.set_solved(true);
   return rotor;
 }

@@ -96,7 +96,8 @@ FloquetMultipliers floquet_multipliers(PeriodMap& map, const Shooting& found, in
     return no_answer<FloquetMultipliers>(period.message);
   const Motion end = map.motion();
   Deviations deviations(map, found.motion);
-  (void)deviations.add(found.motion, found.near.back());
+  if (deviations.add(found.motion, found.near.back()).isZero(0))
+    return no_answer<FloquetMultipliers>("all trials have led to the same motion: there is no deviation to begin with");
   const int most = most_periods_for_multipliers(count) - 1;
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(most + 1, most);
   std::vector<Found> before;

@@ -90,9 +90,11 @@ PeriodicStart run_cycles(const model::Model& model, const Options& options) {
       shoot(map, {.tolerance = cycle.tolerance, .most = cycle.most, .predicts = can_be_combined(model), .repeats = [&] {
                     return change <= cycle.tolerance;
                   }});
-  if (!found.solved()) throw std::runtime_error(found.message);
+  // Cycles that have not repeated yet are nearer to those that do than the start of the model.
+  if (!found.solved() && (!is_coarse || found.periods < cycle.most)) throw std::runtime_error(found.message);
   PeriodicStart start{.cycles = found.periods};
-  start.message = fmt::format("begun after {} cycles {}", start.cycles, is_coarse ? "on half grids" : "of shooting");
+  start.message = fmt::format("begun after {} cycles {}{}", start.cycles, is_coarse ? "on half grids" : "of shooting",
+                              found.solved() ? "" : ", which have not repeated");
   if (cycle.multipliers > 0) find_multipliers(map, found, cycle.multipliers, start);
   run.move_to(found.motion);
   start.state = run.state();
@@ -118,11 +120,14 @@ PeriodicStart run_cycles(const model::Model& model, const Options& options) {
 PeriodicStart lead_in(const model::Model& model, const Options& options) {
   const auto& cycle = model.simulation.cycle;
   if (!cycle || cycle->lead_in == model::LeadIn::none) return {};
+  PeriodicStart start;
   try {
-    return run_cycles(model, options);
+    start = run_cycles(model, options);
   } catch (const std::exception& error) {
-    return {.message = "the lead-in was given up: " + error_text(error)};
+    start.message = "the lead-in was given up: " + error_text(error);
   }
+  start.was_stopped = options.stop != nullptr && options.stop->load();
+  return start;
 }
 
 }  // namespace hersey::run

@@ -227,7 +227,7 @@ void MachineRun::place_surfaces() {
 }
 
 void MachineRun::write_checkpoint(bool in_any_case) {
-  if (options_.results.empty() || !(in_any_case || checkpoints_.is_due(state_.t))) return;
+  if (start_.was_stopped || options_.results.empty() || !(in_any_case || checkpoints_.is_due(state_.t))) return;
   const Stopwatch watch(work_.recording());
   const Clock::time_point began = Clock::now();
   Archive archive;

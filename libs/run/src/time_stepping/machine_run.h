@@ -72,7 +72,8 @@ class MachineRun {
   [[nodiscard]] const StepRecord& last_step() const { return last_step_; }
   [[nodiscard]] const EnergySummary& energy() const { return record_.energy(); }
 
-  /// Writes a checkpoint beside the results if one is due, or in any case.
+  /// Writes a checkpoint beside the results if one is due, or in any case; none where the lead-in was stopped, so that
+  /// the run begins anew with it.
   void write_checkpoint(bool in_any_case);
 
   /// Closes the results.

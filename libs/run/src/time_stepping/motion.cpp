@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string_view>
 
@@ -87,6 +88,9 @@ Eigen::VectorXd Swing::sizes() const {
   least << mechanism_.position_scales(), mechanism_.position_scales() * 2 * std::numbers::pi / period_;
   Eigen::VectorXd sizes = (highest_ - lowest_).cwiseMax(kLeastSwing * least);
   const Eigen::VectorXd fastest = highest_.cwiseAbs().cwiseMax(lowest_.cwiseAbs()).tail(mechanism_.nv());
+  for (Eigen::Index i = 0; i < mechanism_.nv(); ++i)
+    if (mechanism_.position_scales()[i] == 1 && sizes[i] > std::numbers::pi)
+      sizes[i] = std::numeric_limits<double>::infinity();
   sizes.tail(mechanism_.nv()) = sizes.tail(mechanism_.nv()).cwiseMax(kConstant * fastest);
   return sizes;
 }

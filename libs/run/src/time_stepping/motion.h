@@ -31,6 +31,7 @@ class Swing {
   /// Takes another one.
   void take(const solver::State& state);
   /// Returns that of all positions, then of all velocities, each at least a share of the machine's size: shape (2 nv).
+  /// Infinite for angles that go round: a ring may have any when its period ends.
   [[nodiscard]] Eigen::VectorXd sizes() const;
 
  private:

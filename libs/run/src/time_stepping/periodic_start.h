@@ -17,6 +17,7 @@ namespace hersey::run {
 /// Start of a run in a periodic motion that has been found before it (lead_in()), in place of that of its model.
 struct PeriodicStart {
   int cycles = 0;                           ///< by which it was found; 0: there is none
+  bool was_stopped = false;                 ///< on request: a run that goes on later has to begin with it anew
   std::string message;                      ///< how it was found, or why not; empty where nobody asked for it
   solver::State state;                      ///< at the end of a cycle, less whole revolutions
   std::vector<bearing::FilmAtStart> films;  ///< of each bearing

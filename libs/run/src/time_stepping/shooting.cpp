@@ -71,6 +71,7 @@ Shooting shoot(PeriodMap& map, const ShootingOptions& options) {
       return found;
     }
   }
+  found.motion = map.motion();
   found.fail(fmt::format("no motion has been found that repeats within {} periods", found.periods));
   return found;
 }

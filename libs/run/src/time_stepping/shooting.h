@@ -17,7 +17,7 @@ struct ShootingOptions {
 /// Periodic motion of a machine, or why there is none.
 struct [[nodiscard]] Shooting : Outcome {
   int periods = 0;           ///< run
-  Motion motion;             ///< at the start of a period
+  Motion motion;             ///< at the start of a period; that of the last one where none has been found
   std::vector<Motion> near;  ///< by which it was found, the nearest first
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <complex>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,11 @@ struct [[nodiscard]] RotorState : Outcome {
   Eigen::MatrixXd M, C, K;                 ///< shape (free, free)
   std::vector<RotorStation> stations;      ///< along the axis; those named come first
   std::vector<RotorBearing> bearings;
-  Eigen::VectorXcd unbalance;  ///< f of all unbalances of the model, shape (free); zero without any
+  /// f of all unbalances of the model, shape (free); zero without any. At the time 0 the x-axis of the first body of
+  /// the shaft, a mark at phase zero, passes the direction x.
+  Eigen::VectorXcd unbalance;
   int unbalances = 0;
+  std::map<std::string, std::size_t> places;  ///< index of the station of each name; two frames may have one
 };
 
 /// Finds the steady motion of the shaft of `model`, whose drives keep their speeds, and linearises about it.
@@ -72,22 +76,23 @@ struct Orbit {
 
 /// How the motion of a shaft's axis circles.
 enum class Whirl {
-  forward,   ///< everywhere with the shaft
-  backward,  ///< everywhere against it
-  mixed,     ///< with it at some points, against it at others
-  planar,    ///< to and fro
-  none,      ///< the axis does not move: torsion, motion along the axis, or of other bodies
+  forward,    ///< everywhere with the shaft
+  backward,   ///< everywhere against it
+  mixed,      ///< with it at some points, against it at others
+  planar,     ///< to and fro
+  none,       ///< the axis does not move: torsion, motion along the axis, or of other bodies
+  diverging,  ///< it leaves its place without circling
 };
 
 /// A mode of a rotor.
 struct WhirlMode {
   solver::Mode mode;  ///< `shape` in the free coordinates
   Whirl whirl = Whirl::none;
-  double log_decrement = 0;   ///< 2 pi zeta/sqrt(1 - zeta^2); negative: the motion grows
+  double log_decrement = 0;   ///< 2 pi zeta/sqrt(1 - zeta^2); negative: the motion grows, -infinity: it diverges
   std::vector<Orbit> orbits;  ///< of each station, the largest axis 1
 };
 
-/// Modes that oscillate, by ascending damped frequency. @cost O(free^3)
+/// Modes that oscillate, and motions of the axis that grow without, by ascending damped frequency. @cost O(free^3)
 [[nodiscard]] std::vector<WhirlMode> whirl_modes(const RotorState& rotor);
 
 /// A cross-coupled stiffness at a station: Q from y to x and -Q from x to y [N/m], which drives forward whirl.

@@ -24,7 +24,8 @@ struct RotorAtSpeed {
 
 /// Finds the rotor at the speeds of `runs` and follows its modes from one to the next; ascending by speed.
 /// @param stations  frames whose motion is wanted
-/// @throws InputError as run::find_rotor_state
+/// A speed that the model refuses is not solved, and says why.
+/// @throws InputError as run::find_rotor_state, where it refuses all speeds
 [[nodiscard]] std::vector<RotorAtSpeed> rotor_over_speeds(const ModelReader& read,
                                                           const std::vector<model::StudyRun>& runs,
                                                           const std::vector<std::string>& stations);
@@ -36,7 +37,8 @@ struct DampedCriticalSpeed {
   double log_decrement = 0;  ///< there
   run::Whirl whirl = run::Whirl::forward;
 };
-/// Returns the damped critical speeds between the speeds of `rotor`, by linear interpolation.
+/// Returns the damped critical speeds between the speeds of `rotor`, by linear interpolation; none where two of them
+/// are equal, because something else is varied.
 [[nodiscard]] std::vector<DampedCriticalSpeed> damped_critical_speeds(const std::vector<RotorAtSpeed>& rotor);
 
 /// A peak of an unbalance response over the speed.
@@ -48,7 +50,7 @@ struct ResponsePeak {
   /// number where one of them is outside the range of speeds or hidden by a higher peak.
   double amplification = std::numeric_limits<double>::quiet_NaN();
 };
-/// Returns the peaks at each station.
+/// Returns the peaks at each station; none where two speeds are equal.
 [[nodiscard]] std::vector<ResponsePeak> response_peaks(const std::vector<RotorAtSpeed>& rotor);
 /// The same of one curve. @param speeds  ascending @param station  taken over
 [[nodiscard]] std::vector<ResponsePeak> peaks_of(const std::vector<double>& speeds,
