@@ -348,6 +348,73 @@ class Rotors(unittest.TestCase):
         self.assertEqual(decrement, sorted(decrement, reverse=True))
         self.assertFalse(self.rotor("jeffcott.yaml", "--cross-coupling", "rotor=40kN/m")["stability_screening"]["is_enough"])
 
+    # -- what has no answer, or another one than is asked for ------------------------------------------------------
+
+    def write(self, name, old, new, of=JEFFCOTT):
+        self.assertIn(old, of)
+        (self.folder / name).write_text(of.replace(old, new), encoding="utf-8")
+
+    def test_a_shaft_that_its_support_pushes_away_diverges(self):
+        found = self.rotor("jeffcott.yaml", "--cross-coupling", "rotor=1kN/m", k="-1 MN/m")
+        modes = found["speeds"][0]["modes"]
+        self.assertEqual([mode["whirl"] for mode in modes], ["diverges", "planar"])
+        self.assertIsNone(modes[0]["log_decrement"])
+        m, k, c = 10, 1e6, 200
+        growth = -c / (2 * m) + math.sqrt((c / (2 * m))**2 + k / m)
+        self.assertAlmostEqual(modes[0]["growth_rate"] / growth, 1, 9)
+        self.assertFalse(found["stability_screening"]["is_enough"])
+
+    def test_inertia_that_differs_between_directions_is_refused(self):
+        self.write("unlike.yaml", "xx: 0.05 kg.m^2", "xx: 0.04 kg.m^2")
+        free = (self.folder / "unlike.yaml").read_text(encoding="utf-8")
+        free = free.replace("bodies:\n", "bodies:\n  hub: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 2e-3 kg.m^2}}\n")
+        free = free.replace("{type: planar, between: [ground, rotor], axis: z}",
+                            "{type: revolute, between: [ground, hub], axis: z}\n  seat: {type: free, between: [hub, rotor]}")
+        free = free.replace("  u: {", "  coupling: {type: bushing, between: [hub, rotor], stiffness: 1e5 1e5 1e5 N/m, "
+                            "rotational_stiffness: 1e4 1e4 2e4 N.m/rad}\n  u: {")
+        (self.folder / "unlike.yaml").write_text(free, encoding="utf-8")
+        done = self.hersey("rotor", self.folder / "unlike.yaml", code=2)
+        self.assertIn("inertias, sections or films differ between directions", done.stderr)
+        (self.folder / "alike.yaml").write_text(free.replace("xx: 0.04", "xx: 0.05"), encoding="utf-8")
+        self.hersey("rotor", self.folder / "alike.yaml")
+
+    def test_a_force_from_the_shaft_to_its_housing_is_named(self):
+        self.write("other_way.yaml", "between: [ground, rotor]\n    stiffness", "between: [rotor, ground]\n    stiffness")
+        done = self.hersey("rotor", self.folder / "other_way.yaml", code=2)
+        self.assertIn("between: [housing, shaft]", done.stderr)
+
+    def test_an_unbalance_across_the_shaft_is_refused(self):
+        self.write("across.yaml", "0.08 kg.m^2}}", "0.08 kg.m^2}, frames: {mid: {origin: 0 0 0 mm, rotation: {axis: y, angle: 90 deg}}}}")
+        text = (self.folder / "across.yaml").read_text(encoding="utf-8").replace("on: rotor,", "on: rotor.mid,")
+        (self.folder / "across.yaml").write_text(text, encoding="utf-8")
+        done = self.hersey("rotor", self.folder / "across.yaml", code=2)
+        self.assertIn("z-axis", done.stderr)
+
+    def test_lags_do_not_depend_on_where_the_shaft_starts(self):
+        self.write("later.yaml", "axis: z}\nforces", "axis: z, initial: {rotation: 77 deg}}\nforces")
+        lag, later = (self.at(name)["unbalance"]["stations"]["rotor"]["x_lag_deg"] for name in ("jeffcott.yaml", "later.yaml"))
+        self.assertAlmostEqual(lag, later, 6)
+
+    def test_two_names_of_a_place_are_both_known(self):
+        self.write("named.yaml", "0.08 kg.m^2}}", "0.08 kg.m^2}, frames: {mid: {origin: 0 0 0 mm}}}")
+        one, other = (self.rotor("named.yaml", "--stations", "rotor", "--cross-coupling", f"{name}=10kN/m")["stability_screening"]
+                      for name in ("rotor", "rotor.mid"))
+        self.assertEqual(one["threshold_Q"], other["threshold_Q"])
+
+    def test_a_speed_without_an_answer_leaves_the_others(self):
+        (self.folder / "table.csv").write_text("speed [rpm],k_xx [N/m],k_yy [N/m]\n1000,1e6,1e6\n3000,1e6,1e6\n", encoding="utf-8")
+        self.write("table.yaml", """stiffness: {xx: "${k}", xy: "${q}", yx: "${q_yx}", yy: "${k_y}"}
+    damping: {xx: "${c}", yy: "${c}"}""", "file: table.csv")
+        done = self.hersey("rotor", self.folder / "table.yaml", "--json", "--sweep", "speed=2000rpm:4000rpm:2", code=1)
+        self.assertEqual([one["solved"] for one in json.loads(done.stdout)["speeds"]].count(True), 1)
+        self.assertIn("4000 rpm", done.stderr)
+        self.hersey("rotor", self.folder / "table.yaml", "--sweep", "speed=4000rpm:5000rpm:2", code=2)
+
+    def test_what_is_varied_at_one_speed_has_no_critical_speeds(self):
+        found = self.rotor("jeffcott.yaml", "--sweep", "k=0.2MN/m:2MN/m:7")
+        self.assertEqual(found["critical_speeds"], [])
+        self.assertNotIn("response_peaks", found)
+
     def test_order_of_bodies_does_not_matter(self):
         values = {"mass": "30 kg", "i_t": "0.17 kg.m^2", "i_p": "0.33 kg.m^2", "k_x": "1 MN/m", "k_y": "0.8 MN/m", "elements": 6}
         lines = (self.folder / "thin.yaml").read_text(encoding="utf-8").splitlines()

@@ -130,6 +130,10 @@ TEST_CASE("StoppedLeadIn_LeavesARunThatStarts") {
   CHECK(summary.status == Status::stopped);
   CHECK(summary.lead_in_cycles == 0);
   CHECK(summary.steps == 1);
+  // Going on means to begin anew, with the lead-in.
+  const Summary whole = simulate(rig(rig_led_in("half_grids")), {.results = scratch / "run.h5", .resume = true});
+  CHECK(whole.status == Status::completed);
+  CHECK(whole.lead_in_cycles >= 2);
 }
 
 TEST_CASE("ResumedRunBehindALeadIn_HasNoSecondOne") {

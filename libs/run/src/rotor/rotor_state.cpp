@@ -265,6 +265,12 @@ struct AcrossAxis {
   std::array<std::string, 2> names;
 };
 
+/// Motions of the frames of a shaft, in space, by torques and forces on them that grow as exp(omega t): no resonance
+/// shows in these.
+struct Mobility {
+  MatrixXd rotations, displacements;
+};
+
 class RotorFinder {
  public:
   RotorFinder(const model::Model& model, SpinningMachine& spinning, RotorState& rotor)
@@ -285,6 +291,21 @@ class RotorFinder {
     add_stations(stations);
     add_bearings();
     add_bodies();
+  }
+
+  [[nodiscard]] Mobility mobility() {
+    const auto& frames = spinning_.mechanism().spec().frames;
+    MatrixXd rotations(0, linear_.Z.cols()), displacements = rotations;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      if (!spinning_.does_spin({static_cast<int>(f)})) continue;
+      rotations.conservativeResize(rotations.rows() + 3, Eigen::NoChange);
+      rotations.bottomRows<3>() = frames_.twists[f].topRows<3>();
+      displacements.conservativeResize(rotations.rows(), Eigen::NoChange);
+      displacements.bottomRows<3>() = frames_.twists[f].bottomRows<3>();
+    }
+    const double growth = rotor_.speed;
+    const Eigen::PartialPivLU<MatrixXd> dynamic(linear_.K + growth * linear_.C + growth * growth * linear_.M);
+    return {rotations * dynamic.solve(rotations.transpose()), displacements * dynamic.solve(displacements.transpose())};
   }
 
   void add_unbalances(const std::vector<model::Unbalance>& unbalances) {
@@ -472,16 +493,10 @@ class RotorFinder {
   std::map<std::string, int> bodies_;  // of stations
 };
 
-/// Displacements of all stations by forces that grow as exp(omega t), in space: without resonances.
-MatrixXd displacements(const RotorState& rotor) {
-  MatrixXd across(2 * static_cast<Index>(rotor.stations.size()), rotor.M.rows());
-  for (std::size_t s = 0; s < rotor.stations.size(); ++s)
-    across.middleRows(2 * static_cast<Index>(s), 2) = rotor.stations[s].across;
-  const MatrixXd dynamic = rotor.K + rotor.speed * rotor.C + rotor.speed * rotor.speed * rotor.M;
-  return across * dynamic.partialPivLu().solve(across.transpose());
+bool are_alike(const Mobility& a, const Mobility& b) {
+  return (a.rotations - b.rotations).norm() <= kAlikeMotions * a.rotations.norm() &&
+         (a.displacements - b.displacements).norm() <= kAlikeMotions * a.displacements.norm();
 }
-
-bool are_alike(const MatrixXd& a, const MatrixXd& b) { return (a - b).norm() <= kAlikeMotions * a.norm(); }
 
 }  // namespace
 
@@ -497,8 +512,7 @@ RotorState find_rotor_state(const model::Model& model, const std::vector<std::st
   finder.add_unbalances(unbalances);
   spinning.spin_on();
   RotorState later;
-  RotorFinder(balanced, spinning, later).add_all(stations);
-  if (!are_alike(displacements(rotor), displacements(later)))
+  if (!are_alike(finder.mobility(), RotorFinder(balanced, spinning, later).mobility()))
     throw rotor_fault(model, "a shaft whose inertias, sections or films differ between directions across its axis",
                       "discs, sections and journals that are alike in all of them", "");
   rotor.set_solved(true);
