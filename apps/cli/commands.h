@@ -145,6 +145,24 @@ struct RotorArguments {
 /// @returns an ExitCode.
 [[nodiscard]] int rotor_command(const RotorArguments& arguments);
 
+struct OrbitsArguments {
+  std::string model;
+  std::vector<std::string> overrides;
+  std::string along;    ///< `name=from:to`, a parameter or key path and its range
+  std::string observe;  ///< quantities, separated by commas; empty: the usual ones
+  double step = 0.05;   ///< largest, as a share of the range
+  int most = 200;       ///< orbits
+  double tolerance = 1e-4;
+  int multipliers = 2;
+  std::filesystem::path results, report;  ///< files to write; empty: none
+  bool json = false;
+  int threads = 0;  ///< 0: one per processor
+};
+
+/// `hersey orbits`: periodic motions of a machine over a parameter, stable or not, and where they change.
+/// @returns an ExitCode.
+[[nodiscard]] int orbits_command(const OrbitsArguments& arguments);
+
 struct MeshArguments {
   std::string file;                  ///< a mesh or a CAD file
   std::string length_unit;           ///< empty: of a mesh m, of a BREP file mm

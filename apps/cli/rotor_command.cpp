@@ -4,7 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,11 +12,10 @@
 #include "exit_code.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/units.h"
-#include "hersey/core/write_file.h"
-#include "hersey/results/error.h"
 #include "hersey/session/output_file.h"
 #include "hersey/session/session.h"
 #include "hersey/study/rotor_study.h"
+#include "page_text.h"
 #include "rotor_page.h"
 #include "standard_streams.h"
 
@@ -73,14 +71,6 @@ const study::RotorAtSpeed& in_service(const RotorFindings& found,
 void screen(const study::RotorAtSpeed& at, double Q, RotorFindings& found) {
   found.screened_speed = at.state.speed;
   found.screening = study::screen_stability(at.state, {at.state.places.at(found.screened_at), Q});
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  try {
-    write_file(path, {text});
-  } catch (const std::runtime_error& error) {
-    throw results::WriteError(path, std::string("the file cannot be written: ") + error.what());
-  }
 }
 
 RotorFindings find(const RotorArguments& arguments, const session::Session& session) {

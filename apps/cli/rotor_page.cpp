@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "hersey/core/version.h"
+#include "page_text.h"
 
 namespace hersey::cli {
 namespace {
@@ -359,21 +360,7 @@ json rotor_json(const RotorFindings& found, const std::string& file) {
   return all;
 }
 
-std::string rotor_text(const RotorFindings& found) {
-  std::string text;
-  for (const CurvePage::Table& table : tables_of(found)) {
-    std::vector<std::size_t> widths(table.lines[0].size(), 0);
-    for (const auto& line : table.lines)
-      for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
-    text += (text.empty() ? "" : "\n") + table.title + "\n";
-    for (const auto& line : table.lines) {
-      std::string row;
-      for (std::size_t k = 0; k < line.size(); ++k) row += fmt::format("{:>{}}", line[k], widths[k] + 2);
-      text += row + "\n";
-    }
-  }
-  return text;
-}
+std::string rotor_text(const RotorFindings& found) { return text_of(tables_of(found)); }
 
 CurvePage rotor_page(const RotorFindings& found, const model::Model& model, const std::string& file) {
   CurvePage page;

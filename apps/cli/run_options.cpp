@@ -199,6 +199,40 @@ void add_rotor(CLI::App& app, Commands& commands) {
                       }});
 }
 
+void add_orbits(CLI::App& app, Commands& commands) {
+  const auto orbits = std::make_shared<OrbitsArguments>();
+  CLI::App* command = app.add_subcommand(
+      "orbits", "Periodic motions of a machine over a parameter, stable or not: folds, oil whirl, doubled periods");
+  command->add_option("MODEL", orbits->model, "Model file of a machine with `cycle: {lead_in: shooting}`")->required();
+  add_overrides(*command, orbits->overrides);
+  command->add_option("--along", orbits->along, "Parameter or key path of the model, and its range: speed=4000:9000rpm")
+      ->required()
+      ->type_name("NAME=FROM:TO");
+  command
+      ->add_option("--observe", orbits->observe,
+                   "Quantities of the results whose extremes are wanted: bearings.left.h_min,joints.slide.coordinates "
+                   "(default: those of all films, else of all joints)")
+      ->type_name("A,B");
+  command->add_option("--step", orbits->step, "Largest step along the branch, as a share of the range (default: 0.05)")
+      ->check(CLI::Range(1e-4, 1.0));
+  command->add_option("--most", orbits->most, "Orbits after which the branch ends (default: 200)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--tolerance", orbits->tolerance,
+                   "Distance from the periodic motion, in shares of each coordinate's swing (default: 1e-4)")
+      ->check(CLI::Range(1e-8, 1e-1));
+  command->add_option("--multipliers", orbits->multipliers, "Floquet multipliers of each orbit (default: 2)")
+      ->check(CLI::Range(1, 20));
+  command->add_option("--results", orbits->results, "Write everything as JSON")->type_name("FILE");
+  command->add_option("--report", orbits->report, "Write a page with diagrams and tables")->type_name("FILE");
+  command->add_flag("--json", orbits->json, "Print everything as JSON");
+  add_threads(*command, orbits->threads);
+  commands.push_back({command, [orbits] {
+                        use_threads(orbits->threads);
+                        return orbits_command(*orbits);
+                      }});
+}
+
 }  // namespace
 
 void add_run_commands(CLI::App& app, Commands& commands) {
@@ -208,6 +242,7 @@ void add_run_commands(CLI::App& app, Commands& commands) {
   add_film(app, commands);
   add_bearing(app, commands);
   add_rotor(app, commands);
+  add_orbits(app, commands);
 }
 
 }  // namespace hersey::cli

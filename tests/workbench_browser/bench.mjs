@@ -114,7 +114,7 @@ export function claim(is, words) {
 /** Opens the workbench and notes what a page must not say; `known` answers of the server are part of a journey. */
 export async function open(context, address, known = /$^/) {
   const page = await context.newPage();
-  page.setDefaultTimeout(8000);
+  page.setDefaultTimeout(30_000); // of machines that do much else
   page.complaints = [];
   page.on("console", (message) => {
     if (["error", "warning"].includes(message.type()) && !known.test(`${message.text()} ${message.location().url}`)) page.complaints.push(`${message.type()}: ${message.text()} ${message.location().url}`);
@@ -138,7 +138,7 @@ export const textOf = (page) =>
 
 /** Waits until the text has some words, or no longer has them. */
 export async function says(page, words, has = true) {
-  for (let i = 0; i < 160; i++) {
+  for (let i = 0; i < 600; i++) {
     if ((await textOf(page)).includes(words) === has) return;
     await page.waitForTimeout(50);
   }
@@ -174,7 +174,7 @@ export async function delayed(page, address) {
 
 /** Waits until a condition is true. */
 export async function until(words, condition) {
-  for (let i = 0; i < 160; i++) {
+  for (let i = 0; i < 600; i++) {
     if (await condition()) return;
     await new Promise((resolve) => setTimeout(resolve, 50));
   }

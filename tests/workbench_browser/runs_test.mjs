@@ -56,7 +56,8 @@ await findings.check("a study is planned as a table, started, filled, stopped an
   await page.locator(".notice", { hasText: "Saved" }).waitFor();
   await page.getByLabel("Jobs").fill("1");
   await page.getByRole("button", { name: "Start study" }).click();
-  await page.waitForFunction(() => document.querySelectorAll(".study-state.completed").length >= 3);
+  // Its first runs wait for Python and what plans the study.
+  await page.waitForFunction(() => document.querySelectorAll(".study-state.completed").length >= 3, null, { timeout: 60_000 });
   claim((await page.locator(".study-state.waiting").count()) > 0, "no run waits");
   await picture(page, "2-study-going-on");
   await page.locator(".study-actions").getByRole("button", { name: "Stop" }).click();
@@ -64,7 +65,7 @@ await findings.check("a study is planned as a table, started, filled, stopped an
   const done = await page.locator(".study-state.completed").count();
   claim(done < 64, "it was not stopped");
   await page.reload();
-  await page.waitForFunction(() => document.querySelectorAll(".study-state.missing").length > 0);
+  await page.waitForFunction(() => document.querySelectorAll(".study-state.missing").length > 0, null, { timeout: 60_000 });
   for (const scheme of ["dark", "light"]) {
     const faults = await accessibilityFaults(page, scheme);
     claim(faults.length === 0, faults.join("\n"));

@@ -30,6 +30,7 @@ svg { width: 100%; height: auto; display: block; margin-top: 8px; }
 .grid { stroke: var(--line); } .frame { fill: none; stroke: var(--soft); stroke-width: 0.8; }
 .tick, .axis, .label { font-size: 12px; fill: var(--soft); } .axis { fill: var(--ink); }
 .line { fill: none; stroke-width: 2; stroke-linejoin: round; } .dot { fill: transparent; }
+.dashed { stroke-dasharray: 6 4; } .mark { fill: var(--ink); }
 .dot:hover { fill: currentColor; fill-opacity: 0.6; }
 .c0 { stroke: var(--s0); color: var(--s0); } .c1 { stroke: var(--s1); color: var(--s1); }
 .c2 { stroke: var(--s2); color: var(--s2); } .c3 { stroke: var(--s3); color: var(--s3); }

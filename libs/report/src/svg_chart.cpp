@@ -105,19 +105,29 @@ std::string axes_of(const CurveChart& chart, const Axis& x, const Axis& y) {
 }
 
 std::string line_of(const CurveChart& chart, const CurveLine& line, std::size_t colour, const Axis& x, const Axis& y) {
+  const std::string& label = line.like ? chart.lines.at(*line.like).label : line.label;
   std::string path;
   for (std::size_t k = 0; k < line.x.size(); ++k)
     path += fmt::format("{}{:.1f} {:.1f}", k == 0 ? "M" : "L", x.at(line.x[k]), y.at(line.y[k]));
-  std::string svg = fmt::format("<path class=\"line c{}\" d=\"{}\"/>", colour % colours, path);
+  std::string svg =
+      fmt::format("<path class=\"line c{}{}\" d=\"{}\"/>", colour % colours, line.is_dashed ? " dashed" : "", path);
   // Tooltips show about ten points of a line.
   const std::size_t every = std::max<std::size_t>(1, line.x.size() / 10);
   for (std::size_t k = 0; k < line.x.size(); k += every)
     svg += fmt::format(
         "<circle class=\"dot c{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"7\"><title>{}\n{} {:.4g} {}\n{} {:.4g} "
         "{}</title></circle>",
-        colour % colours, x.at(line.x[k]), y.at(line.y[k]), escaped(line.label), escaped(chart.x_name), line.x[k],
+        colour % colours, x.at(line.x[k]), y.at(line.y[k]), escaped(label), escaped(chart.x_name), line.x[k],
         escaped(chart.x_unit), escaped(chart.y_name), line.y[k], escaped(chart.y_unit));
   return svg;
+}
+
+std::string mark_of(const CurveMark& mark, const Axis& x, const Axis& y) {
+  return fmt::format(
+      "<rect class=\"mark\" x=\"-4\" y=\"-4\" width=\"8\" height=\"8\" transform=\"translate({0:.1f} {1:.1f}) "
+      "rotate(45)\"><title>{2}</title></rect><text class=\"tick\" x=\"{0:.1f}\" y=\"{3:.1f}\" "
+      "text-anchor=\"middle\">{2}</text>",
+      x.at(mark.x), y.at(mark.y), escaped(mark.label), y.at(mark.y) - 9);
 }
 
 }  // namespace
@@ -156,13 +166,19 @@ std::string svg_of(const CurveChart& chart) {
       fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", width, height, escaped(chart.title));
   svg += axes_of(chart, x, y);
   std::vector<double> ends;
-  for (const CurveLine& line : chart.lines) ends.push_back(y.at(line.y.back()) + 4);
+  for (const CurveLine& line : chart.lines)
+    if (!line.label.empty()) ends.push_back(y.at(line.y.back()) + 4);
   const std::vector<double> positions = label_positions(ends);
+  std::size_t labels = 0;
   for (std::size_t k = 0; k < chart.lines.size(); ++k) {
-    svg += line_of(chart, chart.lines[k], k, x, y);
-    svg += fmt::format("<text class=\"label c{}\" x=\"{}\" y=\"{:.1f}\">{}</text>", k % colours, width - right + 8,
-                       positions[k], escaped(chart.lines[k].label));
+    const CurveLine& line = chart.lines[k];
+    const std::size_t colour = line.like.value_or(k);
+    svg += line_of(chart, line, colour, x, y);
+    if (line.label.empty()) continue;
+    svg += fmt::format("<text class=\"label c{}\" x=\"{}\" y=\"{:.1f}\">{}</text>", colour % colours, width - right + 8,
+                       positions[labels++], escaped(line.label));
   }
+  for (const CurveMark& mark : chart.marks) svg += mark_of(mark, x, y);
   return svg + "</svg>";
 }
 

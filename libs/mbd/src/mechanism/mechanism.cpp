@@ -117,6 +117,22 @@ Eigen::VectorXd Mechanism::difference(const Eigen::VectorXd& q0, const Eigen::Ve
   return dq;
 }
 
+std::vector<Mechanism::Index> Mechanism::revolutions() const {
+  std::vector<Index> components;
+  for (const Link& link : parts_->tree.links)
+    if (link.columns == 1 && link.motion == Motion::revolute) components.push_back(link.first_v);
+  return components;
+}
+
+std::vector<Mechanism::Index> Mechanism::driven_coordinates() const {
+  std::vector<Index> components;
+  for (const Link& link : parts_->tree.links)
+    for (const DriveSpec& drive : parts_->spec.drives)
+      if (link.columns == 1 && drive.coordinate.joint.index == link.joint && drive.coordinate.value == link.value)
+        components.push_back(link.first_v);
+  return components;
+}
+
 void Mechanism::increment_rate(const Eigen::VectorXd& dq, const Eigen::VectorXd& v, Eigen::VectorXd& rate) const {
   rate = v;
   for (const Link& link : parts_->tree.links) {

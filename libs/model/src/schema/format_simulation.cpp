@@ -21,11 +21,18 @@ TypePtr step_format() {
 }
 
 TypePtr cycle_format() {
+  const TypePtr span = quantity_in({"s", "rad"}, "720 deg", Range::positive());
+  const TypePtr found =
+      object("a period to be found",
+             {
+                 required("about", span, "Where the search begins; a whole number of steps, which keep that number."),
+             });
   return object(
       "a cycle",
       {
-          required("period", quantity_in({"s", "rad"}, "720 deg", Range::positive()),
-                   "Time or crank angle of one cycle; a whole number of steps."),
+          required("period", any_of("a time, a crank angle, or {about}", {span, found}),
+                   "Time or crank angle of one cycle; a whole number of steps. With `{about}` it is found, with "
+                   "`lead_in: shooting`: of machines that oscillate by themselves, such as rotors in oil whirl."),
           defaulted("until_converged", number("0.01", {.low = 0, .high = 1, .high_open = true}), "0.01",
                     "Ends the run once no bearing's smallest film thickness, peak pressure and mean friction loss "
                     "differs by more than this share from the cycle before; 0 runs all cycles."),

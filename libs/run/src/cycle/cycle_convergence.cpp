@@ -34,6 +34,8 @@ CycleChange CycleConvergence::take(const std::vector<BearingCycle>& cycle) {
     now.push_back({bearing.moft.value, bearing.pofp.value, energy / bearing.duration()});
   }
   CycleChange change{.number = ++ended_, .value = std::numeric_limits<double>::quiet_NaN()};
+  // Shooting has compared the motion of a machine without bearings.
+  if (cycle.empty() && ended_ > 1) change.value = 0;
   using Figure = std::pair<const char*, double Figures::*>;
   constexpr std::array<Figure, 3> figures{
       {{"film thickness", &Figures::h_min}, {"peak pressure", &Figures::p_max}, {"friction", &Figures::power}}};

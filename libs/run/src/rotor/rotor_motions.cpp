@@ -72,14 +72,14 @@ bool moves_axis(const RotorState& rotor, const VectorXcd& y, const std::vector<O
 }
 
 /// A motion exp(value t), or one whose speed follows from `value`.
-struct Motion {
+struct SmallMotion {
   Complex value;
   VectorXcd y;
 };
 
 /// Replaces motions of one value, of which any mixture is one, by those that run forward most and least: a shaft that
 /// whirls forward and backward alike shows both.
-void part_by_whirl(const RotorState& rotor, std::vector<Motion>& motions) {
+void part_by_whirl(const RotorState& rotor, std::vector<SmallMotion>& motions) {
   constexpr double kOne = 1e-7;  // relative difference of values that round-off may have parted
   const auto points = static_cast<Index>(rotor.stations.size());
   for (std::size_t first = 0; first < motions.size();) {
@@ -118,7 +118,7 @@ std::vector<WhirlMode> whirl_modes(const RotorState& rotor) {
   linear.Z.setIdentity(rotor.M.rows(), rotor.M.rows());
   linear.M = rotor.M, linear.C = rotor.C, linear.K = rotor.K;
   std::vector<solver::Mode> all = solver::find_modes(linear).modes;
-  std::vector<Motion> motions;
+  std::vector<SmallMotion> motions;
   const auto oscillates = [](const solver::Mode& mode) { return mode.damped_frequency > kOscillates * mode.frequency; };
   const auto diverges = [&](const solver::Mode& mode) {
     return !oscillates(mode) && mode.s.real() > kDiverges * rotor.speed &&
@@ -199,7 +199,7 @@ std::vector<CriticalSpeed> undamped_critical_speeds(const RotorState& rotor, dou
   const double shift = 1e-4 * rotor.speed * rotor.speed;
   const Eigen::PartialPivLU<MatrixXcd> lu(stiff + shift * inertia);
   const Eigen::ComplexEigenSolver<MatrixXcd> eigen(lu.solve(inertia));
-  std::vector<Motion> motions;
+  std::vector<SmallMotion> motions;
   for (Index i = 0; i < stiff.rows(); ++i) {
     const Complex nu = eigen.eigenvalues()[i];
     if (!(nu.real() > 0) || std::abs(nu.imag()) > 1e-6 * nu.real()) continue;  // no whirl once a revolution
@@ -209,10 +209,10 @@ std::vector<CriticalSpeed> undamped_critical_speeds(const RotorState& rotor, dou
     if (moves_axis(rotor, y, orbits_of(rotor, y))) motions.push_back({std::sqrt(squared), y});
   }
   std::sort(motions.begin(), motions.end(),
-            [](const Motion& a, const Motion& b) { return a.value.real() < b.value.real(); });
+            [](const SmallMotion& a, const SmallMotion& b) { return a.value.real() < b.value.real(); });
   part_by_whirl(rotor, motions);
   std::vector<CriticalSpeed> found;
-  for (const Motion& motion : motions)
+  for (const SmallMotion& motion : motions)
     found.push_back({motion.value.real(), whirl_of(orbits_of(rotor, motion.y), rotor.sense)});
   return found;
 }

@@ -95,6 +95,7 @@ FloquetMultipliers floquet_multipliers(PeriodMap& map, const Shooting& found, in
   if (const Outcome period = map.take_from(found.motion); !period.solved())
     return no_answer<FloquetMultipliers>(period.message);
   const Motion end = map.motion();
+  multipliers.trials.push_back({found.motion, end, map.period()});
   Deviations deviations(map, found.motion);
   if (deviations.add(found.motion, found.near.back()).isZero(0))
     return no_answer<FloquetMultipliers>("all trials have led to the same motion: there is no deviation to begin with");
@@ -104,7 +105,9 @@ FloquetMultipliers floquet_multipliers(PeriodMap& map, const Shooting& found, in
   for (int k = 0; k < most; ++k) {
     if (const Outcome period = map.take_from(deviations.newest()); !period.solved())
       return no_answer<FloquetMultipliers>(period.message);
-    H.col(k).head(k + 2) = deviations.add(end, map.motion());
+    Motion moved = map.motion();
+    multipliers.trials.push_back({deviations.newest(), moved, map.period()});
+    H.col(k).head(k + 2) = deviations.add(end, moved);
     multipliers.periods = k + 2;
     std::vector<Found> values = ritz_values(H.topLeftCorner(k + 1, k + 1), H(k + 1, k));
     const bool are_complete = H(k + 1, k) <= kNothingNew;

@@ -14,8 +14,14 @@ namespace hersey::run {
 /// Factors by which small deviations from a periodic motion change over one period, the largest first; of a pair of
 /// conjugates the one with a positive imaginary part. Deviations grow where one is beyond the unit circle.
 struct [[nodiscard]] FloquetMultipliers : Outcome {
+  /// A period from a motion near the periodic one.
+  struct Trial {
+    Motion start, end;
+    double period = 0;  ///< its length [s]
+  };
   std::vector<std::complex<double>> values;
   int periods = 0;  ///< run
+  std::vector<Trial> trials;  ///< those periods, that of the periodic motion first
 };
 
 /// Finds the largest multipliers of a periodic motion by Arnoldi's method on the map over one period, whose product

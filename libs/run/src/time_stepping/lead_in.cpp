@@ -19,6 +19,10 @@
 namespace hersey::run {
 namespace {
 
+constexpr double kLongestStep = 1.5;  // of a divided period, so that no planned instant comes between
+constexpr int kMostToSection = 60;    // periods
+constexpr double kOfFigures = 0.1;    // tolerance of a motion over that of its figures, which are not compared
+
 // Films with fewer lines or rows keep their grid: half of it has no film to speak of.
 constexpr int kFewestHalvedLines = 24, kFewestHalvedRows = 5;
 
@@ -41,10 +45,12 @@ model::Model for_trials(model::Model model, bool is_coarse) {
   model::Cycle& cycle = *model.simulation.cycle;
   cycle.lead_in = model::LeadIn::none;
   cycle.tolerance = 0;
-  const int most = cycle.most + (cycle.multipliers > 0 ? most_periods_for_multipliers(cycle.multipliers) : 0);
+  const int most = cycle.most + (cycle.is_period_found ? kMostToSection : 0) +
+                   (cycle.multipliers > 0 ? most_periods_for_multipliers(cycle.multipliers) : 0);
   model.simulation.duration = most * cycle.period;
   model.output.meshes_at.clear();  // files besides the results
   model.output.fields_every = model.simulation.duration;
+  if (cycle.is_period_found) model.simulation.step *= kLongestStep;
   return model;
 }
 
@@ -86,20 +92,32 @@ PeriodicStart run_cycles(const model::Model& model, const Options& options) {
   run.begin();
   const Eigen::VectorXd q_start = run.state().q;
   PeriodMap map(run, cycle.period, options.stop);
-  const Shooting found =
-      shoot(map, {.tolerance = cycle.tolerance, .most = cycle.most, .predicts = can_be_combined(model), .repeats = [&] {
-                    return change <= cycle.tolerance;
-                  }});
+  if (cycle.is_period_found) {
+    map.divide(static_cast<int>(std::lround(cycle.period / model.simulation.step)));
+    if (const Outcome section = map.lay_section(kMostToSection); !section.solved())
+      throw std::runtime_error(section.message);
+  }
+  const Shooting found = shoot(map, {.tolerance = (cycle.is_period_found ? kOfFigures : 1) * cycle.tolerance,
+                                     .most = cycle.most,
+                                     .predicts = can_be_combined(model),
+                                     .repeats = [&] { return change <= cycle.tolerance || cycle.is_period_found; }});
   // Cycles that have not repeated yet are nearer to those that do than the start of the model.
   if (!found.solved() && (!is_coarse || found.periods < cycle.most)) throw std::runtime_error(found.message);
   PeriodicStart start{.cycles = found.periods};
   start.message = fmt::format("begun after {} cycles {}{}", start.cycles, is_coarse ? "on half grids" : "of shooting",
                               found.solved() ? "" : ", which have not repeated");
+  if (cycle.is_period_found) {
+    if (map.swing().is_rest()) throw std::runtime_error("the machine comes to rest: it does not oscillate");
+    start.period = map.period();
+    start.message += fmt::format(" with the period {:.6g} s", start.period);
+  }
   if (cycle.multipliers > 0) find_multipliers(map, found, cycle.multipliers, start);
   run.move_to(found.motion);
   start.state = run.state();
   // Drives and functions of angles begin again at the start of the run.
   run.mechanism().retract(q_start, run.mechanism().difference(q_start, run.state().q), start.state.q);
+  if (cycle.is_period_found)
+    start.state.q = with_rings_at(run.mechanism(), q_start, map.swing().sizes(), {start.state.q, {}}).q;
   if (!is_coarse) {
     start.motion = run.motion();
     start.motion->q = start.state.q;

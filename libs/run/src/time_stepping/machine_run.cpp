@@ -169,6 +169,7 @@ void MachineRun::persist(Archive& archive) {
     archive.io("vdot", state_.vdot), archive.io("lambda", state_.lambda);
   }
   archive.io("lead_in_cycles", start_.cycles), archive.io("lead_in", start_.message);
+  archive.io("lead_in_period", start_.period);
   {
     const Archive::Group group(archive, "mechanism");
     machine_.mechanism->persist(archive);

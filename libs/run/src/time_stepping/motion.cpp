@@ -10,6 +10,7 @@ namespace hersey::run {
 namespace {
 
 constexpr double kLeastSwing = 1e-9;  // of the machine's size, and of a radian: coordinates that stand still
+constexpr double kRest = 1e-7;        // of the machine's size, and of a radian
 constexpr double kConstant = 1e-5;    // share of a velocity below which its changes are round-off
 constexpr double kTemperatures = 10;  // K, of films, that count as much as a coordinate's swing
 
@@ -88,11 +89,30 @@ Eigen::VectorXd Swing::sizes() const {
   least << mechanism_.position_scales(), mechanism_.position_scales() * 2 * std::numbers::pi / period_;
   Eigen::VectorXd sizes = (highest_ - lowest_).cwiseMax(kLeastSwing * least);
   const Eigen::VectorXd fastest = highest_.cwiseAbs().cwiseMax(lowest_.cwiseAbs()).tail(mechanism_.nv());
-  for (Eigen::Index i = 0; i < mechanism_.nv(); ++i)
-    if (mechanism_.position_scales()[i] == 1 && sizes[i] > std::numbers::pi)
-      sizes[i] = std::numeric_limits<double>::infinity();
+  for (const Eigen::Index i : mechanism_.revolutions())
+    if (sizes[i] > std::numbers::pi) sizes[i] = std::numeric_limits<double>::infinity();
+  for (const Eigen::Index i : mechanism_.driven_coordinates())
+    sizes[mechanism_.nv() + i] = std::numeric_limits<double>::infinity();
   sizes.tail(mechanism_.nv()) = sizes.tail(mechanism_.nv()).cwiseMax(kConstant * fastest);
   return sizes;
+}
+
+Eigen::VectorXd Swing::ways() const {
+  Eigen::VectorXd ways = (highest_ - lowest_).head(mechanism_.nv());
+  for (const Eigen::Index i : mechanism_.revolutions())
+    if (ways[i] > std::numbers::pi) ways[i] = 0;
+  return ways;
+}
+
+bool Swing::is_rest() const { return (ways().array() <= kRest * mechanism_.position_scales().array()).all(); }
+
+Motion with_rings_at(const mbd::Mechanism& mechanism, const Eigen::VectorXd& here, const Eigen::VectorXd& sizes,
+                     Motion motion) {
+  Eigen::VectorXd way = mechanism.difference(here, motion.q);
+  for (Eigen::Index i = 0; i < way.size(); ++i)
+    if (std::isinf(sizes[i])) way[i] = 0;
+  mechanism.retract(here, way, motion.q);
+  return motion;
 }
 
 Eigen::VectorXd way_between(const mbd::Mechanism& mechanism, const Motion& from, const Motion& to) {

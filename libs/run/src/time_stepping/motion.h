@@ -31,14 +31,24 @@ class Swing {
   /// Takes another one.
   void take(const solver::State& state);
   /// Returns that of all positions, then of all velocities, each at least a share of the machine's size: shape (2 nv).
-  /// Infinite for angles that go round: a ring may have any when its period ends.
+  /// Infinite for angles that go round, because a ring may have any when its period ends, and for velocities that
+  /// drives prescribe.
   [[nodiscard]] Eigen::VectorXd sizes() const;
+  /// How far positions went, those of angles that go round left out: shape (nv).
+  [[nodiscard]] Eigen::VectorXd ways() const;
+  /// True if no position but angles that go round went farther than a ten-millionth of the machine's size.
+  [[nodiscard]] bool is_rest() const;
 
  private:
   const mbd::Mechanism& mechanism_;
   double period_;
   Eigen::VectorXd start_, lowest_, highest_;
 };
+
+/// Returns `motion` with the angles that go round as they are at `here`.
+/// @param sizes  Swing::sizes()
+[[nodiscard]] Motion with_rings_at(const mbd::Mechanism& mechanism, const Eigen::VectorXd& here,
+                                   const Eigen::VectorXd& sizes, Motion motion);
 
 /// Returns the way from one motion to another at the same instant of another period: of positions and velocities, then
 /// of the fill fractions and temperatures of films, each film with the weight of a coordinate over its swing.

@@ -34,6 +34,15 @@ void move_to(const PeriodicStart& start, model::Machine& machine, solver::State&
 
 }  // namespace
 
+void take_period(model::Model& model, double period) {
+  if (period == 0) return;
+  model::Simulation& plan = model.simulation;
+  const double ratio = period / plan.cycle->period;
+  plan.cycle->period = period;
+  plan.step *= ratio;
+  plan.duration *= ratio;
+}
+
 PeriodicStart begin_in(PeriodicStart start, const model::Model& model, model::Machine& machine, solver::State& state) {
   if (start.cycles == 0 || start.motion) return start;
   try {

@@ -23,8 +23,12 @@ struct PeriodicStart {
   std::vector<bearing::FilmAtStart> films;  ///< of each bearing
   Archive::Content network;                 ///< temperatures of the thermal network
   std::optional<Motion> motion;             ///< on the grids of the run: all of it, in place of the three before
+  double period = 0;  ///< that was found [s]; 0: the model gives it
   std::vector<std::complex<double>> multipliers = {};  ///< of the motion (FloquetMultipliers), where it asks for them
 };
+
+/// Gives a model the period that was found, in as many steps. @param period  [s]; 0: none was
+void take_period(model::Model& model, double period);
 
 /// Moves a machine into that motion (theory manual, integrator.43): pressures, accelerations and multipliers follow
 /// from its positions, velocities, fill fractions and temperatures at state.t. Where no state of the machine is there

@@ -160,12 +160,22 @@ class Run {
   bool is_all_written_ = true;  // true if all rows passed to the results file are in it
 };
 
+// The period with which a run goes on; 0 if its model gives it.
+double found_period(const Archive::Content& checkpoint) {
+  const auto period = checkpoint.numbers.find("lead_in_period");
+  return period == checkpoint.numbers.end() ? 0 : period->second.values.front();
+}
+
 // A run that could not begin leaves no file behind.
 Summary simulate_from(std::optional<Archive::Content> checkpoint, const model::Model& model, const Options& options,
                       const Summary* coarse = nullptr) {
   try {
     PeriodicStart start = checkpoint ? PeriodicStart{} : lead_in(model, options);
-    return Run(model, options, std::move(checkpoint), std::move(start), coarse).run();
+    if (checkpoint) start.period = found_period(*checkpoint);
+    if (start.period == 0) return Run(model, options, std::move(checkpoint), std::move(start), coarse).run();
+    model::Model timed = model;
+    take_period(timed, start.period);
+    return Run(timed, options, std::move(checkpoint), std::move(start), coarse).run();
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(unfinished_file(options.results), ignored);

@@ -32,6 +32,13 @@ model::Model require_motion(model::Model model) {
                          "a motion over time to step through: analysis `dynamics` or `kinematics`", ""});
 }
 
+/// The start of a model whose period, where it is to be found, becomes that of the motion.
+PeriodicStart lead_in_of(model::Model& model, const Options& options) {
+  PeriodicStart start = lead_in(model, options);
+  take_period(model, start.period);
+  return start;
+}
+
 /// Share of an input, or of what stands for it, by which the neighbours of an advance differ from it at first. Central
 /// differences of them leave its square, 1e-8 of the response's curvature, and round-off over it; at a hundredth weak
 /// responses as that of a film's peak pressure to the speed lose digits.
@@ -72,7 +79,7 @@ struct Simulation::Impl {
         options(std::move(options_)),
         lock(std::in_place, options.results),
         inputs(model),
-        run(model, options, {}, lead_in(model, options)),
+        run(model, options, {}, lead_in_of(model, options)),
         snapshot(model, run.machine(), run.state(), Options{}) {
     run.begin();
     for (const results::LatestRow& row : snapshot.latest()) {

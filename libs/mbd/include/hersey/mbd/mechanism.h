@@ -59,6 +59,11 @@ class Mechanism final : public solver::Equations {
   /// angles that grow with it.
   void persist_between_bodies(Archive& archive);
 
+  /// Returns the velocity components of rotations about one axis, which are the same after a whole revolution.
+  [[nodiscard]] std::vector<Index> revolutions() const;
+  /// Returns the velocity components that drives prescribe.
+  [[nodiscard]] std::vector<Index> driven_coordinates() const;
+
   /// Returns the velocity components whose initial position the user prescribed: InitialiseOptions::fixed.
   [[nodiscard]] std::vector<Index> given_coordinates() const;
 

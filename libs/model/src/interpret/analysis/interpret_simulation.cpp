@@ -311,17 +311,36 @@ void interpret_lead_in(Context& context, const Value& value) {
   if (cycle.lead_in == LeadIn::shooting) refuse_shooting(context, value);
 }
 
+bool is_found_by_shooting(const Value& cycle) {
+  const Value* lead_in = cycle.find("lead_in");
+  return lead_in != nullptr && !lead_in->broken && meaning_of(*lead_in, lead_in_words) == LeadIn::shooting;
+}
+
+/// The period, or about where it is to be found.
+void interpret_period(Context& context, const Value& value) {
+  const Value* period = value.find("period");
+  if (period == nullptr || period->broken) return;
+  Simulation& simulation = context.model.simulation;
+  const Value& content = period->members.front().value;
+  simulation.cycle->is_period_found = period->alternative == 1;
+  simulation.cycle->period = simulation.cycle->is_period_found ? seconds_of(context, content, "about", simulation.crank)
+                                                               : seconds_of(context, content, simulation.crank);
+  if (!simulation.cycle->is_period_found) return;
+  if (!is_found_by_shooting(value))
+    context.fault(*period, "a period to be found in cycles that nobody looks for", "`lead_in: shooting` beside it");
+}
+
 /// Cycles that end the run, if its duration does not.
 void interpret_cycle(Context& context, const Value& parent) {
   Simulation& simulation = context.model.simulation;
   const Value* value = parent.find("cycle");
   if (value == nullptr || value->broken) return;
   const Value* bearings = context.root.find("bearings");
-  if (bearings == nullptr || bearings->members.empty())
+  if ((bearings == nullptr || bearings->members.empty()) && !is_found_by_shooting(*value))
     context.fault_at_key(*value, "cycles of a machine without bearings", "bearings whose figures repeat",
-                         "give a `duration` instead");
-  simulation.cycle = Cycle{seconds_of(context, *value, "period", simulation.crank),
-                           number_of(*value, "until_converged"), integer_of(*value, "most")};
+                         "`lead_in: shooting` finds its periodic motion; or give a `duration` instead");
+  simulation.cycle = Cycle{.tolerance = number_of(*value, "until_converged"), .most = integer_of(*value, "most")};
+  interpret_period(context, *value);
   if (const Value* lead_in = value->find("lead_in"); lead_in != nullptr && !lead_in->broken)
     interpret_lead_in(context, *lead_in);
   simulation.cycle->multipliers = integer_of(*value, "multipliers");

@@ -1,0 +1,44 @@
+#include "orbits/branch_point.h"
+
+#include <cmath>
+
+namespace hersey::run {
+namespace {
+
+constexpr double kMotion =
+    0.25;  // share of the range that counts as much as a change of all coordinates by their swing
+
+}  // namespace
+
+BranchMetric::BranchMetric(const Eigen::VectorXd& sizes, double range, const mbd::Mechanism& mechanism)
+    : weights_(sizes.cwiseInverse()), range_(range) {
+  // The speed of an angle that goes round is what the parameter makes it.
+  const Eigen::Index nv = mechanism.nv();
+  for (Eigen::Index i = 0; i < nv; ++i)
+    if (std::isinf(sizes[i])) weights_[nv + i] = 0;
+  const double count = static_cast<double>((weights_.array() > 0).count());
+  if (count > 0) weights_ *= kMotion / std::sqrt(count);
+}
+
+Eigen::VectorXd BranchMetric::way(const mbd::Mechanism& mechanism, const MotionAtValue& from,
+                                  const MotionAtValue& to) const {
+  Eigen::VectorXd way(weights_.size() + 1);
+  way << way_between(mechanism, from.motion, to.motion).head(weights_.size()).cwiseProduct(weights_),
+      (to.value - from.value) / range_;
+  return way;
+}
+
+MotionAtValue combine(const mbd::Mechanism& mechanism, const std::vector<MotionAtValue>& of,
+                      const Eigen::VectorXd& weights) {
+  std::vector<Motion> motions;
+  MotionAtValue combined;
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    motions.push_back(of[k].motion);
+    combined.value += weights[static_cast<Eigen::Index>(k)] * of[k].value;
+    combined.period += weights[static_cast<Eigen::Index>(k)] * of[k].period;
+  }
+  combined.motion = combine(mechanism, motions, weights);
+  return combined;
+}
+
+}  // namespace hersey::run

@@ -1,0 +1,183 @@
+#include "orbits/orbit_search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "hersey/solver/least_residual.h"
+#include "time_stepping/floquet.h"
+#include "time_stepping/shooting.h"
+
+namespace hersey::run {
+namespace {
+
+constexpr int kMostOfFirst = 60;  // periods
+constexpr int kMostOfNext = 12;
+constexpr std::size_t kMostTrialsOfBranch = 16;
+constexpr double kLost = 10;  // growth of the residual in one search
+
+// Those of all films, or else of all joints.
+std::vector<ObservedQuantity> usual_quantities(const std::vector<ObservedQuantity>& all) {
+  std::vector<ObservedQuantity> of_films, of_joints;
+  for (const ObservedQuantity& quantity : all) {
+    const auto is_of_film = [&](const char* part) {
+      return quantity.name.starts_with("bearings.") && quantity.name.find(part) != std::string::npos;
+    };
+    if (is_of_film(".eccentricity.") || (quantity.name.starts_with("bearings.") &&
+                                         (quantity.name.ends_with(".h_min") || quantity.name.ends_with(".p_max"))))
+      of_films.push_back(quantity);
+    if (quantity.name.starts_with("joints.") && quantity.name.find(".coordinates") != std::string::npos)
+      of_joints.push_back(quantity);
+  }
+  return of_films.empty() ? of_joints : of_films;
+}
+
+std::vector<ObservedQuantity> named_quantities(const std::vector<std::string>& names) {
+  std::vector<ObservedQuantity> quantities;
+  for (const std::string& name : names) quantities.push_back({name, ""});
+  return quantities;
+}
+
+// Largest share of a swing between two motions at different values, of which the speed of angles that go round is one.
+double distance_between(const PeriodMap& map, const Motion& from, const Motion& to) {
+  const Eigen::VectorXd sizes = map.swing().sizes();
+  const Eigen::Index nv = sizes.size() / 2;
+  double largest = 0;
+  const Eigen::VectorXd way = map.way(from, to);
+  for (Eigen::Index i = 0; i < nv; ++i)
+    if (!std::isinf(sizes[i])) largest = std::max({largest, std::abs(way[i]), std::abs(way[nv + i])});
+  return largest;
+}
+
+// A motion beside `at`, by the sum of the deviations of trials that belong to one value, in which those that decay
+// slowly have grown.
+Motion deviated(const mbd::Mechanism& mechanism, const Motion& at, const std::vector<PeriodTrial>& trials) {
+  std::vector<Motion> motions{at, trials.front().end.motion};
+  for (const PeriodTrial& trial : trials)
+    if (trial.end.value == trials.front().end.value && &trial != &trials.front()) motions.push_back(trial.end.motion);
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(motions.size()));
+  weights[1] = -static_cast<double>(motions.size() - 2);
+  return combine(mechanism, motions, weights);
+}
+
+double largest_share(const Eigen::VectorXd& way, Eigen::Index coordinates) {
+  return coordinates > 0 ? way.head(coordinates).cwiseAbs().maxCoeff() : 0;
+}
+
+}  // namespace
+
+OrbitSearch::OrbitSearch(const std::function<model::Model(double)>& model_at, const BranchOptions& options)
+    : model_at_(model_at), options_(options), observed_(named_quantities(options.observed)) {}
+
+OrbitMachine& OrbitSearch::machine_at(double value, double period) {
+  if (machine_ && value == value_) return *machine_;
+  model::Model model = model_at_(value);
+  finds_period_ = model.simulation.cycle->is_period_found;
+  const std::unique_ptr<OrbitMachine> before = std::move(machine_);
+  machine_ = std::make_unique<OrbitMachine>(std::move(model), before ? before->steps() : 0, finds_period_ ? period : 0,
+                                            options_.stop);
+  value_ = value;
+  if (before && finds_period_) machine_->map().lay_section_of(before->map());
+  return *machine_;
+}
+
+FoundOrbit OrbitSearch::first(double value) {
+  OrbitMachine& machine = machine_at(value, 0);
+  const std::vector<ObservedQuantity> all = machine.quantities();
+  if (observed_.empty()) observed_ = usual_quantities(all);
+  machine.observe(observed_);
+  for (ObservedQuantity& quantity : observed_) {
+    const auto known = std::ranges::find(all, quantity.name, &ObservedQuantity::name);
+    if (known != all.end()) quantity.unit = known->unit;
+  }
+  if (finds_period_)
+    if (const Outcome section = machine.map().lay_section(kMostOfFirst); !section.solved())
+      return no_answer<FoundOrbit>(section.message);
+  Shooting found =
+      shoot(machine.map(), {.tolerance = options_.tolerance, .most = kMostOfFirst, .repeats = [] { return true; }});
+  if (!found.solved()) return no_answer<FoundOrbit>(found.message);
+  return complete({found.motion, value, machine.map().period()}, found.near.back(), found.periods);
+}
+
+MotionAtValue OrbitSearch::onto_section(MotionAtValue at) const {
+  if (finds_period_) at.motion = machine_->map().onto_section(at.motion);
+  return at;
+}
+
+// The constraint is one more residual of each trial.
+FoundOrbit OrbitSearch::next(const AcrossBranch& plane, std::vector<PeriodTrial> near) {
+  std::vector<PeriodTrial> trials = std::move(near);
+  for (PeriodTrial& trial : trials) {
+    trial.start = onto_section({std::move(trial.start), 0, 0}).motion;
+    trial.end = onto_section(std::move(trial.end));
+  }
+  const std::vector<PeriodTrial> of_last_orbit = trials;
+  MotionAtValue start = plane.predicted;
+  double before = 0;
+  for (int periods = 1; periods <= kMostOfNext; ++periods) {
+    PeriodMap& map = machine_at(start.value, start.period).map();
+    if (finds_period_) map.expect_period(start.period);
+    if (const Outcome period = map.take_from(start.motion); !period.solved())
+      return no_answer<FoundOrbit>(period.message);
+    trials.insert(trials.begin(), {start.motion, {map.motion(), start.value, map.period()}});
+    trials.resize(std::min(trials.size(), kMostTrialsOfBranch));
+    std::vector<Eigen::VectorXd> residuals;
+    std::vector<MotionAtValue> ends;
+    for (const PeriodTrial& one : trials) {
+      const Eigen::VectorXd way = way_between(map.mechanism(), one.start, one.end.motion);
+      Eigen::VectorXd residual(way.size() + 1);
+      residual << way, plane.direction.dot(plane.metric.way(map.mechanism(), plane.predicted, one.end));
+      map.compare_by_swing(residual);
+      residuals.push_back(std::move(residual));
+      ends.push_back(one.end);
+    }
+    const double misfit = largest_share(residuals.front(), map.coordinates());
+    if (periods > 1 && misfit > kLost * std::max(before, options_.tolerance))
+      return no_answer<FoundOrbit>("the search for it diverges");
+    before = periods > 1 ? std::min(before, misfit) : misfit;
+    const solver::LeastResidual least = solver::combine_to_least_residual(residuals);
+    start = combine(map.mechanism(), ends, least.weights);
+    if (plane.keeps_value) start.value = plane.predicted.value;
+    const double distance = distance_between(map, ends.front().motion, start.motion);
+    const double change = std::abs(start.value - ends.front().value) / std::abs(options_.to - options_.from);
+    if (std::max({misfit, distance, change}) > options_.tolerance) continue;
+    return complete(start, deviated(map.mechanism(), start.motion, of_last_orbit), periods);
+  }
+  return no_answer<FoundOrbit>(fmt::format("none has been found within {} periods", kMostOfNext));
+}
+
+FoundOrbit OrbitSearch::complete(const MotionAtValue& at, Motion beside, int periods) {
+  OrbitMachine& machine = machine_at(at.value, at.period);
+  PeriodMap& map = machine.map();
+  if (finds_period_) map.expect_period(at.period);
+  FoundOrbit found;
+  BranchPoint& point = found.point;
+  machine.observe(observed_);
+  if (const Outcome period = map.take_from(at.motion); !period.solved()) return no_answer<FoundOrbit>(period.message);
+  point.orbit.excursions = machine.excursions();
+  machine.observe({});
+  if (finds_period_) map.lay_section_at_start();
+  point.orbit.value = at.value;
+  point.orbit.period = map.period();
+  point.at = at;
+  point.sizes = map.swing().sizes();
+  point.is_rest = map.swing().is_rest();
+  found.set_solved(true);
+  point.orbit.periods = periods + 1;
+  if (point.is_rest) return found;
+  Shooting shooting;
+  shooting.motion = at.motion;
+  shooting.near.push_back(std::move(beside));
+  const FloquetMultipliers multipliers = floquet_multipliers(map, shooting, options_.multipliers);
+  point.orbit.multipliers = multipliers.values;
+  point.orbit.periods += multipliers.periods;
+  for (const FloquetMultipliers::Trial& trial : multipliers.trials)
+    point.trials.push_back({trial.start, {trial.end, at.value, trial.period}});
+  if (!multipliers.solved()) return no_answer<FoundOrbit>("no multipliers: " + multipliers.message);
+  return found;
+}
+
+}  // namespace hersey::run

@@ -1,0 +1,165 @@
+#!/usr/bin/python3
+"""`hersey orbits`: branches of periodic motions against independent solutions, and the command as users call it."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import fsolve
+
+HERSEY = os.path.abspath(sys.argv.pop(1))
+
+# x'' + 4 x' + 1e4 x + 1e10 x^3 = 0.2 cos(omega t)
+DUFFING = """hersey: 1
+title: A hardening spring
+parameters: {omega: 80, steps: 100}
+bodies:
+  weight: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+joints:
+  slide: {type: prismatic, between: [ground, weight], axis: x}
+forces:
+  spring: {type: sliding_spring, joint: slide, stiffness: 1e4 N/m, damping: 4 N.s/m}
+  rest: {type: force, body: weight, direction: x, magnitude: {expression: "0.2*cos(${omega}*t) - 1e10*slide.translation^3", unit: N}}
+simulation:
+  cycle: {period: "2*pi s/${omega}", lead_in: shooting}
+  step: "2*pi s/${omega}/${steps}"
+  spectral_radius: 1
+"""
+
+# An oscillator that is pushed: beyond a push it keeps to its rhythm, below it its own frequency sets in.
+FORCED_VAN_DER_POL = """hersey: 1
+parameters: {push: 1.5, w: 1.3, steps: 120}
+bodies:
+  weight: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+joints:
+  slide: {type: prismatic, between: [ground, weight], axis: x, initial: {translation: 1.5 m}}
+forces:
+  spring: {type: sliding_spring, joint: slide, stiffness: 1 N/m}
+  rest: {type: force, body: weight, direction: x, magnitude: {expression: "0.4*(1 - slide.translation^2)*slide.translation_rate + ${push}*cos(${w}*t)", unit: N}}
+simulation:
+  cycle: {period: "2*pi s/${w}", lead_in: shooting}
+  step: "2*pi s/${w}/${steps}"
+  spectral_radius: 1
+"""
+
+
+def hersey(*arguments):
+    return subprocess.run([HERSEY, *map(str, arguments)], capture_output=True, text=True)
+
+
+def branch(text, *arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        model = pathlib.Path(folder, "model.yaml")
+        model.write_text(text)
+        run = hersey("orbits", model, "--json", *arguments)
+        assert run.returncode == 0, run.stderr
+        return json.loads(run.stdout)
+
+
+def over_a_period(force, slope, period, start, parameter):
+    """End of a period and its derivative by the start, of x'' = force(t, x, v, parameter)."""
+
+    def rates(t, y):
+        x, v, *S = y
+        S = np.reshape(S, (2, 2))
+        A = np.array([[0, 1], slope(t, x, v, parameter)])
+        return [v, force(t, x, v, parameter), *(A @ S).ravel()]
+
+    end = solve_ivp(rates, (0, period), [*start, 1, 0, 0, 1], rtol=1e-10, atol=1e-12, method="DOP853").y[:, -1]
+    return end[:2], np.reshape(end[2:], (2, 2))
+
+
+def bifurcation(force, slope, period_of, guess, test):
+    """Start and parameter of a periodic motion whose multipliers satisfy test(M) = 0."""
+
+    def misfit(unknown):
+        *start, parameter = unknown
+        end, M = over_a_period(force, slope, period_of(parameter), start, parameter)
+        return [*(end - start), test(M)]
+
+    return fsolve(misfit, guess, xtol=1e-9)
+
+
+def extrapolated(coarse, fine):
+    """Of steps half as long, of second order."""
+    return (4 * fine - coarse) / 3
+
+
+class Branches(unittest.TestCase):
+    def test_folds_are_those_of_an_independent_solution(self):
+        # In mm and units of 10 ms, so that all numbers are of the order of 1.
+        force = lambda t, x, v, w: -0.04 * v - x - x**3 + 0.02 * np.cos(w * t)
+        slope = lambda t, x, v, w: [-1 - 3 * x * x, -0.04]
+        found = [branch(DUFFING, "--along", "omega=80:130", "--set", f"steps={n}", "--tolerance", "1e-6") for n in (100, 200)]
+        for which in range(2):
+            coarse, fine = (one["bifurcations"][which] for one in found)
+            self.assertEqual((coarse["kind"], fine["kind"]), ("fold", "fold"))
+            beside = found[1]["orbits"][fine["behind"]]
+            w = fine["value"] / 100
+            amplitude = beside["quantities"]["joints.slide.coordinates"]["highest"] * 1e3
+            # One harmonic: A cos(w t - phase).
+            phase = np.arctan2(0.04 * w * amplitude, (1 - w * w) * amplitude + 0.75 * amplitude**3)
+            start = [amplitude * np.cos(phase), amplitude * w * np.sin(phase)]
+            exact = bifurcation(force, slope, lambda w: 2 * np.pi / w, [*start, w], lambda M: np.linalg.det(M - np.eye(2)))[2]
+            # A fold is located between orbits, one of which is within 0.002 of the unit circle.
+            self.assertAlmostEqual(extrapolated(coarse["value"], fine["value"]) / (100 * exact), 1, delta=1e-4)
+
+    def test_a_second_frequency_sets_in_where_an_independent_solution_has_it(self):
+        force = lambda t, x, v, f: 0.4 * (1 - x * x) * v - x + f * np.cos(1.3 * t)
+        slope = lambda t, x, v, f: [-0.8 * x * v - 1, 0.4 * (1 - x * x)]
+        period = 2 * np.pi / 1.3
+        found = branch(FORCED_VAN_DER_POL, "--along", "push=1.5:0.3", "--set", "steps=240")
+        torus = found["bifurcations"][0]
+        self.assertEqual(torus["kind"], "torus")
+        beside = found["orbits"][torus["behind"]]
+        self.assertTrue(beside["is_stable"])
+        waited = solve_ivp(lambda t, y: [y[1], force(t, *y, beside["value"])], (0, 40 * period), [1.5, 0], rtol=1e-8).y[:, -1]
+        exact = bifurcation(force, slope, lambda f: period, [*waited, torus["value"]], lambda M: np.linalg.det(M) - 1)
+        # 240 steps, and multipliers that are found to 1e-3.
+        self.assertAlmostEqual(torus["value"] / exact[2], 1, delta=3e-3)
+        _, M = over_a_period(force, slope, period, exact[:2], exact[2])
+        frequency = abs(np.angle(np.linalg.eigvals(M)[0])) / (2 * np.pi * period)
+        self.assertAlmostEqual(torus["frequency"] / frequency, 1, delta=5e-3)  # likewise
+
+
+class Command(unittest.TestCase):
+    def test_page_and_results_are_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            model, page, results = (pathlib.Path(folder, name) for name in ("model.yaml", "page.html", "orbits.json"))
+            model.write_text(DUFFING)
+            run = hersey("orbits", model, "--along", "omega=80:90", "--report", page, "--results", results)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("ended at the end of the range", run.stdout)
+            self.assertIn("A hardening spring", page.read_text())
+            found = json.loads(results.read_text())
+            self.assertEqual(found["orbits"][0]["value"], 80)
+            self.assertEqual(found["orbits"][-1]["value"], 90)
+            self.assertEqual(found["units"], {"joints.slide.coordinates": "m"})
+
+    def test_a_quantity_may_be_named_with_its_component(self):
+        found = branch(DUFFING, "--along", "omega=80:81", "--observe", "joints.slide.rates,energy.kinetic")
+        self.assertEqual(set(found["units"]), {"joints.slide.rates", "energy.kinetic"})
+
+    def test_mistakes_are_explained(self):
+        with tempfile.TemporaryDirectory() as folder:
+            model = pathlib.Path(folder, "model.yaml")
+            model.write_text(DUFFING)
+            for along, words in (("omega", "a parameter and its range"), ("omega=80:80", "without length"),
+                                 ("omega=80 rpm:90 rad/s", "two units"), ("omeg=80:90", "did you mean")):
+                run = hersey("orbits", model, "--along", along)
+                self.assertNotEqual(run.returncode, 0)
+                self.assertIn(words, run.stderr)
+            model.write_text(DUFFING.replace("cycle: {period: \"2*pi s/${omega}\", lead_in: shooting}", "duration: 1 s"))
+            run = hersey("orbits", model, "--along", "omega=80:90")
+            self.assertNotEqual(run.returncode, 0)
+            self.assertIn("lead_in: shooting", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
