@@ -14,6 +14,7 @@
 #include "hersey/run/quantities.h"
 #include "lift_off.h"
 #include "run_names.h"
+#include "run_up.h"
 
 namespace hersey::report {
 namespace {
@@ -77,6 +78,7 @@ class Summary {
     circuit_rows();
     contact_rows();
     ring_rows();
+    run_up_rows();
     run_rows();
     return std::move(rows_);
   }
@@ -280,6 +282,32 @@ class Summary {
       if (reader_.has(path_ + "radial_load"))
         add_rows(quantities, {Statistic::largest, Statistic::largest_in_size, Statistic::mean});
     }
+  }
+
+  /// Adds the largest amplitude once a revolution of each displacement of a run-up, with its speed and phase.
+  void run_up_rows() {
+    const std::optional<RunUp> run_up = find_run_up(reader_);
+    if (!run_up) return;
+    group_ = "run-up";
+    for (const RunUpSignal& displacement : run_up->displacements) {
+      const OrderTracks& tracks = displacement.tracks;
+      const auto order = std::find(tracks.orders.begin(), tracks.orders.end(), 1.0) - tracks.orders.begin();
+      const auto first = static_cast<std::size_t>(order);
+      std::size_t best = 0;
+      for (std::size_t k = 1; k < tracks.time.size(); ++k)
+        if (std::abs(tracks.at(k, first)) > std::abs(tracks.at(best, first))) best = k;
+      const std::complex<double> a = tracks.at(best, first);
+      add("largest 1x amplitude, " + name_of_displacement(displacement), 1e6 * std::abs(a), "µm",
+          fmt::format("{:.4g} rpm, t = {:.4g} ms, lags by {:.0f}°", si_of("rpm").per_si * tracks.speed[best],
+                      1e3 * tracks.time[best], -degrees * std::arg(a)));
+    }
+  }
+
+  /// "left, x" of "/bearings/left/eccentricity".
+  static std::string name_of_displacement(const RunUpSignal& displacement) {
+    const std::size_t from = displacement.path.find('/', 1) + 1;
+    constexpr std::string_view axes = "xyz";
+    return displacement.path.substr(from, displacement.path.rfind('/') - from) + ", " + axes[displacement.column];
   }
 
   void run_rows() {
