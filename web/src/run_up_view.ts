@@ -15,6 +15,9 @@ const negligible = 1e-3;
 /** Half peak to peak above this is shown in millimetres [m]. */
 const large = 1e-3;
 
+/** Amplitude and phase together are as high as the waterfall beside them [px]. */
+const height = 165;
+
 const settings = { displacement: "" };
 
 /** Windows in the order in which they are drawn, and where: over the speed where it goes one way, else over time. */
@@ -36,15 +39,15 @@ export class RunUpView {
     private readonly run: Run,
     private readonly runUp: RunUpText,
   ) {
-    const speed = Float64Array.from(numbersOf(runUp.displacements[0]!.speed));
-    this.title = isSorted(speed, -1) ? "Coast-down" : "Run-up";
+    const speed = numbersOf(runUp.displacements[0]!.speed);
+    this.title = speed[speed.length - 1]! < speed[0]! ? "Coast-down" : "Run-up";
   }
 
   render(): void {
     const { displacement } = this;
     const display = displayOf(displacement);
     this.element.replaceChildren(
-      ...[this.picker(), h("div", { class: "figures" }, this.cascade(displacement, display), ...this.bode(displacement, display))].filter((part) => part !== null),
+      ...[this.picker(), h("div", { class: "figures" }, this.cascade(displacement, display), h("div", { class: "bode" }, ...this.bode(displacement, display)))].filter((part) => part !== null),
       h("section", { class: "summary", "aria-label": "Largest amplitudes once a revolution" }, ...summaryTables(this.run, "run-up", "Once a revolution")),
     );
   }
@@ -95,18 +98,19 @@ export class RunUpView {
     const whole = numbersOf(displacement.peak_to_peak);
     curves.push({ label: "peak to peak", unit: display.unit, dash: [5, 4], y: windows.order.map((i) => whole[i]! * display.factor) });
     const first = orders.indexOf(1);
-    const sizes = new LinePlot({ name: "run-up-amplitude", x: windows.x, left: { label: "amplitude", unit: display.unit, fromZero: true }, curves });
+    const sizes = new LinePlot({ name: "run-up-amplitude", x: windows.x, left: { label: "amplitude", unit: display.unit, fromZero: true }, curves, height });
     const lag = unwrapped(column(numbersOf(displacement.lag), first), column(amplitude, first));
     const phases = new LinePlot({
       name: "run-up-phase",
       x: windows.x,
       left: { label: "phase lag", unit: degree.unit },
+      height,
       curves: [{ label: "1×", unit: degree.unit, hue: first, y: lag.map((v) => v && v * degree.factor) }],
     });
     const [name, shaft] = [nameOf(displacement), spaced(this.runUp.shaft)];
     return [
       figure("run-up-amplitude", `Amplitudes of ${name} at orders of ${shaft}, in windows of ${revolutions} revolutions; and all of the motion from peak to peak.`, sizes.tools, sizes.element),
-      figure("run-up-phase", `How far ${name} at once a revolution lags behind the angle of ${shaft}.`, phases.tools, phases.element),
+      figure("run-up-phase", `Phase of order 1 of ${name}: how far it lags behind the angle of ${shaft}.`, phases.tools, phases.element),
     ];
   }
 

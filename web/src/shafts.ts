@@ -100,5 +100,9 @@ export function risingSpeed(shaft: Shaft): Float64Array | null {
 /** Whether speeds go one way, up (sign 1) or down (sign -1), but for what is negligible beside the highest. */
 export function isSorted(values: Float64Array, sign: number): boolean {
   const highest = values.reduce((a, b) => Math.max(a, b), 0);
-  return values.every((v, i) => i === 0 || sign * (v - values[i - 1]!) >= -0.005 * highest);
+  let farthest = -Infinity;
+  return values.every((v) => {
+    farthest = Math.max(farthest, sign * v);
+    return sign * v >= farthest - 0.005 * highest;
+  });
 }

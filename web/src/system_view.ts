@@ -34,9 +34,6 @@ export class SystemView {
       if (run.dataset("/solver/dt") || !alone)
         this.element.append(section("Solution: step size, iterations, balances", !alone, (body) => this.solver(body)));
     };
-    if (!alone) solution();
-    if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", alone, (body) => this.power(body)));
-    if (beamsOf(run).length > 0) this.element.append(section("Beams", alone, (body) => this.beamFigures(body)));
     const runUp = RunUpView.of(run);
     if (runUp)
       this.element.append(
@@ -45,6 +42,9 @@ export class SystemView {
           runUp.render();
         }),
       );
+    if (!alone) solution();
+    if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", alone, (body) => this.power(body)));
+    if (beamsOf(run).length > 0) this.element.append(section("Beams", alone, (body) => this.beamFigures(body)));
     const spectra = SpectraView.of(run);
     if (spectra)
       this.element.append(

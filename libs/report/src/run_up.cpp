@@ -28,7 +28,7 @@ constexpr double kLongRun = 10.0 * kRevolutions;
 // More series than these make a page slow to open; those of bearings come first.
 constexpr std::size_t kMostSignals = 16;
 // A direction in which a body moves by less than this share of another is the one along its shaft.
-constexpr double kAcross = 1e-3;
+constexpr double kAcross = 1e-2;
 // The cascade shows three orders of the fastest speed and a bit.
 constexpr double kHighestOrder = 3.3;
 constexpr std::size_t kPieces = 40;
@@ -146,6 +146,16 @@ json cascade_data(const RunUp& run_up, const std::vector<double>& displacement, 
 }
 
 }  // namespace
+
+RunUpSignal::Peak RunUpSignal::peak() const {
+  const auto order = std::find(tracks.orders.begin(), tracks.orders.end(), 1.0) - tracks.orders.begin();
+  Peak best;
+  for (std::size_t k = 0; k < tracks.time.size(); ++k) {
+    const std::complex<double> a = tracks.at(k, static_cast<std::size_t>(order));
+    if (std::abs(a) > best.size) best = {std::abs(a), tracks.speed[k], tracks.time[k], -std::arg(a)};
+  }
+  return best;
+}
 
 std::optional<RunUp> find_run_up(const Reader& reader) {
   if (!reader.has("/time")) return std::nullopt;

@@ -22,6 +22,14 @@ struct RunUpSignal {
   std::string path;        ///< of the dataset
   std::size_t column = 0;  ///< in it
   OrderTracks tracks;
+
+  /// The window with the largest amplitude once a revolution.
+  struct Peak {
+    double size = 0;             ///< amplitude [m]
+    double speed = 0, time = 0;  ///< [rad/s; s]
+    double lag = 0;              ///< behind the shaft's angle [rad]
+  };
+  [[nodiscard]] Peak peak() const;
 };
 
 /// A run-up or coast-down with the orders of what moves.

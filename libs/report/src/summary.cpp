@@ -284,30 +284,28 @@ class Summary {
     }
   }
 
-  /// Adds the largest amplitude once a revolution of each displacement of a run-up, with its speed and phase.
+  /// Adds the largest amplitude once a revolution of each journal and body of a run-up, with its direction, speed and
+  /// phase.
   void run_up_rows() {
     const std::optional<RunUp> run_up = find_run_up(reader_);
     if (!run_up) return;
     group_ = "run-up";
-    for (const RunUpSignal& displacement : run_up->displacements) {
-      const OrderTracks& tracks = displacement.tracks;
-      const auto order = std::find(tracks.orders.begin(), tracks.orders.end(), 1.0) - tracks.orders.begin();
-      const auto first = static_cast<std::size_t>(order);
-      std::size_t best = 0;
-      for (std::size_t k = 1; k < tracks.time.size(); ++k)
-        if (std::abs(tracks.at(k, first)) > std::abs(tracks.at(best, first))) best = k;
-      const std::complex<double> a = tracks.at(best, first);
-      add("largest 1x amplitude, " + name_of_displacement(displacement), 1e6 * std::abs(a), "µm",
-          fmt::format("{:.4g} rpm, t = {:.4g} ms, lags by {:.0f}°", si_of("rpm").per_si * tracks.speed[best],
-                      1e3 * tracks.time[best], -degrees * std::arg(a)));
+    const std::vector<RunUpSignal>& all = run_up->displacements;
+    for (auto first = all.begin(); first != all.end();) {
+      const auto end = std::find_if(first, all.end(), [&](const RunUpSignal& s) { return s.path != first->path; });
+      const auto smaller = [](const RunUpSignal& a, const RunUpSignal& b) { return a.peak().size < b.peak().size; };
+      add_peak(*std::max_element(first, end, smaller));
+      first = end;
     }
   }
 
-  /// "left, x" of "/bearings/left/eccentricity".
-  static std::string name_of_displacement(const RunUpSignal& displacement) {
+  void add_peak(const RunUpSignal& displacement) {
+    const RunUpSignal::Peak peak = displacement.peak();
     const std::size_t from = displacement.path.find('/', 1) + 1;
-    constexpr std::string_view axes = "xyz";
-    return displacement.path.substr(from, displacement.path.rfind('/') - from) + ", " + axes[displacement.column];
+    const std::string name = displacement.path.substr(from, displacement.path.rfind('/') - from);
+    add("largest 1x amplitude, " + name, 1e6 * peak.size, "µm",
+        fmt::format("along {}, {:.4g} rpm, t = {:.4g} ms, lags by {:.0f}°", "xyz"[displacement.column],
+                    si_of("rpm").per_si * peak.speed, 1e3 * peak.time, degrees * peak.lag));
   }
 
   void run_rows() {

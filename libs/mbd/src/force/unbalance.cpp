@@ -8,11 +8,19 @@ constexpr double kOneInstant = 1e-5;  // of a step: steps end within a millionth
 }  // namespace
 
 void Unbalance::begin_step(const RelativeMotion& start, double dt) {
+  dt_ = dt;
+  follow_time(start);
+}
+
+// Accelerations at the end of a step that ends where the unbalance begins are solved for with its forces.
+void Unbalance::accept_step(const RelativeMotion& end) { follow_time(end); }
+
+void Unbalance::follow_time(const RelativeMotion& motion) {
   const bool acted = acts_;
-  acts_ = start.t >= begins_ - kOneInstant * dt;
+  acts_ = motion.t >= begins_ - kOneInstant * dt_;
   if (acted || !acts_) return;
-  potential_then_ = potential(start);
-  kinetic_then_ = kinetic(start);
+  potential_then_ = potential(motion);
+  kinetic_then_ = kinetic(motion);
 }
 
 void Unbalance::evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) {

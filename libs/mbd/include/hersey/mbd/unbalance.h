@@ -23,6 +23,7 @@ class Unbalance final : public TwoBodyForce {
       : moment_(moment), gravity_(gravity), begins_(begins), acts_(std::isinf(begins)) {}
 
   void begin_step(const RelativeMotion& start, double dt) override;
+  void accept_step(const RelativeMotion& end) override;
   void evaluate(const RelativeMotion& motion, bool want_tangent, ForceResponse& response) override;
   /// Returns the potential energy of the moment in gravity [J].
   [[nodiscard]] double stored_energy(const RelativeMotion& motion) const override;
@@ -30,12 +31,14 @@ class Unbalance final : public TwoBodyForce {
   void persist(Archive& archive) override;
 
  private:
+  void follow_time(const RelativeMotion& motion);
   [[nodiscard]] double potential(const RelativeMotion& motion) const;
   [[nodiscard]] double kinetic(const RelativeMotion& motion) const;
 
   Vector3 moment_, gravity_;
   double begins_;                                 // [s]
-  bool acts_;                                     // in the step that has begun
+  bool acts_;                                     // in the step that has begun, or begins
+  double dt_ = 0;                                 // length of that step [s]
   double potential_then_ = 0, kinetic_then_ = 0;  // where it began within the run [J]
 };
 
