@@ -109,10 +109,10 @@ class RunUp(unittest.TestCase):
         self.assertAlmostEqual(coarse / fine, 4, delta=0.3)  # the next order of a twentieth of a radian a step
 
     def test_steps_by_their_error_end_at_it_too(self):
-        t, z, error, _, _ = self.blade_out("{tolerance: 1e-8}", begins=0.04137)
+        t, z, error, _, _ = self.blade_out("{tolerance: 1e-10}", begins=0.04137)
         self.assertEqual(float(np.abs(z[t <= 0.04137]).max()), 0)
         self.assertIn(0.04137, t)
-        self.assertLess(np.abs(error).max(), 1e-2)  # some hundreds of steps of 1e-8 of the machine's size, 1 m, over 1e-5 m
+        self.assertLess(np.abs(error).max(), 5e-3)  # falls with the power 2/3 of the tolerance: 0.009 at 1e-9, 0.002 here
 
     def test_a_blade_at_the_start_or_after_the_end(self):
         with_key = self.run_model("3000 rpm", "0.5 ms", "--set", "duration=10 ms")
@@ -169,7 +169,7 @@ class RunUp(unittest.TestCase):
             self.assertLess(amplitude[inner][:, (0, 2)].max() / largest, 1e-3)  # the growth in a window
             steady = np.array([abs(linear(w)) for w in speed])
             peak = np.argmax(amplitude[:, 1])
-            self.assertLess(abs(amplitude[peak, 1] / steady.max() - 1), 0.02)  # the rate: 26/31.6^2
+            self.assertLess(abs(amplitude[peak, 1] / steady.max() - 1), 0.02)  # what a window of 4 rad/s and the rate, 26/31.6^2, take in second order
             self.assertLess(abs(self.numbers(d["peak_to_peak"])[peak] / (2 * amplitude[peak, 1]) - 1), 0.01)  # 20 rows a revolution
             # The unbalance is 40 deg ahead of the mark; along y all is a quarter later.
             turned = np.degrees(np.unwrap(lag[:, 1] if speed[0] < speed[-1] else lag[::-1, 1]))
