@@ -29,6 +29,8 @@ constexpr double kLongRun = 10.0 * kRevolutions;
 constexpr std::size_t kMostSignals = 16;
 // A direction in which a body moves by less than this share of another is the one along its shaft.
 constexpr double kAcross = 1e-2;
+// Results are stored to seven digits.
+constexpr double kSameMotion = 1e-6;
 // The cascade shows three orders of the fastest speed and a bit.
 constexpr double kHighestOrder = 3.3;
 constexpr std::size_t kPieces = 40;
@@ -101,8 +103,23 @@ double range_of(const std::vector<double>& values) {
   return std::isfinite(*most - *least) ? *most - *least : 0;
 }
 
-/// Tracks the columns of a dataset in which something moves across the shaft.
-void add_signals(const Reader& reader, const std::string& path, RunUp& run_up) {
+/// True if something tracked before moves in the same way, as a station of a shaft and the disc on it.
+bool is_known(const OrderTracks& tracks, const RunUp& run_up) {
+  const auto size = [](const std::complex<double>& a) { return std::abs(a); };
+  const auto is_same = [&](const RunUpSignal& other) {
+    if (other.tracks.amplitude.size() != tracks.amplitude.size()) return false;
+    const std::complex<double> largest = std::ranges::max(tracks.amplitude, {}, size);
+    const auto is_near = [&](const auto& a, const auto& b) {
+      return std::abs(a - b) <= kSameMotion * std::abs(largest);
+    };
+    return std::equal(tracks.amplitude.begin(), tracks.amplitude.end(), other.tracks.amplitude.begin(), is_near);
+  };
+  return std::ranges::any_of(run_up.displacements, is_same);
+}
+
+/// Tracks the columns of a dataset in which something moves across the shaft; bodies that move like what has been
+/// tracked before are left out.
+void add_signals(const Reader& reader, const std::string& path, bool is_body, RunUp& run_up) {
   if (!reader.has(path)) return;
   const Array array = reader.read(path);
   std::vector<std::vector<double>> columns;
@@ -116,7 +133,8 @@ void add_signals(const Reader& reader, const std::string& path, RunUp& run_up) {
   for (std::size_t i = 0; i < columns.size() && run_up.displacements.size() < kMostSignals; ++i) {
     if (columns[i].size() != run_up.time.size() || !(range_of(columns[i]) > kAcross * most)) continue;
     OrderTracks tracks = track_orders(run_up.time, run_up.shaft.angle, columns[i], options);
-    if (!tracks.time.empty()) run_up.displacements.push_back({path, i, std::move(tracks)});
+    if (tracks.time.empty() || (is_body && is_known(tracks, run_up))) continue;
+    run_up.displacements.push_back({path, i, std::move(tracks)});
   }
 }
 
@@ -169,9 +187,9 @@ std::optional<RunUp> find_run_up(const Reader& reader) {
   run_up.revolutions = revolutions < kLongRun ? kFewRevolutions : kRevolutions;
   run_up.shaft = std::move(*shaft);
   for (const std::string& bearing : reader.children("/bearings"))
-    add_signals(reader, "/bearings/" + bearing + "/eccentricity", run_up);
+    add_signals(reader, "/bearings/" + bearing + "/eccentricity", false, run_up);
   for (const std::string& body : reader.children("/bodies"))
-    add_signals(reader, "/bodies/" + body + "/position", run_up);
+    add_signals(reader, "/bodies/" + body + "/position", true, run_up);
   if (run_up.displacements.empty()) return std::nullopt;
   return run_up;
 }

@@ -29,6 +29,9 @@ struct ShaftRun {
     const results::Series orbit = writer.series("/bearings/main/eccentricity", 2, "m", "position");
     const results::Series spin = writer.series("/bodies/rotor/angular_velocity", 3, "rad/s", "angular velocity");
     const results::Series place = writer.series("/bodies/rotor/position", 3, "m", "position");
+    // A station that moves like the journal, and the housing, which moves by half as much.
+    const results::Series station = writer.series("/bodies/rotor.left/position", 3, "m", "position");
+    const results::Series housing = writer.series("/bodies/housing/position", 3, "m", "position");
     std::optional<results::Series> joint;
     if (has_joint) {
       joint = writer.series("/joints/turning/coordinates", 3, "SI", "coordinates");
@@ -42,6 +45,8 @@ struct ShaftRun {
       orbit.append({5e-6 + size * std::sin(theta), -size * std::cos(theta)});
       spin.append({0, 0, kTurn * speed});
       place.append({0, 0, 0.1});
+      station.append({size * std::sin(theta), -size * std::cos(theta), 0.1});
+      housing.append({size / 2 * std::sin(theta), 0, 1e-9 * std::sin(theta)});
       if (joint) joint->append({0, 0, theta});
     }
     writer.finish(results::Status::completed);
@@ -66,7 +71,9 @@ TEST_CASE("RunUp_IsFoundWithTheOrbitOfItsJournal") {
     const std::optional<RunUp> found = find_run_up(run.reader);
     REQUIRE(found);
     CHECK(found->shaft.name == (has_joint ? "turning" : "rotor"));
-    REQUIRE(found->displacements.size() == 2);  // the rotor's position does not change
+    REQUIRE(found->displacements.size() == 3);  // the rotor does not move, its station as the journal
+    CHECK(found->displacements[2].path == "/bodies/housing/position");
+    CHECK(found->displacements[2].column == 0);
     CHECK(found->displacements[1].path == "/bearings/main/eccentricity");
     CHECK(found->displacements[1].column == 1);
     const OrderTracks& x = found->displacements[0].tracks;
@@ -101,8 +108,10 @@ TEST_CASE("Summary_HasTheLargestFirstOrder") {
   const Written run({.first = 10, .last = 40});
   std::vector<SummaryRow> rows = summarise(run.reader, "run");
   std::erase_if(rows, [](const SummaryRow& row) { return row.group != "run-up"; });
-  REQUIRE(rows.size() == 1);
+  REQUIRE(rows.size() == 2);
   CHECK(rows[0].name == "largest 1x amplitude, main");
+  CHECK(rows[1].name == "largest 1x amplitude, housing");
+  CHECK(rows[1].value == doctest::Approx(1.5).epsilon(0.025));
   CHECK(rows[0].unit == "µm");
   CHECK(rows[0].value == doctest::Approx(3).epsilon(0.025));  // as above
   // Of x and y, equally large but for round-off, either.
@@ -115,7 +124,7 @@ TEST_CASE("PageData_HasTracksAndSpectra") {
   const nlohmann::json data = run_up_data(run.reader);
   CHECK(data["shaft"] == "turning");
   CHECK(data["revolutions"] == 8);
-  REQUIRE(data["displacements"].size() == 2);
+  REQUIRE(data["displacements"].size() == 3);
   const nlohmann::json& x = data["displacements"][0];
   CHECK(x["amplitude"]["shape"] == nlohmann::json({200, 3}));
   CHECK(x["lag"]["shape"] == nlohmann::json({200, 3}));

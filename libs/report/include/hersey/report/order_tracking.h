@@ -23,6 +23,7 @@ struct OrderTracks {
   std::vector<double> peak_to_peak;             ///< largest less smallest row of the window
   std::vector<std::complex<double>> amplitude;  ///< a, shape (windows, orders)
 
+  /// Returns the complex amplitude of the order with an index in `orders`, in a window [unit of the signal].
   [[nodiscard]] std::complex<double> at(std::size_t window, std::size_t order) const {
     return amplitude[window * orders.size() + order];
   }
