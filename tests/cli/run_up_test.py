@@ -108,6 +108,13 @@ class RunUp(unittest.TestCase):
         coarse, fine = (np.abs(self.blade_out(step)[2]).max() for step in ("0.2 ms", "0.1 ms"))
         self.assertAlmostEqual(coarse / fine, 4, delta=0.3)  # the next order of a twentieth of a radian a step
 
+    def test_its_instant_may_lie_beside_the_end_of_a_step(self):
+        for begins in (0.0333 - 1e-9, 0.0333 + 1e-9, 0.03330123):
+            t, z, error, _, _ = self.blade_out("0.1 ms", begins=begins)
+            self.assertLess(np.abs(t - begins).min(), 1e-12)  # of the sum of steps
+            self.assertEqual(float(np.abs(z[t <= begins + 1e-12]).max()), 0)  # likewise
+            self.assertLess(np.abs(error).max(), 2.5e-3)  # as above
+
     def test_steps_by_their_error_end_at_it_too(self):
         t, z, error, _, _ = self.blade_out("{tolerance: 1e-10}", begins=0.04137)
         self.assertEqual(float(np.abs(z[t <= 0.04137]).max()), 0)
