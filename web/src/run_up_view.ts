@@ -10,8 +10,8 @@ import { summaryTables } from "./summary_table";
 import { axisLabel, degree, micrometre, millimetre, type Display } from "./units";
 import { waterfall } from "./waterfall";
 
-/** Amplitudes below this share of the largest have no phase worth showing. */
-const negligible = 1e-3;
+/** An order with less than this share of the whole motion has no phase worth showing: beside a whirl it is what the window leaves of that. */
+const negligible = 0.05;
 /** Half peak to peak above this is shown in millimetres [m]. */
 const large = 1e-3;
 
@@ -99,7 +99,8 @@ export class RunUpView {
     curves.push({ label: "peak to peak", unit: display.unit, dash: [5, 4], y: windows.order.map((i) => whole[i]! * display.factor) });
     const first = orders.indexOf(1);
     const sizes = new LinePlot({ name: "run-up-amplitude", x: windows.x, left: { label: "amplitude", unit: display.unit, fromZero: true }, curves, height });
-    const lag = unwrapped(column(numbersOf(displacement.lag), first), column(amplitude, first));
+    const share = column(amplitude, first).map((a, i) => (2 * a) / whole[windows.order[i]!]!);
+    const lag = unwrapped(column(numbersOf(displacement.lag), first), share);
     const phases = new LinePlot({
       name: "run-up-phase",
       x: windows.x,
@@ -108,8 +109,10 @@ export class RunUpView {
       curves: [{ label: "1×", unit: degree.unit, hue: first, y: lag.map((v) => v && v * degree.factor) }],
     });
     const [name, shaft] = [nameOf(displacement), spaced(this.runUp.shaft)];
+    const amplitudes = figure("run-up-amplitude", `Amplitudes of ${name} at orders of ${shaft}, in windows of ${revolutions} revolutions; and all of the motion from peak to peak.`, sizes.tools, sizes.element);
+    if (lag.every((v) => v === null)) return [amplitudes];
     return [
-      figure("run-up-amplitude", `Amplitudes of ${name} at orders of ${shaft}, in windows of ${revolutions} revolutions; and all of the motion from peak to peak.`, sizes.tools, sizes.element),
+      amplitudes,
       figure("run-up-phase", `Phase of order 1 of ${name}: how far it lags behind the angle of ${shaft}.`, phases.tools, phases.element),
     ];
   }
@@ -143,12 +146,11 @@ function displayOf({ peak_to_peak }: DisplacementText): Display {
   return Float64Array.from(numbersOf(peak_to_peak)).reduce((a, b) => Math.max(a, b), 0) > 2 * large ? millimetre : micrometre;
 }
 
-/** Phases without jumps by a turn [rad], none where there is no amplitude; the first lies within half a turn of a sixth of one. */
-function unwrapped(lag: number[], amplitude: number[]): (number | null)[] {
-  const largest = amplitude.reduce((a, b) => Math.max(a, b), 0);
+/** Phases without jumps by a turn [rad], none where the share of the motion is negligible; the first lies within half a turn of a sixth of one. */
+function unwrapped(lag: number[], share: number[]): (number | null)[] {
   let last = Math.PI / 3;
   return lag.map((value, i) => {
-    if (!(amplitude[i]! > negligible * largest)) return null;
+    if (!(share[i]! > negligible)) return null;
     last = value + 2 * Math.PI * Math.round((last - value) / (2 * Math.PI));
     return last;
   });

@@ -304,7 +304,7 @@ class Summary {
     const std::size_t from = displacement.path.find('/', 1) + 1;
     const std::string name = displacement.path.substr(from, displacement.path.rfind('/') - from);
     add("largest 1x amplitude, " + name, 1e6 * peak.size, "µm",
-        fmt::format("along {}, {:.4g} rpm, t = {:.4g} ms, lags by {:.0f}°", "xyz"[displacement.column],
+        fmt::format("along {}, {:.0f} rpm, t = {:.4g} ms, lags by {:.0f}°", "xyz"[displacement.column],
                     si_of("rpm").per_si * peak.speed, 1e3 * peak.time, degrees * peak.lag));
   }
 
