@@ -174,7 +174,8 @@ OrderTracks track_orders(const std::vector<double>& time, const std::vector<doub
   HERSEY_REQUIRE(*std::min_element(options.orders.begin(), options.orders.end()) > 0, "orders are positive");
   HERSEY_REQUIRE(std::set<double>(options.orders.begin(), options.orders.end()).size() == options.orders.size(),
                  "orders differ");
-  OrderTracks tracks{.orders = options.orders};
+  OrderTracks tracks;
+  tracks.orders = options.orders;
   const Rows rows = rising_rows(time, angle, signal);
   const double half = 0.5 * kRevolution * options.revolutions;
   if (rows.time.empty() || rows.angle.back() - rows.angle.front() < 2 * half) return tracks;
