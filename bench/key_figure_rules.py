@@ -68,6 +68,7 @@ COMMANDS = {
     "piston/valve_guide": [("run",)],
     "plane_slider/carriage": [("run",)],
     "plane_slider/model": [("bearing",)],
+    "rotor_run_up/model": [("run", "last_speed=1600", "duration=40ms", "blade_lost=20ms")],
     "slider_crank/flexible_rod": [("run", "simulation.duration=40deg")],
     "slider_crank/model": [("run",)],
     "slider_crank/pin_hole": [("run", "simulation.duration=90deg")],

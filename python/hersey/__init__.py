@@ -19,6 +19,7 @@ from .figure import Figure
 from .functions import Function, surface_profile, viscosity_law
 from .model import Model
 from .one_bearing import bearing, bearing_model
+from .orders import order_tracking
 from .results import Results, Summary, open_results, report
 from .simulation import Port, Simulation
 from .studies import Study, study
@@ -26,5 +27,5 @@ from .studies import Study, study
 __all__ = [
     "BearingSolution", "Fault", "Figure", "Function", "HerseyError", "InputError", "Model", "Port", "Progress", "Results", "RunError",
     "Sensitivity", "Simulation", "SolutionError", "Stopped", "Study", "Summary", "UserFunctionError", "__version__", "bearing",
-    "bearing_model", "fem", "open_results", "plot", "report", "study", "surface_profile", "viscosity_law",
+    "bearing_model", "fem", "open_results", "order_tracking", "plot", "report", "study", "surface_profile", "viscosity_law",
 ]

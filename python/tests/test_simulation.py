@@ -57,6 +57,35 @@ def test_saved_state_goes_on_with_the_same_bits(machine):
     assert sim["bearings.main.force"].shape == sim.outputs["bearings.main.force"].shape == (3,)
 
 
+def test_states_about_the_loss_of_a_blade_go_on_with_the_same_bits(machine):
+    machine["forces"]["blade"] = {"type": "unbalance", "on": "shaft", "amount": "2 g.m", "begins": "4.13 ms"}
+    sim = hersey.Simulation(hersey.Model.from_dict(machine))
+    states, courses = [], []
+    for until in (4e-3, 4.13e-3, 4.2e-3):  # before it, at it, after it
+        sim.advance_to(until)
+        states.append(sim.save())
+
+    def course():
+        rows = [sim["bearings.main.eccentricity"]]
+        while sim.step():
+            rows.append(sim["bearings.main.eccentricity"])
+        return np.array(rows)
+
+    for state in states * 2:
+        sim.restore(state)
+        courses.append(course())
+    for first, again in zip(courses[:3], courses[3:]):
+        assert np.array_equal(first, again)
+    assert courses[0][-len(courses[2]):] == pytest.approx(courses[2], rel=1e-9)  # round-off of the instants that are asked for
+    machine["forces"].pop("blade")
+    without = hersey.Simulation(hersey.Model.from_dict(machine))
+    without.advance_to(4.13e-3)
+    sim.restore(states[1])
+    assert np.array_equal(sim["bearings.main.eccentricity"], without["bearings.main.eccentricity"])
+    sim.advance_to(8e-3), without.advance_to(8e-3)
+    assert not np.allclose(sim["bearings.main.eccentricity"], without["bearings.main.eccentricity"], rtol=1e-3)
+
+
 def test_a_controller_of_python_keeps_a_film(machine):
     """A force that lifts the journal where its film is thin: the film stays thicker than without."""
     model = hersey.Model.from_dict(machine)

@@ -13,7 +13,7 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), 
 GROUPS = {
     "Bearings by themselves": ["bearing_alone", "lemon_bore", "lobed_bores", "hot_bearing", "hot_pedestal", "plane_slider",
                                "hydrostatic", "oil_circuit", "squeeze_film_damper", "start_stop", "wear"],
-    "Bearings in machines": ["paper_big_end", "slider_crank", "piston", "engine", "engine_oil", "flexible_big_end", "oil_whirl",
+    "Bearings in machines": ["paper_big_end", "slider_crank", "piston", "engine", "engine_oil", "flexible_big_end", "oil_whirl", "rotor_run_up",
                              "tilting_pads", "thrust_pads", "floating_ring", "turbocharger"],
     "Elastic bodies and rotors": ["conrod_pressure", "flexible_slider_crank", "flexible_rotor", "spinning_rod", "meshes"],
     "Mechanisms and contact": ["crank_train", "double_pendulum", "four_bar", "gyroscope", "squeezer", "ball_drop", "cam_follower"],

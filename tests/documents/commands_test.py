@@ -27,6 +27,7 @@ SHORTENED = {
     "examples/oil_whirl/model.yaml": "simulation.duration=0.06s",
     "examples/oil_whirl/unbalance.yaml": "study.parameters.speed=[9000rpm]",
     "examples/paper_big_end/model.yaml": "study.parameters.load=[2500N]",
+    "examples/rotor_run_up/model.yaml": "duration=0.3s",
     "examples/slider_crank/model.yaml --output build/slider_crank": "simulation.duration=60deg",
     "examples/slider_crank/pin_hole.yaml": "simulation.duration=60deg",
     "examples/turbocharger/model.yaml": "simulation.duration=20ms",

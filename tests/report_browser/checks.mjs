@@ -505,6 +505,26 @@ export const runUpReport = {
       if (speed > 600) assert.ok(Math.abs(frequency - speed / 60) < 4, `at ${speed} rpm the peak is at ${frequency} Hz`);
   },
 
+  "the run-up has amplitude and phase of its orders over the speed, without order 3 beside them": async (page) => {
+    assert.ok(await page.locator("summary", { hasText: /^Run-up$/ }).isVisible(), "there is no section on the run-up");
+    const [sizes, phases] = ["amplitude", "phase"].map((name) => page.locator(`[data-figure="run-up-${name}"]`));
+    await sizes.scrollIntoViewIfNeeded();
+    await frame(page);
+    assert.deepEqual(await sizes.locator(".legend-entry").allInnerTexts(), ["0.5×", "1×", "2×", "peak to peak"]);
+    const { head, rows } = await table(page, sizes);
+    assert.match(head, /speed of hinge \[rpm\].*\[mm\]/);
+    const inner = rows.filter(([speed]) => speed > 1000 && speed < 2900);
+    assert.ok(inner.length > 50, `${inner.length} speeds`);
+    // Single precision, 20 rows a revolution and more; sin a + sin(3 a)/4 reaches 0.891, between two rows at worst.
+    for (const [speed, half, first, second, whole] of inner) {
+      assert.ok(Math.abs(first - 1) < 0.005, `at ${speed} rpm order 1 has ${first} mm`);
+      assert.ok(half < 0.005 && second < 0.005, `at ${speed} rpm orders 0.5 and 2 have ${half} and ${second} mm`);
+      assert.ok(Math.abs(whole - 2 * 0.891) < 0.03, `at ${speed} rpm the slider moves by ${whole} mm`);
+    }
+    for (const [speed, lag] of (await table(page, phases)).rows)
+      if (speed > 1000) assert.ok(Math.abs(lag - 90) < 0.5, `at ${speed} rpm the sine lags behind by ${lag} deg`);
+  },
+
   "curves are drawn over the speed, and marked where the instant is": async (page) => {
     const label = () => page.locator('[data-figure="slider-position"] .u-over, [data-figure="hinge-rates"] .u-over').first().getAttribute("aria-label");
     if ((await page.locator("details:has(summary:text-is('Joints'))").getAttribute("open")) === null) await page.locator("summary", { hasText: /^Joints$/ }).click();

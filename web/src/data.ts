@@ -49,6 +49,30 @@ export interface RunText {
   model?: string;
   /** Files with all instants of a film, where the page has but some. */
   beside?: FieldsFile[];
+  /** Of a run-up or coast-down. */
+  run_up?: RunUpText;
+}
+
+/** Orders and spectra of what moves while a shaft changes its speed, from all rows of the run (libs/report/src/run_up.cpp). */
+export interface RunUpText {
+  shaft: string;
+  /** Whole ones of a window in which orders are tracked. */
+  revolutions: number;
+  orders: number[];
+  displacements: DisplacementText[];
+}
+
+/** A row for each window; `amplitude` and `lag` have a column for each order. */
+export interface DisplacementText {
+  path: string;
+  column: number;
+  time: DatasetText;
+  speed: DatasetText;
+  peak_to_peak: DatasetText;
+  amplitude: DatasetText;
+  lag: DatasetText;
+  /** Amplitudes have a row for each piece of the run, and a column for each frequency. */
+  cascade: { speed: DatasetText; frequency: DatasetText; amplitude: DatasetText };
 }
 
 /** A script beside the page (libs/report/src/write_html.cpp). */
@@ -154,6 +178,11 @@ function decode(text: DatasetText, width: number): Numbers {
   return values;
 }
 
+/** The numbers of a dataset by itself. */
+export function numbersOf(text: DatasetText): Numbers {
+  return decode(text, text.shape.slice(1).reduce((a, b) => a * b, 1));
+}
+
 /** Last parts of paths by what stands before them. */
 function namesByGroup(paths: Record<string, unknown>): Map<string, string[]> {
   const names = new Map<string, string[]>();
@@ -198,6 +227,9 @@ export class Run {
   }
   get summary(): SummaryRow[] {
     return this.text.summary;
+  }
+  get runUp(): RunUpText | undefined {
+    return this.text.run_up;
   }
   get model(): string | undefined {
     return this.text.model;

@@ -96,3 +96,13 @@ export function risingSpeed(shaft: Shaft): Float64Array | null {
   }
   return rpm;
 }
+
+/** Whether speeds go one way, up (sign 1) or down (sign -1), but for what is negligible beside the highest. */
+export function isSorted(values: Float64Array, sign: number): boolean {
+  const highest = values.reduce((a, b) => Math.max(a, b), 0);
+  let farthest = -Infinity;
+  return values.every((v) => {
+    farthest = Math.max(farthest, sign * v);
+    return sign * v >= farthest - 0.005 * highest;
+  });
+}

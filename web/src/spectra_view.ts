@@ -6,7 +6,7 @@ import { spaced } from "./key_figures";
 import { LinePlot, type Curve } from "./line_plot";
 import { lastCycle } from "./overview";
 import { scaled } from "./series";
-import { isRunUp, shafts, type Shaft } from "./shafts";
+import { isRunUp, isSorted, shafts, type Shaft } from "./shafts";
 import { ascending, orderLines, orderTrack, pieces, spectrum, type Spectrum } from "./spectrum";
 import { capital } from "./summary_table";
 import { axisLabel, displayOf, format, micrometre, type Display } from "./units";
@@ -227,11 +227,6 @@ function rowAt(ascendingValues: ArrayLike<number>, value: number): number {
     else high = middle;
   }
   return value - ascendingValues[low]! < ascendingValues[high]! - value ? low : high;
-}
-
-function isSorted(values: Float64Array, sign: number): boolean {
-  const highest = values.reduce((a, b) => Math.max(a, b), 0);
-  return values.every((v, i) => i === 0 || sign * (v - values[i - 1]!) >= -0.005 * highest);
 }
 
 /** A spectrum up to where it is nothing any more. */

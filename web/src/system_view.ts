@@ -8,6 +8,7 @@ import { furtherFigures } from "./further_series";
 import { mechanismGraph } from "./mechanism_graph";
 import { LinePlot, type Curve, type LineFigure } from "./line_plot";
 import { Axis, columns, curve, scaled, timeDisplay, type Abscissa } from "./series";
+import { RunUpView } from "./run_up_view";
 import { SpectraView } from "./spectra_view";
 import { stateFigure } from "./state_table";
 import { summaryTables } from "./summary_table";
@@ -33,6 +34,14 @@ export class SystemView {
       if (run.dataset("/solver/dt") || !alone)
         this.element.append(section("Solution: step size, iterations, balances", !alone, (body) => this.solver(body)));
     };
+    const runUp = RunUpView.of(run);
+    if (runUp)
+      this.element.append(
+        section(runUp.title, true, (body) => {
+          body.replaceWith(runUp.element);
+          runUp.render();
+        }),
+      );
     if (!alone) solution();
     if (run.datasetNames("/power").length > 0) this.element.append(section("Power and energy of the system", alone, (body) => this.power(body)));
     if (beamsOf(run).length > 0) this.element.append(section("Beams", alone, (body) => this.beamFigures(body)));

@@ -88,5 +88,50 @@ TEST_CASE("Unbalance_TakesThePowerThatItsEnergiesGain") {
   CHECK(-response.W_B_A.dot(motion.V_AB_A) == relative(gained).epsilon(1e-6));  // of central differences
 }
 
+TEST_CASE("UnbalanceThatBegins_IsNoneBeforeAndTheSameAfterwards") {
+  RelativeMotion motion = shaft_motion();
+  Unbalance always(kMoment, kGravity), begins(kMoment, kGravity, 0.3);
+  ForceResponse expected, response;
+  always.evaluate(motion, true, expected);
+  const auto step_from = [&](double t) {
+    motion.t = t;
+    begins.begin_step(motion, 1e-3);
+    motion.t = t + 1e-3;
+    begins.evaluate(motion, true, response);
+  };
+  step_from(0.299);  // ends where it begins
+  CHECK(response.W_B_A.norm() == 0);
+  CHECK(response.dW_dX.norm() + response.dW_dV.norm() + response.dW_dA.norm() == 0);
+  CHECK(begins.kinetic_energy(motion) == 0);
+  CHECK(begins.stored_energy(motion) == 0);
+  motion.t = 0.3;
+  begins.accept_step(motion);
+  begins.evaluate(motion, true, response);
+  CHECK(response.W_B_A == expected.W_B_A);  // of the accelerations there
+  step_from(0.3 - 1e-9);                    // of the sum of steps
+  CHECK(response.W_B_A == expected.W_B_A);
+  CHECK(response.dW_dX == expected.dW_dX);
+  CHECK(begins.kinetic_energy(motion) == 0);  // counted from its beginning
+  step_from(0.299);
+  CHECK(response.W_B_A.norm() == 0);
+}
+
+TEST_CASE("UnbalanceThatHasBegun_GoesOnFromWhereItWasSaved") {
+  RelativeMotion motion = shaft_motion();
+  Unbalance begun(kMoment, kGravity, 0.3), restored(kMoment, kGravity, 0.3);
+  motion.t = 0.3;
+  begun.begin_step(motion, 1e-3);
+  Archive saved;
+  begun.persist(saved);
+  Archive read(saved.content());
+  restored.persist(read);
+  motion.t = 0.4;
+  motion.V_AB_A *= 1.5;
+  motion.X_AB.R = rotation_exp({0.1, 0.2, 0.3}).toRotationMatrix() * motion.X_AB.R;
+  CHECK(restored.kinetic_energy(motion) == begun.kinetic_energy(motion));
+  CHECK(restored.stored_energy(motion) == begun.stored_energy(motion));
+  CHECK(begun.kinetic_energy(motion) != Unbalance(kMoment, kGravity).kinetic_energy(motion));
+}
+
 }  // namespace unbalance_test
 }  // namespace hersey::mbd

@@ -14,6 +14,7 @@
 #include "hersey/run/quantities.h"
 #include "lift_off.h"
 #include "run_names.h"
+#include "run_up.h"
 
 namespace hersey::report {
 namespace {
@@ -77,6 +78,7 @@ class Summary {
     circuit_rows();
     contact_rows();
     ring_rows();
+    run_up_rows();
     run_rows();
     return std::move(rows_);
   }
@@ -280,6 +282,30 @@ class Summary {
       if (reader_.has(path_ + "radial_load"))
         add_rows(quantities, {Statistic::largest, Statistic::largest_in_size, Statistic::mean});
     }
+  }
+
+  /// Adds the largest amplitude once a revolution of each journal and body of a run-up, with its direction, speed and
+  /// phase.
+  void run_up_rows() {
+    const std::optional<RunUp> run_up = find_run_up(reader_);
+    if (!run_up) return;
+    group_ = "run-up";
+    const std::vector<RunUpSignal>& all = run_up->displacements;
+    for (auto first = all.begin(); first != all.end();) {
+      const auto end = std::find_if(first, all.end(), [&](const RunUpSignal& s) { return s.path != first->path; });
+      const auto smaller = [](const RunUpSignal& a, const RunUpSignal& b) { return a.peak().size < b.peak().size; };
+      add_peak(*std::max_element(first, end, smaller));
+      first = end;
+    }
+  }
+
+  void add_peak(const RunUpSignal& displacement) {
+    const RunUpSignal::Peak peak = displacement.peak();
+    const std::size_t from = displacement.path.find('/', 1) + 1;
+    const std::string name = displacement.path.substr(from, displacement.path.rfind('/') - from);
+    add("largest 1x amplitude, " + name, 1e6 * peak.size, "µm",
+        fmt::format("along {}, {:.0f} rpm, t = {:.4g} ms, lags by {:.0f}°", "xyz"[displacement.column],
+                    si_of("rpm").per_si * peak.speed, 1e3 * peak.time, degrees * peak.lag));
   }
 
   void run_rows() {

@@ -6,6 +6,7 @@
 #include "page_file.h"
 #include "run_data.h"
 #include "run_names.h"
+#include "run_up.h"
 #include "summary.h"
 
 namespace hersey::report {
@@ -60,6 +61,7 @@ json page_data(const std::vector<std::filesystem::path>& results, const std::fil
     for (const SummaryRow& row : summarise(reader, names[i]))
       run["summary"].push_back(
           {{"group", row.group}, {"name", row.name}, {"value", row.value}, {"unit", row.unit}, {"where", row.where}});
+    if (json run_up = run_up_data(reader); !run_up.is_null()) run["run_up"] = std::move(run_up);
     run["beside"] = fields_beside(reader, run, i, options.beside_bytes / results.size(), out);
     data["runs"].push_back(std::move(run));
   }

@@ -1,6 +1,7 @@
 #include "hersey/model/build.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -307,8 +308,9 @@ class Builder {
   }
 
   void add(const std::string& name, const Unbalance& law) {
+    const double begins = law.begins.value_or(-std::numeric_limits<double>::infinity());
     mechanism_.add_force(name, frame(law.from), frame(law.to),
-                         std::make_shared<mbd::Unbalance>(law.moment, model_.gravity));
+                         std::make_shared<mbd::Unbalance>(law.moment, model_.gravity, begins));
   }
 
   void add(const std::string& name, const PistonRing& ring) {

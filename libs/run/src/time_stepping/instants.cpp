@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "hersey/core/input_error.h"
@@ -81,6 +82,17 @@ void add_multiples(double interval, const model::Simulation& run, std::vector<do
 
 }  // namespace
 
+std::vector<double> jumps(const model::Model& model) {
+  const model::Simulation& run = model.simulation;
+  std::vector<double> times;
+  for (const model::Force& force : model.forces)
+    if (const auto* unbalance = force.as<model::Unbalance>(); unbalance != nullptr && unbalance->begins)
+      if (*unbalance->begins > run.start && *unbalance->begins < run.start + run.duration)
+        times.push_back(*unbalance->begins);
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
 std::vector<double> kinks(const model::Model& model, const mbd::MechanismSpec& spec, const mbd::Observation& start) {
   const model::Simulation& run = model.simulation;
   const UniformMotion time{run.start, 1};
@@ -106,7 +118,10 @@ std::vector<double> kinks(const model::Model& model, const mbd::MechanismSpec& s
     for (const model::Function& pressure : bearing.feature_pressures) add_pressure(pressure);
   for (const model::Force& force : model.forces)
     if (const auto* ring = force.as<model::PistonRing>(); ring != nullptr && ring->gas) add_pressure(*ring->gas);
-  return collector.times();
+  std::vector<double> times = collector.times(), all;
+  const std::vector<double> beginnings = jumps(model);
+  std::merge(times.begin(), times.end(), beginnings.begin(), beginnings.end(), std::back_inserter(all));
+  return all;
 }
 
 std::vector<double> instants_to_hit(const model::Model& model, const std::vector<double>& kinks) {

@@ -71,6 +71,7 @@ void TimeStepper::plan(const solver::State& state, const mbd::Observation& start
   if (!limits || model_.simulation.analysis == model::Analysis::kinematics) {
     const model::Simulation& run = model_.simulation;
     targets_ = TargetInstants::equal(run.start, run.duration, run.step);
+    if (run.analysis != model::Analysis::kinematics) bends_ = jumps(model_);
     return;
   }
   bends_ = kinks(model_, machine_.mechanism->spec(), start);
@@ -105,6 +106,20 @@ double TimeStepper::next_stop(const solver::State& state, double limit) {
   return count > 1 ? state.t + (end - state.t) / count : end;
 }
 
+// The first instant after t at which fixed steps start afresh before the next target; infinite where there is none.
+// Steps whose error is controlled have these instants among their targets.
+double TimeStepper::bend_before(double target, double t) const {
+  const auto next = std::upper_bound(bends_.begin(), bends_.end(), t + slack());
+  const bool is_before = !control_ && next != bends_.end() && *next < target - slack();
+  return is_before ? *next : std::numeric_limits<double>::infinity();
+}
+
+bool TimeStepper::is_bend(double t) const {
+  const double off = control_ ? 0 : slack();
+  const auto next = std::lower_bound(bends_.begin(), bends_.end(), t - off);
+  return next != bends_.end() && *next <= t + off;
+}
+
 void TimeStepper::pass_targets(double t) {
   off_plan_ = true;
   for (; !is_at_end() && targets_[reached_] <= t + slack(); ++reached_) off_plan_ = targets_[reached_] < t - slack();
@@ -121,7 +136,8 @@ void TimeStepper::take_jump(solver::State& state, bool moves) {
 
 TimeStep TimeStepper::take(solver::State& state, double limit) {
   const model::Simulation& plan = model_.simulation;
-  const double planned = targets_[reached_], target = next_stop(state, limit);
+  const double planned = targets_[reached_];
+  const double target = next_stop(state, std::min(limit, bend_before(planned, state.t)));
   if (at_bend_) start_afresh(state);
   at_bend_ = false;
   TimeStep step = plan.analysis == model::Analysis::kinematics ? follow_drives(state, target)
@@ -139,7 +155,7 @@ TimeStep TimeStepper::take(solver::State& state, double limit) {
     pass_targets(state.t);
   }
   trial_ = std::numeric_limits<double>::infinity();
-  at_bend_ = std::binary_search(bends_.begin(), bends_.end(), target);
+  at_bend_ = is_bend(target);
   return step;
 }
 

@@ -75,6 +75,8 @@ class TimeStepper {
   [[nodiscard]] std::string advice(const solver::StepSummary& solution) const;
   [[nodiscard]] TimeStep take_controlled(solver::State& state, double target);
   [[nodiscard]] double unit_of_steps() const;
+  [[nodiscard]] double bend_before(double target, double t) const;
+  [[nodiscard]] bool is_bend(double t) const;
   [[nodiscard]] double next_stop(const solver::State& state, double limit);
   void pass_targets(double t);
   void start_afresh(solver::State& state);
@@ -88,12 +90,12 @@ class TimeStepper {
   /// Neither films nor deformations, whose fast motions the error's estimate takes for errors.
   bool has_smooth_motion_;
   Eigen::VectorXd bounded_;    ///< a fixed step's estimated error, of no coordinate more than its way
-  std::vector<double> bends_;  ///< under error control
+  std::vector<double> bends_;  ///< where steps start afresh: the jumps, and under error control all kinks
   TargetInstants targets_;
-  std::optional<solver::StepControl> control_;              ///< under error control
-  std::size_t reached_ = 0;                                 ///< number of targets reached
-  bool off_plan_ = false;                                   ///< the last step ended between the targets
-  bool at_bend_ = false;                                    ///< the next step starts where a table bends
+  std::optional<solver::StepControl> control_;  ///< under error control
+  std::size_t reached_ = 0;                     ///< number of targets reached
+  bool off_plan_ = false;                       ///< the last step ended between the targets
+  bool at_bend_ = false;                        ///< the next step starts where a table bends or a force begins
   double trial_ = std::numeric_limits<double>::infinity();  ///< longest fixed step to try after a failure [s]
   double creeping_ = 0;  ///< time covered by fixed steps much shorter than planned, without a longer one [s]
   double last_dt_ = 0;

@@ -72,6 +72,7 @@ struct BearingTable {
 struct Unbalance {
   FrameName from, to;
   Vector3 moment = Vector3::Zero();  ///< mass times eccentricity, in the station's axes [kg m]
+  std::optional<double> begins;      ///< the instant at which it appears; unset: it has always been there [s]
 };
 
 /// Friction of a piston ring, `from` the liner `to` the piston.

@@ -42,6 +42,8 @@ std::vector<Key> unbalance_keys() {
       optional("off_axis", mass_format(), "Instead: a mass and its distance from the axis."),
       optional("grade", grade_format(), "Instead: what ISO 21940-11 permits a rotor of that grade."),
       defaulted("phase", quantity("rad", "30 deg"), "0 deg", "Its direction, from the station's x-axis towards y."),
+      optional("begins", quantity("s", "0.5 s"),
+               "Time at which it appears, as by the loss of a blade; there is none before. Without it: always there."),
   };
 }
 
@@ -58,6 +60,7 @@ Unbalance unbalance_of(Context& context, const Value& value) {
     context.fault_at_key(value, given == 0 ? "an unbalance of no size" : "an unbalance of several sizes",
                          "one of 'amount', 'off_axis' and 'grade'");
   const double amount = amount_of(value), phase = number_of(value, "phase");
+  if (value.find("begins") != nullptr) unbalance.begins = number_of(value, "begins");
   unbalance.moment = amount * Vector3(std::cos(phase), std::sin(phase), 0);
   return unbalance;
 }

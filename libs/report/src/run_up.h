@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hersey/report/order_tracking.h"
+#include "hersey/results/reader.h"
+
+namespace hersey::report {
+
+/// A shaft of a run by its angle.
+struct RotatingShaft {
+  std::string name;           ///< of the joint or body; "crank"
+  std::vector<double> angle;  ///< of each row [rad]
+};
+
+/// A displacement of a run-up: of a journal in its bearing, or of a body.
+struct RunUpSignal {
+  std::string path;        ///< of the dataset
+  std::size_t column = 0;  ///< in it
+  OrderTracks tracks;
+
+  /// The window with the largest amplitude once a revolution.
+  struct Peak {
+    double size = 0;             ///< amplitude [m]
+    double speed = 0, time = 0;  ///< [rad/s; s]
+    double lag = 0;              ///< behind the shaft's angle [rad]
+  };
+  [[nodiscard]] Peak peak() const;
+};
+
+/// A run-up or coast-down with the orders of what moves.
+struct RunUp {
+  RotatingShaft shaft;
+  int revolutions = 0;                     ///< of a window
+  std::vector<double> time;                ///< of each row [s]
+  std::vector<RunUpSignal> displacements;  ///< journals first
+};
+
+/// Tracks the orders of a run in which a shaft makes twenty revolutions or more while its speed, as a mean over one of
+/// them, changes by more than a fifth; unset for any other run. The shaft is the crank, else the joint that rotates
+/// most, else the body that does.
+/// @verified_by run_up_test.cpp
+[[nodiscard]] std::optional<RunUp> find_run_up(const results::Reader& reader);
+
+/// The run-up as the page reads it (RunUpText of web/src/data.ts), with spectra; null for any other run.
+[[nodiscard]] nlohmann::json run_up_data(const results::Reader& reader);
+
+}  // namespace hersey::report
