@@ -70,6 +70,7 @@ class FunctionReader {
     }
     try {
       function_.value = std::make_shared<ExpressionFunction>(text, names, scale.value_or(1));
+      if (names.empty()) function_.value = std::make_shared<ConstantFunction>(function_.value->value({}));
       function_.variables = std::move(variables);
     } catch (const ExpressionError& error) {
       report_in_expression(expression, error.position, error.what(), "an expression such as 100*sin(2*pi*50*t)", "");
