@@ -112,8 +112,7 @@ class BranchFollower {
     const bool is_inside =
         found.point.at.value >= low - kSlack * range_ && found.point.at.value <= high + kSlack * range_;
     if (!is_inside) return cut_step("it left the range");
-    if (!plane.keeps_value && step_ > kTurningStep * options_.step && turns_sharply(plane, found.point))
-      return cut_step("it turns too sharply");
+    if (!plane.keeps_value && turns_sharply(plane, found.point)) return cut_step("it turns too sharply");
     const int periods = found.point.orbit.periods;
     add(std::move(found.point));
     refine();
@@ -123,10 +122,11 @@ class BranchFollower {
       step_ = std::min(options_.step, step_ * kGrowthOfSteps);
   }
 
-  // Steps that are too long for it miss what is between them.
+  // Steps that are too long for it miss what is between them, or go back on the branch.
   bool turns_sharply(const AcrossBranch& plane, const BranchPoint& point) {
     const Eigen::VectorXd way = plane.metric.way(search_.mechanism(), points_.back().at, point.at);
-    return way.dot(plane.direction) < kStraight * way.norm();
+    const double least = step_ > kTurningStep * options_.step ? kStraight : kNotBack;
+    return way.dot(plane.direction) < least * way.norm();
   }
 
   // The last orbit is that at the end of the range.
