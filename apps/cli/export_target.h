@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "commands.h"
+
+namespace hersey::cli {
+
+/// Requires results, and a file of their own that may be written, for an export of results into one file.
+/// @throws InputError naming `option`
+void require_results_target(const ExportArguments& arguments, const std::string& option,
+                            const std::filesystem::path& target);
+
+}  // namespace hersey::cli
