@@ -77,7 +77,8 @@ def _component_class() -> Any:
         Options: `model`, a `hersey.Model` or the path of a model file; `inputs`, names as `Model.bearing` takes them, or
         key paths, in which dots become colons; `outputs`, keys of figures; `bearing`, of a model with several. Inputs begin
         at the model's own values; all is in SI. Partial derivatives are those of `Model.bearing(sensitivity_to=...)`. Where
-        no film is found it raises OpenMDAO's `AnalysisError`, from which optimisers step back.
+        no film is found, or a value is none that the model takes, it raises OpenMDAO's `AnalysisError`, from which optimisers
+        step back.
         """
 
         def initialize(self) -> None:
@@ -90,35 +91,35 @@ def _component_class() -> Any:
         def setup(self) -> None:
             """Solves the model as it stands, which gives units and first values. Raises `InputError`."""
             model = self.options["model"]
-            self._model = model if isinstance(model, Model) else Model.load(str(model))
-            self._inputs, self._outputs = list(self.options["inputs"]), list(self.options["outputs"])
-            first = solve(self._model, self.options["bearing"], {}, self._inputs)
-            for name, each in slopes(first, self._inputs).items():
+            self._hersey_model = model if isinstance(model, Model) else Model.load(str(model))
+            self._hersey_inputs, self._hersey_outputs = list(self.options["inputs"]), list(self.options["outputs"])
+            first = solve(self._hersey_model, self.options["bearing"], {}, self._hersey_inputs)
+            for name, each in slopes(first, self._hersey_inputs).items():
                 self.add_input(variable_name(name), val=each.value, units=unit_name(each.unit))
-            for name in self._outputs:
+            for name in self._hersey_outputs:
                 if name not in first:
                     raise InputError(f"no figure '{name}'; there are {', '.join(first)}")
                 self.add_output(variable_name(name), val=float(first[name]), units=unit_name(first[name].unit))
             self.declare_partials("*", "*")
 
-        def _solved(self, inputs: Any, to: Sequence[str] = ()) -> Any:
-            values = {name: float(inputs[variable_name(name)].item()) for name in self._inputs}
+        def _hersey_solution(self, inputs: Any, to: Sequence[str] = ()) -> Any:
+            values = {name: float(inputs[variable_name(name)].item()) for name in self._hersey_inputs}
             try:
-                return solve(self._model, self.options["bearing"], values, to)
-            except SolutionError as error:
+                return solve(self._hersey_model, self.options["bearing"], values, to)
+            except (SolutionError, InputError) as error:  # names are good since setup: a value is out of its range
                 raise om.AnalysisError(str(error)) from error
 
         def compute(self, inputs: Any, outputs: Any, discrete_inputs: Any = None, discrete_outputs: Any = None) -> None:
             """Solves the film at the inputs."""
-            solution = self._solved(inputs)
-            for name in self._outputs:
+            solution = self._hersey_solution(inputs)
+            for name in self._hersey_outputs:
                 outputs[variable_name(name)] = float(solution[name])
 
         def compute_partials(self, inputs: Any, partials: Any, discrete_inputs: Any = None) -> None:
             """Solves the film and its derivatives."""
-            solution = self._solved(inputs, self._inputs)
-            for name, each in slopes(solution, self._inputs).items():
-                for figure in self._outputs:
+            solution = self._hersey_solution(inputs, self._hersey_inputs)
+            for name, each in slopes(solution, self._hersey_inputs).items():
+                for figure in self._hersey_outputs:
                     if figure not in each.derivatives:
                         raise om.AnalysisError(f"{figure} has no derivative by {name}")
                     partials[variable_name(figure), variable_name(name)] = each.derivatives[figure]

@@ -12,7 +12,7 @@ import hersey
 import hersey.dakota
 import hersey.openmdao
 
-INPUTS, OUTPUTS = ["load", "clearance", "bearings.main.width"], ["h_min", "friction_journal"]
+INPUTS, OUTPUTS = ["load", "clearance", "bearings.main.width"], ["h_min", "friction_journal", "torque_journal"]
 BY_DIFFERENCE = 2e-4  # of central differences with a step of a thousandth, of a figure that is smooth
 
 
@@ -30,6 +30,10 @@ class ExplicitComponent:
         unknown = set(options) - set(self.options)
         assert not unknown, unknown
         self.options.update(options)
+
+    def __setattr__(self, name, value):
+        assert name not in ("_inputs", "_outputs", "_residuals", "_jacobian", "_var_rel2meta"), f"{name} is OpenMDAO's own"
+        super().__setattr__(name, value)
 
     def add_input(self, name, val, units=None):
         assert "." not in name
@@ -79,7 +83,7 @@ def test_component_begins_at_the_model_and_has_its_units(film, bearing_file):
     expected = hersey.Model.load(str(bearing_file)).bearing(grid_error=False)
     assert list(film.inputs) == ["load", "clearance", "bearings:main:width"]
     assert [film.units[name] for name in film.inputs] == ["N", "m", "m"]
-    assert film.units["h_min"] == "m" and film.units["friction_journal"] == "N*m"
+    assert film.units["h_min"] == "m" and film.units["friction_journal"] is None and film.units["torque_journal"] == "N*m"
     assert film.declared == [("*", "*")]
     found = outputs_at(film)
     for name in OUTPUTS:
@@ -99,7 +103,7 @@ def test_partials_are_slopes_of_what_it_computes(film):
 
 def test_film_that_is_not_found_is_an_analysis_error(film, openmdao):
     with pytest.raises(openmdao.AnalysisError):
-        outputs_at(film, load=1e12)
+        outputs_at(film, load=1e8)
 
 
 def test_wrong_names_are_told(openmdao, bearing_file):
@@ -149,7 +153,7 @@ def test_dakota_gets_values_and_gradients_in_its_order(bearing_file, tmp_path):
 
 
 def test_dakota_is_told_of_failures_and_faults(bearing_file, tmp_path):
-    assert drive(bearing_file, tmp_path, parameters(1e12, 40e-6, {"h_min": 1})).returncode == 0
+    assert drive(bearing_file, tmp_path, parameters(1e8, 40e-6, {"h_min": 1})).returncode == 0
     assert (tmp_path / "results.out").read_text().lower().startswith("fail")
     for text, said in ((parameters(600, 40e-6, {"h_min": 4}), "quasi_hessians"), (parameters(600, 40e-6, {"hmin": 1}), "h_min"),
                        ("{ DAKOTA_VARS = 2 }\n", "standard"), ("3 variables\n1 load\n", "variables")):

@@ -328,7 +328,7 @@ std::vector<std::string> Reader::dimensions(std::string_view path) const {
   const Hdf5Session session(impl_->untrusted_path());
   const std::string name = absolute(path);
   const Handle dataset = impl_->dataset(name);
-  if (Impl::fixed_text(dataset.get(), scale_path)) return {name};
+  if (const auto own = Impl::fixed_text(dataset.get(), scale_path)) return {*own};
   return impl_->scales_of(dataset.get());
 }
 
