@@ -33,7 +33,8 @@ bool DimensionScales::make_scale(hid_t dataset, const std::string& path, const s
   if (H5Rcreate(&reference, file_, path.c_str(), H5R_OBJECT, H5I_INVALID_HID) < 0) return false;
   references_[path] = reference;
   links_.insert(path);
-  return set_fixed_text(dataset, "CLASS", scale_class) && set_fixed_text(dataset, "NAME", name.empty() ? name_of(path) : name) &&
+  return set_fixed_text(dataset, "CLASS", scale_class) &&
+         set_fixed_text(dataset, "NAME", name.empty() ? name_of(path) : name) &&
          set_fixed_text(dataset, scale_path, path);
 }
 

@@ -65,8 +65,8 @@ class Reader {
   /// Rows first, first + stride, ... of a dataset; one row is one entry of its first dimension.
   [[nodiscard]] Array read_rows(std::string_view path, std::size_t first, std::size_t count,
                                 std::size_t stride = 1) const;
-  /// Returns the paths of the dimensions of a dataset, the slowest first; of a dimension its own first path, and none where
-  /// the file names none.
+  /// Returns the paths of the dimensions of a dataset, the slowest first; of a dimension its own first path, and none
+  /// where the file names none.
   [[nodiscard]] std::vector<std::string> dimensions(std::string_view path) const;
   /// Returns all strings of a dataset, row-major.
   [[nodiscard]] std::vector<std::string> texts(std::string_view path) const;
