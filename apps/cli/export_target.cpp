@@ -1,5 +1,8 @@
 #include "export_target.h"
 
+#include <utility>
+#include <vector>
+
 #include "hersey/core/input_error.h"
 #include "hersey/session/output_file.h"
 #include "run_stress.h"
@@ -11,6 +14,25 @@ namespace {
   throw InputError(Fault{{"", 0, 0}, option, std::move(found), std::move(expected), ""});
 }
 
+/// Options that were given, and mean nothing without loads; films may be chosen as theirs are.
+std::vector<const char*> options_of_loads(const LoadsArguments& loads, bool may_choose) {
+  const std::vector<std::pair<const char*, bool>> options{{"--output", !loads.output.empty()},
+                                                          {"--body", !loads.body.empty()},
+                                                          {"--bearing", !loads.bearings.empty() && !may_choose},
+                                                          {"--instant", !loads.instants.empty() && !may_choose},
+                                                          {"--hold", !loads.hold.empty()},
+                                                          {"--mesh", !loads.mesh.empty()},
+                                                          {"--conductivity", !loads.conductivity.empty()},
+                                                          {"--expansion", !loads.expansion.empty()},
+                                                          {"--temperature", !loads.temperature.empty()},
+                                                          {"--cooling", !loads.cooling.empty()},
+                                                          {"--model", !loads.model_file.empty()}};
+  std::vector<const char*> given;
+  for (const auto& [name, is_given] : options)
+    if (is_given) given.push_back(name);
+  return given;
+}
+
 }  // namespace
 
 void require_results_target(const ExportArguments& arguments, const std::string& option,
@@ -20,8 +42,8 @@ void require_results_target(const ExportArguments& arguments, const std::string&
                   "another run with this, then its results");
   if (!is_results_file(arguments.file))
     refuse_target("FILE", "'" + arguments.file + "' is no results file (.h5)", "results of a run, for " + option);
-  if (!arguments.loads.output.empty())
-    refuse_target("--output", "it is a folder for loads", "the file that " + option + " names, alone");
+  for (const char* name : options_of_loads(arguments.loads, option == "--films"))
+    refuse_target(name, "it stands with " + option, "it with --loads alone");
   session::require_separate({{option, target}}, {arguments.file});
   if (!arguments.force && std::filesystem::exists(target))
     refuse_target(option, target.string() + " exists", "a new file, or --force to replace it");

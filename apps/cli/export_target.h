@@ -7,7 +7,8 @@
 
 namespace hersey::cli {
 
-/// Requires results, and a file of their own that may be written, for an export of results into one file.
+/// Requires results, a file of their own that may be written, and no option of loads, for an export of results into one
+/// file.
 /// @throws InputError naming `option`
 void require_results_target(const ExportArguments& arguments, const std::string& option,
                             const std::filesystem::path& target);

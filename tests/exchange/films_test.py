@@ -322,6 +322,8 @@ class Films(unittest.TestCase):
         self.assertIn("unwrapped", hersey("export", results, "--films", target, "--force", "--surface", "flat", expect=2))
         self.assertIn("--films", hersey("export", results, "--netcdf", "a.nc", "--surface", "unwrapped", expect=2))
         self.assertIn("--loads", hersey("export", results, "--films", target, "--loads", "vtkhdf", expect=2))
+        self.assertIn("--hold", hersey("export", results, "--films", target, "--force", "--hold", "feet", expect=2))
+        self.assertIn("--bearing", hersey("export", results, "--netcdf", "a.nc", "--bearing", printed["bearings"][0], expect=2))
         self.assertIn("--set", hersey("export", results, "--films", target, "--force", "--set", "a=1", expect=2))
         self.assertIn(".h5", hersey("export", os.path.join(ROOT, RUNS["pads"][0]), "--films", "a.vtkhdf", expect=2))
         model = os.path.join(ROOT, "examples/ball_drop/model.yaml")
