@@ -300,6 +300,24 @@ class Copies(unittest.TestCase):
         if missing:
             self.skipTest(f"not installed: {', '.join(missing)}")
 
+    def test_lists_of_large_machines_are_kept(self):
+        """HDF5 keeps attributes of more than 64 kB apart: names of the coordinates of a thousand bodies are longer."""
+        names = [f"joint_{k}.translation_x" for k in range(4000)]
+        source, target = os.path.join(self.folder, "large.h5"), os.path.join(self.folder, "large.nc")
+        with h5py.File(source, "w") as file:
+            file.attrs["format"], file.attrs["format_version"], file.attrs["status"] = "hersey-results", 1, "completed"
+            file.create_group("modes").attrs["coordinates"] = names
+            file.attrs["study_parameters"] = names
+            time = file.create_dataset("time", data=np.arange(3.0), maxshape=(None,))
+            time.attrs["units"], time.attrs["long_name"] = "s", "time"
+            time.make_scale("time")
+            time.attrs["path"] = np.bytes_("/time")
+        hersey("export", source, "--netcdf", target)
+        with h5py.File(target) as file:
+            self.assertEqual(file["modes"].attrs["coordinates"].decode().split(", "), names)
+            self.assertEqual(file.attrs["study_parameters"].decode().split(", "), names)
+            self.assertEqual(list(file["time"]), [0, 1, 2])
+
     def test_faults_say_what_is_allowed(self):
         for _, results, target, _ in self.copies(["pads"]):
             self.assertIn("--force", hersey("export", results, "--netcdf", target, expect=2))
