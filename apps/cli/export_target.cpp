@@ -36,7 +36,7 @@ std::vector<const char*> options_of_loads(const LoadsArguments& loads, bool may_
 }  // namespace
 
 void require_results_target(const ExportArguments& arguments, const std::string& option,
-                            const std::filesystem::path& target) {
+                            const std::filesystem::path& target, const std::string& ending) {
   if (!arguments.overrides.empty())
     refuse_target("--set", "what is exported are results of a run as it was",
                   "another run with this, then its results");
@@ -44,6 +44,8 @@ void require_results_target(const ExportArguments& arguments, const std::string&
     refuse_target("FILE", "'" + arguments.file + "' is no results file (.h5)", "results of a run, for " + option);
   for (const char* name : options_of_loads(arguments.loads, option == "--films"))
     refuse_target(name, "it stands with " + option, "it with --loads alone");
+  if (target.extension() != ending)
+    refuse_target(option, "'" + target.string() + "'", "a name that ends in " + ending + ": readers go by it");
   session::require_separate({{option, target}}, {arguments.file});
   if (!arguments.force && std::filesystem::exists(target))
     refuse_target(option, target.string() + " exists", "a new file, or --force to replace it");

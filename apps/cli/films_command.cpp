@@ -66,7 +66,7 @@ void print_films(const run::FilmSurfaces& films, const std::vector<std::size_t>&
 }  // namespace
 
 int films_command(const ExportArguments& arguments) {
-  require_results_target(arguments, "--films", arguments.films);
+  require_results_target(arguments, "--films", arguments.films, ".vtkhdf");
   const results::Reader results(arguments.file);
   const run::FilmPlacement placement = placement_of(arguments.surface.empty() ? "machine" : arguments.surface);
   const run::FilmSurfaces films(results, arguments.loads.bearings, placement);

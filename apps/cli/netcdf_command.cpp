@@ -25,7 +25,7 @@ std::string history_line() {
 }  // namespace
 
 int netcdf_command(const ExportArguments& arguments) {
-  require_results_target(arguments, "--netcdf", arguments.netcdf);
+  require_results_target(arguments, "--netcdf", arguments.netcdf, ".nc");
   const results::Reader results(arguments.file);
   const results::NetcdfSummary summary = results::write_netcdf(results, arguments.netcdf, history_line());
   if (arguments.json) {

@@ -322,6 +322,7 @@ class Films(unittest.TestCase):
         self.assertIn("unwrapped", hersey("export", results, "--films", target, "--force", "--surface", "flat", expect=2))
         self.assertIn("--films", hersey("export", results, "--netcdf", "a.nc", "--surface", "unwrapped", expect=2))
         self.assertIn("--loads", hersey("export", results, "--films", target, "--loads", "vtkhdf", expect=2))
+        self.assertIn(".vtkhdf", hersey("export", results, "--films", "films.vtu", expect=2))
         self.assertIn("--hold", hersey("export", results, "--films", target, "--force", "--hold", "feet", expect=2))
         self.assertIn("--bearing", hersey("export", results, "--netcdf", "a.nc", "--bearing", printed["bearings"][0], expect=2))
         self.assertIn("--set", hersey("export", results, "--films", target, "--force", "--set", "a=1", expect=2))

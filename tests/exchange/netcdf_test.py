@@ -325,7 +325,10 @@ class Copies(unittest.TestCase):
             self.assertIn("--films", hersey("export", results, "--netcdf", target, "--films", "a.vtkhdf", expect=2))
             self.assertIn("--netcdf", hersey("export", results, expect=2))
             self.assertIn(".h5", hersey("export", os.path.join(ROOT, RUNS["pads"][0]), "--netcdf", "a.nc", expect=2))
-            self.assertIn("file of its own", hersey("export", results, "--netcdf", results, "--force", expect=2))
+            self.assertIn(".nc", hersey("export", results, "--netcdf", "a.h5", expect=2))  # 2.1 of the conventions
+            itself = os.path.join(self.folder, "itself.nc")
+            os.link(results, itself)
+            self.assertIn("file of its own", hersey("export", results, "--netcdf", itself, "--force", expect=2))
             nowhere = os.path.join(self.folder, "nowhere", "a.nc")
             self.assertIn("cannot be written", hersey("export", results, "--netcdf", nowhere, expect=1))
 
