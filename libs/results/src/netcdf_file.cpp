@@ -14,6 +14,7 @@
 
 #include "dimension_scales.h"
 #include "hdf5_handle.h"
+#include "hersey/results/writer.h"
 
 namespace hersey::results {
 namespace {
@@ -42,6 +43,14 @@ bool is_strictly_monotonic(const std::vector<double>& values) {
   if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); })) return false;
   return std::adjacent_find(values.begin(), values.end(), falls) == values.end() ||
          std::adjacent_find(values.begin(), values.end(), rises) == values.end();
+}
+
+/// A column of rows.
+Array column_of(const Array& rows, std::size_t column) {
+  Array picked{rows.info, {}};
+  picked.info.shape = {rows.info.shape.at(0)};
+  for (std::size_t at = column; at < rows.values.size(); at += rows.width()) picked.values.push_back(rows.values[at]);
+  return picked;
 }
 
 /// A dimension of the results in the copy.
@@ -80,7 +89,9 @@ class NetcdfFile {
       const DatasetInfo info = results_.info(name);
       if (std::find(info.shape.begin(), info.shape.end(), std::size_t{0}) != info.shape.end()) continue;
       if (info.unit == "SI") {
-        summary.left_out.push_back(name);
+        const std::size_t columns = copy_columns(name, info);
+        summary.variables += columns;
+        if (columns == 0) summary.left_out.push_back(name);
         continue;
       }
       ++summary.variables;
@@ -233,14 +244,36 @@ class NetcdfFile {
     if (!coordinates.empty()) text_attribute(data.get(), "coordinates", coordinates);
   }
 
+  /// Columns with units of their own, each as a variable. Returns how many; 0 where the results do not tell the units.
+  std::size_t copy_columns(const std::string& name, DatasetInfo info) {
+    const std::vector<std::string> units = results_.list_attribute(name, column_units),
+                                   dimensions = results_.dimensions(name);
+    if (info.shape.size() != 2 || units.size() != info.shape[1] || dimensions.size() != 2) return 0;
+    if (!results_.info(dimensions[1]).is_text) return 0;
+    const std::vector<std::string> labels = results_.texts(dimensions[1]);
+    const std::string rows = dimension(dimensions[0]).scale, description = info.description;
+    info.shape.pop_back();
+    for (std::size_t k = 0; k < units.size(); ++k) {
+      info.unit = units[k];
+      info.description = description + ": " + labels[k];
+      const std::string column = free_name(name + "_" + cf_name(labels[k]));
+      const Handle data = write_numbers(column, name, info, k);
+      require(scales_->attach(data.get(), column, {rows}));
+    }
+    return units.size();
+  }
+
   /// Numbers of the results, block by block, with unit and description.
-  [[nodiscard]] Handle write_numbers(const std::string& name, const std::string& from, const DatasetInfo& info) const {
+  /// @param column  the only one that is wanted
+  [[nodiscard]] Handle write_numbers(const std::string& name, const std::string& from, const DatasetInfo& info,
+                                     std::optional<std::size_t> column = {}) const {
     Handle data = create(name, info.is_float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, info.shape);
     const std::size_t width = std::max<std::size_t>(1, Array{info, {}}.width());
     const std::size_t block = std::max<std::size_t>(1, copied_numbers / width);
     bool has_gaps = false;
     for (std::size_t first = 0; first < info.shape.at(0); first += block) {
-      const Array part = results_.read_rows(from, first, block);
+      const Array part =
+          column ? column_of(results_.read_rows(from, first, block), *column) : results_.read_rows(from, first, block);
       has_gaps =
           has_gaps || std::any_of(part.values.begin(), part.values.end(), [](double v) { return std::isnan(v); });
       write_rows(data.get(), part, first);

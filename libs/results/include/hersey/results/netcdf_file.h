@@ -12,7 +12,8 @@ namespace hersey::results {
 /// What a copy of results in netCDF holds.
 struct NetcdfSummary {
   std::size_t variables = 0;
-  /// Paths of data whose columns have different units, which no variable of the CF conventions may have.
+  /// Paths of data whose columns have different units, which the results do not tell: no variable of the CF conventions
+  /// may have several.
   std::vector<std::string> left_out;
 };
 
@@ -23,8 +24,9 @@ inline constexpr const char* cf_conventions = "CF-1.11";
 ///
 /// Groups, names and numbers are those of the results. What differs, and why: text has a fixed length, as GNU Octave
 /// and Fortran programs read no other; the components of a dimension stand in a variable of their own, since a
-/// coordinate variable has numbers; a dimension whose values do not rise or fall strictly, such as the frequencies of
-/// modes, is a number from 0 with these values beside it; units are as CF writes them; what is not a number is
+/// coordinate variable has numbers; columns of different units are a variable each; a dimension whose values do not
+/// rise or fall strictly, such as the frequencies of modes, is a number from 0 with these values beside it; units are
+/// as CF writes them; what is not a number is
 /// `_FillValue`. Data without rows are left out. Time is in s from the start of the run, which is no date: CF's "since"
 /// would invent one. The file appears under its name when it is whole; until then it is `<path>.new`.
 /// @param history  what made the copy, for the attribute `history`
