@@ -54,22 +54,31 @@ struct OpenArguments {
 [[nodiscard]] int open_command(const OpenArguments& arguments);
 
 struct ExportArguments {
-  std::string file;  ///< a model, or results with --loads
+  std::string file;  ///< a model; with --loads, --films or --netcdf results
   std::vector<std::string> overrides;
   std::filesystem::path fmu;
-  int fmi = 2;  ///< version of the standard
-  LoadsArguments loads;
+  int fmi = 2;                   ///< version of the standard
+  LoadsArguments loads;          ///< its bearings and instants also of films
+  std::filesystem::path films;   ///< .vtkhdf file of the films; empty: it is not asked for
+  std::string surface;           ///< where the films lie: machine (empty), bearing or unwrapped
+  std::filesystem::path netcdf;  ///< copy of results as netCDF; empty: it is not asked for
   bool force = false;
   bool json = false;
 };
 
-/// `hersey export`: becomes the program that packs a model into an FMU, or writes the loads of a run for strength
-/// programs. @returns an ExitCode. @throws InputError, results::ReadError; std::runtime_error where a file cannot be
-/// written
+/// `hersey export`: becomes the program that packs a model into an FMU, or writes results of a run for other programs:
+/// loads on a mesh, films over time, or all of them as netCDF. @returns an ExitCode. @throws InputError,
+/// results::ReadError; std::runtime_error where a file cannot be written
 [[nodiscard]] int export_command(const ExportArguments& arguments);
 
 /// `hersey export --loads`.
 [[nodiscard]] int loads_command(const ExportArguments& arguments);
+
+/// `hersey export --films`.
+[[nodiscard]] int films_command(const ExportArguments& arguments);
+
+/// `hersey export --netcdf`.
+[[nodiscard]] int netcdf_command(const ExportArguments& arguments);
 
 struct CheckArguments {
   std::string model;

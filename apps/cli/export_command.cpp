@@ -11,16 +11,31 @@
 #include "standard_streams.h"
 
 namespace hersey::cli {
+namespace {
+
+void require_one_export(const ExportArguments& arguments) {
+  const char* const expected =
+      "`--fmu FILE.fmu` with a model, or with results one of `--loads calculix|nastran|vtkhdf`, `--films FILE.vtkhdf` "
+      "and `--netcdf FILE.nc`";
+  std::vector<std::string> asked;
+  if (!arguments.fmu.empty()) asked.emplace_back("--fmu");
+  if (!arguments.loads.format.empty()) asked.emplace_back("--loads");
+  if (!arguments.films.empty()) asked.emplace_back("--films");
+  if (!arguments.netcdf.empty()) asked.emplace_back("--netcdf");
+  if (asked.empty()) throw InputError(Fault{{"", 0, 0}, "hersey export", "nothing is asked for", expected, ""});
+  if (asked.size() > 1) throw InputError(Fault{{"", 0, 0}, asked[0], "it stands beside " + asked[1], expected, ""});
+  if (!arguments.surface.empty() && arguments.films.empty())
+    throw InputError(Fault{{"", 0, 0}, "--surface", "it stands without --films", "--films FILE.vtkhdf with it", ""});
+}
+
+}  // namespace
 
 // Another program does it: this one needs neither a library for archives nor that of the FMU.
 int export_command(const ExportArguments& arguments) {
+  require_one_export(arguments);
   if (!arguments.loads.format.empty()) return loads_command(arguments);
-  if (arguments.fmu.empty())
-    throw InputError(Fault{{"", 0, 0},
-                           "hersey export",
-                           "neither an FMU nor loads are asked for",
-                           "`--fmu FILE.fmu` with a model, or `--loads calculix|nastran|vtkhdf` with results",
-                           ""});
+  if (!arguments.films.empty()) return films_command(arguments);
+  if (!arguments.netcdf.empty()) return netcdf_command(arguments);
   std::vector<std::string> words{"hersey-fmu",           arguments.file, "--fmu",
                                  arguments.fmu.string(), "--fmi",        std::to_string(arguments.fmi)};
   for (const std::string& change : arguments.overrides) words.insert(words.end(), {"--set", change});

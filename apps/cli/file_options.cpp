@@ -43,11 +43,14 @@ void add_load_options(CLI::App& command, LoadsArguments& loads) {
       ->check(CLI::IsMember({"calculix", "nastran", "vtkhdf"}).description(""));
   command.add_option("--output", loads.output, "Folder of the loads")->type_name("DIR");
   value("--body", loads.body, "Whose loads (default: the only body with a mesh and a film)", "NAME");
-  repeatable(command.add_option("--bearing", loads.bearings, "Of this bearing only (default: of all on the body)")
-                 ->type_name("NAME"));
+  repeatable(
+      command
+          .add_option("--bearing", loads.bearings, "Of this bearing only (default: of all on the body; of films: all)")
+          ->type_name("NAME"));
   repeatable(command
                  .add_option("--instant", loads.instants,
-                             "At the stored film nearest to this time or crank angle, or all (default: the last cycle)")
+                             "At the stored film nearest to this time or crank angle, or all (default: the last cycle; "
+                             "of films: all)")
                  ->type_name("12ms|370deg|all"));
   command.add_option("--units", loads.units, "Of CalculiX and Nastran files: mm, N, t, MPa or SI (default: mm)")
       ->type_name("mm|si")
@@ -77,16 +80,27 @@ void add_load_options(CLI::App& command, LoadsArguments& loads) {
 void add_export(CLI::App& app, Commands& commands) {
   const auto exported = std::make_shared<ExportArguments>();
   CLI::App* command =
-      app.add_subcommand("export", "Write a model as an FMU for co-simulation, or a run's loads for strength programs");
-  command->add_option("FILE", exported->file, "Model file; with --loads a results file")->required();
+      app.add_subcommand("export", "Write a model as an FMU for co-simulation, or results of a run for other programs");
+  command->add_option("FILE", exported->file, "Model file; with --loads, --films or --netcdf a results file")
+      ->required();
   command->add_option("--fmu", exported->fmu, "The FMU to write")->type_name("FILE.fmu");
   command->add_option("--fmi", exported->fmi, "Version of the standard: 2 or 3 (default: 2)")
       ->type_name("2|3")
       ->check(CLI::IsMember({2, 3}).description(""));
   add_overrides(*command, exported->overrides);
   add_load_options(*command, exported->loads);
+  command->add_option("--films", exported->films, "Write the films of a run over time for ParaView, from results")
+      ->type_name("FILE.vtkhdf");
+  command
+      ->add_option("--surface", exported->surface,
+                   "Where these films lie: in the machine as it moves, in their bearing's axes, or rolled out "
+                   "(default: machine)")
+      ->type_name("machine|bearing|unwrapped")
+      ->check(CLI::IsMember({"machine", "bearing", "unwrapped"}).description(""));
+  command->add_option("--netcdf", exported->netcdf, "Write a copy of results as netCDF by the CF conventions")
+      ->type_name("FILE.nc");
   command->add_flag("--force", exported->force, "Replace what exists");
-  command->add_flag("--json", exported->json, "Print what loads were written as JSON");
+  command->add_flag("--json", exported->json, "Print what was written as JSON");
   commands.push_back({command, [exported] { return export_command(*exported); }});
 }
 

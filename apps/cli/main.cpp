@@ -46,6 +46,7 @@ constexpr const char* kFooter =
     "  hersey modes conrod.msh --length-unit mm --hold big_end       its natural frequencies\n"
     "  hersey export rotor.yaml --fmu rotor.fmu                      for co-simulation in other programs\n"
     "  hersey export results.h5 --loads calculix --output loads      pressures of films for a strength program\n"
+    "  hersey export results.h5 --films films.vtkhdf                 films over time for ParaView\n"
     "  hersey stress results.h5 --vtkhdf rod.vtkhdf                  stresses of a flexible body over a run\n"
     "  hersey oil iso_vg_46 --at 40degC 100degC                      viscosity and density of an oil\n"
     "  hersey convert old.yaml --in-place                            a model file of an earlier version\n"

@@ -12,7 +12,8 @@ import unittest
 
 HERSEY = os.path.abspath(sys.argv.pop(1))
 SOURCE = os.path.abspath(sys.argv.pop(1))
-NAMING = ("CHANGELOG.md", "CMakeLists.txt", "CITATION.cff", "docs/citing.md", "docs/installing.md", "bench/key_figures.csv")
+NAMING = ("CHANGELOG.md", "CMakeLists.txt", "CITATION.cff", "docs/citing.md", "docs/installing.md", "bench/key_figures.csv",
+          "packaging/conda/recipe.yaml")
 
 
 def found(pattern, path, folder=SOURCE):
@@ -28,6 +29,7 @@ def versions(folder=SOURCE):
         "CHANGELOG.md": [released[0]],
         "CITATION.cff": found(r"^version: (.+)$", "CITATION.cff", folder),
         "docs/citing.md": found(r"version (\d+\.\d+\.\d+), ", "docs/citing.md", folder),
+        "packaging/conda/recipe.yaml": found(r"^  version: ([\d.]+)$", "packaging/conda/recipe.yaml", folder),
         "docs/installing.md": found(r"_(\d+\.\d+\.\d+)-1_amd64", "docs/installing.md", folder),
     }, released[1], found(r"^date-released: (.+)$", "CITATION.cff", folder)[0]
 

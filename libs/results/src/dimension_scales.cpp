@@ -28,12 +28,13 @@ std::string growth_group(const std::string& path) {
   return at == std::string::npos ? "/" : path.substr(0, at + marker.size() - 1);
 }
 
-bool DimensionScales::make_scale(hid_t dataset, const std::string& path) {
+bool DimensionScales::make_scale(hid_t dataset, const std::string& path, const std::string& name) {
   hobj_ref_t reference{};
   if (H5Rcreate(&reference, file_, path.c_str(), H5R_OBJECT, H5I_INVALID_HID) < 0) return false;
   references_[path] = reference;
   links_.insert(path);
-  return set_fixed_text(dataset, "CLASS", scale_class) && set_fixed_text(dataset, "NAME", name_of(path)) &&
+  return set_fixed_text(dataset, "CLASS", scale_class) &&
+         set_fixed_text(dataset, "NAME", name.empty() ? name_of(path) : name) &&
          set_fixed_text(dataset, scale_path, path);
 }
 
@@ -53,10 +54,10 @@ std::string DimensionScales::of_rows(const std::string& path) {
   return rows_.try_emplace(growth_group(path), path).first->second;
 }
 
-bool DimensionScales::link(const std::string& scale, const std::string& group) {
-  const std::string path = group + "/" + name_of(scale);
-  if (!links_.insert(path).second) return true;
-  return H5Lcreate_hard(file_, scale.c_str(), file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0;
+bool DimensionScales::link(const std::string& dataset, const std::string& group) {
+  const std::string path = group + "/" + name_of(dataset);
+  if (path == dataset || !links_.insert(path).second) return true;
+  return H5Lcreate_hard(file_, dataset.c_str(), file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0;
 }
 
 }  // namespace hersey::results

@@ -24,7 +24,8 @@ class DimensionScales {
   explicit DimensionScales(hid_t file) : file_(file) {}
 
   /// Makes the dataset at `path` a dimension. False if HDF5 refuses.
-  [[nodiscard]] bool make_scale(hid_t dataset, const std::string& path);
+  /// @param name  of the dimension; empty: the last part of the path
+  [[nodiscard]] bool make_scale(hid_t dataset, const std::string& path, const std::string& name = {});
 
   /// Names the dimensions of a dataset by scales made before, one for each. False if HDF5 refuses.
   [[nodiscard]] bool attach(hid_t dataset, const std::string& path, const std::vector<std::string>& scales);
@@ -34,9 +35,10 @@ class DimensionScales {
 
   [[nodiscard]] bool has(const std::string& scale) const { return references_.contains(scale); }
 
- private:
-  [[nodiscard]] bool link(const std::string& scale, const std::string& group);
+  /// Gives a dataset its name in another group, too; "" is the root. False if HDF5 refuses.
+  [[nodiscard]] bool link(const std::string& dataset, const std::string& group);
 
+ private:
   hid_t file_;
   std::map<std::string, hobj_ref_t> references_;
   std::map<std::string, std::string> rows_;  ///< of each growth group

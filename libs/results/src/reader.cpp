@@ -162,6 +162,26 @@ struct Reader::Impl {
     return text.substr(0, text.find('\0'));
   }
 
+  /// Paths of the scales that a dataset's list names, one for each dimension.
+  [[nodiscard]] std::vector<std::string> scales_of(hid_t object) const {
+    if (H5Aexists(object, "DIMENSION_LIST") <= 0) return {};
+    const Handle list(H5Aopen(object, "DIMENSION_LIST", H5P_DEFAULT)), space(H5Aget_space(list.get()));
+    const Handle type(H5Tvlen_create(H5T_STD_REF_OBJ));
+    std::vector<hvl_t> references(
+        static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
+    std::vector<std::string> paths;
+    if (references.empty() || H5Aread(list.get(), type.get(), references.data()) < 0) return paths;
+    for (const hvl_t& reference : references) {
+      if (reference.len == 0) break;
+      const Handle scale(H5Rdereference2(object, H5P_DEFAULT, H5R_OBJECT, reference.p));
+      const std::optional<std::string> path_there = scale.valid() ? fixed_text(scale.get(), scale_path) : std::nullopt;
+      if (!path_there) break;
+      paths.push_back(*path_there);
+    }
+    H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, references.data());
+    return paths;
+  }
+
   void count_rows(const std::string& name, hid_t object) {
     const Handle space(H5Dget_space(object));
     if (!grows(space.get())) return;
@@ -185,6 +205,7 @@ struct Reader::Impl {
     if (info.grows) info.shape[0] = std::min(info.shape[0], complete_rows.at(growth_group(name)));
     const Handle type(H5Dget_type(dataset.get()));
     info.is_text = H5Tget_class(type.get()) == H5T_STRING;
+    info.is_float32 = H5Tget_class(type.get()) == H5T_FLOAT && H5Tget_size(type.get()) == sizeof(float);
     info.unit = text_of(dataset.get(), "units").value_or("1");
     info.description = text_of(dataset.get(), "long_name").value_or("");
     if (info.description.empty())
@@ -301,6 +322,19 @@ Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t co
       H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, array.values.data()) >= 0;
   if (!good) impl_->fail("cannot read " + name);
   return array;
+}
+
+std::vector<std::string> Reader::dimensions(std::string_view path) const {
+  const Hdf5Session session(impl_->untrusted_path());
+  const std::string name = absolute(path);
+  const Handle dataset = impl_->dataset(name);
+  if (const auto own = Impl::fixed_text(dataset.get(), scale_path)) return {*own};
+  return impl_->scales_of(dataset.get());
+}
+
+std::vector<std::string> Reader::texts(std::string_view path) const {
+  const Hdf5Session session(impl_->untrusted_path());
+  return impl_->dataset_texts(absolute(path));
 }
 
 std::string Reader::text(std::string_view path) const {

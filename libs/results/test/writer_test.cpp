@@ -66,6 +66,11 @@ TEST_CASE("Dimensions_AreScalesWithOneName") {
   CHECK(reader.has("/a/time"));
   CHECK(reader.has("/a/phi"));
   CHECK(reader.info("/xyz").is_text);
+  CHECK(reader.texts("/xyz") == std::vector<std::string>{"x", "y", "z"});
+  CHECK(reader.dimensions("/a/force") == std::vector<std::string>{"/time", "/xyz"});
+  CHECK(reader.dimensions("/a/around") == std::vector<std::string>{"/time", "/a/fields/phi"});
+  CHECK(reader.dimensions("/a/phi") == std::vector<std::string>{"/a/fields/phi"});  // a link to it
+  CHECK_THROWS_AS(reader.dimensions("/nowhere"), ReadError);
   CHECK(reader.read("/a/thing").values == std::vector<double>{0, 1, 2});
 }
 

@@ -68,6 +68,7 @@ struct VtkHdfFile::Impl {
   Path path, unfinished;
   std::vector<VtkHdfField> fields;
   hsize_t points = 0, cells = 0;
+  bool moves = false;
   Hdf5Handle file;
 
   [[noreturn]] void fail() const { throw std::runtime_error(fmt::format("{}: cannot be written", path.string())); }
@@ -117,9 +118,9 @@ struct VtkHdfFile::Impl {
     if (!made.valid() || H5Awrite(made.get(), text.get(), grid.data()) < 0) fail();
   }
 
-  void write_grid(const VtkCells& grid) const {
-    const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows = grid.points.transpose();
-    put("VTKHDF/Points", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {points, 3}, rows.data());
+  void write_grid(const VtkCells& grid, std::size_t steps) const {
+    const Hdf5Handle made = create("VTKHDF/Points", H5T_IEEE_F64LE, {points * (moves ? steps : 1), 3});
+    if (!moves) write_rows("VTKHDF/Points", {0, 0}, {points, 3}, grid.points.data());
     put("VTKHDF/NumberOfPoints", std::vector<long long>{static_cast<long long>(points)});
     put("VTKHDF/NumberOfCells", std::vector<long long>{static_cast<long long>(cells)});
     put("VTKHDF/NumberOfConnectivityIds", std::vector<long long>{static_cast<long long>(grid.connectivity.size())});
@@ -130,14 +131,28 @@ struct VtkHdfFile::Impl {
     type_attribute();
   }
 
-  // The grid is the same at all times: each begins at its start.
+  /// Rows of numbers, the numbers of a row one after the other.
+  void write_rows(const std::string& name, const std::array<hsize_t, 2>& start, const std::array<hsize_t, 2>& count,
+                  const double* values) const {
+    const Hdf5Handle data(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT));
+    const Hdf5Handle space(H5Dget_space(data.get()));
+    const Hdf5Handle rows(H5Screate_simple(H5Sget_simple_extent_ndims(space.get()), count.data(), nullptr));
+    const bool is_written =
+        H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0 &&
+        H5Dwrite(data.get(), H5T_NATIVE_DOUBLE, rows.get(), space.get(), H5P_DEFAULT, values) >= 0;
+    if (!is_written) fail();
+  }
+
+  // The cells are the same at all times: each time begins at their start, and at points of its own where these move.
   void write_steps(const std::vector<double>& times) const {
     const std::vector<long long> from_start(times.size(), 0), one(times.size(), 1);
     put("VTKHDF/Steps/Values", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {times.size()}, times.data());
     attribute("VTKHDF/Steps", "NSteps", {static_cast<long long>(times.size())});
     put("VTKHDF/Steps/PartOffsets", from_start);
     put("VTKHDF/Steps/NumberOfParts", one);
-    put("VTKHDF/Steps/PointOffsets", from_start);
+    std::vector<long long> of_points(times.size(), 0);
+    for (std::size_t k = 0; k < times.size() && moves; ++k) of_points[k] = static_cast<long long>(k * points);
+    put("VTKHDF/Steps/PointOffsets", of_points);
     put("VTKHDF/Steps/CellOffsets", from_start, true);
     put("VTKHDF/Steps/ConnectivityIdOffsets", from_start, true);
     for (const VtkHdfField& field : fields) {
@@ -153,7 +168,7 @@ struct VtkHdfFile::Impl {
 };
 
 VtkHdfFile::VtkHdfFile(Path path, const VtkCells& cells, std::vector<VtkHdfField> fields,
-                       const std::vector<double>& times)
+                       const std::vector<double>& times, bool moves)
     : impl_(std::make_unique<Impl>()) {
   Impl& file = *impl_;
   file.path = std::move(path);
@@ -162,9 +177,10 @@ VtkHdfFile::VtkHdfFile(Path path, const VtkCells& cells, std::vector<VtkHdfField
   file.fields = std::move(fields);
   file.points = static_cast<hsize_t>(cells.points.cols());
   file.cells = cells.types.size();
+  file.moves = moves;
   file.file = Hdf5Handle(H5Fcreate(file.unfinished.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   if (!file.file.valid()) file.fail();
-  file.write_grid(cells);
+  file.write_grid(cells, times.size());
   file.write_steps(times);
 }
 
@@ -179,15 +195,22 @@ void VtkHdfFile::write(std::size_t step, std::size_t field, const Eigen::MatrixX
   const VtkHdfField& at = impl_->fields.at(field);
   HERSEY_REQUIRE(values.rows() == at.components && static_cast<hsize_t>(values.cols()) == impl_->columns(at),
                  "a column for each point or cell");
-  const Hdf5Handle data(H5Dopen2(impl_->file.get(), Impl::path_of(at).c_str(), H5P_DEFAULT));
-  const Hdf5Handle space(H5Dget_space(data.get()));
-  const std::array<hsize_t, 2> start{at.is_constant ? 0 : step * impl_->columns(at), 0},
-      count{impl_->columns(at), static_cast<hsize_t>(at.components)};
-  const Hdf5Handle rows(H5Screate_simple(at.components > 1 ? 2 : 1, count.data(), nullptr));
-  const bool is_written =
-      H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0 &&
-      H5Dwrite(data.get(), H5T_NATIVE_DOUBLE, rows.get(), space.get(), H5P_DEFAULT, values.data()) >= 0;
-  if (!is_written) impl_->fail();
+  impl_->write_rows(Impl::path_of(at), {at.is_constant ? 0 : step * impl_->columns(at), 0},
+                    {impl_->columns(at), static_cast<hsize_t>(at.components)}, values.data());
+}
+
+void VtkHdfFile::write_points(std::size_t step, const Eigen::Matrix3Xd& points) {
+  HERSEY_REQUIRE(impl_->moves && static_cast<hsize_t>(points.cols()) == impl_->points, "a column for each point");
+  impl_->write_rows("VTKHDF/Points", {step * impl_->points, 0}, {impl_->points, 3}, points.data());
+}
+
+void VtkHdfFile::write_names(const std::string& name, const std::vector<std::string>& texts) {
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  impl_->put(name, type.get(), type.get(), {texts.size()}, pointers.data());
 }
 
 void VtkHdfFile::close() {

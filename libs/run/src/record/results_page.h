@@ -10,7 +10,7 @@ The tables of this page are made by `hersey schema --results --markdown` from th
 
 A run leaves one HDF5 file. Everything in it is SI; every dataset carries the attributes `units` (`1` for a pure number)
 and `long_name`, and names its dimensions. The file is an ordinary HDF5 file without compression or filters: h5py, MATLAB, Julia, HDFView and
-ParaView's HDF5 tools read it as it is.
+ParaView's HDF5 tools read it as it is. [Other programs](exchange.md) get a copy as netCDF by the CF conventions, or the films over time as surfaces.
 
 ```python
 import h5py

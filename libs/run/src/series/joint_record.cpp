@@ -24,6 +24,13 @@ std::string unit_of(const mbd::JointSpec& joint, const char* angle, const char* 
   return degrees_of(joint) > 1 ? "SI" : is_rotational(joint, 0) ? angle : length;
 }
 
+/// Units of all of them, where the unit is `angle` or `length`.
+std::vector<std::string> units_of(const mbd::JointSpec& joint, const char* angle, const char* length) {
+  std::vector<std::string> units;
+  for (int k = 0; k < degrees_of(joint); ++k) units.emplace_back(is_rotational(joint, k) ? angle : length);
+  return units;
+}
+
 template <class Member>
 auto values_of(Member member) {
   return [member](const mbd::JointObservation& observation) {
@@ -43,7 +50,7 @@ const QuantityTable<mbd::JointObservation, mbd::JointSpec>& joint_quantities() {
        "joint coordinates, names in the joint's attribute coordinate_names",
        values_of(&mbd::JointObservation::position),
        {.symbol = "q",
-        .note = "[n] of a joint with one; `SI` where mixed",
+        .note = "[n] of a joint with one; `SI` of several: the attribute `column_units` has that of each",
         .only = has_degrees,
         .extent = coordinates,
         .unit = [](const mbd::JointSpec& joint) { return unit_of(joint, "rad", "m"); }}},
@@ -51,7 +58,7 @@ const QuantityTable<mbd::JointObservation, mbd::JointSpec>& joint_quantities() {
        "rad/s|m/s|SI",
        "rates of the joint coordinates",
        values_of(&mbd::JointObservation::rate),
-       {.note = "[n] of a joint with one; `SI` where mixed",
+       {.note = "[n] of a joint with one; `SI` of several: the attribute `column_units` has that of each",
         .only = has_degrees,
         .extent = coordinates,
         .unit = [](const mbd::JointSpec& joint) { return unit_of(joint, "rad/s", "m/s"); }}},
@@ -75,7 +82,12 @@ JointRows declare_joint(const mbd::JointSpec& joint, const JointRows* other, res
   if (degrees_of(joint) > 1)
     writer.labels(group_of(joint) + "coordinate", coordinate_names(joint), "joint coordinates");
   write_once(joint_name_attributes(), group_of(joint), joint, writer);
-  return {joint_quantities(), group_of(joint), joint, writer, other};
+  JointRows rows{joint_quantities(), group_of(joint), joint, writer, other};
+  if (degrees_of(joint) > 1) {
+    writer.attribute(group_of(joint) + "coordinates", results::column_units, units_of(joint, "rad", "m"));
+    writer.attribute(group_of(joint) + "rates", results::column_units, units_of(joint, "rad/s", "m/s"));
+  }
+  return rows;
 }
 
 }  // namespace

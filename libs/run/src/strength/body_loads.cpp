@@ -17,6 +17,7 @@
 #include "hersey/fem/film_surface.h"
 #include "hersey/film/nodal_field.h"
 #include "hersey/run/model_of_results.h"
+#include "strength/stored_motion.h"
 
 namespace hersey::run {
 namespace {
@@ -63,27 +64,6 @@ Pose pose_of_frame(const model::Model& model, const model::FrameName& frame) {
   for (const model::Frame& candidate : body_called(model, frame.body).frames)
     if (candidate.name == frame.frame) return candidate.X_BF;
   return {};
-}
-
-Vector3 vector_at(const results::Reader& results, const std::string& path, std::size_t row) {
-  const results::Array values = results.read_rows(path, row, 1);
-  return {values.values[0], values.values[1], values.values[2]};
-}
-
-/// Axes of a body in ground; of ground its own.
-Matrix3 orientation_at(const results::Reader& results, const std::string& body, std::size_t row) {
-  const std::string path = "/bodies/" + body + "/orientation";
-  if (!results.has(path)) return Matrix3::Identity();
-  const std::vector<double> q = results.read_rows(path, row, 1).values;
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-}
-
-/// The one of ascending times that is nearest; fields are stored in rows of their own.
-std::size_t row_at(const std::vector<double>& times, double time) {
-  const auto next = std::lower_bound(times.begin(), times.end(), time);
-  auto row = static_cast<std::size_t>(std::min(next - times.begin(), static_cast<std::ptrdiff_t>(times.size()) - 1));
-  if (row > 0 && std::abs(times[row - 1] - time) < std::abs(times[row] - time)) --row;
-  return row;
 }
 
 /// What each instant counts in a mean over the time from the first to the last, by the trapezoidal rule; one of a

@@ -33,14 +33,16 @@ struct VtkHdfField {
   bool is_constant = false;  ///< the same at all times, written once
 };
 
-/// Unstructured grid that does not move, with fields over time, in one file of format VTKHDF 2.0, which ParaView 5.12
-/// and later open with their times. The file appears under its name with close(); until then it is `<path>.new`.
-/// @see VTKHDF File Format (docs.vtk.org). @verified_by loads_test.py
+/// Unstructured grid with fields over time, in one file of format VTKHDF 2.0, which ParaView 5.12 and later open with
+/// their times. Its cells stay the same, its points may move. The file appears under its name with close(); until then
+/// it is `<path>.new`.
+/// @see VTKHDF File Format (docs.vtk.org). @verified_by loads_test.py, films_test.py
 class VtkHdfFile {
  public:
   /// Writes grid and times; fields are filled by write(). @throws std::runtime_error naming the file
+  /// @param moves  the points of each time are written by write_points()
   VtkHdfFile(std::filesystem::path path, const VtkCells& cells, std::vector<VtkHdfField> fields,
-             const std::vector<double>& times);
+             const std::vector<double>& times, bool moves = false);
   VtkHdfFile(const VtkHdfFile&) = delete;
   VtkHdfFile& operator=(const VtkHdfFile&) = delete;
   ~VtkHdfFile();
@@ -48,6 +50,13 @@ class VtkHdfFile {
   /// Writes values (components, points or cells) of field number `field` at time number `step`, 0 for a constant one.
   /// @throws std::runtime_error naming the file
   void write(std::size_t step, std::size_t field, const Eigen::MatrixXd& values);
+
+  /// Writes the points of a grid that moves at time number `step` [m]. @throws std::runtime_error naming the file
+  void write_points(std::size_t step, const Eigen::Matrix3Xd& points);
+
+  /// Writes names, such as those of the parts that a field numbers, beside the grid: VTK passes over it.
+  /// @throws std::runtime_error naming the file
+  void write_names(const std::string& name, const std::vector<std::string>& texts);
 
   /// Completes the file. @throws std::runtime_error naming the file
   void close();

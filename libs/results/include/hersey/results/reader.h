@@ -16,8 +16,9 @@ namespace hersey::results {
 /// Description of a dataset, without its numbers.
 struct DatasetInfo {
   std::vector<std::size_t> shape;
-  bool grows = false;    ///< one entry of the first dimension per stored instant
-  bool is_text = false;  ///< names of a dimension, not numbers
+  bool grows = false;       ///< one entry of the first dimension per stored instant
+  bool is_text = false;     ///< names of a dimension, not numbers
+  bool is_float32 = false;  ///< numbers are stored in four bytes
   std::string unit;
   std::string description;
 };
@@ -64,6 +65,11 @@ class Reader {
   /// Rows first, first + stride, ... of a dataset; one row is one entry of its first dimension.
   [[nodiscard]] Array read_rows(std::string_view path, std::size_t first, std::size_t count,
                                 std::size_t stride = 1) const;
+  /// Returns the paths of the dimensions of a dataset, the slowest first; of a dimension its own first path, and none
+  /// where the file names none.
+  [[nodiscard]] std::vector<std::string> dimensions(std::string_view path) const;
+  /// Returns all strings of a dataset, row-major.
+  [[nodiscard]] std::vector<std::string> texts(std::string_view path) const;
   /// The one string of a dataset, such as the model's text.
   [[nodiscard]] std::string text(std::string_view path) const;
   /// Pairs of a dataset [n, 2] of strings, such as the assumptions.

@@ -64,6 +64,9 @@ struct LatestRow {
   std::vector<double> values;  ///< empty before the first row
 };
 
+/// Attribute of a series whose columns have different units, "SI": the unit of each.
+inline constexpr const char* column_units = "column_units";
+
 /// How numbers of a series are stored.
 enum class Precision { float64, float32 };
 
