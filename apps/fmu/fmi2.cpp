@@ -1,4 +1,4 @@
-#include "fmi2.h"
+#include "hersey/fmi/fmi2_types.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "fmi3.h"
+#include "hersey/fmi/fmi3_types.h"
 
 #include <string>
 

@@ -84,6 +84,9 @@ int export_fmu(const Arguments& arguments) {
   }
   const session::Session session(arguments.model, arguments.overrides);
   const model::Model& model = session.model();
+  if (!model.fmus.empty())
+    throw InputError(Fault{model.position_of("fmus"), "fmus", "a model with FMUs of its own",
+                           "a model without: FMUs of the parts, which the importing program connects", ""});
   for (const std::filesystem::path& file : session.files()) {
     std::error_code ignored;
     if (std::filesystem::equivalent(file, target, ignored))

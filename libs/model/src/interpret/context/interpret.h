@@ -177,6 +177,10 @@ void require_facing_surfaces(Context& context, const Value& value, const Bearing
 // The sections of the file.
 void interpret_bodies(Context& context);
 void interpret_joints(Context& context);
+/// The section `fmus`. Before all that follows outputs of FMUs.
+void interpret_fmus(Context& context);
+/// Reports analyses in which FMUs cannot take part. After simulation.
+void check_fmus(Context& context);
 void interpret_drives(Context& context);
 void interpret_couplings(Context& context);
 void interpret_forces(Context& context);
