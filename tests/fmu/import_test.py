@@ -34,7 +34,7 @@ fmus:
   controller:
     file: controller.fmu
     step: 1 ms
-    inputs: {{speed: joints.shaft.rotation_rate, wanted: {WANTED} rad/s}}
+    inputs: {{speed: shaft.rotation_rate, wanted: {WANTED} rad/s}}
     parameters: {{"gain[1].proportional": {PROPORTIONAL} N.m.s/rad, "gain[1].integral": {INTEGRAL}}}
 forces:
   motor: {{type: torque, body: rotor, direction: z, magnitude: {{fmu: controller, output: torque}}}}
@@ -57,13 +57,13 @@ def closed_form(t):
     return WANTED + np.real(a[0] * np.exp(roots[0] * t) + a[1] * np.exp(roots[1] * t))
 
 
-def recurrence(step, count, ramp=False, extrapolated=False):
+def recurrence(step, count, hold="constant"):
     """Speed at the exchanges, and the torque from each on: the rotor under the controller's outputs, exactly."""
     speed, stored, given = 60.0, 0.0, 60.0
     torque = before = PROPORTIONAL * (WANTED - speed)
     speeds, torques = [speed], [torque]
     for _ in range(count):
-        mean = torque if not (ramp or extrapolated) else (before + torque) / 2 if ramp else torque + (torque - before) / 2
+        mean = torque + {"constant": 0, "ramp": before - torque, "extrapolated": torque - before}[hold] / 2
         given = speed
         speed += step / INERTIA * (mean - LOAD)
         stored += INTEGRAL * (WANTED - given) * step
@@ -119,31 +119,32 @@ class Cases:
     def speeds(self, *sets):
         """Times, speeds, and signals of the controller at all rows."""
         with h5py.File(self.results(self.model, *sets)) as file:
-            return {name: file[path][:] for name, path in (("t", "time"), ("w", "joints/shaft/rotation_rate"),
+            return {name: file[path][:] for name, path in (("t", "time"), ("w", "joints/shaft/rates"),
                                                            ("torque", "fmus/controller/torque"),
                                                            ("given", "fmus/controller/speed"),
                                                            ("wanted", "fmus/controller/wanted"))}
 
     def test_the_run_is_that_of_a_sampled_controller(self):
-        self.assertIn("ok", self.hersey("check", self.model).lower())
-        for hold in ("constant", "ramp", "extrapolated"):
-            for step, every in (("1 ms", 2), ("0.5 ms", 1)):
-                with self.subTest(hold=hold, step=step):
-                    found = self.speeds(f"fmus.controller.step={step}", f"forces.motor.magnitude.hold={hold}")
-                    self.assertEqual(len(found["t"]), 401)
-                    speeds, torques = recurrence(every * 0.5e-3, 400 // every, ramp=hold == "ramp",
-                                                 extrapolated=hold == "extrapolated")
-                    # The integrator is exact for accelerations that are linear in time; 400 steps of round-off.
-                    np.testing.assert_allclose(found["w"][::every], speeds, rtol=1e-11)
-                    # A row at an exchange has what acted until then.
-                    np.testing.assert_allclose(found["torque"][every::every], torques[:-1], rtol=1e-10)  # differences of these
-                    np.testing.assert_allclose(found["given"][every::every], speeds[:-1], rtol=1e-11)  # as the speeds
-                    self.assertEqual(set(found["wanted"]), {WANTED})
+        self.assertIn("good", self.hersey("check", self.model))
+        for hold, step, every, solver, rtol in (
+                ("constant", "1 ms", 2, "0.5 ms", 1e-11),  # the integrator is exact for constant accelerations: round-off of 400 steps
+                ("constant", "0.5 ms", 1, "0.5 ms", 1e-11),  # as above
+                # Its error at bends of the acceleration is of second order in its step: a few 1e-6 at 0.5 ms.
+                ("ramp", "1 ms", 10, "0.1 ms", 1e-6), ("extrapolated", "1 ms", 10, "0.1 ms", 1e-6)):
+            with self.subTest(hold=hold, step=step):
+                found = self.speeds(f"fmus.controller.step={step}", f"forces.motor.magnitude.hold={hold}",
+                                    f"simulation.step={solver}")
+                speeds, torques = recurrence(float(step.split()[0]) * 1e-3, (len(found["t"]) - 1) // every, hold)
+                np.testing.assert_allclose(found["w"][::every], speeds, rtol=rtol)
+                # A row at an exchange has what acted until then.
+                np.testing.assert_allclose(found["torque"][every::every], torques[:-1], atol=rtol * PROPORTIONAL * WANTED)
+                np.testing.assert_allclose(found["given"][every::every], speeds[:-1], rtol=rtol)
+                self.assertEqual(set(found["wanted"]), {WANTED})
 
     def test_it_comes_to_speed_control_with_the_first_order(self):
         own = self.write("own.yaml", OWN)
         with h5py.File(self.results(own, "simulation.step=0.05 ms", name="own")) as file:
-            expected = np.interp(np.arange(1, 21) * END / 20, file["time"][:], file["joints/shaft/rotation_rate"][:])
+            expected = np.interp(np.arange(1, 21) * END / 20, file["time"][:], file["joints/shaft/rates"][:])
         np.testing.assert_allclose(expected, closed_form(np.arange(1, 21) * END / 20),
                                    atol=1e-3)  # its integral begins with the second step
         off = []
@@ -153,7 +154,8 @@ class Cases:
                               closed_form(np.arange(1, 21) * END / 20)).max())
         print(f"distance from the closed form at 4, 2, 1 and 0.5 ms: {off}")
         np.testing.assert_allclose(np.log2(np.array(off[:-1]) / off[1:]), 1, atol=0.15)  # steps that are not yet small
-        self.assertLess(off[-1], 0.2)
+        # The torque is one and a half communication steps old on average, and the speed changes by the first acceleration at most.
+        self.assertLess(off[-1], 1.5 * 0.5e-3 * (PROPORTIONAL * 40 - LOAD) / INERTIA)
 
     def test_steps_that_do_not_divide_each_other(self):
         found = self.speeds("fmus.controller.step=0.7 ms")
@@ -187,7 +189,7 @@ class Cases:
         # An input that the model does not connect keeps its start value.
         text = ROTOR.replace(f", wanted: {WANTED} rad/s", "").replace("parameters: {", "parameters: {wanted: 100 rad/s, ")
         with h5py.File(self.results(self.write("start.yaml", text))) as file:
-            np.testing.assert_array_equal(file["joints/shaft/rotation_rate"][:], plain)
+            np.testing.assert_array_equal(file["joints/shaft/rates"][:], plain)
 
     def test_functions_of_time_and_scales(self):
         text = ROTOR.replace(f"wanted: {WANTED} rad/s", 'wanted: {expression: "100 + 50*(t > 0.1)", unit: rad/s}')
@@ -199,18 +201,18 @@ class Cases:
         plain = self.speeds()["w"]
         with h5py.File(self.results(self.write("turned.yaml", turned))) as file:
             # A minus on the gain and one on the output.
-            np.testing.assert_allclose(file["joints/shaft/rotation_rate"][0], plain[0])
+            np.testing.assert_allclose(file["joints/shaft/rates"][0], plain[0])
 
     def test_a_drive_follows_an_output(self):
         text = ROTOR[:ROTOR.index("forces:")] + (
             "drives:\n  motor: {joint: shaft, coordinate: rotation, acceleration: {fmu: controller, output: torque, "
-            'hold: ramp, scale: "50 1/(kg.m^2)"}}\n') + ROTOR[ROTOR.index("simulation:"):]
+            'hold: ramp, scale: "50 rad/(kg.m^2)"}}\n') + ROTOR[ROTOR.index("simulation:"):]
         # The load is no part of it: the acceleration of the rotor is torque over inertia.
         with h5py.File(self.results(self.write("drive.yaml", text))) as file:
-            w, effort = file["joints/shaft/rotation_rate"][:], file["drives/motor/force_or_torque"][:]
+            w, effort = file["joints/shaft/rates"][:], file["drives/motor/force_or_torque"][:]
             torque = file["fmus/controller/torque"][:]
         self.assertLess(abs(w[-1] - WANTED), abs(w[0] - WANTED) / 4)
-        np.testing.assert_allclose(effort[2::2], torque[:-1:2], rtol=0.2)  # one communication step late: near, not equal
+        np.testing.assert_allclose(effort[2::2], torque[:-1:2], atol=0.5)  # a communication step late: near, not equal
 
     def test_interrupted_runs_go_on_to_the_same_bits(self):
         out = os.path.join(self.folder, "interrupted")
@@ -219,7 +221,7 @@ class Cases:
             self.assertLess(file["time"][-1], 0.06)
         self.hersey("run", self.model, "--output", out, "--resume")
         with h5py.File(os.path.join(out, "results.h5")) as file, h5py.File(self.results(self.model)) as whole:
-            for path in ("time", "joints/shaft/rotation_rate", "fmus/controller/torque", "fmus/controller/speed"):
+            for path in ("time", "joints/shaft/rates", "fmus/controller/torque", "fmus/controller/speed"):
                 np.testing.assert_array_equal(file[path][:], whole[path][:], path)
 
     def test_resuming_needs_a_state(self):
@@ -279,20 +281,21 @@ class FaultsTest(Folder):
 
     def test_names_units_and_kinds(self):
         build(os.path.join(self.folder, "controller.fmu"), 3)
-        speed = "speed: joints.shaft.rotation_rate"
+        speed = "speed: shaft.rotation_rate"
         output = "output: torque"
         for changes, said in (
                 ([("speed:", "sped:")], ["model.yaml:10", "no variable 'sped'", "did you mean 'speed'"]),
                 ([("speed:", "torque:")], ["model.yaml:10", "'torque', whose causality is output", "speed"]),
-                ([(speed, "speed: joints.shaft.rotation_rat")], ["model.yaml:10", "did you mean 'joints.shaft.rotation_rate'"]),
-                ([(speed, "speed: joints.shaft.rotation")], ["model.yaml:10", "in rad", "rad/s"]),
+                ([(speed, "speed: shaft.rotation_rat")], ["model.yaml:10", "no quantity 'shaft.rotation_rat'"]),
+                ([(speed, "speed: joints.shaft.rate")], ["model.yaml:10", "did you mean 'joints.shaft.rates'"]),
+                ([(speed, "speed: joints.shaft.coordinates")], ["model.yaml:10", "in rad", "rad/s"]),
                 ([(speed, "speed: 3 N")], ["model.yaml:10", "a force", "an angular velocity"]),
                 ([(output, "output: torqe")], ["model.yaml:13", "no variable 'torqe'", "torque"]),
                 ([(output, "output: speed")], ["model.yaml:13", "causality is input"]),
                 ([(output, "output: row")], ["model.yaml:13", "an array"]),
                 ([(output, "output: count")], ["model.yaml:13", "of type Int32"]),
                 ([(output, "output: flux")], ["model.yaml:13", "'T'"]),
-                ([(output, "output: distance")], ["model.yaml:13", "'furlong'"]),
+                ([(output, "output: distance")], ["model.yaml:13", "'bananas'"]),
                 ([(output, "output: torque, scale: 2 m")], ["model.yaml:13", "a torque"]),
                 ([("fmu: controller", "fmu: controler")], ["model.yaml:13", "did you mean 'controller'"]),
                 ([('"gain[1].integral"', '"gain[2].integral"')], ["model.yaml:11", "no variable 'gain[2].integral'"]),
@@ -368,7 +371,7 @@ bodies:
 joints:
   main: {type: revolute, between: [ground, wheel], initial: {rotation_rate: 3000 rpm}}
 fmus:
-  bearing: {file: bearing.fmu, step: 0.4 ms, inputs: {drives.motor.speed: joints.main.rotation_rate}}
+  bearing: {file: bearing.fmu, step: 0.4 ms, inputs: {drives.motor.speed: main.rotation_rate}}
 forces:
   friction: {type: torque, body: wheel, direction: z, magnitude: {fmu: bearing, output: drives.motor.force_or_torque, scale: -1}}
 simulation: {duration: 4 ms, step: 0.02 ms}
@@ -380,7 +383,7 @@ class OwnFmuTest(Folder):
 
     def test_a_machine_in_two_parts_is_the_whole_one_as_exchanges_come_closer(self):
         with h5py.File(self.results(self.write("coast.yaml", COAST), name="coast")) as file:
-            whole = file["joints/main/rotation_rate"][:]
+            whole = file["joints/main/rates"][:]
         self.assertLess(whole[-1], 0.9 * whole[0])
         bearing = self.write("bearing.yaml", BEARING)
         flywheel = self.write("flywheel.yaml", FLYWHEEL)
@@ -389,7 +392,7 @@ class OwnFmuTest(Folder):
             self.hersey("export", bearing, "--fmu", os.path.join(self.folder, "bearing.fmu"), "--force", "--fmi", version)
             for step in (0.4, 0.2, 0.1):
                 with h5py.File(self.results(flywheel, f"fmus.bearing.step={step} ms", name="flywheel")) as file:
-                    off.append(np.abs(file["joints/main/rotation_rate"][:] - whole).max() / (whole[0] - whole[-1]))
+                    off.append(np.abs(file["joints/main/rates"][:] - whole).max() / (whole[0] - whole[-1]))
             print(f"FMI {version}: distance from the whole machine over the loss of speed: {off}")
             np.testing.assert_allclose(np.log2(np.array(off[:-1]) / off[1:]), 1, atol=0.2)  # steps that are not yet small
             self.assertLess(off[-1], 0.02)

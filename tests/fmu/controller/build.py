@@ -13,7 +13,7 @@ UNITS = """<UnitDefinitions>
   <Unit name="N.m"><BaseUnit kg="1" m="2" s="-2"/></Unit>
   <Unit name="kN.m.s/rad"><BaseUnit kg="1" m="2" s="-1" rad="-1" factor="1000"/></Unit>
   <Unit name="T"><BaseUnit kg="1" s="-2" A="-1"/></Unit>
-  <Unit name="furlong"/>
+  <Unit name="bananas"/>
 </UnitDefinitions>
 """
 # name, reference, type of FMI 2, type of FMI 3, causality, start, unit
@@ -28,7 +28,7 @@ VARIABLES = [
     ("is_reversed", 8, "Boolean", "Boolean", "parameter", "false", None),
     ("name", 9, "String", "String", "parameter", "PI", None),
     ("flux", 10, "Real", "Float64", "output", None, "T"),
-    ("distance", 11, "Real", "Float64", "output", None, "furlong"),
+    ("distance", 11, "Real", "Float64", "output", None, "bananas"),
     ("count", 12, "Integer", "Int32", "output", None, None),
     ("sum", 13, "Real", "Float64", "local", None, None),
 ]

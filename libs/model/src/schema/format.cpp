@@ -142,31 +142,33 @@ TypePtr fmu_output_format() {
 const std::string kOperations =
     "`+ - * / ^`, comparisons, `?:`, `pi`, `e`, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, "
     "log10, sqrt, abs, sign, min, max.";
+const std::string kInTimeAndCoordinates =
+    "Formula in `t` [s] and joint coordinates such as `main.rotation` [rad or m] and `main.rotation_rate` [rad/s or "
+    "m/s]; " +
+    kOperations;
 
 }  // namespace
 
 TypePtr function_format(const std::vector<std::string>& si_units, const std::string& example) {
   std::string id = "function";
   for (const std::string& unit : si_units) id += " " + unit;
-  std::vector<TypePtr> mappings = mappings_of_functions(
-      example, "100*sin(2*pi*50*t)",
-      "Formula in `t` [s] and joint coordinates such as `main.rotation` [rad or m] and `main.rotation_rate` [rad/s or "
-      "m/s]; " +
-          kOperations,
-      defaulted("over", text("time or joint.coordinate", "main.rotation"), "time", "What x is."));
+  std::vector<TypePtr> mappings =
+      mappings_of_functions(example, "100*sin(2*pi*50*t)", kInTimeAndCoordinates,
+                            defaulted("over", text("time or joint.coordinate", "main.rotation"), "time", "What x is."));
   mappings.push_back(fmu_output_format());
   return constant_or(si_units, example, std::move(mappings), ", an expression, a table or the output of an FMU", id);
 }
 
 TypePtr fmu_input_format() {
   std::vector<TypePtr> ways =
-      mappings_of_functions("3000 rpm", "100*sin(2*pi*50*t)", "Formula in `t` [s]; " + kOperations,
-                            defaulted("over", text("time", "time"), "time", "What x is."));
-  ways.insert(ways.begin(), text("the name of a quantity, or a number with its unit", "joints.main.rotation_rate"));
-  return with_id(any_of("the name of a quantity of the results such as joints.main.rotation_rate, a constant such as "
-                        "3000 rpm, an expression or a table",
+      mappings_of_functions("3000 rpm", "100*sin(2*pi*50*t)", kInTimeAndCoordinates,
+                            defaulted("over", text("time or joint.coordinate", "main.rotation"), "time", "What x is."));
+  ways.insert(ways.begin(),
+              text("a joint coordinate, a quantity of the results, or a number with its unit", "main.rotation_rate"));
+  return with_id(any_of("a joint coordinate such as main.rotation_rate, a quantity of the results such as "
+                        "bearings.main.h_min, a constant such as 3000 rpm, an expression or a table",
                         std::move(ways)),
-                 "input of an FMU");
+                 "function for an FMU");
 }
 
 TypePtr law_format(const std::string& si_unit, const std::string& argument, const std::string& argument_unit,

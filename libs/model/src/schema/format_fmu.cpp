@@ -24,9 +24,10 @@ TypePtr fmus_format() {
                           "Communication step: the time between two exchanges. Steps of the machine end at each."),
                  optional("inputs",
                           by_variable("a mapping from inputs of the FMU to what they are given", fmu_input_format()),
-                          "What its inputs are given at each exchange: a quantity of the "
-                          "[results](results-file.md) by its path with dots, `bearings.main.h_min`, a component "
-                          "`bodies.rod.position.x` or `bodies.rod.amplitudes[1]`; or a function of time.",
+                          "What its inputs are given at each exchange: a joint coordinate or its rate as in "
+                          "expressions, `main.rotation_rate`; a quantity of the [results](results-file.md) by its path "
+                          "with dots, `bearings.main.h_min`, with a component `bodies.rod.position.x` or "
+                          "`bodies.rod.amplitudes[1]`; or a function of time and joint coordinates.",
                           "its own start values"),
                  optional("parameters",
                           by_variable("a mapping from parameters of the FMU to values",

@@ -89,8 +89,6 @@ void FmuExchange::follow(model::Function& function, Jump of_value, Jump of_slope
   auto own = std::make_shared<FmuFunction>();
   own->begin_at(model_.simulation.start, signal.scale * signals_[signal.fmu].outputs[signal.output], 0);
   function.value = own;
-  // A ramp begins where the last one has ended: it differs by round-off at most.
-  if (signal.hold == model::FmuHold::ramp) of_value = Jump::none;
   followers_.push_back({std::move(own), signal, of_value, of_slope});
 }
 
@@ -169,7 +167,9 @@ Jump FmuExchange::go_on_from(std::size_t f, double t) {
     const double slope = signal.hold == model::FmuHold::constant ? 0 : (now - before) / model_.fmus[f].step;
     const double value = signal.hold == model::FmuHold::ramp ? before : now;
     FmuFunction& function = *follower.function;
-    if (function.value({&t, 1}) != value) jump = std::max(jump, follower.of_value);
+    // A ramp begins where the last one has ended, but for round-off.
+    const bool is_continuous = signal.hold == model::FmuHold::ramp && units_[f].exchanges > 0;
+    if (!is_continuous && function.value({&t, 1}) != value) jump = std::max(jump, follower.of_value);
     if (function.slope() != slope) jump = std::max(jump, follower.of_slope);
     function.begin_at(t, value, slope);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "hersey/core/contract.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
@@ -33,14 +34,16 @@ bool is_same_dimension(const std::string& unit, const std::string& other) {
 }  // namespace
 
 FmuInputs::FmuInputs(const model::Model& model, const model::Machine& machine, const solver::State& start)
-    : model_(model), snapshot_(model, machine, start, Options{}) {
+    : model_(model), machine_(machine), snapshot_(model, machine, start, Options{}) {
   std::vector<Fault> faults;
   for (const model::Fmu& fmu : model.fmus) {
     std::vector<Column>& columns = columns_.emplace_back();
     for (const model::FmuInput& input : fmu.inputs) {
       columns.emplace_back();
+      if (input.function) continue;
+      reads_rows_ = true;
       try {
-        if (!input.function) columns.back() = find(input);
+        columns.back() = find(input);
       } catch (const InputError& error) {
         faults.push_back(error.faults().front());
       }
@@ -72,16 +75,35 @@ FmuInputs::Column FmuInputs::find(const model::FmuInput& input) const {
                          did_you_mean(input.quantity, all)});
 }
 
+double FmuInputs::value_of(const model::Function& function, const mbd::Observation& seen) const {
+  std::vector<double> x;
+  const std::vector<mbd::JointSpec>& joints = machine_.mechanism->spec().joints;
+  for (const model::Variable& variable : function.variables) {
+    if (variable.kind == model::Variable::Kind::time) {
+      x.push_back(seen.t);
+      continue;
+    }
+    const auto joint = std::find_if(joints.begin(), joints.end(),
+                                    [&](const mbd::JointSpec& one) { return one.name == variable.joint; });
+    HERSEY_REQUIRE(joint != joints.end(), "the reader checks joints");
+    const mbd::JointObservation& own = seen.joints[static_cast<std::size_t>(joint - joints.begin())];
+    const auto coordinate = mbd::find_coordinate(joint->type, variable.coordinate);
+    HERSEY_REQUIRE(coordinate && coordinate->size == 1, "the reader checks coordinates");
+    const auto& values = variable.kind == model::Variable::Kind::rate ? own.rate : own.position;
+    x.push_back(values[static_cast<std::size_t>(coordinate->offset)]);
+  }
+  return function.value->value(x);
+}
+
 std::vector<std::vector<double>> FmuInputs::at(const StepRecord& step, const EnergySummary& energy) {
-  snapshot_.write_row(step, energy);
-  const double t = step.mechanism.t;
+  if (reads_rows_) snapshot_.write_row(step, energy);
   std::vector<std::vector<double>> values;
   for (std::size_t f = 0; f < model_.fmus.size(); ++f) {
     std::vector<double>& own = values.emplace_back();
     for (std::size_t i = 0; i < columns_[f].size(); ++i) {
       const std::optional<model::Function>& function = model_.fmus[f].inputs[i].function;
       const Column& column = columns_[f][i];
-      own.push_back(function ? function->value->value({&t, function->is_constant() ? 0U : 1U})
+      own.push_back(function ? value_of(*function, step.mechanism)
                              : snapshot_.latest()[column.row].values[column.column]);
     }
   }

@@ -28,10 +28,13 @@ class FmuInputs {
     std::size_t row = 0, column = 0;
   };
   [[nodiscard]] Column find(const model::FmuInput& input) const;
+  [[nodiscard]] double value_of(const model::Function& function, const mbd::Observation& seen) const;
 
   const model::Model& model_;
+  const model::Machine& machine_;
   Recorder snapshot_;
   std::vector<std::vector<Column>> columns_;  ///< of each input of each FMU; unused where it is a function
+  bool reads_rows_ = false;                   ///< there is an input that is none
 };
 
 }  // namespace hersey::run

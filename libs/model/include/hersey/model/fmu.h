@@ -13,13 +13,14 @@
 /// The section `fmus`: other programs' models that run beside the machine (theory manual, coupled programs).
 namespace hersey::model {
 
-/// What an input of an FMU is given at each exchange: a quantity of the results file, or a function of time.
+/// What an input of an FMU is given at each exchange: a quantity of the results file, or a function of time and joint
+/// coordinates.
 struct FmuInput {
   fmi::Variable variable;
-  std::string quantity;              ///< "joints.main.rotation_rate"; empty: the function
-  std::optional<Function> function;  ///< of time
-  std::string unit;                  ///< SI unit of the variable; empty: it has none, and takes the number in SI
-  std::string path;                  ///< key path, "fmus.controller.inputs.speed"
+  std::string quantity;  ///< "bearings.main.h_min"; empty: the function
+  std::optional<Function> function;
+  std::string unit;  ///< SI unit of the variable; empty: it has none, and takes the number in SI
+  std::string path;  ///< key path, "fmus.controller.inputs.speed"
   SourcePosition position;
 };
 

@@ -108,6 +108,15 @@ struct Argument {
   std::string name, unit;
 };
 
+/// A joint coordinate or its rate, as expressions name it, and its SI unit.
+struct JointVariable {
+  Variable variable;
+  std::string unit;
+};
+
+/// The one called `name`, "main.rotation_rate"; nothing where there is no such joint or coordinate.
+[[nodiscard]] std::optional<JointVariable> joint_variable(const Context& context, const std::string& name);
+
 /// A function whose value is wanted in `si_unit`; reports every fault of its expression, table, units and file.
 /// @param argument  what alone it depends on; without a name: time and joint coordinates
 [[nodiscard]] Function function_of(Context& context, const Value& value, const std::string& si_unit,

@@ -34,7 +34,7 @@ class FunctionReader {
       read_constant(content);
     } else if (content.has("expression")) {
       read_expression(content);
-    } else if (content.find("table") != nullptr) {
+    } else if (content.has("table")) {
       read_table(content);
     } else if (content.has("fmu")) {
       read_fmu(content);
@@ -211,28 +211,16 @@ class FunctionReader {
       return Variable{Variable::Kind::argument, "", name};
     }
     if (name == "t") return Variable{};
-    const auto dot = name.find('.');
-    if (dot == std::string::npos) return std::nullopt;
-    const std::string joint = name.substr(0, dot), rest = name.substr(dot + 1);
-    const auto coordinates = coordinates_of_joint(context_.root, joint);
-    if (!coordinates) return std::nullopt;
-    for (const JointCoordinate& coordinate : *coordinates) {
-      if (rest == coordinate.name) return Variable{Variable::Kind::coordinate, joint, coordinate.name};
-      if (rest == coordinate.name + "_rate") return Variable{Variable::Kind::rate, joint, coordinate.name};
-    }
-    return std::nullopt;
+    const std::optional<JointVariable> found = joint_variable(context_, name);
+    return found ? std::optional(found->variable) : std::nullopt;
   }
 
   std::string unit_of(const Variable& variable) {
     if (variable.kind == Variable::Kind::argument) return argument_.unit;
     if (variable.kind == Variable::Kind::time) return "s";
-    const auto coordinates = coordinates_of_joint(context_.root, variable.joint);
-    bool rotational = false;
-    for (const JointCoordinate& coordinate : *coordinates) {
-      if (coordinate.name == variable.coordinate) rotational = coordinate.rotational;
-    }
-    const std::string unit = rotational ? "rad" : "m";
-    return variable.kind == Variable::Kind::rate ? unit + "/s" : unit;
+    return joint_variable(context_, variable.joint + "." + variable.coordinate +
+                                        (variable.kind == Variable::Kind::rate ? "_rate" : ""))
+        ->unit;
   }
 
   // --- tables ----------------------------------------------------------------------------------------------------
@@ -378,6 +366,21 @@ class FunctionReader {
 };
 
 }  // namespace
+
+std::optional<JointVariable> joint_variable(const Context& context, const std::string& name) {
+  const auto dot = name.find('.');
+  if (dot == std::string::npos) return std::nullopt;
+  const std::string joint = name.substr(0, dot), rest = name.substr(dot + 1);
+  const auto coordinates = coordinates_of_joint(context.root, joint);
+  if (!coordinates) return std::nullopt;
+  for (const JointCoordinate& coordinate : *coordinates) {
+    const std::string unit = coordinate.rotational ? "rad" : "m";
+    if (rest == coordinate.name) return JointVariable{{Variable::Kind::coordinate, joint, coordinate.name}, unit};
+    if (rest == coordinate.name + "_rate")
+      return JointVariable{{Variable::Kind::rate, joint, coordinate.name}, unit + "/s"};
+  }
+  return std::nullopt;
+}
 
 Function function_of(Context& context, const Value& value, const std::string& si_unit, const Argument& argument) {
   return FunctionReader(context, si_unit, argument).read(value);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "hersey/core/expression.h"
 #include "hersey/core/quantity_formula.h"
 #include "hersey/core/spelling.h"
 #include "hersey/core/units.h"
@@ -92,21 +93,33 @@ class FmuReader {
                    .position = given.position};
     const Value& content = given.members.front().value;
     if (content.type->kind != Type::Kind::text)
-      input.function = function_of_time(given, content, input.unit);
+      input.function = function(given, content, input.unit);
     else if (begins_as_number(formula_of_scalar(content)))
       input.function = constant(content, input.unit);
+    else if (const auto coordinate = joint_variable(context_, content.text))
+      input.function = value_of(*coordinate, content, input);
     else
       input.quantity = content.text;
     fmu_.inputs.push_back(std::move(input));
   }
 
   /// An expression or table; for a variable without a unit in the SI unit of what it gives.
-  std::optional<Function> function_of_time(const Value& given, const Value& content, const std::string& unit) {
+  Function function(const Value& given, const Value& content, const std::string& unit) {
     std::string wanted = unit;
     if (wanted.empty() && content.has("expression")) wanted = si_unit_of(text_of(content, "unit")).value_or("");
-    Function function = function_of(context_, given, wanted.empty() ? "1" : wanted);
-    require_function_of_time(context_, function, "an input of an FMU");
-    return function;
+    return function_of(context_, given, wanted.empty() ? "1" : wanted);
+  }
+
+  /// A joint coordinate or its rate, "main.rotation_rate".
+  std::optional<Function> value_of(const JointVariable& coordinate, const Value& content, const FmuInput& input) {
+    if (!input.unit.empty() && !measures(coordinate.unit, input.unit)) {
+      context_.fault(content, dimension_of(coordinate.unit).name, dimension_of(input.unit).name + " for this input");
+      return std::nullopt;
+    }
+    return Function{.value = std::make_shared<ExpressionFunction>(content.text, std::vector{content.text}),
+                    .variables = {coordinate.variable},
+                    .position = content.position,
+                    .path = content.path};
   }
 
   std::optional<Function> constant(const Value& content, const std::string& unit) {
