@@ -3,6 +3,7 @@
 
 import_test.py HERSEY WORK [Class.test]"""
 
+import json
 import os
 import shutil
 import subprocess
@@ -178,6 +179,18 @@ class Cases:
             power, rate = file["power/loads"][:], file["power/kinetic_rate"][:]
         np.testing.assert_allclose(power[1:], (found["torque"][1:] - LOAD) * found["w"][1:], rtol=1e-11)  # round-off
         np.testing.assert_allclose(power[1:], rate[1:], rtol=1e-9)  # differences of the same
+
+    def test_signals_are_in_the_tables_of_the_results(self):
+        done = json.loads(self.hersey("schema", "--results"))
+        lines = next(group["quantities"] for group in done["groups"] if group["path"] == "/fmus/<u>/")
+        self.assertEqual([line["name"] for line in lines], ["<input>", "<output>"])
+        with h5py.File(self.results(self.model)) as file:
+            group = file["fmus/controller"]
+            self.assertEqual(set(group) - {"time"}, {"speed", "wanted", "torque"})
+            for name, line, unit in (("speed", 0, "rad/s"), ("wanted", 0, "rad/s"), ("torque", 1, "N.m")):
+                self.assertEqual(group[name].attrs["units"], unit)
+                self.assertIn(unit, lines[line]["units"])
+                self.assertEqual(group[name].attrs["long_name"], lines[line]["text"].replace(f"<{('input', 'output')[line]}>", name))
 
     def test_parameters_of_every_type(self):
         plain = self.speeds()["w"]

@@ -36,10 +36,10 @@ class FmuFunction final : public ScalarFunction {
 /// can.
 [[nodiscard]] std::string why_not_saved(const model::Model& model);
 
-/// The FMUs of one run and what they exchange with the machine (theory manual, fmus.1 to fmus.4): at t_n = start + n H
+/// The FMUs of one run and what they exchange with the machine (theory manual, integrator.47 and integrator.48): at t_n = start + n H
 /// each is given its inputs, which it keeps over the step that follows, while the machine goes on with what the outputs
 /// were at t_n. FMUs take their step when the machine has taken its own to t_n+1.
-/// @verified_by fmu_exchange_test.cpp, tests/fmu/import_test.py
+/// @verified_by tests/fmu/import_test.py
 class FmuExchange {
  public:
   /// Makes an instance of each FMU, with its start values, and begins its initialisation. Functions of the model that

@@ -17,7 +17,7 @@ namespace hersey::fmi {
 /// FMI 3.0.1, section 4.2): start values, initialisation with inputs, steps; states are saved and restored at any time.
 /// @throws FmuError from each function where the FMU answers with an error: which function, its status, and what the
 ///         FMU has logged in that call
-/// @verified_by instance_test.cpp
+/// @verified_by tests/fmu/import_test.py
 class Instance {
  public:
   virtual ~Instance() = default;

@@ -10,7 +10,7 @@
 #include "hersey/fmi/description.h"
 #include "hersey/model/function.h"
 
-/// The section `fmus`: other programs' models that run beside the machine (theory manual, coupled programs).
+/// The section `fmus`: models of other programs, which run beside the machine.
 namespace hersey::model {
 
 /// What an input of an FMU is given at each exchange: a quantity of the results file, or a function of time and joint
