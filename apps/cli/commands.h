@@ -56,7 +56,7 @@ struct OpenArguments {
 struct ExportArguments {
   std::string file;  ///< a model, or results with --loads
   std::vector<std::string> overrides;
-  std::filesystem::path fmu;
+  std::filesystem::path fmu, ssp;
   int fmi = 2;  ///< version of the standard
   LoadsArguments loads;
   bool force = false;

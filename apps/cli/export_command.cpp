@@ -15,14 +15,16 @@ namespace hersey::cli {
 // Another program does it: this one needs neither a library for archives nor that of the FMU.
 int export_command(const ExportArguments& arguments) {
   if (!arguments.loads.format.empty()) return loads_command(arguments);
-  if (arguments.fmu.empty())
+  if (arguments.fmu.empty() && arguments.ssp.empty())
     throw InputError(Fault{{"", 0, 0},
                            "hersey export",
                            "neither an FMU nor loads are asked for",
-                           "`--fmu FILE.fmu` with a model, or `--loads calculix|nastran|vtkhdf` with results",
+                           "`--fmu FILE.fmu` or `--ssp FILE.ssp` with a model, or `--loads calculix|nastran|vtkhdf` "
+                           "with results",
                            ""});
-  std::vector<std::string> words{"hersey-fmu",           arguments.file, "--fmu",
-                                 arguments.fmu.string(), "--fmi",        std::to_string(arguments.fmi)};
+  std::vector<std::string> words{"hersey-fmu", arguments.file, "--fmi", std::to_string(arguments.fmi)};
+  if (!arguments.fmu.empty()) words.insert(words.end(), {"--fmu", arguments.fmu.string()});
+  if (!arguments.ssp.empty()) words.insert(words.end(), {"--ssp", arguments.ssp.string()});
   for (const std::string& change : arguments.overrides) words.insert(words.end(), {"--set", change});
   if (arguments.force) words.emplace_back("--force");
   std::vector<char*> pointers;

@@ -37,6 +37,7 @@ constexpr double to_degrees = 180 / std::numbers::pi;
 
 void require_load_options(const ExportArguments& arguments) {
   if (!arguments.fmu.empty()) refuse_export("--fmu", "it stands beside --loads", "one of them");
+  if (!arguments.ssp.empty()) refuse_export("--ssp", "it stands beside --loads", "one of them");
   if (!arguments.overrides.empty())
     refuse_export("--set", "the loads of a run are those of its own model", "another run with this, then its results");
   if (!is_results_file(arguments.file))

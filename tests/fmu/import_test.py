@@ -158,6 +158,18 @@ class Cases:
         # The torque is one and a half communication steps old on average, and the speed changes by the first acceleration at most.
         self.assertLess(off[-1], 1.5 * 0.5e-3 * (PROPORTIONAL * 40 - LOAD) / INERTIA)
 
+    def test_the_exchange_is_stable_up_to_its_bound(self):
+        integral = f'"gain[1].integral": {INTEGRAL}'
+        model = self.write("proportional.yaml", ROTOR.replace(integral, '"gain[1].integral": 0').replace(f"-{LOAD} N.m", "0 N.m"))
+        off = {}
+        for ratio in (0.9, 1.1):  # of k H / J
+            step = ratio * INERTIA / PROPORTIONAL
+            with h5py.File(self.results(model, f"fmus.controller.step={step} s", "simulation.duration=6 s",
+                                        "simulation.step=5 ms")) as file:
+                off[ratio] = np.abs(file["joints/shaft/rates"][-20:] - WANTED).max()
+        self.assertLess(off[0.9], 1)  # |r|^n with |r|^2 = 0.9: 40 rad/s fall to 0.04
+        self.assertGreater(off[1.1], 1000)  # with |r|^2 = 1.1: they rise to some thousands
+
     def test_steps_that_do_not_divide_each_other(self):
         found = self.speeds("fmus.controller.step=0.7 ms")
         speeds, _ = recurrence(0.7e-3, 285)

@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "hersey/fmi/description.h"
+#include "hersey/fmi/fmu_error.h"
 
 namespace hersey::fmi {
 namespace {

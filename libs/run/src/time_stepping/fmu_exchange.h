@@ -36,9 +36,10 @@ class FmuFunction final : public ScalarFunction {
 /// can.
 [[nodiscard]] std::string why_not_saved(const model::Model& model);
 
-/// The FMUs of one run and what they exchange with the machine (theory manual, integrator.47 and integrator.48): at t_n = start + n H
-/// each is given its inputs, which it keeps over the step that follows, while the machine goes on with what the outputs
-/// were at t_n. FMUs take their step when the machine has taken its own to t_n+1.
+/// The FMUs of one run and what they exchange with the machine (theory manual, integrator.47 and integrator.48): at t_n
+/// = start + n H each is given its inputs, which it keeps over the step that follows, while the machine goes on with
+/// what the outputs were at t_n. FMUs take their step when the machine has taken its own to t_n+1. Errors are of first
+/// order in H, and the loop is stable while that is short, (integrator.49).
 /// @verified_by tests/fmu/import_test.py
 class FmuExchange {
  public:

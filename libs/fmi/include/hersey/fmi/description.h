@@ -2,18 +2,12 @@
 
 #include <array>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace hersey::fmi {
+#include "hersey/fmi/fmu_error.h"
 
-/// Something is wrong with an FMU, or with what it answers: damaged files, missing functions, calls that fail. The text
-/// is a sentence without the FMU's name.
-class FmuError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace hersey::fmi {
 
 /// Unit of a variable, as an FMU defines it: SI value = factor * number + offset (FMI 2.0.4, section 2.2.2; FMI 3.0.1,
 /// section 2.4.3).

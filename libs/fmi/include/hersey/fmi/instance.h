@@ -29,20 +29,23 @@ class Instance {
   virtual void set_start(const Variable& variable, double value) = 0;
   virtual void set_start(const Variable& variable, const std::string& text) = 0;
 
-  /// Begins and ends the initialisation, between which inputs are set and outputs got.
+  /// Begins the initialisation, in which inputs are set and outputs got.
   /// @param stop  end of the simulation [s]
   virtual void enter_initialisation(double start, double stop) = 0;
+  /// Ends the initialisation: steps follow.
   virtual void exit_initialisation() = 0;
 
+  /// Sets real variables, in their own units.
   virtual void set(std::span<const unsigned> references, std::span<const double> values) = 0;
+  /// Gets real variables, in their own units.
   virtual void get(std::span<const unsigned> references, std::span<double> values) = 0;
 
   /// Advances from `time` by `length` [s].
   virtual void step(double time, double length) = 0;
 
-  /// The state as bytes, and back, also in another instance of the same FMU.
-  /// @pre  Description::saves_state
+  /// The state as bytes. @pre  Description::saves_state
   [[nodiscard]] virtual std::vector<unsigned char> save() = 0;
+  /// Returns to a saved state, also to that of another instance of the same FMU. @pre  Description::saves_state
   virtual void restore(std::span<const unsigned char> bytes) = 0;
 
  protected:

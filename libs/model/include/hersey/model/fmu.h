@@ -19,8 +19,9 @@ struct FmuInput {
   fmi::Variable variable;
   std::string quantity;  ///< "bearings.main.h_min"; empty: the function
   std::optional<Function> function;
-  std::string unit;  ///< SI unit of the variable; empty: it has none, and takes the number in SI
-  std::string path;  ///< key path, "fmus.controller.inputs.speed"
+  bool is_coordinate = false;  ///< the function is a joint coordinate or its rate and no more
+  std::string unit;            ///< SI unit of the variable; empty: it has none, and takes the number in SI
+  std::string path;            ///< key path, "fmus.controller.inputs.speed"
   SourcePosition position;
 };
 
@@ -49,10 +50,11 @@ struct Fmu {
   SourcePosition position;
 };
 
-/// A number of a variable in its own unit as one in SI, and back.
+/// A number of a variable in its own unit as one in SI.
 [[nodiscard]] inline double to_si(const fmi::Variable& variable, double number) {
   return variable.unit && variable.unit->is_defined ? variable.unit->factor * number + variable.unit->offset : number;
 }
+/// A number in SI as one of a variable in its own unit.
 [[nodiscard]] inline double from_si(const fmi::Variable& variable, double number) {
   return variable.unit && variable.unit->is_defined ? (number - variable.unit->offset) / variable.unit->factor : number;
 }

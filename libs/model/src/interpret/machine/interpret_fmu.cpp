@@ -97,7 +97,7 @@ class FmuReader {
     else if (begins_as_number(formula_of_scalar(content)))
       input.function = constant(content, input.unit);
     else if (const auto coordinate = joint_variable(context_, content.text))
-      input.function = value_of(*coordinate, content, input);
+      input.function = value_of(*coordinate, content, input), input.is_coordinate = true;
     else
       input.quantity = content.text;
     fmu_.inputs.push_back(std::move(input));

@@ -1,5 +1,4 @@
 #include "hersey/fmi/instance.h"
-
 #include "versions.h"
 
 namespace hersey::fmi {
