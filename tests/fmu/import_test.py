@@ -239,6 +239,32 @@ class Cases:
         self.assertLess(abs(w[-1] - WANTED), abs(w[0] - WANTED) / 4)
         np.testing.assert_allclose(effort[2::2], torque[:-1:2], atol=0.5)  # a communication step late: near, not equal
 
+    def test_a_driven_speed_is_the_output(self):
+        text = ROTOR[:ROTOR.index("forces:")].replace(", initial: {rotation_rate: 60 rad/s}", "") + (
+            "drives:\n  motor: {joint: shaft, coordinate: rotation, speed: {fmu: controller, output: torque, hold: ramp, "
+            'scale: "0.5 rad/s/(N.m)"}}\n') + ROTOR[ROTOR.index("simulation:"):]
+        model = self.write("speed.yaml", text)
+        for hold, at_end in (("constant", lambda now, before: now), ("ramp", lambda now, before: now),
+                             ("extrapolated", lambda now, before: 2 * now - before)):
+            with self.subTest(hold=hold), h5py.File(self.results(model, f"drives.motor.speed.hold={hold}")) as file:
+                w, torque = file["joints/shaft/rates"][2::2], file["fmus/controller/torque"][2::2]
+                self.assertGreater(np.ptp(torque), 1)
+                # The drive holds its speed as a constraint on velocities: round-off.
+                np.testing.assert_allclose(w[1:], 0.5 * at_end(torque[1:], torque[:-1]), atol=1e-9)
+
+    def test_two_fmus_share_the_work(self):
+        build(os.path.join(self.folder, "other.fmu"), 5 - self.version)
+        half = ROTOR.replace(f"proportional\": {PROPORTIONAL} ", f"proportional\": {PROPORTIONAL / 2} ").replace(
+            f"integral\": {INTEGRAL}", f"integral\": {INTEGRAL / 2}")
+        first = half[half.index("  controller:"):half.index("forces:")]
+        text = half.replace(first, first + first.replace("controller:", "second:").replace("controller.fmu", "other.fmu")).replace(
+            "  load:", "  more: {type: torque, body: rotor, direction: z, magnitude: {fmu: second, output: torque}}\n  load:")
+        self.assertNotEqual(half, text)
+        plain = self.speeds()["w"]
+        with h5py.File(self.results(self.write("two.yaml", text))) as file:
+            np.testing.assert_allclose(file["joints/shaft/rates"][:], plain, rtol=1e-12)  # halves and their sum: round-off
+            np.testing.assert_array_equal(file["fmus/second/torque"][:], file["fmus/controller/torque"][:])
+
     def test_interrupted_runs_go_on_to_the_same_bits(self):
         out = os.path.join(self.folder, "interrupted")
         self.hersey("run", self.model, "--output", out, "--force", expect=130, HERSEY_TEST_INTERRUPT="0.05")
@@ -328,11 +354,18 @@ class FaultsTest(Folder):
                 ([('"gain[1].integral": 3.0', "is_reversed: 2")], ["model.yaml:11", "true or false"]),
                 ([(f"{PROPORTIONAL} N.m.s/rad", "3 m")], ["model.yaml:11"]),
                 ([("file: controller.fmu", "file: missing.fmu")], ["model.yaml:8", "missing.fmu"]),
-                ([("duration: 0.2 s,", "duration: 0.2 s, analysis: kinematics,")], ["dynamics"])):
+                ([("duration: 0.2 s,", "duration: 0.2 s, analysis: kinematics,")], ["dynamics"]),
+                ([("duration: 0.2 s,", "cycle: {period: 50 ms, lead_in: shooting},")], ["model.yaml:15:37", "lead_in: none"])):
             with self.subTest(changes=changes):
                 printed = self.faults(*changes)
                 for words in said:
                     self.assertIn(words, printed)
+
+    def test_small_motions_are_refused(self):
+        build(os.path.join(self.folder, "controller.fmu"), 2)
+        text = ROTOR.replace("fmus:", "drives:\n  turn: {joint: shaft, coordinate: rotation, speed: 60 rad/s}\nfmus:")
+        printed = self.hersey("rotor", self.write("rotor.yaml", text), expect=2)
+        self.assertIn("a machine with `fmus`", printed)
 
     def test_what_cannot_follow_an_output(self):
         text = ROTOR[:ROTOR.index("forces:")] + (

@@ -20,6 +20,10 @@ constexpr std::uint32_t kEndOfDirectory = 0x06054b50, kDirectoryEntry = 0x02014b
 constexpr std::size_t kEndSize = 22, kDirectorySize = 46, kLocalSize = 30, kLongestComment = 65535;
 constexpr int kStored = 0, kDeflated = 8;
 constexpr std::uint32_t kLargestEntry = 1U << 30;  // bytes unpacked; libraries of FMUs have some millions
+constexpr std::uint32_t kLargestDescription = 1U << 27;
+constexpr std::uint64_t kMostByDeflate = 1032;  // bytes that one packed byte can stand for: a match of 258 by two bits
+
+constexpr const char* kDescription = "modelDescription.xml";
 
 /// Whole numbers of a file's bytes, least significant byte first.
 class Bytes {
@@ -40,6 +44,7 @@ class Bytes {
 };
 
 std::string bytes_of(const std::filesystem::path& path, std::uint64_t from, std::uint64_t count) {
+  if (from + count > std::filesystem::file_size(path)) throw FmuError("it ends too early");
   std::ifstream stream(path, std::ios::binary);
   stream.seekg(static_cast<std::streamoff>(from));
   std::string bytes(count, '\0');
@@ -111,6 +116,14 @@ FmuFile::FmuFile(std::filesystem::path path) : path_(std::move(path)) {
   }
 }
 
+Description FmuFile::description() const {
+  const auto is_it = [](const Entry& entry) { return entry.name == kDescription; };
+  const auto found = std::find_if(entries_.begin(), entries_.end(), is_it);
+  if (found != entries_.end() && found->size > kLargestDescription)
+    throw FmuError(fmt::format("its {} is larger than 134 MB", kDescription));
+  return read_description(content(kDescription));
+}
+
 bool FmuFile::has(const std::string& name) const {
   return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.name == name; });
 }
@@ -141,7 +154,9 @@ std::string FmuFile::content(const Entry& entry) const {
   const std::string packed = bytes_of(path_, entry.offset + kLocalSize + bytes.word(26) + bytes.word(28), entry.packed);
   if (entry.method != kStored && entry.method != kDeflated)
     throw FmuError(fmt::format("its content {} is packed by method {}: deflate is read", entry.name, entry.method));
-  if (entry.method == kStored && entry.packed != entry.size) throw FmuError("its list of contents is damaged");
+  const bool is_possible =
+      entry.method == kStored ? entry.size == entry.packed : entry.size <= kMostByDeflate * std::uint64_t{entry.packed};
+  if (!is_possible) throw FmuError("its list of contents is damaged");
   std::string content = entry.method == kStored ? packed : inflated(packed, entry.size);
   const auto checksum = crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size()));
   if (checksum != entry.checksum) throw FmuError(fmt::format("its content {} is damaged", entry.name));

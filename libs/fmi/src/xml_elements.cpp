@@ -11,6 +11,8 @@
 namespace hersey::fmi {
 namespace {
 
+constexpr std::size_t kMostParts =
+    4'000'000;  // elements and attributes, each about 150 bytes: 100,000 variables have two million
 constexpr std::size_t kDeepest = 64;  // elements inside each other; descriptions of FMUs have fewer than ten
 
 /// The elements that are open while expat walks through a text. The last one is the innermost.
@@ -18,6 +20,7 @@ struct Reading {
   XML_Parser parser = nullptr;
   Element outside;  ///< its child is the root
   std::vector<Element*> open;
+  std::size_t parts = 0;
   std::string refusal;
 
   void stop(const char* why) {
@@ -32,7 +35,8 @@ void on_start(void* data, const char* name, const char** attributes) {
   // Siblings that follow move no element that is open.
   Element& element = reading.open.back()->children.emplace_back();
   element.name = name;
-  for (; *attributes != nullptr; attributes += 2) element.attributes[attributes[0]] = attributes[1];
+  for (; *attributes != nullptr; attributes += 2, ++reading.parts) element.attributes[attributes[0]] = attributes[1];
+  if (++reading.parts > kMostParts) return reading.stop("more elements and attributes than 4 million");
   reading.open.push_back(&element);
 }
 

@@ -25,7 +25,7 @@ class FmuFile {
   /// The content of an entry. @throws FmuError if there is none, or it is damaged
   [[nodiscard]] std::string content(const std::string& name) const;
   /// The description in `modelDescription.xml`. @throws FmuError
-  [[nodiscard]] Description description() const { return read_description(content("modelDescription.xml")); }
+  [[nodiscard]] Description description() const;
   /// Writes all entries below `prefix`, "resources/", to the same names below `folder`.
   /// @throws FmuError, std::filesystem::filesystem_error
   void extract(const std::string& prefix, const std::filesystem::path& folder) const;
