@@ -134,7 +134,11 @@ void MachineRun::begin_exchange(StepRecord& start) {
 Outcome MachineRun::exchange_signals() {
   if (!exchange_->is_due(state_.t, slack())) return {Ending::solved};
   try {
-    const Jump jump = exchange_->exchange(state_.t, slack());
+    Jump jump = Jump::none;
+    {
+      const Stopwatch watch(work_.fmus());
+      jump = exchange_->exchange(state_.t, slack());
+    }
     if (jump != Jump::none) take_jump(jump == Jump::of_speed);
   } catch (const std::runtime_error& error) {
     return no_answer<Outcome>(fmt::format("t = {:.6g} s: {}", state_.t, error.what()));
@@ -160,8 +164,10 @@ Outcome MachineRun::step(double limit) {
   if (model_.thermal_walls == model::ThermalWalls::cycle_mean) average_streams(machine_, step.dt);
   mix_grooves(machine_);
   record(step);
-  if (exchange_ && exchange_->is_due(state_.t, slack()))
+  if (exchange_ && exchange_->is_due(state_.t, slack())) {
+    const Stopwatch watch(work_.fmus());
     exchange_->take_inputs(fmu_inputs_->at(last_step_, record_.energy()));
+  }
   for (const std::string& why : {thermal_failure(machine_), wear_failure(machine_)})
     if (!why.empty()) return no_answer<Outcome>(fmt::format("t = {:.6g} s: {}", state_.t, why));
   return {Ending::solved};
