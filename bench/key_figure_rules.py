@@ -15,6 +15,8 @@ COMMANDS = {
     "bearing_tolerances/model": [("bearing", "clearance=34um", "width=15.6mm", "viscosity=15mPa.s", "load=2500N")],
     "bearing_tolerances/optimum": [("bearing", "clearance=34um", "width=15.6mm")],
     "cam_follower/model": [("run", "simulation.duration=0.1s")],
+    "co_simulation/bearing": [("run",)],
+    "co_simulation/whole": [("run",)],
     "conrod_pressure/model": [("run",)],
     "conrod_pressure/static": [("run",)],
     "cpp_library/rotor": [("run",)],

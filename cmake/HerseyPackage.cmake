@@ -44,7 +44,7 @@ one HTML page that opens in any browser.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libhersey-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-    "libeigen3-dev (>= 3.4), libfmt-dev (>= 9), libyaml-cpp-dev (>= 0.7), nlohmann-json3-dev, libmuparser-dev, libhdf5-dev, liblzma-dev, libsuitesparse-dev, libmumps-seq-dev, libopenblas0-pthread, libudunits2-dev, libcpp-httplib-dev")
+    "libeigen3-dev (>= 3.4), libfmt-dev (>= 9), libyaml-cpp-dev (>= 0.7), nlohmann-json3-dev, libmuparser-dev, libhdf5-dev, liblzma-dev, libexpat1-dev, zlib1g-dev, libsuitesparse-dev, libmumps-seq-dev, libopenblas0-pthread, libudunits2-dev, libcpp-httplib-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "cmake (>= 3.24)")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "Static libraries and headers: what the program hersey is made of,
 for programs of one's own;

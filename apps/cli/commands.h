@@ -56,7 +56,7 @@ struct OpenArguments {
 struct ExportArguments {
   std::string file;  ///< a model; with --loads, --films or --netcdf results
   std::vector<std::string> overrides;
-  std::filesystem::path fmu;
+  std::filesystem::path fmu, ssp;
   int fmi = 2;                   ///< version of the standard
   LoadsArguments loads;          ///< its bearings and instants also of films
   std::filesystem::path films;   ///< .vtkhdf file of the films; empty: it is not asked for

@@ -15,10 +15,12 @@ namespace {
 
 void require_one_export(const ExportArguments& arguments) {
   const char* const expected =
-      "`--fmu FILE.fmu` with a model, or with results one of `--loads calculix|nastran|vtkhdf`, `--films FILE.vtkhdf` "
+      "`--fmu FILE.fmu` or `--ssp FILE.ssp` with a model, or with results one of `--loads calculix|nastran|vtkhdf`, "
+      "`--films FILE.vtkhdf` "
       "and `--netcdf FILE.nc`";
   std::vector<std::string> asked;
   if (!arguments.fmu.empty()) asked.emplace_back("--fmu");
+  if (!arguments.ssp.empty()) asked.emplace_back("--ssp");
   if (!arguments.loads.format.empty()) asked.emplace_back("--loads");
   if (!arguments.films.empty()) asked.emplace_back("--films");
   if (!arguments.netcdf.empty()) asked.emplace_back("--netcdf");
@@ -36,8 +38,9 @@ int export_command(const ExportArguments& arguments) {
   if (!arguments.loads.format.empty()) return loads_command(arguments);
   if (!arguments.films.empty()) return films_command(arguments);
   if (!arguments.netcdf.empty()) return netcdf_command(arguments);
-  std::vector<std::string> words{"hersey-fmu",           arguments.file, "--fmu",
-                                 arguments.fmu.string(), "--fmi",        std::to_string(arguments.fmi)};
+  std::vector<std::string> words{"hersey-fmu", arguments.file, "--fmi", std::to_string(arguments.fmi)};
+  if (!arguments.fmu.empty()) words.insert(words.end(), {"--fmu", arguments.fmu.string()});
+  if (!arguments.ssp.empty()) words.insert(words.end(), {"--ssp", arguments.ssp.string()});
   for (const std::string& change : arguments.overrides) words.insert(words.end(), {"--set", change});
   if (arguments.force) words.emplace_back("--force");
   std::vector<char*> pointers;

@@ -84,6 +84,8 @@ void add_export(CLI::App& app, Commands& commands) {
   command->add_option("FILE", exported->file, "Model file; with --loads, --films or --netcdf a results file")
       ->required();
   command->add_option("--fmu", exported->fmu, "The FMU to write")->type_name("FILE.fmu");
+  command->add_option("--ssp", exported->ssp, "The system to write, of the machine and the FMUs of its model")
+      ->type_name("FILE.ssp");
   command->add_option("--fmi", exported->fmi, "Version of the standard: 2 or 3 (default: 2)")
       ->type_name("2|3")
       ->check(CLI::IsMember({2, 3}).description(""));

@@ -1,8 +1,7 @@
-#include "fmi2.h"
-
 #include <string>
 
 #include "face.h"
+#include "hersey/fmi/fmi2_types.h"
 #include "resource_path.h"
 
 using hersey::fmu::CallStatus;

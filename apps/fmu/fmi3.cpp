@@ -1,8 +1,7 @@
-#include "fmi3.h"
-
 #include <string>
 
 #include "face.h"
+#include "hersey/fmi/fmi3_types.h"
 #include "resource_path.h"
 
 using hersey::fmu::CallStatus;

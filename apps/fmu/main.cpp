@@ -16,6 +16,7 @@
 #include "hersey/session/session.h"
 #include "licence.h"
 #include "package.h"
+#include "system_structure.h"
 #include "terminals.h"
 #include "variables.h"
 
@@ -27,7 +28,7 @@ constexpr int kFailed = 1, kWrongInput = 2;
 struct Arguments {
   std::string model;
   std::vector<std::string> overrides;
-  std::filesystem::path fmu;
+  std::filesystem::path fmu, ssp;
   int version = 2;
   bool force = false;
 };
@@ -76,42 +77,57 @@ std::vector<PackedFile> files_of_units() {
   return files;
 }
 
-int export_fmu(const Arguments& arguments) {
-  const std::filesystem::path& target = arguments.fmu;
-  if (std::filesystem::exists(target) && !arguments.force) {
-    fmt::print(stderr, "hersey: {} exists already; use --force to replace it\n", target.string());
-    return kWrongInput;
-  }
-  const session::Session session(arguments.model, arguments.overrides);
+/// Writes the FMU of the session's model to a file that is no input of it.
+Variables write_fmu(const session::Session& session, const std::vector<std::string>& overrides,
+                    const std::filesystem::path& target, int version) {
   const model::Model& model = session.model();
-  for (const std::filesystem::path& file : session.files()) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(file, target, ignored))
-      throw InputError(Fault{{"--fmu", 0, 0}, "", target.string() + ", which the model reads", "another file", ""});
-  }
   run::Simulation simulation = session.simulation();
   Variables variables;
-  variables.list = variables_of(session.text(), simulation, arguments.version);
-  const PackedModel packed = pack(model, session.text(), arguments.overrides);
+  variables.list = variables_of(session.text(), simulation, version);
+  const PackedModel packed = pack(model, session.text(), overrides);
   variables.overrides = packed.overrides;
-  variables.token = token_of(description_xml(model, variables, arguments.version), packed, model);
+  variables.token = token_of(description_xml(model, variables, version), packed, model);
   std::vector<PackedFile> files = packed.files;
-  const std::vector<PackedFile> libraries = binaries(arguments.version);
+  const std::vector<PackedFile> libraries = binaries(version);
   for (const std::vector<PackedFile>& more : {libraries, files_of_units(), licences_of(libraries)})
     files.insert(files.end(), more.begin(), more.end());
-  std::filesystem::path unfinished = target;
-  unfinished += ".unfinished";
   std::vector<std::pair<std::string, std::string>> texts{
-      {"modelDescription.xml", description_xml(model, variables, arguments.version)},
+      {"modelDescription.xml", description_xml(model, variables, version)},
       {"resources/variables.json", to_json(variables)},
       {"resources/model.yaml", packed.text},
-      {"documentation/index.html", documentation_html(model, variables, arguments.version)},
+      {"documentation/index.html", documentation_html(model, variables, version)},
       {"documentation/licenses/license.txt", kLicence}};
-  if (arguments.version == 3) {
+  if (version == 3) {
     texts.emplace_back("terminalsAndIcons/terminalsAndIcons.xml", terminals_xml(model, variables));
     texts.emplace_back("terminalsAndIcons/icon.png", icon());
   }
-  write_zip(unfinished, texts, files);
+  write_zip(target, texts, files);
+  return variables;
+}
+
+std::filesystem::path with_ending(std::filesystem::path path, const char* ending) {
+  path += ending;
+  return path;
+}
+
+void require_no_input(const session::Session& session, const std::filesystem::path& target, const char* option) {
+  for (const std::filesystem::path& file : session.files()) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(file, target, ignored))
+      throw InputError(Fault{{option, 0, 0}, "", target.string() + ", which the model reads", "another file", ""});
+  }
+}
+
+int export_fmu(const Arguments& arguments) {
+  const std::filesystem::path& target = arguments.fmu;
+  const session::Session session(arguments.model, arguments.overrides);
+  const model::Model& model = session.model();
+  if (!model.fmus.empty())
+    throw InputError(Fault{model.position_of("fmus"), "fmus", "a model with FMUs of its own",
+                           "`--ssp FILE.ssp`, a system of its machine and its FMUs; or a model without", ""});
+  require_no_input(session, target, "--fmu");
+  const std::filesystem::path unfinished = with_ending(target, ".unfinished");
+  const Variables variables = write_fmu(session, arguments.overrides, unfinished, arguments.version);
   std::filesystem::rename(unfinished, target);
   const auto count = [&](Variable::Kind kind) {
     return std::count_if(variables.list.begin(), variables.list.end(),
@@ -123,11 +139,63 @@ int export_fmu(const Arguments& arguments) {
   return 0;
 }
 
+// The machine as one FMU beside those that its model names.
+int export_ssp(const Arguments& arguments) {
+  const std::filesystem::path& target = arguments.ssp;
+  const session::Session whole(arguments.model, arguments.overrides);
+  const model::Model& model = whole.model();
+  if (model.fmus.empty())
+    throw InputError(Fault{{model.file, 0, 0},
+                           "",
+                           "a model without `fmus`",
+                           "a model whose FMUs are connected with its machine; `--fmu FILE.fmu` writes a machine alone",
+                           ""});
+  require_no_input(whole, target, "--ssp");
+  std::vector<std::string> overrides = arguments.overrides;
+  for (const std::string& change : changes_to_machine(model)) overrides.push_back(change);
+  const session::Session machine(arguments.model, overrides);
+  const std::filesystem::path fmu = with_ending(target, ".machine"), unfinished = with_ending(target, ".unfinished");
+  try {
+    const Variables variables = write_fmu(machine, overrides, fmu, arguments.version);
+    std::vector<PackedFile> files{{fmu, "resources/" + machine_name(model) + ".fmu"}};
+    for (const model::Fmu& one : model.fmus) files.push_back({one.file, "resources/" + one.name + ".fmu"});
+    write_zip(unfinished, {{"SystemStructure.ssd", system_structure_xml(model, variables)}}, files);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(fmu, ignored);
+    throw;
+  }
+  std::filesystem::remove(fmu);
+  std::filesystem::rename(unfinished, target);
+  fmt::print("{}: SSP 1.0, {} and {} FMUs connected with it\n", target.string(), machine_name(model),
+             model.fmus.size());
+  return 0;
+}
+
+/// Writes what is asked for, unless it is there.
+int write_export(const Arguments& arguments) {
+  const bool is_ssp = !arguments.ssp.empty();
+  if (is_ssp == !arguments.fmu.empty())
+    throw InputError(Fault{{"", 0, 0},
+                           "hersey export",
+                           is_ssp ? "--fmu and --ssp together" : "neither --fmu nor --ssp",
+                           "one of them",
+                           ""});
+  const std::filesystem::path& target = is_ssp ? arguments.ssp : arguments.fmu;
+  if (std::filesystem::exists(target) && !arguments.force) {
+    fmt::print(stderr, "hersey: {} exists already; use --force to replace it\n", target.string());
+    return kWrongInput;
+  }
+  return is_ssp ? export_ssp(arguments) : export_fmu(arguments);
+}
+
 int exported(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app{"Write a co-simulation FMU of a model", "hersey export"};
+  CLI::App app{"Write a co-simulation FMU of a model, or a system of FMUs", "hersey export"};
   app.add_option("MODEL", arguments.model, "Model file")->required();
-  app.add_option("--fmu", arguments.fmu, "The FMU to write")->type_name("FILE.fmu")->required();
+  app.add_option("--fmu", arguments.fmu, "The FMU to write")->type_name("FILE.fmu");
+  app.add_option("--ssp", arguments.ssp, "The system to write, of the machine and the FMUs of its model")
+      ->type_name("FILE.ssp");
   app.add_option("--fmi", arguments.version, "Version of the standard: 2 or 3 (default: 2)")
       ->check(CLI::IsMember({2, 3}));
   app.add_option("--set", arguments.overrides, "Override a parameter or any key")
@@ -141,7 +209,7 @@ int exported(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kWrongInput;
   }
   use_one_blas_thread();
-  return export_fmu(arguments);
+  return write_export(arguments);
 }
 
 // An error while exiting must not throw any more.

@@ -30,7 +30,8 @@ class Fmu:
         self.version = int(self.description.get("fmiVersion")[0])
         self.token = self.description.get("guid" if self.version == 2 else "instantiationToken")
         binaries = "linux64" if self.version == 2 else "x86_64-linux"
-        self.library_path = os.path.join(folder, "binaries", binaries, "hersey_fmu.so")
+        identifier = self.description.find("CoSimulation").get("modelIdentifier")
+        self.library_path = os.path.join(folder, "binaries", binaries, identifier + ".so")
         self.library = c.CDLL(self.library_path)
         self.references = {}
         self.variables = {}

@@ -50,9 +50,11 @@ RUNS = {
     "tests/results_file/thrust.yaml": [],
     "tests/results_file/every_line.yaml": ["--step-error", "--set", "simulation.duration=0.5ms"],
 }
-# Lines that no run of seconds has: films on elastic surfaces, modes of meshed bodies, meshes as shapes of ground.
+# Lines that no run of seconds has: films on elastic surfaces, modes of meshed bodies, meshes as shapes of ground; and those of FMUs,
+# which tests/fmu/import_test.py compares.
 RARE = {"/bearings/<b>/fields/shell_displacement", "/bearings/<b>/fields/journal_displacement",
-        "/modes/fields/<b>_amplitudes_shape", "/ground/shapes/<s>/corners", "/ground/shapes/<s>/triangles"}
+        "/modes/fields/<b>_amplitudes_shape", "/ground/shapes/<s>/corners", "/ground/shapes/<s>/triangles",
+        "/fmus/<u>/<input>", "/fmus/<u>/<output>"}
 _folder = tempfile.TemporaryDirectory(prefix="hersey-results-")
 # Each test is a process of its own: what one has run serves the others, as long as program and models are the same.
 KEPT = os.path.join(os.path.dirname(HERSEY), "kept-results")

@@ -61,6 +61,8 @@ export class SystemView {
     for (const [group, title] of [["/drives", "Drives"], ["/couplings", "Couplings"], ["/joint_forces", "Springs, friction and control in joints"]] as const) {
       if (run.children(group).length > 0) this.element.append(section(title, false, (body) => this.efforts(body, group)));
     }
+    const fmus = run.children("/fmus").filter((fmu) => run.growingIn(`/fmus/${fmu}`).length > 0);
+    if (fmus.length > 0) this.element.append(section("Signals of FMUs", alone, (body) => fmus.forEach((fmu) => this.further(body, `/fmus/${fmu}`))));
     if (run.children("/bodies").length > 0) this.element.append(section("Bodies", false, (body) => this.bodies(body)));
     for (const [group, title] of [["/forces", "Forces between bodies"], ["/surface_loads", "Loads on surfaces"]] as const) {
       const things = run.children(group).filter((thing) => run.growingIn(`${group}/${thing}`).length > 0);

@@ -3,7 +3,7 @@
 import { h } from "../src/dom";
 import type { TextNode } from "./yaml_tree";
 
-const named = new Set(["bodies", "joints", "drives", "couplings", "forces", "contacts", "lubricants", "bearings", "circuit", "templates", "parameters"]);
+const named = new Set(["bodies", "joints", "fmus", "drives", "couplings", "forces", "contacts", "lubricants", "bearings", "circuit", "templates", "parameters"]);
 
 export class Outline {
   readonly element = h("ul", { class: "outline" });

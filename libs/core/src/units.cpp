@@ -334,6 +334,16 @@ std::filesystem::path unit_database() {
   return {};
 }
 
+std::optional<std::string> si_unit_of(const std::string& unit) {
+  const std::lock_guard guard(UnitSystem::lock());
+  const UnitSystem& system = UnitSystem::instance();
+  const Unit given = system.parse_written(unit);
+  if (given == nullptr || unit.empty()) return std::nullopt;
+  for (const Dimension& dimension : dimensions())
+    if (measure_the_same(given.get(), system.parse(dimension.si_unit).get())) return dimension.si_unit;
+  return std::nullopt;
+}
+
 QuantityError::QuantityError(std::string found_text, std::string expected_text, std::string suggestion_text)
     : std::runtime_error("found " + found_text + "; expected " + expected_text +
                          (suggestion_text.empty() ? "" : "; " + suggestion_text)),

@@ -27,6 +27,17 @@ QuantityError error_of(const std::string& text, const std::string& si_unit) {
   return {"", ""};
 }
 
+TEST_CASE("SiUnit_IsThatOfTheDimension") {
+  CHECK(si_unit_of("rpm") == "rad/s");
+  CHECK(si_unit_of("kg.m-1.s-2") == "Pa");
+  CHECK(si_unit_of("degC") == "K");
+  CHECK(si_unit_of("percent") == "1");
+  CHECK(si_unit_of("kg.m2.s-2") == si_unit_of("N.m"));
+  CHECK(!si_unit_of("T"));
+  CHECK(!si_unit_of("bananas"));
+  CHECK(!si_unit_of(""));
+}
+
 TEST_CASE("SizesThatNoMachineHas_AreRefusedInEveryDimension") {
   for (const Dimension& dimension : dimensions()) {
     CAPTURE(dimension.name);

@@ -90,10 +90,11 @@ TEST_CASE("FaultyExpressions_AreLocated") {
         "m.yaml:19:76: forces.push.components.1.unit: a length (m); expected a unit of force, such as N");
   CHECK(faults_of(with_force("{expresion: 2*t, unit: N}")) ==
         "m.yaml:19:53: forces.push.components.1: unknown key 'expresion'; did you mean 'expression'? expected "
-        "expression or table");
-  CHECK(faults_of(with_force("{value: 3}")) ==
-        "m.yaml:19:52: forces.push.components.1: a mapping without any of the keys expression or table; expected a "
-        "constant such as 500 N, an expression or a table");
+        "expression, table or fmu");
+  CHECK(
+      faults_of(with_force("{value: 3}")) ==
+      "m.yaml:19:52: forces.push.components.1: a mapping without any of the keys expression, table or fmu; expected a "
+      "constant such as 500 N, an expression, a table or the output of an FMU");
 }
 
 TEST_CASE("Drive_DependsOnTimeAlone") {

@@ -27,6 +27,9 @@ TypePtr root() {
                    "**required** to simulate"),
           optional("joints", joints_format(),
                    "Connections between bodies. A body without any joint moves freely; loops may close."),
+          optional("fmus", fmus_format(),
+                   "Models of other programs that run beside the machine: controllers, loads, drives; see "
+                   "[FMU](fmu.md#fmus-in-a-model)."),
           optional("drives", drives_format(), "Prescribed motions of joint coordinates."),
           optional("couplings", couplings_format(), "Relations between joint coordinates: gears, racks, cams."),
           optional("forces", forces_format(), "Loads and springs."),
@@ -67,11 +70,9 @@ const Type& model_format() {
 
 namespace {
 
-/// A constant in one of `si_units`, an expression that `expression_text` explains, or a table; `over` if not null says
-/// what x is.
-TypePtr function_of_something(const std::vector<std::string>& si_units, const std::string& example,
-                              const std::string& formula, const std::string& expression_text,
-                              const std::optional<Key>& over, const std::string& id) {
+/// An expression that `expression_text` explains, and a table; `over` if not null says what x is.
+std::vector<TypePtr> mappings_of_functions(const std::string& example, const std::string& formula,
+                                           const std::string& expression_text, const std::optional<Key>& over) {
   const TypePtr expression = object(
       "an expression",
       {
@@ -109,38 +110,81 @@ TypePtr function_of_something(const std::vector<std::string>& si_units, const st
                 "Factor on y, with a unit: a pressure table times an area is a force."),
   };
   if (over) table_keys.insert(table_keys.begin() + 1, *over);
-  return with_id(any_of("a constant such as " + example + ", an expression or a table",
-                        {quantity_in(si_units, example), expression, object("a table", std::move(table_keys))}),
-                 id);
+  return {expression, object("a table", std::move(table_keys))};
+}
+
+/// A constant in one of `si_units`, or one of these mappings.
+TypePtr constant_or(const std::vector<std::string>& si_units, const std::string& example, std::vector<TypePtr> mappings,
+                    const std::string& or_what, const std::string& id) {
+  mappings.insert(mappings.begin(), quantity_in(si_units, example));
+  return with_id(any_of("a constant such as " + example + or_what, std::move(mappings)), id);
+}
+
+TypePtr fmu_output_format() {
+  return object(
+      "the output of an FMU",
+      {
+          required("fmu", text("a name in `fmus`", "controller"),
+                   "The FMU; of functions that are a force, torque, speed or acceleration."),
+          required("output", text("a variable of the FMU", "torque"), "Its output."),
+          defaulted("hold",
+                    choice({{"constant", "the value of the last exchange"},
+                            {"extrapolated", "on the line through the values of the last two exchanges"},
+                            {"ramp",
+                             "from the value of the last but one exchange to that of the last: continuous, and "
+                             "one communication step late; what drives with a speed need"}}),
+                    "constant", "How it goes on between two exchanges."),
+          defaulted("scale", scale_factor("-1"), "1",
+                    "Factor on the output; with a unit where the FMU gives the output none, `1 N.m`."),
+      });
 }
 
 const std::string kOperations =
     "`+ - * / ^`, comparisons, `?:`, `pi`, `e`, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, "
     "log10, sqrt, abs, sign, min, max.";
+const std::string kInTimeAndCoordinates =
+    "Formula in `t` [s] and joint coordinates such as `main.rotation` [rad or m] and `main.rotation_rate` [rad/s or "
+    "m/s]; " +
+    kOperations;
 
 }  // namespace
 
 TypePtr function_format(const std::vector<std::string>& si_units, const std::string& example) {
   std::string id = "function";
   for (const std::string& unit : si_units) id += " " + unit;
-  return function_of_something(
-      si_units, example, "100*sin(2*pi*50*t)",
-      "Formula in `t` [s] and joint coordinates such as `main.rotation` [rad or m] and `main.rotation_rate` [rad/s or "
-      "m/s]; " +
-          kOperations,
-      defaulted("over", text("time or joint.coordinate", "main.rotation"), "time", "What x is."), id);
+  std::vector<TypePtr> mappings =
+      mappings_of_functions(example, "100*sin(2*pi*50*t)", kInTimeAndCoordinates,
+                            defaulted("over", text("time or joint.coordinate", "main.rotation"), "time", "What x is."));
+  mappings.push_back(fmu_output_format());
+  return constant_or(si_units, example, std::move(mappings), ", an expression, a table or the output of an FMU", id);
+}
+
+TypePtr fmu_input_format() {
+  std::vector<TypePtr> ways =
+      mappings_of_functions("3000 rpm", "100*sin(2*pi*50*t)", kInTimeAndCoordinates,
+                            defaulted("over", text("time or joint.coordinate", "main.rotation"), "time", "What x is."));
+  ways.insert(ways.begin(),
+              text("a joint coordinate, a quantity of the results, or a number with its unit", "main.rotation_rate"));
+  return with_id(any_of("a joint coordinate such as main.rotation_rate, a quantity of the results such as "
+                        "bearings.main.h_min, a constant such as 3000 rpm, an expression or a table",
+                        std::move(ways)),
+                 "function for an FMU");
 }
 
 TypePtr law_format(const std::string& si_unit, const std::string& argument, const std::string& argument_unit,
                    const std::string& example) {
-  return function_of_something({si_unit}, example, "1e5*" + argument + "^3",
-                               "Formula in `" + argument + "` [" + argument_unit + "]; " + kOperations, std::nullopt,
-                               "law " + si_unit + " over " + argument);
+  return constant_or(
+      {si_unit}, example,
+      mappings_of_functions(example, "1e5*" + argument + "^3",
+                            "Formula in `" + argument + "` [" + argument_unit + "]; " + kOperations, std::nullopt),
+      ", an expression or a table", "law " + si_unit + " over " + argument);
 }
 
 TypePtr relation_format() {
-  return function_of_something({"rad", "m"}, "0 mm", "0.01*(1 - cos(input))",
-                               "Formula in `input` [rad or m]; " + kOperations, std::nullopt, "relation");
+  return constant_or({"rad", "m"}, "0 mm",
+                     mappings_of_functions("0 mm", "0.01*(1 - cos(input))",
+                                           "Formula in `input` [rad or m]; " + kOperations, std::nullopt),
+                     ", an expression or a table", "relation");
 }
 
 }  // namespace hersey::model

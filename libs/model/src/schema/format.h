@@ -13,6 +13,7 @@ namespace hersey::model {
 [[nodiscard]] TypePtr beam_format();
 [[nodiscard]] TypePtr shapes_format();
 [[nodiscard]] TypePtr joints_format();
+[[nodiscard]] TypePtr fmus_format();
 [[nodiscard]] TypePtr drives_format();
 [[nodiscard]] TypePtr forces_format();
 [[nodiscard]] TypePtr couplings_format();
@@ -42,8 +43,11 @@ namespace hersey::model {
 /// A direction: a frame's x, y or z, or three numbers.
 [[nodiscard]] TypePtr axis_format();
 
-/// A constant, an expression or a table whose value is in one of `si_units`.
+/// A constant, an expression, a table or the output of an FMU whose value is in one of `si_units`.
 [[nodiscard]] TypePtr function_format(const std::vector<std::string>& si_units, const std::string& example);
+
+/// What an input of an FMU is given: the name of a quantity or a number, an expression in time or a table over it.
+[[nodiscard]] TypePtr fmu_input_format();
 
 /// A function of one thing called `argument`: a constant, an expression in it or a table over it.
 [[nodiscard]] TypePtr law_format(const std::string& si_unit, const std::string& argument,

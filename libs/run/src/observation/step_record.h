@@ -7,6 +7,7 @@
 #include "hersey/film/thermal_network.h"
 #include "hersey/mbd/contact.h"
 #include "hersey/mbd/observation.h"
+#include "observation/fmu_signals.h"
 #include "observation/power_balance.h"
 
 namespace hersey::run {
@@ -28,6 +29,7 @@ struct StepRecord {
   std::vector<mbd::ContactObservation> contacts;  ///< in ground's axes
   film::NetworkObservables network;               ///< state of the thermal network; empty if there is none
   bearing::CircuitObservation circuit;            ///< empty if there is none
+  std::vector<FmuSignals> fmus;                   ///< of each FMU; empty if there are none
   PowerBalance power;
 };
 

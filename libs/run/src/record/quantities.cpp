@@ -17,6 +17,7 @@
 #include "series/contact_record.h"
 #include "series/effort_record.h"
 #include "series/flexible_record.h"
+#include "series/fmu_record.h"
 #include "series/geometry_record.h"
 #include "series/group_record.h"
 #include "series/joint_record.h"
@@ -105,6 +106,7 @@ const std::vector<QuantityGroup>& result_quantities() {
     add({GroupRecord::describe(), ThermalRecord::describe(), CircuitRecord::describe()});
     add({body_group(), shapes_of_bodies(), describe_ground(), describe_shapes("/ground/shapes/<s>/"), joint_group()});
     add(EffortRecord::describe());
+    add({FmuRecord::describe()});
     add({force_group(), ContactRecord::describe(), SurfaceLoadRecord::describe(), ModeRecord::describe()});
     for (QuantityGroup& group : groups) add_dimensions(group);
     return groups;

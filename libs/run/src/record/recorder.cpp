@@ -89,6 +89,7 @@ void Recorder::declare() {
   for (const std::size_t i : shown_bodies_) bodies_.emplace_back(spec.bodies[i].name, last_of(bodies_), writer_);
   for (const std::size_t i : shown_joints_) joints_.emplace_back(spec.joints[i], last_of(joints_), writer_);
   efforts_.emplace(spec, writer_);
+  for (const model::Fmu& fmu : model_.fmus) fmus_.emplace_back(fmu, writer_);
   for (const model::BuiltFlexible& body : machine_.flexibles) flexibles_.emplace_back(body, writer_);
   surface_loads_.emplace(machine_, writer_);
   for (const model::BuiltBeam& beam : machine_.beams) beams_.emplace_back(model_, machine_, beam, writer_);
@@ -117,6 +118,7 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].append(observation.bodies[shown_bodies_[i]]);
   for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i].append(observation.joints[shown_joints_[i]]);
   efforts_->append(observation);
+  for (std::size_t i = 0; i < fmus_.size(); ++i) fmus_[i].append(step.fmus[i]);
   for (const FlexibleRecord& body : flexibles_) body.append(observation);
   surface_loads_->append(observation);
   for (const BeamRecord& beam : beams_) beam.append(observation);

@@ -22,6 +22,7 @@
 #include "series/contact_record.h"
 #include "series/effort_record.h"
 #include "series/flexible_record.h"
+#include "series/fmu_record.h"
 #include "series/group_record.h"
 #include "series/joint_record.h"
 #include "series/mode_record.h"
@@ -93,6 +94,7 @@ class Recorder {
   std::vector<BodyRecord> bodies_;
   std::vector<JointRecord> joints_;
   std::optional<EffortRecord> efforts_;
+  std::vector<FmuRecord> fmus_;
   std::vector<FlexibleRecord> flexibles_;
   std::optional<SurfaceLoadRecord> surface_loads_;
   std::vector<BeamRecord> beams_;

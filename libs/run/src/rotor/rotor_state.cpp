@@ -152,6 +152,9 @@ class SpinningMachine {
   }
 
   void require_shaft() const {
+    if (!model_.fmus.empty())
+      throw rotor_fault(model_, "a machine with `fmus`", "a machine whose small motions are known: without FMUs",
+                        "springs and dampers, or `bearing_table`, in place of a controller");
     const auto spins = [](const BodySpin& spin) { return !spin.omega.isZero(0); };
     if (std::none_of(spins_.begin(), spins_.end(), spins))
       throw rotor_fault(model_, "no body that a drive rotates", "a shaft that a drive rotates at a constant speed",

@@ -96,6 +96,7 @@ std::vector<double> WorkRecord::spent() const {
     films += seconds.back();
   }
   seconds.insert(seconds.end(), {elastic, timing.total - elastic - films, integrator_.linear_solve_time(), recording_});
+  if (!model_.fmus.empty()) seconds.push_back(fmus_);
   return seconds;
 }
 
@@ -136,7 +137,9 @@ Work WorkRecord::work() const {
   work.stepping = total_of(seconds);
   std::vector<std::string> names;
   for (const model::Bearing& bearing : model_.bearings) names.push_back("film " + bearing.name);
-  names.insert(names.end(), {"elastic bodies", "other bodies and forces", "linear solve", "recording", "rest"});
+  names.insert(names.end(), {"elastic bodies", "other bodies and forces", "linear solve", "recording"});
+  if (!model_.fmus.empty()) names.emplace_back("FMUs");
+  names.emplace_back("rest");
   for (std::size_t i = 0; i < names.size(); ++i) work.parts.push_back({names[i], seconds[i]});
   for (std::size_t i = 0; i < model_.bearings.size(); ++i) {
     const model::Bearing& bearing = model_.bearings[i];
@@ -225,7 +228,8 @@ const std::vector<Attribute<Cost>>& of_parts() {
        "s",
        "its share of `stepping`",
        [](const Cost& cost, std::size_t k) { return cost.work.parts[k].seconds; },
-       {.note = "each film, elastic bodies, other bodies and forces, linear solve, recording, rest",
+       {.note = "each film, elastic bodies, other bodies and forces, linear solve, recording, FMUs where there are "
+                "some, rest",
         .each = [](const Cost& cost) {
           std::vector<std::string> names;
           for (const WorkPart& part : cost.work.parts) names.push_back(part.name);

@@ -37,6 +37,8 @@ class WorkRecord {
   void take(const StepRecord& step);
   /// Time of observing steps and writing them down is to be added here [s].
   [[nodiscard]] double& recording() { return recording_; }
+  /// Time of exchanges with FMUs, and of their steps, likewise [s].
+  [[nodiscard]] double& fmus() { return fmus_; }
   [[nodiscard]] Work work() const;
   void persist(Archive& archive);
 
@@ -54,7 +56,7 @@ class WorkRecord {
   const solver::Integrator& integrator_;
   Clock::time_point made_, began_;
   bool is_begun_ = false;
-  double recording_ = 0;
+  double recording_ = 0, fmus_ = 0;
   double start_up_before_ = 0;                         ///< of the parts of a resumed run
   std::vector<double> spent_at_begin_, spent_before_;  ///< the latter: of the parts of a resumed run
   std::vector<FilmCost> films_before_;                 ///< of a resumed run

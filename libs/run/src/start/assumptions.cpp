@@ -521,6 +521,12 @@ Rows assumptions(const model::Model& model) {
   }
   if (model.circuit)
     for (auto& row : circuit_assumptions(*model.circuit)) rows.push_back(std::move(row));
+  for (const model::Fmu& fmu : model.fmus)
+    rows.emplace_back(
+        "FMU " + fmu.name,
+        fmt::format("{}, FMI {}.0; signals are exchanged every {:.4g} us, and each side goes on by those of "
+                    "the last exchange",
+                    fmu.description.model_name, fmu.description.version, 1e6 * fmu.step));
   rows.emplace_back(method(model.simulation));
   return rows;
 }

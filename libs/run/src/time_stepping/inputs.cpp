@@ -51,6 +51,7 @@ bool has_supply_pressure(const film::SurfaceFeature& feature) {
 Inputs::Inputs(model::Model& model) : plan_(model.simulation) {
   for (model::Drive& drive : model.drives) {
     if (drive.prescribes == model::Drive::Prescribes::position) continue;  // a jump of it is no motion
+    if (drive.motion.signal) continue;
     const bool is_speed = drive.prescribes == model::Drive::Prescribes::speed;
     std::string unit = model::speed_unit(drive.coordinate);
     if (!is_speed) unit += "^2";
@@ -64,7 +65,7 @@ Inputs::Inputs(model::Model& model) : plan_(model.simulation) {
   }
   for (model::Force& force : model.forces)
     for (const auto& followed : functions_of(force))
-      add(*followed.function, followed.unit, followed.text, Jump::of_force);
+      if (!followed.function->signal) add(*followed.function, followed.unit, followed.text, Jump::of_force);
   for (model::Bearing& bearing : model.bearings)
     for (std::size_t f = 0; f < bearing.feature_pressures.size(); ++f)
       if (bearing.film.features[f].is_fed && has_supply_pressure(bearing.film.features[f]) &&

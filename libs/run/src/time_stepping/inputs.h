@@ -9,17 +9,11 @@
 #include "hersey/core/settable_function.h"
 #include "hersey/model/model.h"
 #include "hersey/run/port_info.h"
+#include "time_stepping/jump.h"
 
 namespace hersey::run {
 
-/// Effect of a changed input on the integrator.
-enum class Jump {
-  none,      ///< acts through a film's own unknowns, which are computed anew in every step
-  of_force,  ///< accelerations jump
-  of_speed,  ///< velocities do
-};
-
-/// The functions of a model that can be set from outside.
+/// The functions of a model that can be set from outside; not those that outputs of FMUs set.
 class Inputs {
  public:
   /// Replaces every input of `model` by a settable function. To be called before the model is built.

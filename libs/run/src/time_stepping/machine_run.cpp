@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "hersey/core/stopwatch.h"
@@ -86,17 +88,19 @@ CircuitProgress circuit_of(const model::Model& model, const StepRecord& step) {
 
 MachineRun::MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint,
                        PeriodicStart start)
-    : model_(model),
+    : exchange_(model.fmus.empty() ? nullptr : std::make_unique<FmuExchange>(model)),
+      model_(exchange_ ? exchange_->model() : model),
       options_(options),
       began_(Clock::now()),
-      machine_(model::build(model)),
-      state_(starting_state(model, machine_)),
-      start_(begin_in(std::move(start), model, machine_, state_)),
+      machine_(model::build(model_)),
+      state_(starting_state(model_, machine_)),
+      start_(begin_in(std::move(start), model_, machine_, state_)),
       kinds_(force_kinds(machine_)),
-      stepper_(model, machine_),
-      work_(model, machine_, stepper_.integrator()),
-      record_(model, machine_, state_, options, checkpoint.has_value()),
-      checkpoints_(model.simulation) {
+      stepper_(model_, machine_),
+      work_(model_, machine_, stepper_.integrator()),
+      record_(model_, machine_, state_, options, checkpoint.has_value()),
+      checkpoints_(model_.simulation) {
+  if (exchange_) fmu_inputs_.emplace(model_, machine_, state_);
   record_.declare_cost(work_.work());
   if (checkpoint) restore_file(std::move(*checkpoint));
 }
@@ -111,13 +115,42 @@ void MachineRun::begin() {
     if (start_.motion) move_to(*start_.motion);
     StepRecord start = observe({});
     stepper_.plan(state_, start.mechanism);
+    if (exchange_) begin_exchange(start);
     record(std::move(start));
     if (!start_.multipliers.empty()) record_.write_multipliers(start_.multipliers);
   }
   work_.begin();
 }
 
+// The machine at its start, as it is with what the FMUs return to that.
+void MachineRun::begin_exchange(StepRecord& start) {
+  exchange_->take_inputs(fmu_inputs_->at(start, record_.energy()));
+  const Jump jump = exchange_->begin();
+  if (jump != Jump::none) take_jump(jump == Jump::of_speed);
+  start = observe({});
+}
+
+// Inputs are those of the end of the last step, whatever has been resumed or restored since.
+Outcome MachineRun::exchange_signals() {
+  if (!exchange_->is_due(state_.t, slack())) return {Ending::solved};
+  try {
+    Jump jump = Jump::none;
+    {
+      const Stopwatch watch(work_.fmus());
+      jump = exchange_->exchange(state_.t, slack());
+    }
+    if (jump != Jump::none) take_jump(jump == Jump::of_speed);
+  } catch (const std::runtime_error& error) {
+    return no_answer<Outcome>(fmt::format("t = {:.6g} s: {}", state_.t, error.what()));
+  }
+  return {Ending::solved};
+}
+
 Outcome MachineRun::step(double limit) {
+  if (exchange_) {
+    if (Outcome exchanged = exchange_signals(); !exchanged.solved()) return exchanged;
+    limit = std::min(limit, exchange_->next());
+  }
   const TimeStep step = stepper_.take(state_, limit);
   if (!step.solved()) {
     // The message of a journal that touches names asperities already.
@@ -131,6 +164,10 @@ Outcome MachineRun::step(double limit) {
   if (model_.thermal_walls == model::ThermalWalls::cycle_mean) average_streams(machine_, step.dt);
   mix_grooves(machine_);
   record(step);
+  if (exchange_ && exchange_->is_due(state_.t, slack())) {
+    const Stopwatch watch(work_.fmus());
+    exchange_->take_inputs(fmu_inputs_->at(last_step_, record_.energy()));
+  }
   for (const std::string& why : {thermal_failure(machine_), wear_failure(machine_)})
     if (!why.empty()) return no_answer<Outcome>(fmt::format("t = {:.6g} s: {}", state_.t, why));
   return {Ending::solved};
@@ -146,6 +183,7 @@ StepRecord MachineRun::observe(const TimeStep& step) {
   observed.rejected_steps = stepper_.rejected_steps();
   observed.energy_available = stepper_.energy().available();
   observed.energy_from_nowhere = stepper_.energy().gained();
+  if (exchange_) observed.fmus = exchange_->signals();
   return observed;
 }
 
@@ -181,6 +219,10 @@ void MachineRun::persist(Archive& archive) {
   if (machine_.network) {
     const Archive::Group group(archive, "thermal_network");
     machine_.network->persist(archive);
+  }
+  if (exchange_) {
+    const Archive::Group group(archive, "fmus");
+    exchange_->persist(archive);
   }
   {
     const Archive::Group group(archive, "work");
@@ -228,6 +270,7 @@ void MachineRun::place_surfaces() {
 }
 
 void MachineRun::write_checkpoint(bool in_any_case) {
+  if (exchange_ && !why_not_saved(model_).empty()) return;
   if (start_.was_stopped || options_.results.empty() || !(in_any_case || checkpoints_.is_due(state_.t))) return;
   const Stopwatch watch(work_.recording());
   const Clock::time_point began = Clock::now();

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@
 #include "record/run_record.h"
 #include "series/work_record.h"
 #include "time_stepping/checkpoint.h"
+#include "time_stepping/fmu_exchange.h"
+#include "time_stepping/fmu_inputs.h"
 #include "time_stepping/motion.h"
 #include "time_stepping/periodic_start.h"
 #include "time_stepping/time_stepper.h"
@@ -30,6 +33,7 @@ class MachineRun {
  public:
   /// @param model, options  outlive this; without options.results nothing is written
   /// @param checkpoint  state from which an interrupted run continues; none: the run starts at its beginning
+  /// @throws InputError where an FMU of the model cannot be started, or is given what is not there
   /// @param start  of a run that is not resumed; without cycles: that of the model
   MachineRun(const model::Model& model, const Options& options, std::optional<Archive::Content> checkpoint = {},
              PeriodicStart start = {});
@@ -73,7 +77,7 @@ class MachineRun {
   [[nodiscard]] const EnergySummary& energy() const { return record_.energy(); }
 
   /// Writes a checkpoint beside the results if one is due, or in any case; none where the lead-in was stopped, so that
-  /// the run begins anew with it.
+  /// the run begins anew with it, and none with FMUs that cannot save their state.
   void write_checkpoint(bool in_any_case);
 
   /// Closes the results.
@@ -104,13 +108,16 @@ class MachineRun {
   void persist_motion(Archive& archive);
   void place_surfaces();
   [[nodiscard]] StepRecord observe(const TimeStep& step);
+  void begin_exchange(StepRecord& start);
+  [[nodiscard]] Outcome exchange_signals();
   void record(const TimeStep& step);
   void record(StepRecord step);
   void report_progress(const StepRecord& step) const;
   [[nodiscard]] double elapsed() const;
   [[nodiscard]] Cost cost() const { return {elapsed(), work_.work()}; }
 
-  const model::Model& model_;
+  std::unique_ptr<FmuExchange> exchange_;  ///< null: the model has no FMUs
+  const model::Model& model_;              ///< the given one, or that of the exchange
   const Options& options_;
   Clock::time_point began_;
   model::Machine machine_;
@@ -122,6 +129,7 @@ class MachineRun {
   RunRecord record_;
   CheckpointSchedule checkpoints_;
   StepRecord last_step_;
+  std::optional<FmuInputs> fmu_inputs_;
   bool resumes_ = false;
   std::optional<Cost> cost_;  // the cost with which the results were closed; the summary reports the same
   double before_ = 0;         // computing time before the run was resumed [s]

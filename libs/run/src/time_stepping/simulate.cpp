@@ -22,6 +22,8 @@
 #include "start/start.h"
 #include "start/start_changes.h"
 #include "time_stepping/checkpoint.h"
+#include "time_stepping/fmu_exchange.h"
+#include "time_stepping/fmu_inputs.h"
 #include "time_stepping/instants.h"
 #include "time_stepping/lead_in.h"
 #include "time_stepping/machine_run.h"
@@ -223,7 +225,11 @@ Summary resume(const model::Model& model, const Options& options) {
   const std::filesystem::path file = checkpoint_file(options.results);
   if (begun && std::filesystem::exists(file)) return resume_from(results::read_checkpoint(file), model, options);
   Summary summary;
-  if (begun && is_complete(model, options.results)) {
+  const bool is_done = begun && is_complete(model, options.results);
+  if (const std::string why = why_not_saved(model); !is_done && !why.empty())
+    throw InputError(Fault{model.position_of("fmus"), "fmus", "a run to go on with: " + why,
+                           "FMUs that save their state", "run it anew with --force"});
+  if (is_done) {
     summary.results = options.results;
     summary.t_end = summary.t_results = last_time(options.results);
     summary.status = Status::completed;
@@ -257,6 +263,7 @@ std::vector<Fault> check(const model::Model& model) {
   const mbd::Observation at_start = observe_step(machine, start, force_kinds(machine)).mechanism;
   if (model.simulation.error_control) (void)kinks(model, machine.mechanism->spec(), at_start);
   std::vector<Fault> warnings = start_warnings(model, *machine.mechanism, start);
+  if (!model.fmus.empty()) (void)FmuInputs(model, machine, start);  // refuses quantities that are not there
   for (Fault& warning : redundancy_warnings(model, *machine.mechanism)) warnings.push_back(std::move(warning));
   for (Fault& warning : offset_warnings(model)) warnings.push_back(std::move(warning));
   for (Fault& warning : axis_warnings(model, machine, at_start)) warnings.push_back(std::move(warning));

@@ -15,6 +15,7 @@
 #include "hersey/core/spelling.h"
 #include "hersey/results/output_lock.h"
 #include "record/recorder.h"
+#include "table/output_name.h"
 #include "time_stepping/inputs.h"
 #include "time_stepping/lead_in.h"
 #include "time_stepping/machine_run.h"
@@ -53,19 +54,13 @@ constexpr double kResponds = 1e-9;     // of the largest output in its unit, by 
 /// Share of the largest output in an input's unit that stands for an input of 0.
 constexpr double kOfTheMachine = 1e-2;
 
-/// "/bearings/big_end/h_min" as "bearings.big_end.h_min".
-std::string dotted(const std::string& path) {
-  std::string name = path.substr(1);
-  std::replace(name.begin(), name.end(), '/', '.');
-  return name;
-}
-
 }  // namespace
 
 std::string why_no_derivatives(const model::Model& model) {
   const model::Simulation& plan = model.simulation;
   if (plan.error_control) return "steps of fixed length: a number for `simulation.step`";
   if (plan.analysis != model::Analysis::dynamics) return "analysis `dynamics`";
+  if (!model.fmus.empty()) return "a model without `fmus`, whose own derivatives are not known";
   if (plan.integrator != model::Integrator::generalized_alpha) return "`integrator: generalized_alpha`";
   for (const model::Bearing& bearing : model.bearings)
     if (bearing.coupling.scheme == model::CouplingScheme::partitioned)
@@ -83,11 +78,10 @@ struct Simulation::Impl {
         snapshot(model, run.machine(), run.state(), Options{}) {
     run.begin();
     for (const results::LatestRow& row : snapshot.latest()) {
-      // Fields and cycles have instants of their own.
-      if (row.path.find("/fields/") != std::string::npos || row.path.find("/cycles/") != std::string::npos) continue;
-      index_of[dotted(row.path)] = rows.size();
+      if (!is_row_of_steps(row.path)) continue;
+      index_of[output_name(row.path)] = rows.size();
       rows.push_back(static_cast<std::size_t>(&row - snapshot.latest().data()));
-      outputs.push_back({dotted(row.path), row.unit, row.text, row.shape, row.components});
+      outputs.push_back({output_name(row.path), row.unit, row.text, row.shape, row.components});
     }
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -40,6 +41,10 @@ inline constexpr double smallest_quantity = 1e-100;
 /// Returns the dimension with the SI unit `si_unit`, spelled as in `dimensions()`.
 /// @throws ContractError if there is no such dimension.
 [[nodiscard]] const Dimension& dimension_of(std::string_view si_unit);
+
+/// Returns the SI unit of the dimension of `unit`, spelled as in `dimensions()`; the first one where several measure
+/// the same. None if the unit is unknown, or no dimension of `dimensions()` is that of it.
+[[nodiscard]] std::optional<std::string> si_unit_of(const std::string& unit);
 
 /// Number and unit as written by the user.
 struct Quantity {

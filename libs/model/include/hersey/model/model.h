@@ -28,6 +28,7 @@
 #include "hersey/mbd/joint_type.h"
 #include "hersey/mbd/nodal_body.h"
 #include "hersey/mbd/shape.h"
+#include "hersey/model/fmu.h"
 #include "hersey/model/force.h"
 #include "hersey/model/function.h"
 #include "hersey/model/names.h"
@@ -477,6 +478,7 @@ struct Model {
   Body ground;                        ///< carries frames only
   std::vector<Body> bodies;           ///< in the order of the file
   std::vector<Joint> joints;
+  std::vector<Fmu> fmus;
   std::vector<Drive> drives;
   std::vector<CoordinateCoupling> couplings;
   std::vector<Force> forces;

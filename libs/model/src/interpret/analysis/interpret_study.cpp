@@ -151,12 +151,13 @@ struct FigureOwner {
   const char* section;
   const char* singular;
 };
-constexpr std::array<FigureOwner, 8> kOwners{{{"bearings.", "bearings", "bearing"},
+constexpr std::array<FigureOwner, 9> kOwners{{{"bearings.", "bearings", "bearing"},
                                               {"bodies.", "bodies", "body"},
                                               {"joints.", "joints", "joint"},
                                               {"drives.", "drives", "drive"},
                                               {"couplings.", "couplings", "coupling"},
                                               {"contacts.", "contacts", "contact"},
+                                              {"fmus.", "fmus", "FMU"},
                                               {"forces.", "forces", "force"},
                                               {"surface_loads.", "forces", "force"}}};
 

@@ -108,6 +108,15 @@ struct Argument {
   std::string name, unit;
 };
 
+/// A joint coordinate or its rate, as expressions name it, and its SI unit.
+struct JointVariable {
+  Variable variable;
+  std::string unit;
+};
+
+/// The one called `name`, "main.rotation_rate"; nothing where there is no such joint or coordinate.
+[[nodiscard]] std::optional<JointVariable> joint_variable(const Context& context, const std::string& name);
+
 /// A function whose value is wanted in `si_unit`; reports every fault of its expression, table, units and file.
 /// @param argument  what alone it depends on; without a name: time and joint coordinates
 [[nodiscard]] Function function_of(Context& context, const Value& value, const std::string& si_unit,
@@ -177,6 +186,10 @@ void require_facing_surfaces(Context& context, const Value& value, const Bearing
 // The sections of the file.
 void interpret_bodies(Context& context);
 void interpret_joints(Context& context);
+/// The section `fmus`. Before all that follows outputs of FMUs.
+void interpret_fmus(Context& context);
+/// Reports analyses in which FMUs cannot take part. After simulation.
+void check_fmus(Context& context);
 void interpret_drives(Context& context);
 void interpret_couplings(Context& context);
 void interpret_forces(Context& context);

@@ -6,6 +6,7 @@
 #include "hersey/core/spelling.h"
 #include "hersey/core/table_function.h"
 #include "hersey/core/units.h"
+#include "interpret/context/fmu_variable.h"
 #include "interpret/context/table_file.h"
 
 namespace hersey::model {
@@ -33,8 +34,10 @@ class FunctionReader {
       read_constant(content);
     } else if (content.has("expression")) {
       read_expression(content);
-    } else if (content.find("table") != nullptr) {
+    } else if (content.has("table")) {
       read_table(content);
+    } else if (content.has("fmu")) {
+      read_fmu(content);
     }
     return function_;
   }
@@ -130,6 +133,63 @@ class FunctionReader {
     }
   }
 
+  // --- outputs of FMUs -------------------------------------------------------------------------------------------
+
+  void read_fmu(const Value& content) {
+    static const std::vector<std::string> followers{"N", "N.m", "rad/s", "m/s", "rad/s^2", "m/s^2"};
+    const Value &name = *content.find("fmu"), *output = content.find("output");
+    if (name.broken || output == nullptr || output->broken) return;
+    if (std::find(followers.begin(), followers.end(), si_unit_) == followers.end())
+      return context_.fault_at_key(content, "the output of an FMU",
+                                   "a constant, an expression or a table: FMUs give forces, torques, speeds and "
+                                   "accelerations");
+    std::vector<Fmu>& fmus = context_.model.fmus;
+    const auto fmu = std::find_if(fmus.begin(), fmus.end(), [&](const Fmu& one) { return one.name == name.text; });
+    if (fmu == fmus.end()) {
+      const std::vector<std::string> names = names_in(context_.root, "fmus");
+      const bool is_broken = std::find(names.begin(), names.end(), name.text) != names.end();
+      if (!is_broken)
+        context_.fault(name, "'" + name.text + "'", names.empty() ? "a name in `fmus`, which is empty" : one_of(names),
+                       did_you_mean(name.text, names));
+      return;
+    }
+    const auto variable = exchanged_variable(context_, *output, *fmu, output->text, fmi::Causality::output);
+    if (!variable) return;
+    const std::optional<double> scale = scale_of(content, *variable);
+    if (!scale) return;
+    follow(static_cast<std::size_t>(fmu - fmus.begin()), *variable, *scale, text_of(content, "hold"));
+  }
+
+  /// Factor from the output in SI to the function's value; reports a unit that does not fit.
+  std::optional<double> scale_of(const Value& content, const ExchangedVariable& output) {
+    const Value& scale = *content.find("scale");
+    if (scale.broken) return std::nullopt;
+    try {
+      const Quantity factor = scale.formula.empty() ? split_quantity(scale.text) : evaluate_formula(scale.formula);
+      if (output.unit.empty()) return factor.unit.empty() ? factor.number : convert_to_si(factor, si_unit_);
+      return convert_to_si(product({1, output.unit}, factor), si_unit_);
+    } catch (const QuantityError& error) {
+      context_.fault(scale.given ? scale : *content.find("output"), error.found,
+                     expectation_of(si_unit_) + ", by the output's unit times `scale`", error.suggestion);
+      return std::nullopt;
+    }
+  }
+
+  void follow(std::size_t index, const ExchangedVariable& output, double scale, const std::string& hold) {
+    std::vector<FmuOutputVariable>& outputs = context_.model.fmus[index].outputs;
+    const auto known = std::find_if(outputs.begin(), outputs.end(), [&](const FmuOutputVariable& one) {
+      return one.variable.name == output.variable.name;
+    });
+    const auto at = static_cast<std::size_t>(known - outputs.begin());
+    // One without a unit in the FMU is recorded in that of what first follows it.
+    if (known == outputs.end()) outputs.push_back({output.variable, output.unit});
+    function_.signal = FmuSignal{index, at, scale,
+                                 hold == "ramp"           ? FmuHold::ramp
+                                 : hold == "extrapolated" ? FmuHold::extrapolated
+                                                          : FmuHold::constant};
+    function_.variables = {Variable{}};
+  }
+
   // --- variables -------------------------------------------------------------------------------------------------
 
   std::vector<std::string> variable_names() {
@@ -152,28 +212,16 @@ class FunctionReader {
       return Variable{Variable::Kind::argument, "", name};
     }
     if (name == "t") return Variable{};
-    const auto dot = name.find('.');
-    if (dot == std::string::npos) return std::nullopt;
-    const std::string joint = name.substr(0, dot), rest = name.substr(dot + 1);
-    const auto coordinates = coordinates_of_joint(context_.root, joint);
-    if (!coordinates) return std::nullopt;
-    for (const JointCoordinate& coordinate : *coordinates) {
-      if (rest == coordinate.name) return Variable{Variable::Kind::coordinate, joint, coordinate.name};
-      if (rest == coordinate.name + "_rate") return Variable{Variable::Kind::rate, joint, coordinate.name};
-    }
-    return std::nullopt;
+    const std::optional<JointVariable> found = joint_variable(context_, name);
+    return found ? std::optional(found->variable) : std::nullopt;
   }
 
   std::string unit_of(const Variable& variable) {
     if (variable.kind == Variable::Kind::argument) return argument_.unit;
     if (variable.kind == Variable::Kind::time) return "s";
-    const auto coordinates = coordinates_of_joint(context_.root, variable.joint);
-    bool rotational = false;
-    for (const JointCoordinate& coordinate : *coordinates) {
-      if (coordinate.name == variable.coordinate) rotational = coordinate.rotational;
-    }
-    const std::string unit = rotational ? "rad" : "m";
-    return variable.kind == Variable::Kind::rate ? unit + "/s" : unit;
+    return joint_variable(context_, variable.joint + "." + variable.coordinate +
+                                        (variable.kind == Variable::Kind::rate ? "_rate" : ""))
+        ->unit;
   }
 
   // --- tables ----------------------------------------------------------------------------------------------------
@@ -319,6 +367,21 @@ class FunctionReader {
 };
 
 }  // namespace
+
+std::optional<JointVariable> joint_variable(const Context& context, const std::string& name) {
+  const auto dot = name.find('.');
+  if (dot == std::string::npos) return std::nullopt;
+  const std::string joint = name.substr(0, dot), rest = name.substr(dot + 1);
+  const auto coordinates = coordinates_of_joint(context.root, joint);
+  if (!coordinates) return std::nullopt;
+  for (const JointCoordinate& coordinate : *coordinates) {
+    const std::string unit = coordinate.rotational ? "rad" : "m";
+    if (rest == coordinate.name) return JointVariable{{Variable::Kind::coordinate, joint, coordinate.name}, unit};
+    if (rest == coordinate.name + "_rate")
+      return JointVariable{{Variable::Kind::rate, joint, coordinate.name}, unit + "/s"};
+  }
+  return std::nullopt;
+}
 
 Function function_of(Context& context, const Value& value, const std::string& si_unit, const Argument& argument) {
   return FunctionReader(context, si_unit, argument).read(value);

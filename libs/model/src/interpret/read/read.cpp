@@ -133,6 +133,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   check_completeness(context);
   interpret_bodies(context);
   interpret_joints(context);
+  interpret_fmus(context);
   interpret_drives(context);
   interpret_couplings(context);
   interpret_forces(context);
@@ -147,6 +148,7 @@ Model read_tree(Node root, const std::string& file, const std::vector<Override>&
   check_thermal_network(context);
   require_separate_faces(context);
   interpret_simulation(context);
+  check_fmus(context);
   interpret_thermal_walls(context);
   check_functions_of_crank(context);
   interpret_study(context);

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-/// The C interface of FMI 2.0 for co-simulation, in our own words: types, and the functions that the FMU exports
-/// (FMI 2.0.4, section 2.1 and chapter 4). Names and orders are the standard's.
+/// The C interface of FMI 2.0 for co-simulation, in our own words: the types with which an FMU and its importer call
+/// each other (FMI 2.0.4, section 2.1 and chapter 4). Names and orders are the standard's.
 
 extern "C" {
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The C interface of FMI 3.0 for co-simulation, in our own words: types, and the functions that the FMU exports
-/// (FMI 3.0.1, section 2.2 and chapter 4). Names and orders are the standard's.
+/// The C interface of FMI 3.0 for co-simulation, in our own words: the types with which an FMU and its importer call
+/// each other (FMI 3.0.1, section 2.2 and chapter 4). Names and orders are the standard's.
 
 extern "C" {
 

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "hersey/fmi/description.h"
+#include "hersey/fmi/fmu_file.h"
+
+namespace hersey::fmi {
+
+/// A folder for this program alone, which vanishes with the object.
+class TemporaryFolder {
+ public:
+  /// @throws std::filesystem::filesystem_error
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The library of an unpacked FMU.
+class LoadedLibrary {
+ public:
+  /// @throws FmuError with the loader's words
+  LoadedLibrary(const FmuFile& file, const Description& description);
+  ~LoadedLibrary();
+  LoadedLibrary(const LoadedLibrary&) = delete;
+  LoadedLibrary& operator=(const LoadedLibrary&) = delete;
+
+  /// The function called `name`, as one of this type. @throws FmuError if the library has none
+  template <class Function>
+  void find(Function*& function, const char* name) const {
+    function = reinterpret_cast<Function*>(symbol(name));
+  }
+  /// Path of the folder `resources`, whether the FMU has one or not.
+  [[nodiscard]] std::filesystem::path resources() const { return folder_.path() / "resources"; }
+
+ private:
+  [[nodiscard]] void* symbol(const char* name) const;
+
+  TemporaryFolder folder_;
+  void* handle_ = nullptr;
+};
+
+/// What an FMU logs in the course of a call.
+class CallLog {
+ public:
+  void clear() { text_.clear(); }
+  void add(const std::string& message);
+  /// ": " and the messages; empty if there are none.
+  [[nodiscard]] std::string text() const { return text_.empty() ? std::string() : ": " + text_; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace hersey::fmi
