@@ -169,11 +169,11 @@ class BranchFollower {
   std::optional<BranchPoint> point_at_crossing(const BranchPoint& a, const BranchPoint& b, bool in_the_middle) {
     const std::optional<Crossing> crossing = crossing_between(a.orbit, b.orbit);
     if (!crossing) return std::nullopt;
-    const double nearness = std::min(distance_from_circle(a, *crossing), distance_from_circle(b, *crossing));
+    const double distance = std::min(distance_from_circle(a, *crossing), distance_from_circle(b, *crossing));
     const BranchMetric measure(b.sizes, range_, search_.mechanism());
     const MotionAtValue start = search_.onto_section(a.at), end = search_.onto_section(b.at);
     const Eigen::VectorXd way = measure.way(search_.mechanism(), start, end);
-    if (nearness < kOnTheCircle || way.norm() < kNarrow * options_.step) return std::nullopt;
+    if (distance < kOnTheCircle || way.norm() < kNarrow * options_.step) return std::nullopt;
     const double share = in_the_middle ? 0.5 : std::clamp(crossing->share, kMargin, 1 - kMargin);
     std::vector<PeriodTrial> trials = b.trials;
     trials.push_back(a.trials.front());

@@ -375,8 +375,8 @@ enum class LeadIn {
 struct Cycle {
   double period = 0;             ///< [s], > 0
   bool is_period_found = false;  ///< by shooting, beginning with `period`: of a machine that oscillates by itself
-  double tolerance = 0.01;  ///< relative difference of the figures of two cycles; 0: all cycles are run
-  int most = 20;            ///< cycles, >= 1
+  double tolerance = 0.01;       ///< relative difference of the figures of two cycles; 0: all cycles are run
+  int most = 20;                 ///< cycles, >= 1
   LeadIn lead_in = LeadIn::none;
   int multipliers = 0;  ///< number of Floquet multipliers to find of the motion that repeats; with LeadIn::shooting
 };
