@@ -20,7 +20,7 @@ struct [[nodiscard]] FloquetMultipliers : Outcome {
     double period = 0;  ///< its length [s]
   };
   std::vector<std::complex<double>> values;
-  int periods = 0;  ///< run
+  int periods = 0;            ///< run
   std::vector<Trial> trials;  ///< those periods, that of the periodic motion first
 };
 

@@ -23,7 +23,7 @@ struct PeriodicStart {
   std::vector<bearing::FilmAtStart> films;  ///< of each bearing
   Archive::Content network;                 ///< temperatures of the thermal network
   std::optional<Motion> motion;             ///< on the grids of the run: all of it, in place of the three before
-  double period = 0;  ///< that was found [s]; 0: the model gives it
+  double period = 0;                        ///< that was found [s]; 0: the model gives it
   std::vector<std::complex<double>> multipliers = {};  ///< of the motion (FloquetMultipliers), where it asks for them
 };
 
