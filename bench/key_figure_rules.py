@@ -59,6 +59,7 @@ COMMANDS = {
     "oil_whirl/model": [("run", "simulation.duration=0.1s")],
     "oil_whirl/steady": [("run", "speed=9000rpm")],
     "oil_whirl/tables": [("run", "speed=9000rpm")],
+    "oil_whirl/whirl": [("run", "simulation.cycle.multipliers=0")],
     "oil_whirl/unbalance": [("run", "speed=9000rpm", "simulation.cycle.multipliers=0")],
     "paper_big_end/model": [("run", "load=1000N", "clearance=0.034mm", "simulation.duration=2rev")],
     "piston/elastic_pin": [("run", "simulation.duration=10deg")],

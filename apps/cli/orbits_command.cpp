@@ -49,7 +49,8 @@ std::vector<std::string> names_in(const std::string& text) {
   std::vector<std::string> names;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t comma = std::min(text.find(',', at), text.size());
-    if (comma > at) names.push_back(text.substr(at, comma - at));
+    const std::size_t first = text.find_first_not_of(' ', at), last = text.find_last_not_of(' ', comma - 1);
+    if (first < comma) names.push_back(text.substr(first, last + 1 - first));
     at = comma + 1;
   }
   return names;
@@ -60,9 +61,10 @@ model::Model model_at(const session::Session& session, std::vector<std::string> 
                       double value) {
   overrides.push_back(fmt::format("{}={:.17g}{}{}", along.name, value, along.unit.empty() ? "" : " ", along.unit));
   model::Model model = session.with(std::move(overrides)).model();
-  if (!model.simulation.cycle || model.simulation.cycle->lead_in != model::LeadIn::shooting)
+  if (model.simulation.analysis != model::Analysis::dynamics || !model.simulation.cycle ||
+      model.simulation.cycle->lead_in != model::LeadIn::shooting)
     throw InputError(Fault{model.position_of("simulation"), "simulation", "no periodic motion that is looked for",
-                           "cycle: {period: ..., lead_in: shooting}", ""});
+                           "`analysis: dynamics` with cycle: {period: ..., lead_in: shooting}", ""});
   return model;
 }
 

@@ -170,9 +170,11 @@ std::string svg_of(const CurveChart& chart) {
     if (!line.label.empty()) ends.push_back(y.at(line.y.back()) + 4);
   const std::vector<double> positions = label_positions(ends);
   std::size_t labels = 0;
-  for (std::size_t k = 0; k < chart.lines.size(); ++k) {
+  std::vector<std::size_t> own;  // colours of the lines
+  for (std::size_t k = 0, next = 0; k < chart.lines.size(); ++k) {
     const CurveLine& line = chart.lines[k];
-    const std::size_t colour = line.like.value_or(k);
+    own.push_back(line.like ? own.at(*line.like) : next++);
+    const std::size_t colour = own.back();
     svg += line_of(chart, line, colour, x, y);
     if (line.label.empty()) continue;
     svg += fmt::format("<text class=\"label c{}\" x=\"{}\" y=\"{:.1f}\">{}</text>", colour % colours, width - right + 8,

@@ -35,7 +35,10 @@ CycleChange CycleConvergence::take(const std::vector<BearingCycle>& cycle) {
   }
   CycleChange change{.number = ++ended_, .value = std::numeric_limits<double>::quiet_NaN()};
   // Shooting has compared the motion of a machine without bearings.
-  if (cycle.empty() && ended_ > 1) change.value = 0;
+  if (cycle.empty() && ended_ > 1) {
+    change.value = 0;
+    change.largest = "the motion, compared by shooting";
+  }
   using Figure = std::pair<const char*, double Figures::*>;
   constexpr std::array<Figure, 3> figures{
       {{"film thickness", &Figures::h_min}, {"peak pressure", &Figures::p_max}, {"friction", &Figures::power}}};

@@ -28,14 +28,15 @@ std::optional<Complex> nearest_decaying(const OrbitAtValue& orbit, const Complex
   return nearest;
 }
 
-// Change of the value from orbit `from` on in steps of `step`, as soon as it is one; 0 if it never is.
+// Change of the value from orbit `from` on in steps of `step`, as soon as it is one, else to the end.
 double change_from(const std::vector<OrbitAtValue>& orbits, std::size_t from, int step) {
   const auto [low, high] = std::ranges::minmax(orbits, {}, &OrbitAtValue::value);
   for (auto k = static_cast<std::ptrdiff_t>(from); k >= 0 && k < static_cast<std::ptrdiff_t>(orbits.size()); k += step)
     if (const double change = orbits[static_cast<std::size_t>(k)].value - orbits[from].value;
         std::abs(change) > kChange * (high.value - low.value))
       return change;
-  return 0;
+  const OrbitAtValue& last = step > 0 ? orbits.back() : orbits.front();
+  return last.value - orbits[from].value;
 }
 
 // The values before it and behind it lie on the same side.

@@ -20,9 +20,11 @@ constexpr int kMostRefinements = 10;   // of a bifurcation
 constexpr double kNarrow = 2e-3;       // of the largest step: orbits between which nothing is refined
 constexpr double kStraight = 0.85;     // cosine of the angle by which a branch may turn in a step
 constexpr double kTurningStep = 0.05;  // of the largest: steps that may turn by more
+constexpr double kNotBack = 0.3;       // cosine for those
 constexpr double kMargin = 0.05;       // of the way between two orbits that those between them keep
 constexpr double kSlack = 1e-6;        // of the range
 constexpr double kVanishing = 0.02;    // of the largest oscillation: one that is about to end
+constexpr double kRest = 1e-7;         // of the machine's size, and of a radian
 constexpr double kClosed = 0.5;        // of a step from the first orbit: the branch is closed
 constexpr std::size_t kFewestOfClosed = 6;
 
@@ -46,21 +48,21 @@ class BranchFollower {
 
  private:
   void add(BranchPoint point) {
-    const Eigen::VectorXd positions = point.sizes.head(point.sizes.size() / 2);
-    farthest_ = farthest_.size() == 0 ? positions : farthest_.cwiseMax(positions).eval();
+    farthest_ = farthest_.size() == 0 ? point.ways : farthest_.cwiseMax(point.ways).eval();
     if (options_.on_orbit) options_.on_orbit(point.orbit);
     points_.push_back(std::move(point));
   }
 
-  // Its largest share of how far a coordinate has gone in any orbit.
-  [[nodiscard]] double oscillation_of(const BranchPoint& point) const {
+  // Its largest share of how far a coordinate that oscillates has gone in any orbit.
+  [[nodiscard]] double oscillation_of(const BranchPoint& point) {
+    const Eigen::VectorXd least = kRest * search_.mechanism().position_scales();
     double share = 0;
     for (Eigen::Index i = 0; i < farthest_.size(); ++i)
-      if (std::isfinite(point.sizes[i])) share = std::max(share, point.sizes[i] / farthest_[i]);
+      if (farthest_[i] > least[i]) share = std::max(share, point.ways[i] / farthest_[i]);
     return share;
   }
 
-  [[nodiscard]] BranchMetric metric() { return {points_.back().sizes, range_, search_.mechanism()}; }
+  [[nodiscard]] BranchMetric metric() { return {points_.back(), range_, search_.mechanism()}; }
 
   // The plane at a step along the branch, by the last two orbits; from the first one to the next value.
   AcrossBranch plane_at(double step) {
@@ -170,7 +172,7 @@ class BranchFollower {
     const std::optional<Crossing> crossing = crossing_between(a.orbit, b.orbit);
     if (!crossing) return std::nullopt;
     const double distance = std::min(distance_from_circle(a, *crossing), distance_from_circle(b, *crossing));
-    const BranchMetric measure(b.sizes, range_, search_.mechanism());
+    const BranchMetric measure(b, range_, search_.mechanism());
     const MotionAtValue start = search_.onto_section(a.at), end = search_.onto_section(b.at);
     const Eigen::VectorXd way = measure.way(search_.mechanism(), start, end);
     if (distance < kOnTheCircle || way.norm() < kNarrow * options_.step) return std::nullopt;

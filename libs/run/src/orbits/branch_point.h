@@ -27,6 +27,7 @@ struct BranchPoint {
   OrbitAtValue orbit;
   MotionAtValue at;                 ///< at the start of a period
   Eigen::VectorXd sizes;            ///< Swing::sizes() of its period
+  Eigen::VectorXd ways;             ///< Swing::ways(): 0 of what stands still or goes round
   bool is_rest = false;             ///< nothing oscillates
   std::vector<PeriodTrial> trials;  ///< near it, its own first
 };
@@ -34,8 +35,9 @@ struct BranchPoint {
 /// Measure of the way between motions at different values of the parameter.
 class BranchMetric {
  public:
-  /// @param sizes  of positions and velocities: Swing::sizes() @param range  of the parameter
-  BranchMetric(const Eigen::VectorXd& sizes, double range, const mbd::Mechanism& mechanism);
+  /// @param point  whose swings are the sizes; coordinates that stand still or go round do not count
+  /// @param range  of the parameter
+  BranchMetric(const BranchPoint& point, double range, const mbd::Mechanism& mechanism);
   /// Returns the way, whose squares add up to that of its length: shares of the swings, then that of the range.
   [[nodiscard]] Eigen::VectorXd way(const mbd::Mechanism& mechanism, const MotionAtValue& from,
                                     const MotionAtValue& to) const;

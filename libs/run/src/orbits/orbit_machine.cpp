@@ -48,41 +48,45 @@ OrbitMachine::OrbitMachine(model::Model model, int steps, double period, const s
   options_.on_progress = [this](const Progress&) { take_excursions(); };
 }
 
+std::vector<OrbitMachine::Number> OrbitMachine::numbers() const {
+  std::vector<Number> numbers;
+  for (std::size_t k = 0; k < snapshot_.latest().size(); ++k) {
+    const results::LatestRow& row = snapshot_.latest()[k];
+    // Fields and cycles have instants of their own.
+    const bool is_of_steps = row.path.find("/fields/") == std::string::npos &&
+                             row.path.find("/cycles/") == std::string::npos && row.path != "/time";
+    if (!is_of_steps) continue;
+    const std::string path = dotted_path(row.path);
+    if (row.shape.empty()) numbers.push_back({{path, row.unit}, k, 0});
+    for (std::size_t i = 0; i < row.components.size(); ++i)
+      numbers.push_back({{path + "." + row.components[i], row.unit}, k, i});
+  }
+  return numbers;
+}
+
 std::vector<ObservedQuantity> OrbitMachine::quantities() const {
   std::vector<ObservedQuantity> quantities;
-  for (const results::LatestRow& row : snapshot_.latest()) {
-    // Fields and cycles have instants of their own.
-    if (row.path.find("/fields/") != std::string::npos || row.path.find("/cycles/") != std::string::npos) continue;
-    if (row.shape.empty()) quantities.push_back({dotted_path(row.path), row.unit});
-    for (const std::string& component : row.components)
-      quantities.push_back({dotted_path(row.path) + "." + component, row.unit});
-  }
+  for (const Number& number : numbers()) quantities.push_back(number.quantity);
   return quantities;
 }
 
 void OrbitMachine::observe(const std::vector<ObservedQuantity>& wanted) {
   observed_.clear();
   excursions_.clear();
+  const std::vector<Number> known = numbers();
   for (const ObservedQuantity& quantity : wanted) {
-    bool is_found = false;
-    for (std::size_t k = 0; k < snapshot_.latest().size() && !is_found; ++k) {
-      const results::LatestRow& row = snapshot_.latest()[k];
-      const std::string path = dotted_path(row.path);
-      if (!quantity.name.starts_with(path)) continue;
-      const auto component = std::ranges::find_if(
-          row.components, [&](const std::string& name) { return quantity.name == path + "." + name; });
-      if (quantity.name != path && component == row.components.end()) continue;
-      const std::ptrdiff_t index = component == row.components.end() ? 0 : component - row.components.begin();
-      observed_.push_back({k, static_cast<std::size_t>(index)});
-      is_found = true;
+    const auto number =
+        std::ranges::find_if(known, [&](const Number& one) { return one.quantity.name == quantity.name; });
+    if (number != known.end()) {
+      observed_.push_back(*number);
+      continue;
     }
-    if (is_found) continue;
     std::vector<std::string> names;
-    for (const ObservedQuantity& known : quantities()) names.push_back(known.name);
+    for (const Number& one : known) names.push_back(one.quantity.name);
     throw InputError(Fault{{"--observe", 0, 0},
                            "",
                            "no quantity '" + quantity.name + "'",
-                           "a number of the results' rows, such as " + names.front(),
+                           "a number of the results' rows, such as " + names.back(),
                            did_you_mean(quantity.name, names)});
   }
 }

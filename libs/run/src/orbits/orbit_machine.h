@@ -38,9 +38,12 @@ class OrbitMachine {
   [[nodiscard]] const std::vector<Excursion>& excursions() const { return excursions_; }
 
  private:
+  // A number of the results' rows.
   struct Number {
+    ObservedQuantity quantity;
     std::size_t row, index;
   };
+  [[nodiscard]] std::vector<Number> numbers() const;
   void take_excursions();
 
   int steps_;

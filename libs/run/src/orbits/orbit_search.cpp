@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <utility>
 
+#include "hersey/core/error_text.h"
 #include "hersey/solver/least_residual.h"
 #include "time_stepping/floquet.h"
 #include "time_stepping/shooting.h"
@@ -15,9 +17,10 @@ namespace hersey::run {
 namespace {
 
 constexpr int kMostOfFirst = 60;  // periods
-constexpr int kMostOfNext = 12;
-constexpr std::size_t kMostTrialsOfBranch = 16;
-constexpr double kLost = 10;  // growth of the residual in one search
+constexpr int kMostOfNext = 16;
+constexpr double kDeviation = 1e-3;  // of a swing
+constexpr double kBeyond = 0.02;     // of the range, by which trials may leave it
+constexpr double kLost = 10;         // growth of the residual in one search
 
 // Those of all films, or else of all joints.
 std::vector<ObservedQuantity> usual_quantities(const std::vector<ObservedQuantity>& all) {
@@ -52,15 +55,44 @@ double distance_between(const PeriodMap& map, const Motion& from, const Motion& 
   return largest;
 }
 
-// A motion beside `at`, by the sum of the deviations of trials that belong to one value, in which those that decay
-// slowly have grown.
-Motion deviated(const mbd::Mechanism& mechanism, const Motion& at, const std::vector<PeriodTrial>& trials) {
-  std::vector<Motion> motions{at, trials.front().end.motion};
-  for (const PeriodTrial& trial : trials)
-    if (trial.end.value == trials.front().end.value && &trial != &trials.front()) motions.push_back(trial.end.motion);
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(motions.size()));
-  weights[1] = -static_cast<double>(motions.size() - 2);
-  return combine(mechanism, motions, weights);
+// Weights of trials that predict a residual of zero from the newest one on: by changes between those of this search,
+// `own` of them, and by those between the trials of orbits before. A change from these to those would lead back along
+// the branch, where residuals vanish, too.
+Eigen::VectorXd weights_of(const std::vector<Eigen::VectorXd>& residuals, std::size_t own) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t k = 0; k + 1 < own; ++k) pairs.emplace_back(k, k + 1);
+  for (std::size_t k = own + 1; k < residuals.size(); ++k) pairs.emplace_back(own, k);
+  std::vector<Eigen::VectorXd> changes;
+  for (const auto& [a, b] : pairs) changes.emplace_back(residuals[a] - residuals[b]);
+  const Eigen::VectorXd shares = solver::shares_of_changes(residuals.front(), changes);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(residuals.size()));
+  weights[0] = 1;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    weights[static_cast<Eigen::Index>(pairs[k].first)] -= shares[static_cast<Eigen::Index>(k)];
+    weights[static_cast<Eigen::Index>(pairs[k].second)] += shares[static_cast<Eigen::Index>(k)];
+  }
+  return weights;
+}
+
+// A motion beside `at` that deviates in every coordinate that moves, in none of their patterns: orbits that are the
+// same from all sides, as that of a round rotor, have deviations of which periods never make others.
+Motion beside(PeriodMap& map, const Motion& at) {
+  constexpr double golden_angle = 2.399963229728653;
+  const Eigen::VectorXd sizes = map.swing().sizes(), ways = map.swing().ways();
+  Motion moved = at;
+  Eigen::VectorXd way = Eigen::VectorXd::Zero(ways.size());
+  std::vector<double>& v = moved.memory.numbers.at("v").values;
+  for (Eigen::Index i = 0; i < ways.size(); ++i) {
+    if (!(ways[i] > 0)) continue;
+    const double angle = golden_angle * static_cast<double>(2 * i + 1);
+    way[i] = kDeviation * sizes[i] * std::cos(angle);
+    const double speed = sizes[ways.size() + i];
+    if (std::isfinite(speed)) v[static_cast<std::size_t>(i)] += kDeviation * speed * std::sin(angle);
+  }
+  map.mechanism().retract(at.q, way, moved.q);
+  // The method's accelerations are those of another instant of the step: only their change is taken.
+  return combine(map.mechanism(), {at, map.with_own_accelerations(moved), map.with_own_accelerations(at)},
+                 Eigen::Vector3d(1, 1, -1));
 }
 
 double largest_share(const Eigen::VectorXd& way, Eigen::Index coordinates) {
@@ -99,7 +131,7 @@ FoundOrbit OrbitSearch::first(double value) {
   Shooting found =
       shoot(machine.map(), {.tolerance = options_.tolerance, .most = kMostOfFirst, .repeats = [] { return true; }});
   if (!found.solved()) return no_answer<FoundOrbit>(found.message);
-  return complete({found.motion, value, machine.map().period()}, found.near.back(), found.periods);
+  return complete({found.motion, value, machine.map().period()}, found.periods);
 }
 
 MotionAtValue OrbitSearch::onto_section(MotionAtValue at) const {
@@ -109,21 +141,30 @@ MotionAtValue OrbitSearch::onto_section(MotionAtValue at) const {
 
 // The constraint is one more residual of each trial.
 FoundOrbit OrbitSearch::next(const AcrossBranch& plane, std::vector<PeriodTrial> near) {
+  try {
+    return search(plane, std::move(near));
+  } catch (const std::exception& error) {
+    return no_answer<FoundOrbit>(error_text(error));
+  }
+}
+
+FoundOrbit OrbitSearch::search(const AcrossBranch& plane, std::vector<PeriodTrial> near) {
   std::vector<PeriodTrial> trials = std::move(near);
   for (PeriodTrial& trial : trials) {
     trial.start = onto_section({std::move(trial.start), 0, 0}).motion;
     trial.end = onto_section(std::move(trial.end));
   }
-  const std::vector<PeriodTrial> of_last_orbit = trials;
   MotionAtValue start = plane.predicted;
   double before = 0;
+  const auto [low, high] = std::minmax(options_.from, options_.to);
   for (int periods = 1; periods <= kMostOfNext; ++periods) {
+    if (start.value < low - kBeyond * (high - low) || start.value > high + kBeyond * (high - low))
+      return no_answer<FoundOrbit>("the search for it leaves the range");
     PeriodMap& map = machine_at(start.value, start.period).map();
     if (finds_period_) map.expect_period(start.period);
     if (const Outcome period = map.take_from(start.motion); !period.solved())
       return no_answer<FoundOrbit>(period.message);
     trials.insert(trials.begin(), {start.motion, {map.motion(), start.value, map.period()}});
-    trials.resize(std::min(trials.size(), kMostTrialsOfBranch));
     std::vector<Eigen::VectorXd> residuals;
     std::vector<MotionAtValue> ends;
     for (const PeriodTrial& one : trials) {
@@ -138,18 +179,17 @@ FoundOrbit OrbitSearch::next(const AcrossBranch& plane, std::vector<PeriodTrial>
     if (periods > 1 && misfit > kLost * std::max(before, options_.tolerance))
       return no_answer<FoundOrbit>("the search for it diverges");
     before = periods > 1 ? std::min(before, misfit) : misfit;
-    const solver::LeastResidual least = solver::combine_to_least_residual(residuals);
-    start = combine(map.mechanism(), ends, least.weights);
+    start = combine(map.mechanism(), ends, weights_of(residuals, static_cast<std::size_t>(periods)));
     if (plane.keeps_value) start.value = plane.predicted.value;
     const double distance = distance_between(map, ends.front().motion, start.motion);
     const double change = std::abs(start.value - ends.front().value) / std::abs(options_.to - options_.from);
     if (std::max({misfit, distance, change}) > options_.tolerance) continue;
-    return complete(start, deviated(map.mechanism(), start.motion, of_last_orbit), periods);
+    return complete(start, periods);
   }
   return no_answer<FoundOrbit>(fmt::format("none has been found within {} periods", kMostOfNext));
 }
 
-FoundOrbit OrbitSearch::complete(const MotionAtValue& at, Motion beside, int periods) {
+FoundOrbit OrbitSearch::complete(const MotionAtValue& at, int periods) {
   OrbitMachine& machine = machine_at(at.value, at.period);
   PeriodMap& map = machine.map();
   if (finds_period_) map.expect_period(at.period);
@@ -164,13 +204,14 @@ FoundOrbit OrbitSearch::complete(const MotionAtValue& at, Motion beside, int per
   point.orbit.period = map.period();
   point.at = at;
   point.sizes = map.swing().sizes();
+  point.ways = map.swing().ways();
   point.is_rest = map.swing().is_rest();
   found.set_solved(true);
   point.orbit.periods = periods + 1;
   if (point.is_rest) return found;
   Shooting shooting;
   shooting.motion = at.motion;
-  shooting.near.push_back(std::move(beside));
+  shooting.near.push_back(finds_period_ ? map.onto_section(beside(map, at.motion)) : beside(map, at.motion));
   const FloquetMultipliers multipliers = floquet_multipliers(map, shooting, options_.multipliers);
   point.orbit.multipliers = multipliers.values;
   point.orbit.periods += multipliers.periods;

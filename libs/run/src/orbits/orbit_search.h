@@ -48,8 +48,8 @@ class OrbitSearch {
 
  private:
   OrbitMachine& machine_at(double value, double period);
-  // @param beside  a motion beside it, the first deviation of which multipliers are sought
-  [[nodiscard]] FoundOrbit complete(const MotionAtValue& at, Motion beside, int periods);
+  [[nodiscard]] FoundOrbit search(const AcrossBranch& plane, std::vector<PeriodTrial> near);
+  [[nodiscard]] FoundOrbit complete(const MotionAtValue& at, int periods);
 
   const std::function<model::Model(double)>& model_at_;
   const BranchOptions& options_;

@@ -99,6 +99,13 @@ void EnergyMonitor::begin(const solver::State& state) {
   books_.noise = smallest_monitored(from_);
 }
 
+void EnergyMonitor::begin_anew(const solver::State& state) {
+  is_begun_ = false;
+  books_ = {};
+  balance_ = lost_ = 0;
+  begin(state);
+}
+
 void EnergyMonitor::enter(const mbd::WorkBetween& work) {
   std::vector<double> sources;
   for (const auto* list : {&work.drives, &work.loads, &work.functions, &work.pressures})

@@ -22,6 +22,9 @@ class EnergyMonitor {
   /// Starts a step in `state` that was not reached by a checked step: at the start of a run, and after impulses.
   void begin(const solver::State& state);
 
+  /// Starts all sums anew in a motion that takes the place of the machine's own.
+  void begin_anew(const solver::State& state);
+
   /// Starts a trial step; none has been refused yet.
   void begin_trial() { has_refused_ = false; }
 

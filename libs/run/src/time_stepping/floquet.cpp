@@ -111,8 +111,10 @@ FloquetMultipliers floquet_multipliers(PeriodMap& map, const Shooting& found, in
     multipliers.periods = k + 2;
     std::vector<Found> values = ritz_values(H.topLeftCorner(k + 1, k + 1), H(k + 1, k));
     const bool are_complete = H(k + 1, k) <= kNothingNew;
-    const std::size_t found_so_far = count_of_found(values, before, are_complete);
-    if (found_so_far < static_cast<std::size_t>(count) && !are_complete && k + 1 < most) {
+    // As many deviations as the motion has: what is left of a further one is of the second order of their size.
+    const bool are_all = k + 1 >= map.dimension();
+    const std::size_t found_so_far = are_all ? values.size() : count_of_found(values, before, are_complete);
+    if (found_so_far < static_cast<std::size_t>(count) && !are_complete && !are_all && k + 1 < most) {
       before = std::move(values);
       continue;
     }

@@ -71,7 +71,8 @@ Motion combine(const mbd::Mechanism& mechanism, const std::vector<Motion>& motio
 Swing::Swing(const mbd::Mechanism& mechanism, double period) : mechanism_(mechanism), period_(period) {}
 
 void Swing::begin(const solver::State& state) {
-  start_ = state.q;
+  last_ = state.q;
+  way_ = Eigen::VectorXd::Zero(mechanism_.nv());
   lowest_.resize(2 * mechanism_.nv());
   lowest_ << Eigen::VectorXd::Zero(mechanism_.nv()), state.v;
   highest_ = lowest_;
@@ -79,7 +80,9 @@ void Swing::begin(const solver::State& state) {
 
 void Swing::take(const solver::State& state) {
   Eigen::VectorXd now(2 * mechanism_.nv());
-  now << mechanism_.difference(start_, state.q), state.v;
+  way_ += mechanism_.difference(last_, state.q);
+  last_ = state.q;
+  now << way_, state.v;
   lowest_ = lowest_.cwiseMin(now);
   highest_ = highest_.cwiseMax(now);
 }
@@ -90,7 +93,7 @@ Eigen::VectorXd Swing::sizes() const {
   Eigen::VectorXd sizes = (highest_ - lowest_).cwiseMax(kLeastSwing * least);
   const Eigen::VectorXd fastest = highest_.cwiseAbs().cwiseMax(lowest_.cwiseAbs()).tail(mechanism_.nv());
   for (const Eigen::Index i : mechanism_.revolutions())
-    if (sizes[i] > std::numbers::pi) sizes[i] = std::numeric_limits<double>::infinity();
+    if (goes_round(i)) sizes[i] = std::numeric_limits<double>::infinity();
   for (const Eigen::Index i : mechanism_.driven_coordinates())
     sizes[mechanism_.nv() + i] = std::numeric_limits<double>::infinity();
   sizes.tail(mechanism_.nv()) = sizes.tail(mechanism_.nv()).cwiseMax(kConstant * fastest);
@@ -100,9 +103,12 @@ Eigen::VectorXd Swing::sizes() const {
 Eigen::VectorXd Swing::ways() const {
   Eigen::VectorXd ways = (highest_ - lowest_).head(mechanism_.nv());
   for (const Eigen::Index i : mechanism_.revolutions())
-    if (ways[i] > std::numbers::pi) ways[i] = 0;
+    if (goes_round(i)) ways[i] = 0;
   return ways;
 }
+
+// It ends a period at least half a revolution from where it began; one that swings comes back.
+bool Swing::goes_round(Eigen::Index i) const { return std::abs(way_[i]) > std::numbers::pi; }
 
 bool Swing::is_rest() const { return (ways().array() <= kRest * mechanism_.position_scales().array()).all(); }
 

@@ -40,9 +40,12 @@ class Swing {
   [[nodiscard]] bool is_rest() const;
 
  private:
+  [[nodiscard]] bool goes_round(Eigen::Index i) const;
+
   const mbd::Mechanism& mechanism_;
   double period_;
-  Eigen::VectorXd start_, lowest_, highest_;
+  Eigen::VectorXd last_, way_;  ///< positions at the last state, and the way to it from the start
+  Eigen::VectorXd lowest_, highest_;
 };
 
 /// Returns `motion` with the angles that go round as they are at `here`.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -137,6 +138,13 @@ Motion PeriodMap::with_rings_of_the_machine(const Motion& motion) const {
   return with_rings_at(mechanism(), run_.state().q, section_->sizes, motion);
 }
 
+Motion PeriodMap::with_own_accelerations(const Motion& motion) {
+  returned_.reset();
+  run_.move_to(section_ ? with_rings_of_the_machine(motion) : motion);
+  run_.take_jump(false);
+  return run_.motion();
+}
+
 Outcome PeriodMap::take_from(const Motion& start) {
   Archive before;
   run_.persist(before);
@@ -152,6 +160,13 @@ Outcome PeriodMap::take_from(const Motion& start) {
   period_ = period_before;
   end_ = section_ ? run_.state().t : begun;
   return period;
+}
+
+Eigen::Index PeriodMap::dimension() {
+  const Motion here = run_.motion();
+  if (way_between(mechanism(), here, here).size() > coordinates()) return std::numeric_limits<Eigen::Index>::max();
+  const Eigen::VectorXd ways = swing_.ways();
+  return 2 * (ways.array() > 0).count() - (section_ ? 1 : 0);
 }
 
 Eigen::VectorXd PeriodMap::way(const Motion& from, const Motion& to) const {

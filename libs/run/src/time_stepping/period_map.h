@@ -40,6 +40,9 @@ class PeriodMap {
   /// Runs one period on from `start`. If it fails, the machine is where it was.
   [[nodiscard]] Outcome take_from(const Motion& start);
 
+  /// Returns `motion` with the accelerations that follow from its positions and velocities. Moves the machine there.
+  [[nodiscard]] Motion with_own_accelerations(const Motion& motion);
+
   /// Motion at the end of the last period; with a section, on it.
   [[nodiscard]] Motion motion() { return returned_ ? *returned_ : run_.motion(); }
   [[nodiscard]] const mbd::Mechanism& mechanism() const { return run_.mechanism(); }
@@ -53,6 +56,9 @@ class PeriodMap {
   [[nodiscard]] Eigen::Index coordinates() const { return 2 * mechanism().nv(); }
   /// Takes positions and velocities of a way in shares of how far they went in the last period.
   void compare_by_swing(Eigen::VectorXd& way) const;
+  /// Number of independent deviations of a motion without films: of the coordinates that move, and their velocities,
+  /// less one on a section. With films more than any number that is asked for.
+  [[nodiscard]] Eigen::Index dimension();
   /// How far each position went in the last period, over the least that counts as a motion; infinite for angles that
   /// go round.
   [[nodiscard]] const Swing& swing() const { return swing_; }

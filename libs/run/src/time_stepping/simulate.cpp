@@ -168,12 +168,21 @@ double found_period(const Archive::Content& checkpoint) {
   return period == checkpoint.numbers.end() ? 0 : period->second.values.front();
 }
 
+// Nothing else of a machine without bearings says whether its cycles repeat.
+void require_periodic_motion(const model::Model& model, const PeriodicStart& start) {
+  if (!model.simulation.cycle || !model.bearings.empty() || start.cycles > 0 || start.was_stopped) return;
+  throw InputError(Fault{model.position_of("simulation.cycle"), "simulation.cycle",
+                         "cycles of a machine without bearings, and no motion that repeats: " + start.message,
+                         "a start near it, or a `duration`", ""});
+}
+
 // A run that could not begin leaves no file behind.
 Summary simulate_from(std::optional<Archive::Content> checkpoint, const model::Model& model, const Options& options,
                       const Summary* coarse = nullptr) {
   try {
     PeriodicStart start = checkpoint ? PeriodicStart{} : lead_in(model, options);
     if (checkpoint) start.period = found_period(*checkpoint);
+    if (!checkpoint) require_periodic_motion(model, start);
     if (start.period == 0) return Run(model, options, std::move(checkpoint), std::move(start), coarse).run();
     model::Model timed = model;
     take_period(timed, start.period);

@@ -301,7 +301,7 @@ TimeStep TimeStepper::take_controlled(solver::State& state, double target) {
 
 void TimeStepper::persist_history(Archive& archive, const solver::State& state) {
   integrator_->persist(archive);
-  if (archive.restores()) energy_.begin(state);
+  if (archive.restores()) energy_.begin_anew(state);
 }
 
 void TimeStepper::persist(Archive& archive) {

@@ -288,11 +288,18 @@ bool has_controller(const Model& model) {
                      [](const Force& force) { return std::holds_alternative<SpeedControl>(force.data); });
 }
 
+bool has_ramp(const Model& model) {
+  return std::any_of(model.drives.begin(), model.drives.end(), [](const Drive& drive) { return drive.ramp > 0; });
+}
+
 // Wear grows from cycle to cycle, and what a controller has stored belongs to the time of its run.
 void refuse_shooting(Context& context, const Value& value) {
   if (wears(context.model))
     context.fault(value, "a motion that repeats between surfaces that wear", "surfaces without `wear`",
                   "find the motion without it, or leave `lead_in` out");
+  if (has_ramp(context.model))
+    context.fault(value, "a motion that repeats of a machine whose drive begins with a `ramp`", "drives without it",
+                  "the motion is found, and needs no soft start");
   if (has_controller(context.model))
     context.fault(value, "a motion that repeats of a machine whose controller stores what it integrates",
                   "a `drive` in place of `type: speed_control`", "leave `lead_in` out");

@@ -18,4 +18,10 @@ struct LeastResidual {
 ///        magnitude. Older trials whose residuals depend on those of newer ones have the weight 0.
 [[nodiscard]] LeastResidual combine_to_least_residual(const std::vector<Eigen::VectorXd>& residuals);
 
+/// Shares g of changes of a residual with which |residual - sum_k g_k change_k| is least. Changes that depend on
+/// earlier ones have the share 0.
+/// @param changes  of the residual's size
+[[nodiscard]] Eigen::VectorXd shares_of_changes(const Eigen::VectorXd& residual,
+                                                const std::vector<Eigen::VectorXd>& changes);
+
 }  // namespace hersey::solver
