@@ -49,6 +49,27 @@ simulation:
 """
 
 
+# A rotor with an unbalance on a support that hardens alike in all directions.
+HARDENING = """hersey: 1
+parameters: {speed: 2500 rpm, revolution: "2*pi rad/${speed}", steps: 120}
+bodies:
+  rotor: {mass: 10 kg, inertia: {xx: 0.05 kg.m^2, yy: 0.05 kg.m^2, zz: 0.08 kg.m^2}}
+joints:
+  turning: {type: planar, between: [ground, rotor], axis: z}
+forces:
+  support: {type: bearing_table, between: [ground, rotor], stiffness: {xx: 1 MN/m, yy: 1 MN/m}, damping: {xx: 200 N.s/m, yy: 200 N.s/m}}
+  x: {type: force, body: rotor, direction: x, magnitude: {expression: "-3e12*(turning.x^2 + turning.y^2)*turning.x", unit: N}}
+  y: {type: force, body: rotor, direction: y, magnitude: {expression: "-3e12*(turning.x^2 + turning.y^2)*turning.y", unit: N}}
+  residual: {type: unbalance, on: rotor, amount: 200 g.mm}
+drives:
+  motor: {joint: turning, coordinate: rotation, speed: "${speed}"}
+simulation:
+  cycle: {period: "${revolution}", lead_in: shooting}
+  step: "${revolution}/${steps}"
+  spectral_radius: 0.95
+"""
+
+
 def hersey(*arguments):
     return subprocess.run([HERSEY, *map(str, arguments)], capture_output=True, text=True)
 
@@ -109,6 +130,27 @@ class Branches(unittest.TestCase):
             exact = bifurcation(force, slope, lambda w: 2 * np.pi / w, [*start, w], lambda M: np.linalg.det(M - np.eye(2)))[2]
             # A fold is located between orbits, one of which is within 0.002 of the unit circle.
             self.assertAlmostEqual(extrapolated(coarse["value"], fine["value"]) / (100 * exact), 1, delta=1e-4)
+
+    def test_orbits_of_a_rotor_on_a_hardening_support_are_circles_of_the_closed_form(self):
+        m, k, k3, c, me = 10, 1e6, 3e12, 200, 2e-4
+        found = [branch(HARDENING, "--along", "speed=2500:5000rpm", "--set", f"steps={n}", "--tolerance", "1e-5") for n in (60, 120)]
+        # ((k + k3 A^2 - m w^2)^2 + c^2 w^2) A^2 = (m e w^2)^2, over A for w^2: two branches that meet at the largest A.
+        A = np.linspace(50e-6, 377.5e-6, 400001)
+        a, b = m * m - (me / A) ** 2, c * c - 2 * m * (k + k3 * A**2)
+        w = np.sqrt((-b + np.sqrt(b * b - 4 * a * (k + k3 * A**2) ** 2)) / (2 * a)) * 30 / np.pi
+        turns = np.flatnonzero(np.diff(np.sign(np.diff(w)))) + 1
+        self.assertEqual([[b["kind"] for b in one["bifurcations"]] for one in found], [["fold", "fold"]] * 2)
+        for exact, k_th in zip(sorted(w[turns], reverse=True), range(2)):
+            coarse, fine = (one["bifurcations"][k_th]["value"] for one in found)
+            # Of fourth order of a step is left, and a fold is within 0.002 of the unit circle.
+            self.assertAlmostEqual(extrapolated(coarse, fine) / exact, 1, delta=2e-4)
+        for orbit in found[1]["orbits"]:
+            # Deviations of each of two pairs: all decay like exp(-c T/(2 m)) but between the folds.
+            decay = np.exp(-c / (2 * m) * orbit["period"])
+            largest = abs(complex(orbit["multipliers"][0]["re"], orbit["multipliers"][0]["im"]))
+            self.assertGreater(largest, decay * (1 - 1e-2))  # 120 steps, and pairs that nearly coincide
+            x, y = (orbit["quantities"][f"joints.turning.coordinates.{name}"]["highest"] for name in "xy")
+            self.assertAlmostEqual(x / y, 1, delta=2e-3)  # rows at 120 steps
 
     def test_a_second_frequency_sets_in_where_an_independent_solution_has_it(self):
         force = lambda t, x, v, f: 0.4 * (1 - x * x) * v - x + f * np.cos(1.3 * t)

@@ -18,8 +18,10 @@ namespace {
 
 constexpr int kMostOfFirst = 60;  // periods
 constexpr int kMostOfNext = 16;
+constexpr int kStarts = 2;           // deviations with which the search for multipliers begins
 constexpr double kDeviation = 1e-3;  // of a swing
 constexpr double kBeyond = 0.02;     // of the range, by which trials may leave it
+constexpr double kSmall = 1e-2;      // misfit from which a search may well wander
 constexpr double kLost = 10;         // growth of the residual in one search
 
 // Those of all films, or else of all joints.
@@ -76,7 +78,7 @@ Eigen::VectorXd weights_of(const std::vector<Eigen::VectorXd>& residuals, std::s
 
 // A motion beside `at` that deviates in every coordinate that moves, in none of their patterns: orbits that are the
 // same from all sides, as that of a round rotor, have deviations of which periods never make others.
-Motion beside(PeriodMap& map, const Motion& at) {
+Motion beside(PeriodMap& map, const Motion& at, int which) {
   constexpr double golden_angle = 2.399963229728653;
   const Eigen::VectorXd sizes = map.swing().sizes(), ways = map.swing().ways();
   Motion moved = at;
@@ -84,7 +86,7 @@ Motion beside(PeriodMap& map, const Motion& at) {
   std::vector<double>& v = moved.memory.numbers.at("v").values;
   for (Eigen::Index i = 0; i < ways.size(); ++i) {
     if (!(ways[i] > 0)) continue;
-    const double angle = golden_angle * static_cast<double>(2 * i + 1);
+    const double angle = golden_angle * static_cast<double>(2 * i + 1) * which;
     way[i] = kDeviation * sizes[i] * std::cos(angle);
     const double speed = sizes[ways.size() + i];
     if (std::isfinite(speed)) v[static_cast<std::size_t>(i)] += kDeviation * speed * std::sin(angle);
@@ -155,7 +157,7 @@ FoundOrbit OrbitSearch::search(const AcrossBranch& plane, std::vector<PeriodTria
     trial.end = onto_section(std::move(trial.end));
   }
   MotionAtValue start = plane.predicted;
-  double before = 0;
+  double first = 0;
   const auto [low, high] = std::minmax(options_.from, options_.to);
   for (int periods = 1; periods <= kMostOfNext; ++periods) {
     if (start.value < low - kBeyond * (high - low) || start.value > high + kBeyond * (high - low))
@@ -176,9 +178,8 @@ FoundOrbit OrbitSearch::search(const AcrossBranch& plane, std::vector<PeriodTria
       ends.push_back(one.end);
     }
     const double misfit = largest_share(residuals.front(), map.coordinates());
-    if (periods > 1 && misfit > kLost * std::max(before, options_.tolerance))
-      return no_answer<FoundOrbit>("the search for it diverges");
-    before = periods > 1 ? std::min(before, misfit) : misfit;
+    if (periods == 1) first = misfit;
+    if (misfit > kLost * std::max(first, kSmall)) return no_answer<FoundOrbit>("the search for it diverges");
     start = combine(map.mechanism(), ends, weights_of(residuals, static_cast<std::size_t>(periods)));
     if (plane.keeps_value) start.value = plane.predicted.value;
     const double distance = distance_between(map, ends.front().motion, start.motion);
@@ -211,8 +212,11 @@ FoundOrbit OrbitSearch::complete(const MotionAtValue& at, int periods) {
   if (point.is_rest) return found;
   Shooting shooting;
   shooting.motion = at.motion;
-  shooting.near.push_back(finds_period_ ? map.onto_section(beside(map, at.motion)) : beside(map, at.motion));
-  const FloquetMultipliers multipliers = floquet_multipliers(map, shooting, options_.multipliers);
+  for (int which = 1; which <= kStarts; ++which) {
+    Motion start = beside(map, at.motion, which);
+    shooting.near.push_back(finds_period_ ? map.onto_section(start) : std::move(start));
+  }
+  const FloquetMultipliers multipliers = floquet_multipliers(map, shooting, options_.multipliers, kStarts);
   point.orbit.multipliers = multipliers.values;
   point.orbit.periods += multipliers.periods;
   for (const FloquetMultipliers::Trial& trial : multipliers.trials)

@@ -13,7 +13,9 @@ constexpr double kAccuracy = 1e-3;  // of a multiplier that is found
 constexpr double kSmallest = 0.1;   // multiplier below which the accuracy is one of this
 
 // Share of a deviation that a period adds to those before, below which it is what Newton's method leaves.
-constexpr double kNothingNew = 1e-3;
+constexpr double kNothingNew = 2e-3;
+
+constexpr double kOwnShare = 0.1;  // of a first deviation that is none of those before
 
 using Complex = std::complex<double>;
 
@@ -80,6 +82,11 @@ class Deviations {
     return shares;
   }
   [[nodiscard]] const Motion& newest() const { return moved_.back(); }
+  // Takes back the last one, of which little was new.
+  void drop_newest() {
+    directions_.pop_back();
+    moved_.pop_back();
+  }
 
  private:
   PeriodMap& map_;
@@ -90,14 +97,24 @@ class Deviations {
 
 }  // namespace
 
-FloquetMultipliers floquet_multipliers(PeriodMap& map, const Shooting& found, int count) {
+FloquetMultipliers floquet_multipliers(PeriodMap& map, const Shooting& found, int count, std::size_t starts) {
   FloquetMultipliers multipliers;
   if (const Outcome period = map.take_from(found.motion); !period.solved())
     return no_answer<FloquetMultipliers>(period.message);
   const Motion end = map.motion();
   multipliers.trials.push_back({found.motion, end, map.period()});
   Deviations deviations(map, found.motion);
-  if (deviations.add(found.motion, found.near.back()).isZero(0))
+  std::vector<Motion> near = found.near;  // to begin with, the last first
+  const auto begins = [&] {
+    for (; !near.empty(); near.pop_back()) {
+      const Eigen::VectorXd shares = deviations.add(found.motion, near.back());
+      const double own = shares.tail(1)[0];
+      if (own > kOwnShare * shares.norm()) return near.pop_back(), true;
+      if (own > 0) deviations.drop_newest();
+    }
+    return false;
+  };
+  if (!begins())
     return no_answer<FloquetMultipliers>("all trials have led to the same motion: there is no deviation to begin with");
   const int most = most_periods_for_multipliers(count) - 1;
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(most + 1, most);
@@ -109,12 +126,22 @@ FloquetMultipliers floquet_multipliers(PeriodMap& map, const Shooting& found, in
     multipliers.trials.push_back({deviations.newest(), moved, map.period()});
     H.col(k).head(k + 2) = deviations.add(end, moved);
     multipliers.periods = k + 2;
+    if (H(k + 1, k) <= kNothingNew && starts > 1) {
+      if (H(k + 1, k) > 0) deviations.drop_newest();
+      H(k + 1, k) = 0;
+      if (k + 1 < map.dimension() && begins()) {
+        --starts;
+        continue;
+      }
+      starts = 1;
+    }
     std::vector<Found> values = ritz_values(H.topLeftCorner(k + 1, k + 1), H(k + 1, k));
     const bool are_complete = H(k + 1, k) <= kNothingNew;
     // As many deviations as the motion has: what is left of a further one is of the second order of their size.
     const bool are_all = k + 1 >= map.dimension();
     const std::size_t found_so_far = are_all ? values.size() : count_of_found(values, before, are_complete);
-    if (found_so_far < static_cast<std::size_t>(count) && !are_complete && !are_all && k + 1 < most) {
+    const bool is_enough = found_so_far >= static_cast<std::size_t>(count) && starts <= 1;
+    if (!is_enough && !are_complete && !are_all && k + 1 < most) {
       before = std::move(values);
       continue;
     }

@@ -28,6 +28,10 @@ struct [[nodiscard]] FloquetMultipliers : Outcome {
 /// with a deviation is the difference of two periods (theory manual, integrator.45): all that a machine remembers takes
 /// part, oil in films and temperatures too.
 /// @param count  of multipliers, conjugate pairs counting once
-[[nodiscard]] FloquetMultipliers floquet_multipliers(PeriodMap& map, const Shooting& found, int count);
+/// @param starts  number of motions near it, the last of found.near, whose deviations have to be followed: a motion
+/// that
+///        is the same from all sides has deviations of which no period ever makes others
+[[nodiscard]] FloquetMultipliers floquet_multipliers(PeriodMap& map, const Shooting& found, int count,
+                                                     std::size_t starts = 1);
 
 }  // namespace hersey::run
