@@ -108,7 +108,7 @@ class BranchFollower {
     FoundOrbit found = search_.next(plane, trials_near());
     if (search_.is_stopped()) return end("stopped on request");
     if (!found.solved()) return cut_step(found.message);
-    if (found.point.is_rest || oscillation_of(found.point) < kVanishing) {
+    if (found.point.is_rest || (search_.finds_period() && oscillation_of(found.point) < kVanishing)) {
       return end(fmt::format("ended near {:.6g}, where the oscillation vanishes", found.point.at.value));
     }
     const bool is_inside =
