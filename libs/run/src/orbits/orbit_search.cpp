@@ -78,7 +78,7 @@ Eigen::VectorXd weights_of(const std::vector<Eigen::VectorXd>& residuals, std::s
 
 // A motion beside `at` that deviates in every coordinate that moves, in none of their patterns: orbits that are the
 // same from all sides, as that of a round rotor, have deviations of which periods never make others.
-Motion beside(PeriodMap& map, const Motion& at, int which) {
+Motion beside(const PeriodMap& map, const Motion& at, int which) {
   constexpr double golden_angle = 2.399963229728653;
   const Eigen::VectorXd sizes = map.swing().sizes(), ways = map.swing().ways();
   Motion moved = at;
@@ -92,9 +92,7 @@ Motion beside(PeriodMap& map, const Motion& at, int which) {
     if (std::isfinite(speed)) v[static_cast<std::size_t>(i)] += kDeviation * speed * std::sin(angle);
   }
   map.mechanism().retract(at.q, way, moved.q);
-  // The method's accelerations are those of another instant of the step: only their change is taken.
-  return combine(map.mechanism(), {at, map.with_own_accelerations(moved), map.with_own_accelerations(at)},
-                 Eigen::Vector3d(1, 1, -1));
+  return moved;
 }
 
 double largest_share(const Eigen::VectorXd& way, Eigen::Index coordinates) {
@@ -212,10 +210,15 @@ FoundOrbit OrbitSearch::complete(const MotionAtValue& at, int periods) {
   if (point.is_rest) return found;
   Shooting shooting;
   shooting.motion = at.motion;
+  // What a period makes of them has accelerations, oil and temperatures that belong to it.
+  const Motion end = map.motion();
   for (int which = 1; which <= kStarts; ++which) {
-    Motion start = beside(map, at.motion, which);
-    shooting.near.push_back(finds_period_ ? map.onto_section(start) : std::move(start));
+    const Motion start = beside(map, at.motion, which);
+    ++point.orbit.periods;
+    if (!map.take_from(finds_period_ ? map.onto_section(start) : start).solved()) continue;
+    shooting.near.push_back(combine(map.mechanism(), {at.motion, map.motion(), end}, Eigen::Vector3d(1, 1, -1)));
   }
+  if (shooting.near.empty()) return no_answer<FoundOrbit>("no period beside it can be run");
   const FloquetMultipliers multipliers = floquet_multipliers(map, shooting, options_.multipliers, kStarts);
   point.orbit.multipliers = multipliers.values;
   point.orbit.periods += multipliers.periods;

@@ -138,13 +138,6 @@ Motion PeriodMap::with_rings_of_the_machine(const Motion& motion) const {
   return with_rings_at(mechanism(), run_.state().q, section_->sizes, motion);
 }
 
-Motion PeriodMap::with_own_accelerations(const Motion& motion) {
-  returned_.reset();
-  run_.move_to(section_ ? with_rings_of_the_machine(motion) : motion);
-  run_.take_jump(false);
-  return run_.motion();
-}
-
 Outcome PeriodMap::take_from(const Motion& start) {
   Archive before;
   run_.persist(before);

@@ -40,9 +40,6 @@ class PeriodMap {
   /// Runs one period on from `start`. If it fails, the machine is where it was.
   [[nodiscard]] Outcome take_from(const Motion& start);
 
-  /// Returns `motion` with the accelerations that follow from its positions and velocities. Moves the machine there.
-  [[nodiscard]] Motion with_own_accelerations(const Motion& motion);
-
   /// Motion at the end of the last period; with a section, on it.
   [[nodiscard]] Motion motion() { return returned_ ? *returned_ : run_.motion(); }
   [[nodiscard]] const mbd::Mechanism& mechanism() const { return run_.mechanism(); }
