@@ -45,10 +45,9 @@ std::pair<std::string, double> shown_unit(const std::string& si) {
 std::vector<CurveLine> lines_of(const OrbitFindings& found, const std::string& label, std::size_t first,
                                 const std::function<double(const OrbitAtValue&)>& value) {
   std::vector<CurveLine> lines;
-  const std::vector<OrbitAtValue>& orbits = found.branch.orbits;
-  for (std::size_t k = 0; k < orbits.size(); ++k) {
-    if (lines.empty() || lines.back().is_dashed == orbits[k].is_stable()) {
-      CurveLine line{.label = lines.empty() ? label : "", .x = {}, .y = {}, .is_dashed = !orbits[k].is_stable()};
+  for (const OrbitAtValue& orbit : found.branch.orbits) {
+    if (lines.empty() || lines.back().is_dashed == orbit.is_stable()) {
+      CurveLine line{.label = lines.empty() ? label : "", .x = {}, .y = {}, .is_dashed = !orbit.is_stable()};
       if (!lines.empty()) {
         line.like = first;
         line.x.push_back(lines.back().x.back());
@@ -56,8 +55,8 @@ std::vector<CurveLine> lines_of(const OrbitFindings& found, const std::string& l
       }
       lines.push_back(std::move(line));
     }
-    lines.back().x.push_back(orbits[k].value);
-    lines.back().y.push_back(value(orbits[k]));
+    lines.back().x.push_back(orbit.value);
+    lines.back().y.push_back(value(orbit));
   }
   return lines;
 }
@@ -89,18 +88,27 @@ std::string kind_of(const std::string& name) {
   return name;
 }
 
+/// A name without the part that all of a chart share: "left.x" of "bearings.left.eccentricity.x".
+std::string short_name(const std::string& name, const std::string& kind) {
+  std::string text = name.substr(name.find('.') + 1);
+  if (const std::size_t at = text.find("." + kind); at != std::string::npos) text.erase(at, kind.size() + 1);
+  return text;
+}
+
 void add_charts(const OrbitFindings& found, CurvePage& page) {
   const std::vector<run::ObservedQuantity>& observed = found.branch.observed;
-  constexpr std::size_t most = 6;  // lines that one can tell apart
-  std::vector<std::string> kinds;
-  for (const run::ObservedQuantity& quantity : observed)
-    if (std::ranges::find(kinds, kind_of(quantity.name)) == kinds.end()) kinds.push_back(kind_of(quantity.name));
-  for (const std::string& kind : kinds) {
+  constexpr std::size_t most = 6;                          // lines that one can tell apart
+  std::vector<std::pair<std::string, std::string>> kinds;  // and their units
+  for (const run::ObservedQuantity& quantity : observed) {
+    const std::pair<std::string, std::string> kind{kind_of(quantity.name), quantity.unit};
+    if (std::ranges::find(kinds, kind) == kinds.end()) kinds.push_back(kind);
+  }
+  for (const auto& [kind, si] : kinds) {
     const bool is_lowest = kind == "h_min", is_highest = kind == "p_max";
     std::size_t count = 0;
     CurveChart chart;
     for (std::size_t k = 0; k < observed.size(); ++k) {
-      if (kind_of(observed[k].name) != kind || count++ >= most) continue;
+      if (kind_of(observed[k].name) != kind || observed[k].unit != si || count++ >= most) continue;
       const auto [unit, size] = shown_unit(observed[k].unit);
       if (chart.lines.empty())
         chart = chart_along(found, kind, "Solid where the motion is stable, dashed where it is not.",
@@ -108,7 +116,7 @@ void add_charts(const OrbitFindings& found, CurvePage& page) {
                             : is_highest ? "largest in a period"
                                          : "peak to peak",
                             unit);
-      add_lines(found, chart, observed[k].name, [&, k, size = size](const OrbitAtValue& orbit) {
+      add_lines(found, chart, short_name(observed[k].name, kind), [&, k, size = size](const OrbitAtValue& orbit) {
         const run::Excursion& excursion = orbit.excursions[k];
         return (is_lowest ? excursion.lowest : is_highest ? excursion.highest : excursion.peak_to_peak()) / size;
       });

@@ -389,7 +389,8 @@ TEST_CASE("ImpossibleCycles_AreReported") {
         "step, or let steps be chosen with step: {tolerance: 1e-4}");
   CHECK(
       faults_after("duration: 2 rev", "cycle: {until_converged: 1}") ==
-      "m.yaml:32:3: simulation.cycle: missing key 'period'; expected a time or an angle > 0, such as 720 deg\n"
+      "m.yaml:32:3: simulation.cycle: missing key 'period'; expected a time or an angle > 0, such as 720 deg, or "
+      "{about}\n"
       "m.yaml:32:28: simulation.cycle.until_converged: '1'; expected a number without unit >= 0 and < 1, such as 0.01");
   CHECK(faults_after("duration: 2 rev", "duration: 2 rev\n  checkpoint: {every: 0 s}") ==
         "m.yaml:33:23: simulation.checkpoint.every: '0 s'; expected a time or an angle > 0, such as 0.1 s");

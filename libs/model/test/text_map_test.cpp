@@ -21,7 +21,9 @@ std::vector<std::string> model_files() {
   const std::string root = source_dir();
   for (const std::string& folder : {root + "/examples", root + "/libs/session/starting_models"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-      if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+      // Names of quantities are keys with dots there, which a path cannot tell from keys below keys.
+      if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "parts")
+        files.push_back(entry.path().string());
   return files;
 }
 

@@ -30,7 +30,7 @@ TypePtr cycle_format() {
   return object(
       "a cycle",
       {
-          required("period", any_of("a time, a crank angle, or {about}", {span, found}),
+          required("period", any_of("a time or an angle > 0, such as 720 deg, or {about}", {span, found}),
                    "Time or crank angle of one cycle; a whole number of steps. With `{about}` it is found, with "
                    "`lead_in: shooting`: of machines that oscillate by themselves, such as rotors in oil whirl."),
           defaulted("until_converged", number("0.01", {.low = 0, .high = 1, .high_open = true}), "0.01",

@@ -29,6 +29,13 @@ int steps_of(const model::Model& model) {
   return std::max(1, static_cast<int>(std::lround(model.simulation.cycle->period / model.simulation.step)));
 }
 
+// Of joints with translations and rotations each column has its own.
+std::string unit_of(const results::LatestRow& row, const std::string& component) {
+  if (row.unit != "SI") return row.unit;
+  const std::string unit = component.find("rotation") != std::string::npos ? "rad" : "m";
+  return row.path.ends_with("/rates") ? unit + "/s" : unit;
+}
+
 std::string dotted_path(const std::string& path) {
   std::string name = path.substr(1);
   std::ranges::replace(name, '/', '.');
@@ -59,7 +66,7 @@ std::vector<OrbitMachine::Number> OrbitMachine::numbers() const {
     const std::string path = dotted_path(row.path);
     if (row.shape.empty()) numbers.push_back({{path, row.unit}, k, 0});
     for (std::size_t i = 0; i < row.components.size(); ++i)
-      numbers.push_back({{path + "." + row.components[i], row.unit}, k, i});
+      numbers.push_back({{path + "." + row.components[i], unit_of(row, row.components[i])}, k, i});
   }
   return numbers;
 }
