@@ -43,7 +43,7 @@ std::optional<ExchangedVariable> exchanged_variable(Context& context, const Valu
     why = fmt::format("variable '{}', an array", name);
   else if (found->type != fmi::VariableType::real)
     why = fmt::format("variable '{}' of type {}", name, found->type_name);
-  if (why.empty()) return with_unit(context, at, *found);
+  if (found != nullptr && why.empty()) return with_unit(context, at, *found);
   std::vector<std::string> names = fmu.description.names(causality);
   std::erase_if(names,
                 [&](const std::string& one) { return fmu.description.find(one)->type != fmi::VariableType::real; });
