@@ -24,7 +24,6 @@ constexpr double kNotBack = 0.3;       // cosine for those
 constexpr double kMargin = 0.05;       // of the way between two orbits that those between them keep
 constexpr double kSlack = 1e-6;        // of the range
 constexpr double kVanishing = 0.02;    // of the largest oscillation: one that is about to end
-constexpr double kRest = 1e-7;         // of the machine's size, and of a radian
 constexpr double kClosed = 0.5;        // of a step from the first orbit: the branch is closed
 constexpr std::size_t kFewestOfClosed = 6;
 
@@ -54,11 +53,10 @@ class BranchFollower {
   }
 
   // Its largest share of how far a coordinate that oscillates has gone in any orbit.
-  [[nodiscard]] double oscillation_of(const BranchPoint& point) {
-    const Eigen::VectorXd least = kRest * search_.mechanism().position_scales();
+  [[nodiscard]] double oscillation_of(const BranchPoint& point) const {
     double share = 0;
     for (Eigen::Index i = 0; i < farthest_.size(); ++i)
-      if (farthest_[i] > least[i]) share = std::max(share, point.ways[i] / farthest_[i]);
+      if (farthest_[i] > 0) share = std::max(share, point.ways[i] / farthest_[i]);
     return share;
   }
 

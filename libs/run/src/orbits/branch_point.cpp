@@ -5,7 +5,6 @@
 namespace hersey::run {
 namespace {
 
-constexpr double kStandsStill = 1e-7;  // of the machine's size, and of a radian: coordinates that stand still
 constexpr double kMotion =
     0.25;  // share of the range that counts as much as a change of all coordinates by their swing
 
@@ -14,9 +13,8 @@ constexpr double kMotion =
 BranchMetric::BranchMetric(const BranchPoint& point, double range, const mbd::Mechanism& mechanism)
     : weights_(point.sizes.cwiseInverse()), range_(range) {
   const Eigen::Index nv = mechanism.nv();
-  const Eigen::VectorXd scales = mechanism.position_scales();
   for (Eigen::Index i = 0; i < nv; ++i)
-    if (point.ways[i] <= kStandsStill * scales[i]) weights_[i] = weights_[nv + i] = 0;
+    if (point.ways[i] == 0) weights_[i] = weights_[nv + i] = 0;
   const auto count = static_cast<double>((weights_.array() > 0).count());
   if (count > 0) weights_ *= kMotion / std::sqrt(count);
 }

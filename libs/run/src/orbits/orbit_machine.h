@@ -31,10 +31,8 @@ class OrbitMachine {
 
   /// Names of what can be observed: numbers of the results' rows, "bearings.main.eccentricity.x".
   [[nodiscard]] std::vector<ObservedQuantity> quantities() const;
-  /// Observes these from here on. @throws InputError naming the nearest if there is none of a name
+  /// Observes these from here on, extremes anew. @throws InputError naming the nearest if there is none of a name
   void observe(const std::vector<ObservedQuantity>& wanted);
-  /// Begins to observe extremes anew.
-  void begin_excursions() { excursions_.clear(); }
   [[nodiscard]] const std::vector<Excursion>& excursions() const { return excursions_; }
 
  private:

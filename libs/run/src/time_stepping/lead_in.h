@@ -6,11 +6,11 @@
 
 namespace hersey::run {
 
-/// Finds the periodic motion of a machine with films on half grids, if its model asks for it (model::LeadIn), by cycles
-/// that are discarded (theory manual, integrator.42). The cycles of the run decide about convergence as without it, so
+/// Finds the periodic motion of a machine, if its model asks for it (model::LeadIn), by cycles that are discarded, on
+/// half grids or by shooting (theory manual, integrator.42, integrator.44, integrator.47). The cycles of the run decide about convergence as without it, so
 /// that a poor lead-in costs cycles and changes no answer beyond their tolerance. One that fails or is stopped has no
 /// cycles, and a message.
-/// @cost the cycles on the half grids, about a fifth each of what one of the run costs
+/// @cost a cycle on half grids about a fifth of what one of the run costs; one of shooting as much as that
 [[nodiscard]] PeriodicStart lead_in(const model::Model& model, const Options& options);
 
 }  // namespace hersey::run

@@ -104,13 +104,14 @@ Eigen::VectorXd Swing::ways() const {
   Eigen::VectorXd ways = (highest_ - lowest_).head(mechanism_.nv());
   for (const Eigen::Index i : mechanism_.revolutions())
     if (goes_round(i)) ways[i] = 0;
-  return ways;
+  const Eigen::VectorXd least = kRest * mechanism_.position_scales();
+  return (ways.array() > least.array()).select(ways, 0);
 }
 
 // It ends a period at least half a revolution from where it began; one that swings comes back.
 bool Swing::goes_round(Eigen::Index i) const { return std::abs(way_[i]) > std::numbers::pi; }
 
-bool Swing::is_rest() const { return (ways().array() <= kRest * mechanism_.position_scales().array()).all(); }
+bool Swing::is_rest() const { return ways().isZero(0); }
 
 Motion with_rings_at(const mbd::Mechanism& mechanism, const Eigen::VectorXd& here, const Eigen::VectorXd& sizes,
                      Motion motion) {

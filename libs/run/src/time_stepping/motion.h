@@ -34,9 +34,10 @@ class Swing {
   /// Infinite for angles that go round, because a ring may have any when its period ends, and for velocities that
   /// drives prescribe.
   [[nodiscard]] Eigen::VectorXd sizes() const;
-  /// How far positions went, those of angles that go round left out: shape (nv).
+  /// How far positions went: shape (nv). 0 for angles that go round, and for what stands still, which is at most a
+  /// ten-millionth of the machine's size.
   [[nodiscard]] Eigen::VectorXd ways() const;
-  /// True if no position but angles that go round went farther than a ten-millionth of the machine's size.
+  /// True if nothing oscillates.
   [[nodiscard]] bool is_rest() const;
 
  private:

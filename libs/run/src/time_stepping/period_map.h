@@ -56,8 +56,7 @@ class PeriodMap {
   /// Number of independent deviations of a motion without films: of the coordinates that move, and their velocities,
   /// less one on a section. With films more than any number that is asked for.
   [[nodiscard]] Eigen::Index dimension();
-  /// How far each position went in the last period, over the least that counts as a motion; infinite for angles that
-  /// go round.
+  /// How far positions and velocities went in the last period.
   [[nodiscard]] const Swing& swing() const { return swing_; }
 
  private:
