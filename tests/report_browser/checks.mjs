@@ -512,11 +512,13 @@ export const runUpReport = {
     await frame(page);
     assert.deepEqual(await sizes.locator(".legend-entry").allInnerTexts(), ["0.5×", "1×", "2×", "peak to peak"]);
     const { head, rows } = await table(page, sizes);
-    assert.match(head, /speed of hinge \[rpm\].*\[mm\]/);
+    // Half of what it moves is below a millimetre: micrometres.
+    assert.match(head, /speed of hinge \[rpm\].*\[µm\]/);
     const inner = rows.filter(([speed]) => speed > 1000 && speed < 2900);
     assert.ok(inner.length > 50, `${inner.length} speeds`);
     // Single precision, 20 rows a revolution and more; sin a + sin(3 a)/4 reaches 0.891, between two rows at worst.
-    for (const [speed, half, first, second, whole] of inner) {
+    for (const [speed, ...amplitudes] of inner) {
+      const [half, first, second, whole] = amplitudes.map((a) => a / 1000);
       assert.ok(Math.abs(first - 1) < 0.005, `at ${speed} rpm order 1 has ${first} mm`);
       assert.ok(half < 0.005 && second < 0.005, `at ${speed} rpm orders 0.5 and 2 have ${half} and ${second} mm`);
       assert.ok(Math.abs(whole - 2 * 0.891) < 0.03, `at ${speed} rpm the slider moves by ${whole} mm`);
