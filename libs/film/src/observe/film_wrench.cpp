@@ -10,68 +10,71 @@ namespace {
 // Sliding speed over which boundary friction changes its direction smoothly.
 constexpr double friction_speed = 1e-3;
 
-/// A derivative of the nodal field P by differences: sum of weight * P[node].
-struct Stencil {
-  std::array<int, 3> node{};
-  std::array<double, 3> weight{};
-};
-
 // Returns the slope at x = 0 of the parabola through three nodes, two of them at x = a and x = b.
 std::array<double, 3> parabola_slope(double a, double b) {
   return {-(a + b) / (a * b), b / (a * (b - a)), -a / (b * (b - a))};
 }
 
-Stencil slope_at(int k, int first, double a, int second, double b) {
-  return {{k, first, second}, parabola_slope(a, b)};
-}
-
-// Differences at the ends of a patch are one-sided.
-Stencil slope_phi(const Grid& grid, const GridGeometry& geometry, int i, int j) {
-  const int before = grid.before(i), after = grid.next(i), k = grid.index(i, j), n_z = grid.n_z;
-  if (before < 0) {
-    const double first = geometry.step(i, j);
-    return slope_at(k, k + n_z, first, k + 2 * n_z, first + geometry.step(i + 1, j));
-  }
-  const double back = geometry.step(before, j);
-  if (after < 0) return slope_at(k, k - n_z, -back, k - 2 * n_z, -back - geometry.step(i - 2, j));
-  return slope_at(k, grid.index(before, j), -back, grid.index(after, j), geometry.step(i, j));
-}
-
-// Differences are of second order up to the edges, where they are one-sided.
-Stencil slope_z(const Grid& grid, const GridGeometry& geometry, int i, int j) {
-  const int k = grid.index(i, j), last = grid.n_z - 1;
-  const Eigen::VectorXd& dz = geometry.dz;
-  if (j == 0) return slope_at(k, k + 1, dz[0], k + 2, dz[0] + dz[1]);
-  if (j == last) return slope_at(k, k - 1, -dz[last - 1], k - 2, -dz[last - 1] - dz[last - 2]);
-  return slope_at(k, k - 1, -dz[j - 1], k + 1, dz[j]);
-}
-
-double slope(const Stencil& stencil, const std::vector<Node>& nodes) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) sum += stencil.weight[k] * nodes[stencil.node[k]].wall;
-  return sum;
+// Entries of a wrench in which the film's shear counts.
+Vector6 counted(ShearForce shear_force) {
+  Vector6 counts = Vector6::Ones();
+  if (shear_force == ShearForce::torque_only) counts.tail<3>().setZero();
+  if (shear_force == ShearForce::none) counts.setZero();
+  return counts;
 }
 
 }  // namespace
 
 FilmWrench::FilmWrench(const FilmModel& model)
-    : model_(model), geometry_(model_), interpolation_(model_.grid, geometry_) {
+    : model_(model),
+      geometry_(model_),
+      interpolation_(model_.grid, geometry_),
+      shear_counts_(counted(model_.shear_force)) {
   for (const double phi : geometry_.phi) lines_.push_back({phi, std::cos(phi), std::sin(phi)});
   rows_.resize(static_cast<std::size_t>(model_.grid.n_z));
+  lay_stencils();
+}
+
+// Differences are of second order up to the ends of patches and to the edges, where they are one-sided.
+void FilmWrench::lay_stencils() {
+  const Grid& grid = model_.grid;
+  const Eigen::VectorXd &dx = geometry_.dx, &dz = geometry_.dz;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const int before = grid.before(i), after = grid.next(i);
+    if (before < 0)
+      phi_slopes_.push_back({{i, i + 1, i + 2}, parabola_slope(dx[i], dx[i] + dx[i + 1])});
+    else if (after < 0)
+      phi_slopes_.push_back({{i, i - 1, i - 2}, parabola_slope(-dx[before], -dx[before] - dx[i - 2])});
+    else
+      phi_slopes_.push_back({{i, before, after}, parabola_slope(-dx[before], dx[i])});
+  }
+  const int last = grid.n_z - 1;
+  z_slopes_.push_back({{0, 1, 2}, parabola_slope(dz[0], dz[0] + dz[1])});
+  for (int j = 1; j < last; ++j) z_slopes_.push_back({{j, j - 1, j + 1}, parabola_slope(-dz[j - 1], dz[j])});
+  z_slopes_.push_back({{last, last - 1, last - 2}, parabola_slope(-dz[last - 1], -dz[last - 1] - dz[last - 2])});
+}
+
+FilmWrench::Stencil FilmWrench::slope_phi(int i, int j) const {
+  Stencil slope = phi_slopes_[static_cast<std::size_t>(i)];
+  for (int n = 0; n < 3; ++n) {
+    slope.node[n] = model_.grid.index(slope.node[n], j);
+    slope.weight[n] /= geometry_.stretch[j];
+  }
+  return slope;
+}
+
+FilmWrench::Stencil FilmWrench::slope_z(int node, int j) const {
+  Stencil slope = z_slopes_[static_cast<std::size_t>(j)];
+  for (int& of : slope.node) of += node - j;
+  return slope;
+}
+
+FilmWrench::Basis FilmWrench::with_shear(const UnitTractions& unit) const {
+  return {unit, unit.along.cwiseProduct(shear_counts_), unit.across.cwiseProduct(shear_counts_)};
 }
 
 FilmWrench::Basis FilmWrench::basis(int i, int j) const {
-  Basis b{tractions(model_.surface, model_.R, lines_[static_cast<std::size_t>(i)], geometry_.z[j]), {}, {}};
-  b.shear_along = b.along;
-  b.shear_across = b.across;
-  if (model_.shear_force == ShearForce::torque_only) {
-    b.shear_along.tail<3>().setZero();
-    b.shear_across.tail<3>().setZero();
-  } else if (model_.shear_force == ShearForce::none) {
-    b.shear_along.setZero();
-    b.shear_across.setZero();
-  }
-  return b;
+  return with_shear(tractions(model_.surface, model_.R, lines_[static_cast<std::size_t>(i)], geometry_.z[j]));
 }
 
 void FilmWrench::set_speeds(const SurfaceMotion& motion) {
@@ -92,18 +95,14 @@ void FilmWrench::evaluate(const FlowBalance& balance, const SurfaceMotion& motio
   const Grid& grid = model_.grid;
   take_relief(balance);
   set_speeds(motion);
-  pressure_.setZero(), shear_.setZero(), asperity_.setZero();
   for (Eigen::VectorXd* field : {&normal_.value, &normal_.by_u, &normal_.by_g}) field->resize(grid.size());
   opening_ = motion.shell_opening;
   if (want_gradient) {
-    for (auto* gradient : {&by_u_, &by_g_, &by_opening_}) gradient->setZero(6, grid.size());
-    by_slip_.setZero(), by_journal_.setZero(), by_supply_.setZero();
+    for (auto* gradient : {&by_u_, &by_g_}) gradient->setZero(6, grid.size());
+    if (opening_.size() != 0) by_opening_.setZero(6, grid.size());
+    by_supply_.setZero();
   }
-  for (int i = 0; i < grid.n_phi; ++i) {
-    for (int j = 0; j < grid.n_z; ++j) {
-      add_node(nodes, balance.rough_gaps()[grid.index(i, j)], i, j, want_gradient);
-    }
-  }
+  std::visit([&](const auto& surface) { add_nodes(surface, balance, want_gradient); }, model_.surface);
   if (cavitation_law(model_).has_tension() && !cavitation_law(model_).bears_tension()) cut_off(nodes, want_gradient);
   if (want_gradient && model_.cavitated_shear == CavitatedShear::film_share) add_borders(balance);
   pushes_.clear();
@@ -328,53 +327,69 @@ void FilmWrench::push_on_slopes(const std::vector<Node>& nodes, bool want_gradie
   }
 }
 
-void FilmWrench::add_node(const std::vector<Node>& nodes, const RoughGap& rough, int i, int j, bool want_gradient) {
-  const Grid& grid = model_.grid;
-  const int k = grid.index(i, j);
+template <class Surface>
+void FilmWrench::add_nodes(const Surface& surface, const FlowBalance& balance, bool want_gradient) {
+  Sums sums;
+  for (int i = 0; i < model_.grid.n_phi; ++i) {
+    const GridLine& line = lines_[static_cast<std::size_t>(i)];
+    for (int j = 0; j < model_.grid.n_z; ++j)
+      add_node(balance, with_shear(surface.tractions(model_.R, line, geometry_.z[j])), i, j, want_gradient, sums);
+  }
+  pressure_ = sums.pressure, shear_ = sums.shear, asperity_ = sums.asperity;
+  if (want_gradient) by_slip_ = sums.by_slip, by_journal_ = sums.by_journal;
+}
+
+void FilmWrench::add_node(const FlowBalance& balance, const Basis& b, int i, int j, bool want_gradient, Sums& sums) {
+  const std::vector<Node>& nodes = balance.nodes();
+  const int k = model_.grid.index(i, j);
   const Node& node = nodes[k];
   const double area = geometry_.weight(i, j);
   const Row& row = rows_[static_cast<std::size_t>(j)];
   const Eigen::Vector2d& slip = row.slip;
-  const Basis b = basis(i, j);
-  const Stencil by_phi = slope_phi(grid, geometry_, i, j), by_z = slope_z(grid, geometry_, i, j);
-  const double p_phi = slope(by_phi, nodes), p_z = slope(by_z, nodes);
-  const Shear s = shear_of(node, rough, relief_.empty() ? ValueAndSlope{1, 0} : relief_[k]);
+  const Stencil by_phi = slope_phi(i, j), by_z = slope_z(k, j);
+  const double p_phi = by_phi.of_wall(nodes), p_z = by_z.of_wall(nodes);
+  const Shear s = shear_of(node, balance.rough_gaps()[k], relief_.empty() ? ValueAndSlope{1, 0} : relief_[k]);
   const auto sheared = [&](double along_phi, double along_z) -> Vector6 {
     return along_phi * b.shear_along + along_z * b.shear_across;
   };
-  pressure_ += area * node.wall * b.normal;
+  sums.pressure += area * node.wall * b.normal;
   normal_.value[k] = area * (node.wall + node.asperity);
   normal_.by_u[k] = area * (node.wall_u + node.asperity_h * node.h_u);
   normal_.by_g[k] = area * node.asperity_h * node.h_g;
-  shear_ +=
+  sums.shear +=
       area * sheared(s.couette[0] * slip[0] - s.half_gap[0] * p_phi, s.couette[1] * slip[1] - s.half_gap[1] * p_z);
   const Vector6 contact = b.normal + row.friction[0] * b.along + row.friction[1] * b.across;
-  if (node.asperity != 0) asperity_ += area * node.asperity * contact;
+  if (node.asperity != 0) sums.asperity += area * node.asperity * contact;
   if (!want_gradient) return;
 
-  const Vector6 by_h = area * (sheared(s.couette_h[0] * slip[0] - s.half_gap_h[0] * p_phi,
-                                       s.couette_h[1] * slip[1] - s.half_gap_h[1] * p_z) +
-                               node.asperity_h * contact);
+  Vector6 by_h = area * sheared(s.couette_h[0] * slip[0] - s.half_gap_h[0] * p_phi,
+                                s.couette_h[1] * slip[1] - s.half_gap_h[1] * p_z);
+  if (node.asperity_h != 0) by_h += area * node.asperity_h * contact;
   by_u_.col(k) +=
       node.h_u * by_h + area * (node.wall_u * b.normal + sheared(s.couette_u[0] * slip[0], s.couette_u[1] * slip[1]));
-  by_g_.col(k) += node.h_g * by_h;
-  for (int n = 0; n < 3; ++n) {
-    const double wall_phi = nodes[by_phi.node[n]].wall_u, wall_z = nodes[by_z.node[n]].wall_u;
-    by_u_.col(by_phi.node[n]) -= area * s.half_gap[0] * by_phi.weight[n] * wall_phi * b.shear_along;
-    by_u_.col(by_z.node[n]) -= area * s.half_gap[1] * by_z.weight[n] * wall_z * b.shear_across;
-  }
+  by_g_.col(k) = node.h_g * by_h;
+  add_slope_by_u(nodes, by_phi, area * s.half_gap[0], b.shear_along);
+  add_slope_by_u(nodes, by_z, area * s.half_gap[1], b.shear_across);
   if (!relief_journal_.empty() && relief_journal_[k] != 0) {
-    by_journal_ +=
+    sums.by_journal +=
         area * relief_journal_[k] / relief_[k].value * sheared(s.couette[0] * slip[0], s.couette[1] * slip[1]);
   }
-  Eigen::Matrix<double, 6, 2> by_slip;
-  by_slip.col(0) = s.couette[0] * b.shear_along;
-  by_slip.col(1) = s.couette[1] * b.shear_across;
-  by_slip += sheared(s.couette_rate[0] * slip[0], s.couette_rate[1] * slip[1]) * row.rate_slip.transpose();
-  if (node.asperity != 0)
-    by_slip += node.asperity * (b.along * row.friction_slip.row(0) + b.across * row.friction_slip.row(1));
-  by_slip_.col(0) += area * row.stretch * by_slip.col(0);
-  by_slip_.col(1) += area * by_slip.col(1);
+  sums.by_slip.col(0) += area * row.stretch * s.couette[0] * b.shear_along;
+  sums.by_slip.col(1) += area * s.couette[1] * b.shear_across;
+  if (s.couette_rate[0] == 0 && s.couette_rate[1] == 0 && node.asperity == 0) return;
+  Eigen::Matrix<double, 6, 2> turned =
+      sheared(s.couette_rate[0] * slip[0], s.couette_rate[1] * slip[1]) * row.rate_slip.transpose();
+  turned += node.asperity * (b.along * row.friction_slip.row(0) + b.across * row.friction_slip.row(1));
+  sums.by_slip.col(0) += area * row.stretch * turned.col(0);
+  sums.by_slip.col(1) += area * turned.col(1);
+}
+
+void FilmWrench::add_slope_by_u(const std::vector<Node>& nodes, const Stencil& slope, double drag,
+                                const Vector6& traction) {
+  for (int n = 0; n < 3; ++n) {
+    const double by_u = drag * slope.weight[n] * nodes[slope.node[n]].wall_u;
+    if (by_u != 0) by_u_.col(slope.node[n]) -= by_u * traction;
+  }
 }
 
 Vector6 FilmWrench::more_of_other_shear(const FlowBalance& balance) const {

@@ -48,11 +48,22 @@ class FilmWrench {
   [[nodiscard]] const NormalForces& normal() const { return normal_; }
 
  private:
-  /// Wrenches of unit tractions at one node; the last two also multiplied by the factors of the film's shear.
+  /// Wrenches of unit tractions at one node; the last two also as the film's shear counts.
   struct Basis : UnitTractions {
     Vector6 shear_along, shear_across;
   };
   [[nodiscard]] Basis basis(int i, int j) const;
+  [[nodiscard]] Basis with_shear(const UnitTractions& unit) const;
+  /// A derivative of a nodal field by differences: sum of weight * field[node].
+  struct Stencil {
+    std::array<int, 3> node{};
+    std::array<double, 3> weight{};
+
+    /// Returns the slope of the pressure on the walls [Pa/m].
+    [[nodiscard]] double of_wall(const std::vector<Node>& nodes) const {
+      return weight[0] * nodes[node[0]].wall + weight[1] * nodes[node[1]].wall + weight[2] * nodes[node[2]].wall;
+    }
+  };
   /// Shear on the shell at one node (film.49, film.46): couette . slip - half_gap . grad p, index 0 along phi, 1 along
   /// z.
   struct Shear {
@@ -61,7 +72,20 @@ class FilmWrench {
     Eigen::Vector2d half_gap, half_gap_h;           ///< [m]
   };
   [[nodiscard]] static Shear shear_of(const Node& node, const RoughGap& rough, const ValueAndSlope& relief);
-  void add_node(const std::vector<Node>& nodes, const RoughGap& rough, int i, int j, bool want_gradient);
+  /// Sums over nodes.
+  struct Sums {
+    Vector6 pressure = Vector6::Zero(), shear = Vector6::Zero(), asperity = Vector6::Zero();
+    Vector6 by_journal = Vector6::Zero();
+    Eigen::Matrix<double, 6, 2> by_slip = Eigen::Matrix<double, 6, 2>::Zero();
+  };
+  template <class Surface>
+  void add_nodes(const Surface& surface, const FlowBalance& balance, bool want_gradient);
+  void add_node(const FlowBalance& balance, const Basis& b, int i, int j, bool want_gradient, Sums& sums);
+  /// Adds the derivatives by u of the pressure's slope, of which the film's shear has `drag` per unit along `traction`.
+  void add_slope_by_u(const std::vector<Node>& nodes, const Stencil& slope, double drag, const Vector6& traction);
+  void lay_stencils();
+  [[nodiscard]] Stencil slope_phi(int i, int j) const;
+  [[nodiscard]] Stencil slope_z(int node, int j) const;
   void take_relief(const FlowBalance& balance);
   void push_on_pocket_walls(const FlowBalance& balance, bool want_gradient);
   [[nodiscard]] Vector6 pushes_along(const MotionDirection& direction) const;
@@ -74,6 +98,9 @@ class FilmWrench {
   GridGeometry geometry_;
   GapInterpolation interpolation_;
   std::vector<GridLine> lines_;
+  Vector6 shear_counts_;             ///< 1 for entries of a wrench in which the film's shear counts, else 0
+  std::vector<Stencil> phi_slopes_;  ///< of every line, between lines and at unit stretch
+  std::vector<Stencil> z_slopes_;    ///< of every row, between rows
   Vector6 total_, pressure_, shear_, asperity_;
   NormalForces normal_;
   /// Contribution of the walls of the pockets in a flow tube, with its derivatives.
