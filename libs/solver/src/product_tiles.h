@@ -3,26 +3,11 @@
 #include <cstddef>
 #include <cstring>
 
+#include "hersey/core/packed.h"
 #include "hersey/solver/strided_matrix.h"
 
-/// Kernels of small dense matrices. They are compiled twice where a processor may have more instructions than all of
-/// its kind: a kernel is inlined into a function for plain ones and into one for fused ones. It has no lambdas, which
-/// are functions of their own.
+/// Kernels of small dense matrices.
 namespace hersey::solver {
-
-#if defined(__x86_64__)
-#define HERSEY_KERNEL [[gnu::always_inline]] inline
-#define HERSEY_FUSED [[gnu::target("avx2,fma")]]
-/// True if the processor multiplies and adds four numbers at once.
-inline bool has_fused_instructions() {
-  static const bool has = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-  return has;
-}
-#else
-#define HERSEY_KERNEL inline
-#define HERSEY_FUSED
-constexpr bool has_fused_instructions() { return false; }
-#endif
 
 /// Four numbers of a row: one register with fused instructions, two without.
 using Pack = double __attribute__((vector_size(32)));

@@ -33,10 +33,9 @@ void FlowBalance::find_flow_by_surfaces(std::size_t f, FlowsBySurfaces& by) cons
   if (flow.q_excess != 0) (flow.couette >= 0 ? by.excess : by.excess_next)[at] = flow.q_excess;
   if (!axial(f)) by.bend[at] = flow.q_bend;
   by.journal[at] = flow.q_journal;
-  const auto [full, little] = carried_by_speeds(f);
-  const EntrainedFlow carried = flow.carried(upstream(f).theta);
-  const Speeds speeds = (full * carried.full + little * carried.little) * (flow.density * face.stretch);
-  by.mean_speed[at] = speeds.mean, by.half_slip[at] = speeds.half_slip, by.journal_speed[at] = speeds.journal;
+  by.mean_speed[at] = face.stretch * flow.q_speed;
+  by.half_slip[at] = face.stretch * flow.q_half_slip;
+  by.journal_speed[at] = face.stretch * flow.q_journal_speed;
 }
 
 void FlowBalance::add_storage_along(const MotionDirection& direction, Eigen::VectorXd& dr) const {

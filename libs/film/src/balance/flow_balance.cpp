@@ -126,6 +126,25 @@ void FlowBalance::lay_faces() {
                         {}});
     }
   }
+  lay_face_runs();
+}
+
+// Around the bearing as many lines as follow one another in the numbering make one run.
+void FlowBalance::lay_face_runs() {
+  const Grid& grid = model_.grid;
+  const int n_z = grid.n_z;
+  for (int i = 0; i < grid.n_phi; ++i) {
+    const int first = grid.index(i, 0), next = grid.next(i);
+    axial_runs_.push_back({static_cast<int>(face_above(i, 0)), first, first + 1, n_z - 1});
+    if (next < 0) continue;
+    const bool goes_on = !around_runs_.empty() && next == i + 1 &&
+                         around_runs_.back().a + around_runs_.back().count == first &&
+                         around_runs_.back().b + around_runs_.back().count == grid.index(next, 0);
+    if (goes_on)
+      around_runs_.back().count += n_z;
+    else
+      around_runs_.push_back({first, first, grid.index(next, 0), n_z});
+  }
 }
 
 std::array<int, 4> FlowBalance::faces_around(int node) const {
@@ -248,7 +267,7 @@ FilmDomain FlowBalance::evaluate(const SurfaceMotion& motion, const FilmHistory&
   by_surfaces_.is_found = false;
   find_supply(motion);
   if (const FilmDomain domain = evaluate_nodes(motion, u_); !domain.is_inside()) return domain;
-  for (std::size_t f = 0; f < faces_.size(); ++f) add_face(f);
+  add_faces();
   for (const int node : leaking_edge_nodes_) {
     const double leaves = seal_flow(node).value;
     balance_[node] += leaves;

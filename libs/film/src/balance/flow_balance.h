@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "balance/by_surfaces.h"
+#include "balance/face_law.h"
 #include "balance/node.h"
 #include "gap/feature_cover.h"
 #include "gap/gap_interpolation.h"
@@ -24,35 +25,6 @@ struct Face {
   double length = 0;           ///< from a to b [m]
   double stretch = 1;          ///< factor of speeds along phi there [-]
   std::array<int, 4> slots{};  ///< indices of (a,a), (a,b), (b,a), (b,b) among the Jacobian's values
-};
-
-/// Entrained (Couette) flow over a face whose upstream node is filled to theta, and its derivatives (film.28).
-struct EntrainedFlow {
-  double value = 0;   ///< [m^3/s]
-  double theta = 0;   ///< d/d theta [m^3/s]
-  double full = 0;    ///< d/d (flow of a full gap) [-]
-  double little = 0;  ///< d/d (flow per fill fraction of a nearly empty gap) [-]
-};
-
-/// Flow over a face, linearised (film.16): dq = K d(p_a - p_b) + q_h_a dh_a + q_h_b dh_b + q_bend d bend + q_fluidity
-/// d(1/mu) + q_density d density + q_theta d theta_upwind. Flows are masses over rho0.
-struct FaceFlow {
-  double K = 0;                    ///< conductance [m^3/(Pa s)]
-  double density = 1;              ///< rho/rho0 on the face [-]
-  double q_density = 0;            ///< d/d density: the volume flow [m^3/s]
-  double q_h_a = 0;                ///< d/d thickness at a [m^2/s]
-  double q_h_b = 0;                ///< d/d thickness at b [m^2/s]
-  double q_bend = 0;               ///< d/d (gap on the face less the mean of both nodes) [m^2/s]
-  double q_excess = 0;             ///< d/d (mean gap of the control volume upstream less the gap at its node) [m^2/s]
-  double q_journal = 0;            ///< d/d phi_journal [m^3/(s rad)]
-  double q_theta = 0;              ///< d/d theta upstream [m^3/s]
-  double q_fluidity = 0;           ///< d/d (1/mu on the face)
-  double couette = 0;              ///< entrained flow of a full gap [m^3/s]
-  double little = 0;               ///< entrained flow per fill fraction of a nearly empty gap [m^3/s]
-  double little_over_couette = 0;  ///< ratio of `little` to `couette` where that is clamped; else 0 [-]
-  bool is_deep = false;            ///< the face lies over a pocket, which retains oil
-
-  [[nodiscard]] EntrainedFlow carried(double theta) const;
 };
 
 /// Flow that recirculates in the pockets under a flow tube.
@@ -347,18 +319,6 @@ class FlowBalance {
     double turning = 0;                                   ///< mean depth of the journal's pockets [m]
     double start = 0, start_slope = 1, start_excess = 1;  ///< gap from which the rate leads to the present one [m]
   };
-  /// Gap between two nodes: the parts that count for pressure-driven and for entrained flow, with derivatives by the
-  /// thickness on the face, by those at both nodes, and by phi_journal.
-  struct FaceGap {
-    double cube = 0, cube_h = 0, cube_journal = 0;
-    std::array<double, 2> cube_at{};
-    double full = 0, full_h = 0, full_journal = 0;
-    std::array<double, 2> full_at{};
-    double little = 0, little_h = 0, little_excess = 0, little_journal = 0;  ///< by h and excess of the node `from`
-    double little_over_full = 0;  ///< ratio of `little` to `full` where that is clamped; else 0
-    int from = 0;                 ///< upstream
-  };
-
   /// Properties of a node that its edge determines.
   struct EdgeNode {
     enum class Kind { none, wall, prescribed, open, leaking };
@@ -402,6 +362,7 @@ class FlowBalance {
   void lay_edges();
   void spread_given_flows();
   void lay_faces();
+  void lay_face_runs();
   void lay_pattern();
   void find_supply(const SurfaceMotion& motion);
   /// Returns the node of a restricted port; -1: none.
@@ -434,7 +395,7 @@ class FlowBalance {
   [[nodiscard]] bool has_line_row(int node) const;
   [[nodiscard]] bool is_beside_line(int node) const;  ///< the line's other side has such a row, too
   [[nodiscard]] double line_balance(int node) const;
-  void find_carried_fraction(std::size_t f, const FaceGap& gap, const EntrainedFlow& carried);
+  void find_carried_fraction(std::size_t f, const FaceGap<double>& gap, const EntrainedFlow& carried);
   [[nodiscard]] CutFaceFraction fraction_towards_line(int node, const TowardsLine& t) const;
   [[nodiscard]] double line_fraction_along(std::size_t f, const CutFaceFraction& fraction,
                                            const MotionDirection& direction) const;
@@ -509,13 +470,30 @@ class FlowBalance {
   void apply_border(const CavityBorder& border);
   void extend_borders_to_edges();
   [[nodiscard]] bool is_layered() const { return viscosity_.fluidity.size() != 0; }
+  /// False where the gap that carries the oil is that between the surfaces.
+  [[nodiscard]] bool has_rough_gaps() const { return !rough_law_.is_smooth() || is_layered(); }
   static void skew(double skew, double h, RoughGap& gap);
   void evaluate_cell(int node, const SurfaceMotion& motion);
-  void add_face(std::size_t f);
-  [[nodiscard]] FaceGap smooth_gap(std::size_t f, double h) const;
-  void roughen(std::size_t f, FaceGap& gap) const;
-  void deepen(std::size_t f, double h, FaceGap& gap);
-  void add_starved_limit(std::size_t f, FaceGap& gap) const;
+  /// Consecutive faces between consecutive nodes.
+  struct FaceRun {
+    int face = 0, a = 0, b = 0, count = 0;
+  };
+  template <bool is_rough>
+  class PackedFaces;
+  /// Evaluates the flows over all faces and adds them to the balances.
+  void add_faces();
+  template <bool is_rough>
+  void add_faces_of();
+  template <bool is_rough>
+  void add_face(int f);
+  void add_flow(int f, double poiseuille, double entrained);
+  /// The face, or several from the first on (face_law.h).
+  template <class Number>
+  [[nodiscard]] FaceShape<Number> shape_of(int first, bool is_axial) const;
+  template <bool is_rough, class Number>
+  [[nodiscard]] BesideFace<Number> beside_face(int first, bool is_axial) const;
+  void deepen(std::size_t f, FaceGap<double>& gap);
+  [[nodiscard]] LittleOil<double> little_oil_upstream(std::size_t f, int from) const;
   [[nodiscard]] double thickness_on(std::size_t f) const;
   [[nodiscard]] bool is_limited(std::size_t f) const;
   void replace_boundary_rows();
@@ -575,6 +553,7 @@ class FlowBalance {
   std::vector<int> leaking_edge_nodes_;     ///< nodes on edges with a seal
   std::vector<double> area_;                ///< of the control volumes [m^2]
   std::vector<Face> faces_;
+  std::vector<FaceRun> around_runs_, axial_runs_;
   std::size_t first_axial_face_ = 0;
   std::vector<int> column_start_, row_index_, diagonal_slot_;
   std::vector<std::array<int, 5>> row_slots_;  ///< slots of the entries of every balanced row
