@@ -241,6 +241,10 @@ int bearing_command(const BearingArguments& arguments) {
                              {"--vtu", arguments.vtu},
                              {"--report", arguments.report}},
                             session.files());
+  session::require_writable({{"--csv", arguments.csv},
+                             {"--coefficients", arguments.coefficients},
+                             {"--fields", arguments.fields},
+                             {"--report", arguments.report}});
   warn(model.warnings);
   require_one(arguments, model, runs.size());
   const auto coefficients = arguments.thermal_coefficients == "total" ? study::ThermalCoefficients::total

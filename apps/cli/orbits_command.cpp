@@ -56,11 +56,24 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
-/// Its model, with a periodic motion to be found.
-model::Model model_at(const session::Session& session, std::vector<std::string> overrides, const Along& along,
-                      double value) {
+/// The model with another value. Its other values have been read before: what is refused is what `--along` asks for.
+model::Model with_value(const session::Session& session, std::vector<std::string> overrides, const Along& along,
+                        double value) {
   overrides.push_back(fmt::format("{}={:.17g}{}{}", along.name, value, along.unit.empty() ? "" : " ", along.unit));
-  model::Model model = session.with(std::move(overrides)).model();
+  try {
+    return session.with(std::move(overrides)).model();
+  } catch (const InputError& error) {
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults)
+      if (fault.position.file == "--set") fault.position.file = "--along";
+    throw InputError(std::move(faults));
+  }
+}
+
+/// Its model, with a periodic motion to be found.
+model::Model model_at(const session::Session& session, const std::vector<std::string>& overrides, const Along& along,
+                      double value) {
+  model::Model model = with_value(session, overrides, along, value);
   if (model.simulation.analysis != model::Analysis::dynamics || !model.simulation.cycle ||
       model.simulation.cycle->lead_in != model::LeadIn::shooting)
     throw InputError(Fault{model.position_of("simulation"), "simulation", "no periodic motion that is looked for",
@@ -73,7 +86,9 @@ model::Model model_at(const session::Session& session, std::vector<std::string> 
 int orbits_command(const OrbitsArguments& arguments) {
   const Along along = along_of(arguments.along);
   const session::Session session(arguments.model, arguments.overrides);
-  session::require_separate({{"--results", arguments.results}, {"--report", arguments.report}}, session.files());
+  const std::vector<session::OutputFile> outputs{{"--results", arguments.results}, {"--report", arguments.report}};
+  session::require_separate(outputs, session.files());
+  session::require_writable(outputs);
   warn(session.model().warnings);
   OrbitFindings found{{}, along.name, along.unit};
   run::BranchOptions options;

@@ -112,7 +112,9 @@ RotorFindings find(const RotorArguments& arguments, const session::Session& sess
 
 int rotor_command(const RotorArguments& arguments) {
   const session::Session session(arguments.model, arguments.overrides);
-  session::require_separate({{"--results", arguments.results}, {"--report", arguments.report}}, session.files());
+  const std::vector<session::OutputFile> outputs{{"--results", arguments.results}, {"--report", arguments.report}};
+  session::require_separate(outputs, session.files());
+  session::require_writable(outputs);
   warn(session.model().warnings);
   const RotorFindings found = find(arguments, session);
   bool all_solved = true;

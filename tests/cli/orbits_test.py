@@ -197,6 +197,13 @@ class Command(unittest.TestCase):
                 run = hersey("orbits", model, "--along", along)
                 self.assertNotEqual(run.returncode, 0)
                 self.assertIn(words, run.stderr)
+                self.assertTrue(run.stderr.startswith("--along"), run.stderr)
+            # Before an orbit is looked for, which may take minutes.
+            for option in ("--report", "--results"):
+                run = hersey("orbits", model, "--along", "omega=80:90", option, f"{folder}/missing/file")
+                self.assertNotEqual(run.returncode, 0)
+                self.assertNotIn("periods", run.stderr)
+                self.assertIn("in a folder that exists", run.stderr)
             model.write_text(DUFFING.replace("cycle: {period: \"2*pi s/${omega}\", lead_in: shooting}", "duration: 1 s"))
             run = hersey("orbits", model, "--along", "omega=80:90")
             self.assertNotEqual(run.returncode, 0)

@@ -54,6 +54,7 @@ struct Reader::Impl {
   std::vector<std::string> groups, datasets;
   std::unordered_set<std::string> known;             // of them all
   std::map<std::string, std::size_t> complete_rows;  // per growth group
+  std::map<std::string, DatasetInfo> infos;          // of datasets asked for: HDF5 takes long to open one
 
   [[noreturn]] void fail(const std::string& reason) const { throw ReadError(path, reason); }
 
@@ -198,6 +199,12 @@ struct Reader::Impl {
     return std::move(all[0]);
   }
 
+  [[nodiscard]] DatasetInfo info(const std::string& name) {
+    if (const auto found = infos.find(name); found != infos.end()) return found->second;
+    const Handle opened = dataset(name), space(H5Dget_space(opened.get()));
+    return infos.emplace(name, info(name, opened, space)).first->second;
+  }
+
   [[nodiscard]] DatasetInfo info(const std::string& name, const Handle& dataset, const Handle& space) const {
     DatasetInfo info;
     info.shape = extent_of(space.get());
@@ -288,10 +295,7 @@ std::vector<std::string> Reader::list_attribute(std::string_view object, std::st
 
 DatasetInfo Reader::info(std::string_view path) const {
   const Hdf5Session session(impl_->untrusted_path());
-  const std::string name = absolute(path);
-  const Handle dataset = impl_->dataset(name);
-  const Handle space(H5Dget_space(dataset.get()));
-  return impl_->info(name, dataset, space);
+  return impl_->info(absolute(path));
 }
 
 Array Reader::read(std::string_view path) const { return read_rows(path, 0, std::numeric_limits<std::size_t>::max()); }
@@ -303,7 +307,7 @@ Array Reader::read_rows(std::string_view path, std::size_t first, std::size_t co
   const Handle type(H5Dget_type(dataset.get())), space(H5Dget_space(dataset.get()));
   const H5T_class_t kind = H5Tget_class(type.get());
   if (kind != H5T_FLOAT && kind != H5T_INTEGER) impl_->fail(name + " does not hold numbers");
-  Array array{impl_->info(name, dataset, space), {}};
+  Array array{impl_->info(name), {}};
   if (array.info.shape.empty()) impl_->fail(name + " has no rows");
   stride = std::max<std::size_t>(stride, 1);
   const std::size_t rows = array.info.shape[0];

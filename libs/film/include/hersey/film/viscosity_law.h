@@ -36,6 +36,7 @@ struct Roelands {
   /// Logarithm at p above p_cav [Pa] for mu0 [Pa s], > smallest_viscosity.
   [[nodiscard]] ValueAndSlope log_ratio(double p, double mu0) const {
     const double size = std::log(mu0 / smallest_viscosity), slope = size * z / pole_pressure;
+    if (p == 0) return {0, slope};  // half of the nodes of a bearing are cavitated
     const double power = std::pow(1 + p / pole_pressure, z);
     return {size * (power - 1), slope * power / (1 + p / pole_pressure)};
   }

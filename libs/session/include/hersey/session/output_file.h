@@ -17,4 +17,9 @@ struct OutputFile {
 /// @throws InputError naming option and file.
 void require_separate(const std::vector<OutputFile>& outputs, const std::vector<std::filesystem::path>& inputs);
 
+/// Refuses files that could not be written, before anything is computed for them: in a folder that is missing or
+/// read-only, or over a file that is. Nothing is written.
+/// @throws InputError naming option, file and reason.
+void require_writable(const std::vector<OutputFile>& outputs);
+
 }  // namespace hersey::session
