@@ -58,7 +58,7 @@ HERSEY_KERNEL EntrainedFlowOf<Number> FaceFlowOf<Number>::carried(const Number& 
   if (all(alike)) return as_full;
   const EntrainedFlowOf<Number> as_little{theta * little, little, 0.0, theta};
   const MaskOf<Number> lacking = theta < 0.0;
-  if (all(lacking)) return as_little;
+  if (all(lacking & !alike)) return as_little;
   const Number y = theta * little / couette;
   if (is_deep) {
     const Number s = 1.0 + y - theta, by_little = 1.0 / (s * s);

@@ -34,6 +34,7 @@ inline bool has_fused_instructions() {
   return has;
 }
 #else
+/// Other processors have one kind of function.
 constexpr bool has_fused_instructions() { return false; }
 #endif
 
@@ -45,13 +46,17 @@ struct Packed {
   Values values{};
 
   Packed() = default;
+  /// The numbers of a register.
   HERSEY_KERNEL Packed(const Values& of) : values(of) {}
+  /// One number, four times.
   HERSEY_KERNEL Packed(double all) : values{all, all, all, all} {}
+  /// Four numbers that follow one another in memory, at any address.
   [[nodiscard]] HERSEY_KERNEL static Packed load(const double* from) {
     Packed packed;
     std::memcpy(&packed.values, from, sizeof(Values));
     return packed;
   }
+  /// Writes them to where four numbers follow one another.
   HERSEY_KERNEL void store(double* to) const { std::memcpy(to, &values, sizeof(Values)); }
   HERSEY_KERNEL Packed operator-() const { return -values; }
   HERSEY_KERNEL Packed& operator+=(const Packed& b) {
@@ -98,6 +103,7 @@ HERSEY_KERNEL double select(bool is_first, double first, bool is_second, double 
 HERSEY_KERNEL bool all(const PackedMask& m) { return (m.values[0] & m.values[1] & m.values[2] & m.values[3]) != 0; }
 HERSEY_KERNEL bool all(bool condition) { return condition; }
 
+/// Square roots; of a negative number not a number.
 HERSEY_KERNEL Packed square_root(const Packed& a) {
   Packed root;
 #if defined(__SSE2__)
@@ -111,6 +117,7 @@ HERSEY_KERNEL Packed square_root(const Packed& a) {
 #endif
   return root;
 }
+/// The square root; of a negative number not a number.
 HERSEY_KERNEL double square_root(double a) { return std::sqrt(a); }
 
 /// Number `k` of those that are packed.
