@@ -335,6 +335,15 @@ film::FilmDomain SteadyFilm::chord_about(const Coordinates& e, const VectorXd& x
   return domain;
 }
 
+film::FilmObservables SteadyFilm::observe(const Coordinates& e, const VectorXd& x, const Eigen::Vector2d& offset) {
+  const film::SurfaceMotion motion = surfaces(e, x);
+  const VectorXd u = film_of(x);
+  const film::FilmDomain domain = reynolds_.linearise(motion, history_, u);
+  HERSEY_REQUIRE(domain.is_inside(), film::text(model_, domain));
+  ends_linearised_ = false;
+  return reynolds_.observe(motion, offset, u, tilt(x));
+}
+
 /// The part of wrenches on the fixed surface that works on the position.
 MatrixXd SteadyFilm::force_of(const Eigen::Ref<const MatrixXd>& wrench) const {
   return coordinates_->force_rows().topRows(coordinates_->count()) * wrench;

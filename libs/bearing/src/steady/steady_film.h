@@ -86,6 +86,10 @@ class SteadyFilm {
   [[nodiscard]] bool has_factor() const { return !deforms() && reynolds_.linear_solver().has_factor; }
   /// Residual, increment and force at a state nearby, with the derivatives of the last linearisation. @pre has_factor()
   [[nodiscard]] film::FilmDomain chord_about(const Coordinates& e, const Eigen::VectorXd& x);
+  /// Returns what the film at x does, `offset` being that of the journal's axis. The last linearisation ends with it:
+  /// a film of its own would need as much memory once more.
+  [[nodiscard]] film::FilmObservables observe(const Coordinates& e, const Eigen::VectorXd& x,
+                                              const Eigen::Vector2d& offset);
   /// Residual of the film, or of the deformation as the largest error of the gap over the clearance if that is larger.
   [[nodiscard]] double relative_residual() const;
   /// Newton's increment of x at a fixed journal, and the force on the shell after it, in the bearing's axes as they

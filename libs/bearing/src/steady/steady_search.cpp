@@ -171,12 +171,11 @@ SteadyState SteadySearch::state() {
   state.d_shell = film_.shell_displacement(x_);
   state.d_journal = film_.journal_displacement(x_);
   state.shapes = film_.shapes();
-  state.film =
-      film::observe_film(model_, film_.surfaces(e_, x_), film_.history(), axis_offset(e_), state.u, state.tilt);
+  state.coefficients = coefficients();
+  state.film = film_.observe(e_, x_, axis_offset(e_));
   state.kind = options_.kind ? options_.kind : journal_kind();
   state.load = coordinates_of().force_rows().topRows(e_.size()) * state.film.wrench_on_shell;
   state.viscosity = film_.history().viscosity;
-  state.coefficients = coefficients();
   return state;
 }
 

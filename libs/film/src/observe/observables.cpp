@@ -224,23 +224,28 @@ void observe_forces(const FlowBalance& balance, const FilmWrench& wrench, const 
   o.torque_journal_other_shear = torque_on_journal(on_shell + wrench.more_of_other_shear(balance), e, tilt);
 }
 
-FilmFields fields_of(const std::vector<Node>& nodes, bool is_turbulent) {
-  const auto n = static_cast<Eigen::Index>(nodes.size());
+FilmFields fields_of_size(Eigen::Index n, bool is_turbulent) {
   FilmFields fields;
   for (auto* field : {&fields.p, &fields.theta, &fields.density, &fields.h, &fields.w, &fields.p_asperity})
     field->resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Node& node = nodes[i];
-    fields.p[i] = node.wall;
-    fields.theta[i] = node.theta;
-    fields.density[i] = node.density;
-    fields.h[i] = node.h;
-    fields.w[i] = node.w;
-    fields.p_asperity[i] = node.asperity;
-  }
-  if (!is_turbulent) return fields;
-  fields.reynolds.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) fields.reynolds[i] = nodes[i].reynolds;
+  if (is_turbulent) fields.reynolds.resize(n);
+  return fields;
+}
+
+void show(const Node& node, Eigen::Index at, FilmFields& fields) {
+  fields.p[at] = node.wall;
+  fields.theta[at] = node.theta;
+  fields.density[at] = node.density;
+  fields.h[at] = node.h;
+  fields.w[at] = node.w;
+  fields.p_asperity[at] = node.asperity;
+  if (fields.reynolds.size() != 0) fields.reynolds[at] = node.reynolds;
+}
+
+FilmFields fields_of(const std::vector<Node>& nodes, bool is_turbulent) {
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  FilmFields fields = fields_of_size(n, is_turbulent);
+  for (Eigen::Index i = 0; i < n; ++i) show(nodes[i], i, fields);
   return fields;
 }
 
@@ -251,7 +256,8 @@ FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, cons
   const NodeLaw law(model);
   const Grid& grid = model.grid;
   const bool is_turbulent = model.turbulence.counts();
-  std::vector<Node> nodes(u.size());
+  FilmFields fields = fields_of_size(u.size(), is_turbulent);
+  Node node;
   for (int i = 0; i < u.size(); ++i) {
     Sliding sliding;
     if (is_turbulent) {
@@ -259,11 +265,12 @@ FilmFields film_fields(const FilmModel& model, const SurfaceMotion& motion, cons
       sliding = sliding_of(along * (motion.u_journal - motion.u_shell), motion.w_journal - motion.w_shell);
     }
     if (is_turbulent && viscosity.fluidity.size() != 0)
-      law.evaluate(motion.g[i], u[i], i, sliding, motion.roughness_at(i), node_viscosity(viscosity, i), nodes[i]);
+      law.evaluate(motion.g[i], u[i], i, sliding, motion.roughness_at(i), node_viscosity(viscosity, i), node);
     else
-      law.evaluate(motion.g[i], u[i], i, sliding, motion.roughness_at(i), nodes[i]);
+      law.evaluate(motion.g[i], u[i], i, sliding, motion.roughness_at(i), node);
+    show(node, i, fields);
   }
-  return fields_of(nodes, is_turbulent);
+  return fields;
 }
 
 FilmFields fields_of(const FlowBalance& balance) {
