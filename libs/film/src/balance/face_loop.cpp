@@ -4,6 +4,7 @@
 #include "balance/flow_balance.h"
 
 // The loop over all faces of a film. Kernels return packed numbers only to functions into which they are inlined.
+#pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace hersey::film {
@@ -82,6 +83,15 @@ HERSEY_KERNEL FaceShape<Number> FlowBalance::shape_of(int first, bool is_axial) 
   return shape;
 }
 
+HERSEY_KERNEL void FlowBalance::add_flow(int f, double poiseuille, double entrained) {
+  const auto [a, b] = std::pair{faces_[f].a, faces_[f].b};
+  const double passing = 0.5 * (std::abs(poiseuille) + std::abs(entrained));
+  balance_[a] += poiseuille + entrained;
+  balance_[b] -= poiseuille + entrained;
+  throughput_[a] += passing;
+  throughput_[b] += passing;
+}
+
 // One face, whatever counts there.
 template <bool is_rough>
 void FlowBalance::add_face(int f) {
@@ -105,15 +115,6 @@ void FlowBalance::add_face(int f) {
   flow.q_speed = by_speeds.mean, flow.q_half_slip = by_speeds.half_slip, flow.q_journal_speed = by_speeds.journal;
   if (shape.is_cut) find_carried_fraction(f, gap, carried);
   add_flow(f, flow.K * (a.p - b.p), carried.value);
-}
-
-HERSEY_KERNEL void FlowBalance::add_flow(int f, double poiseuille, double entrained) {
-  const auto [a, b] = std::pair{faces_[f].a, faces_[f].b};
-  const double passing = 0.5 * (std::abs(poiseuille) + std::abs(entrained));
-  balance_[a] += poiseuille + entrained;
-  balance_[b] -= poiseuille + entrained;
-  throughput_[a] += passing;
-  throughput_[b] += passing;
 }
 
 /// Faces of a film without pockets, away from a supply line: several at once.
@@ -182,3 +183,5 @@ void FlowBalance::add_faces_of() {
 }
 
 }  // namespace hersey::film
+
+#pragma GCC diagnostic pop
