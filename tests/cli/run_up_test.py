@@ -208,11 +208,23 @@ class RunUp(unittest.TestCase):
         critical, (row,) = math.sqrt(STIFFNESS / MASS) / RPM, rows
         self.assertEqual(row["unit"], "m")
         self.assertLess(abs(row["value"] / max(abs(linear(w)) for w in range(280, 360)) - 1), 0.02)
-        axis, speed, lag = re.fullmatch(r"along ([xy]), ([\d.]+) rpm, t = [\d.e+]+ ms, lags by (-?\d+)°", row["where"]).groups()
+        axis, speed, lag = re.fullmatch(r"along ([xy]), ([\d.]+) rpm of turning, t = [\d.e+]+ ms, lags by (-?\d+)°", row["where"]).groups()
         # The peak of U w^2/... lies 1/(1 - 2 zeta^2)^.5 above, 1 %; the rate moves it by 26/63 rad/s and windows are 1.6 rad/s apart.
         self.assertLess(abs(float(speed) / critical - 1.01), 0.01)
         # The unbalance is 40 deg ahead, y a quarter behind; 1 % of speed turn the phase by 6 deg.
         self.assertLess(abs(float(lag) - (90 - 40 + (90 if axis == "y" else 0))), 12)
+
+    def test_a_shaft_that_turns_round_is_tracked_in_the_longer_direction(self):
+        # From 50 rad/s forward to 350 backward: the rotor turns round after 0.25 s.
+        speed = "{expression: '50 - 200*t', unit: rad/s}"
+        self.run_model(speed, "0.5 ms", "--set", "duration=2 s")
+        data = self.page_data()["runs"][0]["run_up"]
+        for d in data["displacements"]:
+            self.assertGreater(self.numbers(d["time"])[0], 0.25)
+            speed, frequency, amplitude = (self.numbers(d["cascade"][key]) for key in ("speed", "frequency", "amplitude"))
+            ridge = frequency[np.argmax(amplitude, axis=1)]
+            # Pieces last 0.09 s, in which the speed rises by 2.7 Hz; the slow ones have less than a revolution.
+            self.assertLess(np.abs(ridge - speed / (2 * math.pi))[speed > 100].max(), 4)
 
     def test_a_run_at_constant_speed_has_no_run_up(self):
         self.run_model("3000 rpm", "0.5 ms", "--set", "duration=0.6 s")

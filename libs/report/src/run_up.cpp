@@ -14,7 +14,7 @@ using nlohmann::json;
 using results::Array;
 using results::Reader;
 
-constexpr double kOneRevolution = 2 * std::numbers::pi;
+constexpr double kOneRevolution = 2 * std::numbers::pi, kHalfTurn = std::numbers::pi;
 
 // A shaft with fewer revolutions has no orders worth tracking; a body that tumbles makes some, too.
 constexpr double kFewestRevolutions = 20;
@@ -42,7 +42,40 @@ std::vector<double> column_of(const Array& array, std::size_t column) {
   return values;
 }
 
-double way(const std::vector<double>& angle) { return std::abs(angle.back() - angle.front()); }
+/// The longest stretch of a run in which the shaft does not turn round; what swings back by less than half a revolution
+/// goes on.
+Stretch longest_stretch(const std::vector<double>& angle) {
+  Stretch longest, now;
+  std::size_t farthest = 0;
+  double sense = 0;
+  const auto length = [&](const Stretch& s) { return s.end == 0 ? 0 : std::abs(angle[s.end - 1] - angle[s.begin]); };
+  for (std::size_t k = 0; k < angle.size(); ++k) {
+    const double step = angle[k] - angle[farthest];
+    if (sense == 0 && std::abs(step) > 0.5 * kHalfTurn) sense = step > 0 ? 1 : -1;
+    if (sense == 0) continue;
+    if (sense * step >= 0) {
+      farthest = k;
+      now.end = k + 1;
+      if (length(now) > length(longest)) longest = now;
+    } else if (-sense * step > kHalfTurn) {
+      now = {farthest, k + 1};
+      sense = -sense;
+      farthest = k;
+    }
+  }
+  return longest;
+}
+
+std::vector<double> rows_of(const std::vector<double>& values, const Stretch& stretch) {
+  const auto first = values.begin();
+  return {first + static_cast<std::ptrdiff_t>(stretch.begin), first + static_cast<std::ptrdiff_t>(stretch.end)};
+}
+
+/// How far a shaft rotates one way [rad].
+double way(const std::vector<double>& angle) {
+  const Stretch stretch = longest_stretch(angle);
+  return stretch.end == 0 ? 0 : std::abs(angle[stretch.end - 1] - angle[stretch.begin]);
+}
 
 void keep_farther(std::optional<RotatingShaft>& best, RotatingShaft found) {
   if (found.angle.empty() || !std::isfinite(way(found.angle))) return;
@@ -125,7 +158,8 @@ void add_signals(const Reader& reader, const std::string& path, bool is_body, Ru
   std::vector<std::vector<double>> columns;
   double most = 0;
   for (std::size_t i = 0; i < array.width(); ++i) {
-    columns.push_back(column_of(array, i));
+    if (array.info.shape.at(0) < run_up.stretch.end) return;
+    columns.push_back(rows_of(column_of(array, i), run_up.stretch));
     most = std::max(most, range_of(columns.back()));
   }
   OrderOptions options;
@@ -183,6 +217,9 @@ std::optional<RunUp> find_run_up(const Reader& reader) {
   std::optional<RotatingShaft> shaft = find_shaft(reader, run_up.time);
   if (!shaft || shaft->angle.size() != run_up.time.size()) return std::nullopt;
   const double revolutions = way(shaft->angle) / kOneRevolution;
+  run_up.stretch = longest_stretch(shaft->angle);
+  run_up.time = rows_of(run_up.time, run_up.stretch);
+  shaft->angle = rows_of(shaft->angle, run_up.stretch);
   if (!(revolutions >= kFewestRevolutions) || !changes_speed(run_up.time, shaft->angle)) return std::nullopt;
   run_up.revolutions = revolutions < kLongRun ? kFewRevolutions : kRevolutions;
   run_up.shaft = std::move(*shaft);
@@ -202,7 +239,8 @@ json run_up_data(const Reader& reader) {
   json data{{"shaft", run_up->shaft.name}, {"revolutions", run_up->revolutions}, {"orders", first.orders}};
   data["displacements"] = json::array();
   for (const RunUpSignal& displacement : run_up->displacements) {
-    const std::vector<double> values = column_of(reader.read(displacement.path), displacement.column);
+    const std::vector<double> values =
+        rows_of(column_of(reader.read(displacement.path), displacement.column), run_up->stretch);
     json entry = tracks_data(displacement.tracks);
     entry["path"] = displacement.path;
     entry["column"] = displacement.column;

@@ -32,15 +32,21 @@ struct RunUpSignal {
   [[nodiscard]] Peak peak() const;
 };
 
+/// Rows of a run, from `begin` to before `end`.
+struct Stretch {
+  std::size_t begin = 0, end = 0;
+};
+
 /// A run-up or coast-down with the orders of what moves.
 struct RunUp {
   RotatingShaft shaft;
+  Stretch stretch;                         ///< rows of the run it consists of: the longest without turning round
   int revolutions = 0;                     ///< of a window
   std::vector<double> time;                ///< of each row [s]
   std::vector<RunUpSignal> displacements;  ///< journals first
 };
 
-/// Tracks the orders of a run in which a shaft makes twenty revolutions or more while its speed, as a mean over one of
+/// Tracks the orders of a run in which a shaft makes twenty revolutions or more one way while its speed, as a mean over one of
 /// them, changes by more than a fifth; unset for any other run. The shaft is the crank, else the joint that rotates
 /// most, else the body that does.
 /// @verified_by run_up_test.cpp

@@ -294,18 +294,18 @@ class Summary {
     for (auto first = all.begin(); first != all.end();) {
       const auto end = std::find_if(first, all.end(), [&](const RunUpSignal& s) { return s.path != first->path; });
       const auto smaller = [](const RunUpSignal& a, const RunUpSignal& b) { return a.peak().size < b.peak().size; };
-      add_peak(*std::max_element(first, end, smaller));
+      add_peak(*std::max_element(first, end, smaller), run_up->shaft.name);
       first = end;
     }
   }
 
-  void add_peak(const RunUpSignal& displacement) {
+  void add_peak(const RunUpSignal& displacement, const std::string& shaft) {
     const RunUpSignal::Peak peak = displacement.peak();
     const std::size_t from = displacement.path.find('/', 1) + 1;
     const std::string name = displacement.path.substr(from, displacement.path.rfind('/') - from);
     add("largest 1x amplitude, " + name, 1e6 * peak.size, "µm",
-        fmt::format("along {}, {:.0f} rpm, t = {:.4g} ms, lags by {:.0f}°", "xyz"[displacement.column],
-                    si_of("rpm").per_si * peak.speed, 1e3 * peak.time, degrees * peak.lag));
+        fmt::format("along {}, {:.0f} rpm of {}, t = {:.4g} ms, lags by {:.0f}°", "xyz"[displacement.column],
+                    si_of("rpm").per_si * peak.speed, shaft, 1e3 * peak.time, degrees * peak.lag));
   }
 
   void run_rows() {

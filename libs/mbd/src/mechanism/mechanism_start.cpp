@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "hersey/mbd/mechanism.h"
@@ -20,6 +21,19 @@ solver::State MechanismParts::initial_state() const {
   extend(state.q, nq), extend(state.v, nv), extend(state.vdot, nv);
   state.lambda.setZero(nlambda());
   return state;
+}
+
+void Mechanism::count_revolutions(State& state) const {
+  const State start = state;
+  constexpr double revolution = 2 * std::numbers::pi;
+  for (const auto& drive : parts_->drives) {
+    if (parts_->tree.links[parts_->tree.columns[drive.column].link].motion != Motion::revolute) continue;
+    state.q[drive.q] += revolution * std::round((drive.motion.position(state.t) - state.q[drive.q]) / revolution);
+  }
+  // A coupling may follow another one.
+  for (std::size_t pass = 0; pass < parts_->couplings.size(); ++pass)
+    for (const Coupling& coupling : parts_->couplings)
+      state.q[coupling.output_q()] += coupling.value(start) - coupling.value(state);
 }
 
 std::vector<Mechanism::Index> MechanismParts::given_coordinates() const {

@@ -20,6 +20,7 @@ class Coupling {
   /// d2 Phi/dt2 less dPhi/dq . vdot.
   [[nodiscard]] double bias(const solver::State& state) const;
   [[nodiscard]] int output() const { return output_column_; }
+  [[nodiscard]] int output_q() const { return output_q_; }
 
   /// Calls visit(column, dPhi/dq) for the output and each input.
   template <class Visit>

@@ -48,6 +48,13 @@ void EnergyBalance::take(const StepRecord& step) {
   last_ = now;
 }
 
+void EnergyBalance::go_on_from(const StepRecord& step) {
+  if (!is_begun_) return;
+  const Instant now = instant_of(step);
+  sums_.put_in += now.stored() - last_.stored();
+  last_ = now;
+}
+
 void EnergyBalance::persist(Archive& archive) {
   archive.io("is_begun", is_begun_);
   archive.io("kinetic_at_start", start_.kinetic), archive.io("potential_at_start", start_.potential);

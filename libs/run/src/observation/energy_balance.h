@@ -16,6 +16,9 @@ class EnergyBalance {
 
   /// The start, then every accepted step. Powers are integrated by the trapezoidal rule.
   void take(const StepRecord& step);
+  /// The instant of the last step, after a jump of what acts on the machine: powers are those behind it from here on.
+  /// Where speeds jump, an impulse of the drives has put in what bodies and springs have gained.
+  void go_on_from(const StepRecord& step);
   [[nodiscard]] const EnergySummary& sums() const { return sums_; }
   void persist(Archive& archive);
 

@@ -121,6 +121,7 @@ struct Picture::Impl {
     machine = model::build(skeleton);
     state = machine.mechanism->initial_state();
     state.t = model.simulation.start;
+    machine.mechanism->count_revolutions(state);
     solver::InitialiseOptions options;
     options.fixed = machine.mechanism->given_coordinates();
     const solver::InitialiseSummary found = solver::assemble_positions(*machine.mechanism, state, options);

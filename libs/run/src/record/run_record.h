@@ -51,6 +51,8 @@ class RunRecord {
   /// Message about films of smooth surfaces that almost touch, for a run that finds no further step; empty if there are
   /// none.
   [[nodiscard]] std::string thin_films() const;
+  /// Books energies from here on as they are behind a jump: EnergyBalance::go_on_from.
+  void go_on_from(const StepRecord& step) { energy_.go_on_from(step); }
   /// Energy balance since the start of the run.
   [[nodiscard]] const EnergySummary& energy() const { return energy_.sums(); }
   /// Fills in the figures of all steps taken.

@@ -138,6 +138,7 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   require_damped_multipliers(model, *machine.mechanism);
   solver::State state = machine.mechanism->initial_state();
   state.t = model.simulation.start;
+  machine.mechanism->count_revolutions(state);
   solver::InitialiseOptions options;
   options.fixed = machine.mechanism->given_coordinates();
   options.fixed_rates = machine.mechanism->given_rates();

@@ -130,6 +130,11 @@ void MachineRun::begin_exchange(StepRecord& start) {
   start = observe({});
 }
 
+void MachineRun::take_jump(bool moves) {
+  stepper_.take_jump(state_, moves);
+  record_.go_on_from(observe({}));
+}
+
 // Inputs are those of the end of the last step, whatever has been resumed or restored since.
 Outcome MachineRun::exchange_signals() {
   if (!exchange_->is_due(state_.t, slack())) return {Ending::solved};

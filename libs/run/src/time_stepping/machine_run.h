@@ -51,7 +51,7 @@ class MachineRun {
   [[nodiscard]] Outcome step(double limit = std::numeric_limits<double>::infinity());
 
   /// Restarts the integrator after a jump of what acts on the machine: TimeStepper::take_jump.
-  void take_jump(bool moves) { stepper_.take_jump(state_, moves); }
+  void take_jump(bool moves);
   /// Returns the motion at the end of the last step.
   [[nodiscard]] Motion motion();
   /// Goes on in `motion`, of this machine at the same instant of another period, in place of its own. Joints keep the
