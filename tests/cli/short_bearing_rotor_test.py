@@ -86,19 +86,19 @@ class Reference(unittest.TestCase):
         np.testing.assert_allclose(force_of_moving_film(0.3, -0.5, 0, 0), force_of_fixed_film(0.3, -0.5, 0, 0), rtol=1e-12)  # round-off
 
     def test_a_rotor_whose_journal_floats_low_enough_never_whirls(self):
-        # Short bearings of half a film are stable at every speed beyond an eccentricity ratio of 0.756 (Badgley and Booker 1969; Hamrock).
+        # Short bearings of half a film are stable at every speed beyond an eccentricity ratio of 0.756, where the whirl ratio becomes zero.
         self.assertIsNotNone(threshold_of_eccentricity(0.755)[0])
         self.assertIsNone(threshold_of_eccentricity(0.757)[0])
 
 
 class Threshold(unittest.TestCase):
-    def test_of_the_closed_form(self):
+    def test_threshold_on_the_closed_form(self):
         for e in (0.1, 0.3, 0.5, 0.7):
             s, gamma, ratio = threshold_of_eccentricity(e)
             found = threshold_by_hersey(lambda at: models.on_closed_form(gamma, at, Rotor(gamma, at).equilibrium()), s)
             np.testing.assert_allclose(found, (s, ratio), rtol=2e-5)  # cubic through five speeds in 4 %
 
-    def test_of_films_that_become_short(self):
+    def test_threshold_on_films_that_become_short(self):
         for e in (0.1, 0.3, 0.5):
             s, gamma, ratio = threshold_of_eccentricity(e)
             found = [np.array(threshold_by_hersey(lambda at: models.on_film(gamma, at, width, grid=(120, 9)), s)) for width in (0.2, 0.1)]
@@ -117,7 +117,7 @@ class KindOfBifurcation(unittest.TestCase):
         multiplier = found["orbits"][0]["multipliers"][0]
         return at / s - 1, abs(complex(multiplier["re"], multiplier["im"]))
 
-    def test_changes_where_that_of_the_closed_form_does(self):
+    def test_kind_changes_where_that_of_the_closed_form_does(self):
         for e in (0.08, 0.12, 0.2, 0.4):
             s, gamma, ratio = threshold_of_eccentricity(e)
             expected = np.sign(lyapunov(gamma, "moving"))
@@ -125,7 +125,7 @@ class KindOfBifurcation(unittest.TestCase):
             self.assertEqual(np.sign(side), -expected)
             self.assertEqual(np.sign(multiplier - 1), expected)
 
-    def test_of_a_film_is_the_same(self):
+    def test_kind_on_a_film_is_the_same(self):
         for e in (0.08, 0.3):
             s, gamma, ratio = threshold_of_eccentricity(e)
             on_film = lambda at, start=(0, 0, 0, 0), simulation="": models.on_film(gamma, at, 0.1, start, simulation=simulation)
@@ -135,7 +135,7 @@ class KindOfBifurcation(unittest.TestCase):
 
 
 class LimitCycles(unittest.TestCase):
-    def test_of_the_closed_form(self):
+    def test_limit_cycle_on_the_closed_form(self):
         s, gamma, ratio = threshold_of_eccentricity(0.3)
         exact = reference(gamma, 1.02 * s)
         x, y, _, _ = exact.orbit(gamma, "moving", 256)
@@ -147,7 +147,7 @@ class LimitCycles(unittest.TestCase):
         errors = [np.max(abs(one[1] - sizes)) for one in found]
         self.assertAlmostEqual(np.log2(errors[0] / errors[1]), 2, delta=0.1)  # the order
 
-    def test_of_films_that_become_short(self):
+    def test_limit_cycles_on_films_that_become_short(self):
         s, gamma, ratio = threshold_of_eccentricity(0.3)
         exact = reference(gamma, 1.02 * s)
         x, y, _, _ = exact.orbit(gamma, "moving", 256)
@@ -184,6 +184,20 @@ class LimitCycles(unittest.TestCase):
         turns = np.roots(np.polyder(parabola))
         turn = min((root.real for root in turns if abs(root.imag) < 1e-12), key=abs)
         self.assertAlmostEqual(extrapolated(*found) / np.polyval(parabola, turn), 1, delta=1e-5)  # a fold is within 0.002 of the unit circle
+
+
+    def test_fold_down_to_which_a_rotor_keeps_its_large_whirl(self):
+        # At an eccentricity ratio of 0.1 the unstable cycle grows below the threshold, and a fold makes it stable.
+        s, gamma, _ = threshold_of_eccentricity(0.1)
+        near = Cycle(np.array([0.135, -0.6295, 0.3135, 0.059]), 12.637, 0.952 * s)  # of a continuation by cycles.py
+        cycle = correct(gamma, "moving", near, AT_SPEED, 0.952 * s)
+        text = models.on_closed_form(gamma, cycle.s, cycle.start, simulation=models.shooting(72, 2, True, 1e-5))
+        branch, _ = hersey(text, "orbits", "--along", f"w={cycle.s * models.RATE}:{0.949 * s * models.RATE}", "--step", 0.4, "--tolerance", 1e-5, "--multipliers", 1, "--most", 16)
+        self.assertFalse(branch["orbits"][0]["is_stable"])
+        self.assertTrue(branch["orbits"][-1]["is_stable"])
+        self.assertEqual([one["kind"] for one in branch["bifurcations"]], ["fold"])
+        # 0.950487 by cycles.py: fold_between; 72 steps of an orbit that passes close to where the film has no direction.
+        self.assertAlmostEqual(branch["bifurcations"][0]["value"] / models.RATE / s, 0.950487, delta=2e-4)
 
 
 class Unbalance(unittest.TestCase):
@@ -224,7 +238,7 @@ class Unbalance(unittest.TestCase):
         found = [self.by_hersey(models.on_closed_form(gamma, 1.02 * s, start, 0.1, models.shooting(steps)), steps) for steps in (48, 96)]
         self.assertLess(self.difference(extrapolated(*found), exact), 2e-5)  # fourth order of a step
 
-    def test_on_films_that_become_short(self):
+    def test_orbits_on_films_that_become_short(self):
         s, gamma, _ = threshold_of_eccentricity(0.3)
         exact = self.harmonic_balance(Rotor(gamma, 0.9 * s, "moving", 0.3))
         start = exact[0, 0].real, exact[1, 0].real, 0, 0
