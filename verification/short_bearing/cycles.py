@@ -8,7 +8,7 @@ STEP = 1e-7
 
 
 class Cycle:
-    """A limit cycle: its start, period [rad of the shaft], s, Floquet multipliers, and its lowest and highest x, y and eccentricity ratio."""
+    """A limit cycle: its start, period [rad of the shaft], s, Floquet multipliers, and the direction of its branch in (start, period, s)."""
 
     def __init__(self, start, period, s, multipliers=None, tangent=None):
         self.start, self.period, self.s, self.multipliers, self.tangent = start, period, s, multipliers, tangent
@@ -31,7 +31,8 @@ def end_and_derivatives(gamma, s, film, start, period):
     speeds = np.array([s] * 9 + [s + 1e-6, s - 1e-6])
     rotor = Rotor(gamma, speeds, film)
     rates = lambda t, z: np.asarray(rotor.rates(t, z.reshape(4, -1))).ravel()
-    ends = solve_ivp(rates, (0, period), starts.ravel(), method="DOP853", rtol=1e-11, atol=1e-13).y[:, -1].reshape(4, -1)
+    with np.errstate(invalid="ignore"):  # trials that leave the bearing
+        ends = solve_ivp(rates, (0, period), starts.ravel(), method="DOP853", rtol=1e-11, atol=1e-13).y[:, -1].reshape(4, -1)
     by_start = np.array([(ends[:, 1 + 2 * k] - ends[:, 2 + 2 * k]) / (2 * STEP) for k in range(4)]).T
     return ends[:, 0], by_start, (ends[:, 9] - ends[:, 10]) / 2e-6
 
@@ -56,16 +57,6 @@ def correct(gamma, film, guess, plane, value, most=12):
             tangent = np.linalg.solve(matrix, np.eye(6)[5])
             return Cycle(z[:4], z[4], z[5], np.linalg.eigvals(by_start), tangent / np.linalg.norm(tangent))
     return None
-
-
-def settle(gamma, s, film, start, periods=150):
-    """The limit cycle to which waiting leads from a start."""
-    rotor = Rotor(gamma, s, film)
-    passes = lambda t, z: z[0] - rotor.equilibrium()[0]
-    passes.direction = 1
-    way = solve_ivp(rotor.rates, (0, periods * 4 * np.pi), start, method="DOP853", rtol=1e-9, atol=1e-11, events=passes)
-    times, states = way.t_events[0], way.y_events[0]
-    return correct(gamma, film, Cycle(states[-2], times[-1] - times[-2], s), np.eye(6)[5], s)
 
 
 def newborn(gamma, film, size=0.01):
@@ -100,7 +91,7 @@ def branch(gamma, film, first, towards, until, step=0.02, largest=0.05, most=400
 
 
 def fold_between(gamma, film, before, behind):
-    """s of the fold between two cycles of a branch, by its parabola through the values ds/dlength = 0 (secant on the tangent)."""
+    """The cycle between two of a branch at which s turns back, by the secant of the branch's direction."""
     def on(cycle, fraction, direction, length):
         z = np.array([*cycle.start, cycle.period, cycle.s]) + fraction * length * direction
         return correct(gamma, film, Cycle(z[:4], z[4], z[5]), direction, direction @ z)
