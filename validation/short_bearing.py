@@ -183,7 +183,7 @@ def three_ways():
         size = np.max(np.ptp(truth, axis=0))
         print(f"{name}: harmonic balance")
         row("harmonics", "deviation")
-        for harmonics in (2, 4, 6, 8, 12, 16, 24, 32, 48):
+        for harmonics in (2, 4, 6, 7, 8, 11, 13, 16, 24, 32, 52):
             found, _ = balance(kind, gamma, s, 0.3, harmonics, 4096, exact)
             row(harmonics, f"{np.max(abs(orbit_of(found) - truth)) / size:.1e}")
         print(f"{name}: hersey")
