@@ -131,6 +131,16 @@ class Branches(unittest.TestCase):
             # A fold is located between orbits, one of which is within 0.002 of the unit circle.
             self.assertAlmostEqual(extrapolated(coarse["value"], fine["value"]) / (100 * exact), 1, delta=1e-4)
 
+    def test_a_fold_is_found_in_a_narrow_range(self):
+        # In which the motion changes by so little that the branch has a corner there.
+        on_the_way = ("--set", "joints.slide.initial.translation_rate=50.4 mm/s")
+        for along in ("omega=107.8:107.95", "omega=107:109"):
+            found = branch(DUFFING, "--along", along, "--step", "0.2", *on_the_way)
+            self.assertEqual([one["kind"] for one in found["bifurcations"]], ["fold"])
+            # That of the whole range at 100 steps, whose multipliers are found to 1e-3.
+            self.assertAlmostEqual(found["bifurcations"][0]["value"] / 107.8863, 1, delta=2e-5)
+            self.assertLess(found["orbits"][-1]["value"], found["bifurcations"][0]["value"])
+
     def test_orbits_of_a_rotor_on_a_hardening_support_are_circles_of_the_closed_form(self):
         m, k, k3, c, me = 10, 1e6, 3e12, 200, 2e-4
         found = [branch(HARDENING, "--along", "speed=2500:5000rpm", "--set", f"steps={n}", "--tolerance", "1e-5") for n in (60, 120)]

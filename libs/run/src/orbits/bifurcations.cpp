@@ -11,7 +11,10 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kChange = 1e-3;  // of the range, by which orbits differ on one side of a fold
-constexpr double kReal = 1e-6;    // imaginary part of a multiplier below which it is real
+// Distance of a multiplier from 1 within which either side may be its true one: multipliers are found to 1e-3. Half of
+// it takes a fold for a branching where the multiplier errs, much more takes in orbits beyond a fold beside it.
+constexpr double kUncertain = 2e-3;
+constexpr double kReal = 1e-6;  // imaginary part of a multiplier below which it is real
 
 std::size_t count_of_growing(const OrbitAtValue& orbit) {
   std::size_t count = 0;
@@ -39,9 +42,17 @@ double change_from(const std::vector<OrbitAtValue>& orbits, std::size_t from, in
   return last.value - orbits[from].value;
 }
 
-// The values before it and behind it lie on the same side.
+bool is_uncertain(const OrbitAtValue& orbit) {
+  return std::ranges::any_of(orbit.multipliers, [](const Complex& one) { return std::abs(one - 1.0) < kUncertain; });
+}
+
+// The values before it and behind it lie on the same side, those left out of which the multiplier does not say on which
+// side of a fold they are.
 bool turns_back(const std::vector<OrbitAtValue>& orbits, std::size_t before) {
-  return change_from(orbits, before, -1) * change_from(orbits, before + 1, 1) > 0;
+  std::size_t behind = before + 1;
+  while (before > 0 && is_uncertain(orbits[before])) --before;
+  while (behind + 1 < orbits.size() && is_uncertain(orbits[behind])) ++behind;
+  return change_from(orbits, before, -1) * change_from(orbits, behind, 1) > 0;
 }
 
 }  // namespace

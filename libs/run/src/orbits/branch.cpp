@@ -26,6 +26,10 @@ constexpr double kSlack = 1e-6;        // of the range
 constexpr double kVanishing = 0.02;    // of the largest oscillation: one that is about to end
 constexpr double kClosed = 0.5;        // of a step from the first orbit: the branch is closed
 constexpr std::size_t kFewestOfClosed = 6;
+// In a narrow range motions change so little that a fold is a corner, which no step gets round. Their changes count
+// more there, up to this share of the first step: half of it leaves folds twice as sharp, twice of it takes twice as
+// many orbits round them. The most they count more keeps round-off of motions that do not change out.
+constexpr double kLeastOfMotion = 0.1, kMostScale = 20;
 
 class BranchFollower {
  public:
@@ -50,6 +54,14 @@ class BranchFollower {
     farthest_ = farthest_.size() == 0 ? point.ways : farthest_.cwiseMax(point.ways).eval();
     if (options_.on_orbit) options_.on_orbit(point.orbit);
     points_.push_back(std::move(point));
+    if (points_.size() == 2) scale_motions();
+  }
+
+  // By the first step, which is one of the value alone.
+  void scale_motions() {
+    const MotionAtValue before = search_.onto_section(points_.front().at);
+    const double share = motion_over_value(metric().way(search_.mechanism(), before, points_.back().at));
+    if (share > 0 && share < kLeastOfMotion) motion_scale_ = std::min(kLeastOfMotion / share, kMostScale);
   }
 
   // Its largest share of how far a coordinate that oscillates has gone in any orbit.
@@ -60,7 +72,7 @@ class BranchFollower {
     return share;
   }
 
-  [[nodiscard]] BranchMetric metric() { return {points_.back(), range_, search_.mechanism()}; }
+  [[nodiscard]] BranchMetric metric() { return {points_.back(), range_, search_.mechanism(), motion_scale_}; }
 
   // The plane at a step along the branch, by the last two orbits; from the first one to the next value.
   AcrossBranch plane_at(double step) {
@@ -170,7 +182,7 @@ class BranchFollower {
     const std::optional<Crossing> crossing = crossing_between(a.orbit, b.orbit);
     if (!crossing) return std::nullopt;
     const double distance = std::min(distance_from_circle(a, *crossing), distance_from_circle(b, *crossing));
-    const BranchMetric measure(b, range_, search_.mechanism());
+    const BranchMetric measure(b, range_, search_.mechanism(), motion_scale_);
     const MotionAtValue start = search_.onto_section(a.at), end = search_.onto_section(b.at);
     const Eigen::VectorXd way = measure.way(search_.mechanism(), start, end);
     if (distance < kOnTheCircle || way.norm() < kNarrow * options_.step) return std::nullopt;
@@ -204,6 +216,7 @@ class BranchFollower {
   OrbitSearch search_;
   double range_;
   double step_ = kFirstStep * options_.step;
+  double motion_scale_ = 1;
   Eigen::VectorXd farthest_;  // ways of all positions in a period, of all orbits
   std::vector<BranchPoint> points_;
   Branch branch_;

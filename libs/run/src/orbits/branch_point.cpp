@@ -1,6 +1,7 @@
 #include "orbits/branch_point.h"
 
 #include <cmath>
+#include <limits>
 
 namespace hersey::run {
 namespace {
@@ -10,13 +11,13 @@ constexpr double kMotion =
 
 }  // namespace
 
-BranchMetric::BranchMetric(const BranchPoint& point, double range, const mbd::Mechanism& mechanism)
+BranchMetric::BranchMetric(const BranchPoint& point, double range, const mbd::Mechanism& mechanism, double scale)
     : weights_(point.sizes.cwiseInverse()), range_(range) {
   const Eigen::Index nv = mechanism.nv();
   for (Eigen::Index i = 0; i < nv; ++i)
     if (point.ways[i] == 0) weights_[i] = weights_[nv + i] = 0;
   const auto count = static_cast<double>((weights_.array() > 0).count());
-  if (count > 0) weights_ *= kMotion / std::sqrt(count);
+  if (count > 0) weights_ *= scale * kMotion / std::sqrt(count);
 }
 
 Eigen::VectorXd BranchMetric::way(const mbd::Mechanism& mechanism, const MotionAtValue& from,
@@ -25,6 +26,11 @@ Eigen::VectorXd BranchMetric::way(const mbd::Mechanism& mechanism, const MotionA
   way << way_between(mechanism, from.motion, to.motion).head(weights_.size()).cwiseProduct(weights_),
       (to.value - from.value) / range_;
   return way;
+}
+
+double motion_over_value(const Eigen::VectorXd& way) {
+  const double value = std::abs(way[way.size() - 1]);
+  return value > 0 ? way.head(way.size() - 1).norm() / value : std::numeric_limits<double>::infinity();
 }
 
 MotionAtValue combine(const mbd::Mechanism& mechanism, const std::vector<MotionAtValue>& of,

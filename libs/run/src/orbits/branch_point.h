@@ -37,7 +37,8 @@ class BranchMetric {
  public:
   /// @param point  whose swings are the sizes; coordinates that stand still or go round do not count
   /// @param range  of the parameter
-  BranchMetric(const BranchPoint& point, double range, const mbd::Mechanism& mechanism);
+  /// @param scale  by which motions count more than usual
+  BranchMetric(const BranchPoint& point, double range, const mbd::Mechanism& mechanism, double scale = 1);
   /// Returns the way, whose squares add up to that of its length: shares of the swings, then that of the range.
   [[nodiscard]] Eigen::VectorXd way(const mbd::Mechanism& mechanism, const MotionAtValue& from,
                                     const MotionAtValue& to) const;
@@ -46,6 +47,9 @@ class BranchMetric {
   Eigen::VectorXd weights_;
   double range_;
 };
+
+/// Returns the length of the way's part of motions over that of its part of the value; infinite where the value stays.
+[[nodiscard]] double motion_over_value(const Eigen::VectorXd& way);
 
 /// Weighted sum of motions, values and periods. @param weights  their sum is 1
 [[nodiscard]] MotionAtValue combine(const mbd::Mechanism& mechanism, const std::vector<MotionAtValue>& of,
