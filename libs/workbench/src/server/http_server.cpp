@@ -351,7 +351,7 @@ class HttpServer::Impl : public httplib::Server {
     return true;
   }
 
-  /// Reads a request and answers it. Later versions of cpp-httplib than 0.11 want to be told who asks.
+  /// Reads a request and answers it. Later versions of cpp-httplib than 0.11 take the addresses as arguments.
   template <class Server, class Examine>
   static bool answer(Server& server, Connection& connection, bool& closes, const Examine& examine) {
     if constexpr (requires { server.process_request(connection, false, closes, examine); }) {
