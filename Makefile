@@ -13,7 +13,7 @@ BUILD = build/$(PRESET)
 PHASE = scripts/phase
 
 .DEFAULT_GOAL := help
-.PHONY: help fmu program demo test bench key-figures validate coverage mutations fuzz random-models second-opinion studies test-slurm web web-check web-test python python-package docs docs-test pictures package package-test format lint install clean
+.PHONY: help fmu program demo test bench key-figures validate coverage mutations fuzz random-models second-opinion studies test-slurm web web-check web-test python python-package docs docs-test pictures package package-test arm64-test format lint install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -114,6 +114,10 @@ package: program  ## makes the Debian packages: build/release/packages/*.deb (wi
 package-test: package  ## tries the packages in a bare Debian 12 made by debootstrap (root; a minute and a half the first time)
 	@scripts/setup package-test
 	@packaging/try_in_debian $(BUILD)/packages/*.deb
+
+arm64-test: program  ## compiles for 64-bit ARM, runs unit tests by qemu and compares answers with this machine's (TESTS='core film', ONLY=regex of examples)
+	@scripts/setup arm64 test
+	@TESTS='$(TESTS)' ONLY='$(ONLY)' packaging/try_on_arm64 $(JOBS)
 
 format:  ## formats every C++ file
 	@scripts/setup lint

@@ -5,7 +5,8 @@ Runs every example in a short form and compares its key figures (minimum film th
 stiffness, forces of joints, positions) with the last column of `bench/key_figures.csv`, which has one column a release and the last one,
 `unreleased`, of the program as it is. A figure that differs needs a line in `why it changed`, or the comparison ends with status 1.
 `--update` writes the column, and the day before each line that it has used: an old line excuses no new change.
-`--against OTHER` compares two programs and leaves the table alone; examples that OTHER cannot run are named and skipped.
+`--against OTHER` compares two programs, tells how far their numbers lie apart at most and leaves the table alone; examples that
+OTHER cannot run are named and skipped.
 `bench/key_figure_rules.py` says what is run and what counts.
 """
 import argparse
@@ -190,6 +191,16 @@ def show(differences, left, right):
         print(f"  {quantity}: {left} {before or '-'}, {right} {after or '-'} ({shown})" + (f"; {reason}" if reason else ""))
 
 
+def farthest(before, after):
+    """Of the numbers that both have and that are not zero, how far the two lie apart at most, as a line of text."""
+    off = [(abs(value / before[key][0] - 1), key) for key, (value, unit) in after.items()
+           if key in before and not any(isinstance(v, str) or v == 0 or rules.is_zero(v, unit) for v in (value, before[key][0]))]
+    if not off:
+        return "no number to compare"
+    most, (example, command, quantity) = max(off)
+    return f"largest relative difference {most:.1e}: {example}, {command}: {quantity}" if most else "every number the same to the last bit"
+
+
 def against(arguments, names):
     """Compares two programs."""
     after, failures = all_figures(arguments.program, names, arguments.jobs)
@@ -199,6 +210,7 @@ def against(arguments, names):
     show(differences, "before", "after")
     for message in skipped.values():
         print(f"skipped, {arguments.against} cannot run it: {message}")
+    print(farthest(before, after))
     print(f"{len(before)} key figures, {len(differences)} differ")
     return fail(failures) or int(bool(differences))
 

@@ -3,8 +3,12 @@
 // small and slow (docs/decisions/0019-compilers.md).
 #pragma once
 
-// What Eigen includes, outside of the pragma.
+// What Eigen includes for the instructions of a processor, outside of the pragma.
+#if defined(__x86_64__)
 #include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
 
 #include <algorithm>
 #include <array>

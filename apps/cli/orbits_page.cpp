@@ -116,9 +116,9 @@ void add_charts(const OrbitFindings& found, CurvePage& page) {
                             : is_highest ? "largest in a period"
                                          : "peak to peak",
                             unit);
-      add_lines(found, chart, short_name(observed[k].name, kind), [&, k, size = size](const OrbitAtValue& orbit) {
+      add_lines(found, chart, short_name(observed[k].name, kind), [&, k, scale = size](const OrbitAtValue& orbit) {
         const run::Excursion& excursion = orbit.excursions[k];
-        return (is_lowest ? excursion.lowest : is_highest ? excursion.highest : excursion.peak_to_peak()) / size;
+        return (is_lowest ? excursion.lowest : is_highest ? excursion.highest : excursion.peak_to_peak()) / scale;
       });
     }
     page.charts.push_back(std::move(chart));

@@ -13,6 +13,7 @@
 #include "hersey/core/error_text.h"
 #include "hersey/core/input_error.h"
 #include "hersey/core/unit_database.h"
+#include "hersey/fmi/fmu_file.h"
 #include "hersey/session/session.h"
 #include "licence.h"
 #include "package.h"
@@ -62,7 +63,7 @@ std::string token_of(const std::string& description, const PackedModel& packed, 
 
 std::vector<PackedFile> binaries(int version) {
   const std::filesystem::path library = find_library();
-  const std::string folder = version == 2 ? "binaries/linux64/" : "binaries/x86_64-linux/";
+  const std::string folder = "binaries/" + hersey::fmi::platform(version) + "/";
   std::vector<PackedFile> files{{library, folder + kModelIdentifier + ".so"}};
   for (const PackedFile& needed : libraries_of(library)) files.push_back({needed.from, folder + needed.name});
   return files;

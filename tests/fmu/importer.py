@@ -4,8 +4,11 @@ import ctypes as c
 import os
 import xml.etree.ElementTree as ElementTree
 import zipfile
+from platform import machine
 
 OK, WARNING, DISCARD, ERROR = range(4)
+# Folders of libraries: version 2 names those of x86 its own way only.
+PLATFORMS = {2: "linux64", 3: "x86_64-linux"} if machine() == "x86_64" else dict.fromkeys((2, 3), f"{machine()}-linux")
 
 
 def column_of(file, name):
@@ -29,9 +32,8 @@ class Fmu:
         self.description = ElementTree.parse(os.path.join(folder, "modelDescription.xml")).getroot()
         self.version = int(self.description.get("fmiVersion")[0])
         self.token = self.description.get("guid" if self.version == 2 else "instantiationToken")
-        binaries = "linux64" if self.version == 2 else "x86_64-linux"
         identifier = self.description.find("CoSimulation").get("modelIdentifier")
-        self.library_path = os.path.join(folder, "binaries", binaries, identifier + ".so")
+        self.library_path = os.path.join(folder, "binaries", PLATFORMS[self.version], identifier + ".so")
         self.library = c.CDLL(self.library_path)
         self.references = {}
         self.variables = {}

@@ -171,6 +171,8 @@ class KeyFigures(unittest.TestCase):
         status, text = self.run_with(bearing(), "--against", other)
         self.assertEqual(status, 1)
         self.assertIn("load: before 1200, after 1300 (+0.083)", text)
+        self.assertIn(f"largest relative difference 8.3e-02: {EXAMPLE}, {COMMAND}: load", text)
+        self.assertIn("every number the same to the last bit", self.run_with(bearing(), "--against", self.program(bearing(), "same"))[1])
         status, text = self.run_with(bearing(), "--against", self.program(None, "old"))
         self.assertEqual(status, 0, text)
         self.assertIn("skipped", text)

@@ -99,6 +99,12 @@ class Setup(unittest.TestCase):
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
         self.assertEqual(self.apt_calls(), "")
 
+    def test_listing_names_the_packages_and_installs_nothing(self):
+        self.installed()
+        run = self.setup("--list", "lint", as_nobody=True)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "clang-format clang-tidy python3\n", ""))
+        self.assertEqual(self.apt_calls(), "")
+
     def test_apt_failure_is_shown_and_passed_on(self):
         os.chmod(self.root, 0o777)
         self.installed()

@@ -176,11 +176,15 @@ void FmuFile::extract(const std::string& prefix, const std::filesystem::path& fo
   }
 }
 
-namespace {
-
-std::string platform(int version) { return version == 2 ? "linux64" : "x86_64-linux"; }
-
-}  // namespace
+std::string platform([[maybe_unused]] int version) {
+#if defined(__x86_64__)
+  return version == 2 ? "linux64" : "x86_64-linux";
+#elif defined(__aarch64__)
+  return "aarch64-linux";
+#else
+#error "FMI's name of this platform is not known here"
+#endif
+}
 
 std::string library_name(const Description& description) {
   return fmt::format("binaries/{}/{}.so", platform(description.version), description.model_identifier);

@@ -3,6 +3,7 @@
 #include <expat.h>
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 
@@ -46,6 +47,15 @@ void on_document_type(void* data, const char*, const char*, const char*, int) {
   static_cast<Reading*>(data)->stop("a declaration of a document type");
 }
 
+/// Returns the line that the parser has come to; from expat 2.9 on the function of the old name is deprecated.
+std::uint64_t line_of(XML_Parser parser) {
+#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
+  return XML_GetCurrentLineNumber64(parser);
+#else
+  return XML_GetCurrentLineNumber(parser);
+#endif
+}
+
 }  // namespace
 
 Element read_xml(const std::string& text) {
@@ -61,7 +71,7 @@ Element read_xml(const std::string& text) {
     throw FmuError("modelDescription.xml is larger than 2 GB");
   if (XML_Parse(parser.get(), text.data(), static_cast<int>(text.size()), XML_TRUE) != XML_STATUS_OK) {
     const std::string why = reading.refusal.empty() ? XML_ErrorString(XML_GetErrorCode(parser.get())) : reading.refusal;
-    throw FmuError(fmt::format("modelDescription.xml, line {}: {}", XML_GetCurrentLineNumber(parser.get()), why));
+    throw FmuError(fmt::format("modelDescription.xml, line {}: {}", line_of(parser.get()), why));
   }
   return std::move(reading.outside.children.front());
 }

@@ -42,12 +42,22 @@ TEST_CASE("StoredEntry_IsReadAndChecked") {
   CHECK(file.platforms() == std::vector<std::string>{"win64"});
   CHECK_THROWS_WITH_AS(file.content("modelDescription.xml"), "it has no modelDescription.xml", FmuError);
   const Description description{.version = 2, .model_identifier = "m"};
-  CHECK(library_name(description) == "binaries/linux64/m.so");
+  CHECK(library_name(description) == "binaries/" + platform(2) + "/m.so");
   CHECK(missing_library(file, description).find("libraries for win64") != std::string::npos);
   file.extract("binaries/", "unpacked");
   CHECK(std::filesystem::file_size("unpacked/binaries/win64/m.dll") == 9);
   const FmuFile damaged = opened(archive("a", "123456780", kCheckOfDigits));
   CHECK_THROWS_WITH_AS(damaged.content("a"), "its content a is damaged", FmuError);
+}
+
+TEST_CASE("PlatformsHaveTheStandardsNames") {
+#if defined(__x86_64__)
+  CHECK(platform(2) == "linux64");
+  CHECK(platform(3) == "x86_64-linux");
+#else
+  CHECK(platform(2) == platform(3));
+  CHECK(platform(3) == "aarch64-linux");
+#endif
 }
 
 TEST_CASE("NamesThatLeadOut_AreRefused") {

@@ -28,8 +28,8 @@ void require_separate(const std::vector<OutputFile>& outputs, const std::vector<
     const std::filesystem::file_status status = std::filesystem::status(path, missing);
     const bool is_device = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
     if (path.empty() || is_device) continue;  // /dev/null takes everything
-    const auto refuse = [&, &option = option, &path = path](const std::string& other) {
-      faults.push_back({{"", 0, 0}, option, "'" + path.string() + "', which is " + other, "a file of its own", ""});
+    const auto refuse = [&, &name = option, &at = path](const std::string& other) {
+      faults.push_back({{"", 0, 0}, name, "'" + at.string() + "', which is " + other, "a file of its own", ""});
     };
     for (const std::filesystem::path& input : inputs) {
       // Files are compared by their number on the disk: hard links are one file under two paths.

@@ -3,9 +3,10 @@
 import os
 import subprocess
 import zipfile
+from platform import machine
 
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "controller.c")
-PLATFORMS = {2: "linux64", 3: "x86_64-linux"}
+PLATFORMS = {2: "linux64", 3: "x86_64-linux"} if machine() == "x86_64" else dict.fromkeys((2, 3), f"{machine()}-linux")
 
 UNITS = """<UnitDefinitions>
   <Unit name="rpm"><BaseUnit rad="1" s="-1" factor="0.10471975511965977"/></Unit>

@@ -17,6 +17,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -198,7 +199,21 @@ class Threads : public httplib::TaskQueue {
  public:
   explicit Threads(Connections& connections) : connections_(connections) {}
 
-  void enqueue(std::function<void()> task) override {
+  /// Nothing in cpp-httplib 0.11; in later versions, whether the task was taken.
+  using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue(nullptr));
+  Taken enqueue(std::function<void()> task) override {
+    take(task);
+    return Taken(true);
+  }
+
+  void shutdown() override {
+    connections_.close_all();
+    std::unique_lock lock(mutex_);
+    ended_.wait(lock, [&] { return count_ == 0; });
+  }
+
+ private:
+  void take(const std::function<void()>& task) {
     connections_.make_room();
     {
       std::unique_lock lock(mutex_);
@@ -224,13 +239,6 @@ class Threads : public httplib::TaskQueue {
     is_over_limit = false;
   }
 
-  void shutdown() override {
-    connections_.close_all();
-    std::unique_lock lock(mutex_);
-    ended_.wait(lock, [&] { return count_ == 0; });
-  }
-
- private:
   Connections& connections_;
   std::mutex mutex_;
   std::condition_variable ended_;
@@ -332,8 +340,7 @@ class HttpServer::Impl : public httplib::Server {
     while (!closes && connection.await_request()) {
       refused.reset();
       head_of_request = {};
-      const bool is_good =
-          process_request(connection, false, closes, [&](httplib::Request& request) { examine(request); });
+      const bool is_good = answer(*this, connection, closes, [&](httplib::Request& request) { examine(request); });
       closes = closes || connection.closes() || !is_good || !is_running();
     }
     if (connection.closes()) connection.drain();
@@ -342,6 +349,20 @@ class HttpServer::Impl : public httplib::Server {
     ::shutdown(socket, SHUT_RDWR);
     ::close(socket);
     return true;
+  }
+
+  /// Reads a request and answers it. Later versions of cpp-httplib than 0.11 take the addresses as arguments.
+  template <class Server, class Examine>
+  static bool answer(Server& server, Connection& connection, bool& closes, const Examine& examine) {
+    if constexpr (requires { server.process_request(connection, false, closes, examine); }) {
+      return server.process_request(connection, false, closes, examine);
+    } else {
+      std::string remote, local;
+      int remote_port = 0, local_port = 0;
+      connection.get_remote_ip_and_port(remote, remote_port);
+      connection.get_local_ip_and_port(local, local_port);
+      return server.process_request(connection, remote, remote_port, local, local_port, false, closes, examine);
+    }
   }
 
   /// The head has been read, the body not yet.

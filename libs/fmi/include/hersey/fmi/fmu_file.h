@@ -43,6 +43,11 @@ class FmuFile {
   std::vector<Entry> entries_;
 };
 
+/// Name of the folder for this computer's libraries inside `binaries` of an FMU of the standard's version 2 or 3.
+/// Version 2 has a name of its own for computers of x86 only, and takes those of version 3 for all others (FMI 2.0.5,
+/// section 2.3).
+[[nodiscard]] std::string platform(int version);
+
 /// Name of the library of an FMU inside its file, on this platform: "binaries/x86_64-linux/controller.so".
 [[nodiscard]] std::string library_name(const Description& description);
 

@@ -47,7 +47,7 @@ std::string difference(const Bearing& one, const Bearing& other) {
 void check_worn_groups(Context& context) {
   const std::vector<Bearing>& bearings = context.model.bearings;
   for (const auto& [name, value] : section(context.root, "bearings")) {
-    const auto is_named = [&name = name](const Bearing& bearing) { return bearing.name == name; };
+    const auto is_named = [&wanted = name](const Bearing& bearing) { return bearing.name == wanted; };
     const auto own = std::find_if(bearings.begin(), bearings.end(), is_named);
     if (own == bearings.end() || !own->wear || own->worn_group.empty() || context.has_fault_in(value.path)) continue;
     const auto first = std::find_if(bearings.begin(), own, [&](const Bearing& bearing) {
