@@ -188,3 +188,19 @@ TEST_CASE("StepWithoutAnAnswer_IsReportedAndKeepsTheResults") {
 TEST_CASE("ModelWithoutMotion_IsRefused") {
   CHECK_THROWS_AS(Simulation(rig(rig_with("  crank: main\n", "  crank: main\n  analysis: equilibrium\n"))), InputError);
 }
+
+// Accelerations are constant between the jumps, so that the trapezoidal rule has every energy without error.
+TEST_CASE("InputsThatJump_LeaveNoEnergyUnexplained") {
+  Simulation pushed(model::read_text(kPushedMass, "cart.yaml"));
+  Simulation driven(model::read_text(kDrivenWheel, "wheel.yaml"));
+  for (int k = 0; k < 40; ++k) {
+    pushed.set("forces.push.components.x", k % 2 == 0 ? -50 : 80);
+    driven.set("drives.motor.speed", 4 + k);
+    REQUIRE(pushed.step().status == Advance::Status::advanced);
+    REQUIRE(driven.step().status == Advance::Status::advanced);
+  }
+  CHECK(pushed.summary().energy.stored > 1e-3);
+  CHECK(pushed.summary().energy.error() < 1e-12);  // round-off
+  CHECK(driven.summary().energy.put_in == doctest::Approx(0.5 * (43.0 * 43 - 100)));
+  CHECK(driven.summary().energy.error() < 1e-12);  // likewise
+}
