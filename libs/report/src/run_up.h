@@ -46,9 +46,9 @@ struct RunUp {
   std::vector<RunUpSignal> displacements;  ///< journals first
 };
 
-/// Tracks the orders of a run in which a shaft makes twenty revolutions or more one way while its speed, as a mean over one of
-/// them, changes by more than a fifth; unset for any other run. The shaft is the crank, else the joint that rotates
-/// most, else the body that does.
+/// Tracks the orders of a run in which a shaft makes twenty revolutions or more one way while its speed, as a mean over
+/// one of them, changes by more than a fifth; unset for any other run. The shaft is the crank, else the joint that
+/// rotates most, else the body that does.
 /// @verified_by run_up_test.cpp
 [[nodiscard]] std::optional<RunUp> find_run_up(const results::Reader& reader);
 

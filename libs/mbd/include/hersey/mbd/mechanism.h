@@ -51,8 +51,8 @@ class Mechanism final : public solver::Equations {
   /// Returns the state given by the joints' initial values at t = 0; it is not yet consistent: see solver::initialise.
   [[nodiscard]] solver::State initial_state() const;
 
-  /// Adds to the rotations that drives prescribe the whole revolutions they have made by the state's time, and to what is
-  /// coupled with them what follows: the machine stands as it did, and its constraints are as near as they can be.
+  /// Adds to the rotations that drives prescribe the whole revolutions they have made by the state's time, and to what
+  /// is coupled with them what follows: the machine stands as it did, and its constraints are as near as they can be.
   void count_revolutions(solver::State& state) const;
 
   /// Returns the smallest increment dq with q = q0 (+) dq, the inverse of retract(): rotations of revolute joints less
