@@ -244,6 +244,7 @@ int bearing_command(const BearingArguments& arguments) {
   session::require_writable({{"--csv", arguments.csv},
                              {"--coefficients", arguments.coefficients},
                              {"--fields", arguments.fields},
+                             {"--vtu", arguments.vtu},
                              {"--report", arguments.report}});
   warn(model.warnings);
   require_one(arguments, model, runs.size());

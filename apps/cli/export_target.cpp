@@ -47,6 +47,7 @@ void require_results_target(const ExportArguments& arguments, const std::string&
   if (target.extension() != ending)
     refuse_target(option, "'" + target.string() + "'", "a name that ends in " + ending + ": readers go by it");
   session::require_separate({{option, target}}, {arguments.file});
+  session::require_writable({{option, target}});
   if (!arguments.force && std::filesystem::exists(target))
     refuse_target(option, target.string() + " exists", "a new file, or --force to replace it");
 }

@@ -21,6 +21,22 @@ std::vector<std::string> split_path(const std::string& path) {
   return parts;
 }
 
+std::string joined(const std::vector<std::string>& parts, std::size_t first, std::size_t end) {
+  std::string key = parts[first];
+  for (std::size_t k = first + 1; k < end; ++k) key += "." + parts[k];
+  return key;
+}
+
+/// Where the key of `node` ends that begins with a part of a path: names may have dots themselves, those of variables
+/// of FMUs above all. The longest one that the text has counts.
+std::size_t end_of_key(const Node& node, const std::vector<std::string>& parts, std::size_t first) {
+  for (std::size_t end = parts.size(); end > first + 1; --end)
+    if (node.kind == Node::Kind::mapping && node.find(joined(parts, first, end)) != nullptr) return end;
+  const bool is_variable =
+      first == 3 && parts[0] == "fmus" && (parts[2] == "inputs" || parts[2] == "parameters") && !node.find(parts[3]);
+  return is_variable ? parts.size() : first + 1;
+}
+
 std::vector<std::string> keys_of(const Node& node) {
   std::vector<std::string> keys;
   for (const Entry& entry : node.entries) keys.push_back(entry.key);
@@ -44,8 +60,12 @@ Node* step_into(Node& node, const std::string& key, const SourcePosition& positi
 
 void apply_along_path(Node& root, const Override& change, std::vector<Fault>& faults) {
   Node* node = &root;
-  for (const std::string& key : split_path(change.name)) {
+  const std::vector<std::string> parts = split_path(change.name);
+  for (std::size_t first = 0; first < parts.size();) {
+    const std::size_t end = end_of_key(*node, parts, first);
+    const std::string key = joined(parts, first, end);
     node = step_into(*node, key, change.position);
+    first = end;
     if (node == nullptr) {
       faults.push_back({change.position, change.name, "no item '" + key + "'", "the number of an item, from 0", ""});
       return;
