@@ -18,7 +18,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import fmu_test  # noqa: E402  takes HERSEY and WORK off the arguments
-from controller.build import build, description  # noqa: E402
+from controller.build import UNITS, VARIABLES, build, description  # noqa: E402
 
 HERSEY, WORK = fmu_test.HERSEY, fmu_test.WORK
 
@@ -416,6 +416,62 @@ class FaultsTest(Folder):
                 self.assertIn(said, printed)
                 self.assertIn("model.yaml:8" if "multiple" not in said else "model.yaml:9", printed)
         os.remove(os.path.join(self.folder, "controller.fmu"))
+
+
+# A warm film, whose temperature an FMU is given.
+WARM = ROTOR[:ROTOR.index("joints:")] + """joints:
+  shaft: {type: planar, between: [ground, rotor], initial: {rotation_rate: 100 rad/s, y: -12 um}}
+fmus:
+  controller: {file: controller.fmu, step: 1 ms, inputs: {speed: bearings.main.T_max}}
+forces:
+  motor: {type: torque, body: rotor, direction: z, magnitude: {fmu: controller, output: torque, scale: 0}}
+  push: {type: force, body: rotor, components: [0 N, -200 N, 0 N]}
+lubricants:
+  oil: {viscosity: 15 mPa.s, density: 870 kg/m^3, specific_heat: 2000 J/(kg.K), conductivity: 0.14 W/(m.K)}
+bearings:
+  main:
+    shell: ground
+    journal: rotor
+    diameter: 50 mm
+    width: 25 mm
+    radial_clearance: 25 um
+    lubricant: oil
+    thermal: {model: film, supply_temperature: 40 degC}
+    grid: {circumferential: 24, axial: 5}
+    supply: {line: widest_gap, pressure: 1 bar}
+simulation: {duration: 3 ms, step: 0.2 ms}
+"""
+RPM = '<BaseUnit rad="1" s="-1" factor="0.10471975511965977"/>'
+
+
+class UnitsTest(Folder):
+    """Numbers that go in and out in units with an offset, or without the radian."""
+
+    def built(self, unit, **changes):
+        """The controller, whose `speed` is in this unit."""
+        self.assertIn(RPM, UNITS)
+        build(os.path.join(self.folder, "controller.fmu"), 2, units=UNITS.replace(RPM, unit), **changes)
+
+    def test_temperatures_are_given_in_the_unit_of_the_input(self):
+        # The controller takes what it is given for rpm: its torque tells the number.
+        for unit, offset in (('<BaseUnit K="1" offset="273.15"/>', 0), ('<BaseUnit K="1"/>', 273.15),
+                             ('<BaseUnit K="1" factor="0.5555555555555556" offset="255.3722222222222"/>', None)):
+            with self.subTest(unit=unit):
+                self.built(unit)
+                with h5py.File(self.results(self.write("warm.yaml", WARM))) as file:
+                    film, given = file["bearings/main/T_max"][:], file["fmus/controller/speed"][:]
+                    self.assertEqual([file[path].attrs["units"] for path in ("bearings/main/T_max", "fmus/controller/speed")],
+                                     ["degC", "K"])
+                    torque = file["fmus/controller/torque"][:]
+                self.assertGreater(film[0], 39)
+                np.testing.assert_allclose(given[5::5], film[:-1:5] + 273.15, rtol=1e-12)  # round-off of sums
+                number = film + offset if offset is not None else film * 1.8 + 32
+                # Behind the first exchange the output is that of the step before, whose input was found an exchange earlier.
+                np.testing.assert_allclose(torque[10], -number[0] * np.pi / 30, rtol=1e-9)  # the factors have as many digits
+        # Without a unit: in SI.
+        self.built("", variables=[(*one[:6], None) if one[0] == "speed" else one for one in VARIABLES])
+        with h5py.File(self.results(self.write("warm.yaml", WARM))) as file:
+            np.testing.assert_allclose(file["fmus/controller/speed"][0], file["bearings/main/T_max"][0] + 273.15, rtol=1e-12)  # as above
 
 
 # A flywheel that its bearing brings to rest: the whole machine, and the bearing alone, whose pin turns as it is told.
