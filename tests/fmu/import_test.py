@@ -473,6 +473,27 @@ class UnitsTest(Folder):
         with h5py.File(self.results(self.write("warm.yaml", WARM))) as file:
             np.testing.assert_allclose(file["fmus/controller/speed"][0], file["bearings/main/T_max"][0] + 273.15, rtol=1e-12)  # as above
 
+    def test_the_radian_is_left_out_or_added(self):
+        shaft = self.write("rotor.yaml", ROTOR)
+        self.built(RPM)
+        with h5py.File(self.results(shaft)) as file:
+            plain = file["fmus/controller/torque"][:]
+        # The same factor without the radian, and a torque for each radian.
+        per_radian = [(*one[:6], "N.m/rad") if one[0] == "torque" else one for one in VARIABLES]
+        for unit, more in ((RPM.replace(' rad="1"', ""), {}), (RPM, {"variables": per_radian})):
+            self.built(unit + ('</Unit><Unit name="N.m/rad"><BaseUnit kg="1" m="2" s="-2" rad="-1"/>' if more else ""), **more)
+            with self.subTest(unit=unit, more=bool(more)), h5py.File(self.results(shaft)) as file:
+                np.testing.assert_array_equal(file["fmus/controller/torque"][:], plain)
+        self.built(RPM.replace(' rad="1"', ""))
+        for given in ("100 rad/s", '{expression: "100", unit: rad/s}', "joints.shaft.rates"):
+            self.assertIn("good", self.hersey("check", self.write("given.yaml", ROTOR.replace("speed: shaft.rotation_rate", f"speed: {given}"))))
+        wrong = self.write("wrong.yaml", ROTOR.replace("speed: shaft.rotation_rate", "speed: 3 N"))
+        self.assertIn("expected an angular velocity or a frequency", self.hersey("check", wrong, expect=2))
+        # One that is called Hz counts turns: nothing says whether its numbers are to be divided by 2 pi.
+        self.built(RPM.replace(' rad="1"', "") + '</Unit><Unit name="Hz"><BaseUnit s="-1"/>',
+                   variables=[(*one[:6], "Hz") if one[0] == "speed" else one for one in VARIABLES])
+        self.assertIn("expected a frequency", self.hersey("check", shaft, expect=2))
+
 
 # A flywheel that its bearing brings to rest: the whole machine, and the bearing alone, whose pin turns as it is told.
 COAST = fmu_test.RIG.replace("  motor: {joint: main, coordinate: rotation, speed: 3000 rpm}\n", "").replace(

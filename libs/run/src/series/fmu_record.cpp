@@ -11,7 +11,7 @@ std::string name_in_file(std::string name) {
   return name;
 }
 
-constexpr const char* kUnits = "1|rad|rad/s|rad/s^2|m|m/s|m/s^2|N|N.m|Pa|W|K|m^3/s";
+constexpr const char* kUnits = "1|rad|1/s|Hz|rad/s|rad/s^2|m|m/s|m/s^2|N|N.m|Pa|W|K|m^3/s";
 
 template <class Signal>
 Quantity<double, Signal> line_of(const char* name, const char* text) {

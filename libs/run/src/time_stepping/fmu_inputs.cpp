@@ -27,10 +27,6 @@ std::vector<std::string> names_of(const results::LatestRow& row) {
   return names;
 }
 
-bool is_same_dimension(const std::string& unit, const std::string& other) {
-  return unit == other || (si_unit_of(unit) && si_unit_of(unit) == si_unit_of(other));
-}
-
 /// Factor and offset of a row's unit; units of no dimension that the program knows are SI as they stand.
 std::pair<double, double> to_si(const std::string& unit) {
   const std::optional<std::string> si = si_unit_of(unit);
@@ -71,7 +67,8 @@ FmuInputs::Column FmuInputs::find(const model::FmuInput& input) const {
       all.insert(all.end(), names.begin(), names.end());
       continue;
     }
-    if (!input.unit.empty() && !is_same_dimension(rows[i].unit, input.unit))
+    if (!input.unit.empty() && rows[i].unit != input.unit &&
+        !measure_the_same_but_for_radians(rows[i].unit, input.unit))
       throw InputError(Fault{input.position, input.path, fmt::format("'{}', in {}", input.quantity, rows[i].unit),
                              fmt::format("a quantity in {}, as the FMU's input {} is", input.unit, input.variable.name),
                              ""});

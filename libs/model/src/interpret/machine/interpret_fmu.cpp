@@ -103,17 +103,20 @@ class FmuReader {
     fmu_.inputs.push_back(std::move(input));
   }
 
-  /// An expression or table; for a variable without a unit in the SI unit of what it gives.
+  /// An expression or table; an expression in the SI unit of what it gives, if that fits.
   Function function(const Value& given, const Value& content, const std::string& unit) {
     std::string wanted = unit;
-    if (wanted.empty() && content.has("expression")) wanted = si_unit_of(text_of(content, "unit")).value_or("");
+    if (content.has("expression")) {
+      const std::optional<std::string> own = si_unit_of(text_of(content, "unit"));
+      if (own && (wanted.empty() || measure_the_same_but_for_radians(*own, wanted))) wanted = *own;
+    }
     return function_of(context_, given, wanted.empty() ? "1" : wanted);
   }
 
   /// A joint coordinate or its rate, "main.rotation_rate".
   std::optional<Function> value_of(const JointVariable& coordinate, const Value& content, const FmuInput& input) {
-    if (!input.unit.empty() && !measures(coordinate.unit, input.unit)) {
-      context_.fault(content, dimension_of(coordinate.unit).name, dimension_of(input.unit).name + " for this input");
+    if (!input.unit.empty() && !measure_the_same_but_for_radians(coordinate.unit, input.unit)) {
+      context_.fault(content, dimension_of(coordinate.unit).name, kind_in_words(input.unit) + " for this input");
       return std::nullopt;
     }
     return Function{.value = std::make_shared<ExpressionFunction>(content.text, std::vector{content.text}),
@@ -125,8 +128,8 @@ class FmuReader {
   std::optional<Function> constant(const Value& content, const std::string& unit) {
     const auto number = si_number(context_, content, formula_of_scalar(content));
     if (!number) return std::nullopt;
-    if (!unit.empty() && !measures(number->second, unit)) {
-      context_.fault(content, dimension_of(number->second).name, dimension_of(unit).name + " for this input");
+    if (!unit.empty() && !measure_the_same_but_for_radians(number->second, unit)) {
+      context_.fault(content, dimension_of(number->second).name, kind_in_words(unit) + " for this input");
       return std::nullopt;
     }
     Function function{.value = std::make_shared<ConstantFunction>(number->first)};
@@ -175,11 +178,12 @@ class FmuReader {
     if (number->second == "1") return number->first;
     const std::optional<ExchangedVariable> known = with_unit(context_, given, variable);
     if (!known) return std::nullopt;
-    if (!known->unit.empty() && measures(number->second, known->unit)) return from_si(known->variable, number->first);
+    if (!known->unit.empty() && measure_the_same_but_for_radians(number->second, known->unit))
+      return from_si(known->variable, number->first);
     context_.fault(given, dimension_of(number->second).name,
                    known->unit.empty() ? "a bare number: the FMU gives this variable no unit"
-                                       : dimension_of(known->unit).name + ", or a bare number in " +
-                                             variable.unit->name + ", the variable's own unit");
+                                       : kind_in_words(known->unit) + ", or a bare number in " + variable.unit->name +
+                                             ", the variable's own unit");
     return std::nullopt;
   }
 
