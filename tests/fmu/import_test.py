@@ -278,12 +278,36 @@ class Cases:
     def test_resuming_needs_a_state(self):
         build(os.path.join(self.folder, "forgets.fmu"), self.version, saves_state=False)
         model = self.write("forgets.yaml", ROTOR.replace("controller.fmu", "forgets.fmu"))
+        self.assertNotIn("checkpoint", self.hersey("check", model))
+        asking = self.write("asking.yaml", ROTOR.replace("controller.fmu", "forgets.fmu").replace(
+            "simulation: {", "simulation: {checkpoint: {every: 1 ms}, "))
+        self.assertEqual(self.hersey("check", asking).count("simulation.checkpoint: checkpoints, but FMU controller cannot"), 1)
         out = os.path.join(self.folder, "forgets")
         self.hersey("run", model, "--output", out, "--force", expect=130, HERSEY_TEST_INTERRUPT="0.05")
         printed = self.hersey("run", model, "--output", out, "--resume", expect=2)
         self.assertIn("forgets.yaml:6", printed)
         self.assertIn("FMU controller cannot save its state", printed)
         self.hersey("run", model, "--output", out, "--force")
+
+    def test_nothing_is_promised_that_restoring_a_state_breaks(self):
+        build(os.path.join(self.folder, "returns.fmu"), self.version, flags=["-DSTATES_ARE_RESTORED"])
+        self.results(self.write("returns.yaml", ROTOR.replace("controller.fmu", "returns.fmu")))
+
+    def test_an_output_that_needs_inputs_is_0_before_them(self):
+        plain = self.speeds()["w"]
+        build(os.path.join(self.folder, "needs.fmu"), self.version, flags=["-DNEEDS_SPEED"])
+        with h5py.File(self.results(self.write("needs.yaml", ROTOR.replace("controller.fmu", "needs.fmu")))) as file:
+            np.testing.assert_array_equal(file["joints/shaft/rates"][:], plain)
+
+    def test_outputs_are_recorded_by_any_name(self):
+        # `time` is the scale of a group, "." and "/" have a meaning in paths.
+        for name, recorded in (("time", "time_"), (".", "._"), ("a/b", "a|b")):
+            variables = [(name, *one[1:]) if one[0] == "torque" else one for one in VARIABLES]
+            build(os.path.join(self.folder, "named.fmu"), self.version, variables=variables)
+            text = ROTOR.replace("controller.fmu", "named.fmu").replace("output: torque", f"output: {name}")
+            with self.subTest(name=name), h5py.File(self.results(self.write("named.yaml", text))) as file:
+                self.assertEqual(set(file["fmus/controller"]) - {"time"}, {"speed", "wanted", recorded})
+                self.assertEqual(file["fmus/controller"][recorded].attrs["units"], "N.m")
 
     def test_failures_of_the_fmu(self):
         fault = "fmus.controller.parameters.fault"
@@ -360,6 +384,16 @@ class FaultsTest(Folder):
                 printed = self.faults(*changes)
                 for words in said:
                     self.assertIn(words, printed)
+
+    def test_only_parameters_that_can_be_set_are_offered(self):
+        variables = [(one[0], *one[1:4], "structuralParameter", *one[5:]) if one[0] == "fault" else one for one in VARIABLES]
+        printed = self.faults(('"gain[1].integral"', '"gain[2].integral"'),
+                              fmu=lambda path: build(path, 3, variables=variables))
+        self.assertIn("did you mean 'gain[1].integral'", printed)
+        self.assertIn("is_reversed", printed)
+        self.assertNotIn("'fault'", printed.replace("fault_time", ""))
+        self.assertIn("no parameter or input that can be set", self.faults(('"gain[1].integral": 3.0', "fault: 1")))
+        os.remove(os.path.join(self.folder, "controller.fmu"))
 
     def test_small_motions_are_refused(self):
         build(os.path.join(self.folder, "controller.fmu"), 2)

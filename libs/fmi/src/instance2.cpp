@@ -107,8 +107,9 @@ struct Functions2 {
 class Instance2 final : public Instance {
  public:
   Instance2(const FmuFile& file, const Description& description, const std::string& name)
-      : library_(file, description),
-        call_(library_, description.saves_state),
+      : saves_state_(description.saves_state),
+        library_(file, description),
+        call_(library_, saves_state_),
         callbacks_{log_of_fmi2, std::calloc, std::free, nullptr, &log_} {
     component_ = call_.instantiate(name.c_str(), fmi2CoSimulation, description.token.c_str(),
                                    uri_of(library_.resources()).c_str(), &callbacks_, 0, 0);
@@ -151,7 +152,7 @@ class Instance2 final : public Instance {
     if (!references.empty()) must("fmi2GetReal", call_.get_real, references.data(), references.size(), values.data());
   }
 
-  void step(double time, double length) override { must("fmi2DoStep", call_.step, time, length, 1); }
+  void step(double time, double length) override { must("fmi2DoStep", call_.step, time, length, saves_state_ ? 0 : 1); }
 
   std::vector<unsigned char> save() override {
     fmi2FMUstate state = nullptr;
@@ -183,6 +184,7 @@ class Instance2 final : public Instance {
     throw FmuError(fmt::format("{} ends with status {}{}", name, word_for(status), log_.text()));
   }
 
+  bool saves_state_;  ///< the importer may return to a saved state, so that it does not promise the contrary
   LoadedLibrary library_;
   Functions2 call_;
   CallLog log_;

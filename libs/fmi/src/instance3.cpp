@@ -83,7 +83,7 @@ struct Functions3 {
 class Instance3 final : public Instance {
  public:
   Instance3(const FmuFile& file, const Description& description, const std::string& name)
-      : library_(file, description), call_(library_, description.saves_state) {
+      : saves_state_(description.saves_state), library_(file, description), call_(library_, saves_state_) {
     const std::string resources = library_.resources().string() + "/";
     instance_ = call_.instantiate(name.c_str(), description.token.c_str(), resources.c_str(), false, false, false,
                                   false, nullptr, 0, &log_, log_of_fmi3, nullptr);
@@ -135,7 +135,7 @@ class Instance3 final : public Instance {
   void step(double time, double length) override {
     bool has_events = false, ends = false, is_early = false;
     double reached = time + length;
-    must("fmi3DoStep", call_.step, time, length, true, &has_events, &ends, &is_early, &reached);
+    must("fmi3DoStep", call_.step, time, length, !saves_state_, &has_events, &ends, &is_early, &reached);
     if (ends || is_early)
       throw FmuError(fmt::format("fmi3DoStep {} t = {:.9g} s{}",
                                  ends ? "asks for the end of the simulation at" : "ends early, at", reached,
@@ -171,6 +171,7 @@ class Instance3 final : public Instance {
     throw FmuError(fmt::format("{} ends with status {}{}", name, word_for(status), log_.text()));
   }
 
+  bool saves_state_;  ///< the importer may return to a saved state, so that it does not promise the contrary
   LoadedLibrary library_;
   Functions3 call_;
   CallLog log_;

@@ -4,7 +4,8 @@
 
    with inputs that last over a communication step. The parameter `fault` makes it fail from `fault_time` on: 1 error,
    2 discard (FMI 2) or the wish to end (FMI 3), 3 an output that is no number, 4 fatal. With NO_STATE it cannot save its
-   state. HERSEY_TEST_INTERRUPT names a time at which the process gets an interrupt, as from a keyboard. */
+   state; with STATES_ARE_RESTORED a step fails whose importer promises to return to none; with NEEDS_SPEED its torque is
+   no number before it has a speed. HERSEY_TEST_INTERRUPT names a time at which the process gets an interrupt, as from a keyboard. */
 #include <math.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -68,8 +69,15 @@ static double missing(const State* s) {
 
 static void answer(State* s) { s->torque = s->proportional * missing(s) + s->sum; }
 
-static int step(Controller* c, double time, double length) {
+static int step(Controller* c, double time, double length, bool no_return) {
   State* s = &c->state;
+#ifdef STATES_ARE_RESTORED
+  if (no_return) {
+    say(c, ERROR, "the importer promises not to return to a saved state");
+    return ERROR;
+  }
+#endif
+  (void)no_return;
   if (fabs(time - s->time) > 1e-9) {
     say(c, ERROR, "a step that does not begin where the last one has ended");
     return ERROR;
@@ -105,6 +113,9 @@ PUBLIC int F(ExitInitializationMode)(void* c) {
 }
 
 static int get(Controller* c, const Reference* references, size_t count, double* values) {
+#ifdef NEEDS_SPEED
+  c->state.torque += 0 / c->state.speed;
+#endif
   for (size_t i = 0; i < count; ++i) {
     if (real(c, references[i]) == NULL) return ERROR;
     values[i] = *real(c, references[i]);
@@ -197,7 +208,7 @@ PUBLIC int fmi2SetBoolean(void* c, const Reference* r, size_t n, const int* v) {
   return *r == IS_REVERSED ? (((Controller*)c)->state.is_reversed = *v, OK) : ERROR;
 }
 PUBLIC int fmi2SetString(void* c, const Reference* r, size_t n, const char* const* v) { return (void)n, set_text(c, r, v); }
-PUBLIC int fmi2DoStep(void* c, double time, double length, int no_return) { return (void)no_return, step(c, time, length); }
+PUBLIC int fmi2DoStep(void* c, double time, double length, int no_return) { return step(c, time, length, no_return); }
 #ifndef NO_STATE
 PUBLIC int fmi2GetFMUstate(void* c, void** s) { return get_state(c, s); }
 PUBLIC int fmi2SetFMUstate(void* c, void* s) { return set_state(c, s); }
@@ -241,10 +252,9 @@ PUBLIC int fmi3SetString(void* c, const Reference* r, size_t n, const char* cons
   return n == m ? set_text(c, r, v) : ERROR;
 }
 PUBLIC int fmi3DoStep(void* c, double time, double length, bool no_return, bool* events, bool* ends, bool* early, double* reached) {
-  (void)no_return;
   *events = *ends = *early = false;
   *reached = time + length;
-  const int status = step(c, time, length);
+  const int status = step(c, time, length, no_return);
   if (status != DISCARD) return status;
   *ends = true;
   *reached = time;
