@@ -80,7 +80,7 @@ void FmuExchange::start(const model::Fmu& fmu) {
   unit.instance->enter_initialisation(model_.simulation.start, model_.simulation.start + model_.simulation.duration);
   units_.push_back(std::move(unit));
   signals_.push_back({std::vector<double>(fmu.inputs.size()), std::vector<double>(fmu.outputs.size())});
-  get_outputs(units_.size() - 1);
+  get_outputs(units_.size() - 1, false);
 }
 
 void FmuExchange::follow(model::Function& function, Jump of_value, Jump of_slope) {
@@ -114,14 +114,15 @@ void FmuExchange::give_inputs(std::size_t f) {
   units_[f].instance->set(units_[f].inputs, values);
 }
 
-void FmuExchange::get_outputs(std::size_t f) {
+void FmuExchange::get_outputs(std::size_t f, bool is_given) {
   const model::Fmu& fmu = model_.fmus[f];
   std::vector<double> values(fmu.outputs.size());
   units_[f].instance->get(units_[f].outputs, values);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = model::to_si(fmu.outputs[i].variable, values[i]);
-    if (!std::isfinite(values[i]))
-      throw fmi::FmuError(fmt::format("output {} is {}", fmu.outputs[i].variable.name, values[i]));
+    if (std::isfinite(values[i])) continue;
+    if (is_given) throw fmi::FmuError(fmt::format("output {} is {}", fmu.outputs[i].variable.name, values[i]));
+    values[i] = 0;
   }
   units_[f].before = std::exchange(signals_[f].outputs, std::move(values));
 }

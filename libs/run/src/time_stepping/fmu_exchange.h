@@ -90,7 +90,8 @@ class FmuExchange {
   void start(const model::Fmu& fmu);
   void follow(model::Function& function, Jump of_value, Jump of_slope);
   void give_inputs(std::size_t f);
-  void get_outputs(std::size_t f);
+  /// @param is_given  inputs are known: before, an output need not be finite, and is 0 where it is not
+  void get_outputs(std::size_t f, bool is_given = true);
   [[nodiscard]] Jump go_on_from(std::size_t f, double t);
   [[nodiscard]] double instant(std::size_t f, std::size_t n) const;
 
