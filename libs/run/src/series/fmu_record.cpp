@@ -1,13 +1,16 @@
 #include "series/fmu_record.h"
 
 #include <algorithm>
+#include <set>
 
 namespace hersey::run {
 namespace {
 
-/// Names of variables are free text; a slash would open a group.
-std::string name_in_file(std::string name) {
+/// Names of variables are free text: a slash would open a group, dots are steps of a path, and `time` is the scale of
+/// the rows. Each name once.
+std::string name_in_file(std::string name, std::set<std::string>& taken) {
   std::replace(name.begin(), name.end(), '/', '|');
+  while (name.empty() || name.find_first_not_of('.') == std::string::npos || !taken.insert(name).second) name += '_';
   return name;
 }
 
@@ -39,8 +42,9 @@ const FmuRecord::Table& FmuRecord::of_outputs() {
 
 FmuRecord::FmuRecord(const model::Fmu& fmu, results::Writer& writer) {
   const std::string group = "/fmus/" + fmu.name + "/";
-  const auto plan = [](const fmi::Variable& variable, const std::string& unit) {
-    return Signal{name_in_file(variable.name), unit.empty() ? "1" : unit};
+  std::set<std::string> taken{"time"};
+  const auto plan = [&](const fmi::Variable& variable, const std::string& unit) {
+    return Signal{name_in_file(variable.name, taken), unit.empty() ? "1" : unit};
   };
   for (const model::FmuInput& input : fmu.inputs)
     inputs_.emplace_back(of_inputs(), group, plan(input.variable, input.unit), writer);
