@@ -40,6 +40,7 @@ std::optional<ExchangedVariable> with_unit(Context& context, const Value& at, co
   // A name that says enough, as N.m does.
   unit.offset = convert_to_si({0, unit.name}, *si);
   unit.factor = convert_to_si({1, unit.name}, *si) - unit.offset;
+  if (variable.is_relative) unit.offset = 0;
   unit.is_defined = true;
   return known;
 }

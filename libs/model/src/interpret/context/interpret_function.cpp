@@ -183,7 +183,7 @@ class FunctionReader {
       return one.variable.name == output.variable.name;
     });
     const auto at = static_cast<std::size_t>(known - outputs.begin());
-    // One without a unit in the FMU is recorded in that of what first follows it.
+    // One without a unit in the FMU is recorded as a pure number: followers may give it different ones by `scale`.
     if (known == outputs.end()) outputs.push_back({output.variable, output.unit});
     function_.signal = FmuSignal{index, at, scale,
                                  hold == "ramp"           ? FmuHold::ramp
