@@ -138,17 +138,29 @@ class FmuReader {
     return function;
   }
 
+  /// Structural parameters are none: they change sizes of arrays, in a mode of their own.
+  static bool is_settable(const fmi::Variable& variable) {
+    return !variable.is_constant && !variable.is_array && variable.type != fmi::VariableType::other &&
+           (variable.causality_name == "parameter" || variable.causality == fmi::Causality::input);
+  }
+
+  [[nodiscard]] std::vector<std::string> settable_names() const {
+    std::vector<std::string> names;
+    for (const fmi::Causality causality : {fmi::Causality::parameter, fmi::Causality::input})
+      for (const std::string& name : fmu_.description.names(causality))
+        if (is_settable(*fmu_.description.find(name))) names.push_back(name);
+    return names;
+  }
+
   void read_parameter(const std::string& name, const Value& given) {
     const fmi::Variable* found = fmu_.description.find(name);
-    const bool is_settable = found != nullptr && !found->is_constant && !found->is_array &&
-                             (found->causality_name == "parameter" || found->causality == fmi::Causality::input);
-    if (!is_settable) {
-      const std::vector<std::string> names = fmu_.description.names(fmi::Causality::parameter);
-      context_.fault_at_key(given,
-                            found == nullptr ? "no variable '" + name + "' in the FMU"
-                                             : "variable '" + name + "', which is no single parameter or input",
-                            names.empty() ? "a parameter; this FMU has none" : one_of(names),
-                            did_you_mean(name, names));
+    if (found == nullptr || !is_settable(*found)) {
+      const std::vector<std::string> names = settable_names();
+      context_.fault_at_key(
+          given,
+          found == nullptr ? "no variable '" + name + "' in the FMU"
+                           : "variable '" + name + "', which is no parameter or input that can be set",
+          names.empty() ? "a parameter or input; this FMU has none" : one_of(names), did_you_mean(name, names));
       return;
     }
     if (given.broken) return;
@@ -199,6 +211,24 @@ void interpret_fmus(Context& context) {
     if (std::optional<Fmu> fmu = FmuReader(context, name, value).read()) context.model.fmus.push_back(std::move(*fmu));
 }
 
+namespace {
+
+/// Checkpoints that are asked for, of a run whose state cannot be saved.
+void warn_of_checkpoints(Context& context) {
+  const Value* simulation = context.root.find("simulation");
+  const Value* asked = simulation == nullptr ? nullptr : simulation->find("checkpoint");
+  if (asked == nullptr || !asked->given) return;
+  for (const Fmu& fmu : context.model.fmus) {
+    if (fmu.description.saves_state) continue;
+    context.model.warnings.push_back({asked->key_position, asked->path,
+                                      "checkpoints, but FMU " + fmu.name + " cannot save its state: none is written",
+                                      "FMUs with canGetAndSetFMUState and canSerializeFMUState", ""});
+    return;
+  }
+}
+
+}  // namespace
+
 void check_fmus(Context& context) {
   if (context.model.fmus.empty() || context.model.is_of_bearings_alone()) return;
   const Simulation& run = context.model.simulation;
@@ -211,6 +241,7 @@ void check_fmus(Context& context) {
   if (run.cycle && run.cycle->lead_in != LeadIn::none)
     refuse("simulation.cycle.lead_in", "a lead-in with `fmus`",
            "`lead_in: none`: the state of an FMU is no part of a motion that is searched for");
+  warn_of_checkpoints(context);
 }
 
 }  // namespace hersey::model
