@@ -95,12 +95,26 @@ class SystemWriter {
         if (variable.kind == kind &&
             (variable.name == name || (kind == Variable::Kind::input && variable.source == name)))
           return variable;
-    refuse(at, path, "what the machine's FMU has no variable for", "a quantity that it has");
+    refuse(at, path, "what the machine's FMU has no variable for",
+           "a quantity that it has, or an output of an FMU that the model follows");
+  }
+
+  /// Connects the output of another FMU, "fmus.other.torque", with an input; false if the quantity is none.
+  bool connect_fmus(const model::Fmu& fmu, const model::FmuInput& input) {
+    for (const model::Fmu& other : model_.fmus)
+      for (const model::FmuOutputVariable& output : other.outputs) {
+        if (input.quantity != "fmus." + other.name + "." + output.variable.name) continue;
+        connect(other.name, output.variable.name, "output", known(output.variable));
+        link(other.name, output.variable.name, fmu.name, input.variable.name, 1);
+        return true;
+      }
+    return false;
   }
 
   void add_input(const model::Fmu& fmu, const model::FmuInput& input) {
     const std::string name = input.variable.name;
     connect(fmu.name, name, "input", known(input.variable));
+    if (!input.function && connect_fmus(fmu, input)) return;
     if (!input.function || input.is_coordinate) {
       std::vector<std::string> names{input.quantity};
       if (input.is_coordinate) {
@@ -216,6 +230,15 @@ std::vector<std::string> changes_to_machine(const model::Model& model) {
   std::vector<std::string> changes{"fmus={}"};
   for (const model::Function* function : followers(model)) changes.push_back(function->path + "=0");
   return changes;
+}
+
+std::vector<std::string> lost_holds(const model::Model& model) {
+  std::vector<std::string> lost;
+  for (const model::Function* function : followers(model))
+    if (function->signal->hold != model::FmuHold::constant)
+      lost.push_back(fmt::format("{}.hold: {}", function->path,
+                                 function->signal->hold == model::FmuHold::ramp ? "ramp" : "extrapolated"));
+  return lost;
 }
 
 std::string machine_name(const model::Model& model) {

@@ -14,7 +14,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
-from controller.build import UNITS, build  # noqa: E402
+from controller.build import UNITS, VARIABLES, build  # noqa: E402
 from import_test import ROTOR, RPM, WARM, Folder  # noqa: E402  takes HERSEY and WORK off the arguments
 from importer import Fmu, Instance  # noqa: E402
 
@@ -161,6 +161,24 @@ class SspTest(Folder):
                 self.assertEqual(base.attrib, {"K": "1", "offset": "273.15"})
                 for one in system.instances.values():
                     one.free()
+
+    def test_fmus_are_connected_with_each_other(self):
+        build(os.path.join(self.folder, "controller.fmu"), 2)
+        second = '  other: {file: controller.fmu, step: 2 ms, inputs: {speed: shaft.rotation_rate, wanted: fmus.controller.torque}}\n'
+        unit = [(*one[:6], "N.m") if one[0] == "wanted" else one for one in VARIABLES]
+        build(os.path.join(self.folder, "other.fmu"), 3, variables=unit)
+        text = ROTOR.replace("forces:", second.replace("controller.fmu", "other.fmu") + "forces:").replace(
+            "output: torque", "output: torque, hold: ramp")
+        path = os.path.join(self.folder, "system.ssp")
+        printed = self.hersey("export", self.write("rotor.yaml", text), "--ssp", path, "--force")
+        self.assertIn("forces.motor.magnitude.hold: ramp is not in it", printed)
+        with zipfile.ZipFile(path) as archive:
+            root = ElementTree.fromstring(archive.read("SystemStructure.ssd"))
+        self.check_element(root)
+        ends = {tuple(one.get(key) for key in ("startElement", "startConnector", "endElement", "endConnector"))
+                for one in root.iter(SSD + "Connection")}
+        self.assertEqual(ends, {("controller", "torque", "other", "wanted"), ("controller", "torque", "machine", "forces.motor.magnitude"),
+                                ("machine", "joints.shaft.rates", "controller", "speed"), ("machine", "joints.shaft.rates", "other", "speed")})
 
     def test_what_is_no_connection_is_refused(self):
         build(os.path.join(self.folder, "controller.fmu"), 2)
