@@ -309,6 +309,19 @@ class Cases:
                 self.assertEqual(set(file["fmus/controller"]) - {"time"}, {"speed", "wanted", recorded})
                 self.assertEqual(file["fmus/controller"][recorded].attrs["units"], "N.m")
 
+    def test_warnings_are_told_at_the_end(self):
+        out = os.path.join(self.folder, "warned")
+        words = ("run", self.model, "--output", out, "--set", "fmus.controller.parameters.fault=5", "--set",
+                 "fmus.controller.parameters.fault_time=0.0505")
+        printed = self.hersey(*words, "--force")
+        # Exchanges at 0.051 s, 0.052 s, ... 0.199 s: the run ends at the next one.
+        self.assertIn("FMU controller: 149 warnings, the first at t = 0.051 s: ", printed)
+        self.assertIn("DoStep ends with status warning: the fuse is warm", printed)
+        printed = self.hersey(*words, "--force", expect=130, HERSEY_TEST_INTERRUPT="0.1")
+        printed = self.hersey(*words, "--resume")
+        self.assertIn("FMU controller: 149 warnings, the first at t = 0.051 s: ", printed)
+        self.assertNotIn("warnings", self.hersey("run", self.model, "--output", out, "--force"))
+
     def test_failures_of_the_fmu(self):
         fault = "fmus.controller.parameters.fault"
         for kind, said in ((1, ["status error", "the fuse has blown"]),
@@ -565,6 +578,15 @@ class OwnFmuTest(Folder):
             print(f"FMI {version}: distance from the whole machine over the loss of speed: {off}")
             np.testing.assert_allclose(np.log2(np.array(off[:-1]) / off[1:]), 1, atol=0.2)  # steps that are not yet small
             self.assertLess(off[-1], 0.02)
+
+    def test_results_are_no_model(self):
+        results = self.results(self.write("coast.yaml", COAST), "simulation.duration=0.1 ms", name="few")
+        for words in (("check", results), ("export", results, "--fmu", os.path.join(self.folder, "x.fmu")),
+                      ("export", results, "--ssp", os.path.join(self.folder, "x.ssp"))):
+            printed = self.hersey(*words, expect=2)
+            self.assertIn("results.h5: ", printed)
+            self.assertIn("the results of a run", printed)
+            self.assertIn("expected a model file", printed)
 
     def test_a_model_with_fmus_is_not_exported(self):
         build(os.path.join(self.folder, "controller.fmu"), 2)

@@ -14,7 +14,7 @@
 namespace hersey::fmi {
 namespace {
 
-extern "C" void log_of_fmi2(fmi2ComponentEnvironment environment, fmi2String /*instance*/, fmi2Status /*status*/,
+extern "C" void log_of_fmi2(fmi2ComponentEnvironment environment, fmi2String /*instance*/, fmi2Status status,
                             fmi2String /*category*/, fmi2String format, ...) {
   if (format == nullptr) return;
   std::array<char, 1000> text{};
@@ -22,7 +22,7 @@ extern "C" void log_of_fmi2(fmi2ComponentEnvironment environment, fmi2String /*i
   va_start(arguments, format);
   std::vsnprintf(text.data(), text.size(), format, arguments);
   va_end(arguments);
-  static_cast<CallLog*>(environment)->add(text.data());
+  static_cast<CallLog*>(environment)->add(text.data(), status == fmi2Warning);
 }
 
 const char* word_for(fmi2Status status) {
@@ -178,6 +178,8 @@ class Instance2 final : public Instance {
   void must(const char* name, Function function, Arguments... arguments) {
     log_.clear();
     const fmi2Status status = function(component_, arguments...);
+    if (status == fmi2Warning || (status == fmi2OK && log_.warns()))
+      warn(fmt::format("{}{}{}", name, status == fmi2Warning ? " ends with status warning" : "", log_.text()));
     if (status == fmi2OK || status == fmi2Warning) return;
     if (status == fmi2Error) is_stepping_ = false;
     if (status == fmi2Fatal) component_ = nullptr;

@@ -7,9 +7,9 @@
 namespace hersey::fmi {
 namespace {
 
-extern "C" void log_of_fmi3(fmi3InstanceEnvironment environment, fmi3Status /*status*/, fmi3String /*category*/,
+extern "C" void log_of_fmi3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String /*category*/,
                             fmi3String message) {
-  if (message != nullptr) static_cast<CallLog*>(environment)->add(message);
+  if (message != nullptr) static_cast<CallLog*>(environment)->add(message, status == fmi3Warning);
 }
 
 const char* word_for(fmi3Status status) {
@@ -165,6 +165,8 @@ class Instance3 final : public Instance {
   void must(const char* name, Function function, Arguments... arguments) {
     log_.clear();
     const fmi3Status status = function(instance_, arguments...);
+    if (status == fmi3Warning || (status == fmi3OK && log_.warns()))
+      warn(fmt::format("{}{}{}", name, status == fmi3Warning ? " ends with status warning" : "", log_.text()));
     if (status == fmi3OK || status == fmi3Warning) return;
     if (status == fmi3Error) is_stepping_ = false;
     if (status == fmi3Fatal) instance_ = nullptr;

@@ -81,6 +81,7 @@ void FmuExchange::start(const model::Fmu& fmu) {
   units_.push_back(std::move(unit));
   signals_.push_back({std::vector<double>(fmu.inputs.size()), std::vector<double>(fmu.outputs.size())});
   get_outputs(units_.size() - 1, false);
+  note_warnings(units_.back(), model_.simulation.start);
 }
 
 void FmuExchange::follow(model::Function& function, Jump of_value, Jump of_slope) {
@@ -100,6 +101,25 @@ double FmuExchange::next() const {
   double earliest = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < units_.size(); ++f) earliest = std::min(earliest, instant(f, units_[f].exchanges + 1));
   return earliest;
+}
+
+void FmuExchange::note_warnings(Unit& unit, double t) {
+  fmi::Warnings more = unit.instance->take_warnings();
+  if (more.count == 0) return;
+  if (unit.warnings.count == 0) unit.warnings.first = std::move(more.first), unit.warned_at = t;
+  unit.warnings.count += more.count;
+}
+
+std::string FmuExchange::warnings() const {
+  std::string text;
+  for (std::size_t f = 0; f < units_.size(); ++f) {
+    const Unit& unit = units_[f];
+    if (unit.warnings.count == 0) continue;
+    text += fmt::format("{}FMU {}: {} warning{}, the first at t = {:.6g} s: {}", text.empty() ? "" : "; ",
+                        model_.fmus[f].name, unit.warnings.count, unit.warnings.count == 1 ? "" : "s", unit.warned_at,
+                        unit.warnings.first);
+  }
+  return text;
 }
 
 void FmuExchange::give_inputs(std::size_t f) {
@@ -136,6 +156,7 @@ Jump FmuExchange::begin() {
       get_outputs(f);
       units_[f].before = signals_[f].outputs;  // nothing has been exchanged earlier
     });
+    note_warnings(units_[f], model_.simulation.start);
     jump = std::max(jump, go_on_from(f, model_.simulation.start));
   }
   return jump;
@@ -153,6 +174,7 @@ Jump FmuExchange::exchange(double t, double slack) {
       give_inputs(f);
     });
     ++unit.exchanges;
+    note_warnings(unit, to);
     jump = std::max(jump, go_on_from(f, to));
   }
   return jump;
@@ -184,9 +206,12 @@ void FmuExchange::persist(Archive& archive) {
     archive.io("exchanges", units_[f].exchanges);
     archive.io("inputs", signals_[f].inputs), archive.io("outputs", signals_[f].outputs);
     archive.io("before", units_[f].before);
+    archive.io("warnings", units_[f].warnings.count), archive.io("warning", units_[f].warnings.first);
+    archive.io("warned_at", units_[f].warned_at);
     pending_.resize(units_.size());
     archive.io("pending", pending_[f]);
     ask(model_.fmus[f], [&] { persist_state(archive, *units_[f].instance); });
+    if (archive.restores()) (void)units_[f].instance->take_warnings();  // of what is undone
   }
   archive.each("functions", followers_, [](Archive& inside, Follower& one) { one.function->persist(inside); });
 }
