@@ -68,15 +68,10 @@ std::string unit_definitions(const Variables& variables) {
   std::erase_if(units, [](const std::string& unit) { return !is_named(unit); });
   std::string xml = "  <UnitDefinitions>\n";
   for (const std::string& unit : units) {
-    int exponents[8]{};
-    if (!exponents_of(unit, exponents)) {
-      xml += fmt::format("    <Unit name=\"{}\"/>\n", escaped(unit));
-      continue;
-    }
-    std::string base;
-    for (std::size_t i = 0; i < kBases.size(); ++i)
-      if (exponents[i] != 0) base += fmt::format(" {}=\"{}\"", kBases[i], exponents[i]);
-    xml += fmt::format("    <Unit name=\"{}\"><BaseUnit{}/></Unit>\n", escaped(unit), base);
+    const std::optional<fmi::Unit> defined = definition_of(unit);
+    xml += defined ? fmt::format("    <Unit name=\"{}\"><BaseUnit{}/></Unit>\n", escaped(unit),
+                                 base_unit_attributes(*defined))
+                   : fmt::format("    <Unit name=\"{}\"/>\n", escaped(unit));
   }
   return xml + "  </UnitDefinitions>\n";
 }
@@ -149,7 +144,13 @@ constexpr const char* kLogCategories =
 
 }  // namespace
 
-bool exponents_of(const std::string& unit, int (&exponents)[8]) {
+std::optional<fmi::Unit> definition_of(const std::string& unit) {
+  fmi::Unit defined{.name = unit, .is_defined = true};
+  if (unit == "degC") {
+    defined.powers = known_units().at("K");
+    defined.offset = 273.15;
+    return defined;
+  }
   int sign = 1;
   for (std::size_t at = 0; at <= unit.size();) {
     const std::size_t end = std::min(unit.find_first_of("./", at), unit.size());
@@ -158,17 +159,26 @@ bool exponents_of(const std::string& unit, int (&exponents)[8]) {
     if (const std::size_t hat = factor.find('^'); hat != std::string::npos) {
       const std::string digits = factor.substr(hat + 1);
       const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), power);
-      if (read.ec != std::errc() || read.ptr != digits.data() + digits.size()) return false;
+      if (read.ec != std::errc() || read.ptr != digits.data() + digits.size()) return std::nullopt;
       factor.resize(hat);
     }
     const auto known = known_units().find(factor);
-    if (known == known_units().end()) return false;
-    for (std::size_t i = 0; i < kBases.size(); ++i) exponents[i] += sign * power * known->second[i];
-    if (end == unit.size()) return true;
+    if (known == known_units().end()) return std::nullopt;
+    for (std::size_t i = 0; i < kBases.size(); ++i) defined.powers[i] += sign * power * known->second[i];
+    if (end == unit.size()) return defined;
     sign = unit[end] == '/' ? -1 : 1;
     at = end + 1;
   }
-  return false;
+  return std::nullopt;
+}
+
+std::string base_unit_attributes(const fmi::Unit& unit) {
+  std::string text;
+  for (std::size_t i = 0; i < kBases.size(); ++i)
+    if (unit.powers[i] != 0) text += fmt::format(" {}=\"{}\"", kBases[i], unit.powers[i]);
+  if (unit.factor != 1) text += fmt::format(" factor=\"{}\"", unit.factor);
+  if (unit.offset != 0) text += fmt::format(" offset=\"{}\"", unit.offset);
+  return text;
 }
 
 std::string description_xml(const model::Model& model, const Variables& variables, int version) {

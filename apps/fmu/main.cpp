@@ -170,6 +170,8 @@ int export_ssp(const Arguments& arguments) {
   std::filesystem::rename(unfinished, target);
   fmt::print("{}: SSP 1.0, {} and {} FMUs connected with it\n", target.string(), machine_name(model),
              model.fmus.size());
+  for (const std::string& hold : lost_holds(model))
+    fmt::print("{} is not in it: how outputs go on between exchanges is the importing program's choice\n", hold);
   return 0;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,8 +12,6 @@
 
 namespace hersey::fmu {
 namespace {
-
-constexpr std::array<const char*, 8> kBaseUnits{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
 
 /// Functions of the model that follow outputs of FMUs.
 std::vector<const model::Function*> followers(const model::Model& model) {
@@ -76,11 +73,8 @@ class SystemWriter {
 
   /// Notes how a unit of the machine is made of base units.
   const std::string& known(const std::string& unit) {
-    int powers[8]{};
-    if (unit == "1" || !exponents_of(unit, powers)) return unit;
-    fmi::Unit defined{.name = unit, .is_defined = true};
-    std::copy(std::begin(powers), std::end(powers), defined.powers.begin());
-    definitions_[unit] = defined;
+    if (unit == "1") return unit;
+    if (const std::optional<fmi::Unit> defined = definition_of(unit)) definitions_[unit] = *defined;
     return unit;
   }
   std::string known(const fmi::Variable& variable) {
@@ -101,12 +95,26 @@ class SystemWriter {
         if (variable.kind == kind &&
             (variable.name == name || (kind == Variable::Kind::input && variable.source == name)))
           return variable;
-    refuse(at, path, "what the machine's FMU has no variable for", "a quantity that it has");
+    refuse(at, path, "what the machine's FMU has no variable for",
+           "a quantity that it has, or an output of an FMU that the model follows");
+  }
+
+  /// Connects the output of another FMU, "fmus.other.torque", with an input; false if the quantity is none.
+  bool connect_fmus(const model::Fmu& fmu, const model::FmuInput& input) {
+    for (const model::Fmu& other : model_.fmus)
+      for (const model::FmuOutputVariable& output : other.outputs) {
+        if (input.quantity != "fmus." + other.name + "." + output.variable.name) continue;
+        connect(other.name, output.variable.name, "output", known(output.variable));
+        link(other.name, output.variable.name, fmu.name, input.variable.name, 1);
+        return true;
+      }
+    return false;
   }
 
   void add_input(const model::Fmu& fmu, const model::FmuInput& input) {
     const std::string name = input.variable.name;
     connect(fmu.name, name, "input", known(input.variable));
+    if (!input.function && connect_fmus(fmu, input)) return;
     if (!input.function || input.is_coordinate) {
       std::vector<std::string> names{input.quantity};
       if (input.is_coordinate) {
@@ -201,15 +209,9 @@ class SystemWriter {
   [[nodiscard]] std::string unit_definitions(const char* prefix, const std::string& indent) const {
     if (used_.empty()) return {};
     std::string text = fmt::format("{}<{}:Units>\n", indent, prefix);
-    for (const std::string& name : used_) {
-      const fmi::Unit& unit = definitions_.at(name);
-      std::string base;
-      for (std::size_t i = 0; i < kBaseUnits.size(); ++i)
-        if (unit.powers[i] != 0) base += fmt::format(" {}=\"{}\"", kBaseUnits[i], unit.powers[i]);
-      if (unit.factor != 1) base += fmt::format(" factor=\"{}\"", unit.factor);
-      if (unit.offset != 0) base += fmt::format(" offset=\"{}\"", unit.offset);
-      text += fmt::format("{}  <ssc:Unit name=\"{}\"><ssc:BaseUnit{}/></ssc:Unit>\n", indent, escaped(name), base);
-    }
+    for (const std::string& name : used_)
+      text += fmt::format("{}  <ssc:Unit name=\"{}\"><ssc:BaseUnit{}/></ssc:Unit>\n", indent, escaped(name),
+                          base_unit_attributes(definitions_.at(name)));
     return text + fmt::format("{}</{}:Units>\n", indent, prefix);
   }
 
@@ -228,6 +230,15 @@ std::vector<std::string> changes_to_machine(const model::Model& model) {
   std::vector<std::string> changes{"fmus={}"};
   for (const model::Function* function : followers(model)) changes.push_back(function->path + "=0");
   return changes;
+}
+
+std::vector<std::string> lost_holds(const model::Model& model) {
+  std::vector<std::string> lost;
+  for (const model::Function* function : followers(model))
+    if (function->signal->hold != model::FmuHold::constant)
+      lost.push_back(fmt::format("{}.hold: {}", function->path,
+                                 function->signal->hold == model::FmuHold::ramp ? "ramp" : "extrapolated"));
+  return lost;
 }
 
 std::string machine_name(const model::Model& model) {

@@ -13,6 +13,9 @@ namespace hersey::fmu {
 /// force or speed of 0, which is an input, where an output was followed.
 [[nodiscard]] std::vector<std::string> changes_to_machine(const model::Model& model);
 
+/// What the model says of outputs between exchanges and a system cannot, "forces.motor.magnitude.hold: ramp".
+[[nodiscard]] std::vector<std::string> lost_holds(const model::Model& model);
+
 /// Name of the machine among its FMUs: "machine", or one that none of them has.
 [[nodiscard]] std::string machine_name(const model::Model& model);
 

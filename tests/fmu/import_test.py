@@ -18,7 +18,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import fmu_test  # noqa: E402  takes HERSEY and WORK off the arguments
-from controller.build import build, description  # noqa: E402
+from controller.build import UNITS, VARIABLES, build, description  # noqa: E402
 
 HERSEY, WORK = fmu_test.HERSEY, fmu_test.WORK
 
@@ -278,12 +278,49 @@ class Cases:
     def test_resuming_needs_a_state(self):
         build(os.path.join(self.folder, "forgets.fmu"), self.version, saves_state=False)
         model = self.write("forgets.yaml", ROTOR.replace("controller.fmu", "forgets.fmu"))
+        self.assertNotIn("checkpoint", self.hersey("check", model))
+        asking = self.write("asking.yaml", ROTOR.replace("controller.fmu", "forgets.fmu").replace(
+            "simulation: {", "simulation: {checkpoint: {every: 1 ms}, "))
+        self.assertEqual(self.hersey("check", asking).count("simulation.checkpoint: checkpoints, but FMU controller cannot"), 1)
         out = os.path.join(self.folder, "forgets")
         self.hersey("run", model, "--output", out, "--force", expect=130, HERSEY_TEST_INTERRUPT="0.05")
         printed = self.hersey("run", model, "--output", out, "--resume", expect=2)
         self.assertIn("forgets.yaml:6", printed)
         self.assertIn("FMU controller cannot save its state", printed)
         self.hersey("run", model, "--output", out, "--force")
+
+    def test_nothing_is_promised_that_restoring_a_state_breaks(self):
+        build(os.path.join(self.folder, "returns.fmu"), self.version, flags=["-DSTATES_ARE_RESTORED"])
+        self.results(self.write("returns.yaml", ROTOR.replace("controller.fmu", "returns.fmu")))
+
+    def test_an_output_that_needs_inputs_is_0_before_them(self):
+        plain = self.speeds()["w"]
+        build(os.path.join(self.folder, "needs.fmu"), self.version, flags=["-DNEEDS_SPEED"])
+        with h5py.File(self.results(self.write("needs.yaml", ROTOR.replace("controller.fmu", "needs.fmu")))) as file:
+            np.testing.assert_array_equal(file["joints/shaft/rates"][:], plain)
+
+    def test_outputs_are_recorded_by_any_name(self):
+        # `time` is the scale of a group, "." and "/" have a meaning in paths.
+        for name, recorded in (("time", "time_"), (".", "._"), ("a/b", "a|b")):
+            variables = [(name, *one[1:]) if one[0] == "torque" else one for one in VARIABLES]
+            build(os.path.join(self.folder, "named.fmu"), self.version, variables=variables)
+            text = ROTOR.replace("controller.fmu", "named.fmu").replace("output: torque", f"output: {name}")
+            with self.subTest(name=name), h5py.File(self.results(self.write("named.yaml", text))) as file:
+                self.assertEqual(set(file["fmus/controller"]) - {"time"}, {"speed", "wanted", recorded})
+                self.assertEqual(file["fmus/controller"][recorded].attrs["units"], "N.m")
+
+    def test_warnings_are_told_at_the_end(self):
+        out = os.path.join(self.folder, "warned")
+        words = ("run", self.model, "--output", out, "--set", "fmus.controller.parameters.fault=5", "--set",
+                 "fmus.controller.parameters.fault_time=0.0505")
+        printed = self.hersey(*words, "--force")
+        # Exchanges at 0.051 s, 0.052 s, ... 0.199 s: the run ends at the next one.
+        self.assertIn("FMU controller: 149 warnings, the first at t = 0.051 s: ", printed)
+        self.assertIn("DoStep ends with status warning: the fuse is warm", printed)
+        printed = self.hersey(*words, "--force", expect=130, HERSEY_TEST_INTERRUPT="0.1")
+        printed = self.hersey(*words, "--resume")
+        self.assertIn("FMU controller: 149 warnings, the first at t = 0.051 s: ", printed)
+        self.assertNotIn("warnings", self.hersey("run", self.model, "--output", out, "--force"))
 
     def test_failures_of_the_fmu(self):
         fault = "fmus.controller.parameters.fault"
@@ -361,6 +398,16 @@ class FaultsTest(Folder):
                 for words in said:
                     self.assertIn(words, printed)
 
+    def test_only_parameters_that_can_be_set_are_offered(self):
+        variables = [(one[0], *one[1:4], "structuralParameter", *one[5:]) if one[0] == "fault" else one for one in VARIABLES]
+        printed = self.faults(('"gain[1].integral"', '"gain[2].integral"'),
+                              fmu=lambda path: build(path, 3, variables=variables))
+        self.assertIn("did you mean 'gain[1].integral'", printed)
+        self.assertIn("is_reversed", printed)
+        self.assertNotIn("'fault'", printed.replace("fault_time", ""))
+        self.assertIn("no parameter or input that can be set", self.faults(('"gain[1].integral": 3.0', "fault: 1")))
+        os.remove(os.path.join(self.folder, "controller.fmu"))
+
     def test_small_motions_are_refused(self):
         build(os.path.join(self.folder, "controller.fmu"), 2)
         text = ROTOR.replace("fmus:", "drives:\n  turn: {joint: shaft, coordinate: rotation, speed: 60 rad/s}\nfmus:")
@@ -418,6 +465,83 @@ class FaultsTest(Folder):
         os.remove(os.path.join(self.folder, "controller.fmu"))
 
 
+# A warm film, whose temperature an FMU is given.
+WARM = ROTOR[:ROTOR.index("joints:")] + """joints:
+  shaft: {type: planar, between: [ground, rotor], initial: {rotation_rate: 100 rad/s, y: -12 um}}
+fmus:
+  controller: {file: controller.fmu, step: 1 ms, inputs: {speed: bearings.main.T_max}}
+forces:
+  motor: {type: torque, body: rotor, direction: z, magnitude: {fmu: controller, output: torque, scale: 0}}
+  push: {type: force, body: rotor, components: [0 N, -200 N, 0 N]}
+lubricants:
+  oil: {viscosity: 15 mPa.s, density: 870 kg/m^3, specific_heat: 2000 J/(kg.K), conductivity: 0.14 W/(m.K)}
+bearings:
+  main:
+    shell: ground
+    journal: rotor
+    diameter: 50 mm
+    width: 25 mm
+    radial_clearance: 25 um
+    lubricant: oil
+    thermal: {model: film, supply_temperature: 40 degC}
+    grid: {circumferential: 24, axial: 5}
+    supply: {line: widest_gap, pressure: 1 bar}
+simulation: {duration: 3 ms, step: 0.2 ms}
+"""
+RPM = '<BaseUnit rad="1" s="-1" factor="0.10471975511965977"/>'
+
+
+class UnitsTest(Folder):
+    """Numbers that go in and out in units with an offset, or without the radian."""
+
+    def built(self, unit, **changes):
+        """The controller, whose `speed` is in this unit."""
+        self.assertIn(RPM, UNITS)
+        build(os.path.join(self.folder, "controller.fmu"), 2, units=UNITS.replace(RPM, unit), **changes)
+
+    def test_temperatures_are_given_in_the_unit_of_the_input(self):
+        # The controller takes what it is given for rpm: its torque tells the number.
+        for unit, offset in (('<BaseUnit K="1" offset="273.15"/>', 0), ('<BaseUnit K="1"/>', 273.15),
+                             ('<BaseUnit K="1" factor="0.5555555555555556" offset="255.3722222222222"/>', None)):
+            with self.subTest(unit=unit):
+                self.built(unit)
+                with h5py.File(self.results(self.write("warm.yaml", WARM))) as file:
+                    film, given = file["bearings/main/T_max"][:], file["fmus/controller/speed"][:]
+                    self.assertEqual([file[path].attrs["units"] for path in ("bearings/main/T_max", "fmus/controller/speed")],
+                                     ["degC", "K"])
+                    torque = file["fmus/controller/torque"][:]
+                self.assertGreater(film[0], 39)
+                np.testing.assert_allclose(given[5::5], film[:-1:5] + 273.15, rtol=1e-12)  # round-off of sums
+                number = film + offset if offset is not None else film * 1.8 + 32
+                # Behind the first exchange the output is that of the step before, whose input was found an exchange earlier.
+                np.testing.assert_allclose(torque[10], -number[0] * np.pi / 30, rtol=1e-9)  # the factors have as many digits
+        # Without a unit: in SI.
+        self.built("", variables=[(*one[:6], None) if one[0] == "speed" else one for one in VARIABLES])
+        with h5py.File(self.results(self.write("warm.yaml", WARM))) as file:
+            np.testing.assert_allclose(file["fmus/controller/speed"][0], file["bearings/main/T_max"][0] + 273.15, rtol=1e-12)  # as above
+
+    def test_the_radian_is_left_out_or_added(self):
+        shaft = self.write("rotor.yaml", ROTOR)
+        self.built(RPM)
+        with h5py.File(self.results(shaft)) as file:
+            plain = file["fmus/controller/torque"][:]
+        # The same factor without the radian, and a torque for each radian.
+        per_radian = [(*one[:6], "N.m/rad") if one[0] == "torque" else one for one in VARIABLES]
+        for unit, more in ((RPM.replace(' rad="1"', ""), {}), (RPM, {"variables": per_radian})):
+            self.built(unit + ('</Unit><Unit name="N.m/rad"><BaseUnit kg="1" m="2" s="-2" rad="-1"/>' if more else ""), **more)
+            with self.subTest(unit=unit, more=bool(more)), h5py.File(self.results(shaft)) as file:
+                np.testing.assert_array_equal(file["fmus/controller/torque"][:], plain)
+        self.built(RPM.replace(' rad="1"', ""))
+        for given in ("100 rad/s", '{expression: "100", unit: rad/s}', "joints.shaft.rates"):
+            self.assertIn("good", self.hersey("check", self.write("given.yaml", ROTOR.replace("speed: shaft.rotation_rate", f"speed: {given}"))))
+        wrong = self.write("wrong.yaml", ROTOR.replace("speed: shaft.rotation_rate", "speed: 3 N"))
+        self.assertIn("expected an angular velocity or a frequency", self.hersey("check", wrong, expect=2))
+        # One that is called Hz counts turns: nothing says whether its numbers are to be divided by 2 pi.
+        self.built(RPM.replace(' rad="1"', "") + '</Unit><Unit name="Hz"><BaseUnit s="-1"/>',
+                   variables=[(*one[:6], "Hz") if one[0] == "speed" else one for one in VARIABLES])
+        self.assertIn("expected a frequency", self.hersey("check", shaft, expect=2))
+
+
 # A flywheel that its bearing brings to rest: the whole machine, and the bearing alone, whose pin turns as it is told.
 COAST = fmu_test.RIG.replace("  motor: {joint: main, coordinate: rotation, speed: 3000 rpm}\n", "").replace(
     "pin: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}",
@@ -454,6 +578,15 @@ class OwnFmuTest(Folder):
             print(f"FMI {version}: distance from the whole machine over the loss of speed: {off}")
             np.testing.assert_allclose(np.log2(np.array(off[:-1]) / off[1:]), 1, atol=0.2)  # steps that are not yet small
             self.assertLess(off[-1], 0.02)
+
+    def test_results_are_no_model(self):
+        results = self.results(self.write("coast.yaml", COAST), "simulation.duration=0.1 ms", name="few")
+        for words in (("check", results), ("export", results, "--fmu", os.path.join(self.folder, "x.fmu")),
+                      ("export", results, "--ssp", os.path.join(self.folder, "x.ssp"))):
+            printed = self.hersey(*words, expect=2)
+            self.assertIn("results.h5: ", printed)
+            self.assertIn("the results of a run", printed)
+            self.assertIn("expected a model file", printed)
 
     def test_a_model_with_fmus_is_not_exported(self):
         build(os.path.join(self.folder, "controller.fmu"), 2)

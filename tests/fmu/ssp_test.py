@@ -14,8 +14,8 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
-from controller.build import build  # noqa: E402
-from import_test import ROTOR, Folder  # noqa: E402  takes HERSEY and WORK off the arguments
+from controller.build import UNITS, VARIABLES, build  # noqa: E402
+from import_test import ROTOR, RPM, WARM, Folder  # noqa: E402  takes HERSEY and WORK off the arguments
 from importer import Fmu, Instance  # noqa: E402
 
 SSP = "http://ssp-standard.org/SSP1/"
@@ -52,8 +52,8 @@ class System:
         with zipfile.ZipFile(path) as archive:
             archive.extractall(folder)
         self.root = ElementTree.parse(os.path.join(folder, "SystemStructure.ssd")).getroot()
-        self.factors = {unit.get("name"): float(unit.find(SSC + "BaseUnit").get("factor", 1))
-                        for unit in self.root.find(SSD + "Units")}
+        self.to_si = {unit.get("name"): [float(unit.find(SSC + "BaseUnit").get(key, value)) for key, value in (("factor", 1), ("offset", 0))]
+                      for unit in self.root.find(SSD + "Units")}
         self.units, self.instances = {}, {}
         for component in self.root.iter(SSD + "Component"):
             name = component.get("name")
@@ -71,7 +71,8 @@ class System:
             start, end = [(connection.get(f"{side}Element"), connection.get(f"{side}Connector")) for side in ("start", "end")]
             value = self.instances[start[0]].get(start[1])
             if self.units[start] and self.units[end]:
-                value *= self.factors[self.units[start]] / self.factors[self.units[end]]
+                (factor, offset), (divisor, shift) = self.to_si[self.units[start]], self.to_si[self.units[end]]
+                value = (factor * value + offset - shift) / divisor
             linear = connection.find(SSC + "LinearTransformation")
             found.append((end, value * (1 if linear is None else float(linear.get("factor")))))
         for (element, name), value in found:
@@ -140,6 +141,44 @@ class SspTest(Folder):
                 np.testing.assert_allclose(speeds, file["joints/shaft/rates"][::2], rtol=1e-11)  # round-off of 200 steps
             for one in system.instances.values():
                 one.free()
+
+    def test_temperatures_arrive_in_the_unit_of_the_input(self):
+        for unit, offset in (('<BaseUnit K="1"/>', 273.15), ('<BaseUnit K="1" offset="273.15"/>', 0)):
+            with self.subTest(unit=unit):
+                build(os.path.join(self.folder, "controller.fmu"), 2, units=UNITS.replace(RPM, unit))
+                system = System(self.written(WARM), os.path.join(self.folder, f"warm {offset}"))
+                self.check_element(system.root)
+                for one in system.instances.values():
+                    one.initialise(stop=3e-3)
+                system.exchange()
+                film = system.instances["machine"].get("bearings.main.T_max")
+                self.assertGreater(film, 39)
+                self.assertLess(film, 100)  # degC
+                np.testing.assert_allclose(system.instances["controller"].get("speed"), film + offset, rtol=1e-12)  # round-off
+                with zipfile.ZipFile(os.path.join(self.folder, f"warm {offset}", "resources", "machine.fmu")) as archive:
+                    told = ElementTree.fromstring(archive.read("modelDescription.xml"))
+                base = next(one for one in told.iter("Unit") if one.get("name") == "degC").find("BaseUnit")
+                self.assertEqual(base.attrib, {"K": "1", "offset": "273.15"})
+                for one in system.instances.values():
+                    one.free()
+
+    def test_fmus_are_connected_with_each_other(self):
+        build(os.path.join(self.folder, "controller.fmu"), 2)
+        second = '  other: {file: controller.fmu, step: 2 ms, inputs: {speed: shaft.rotation_rate, wanted: fmus.controller.torque}}\n'
+        unit = [(*one[:6], "N.m") if one[0] == "wanted" else one for one in VARIABLES]
+        build(os.path.join(self.folder, "other.fmu"), 3, variables=unit)
+        text = ROTOR.replace("forces:", second.replace("controller.fmu", "other.fmu") + "forces:").replace(
+            "output: torque", "output: torque, hold: ramp")
+        path = os.path.join(self.folder, "system.ssp")
+        printed = self.hersey("export", self.write("rotor.yaml", text), "--ssp", path, "--force")
+        self.assertIn("forces.motor.magnitude.hold: ramp is not in it", printed)
+        with zipfile.ZipFile(path) as archive:
+            root = ElementTree.fromstring(archive.read("SystemStructure.ssd"))
+        self.check_element(root)
+        ends = {tuple(one.get(key) for key in ("startElement", "startConnector", "endElement", "endConnector"))
+                for one in root.iter(SSD + "Connection")}
+        self.assertEqual(ends, {("controller", "torque", "other", "wanted"), ("controller", "torque", "machine", "forces.motor.magnitude"),
+                                ("machine", "joints.shaft.rates", "controller", "speed"), ("machine", "joints.shaft.rates", "other", "speed")})
 
     def test_what_is_no_connection_is_refused(self):
         build(os.path.join(self.folder, "controller.fmu"), 2)

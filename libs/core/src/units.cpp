@@ -157,6 +157,19 @@ bool measure_the_same(const ut_unit* given, const ut_unit* wanted) {
   return ut_are_convertible(given, wanted) != 0 && base_units(given) == base_units(wanted);
 }
 
+/// Base units but the radian.
+std::string without_radians(const ut_unit* unit) {
+  const std::string base = base_units(unit);
+  std::string text;
+  for (std::size_t at = 0; at < base.size();) {
+    const std::size_t end = std::min(base.find('.', at), base.size());
+    const std::string factor = base.substr(at, end - at);
+    if (!factor.starts_with("rad")) text += (text.empty() ? "" : ".") + factor;
+    at = end + 1;
+  }
+  return text;
+}
+
 /// A torsional stiffness per radian is commonly written N.m: the radian may be omitted there and nowhere else.
 bool is_accepted(const ut_unit* given, const ut_unit* wanted, std::string_view si_unit) {
   if (measure_the_same(given, wanted)) return true;
@@ -342,6 +355,15 @@ std::optional<std::string> si_unit_of(const std::string& unit) {
   for (const Dimension& dimension : dimensions())
     if (measure_the_same(given.get(), system.parse(dimension.si_unit).get())) return dimension.si_unit;
   return std::nullopt;
+}
+
+bool measure_the_same_but_for_radians(const std::string& unit, const std::string& other) {
+  const std::lock_guard guard(UnitSystem::lock());
+  const UnitSystem& system = UnitSystem::instance();
+  const Unit a = system.parse_written(unit), b = system.parse_written(other);
+  if (a == nullptr || b == nullptr || unit.empty() || other.empty()) return false;
+  const bool counts_turns = unit.find("Hz") != std::string::npos || other.find("Hz") != std::string::npos;
+  return counts_turns ? measure_the_same(a.get(), b.get()) : without_radians(a.get()) == without_radians(b.get());
 }
 
 QuantityError::QuantityError(std::string found_text, std::string expected_text, std::string suggestion_text)

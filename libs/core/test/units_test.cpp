@@ -38,6 +38,19 @@ TEST_CASE("SiUnit_IsThatOfTheDimension") {
   CHECK(!si_unit_of(""));
 }
 
+TEST_CASE("Units_MeasureTheSameWithRadiansLeftOutButForHz") {
+  CHECK(measure_the_same_but_for_radians("rad/s", "s-1"));
+  CHECK(measure_the_same_but_for_radians("1/s", "rpm"));
+  CHECK(measure_the_same_but_for_radians("N.m", "kg.m2.s-2.rad-1"));
+  CHECK(measure_the_same_but_for_radians("rad", "1"));
+  CHECK(measure_the_same_but_for_radians("Hz", "1/s"));
+  CHECK(!measure_the_same_but_for_radians("Hz", "rad/s"));
+  CHECK(!measure_the_same_but_for_radians("N.m", "N"));
+  CHECK(!measure_the_same_but_for_radians("rad/s", "s"));
+  CHECK(!measure_the_same_but_for_radians("bananas", "bananas"));
+  CHECK(!measure_the_same_but_for_radians("", ""));
+}
+
 TEST_CASE("SizesThatNoMachineHas_AreRefusedInEveryDimension") {
   for (const Dimension& dimension : dimensions()) {
     CAPTURE(dimension.name);

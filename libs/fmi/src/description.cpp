@@ -36,10 +36,8 @@ Integer integer_in(const Element& element, const std::string& key) {
   return number;
 }
 
-bool is_true(const Element& element, const std::string& key) {
-  const std::string text = element.attribute(key);
-  return text == "true" || text == "1";
-}
+bool is_true(const std::string& text) { return text == "true" || text == "1"; }
+bool is_true(const Element& element, const std::string& key) { return is_true(element.attribute(key)); }
 
 std::map<std::string, Unit> units_of(const Element& root) {
   std::map<std::string, Unit> units;
@@ -59,16 +57,21 @@ std::map<std::string, Unit> units_of(const Element& root) {
   return units;
 }
 
-/// Names of units by declared types: a variable without a unit has that of its type.
-std::map<std::string, std::string> units_of_types(const Element& root) {
-  std::map<std::string, std::string> units;
+/// What a variable has of its declared type where it does not say it itself.
+struct DeclaredType {
+  std::string unit, relative;  ///< as written
+};
+
+std::map<std::string, DeclaredType> declared_types(const Element& root) {
+  std::map<std::string, DeclaredType> types;
   const Element* definitions = root.child("TypeDefinitions");
-  if (definitions == nullptr) return units;
+  if (definitions == nullptr) return types;
   for (const Element& type : definitions->children) {
     const Element* inner = type.child("Real");  // FMI 2
-    units[type.attribute("name")] = (inner != nullptr ? *inner : type).attribute("unit");
+    const Element& real = inner != nullptr ? *inner : type;
+    types[type.attribute("name")] = {real.attribute("unit"), real.attribute("relativeQuantity")};
   }
-  return units;
+  return types;
 }
 
 VariableType type_called(const std::string& name) {
@@ -87,7 +90,7 @@ Causality causality_called(const std::string& name) {
 class VariableReader {
  public:
   VariableReader(const Element& root, int version)
-      : units_(units_of(root)), of_types_(units_of_types(root)), version_(version) {}
+      : units_(units_of(root)), types_(declared_types(root)), version_(version) {}
 
   [[nodiscard]] Variable read(const Element& element) const {
     // FMI 2 has the type as an element inside, FMI 3 as the element itself.
@@ -109,19 +112,22 @@ class VariableReader {
                       .is_constant = element.attribute("variability") == "constant",
                       .start = typed->attribute("start")};
     if (variable.causality_name.empty()) variable.causality_name = "local";
-    std::string unit = typed->attribute("unit");
-    if (const auto declared = of_types_.find(typed->attribute("declaredType"));
-        unit.empty() && declared != of_types_.end())
-      unit = declared->second;
+    std::string unit = typed->attribute("unit"), relative = typed->attribute("relativeQuantity");
+    if (const auto declared = types_.find(typed->attribute("declaredType")); declared != types_.end()) {
+      if (unit.empty()) unit = declared->second.unit;
+      if (relative.empty()) relative = declared->second.relative;
+    }
+    variable.is_relative = is_true(relative);
     if (unit.empty()) return variable;
     const auto known = units_.find(unit);
     variable.unit = known != units_.end() ? known->second : Unit{.name = unit};
+    if (variable.is_relative) variable.unit->offset = 0;
     return variable;
   }
 
  private:
   std::map<std::string, Unit> units_;
-  std::map<std::string, std::string> of_types_;
+  std::map<std::string, DeclaredType> types_;
   int version_;
 };
 

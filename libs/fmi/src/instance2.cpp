@@ -14,7 +14,7 @@
 namespace hersey::fmi {
 namespace {
 
-extern "C" void log_of_fmi2(fmi2ComponentEnvironment environment, fmi2String /*instance*/, fmi2Status /*status*/,
+extern "C" void log_of_fmi2(fmi2ComponentEnvironment environment, fmi2String /*instance*/, fmi2Status status,
                             fmi2String /*category*/, fmi2String format, ...) {
   if (format == nullptr) return;
   std::array<char, 1000> text{};
@@ -22,7 +22,7 @@ extern "C" void log_of_fmi2(fmi2ComponentEnvironment environment, fmi2String /*i
   va_start(arguments, format);
   std::vsnprintf(text.data(), text.size(), format, arguments);
   va_end(arguments);
-  static_cast<CallLog*>(environment)->add(text.data());
+  static_cast<CallLog*>(environment)->add(text.data(), status == fmi2Warning);
 }
 
 const char* word_for(fmi2Status status) {
@@ -107,8 +107,9 @@ struct Functions2 {
 class Instance2 final : public Instance {
  public:
   Instance2(const FmuFile& file, const Description& description, const std::string& name)
-      : library_(file, description),
-        call_(library_, description.saves_state),
+      : saves_state_(description.saves_state),
+        library_(file, description),
+        call_(library_, saves_state_),
         callbacks_{log_of_fmi2, std::calloc, std::free, nullptr, &log_} {
     component_ = call_.instantiate(name.c_str(), fmi2CoSimulation, description.token.c_str(),
                                    uri_of(library_.resources()).c_str(), &callbacks_, 0, 0);
@@ -151,7 +152,7 @@ class Instance2 final : public Instance {
     if (!references.empty()) must("fmi2GetReal", call_.get_real, references.data(), references.size(), values.data());
   }
 
-  void step(double time, double length) override { must("fmi2DoStep", call_.step, time, length, 1); }
+  void step(double time, double length) override { must("fmi2DoStep", call_.step, time, length, saves_state_ ? 0 : 1); }
 
   std::vector<unsigned char> save() override {
     fmi2FMUstate state = nullptr;
@@ -177,12 +178,15 @@ class Instance2 final : public Instance {
   void must(const char* name, Function function, Arguments... arguments) {
     log_.clear();
     const fmi2Status status = function(component_, arguments...);
+    if (status == fmi2Warning || (status == fmi2OK && log_.warns()))
+      warn(fmt::format("{}{}{}", name, status == fmi2Warning ? " ends with status warning" : "", log_.text()));
     if (status == fmi2OK || status == fmi2Warning) return;
     if (status == fmi2Error) is_stepping_ = false;
     if (status == fmi2Fatal) component_ = nullptr;
     throw FmuError(fmt::format("{} ends with status {}{}", name, word_for(status), log_.text()));
   }
 
+  bool saves_state_;  ///< the importer may return to a saved state, so that it does not promise the contrary
   LoadedLibrary library_;
   Functions2 call_;
   CallLog log_;

@@ -7,9 +7,9 @@
 namespace hersey::fmi {
 namespace {
 
-extern "C" void log_of_fmi3(fmi3InstanceEnvironment environment, fmi3Status /*status*/, fmi3String /*category*/,
+extern "C" void log_of_fmi3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String /*category*/,
                             fmi3String message) {
-  if (message != nullptr) static_cast<CallLog*>(environment)->add(message);
+  if (message != nullptr) static_cast<CallLog*>(environment)->add(message, status == fmi3Warning);
 }
 
 const char* word_for(fmi3Status status) {
@@ -83,7 +83,7 @@ struct Functions3 {
 class Instance3 final : public Instance {
  public:
   Instance3(const FmuFile& file, const Description& description, const std::string& name)
-      : library_(file, description), call_(library_, description.saves_state) {
+      : saves_state_(description.saves_state), library_(file, description), call_(library_, saves_state_) {
     const std::string resources = library_.resources().string() + "/";
     instance_ = call_.instantiate(name.c_str(), description.token.c_str(), resources.c_str(), false, false, false,
                                   false, nullptr, 0, &log_, log_of_fmi3, nullptr);
@@ -135,7 +135,7 @@ class Instance3 final : public Instance {
   void step(double time, double length) override {
     bool has_events = false, ends = false, is_early = false;
     double reached = time + length;
-    must("fmi3DoStep", call_.step, time, length, true, &has_events, &ends, &is_early, &reached);
+    must("fmi3DoStep", call_.step, time, length, !saves_state_, &has_events, &ends, &is_early, &reached);
     if (ends || is_early)
       throw FmuError(fmt::format("fmi3DoStep {} t = {:.9g} s{}",
                                  ends ? "asks for the end of the simulation at" : "ends early, at", reached,
@@ -165,12 +165,15 @@ class Instance3 final : public Instance {
   void must(const char* name, Function function, Arguments... arguments) {
     log_.clear();
     const fmi3Status status = function(instance_, arguments...);
+    if (status == fmi3Warning || (status == fmi3OK && log_.warns()))
+      warn(fmt::format("{}{}{}", name, status == fmi3Warning ? " ends with status warning" : "", log_.text()));
     if (status == fmi3OK || status == fmi3Warning) return;
     if (status == fmi3Error) is_stepping_ = false;
     if (status == fmi3Fatal) instance_ = nullptr;
     throw FmuError(fmt::format("{} ends with status {}{}", name, word_for(status), log_.text()));
   }
 
+  bool saves_state_;  ///< the importer may return to a saved state, so that it does not promise the contrary
   LoadedLibrary library_;
   Functions3 call_;
   CallLog log_;

@@ -49,7 +49,8 @@ void* LoadedLibrary::symbol(const char* name) const {
   return found;
 }
 
-void CallLog::add(const std::string& message) {
+void CallLog::add(const std::string& message, bool is_warning) {
+  warns_ = warns_ || is_warning;
   if (text_.size() > kLongestLog || message.empty()) return;
   if (!text_.empty()) text_ += "; ";
   text_ += message.substr(0, kLongestLog);

@@ -49,13 +49,16 @@ class LoadedLibrary {
 /// What an FMU logs in the course of a call.
 class CallLog {
  public:
-  void clear() { text_.clear(); }
-  void add(const std::string& message);
+  void clear() { text_.clear(), warns_ = false; }
+  void add(const std::string& message, bool is_warning);
+  /// True if one of the messages is a warning.
+  [[nodiscard]] bool warns() const { return warns_; }
   /// ": " and the messages; empty if there are none.
   [[nodiscard]] std::string text() const { return text_.empty() ? std::string() : ": " + text_; }
 
  private:
   std::string text_;
+  bool warns_ = false;
 };
 
 }  // namespace hersey::fmi

@@ -12,12 +12,15 @@ constexpr const char* kTwo = R"(<?xml version="1.0" encoding="UTF-8"?>
   <Unit name="degC"><BaseUnit K="1" offset="273.15"/></Unit>
   <Unit name="bar"><BaseUnit kg="1" m="-1" s="-2" factor="1e5"/><DisplayUnit name="psi" factor="14.5"/></Unit>
  </UnitDefinitions>
- <TypeDefinitions><SimpleType name="Pressure"><Real quantity="Pressure" unit="bar"/></SimpleType></TypeDefinitions>
+ <TypeDefinitions><SimpleType name="Pressure"><Real quantity="Pressure" unit="bar"/></SimpleType>
+  <SimpleType name="Rise"><Real unit="degC" relativeQuantity="true"/></SimpleType></TypeDefinitions>
  <ModelVariables>
   <ScalarVariable name="T" valueReference="3" causality="input"><Real unit="degC" start="20"/></ScalarVariable>
   <ScalarVariable name="p" valueReference="4" causality="output"><Annotations/><Real declaredType="Pressure"/></ScalarVariable>
   <ScalarVariable name="n" valueReference="4294967295" causality="parameter" variability="fixed"><Integer start="2"/></ScalarVariable>
   <ScalarVariable name="x" valueReference="5"><Real unit="bananas"/></ScalarVariable>
+  <ScalarVariable name="rise" valueReference="6"><Real unit="degC" relativeQuantity="true"/></ScalarVariable>
+  <ScalarVariable name="fall" valueReference="7"><Real declaredType="Rise"/></ScalarVariable>
  </ModelVariables>
 </fmiModelDescription>)";
 
@@ -55,7 +58,14 @@ TEST_CASE("DescriptionOfFmi2_IsReadWithUnitsOfDeclaredTypes") {
   CHECK(found.token == "{1-2}");
   CHECK(found.model_identifier == "pump");
   CHECK(found.saves_state);
-  REQUIRE(found.variables.size() == 4);
+  REQUIRE(found.variables.size() == 6);
+  for (const char* name : {"rise", "fall"}) {
+    CHECK(found.find(name)->is_relative);
+    CHECK(found.find(name)->unit->offset == 0);
+    CHECK(found.find(name)->unit->powers[4] == 1);
+  }
+  CHECK(!found.find("T")->is_relative);
+  CHECK(found.find("T")->unit->offset == 273.15);
   const Variable &T = *found.find("T"), &p = *found.find("p"), &n = *found.find("n");
   CHECK(T.causality == Causality::input);
   CHECK(T.unit->offset == 273.15);

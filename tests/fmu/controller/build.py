@@ -36,11 +36,12 @@ VARIABLES = [
 
 
 def description(version, saves_state=True, **changes):
-    """The text of modelDescription.xml; `changes` replace attributes: fmi_version, kind, more."""
+    """The text of modelDescription.xml; `changes` replace attributes: fmi_version, kind, more;
+    units and variables are the text of the definitions and the list of variables."""
     state = "FMUstate" if version == 2 else "FMUState"
     flags = "".join(f' {key}{state}="{str(saves_state).lower()}"' for key in ("canGetAndSet", "canSerialize"))
     lines = []
-    for name, reference, type_2, type_3, causality, start, unit in VARIABLES:
+    for name, reference, type_2, type_3, causality, start, unit in changes.get("variables", VARIABLES):
         common = f'name="{name}" valueReference="{reference}" causality="{causality}"'
         if causality == "parameter":
             common += ' variability="fixed"'
@@ -60,13 +61,13 @@ def description(version, saves_state=True, **changes):
     kind = changes.get("kind", "CoSimulation")
     return (f'<?xml version="1.0" encoding="UTF-8"?>\n<fmiModelDescription fmiVersion="{number}" modelName="controller" '
             f'{token}="controller-of-the-tests">\n<{kind} modelIdentifier="controller"{flags}{changes.get("more", "")}/>\n'
-            f"{UNITS}<ModelVariables>\n" + "\n".join(lines) + "\n</ModelVariables>\n<ModelStructure/>\n</fmiModelDescription>\n")
+            f"{changes.get('units', UNITS)}<ModelVariables>\n" + "\n".join(lines) + "\n</ModelVariables>\n<ModelStructure/>\n</fmiModelDescription>\n")
 
 
-def build(path, version, saves_state=True, platform=None, method=zipfile.ZIP_DEFLATED, **changes):
-    """Writes the FMU to `path`."""
+def build(path, version, saves_state=True, platform=None, method=zipfile.ZIP_DEFLATED, flags=(), **changes):
+    """Writes the FMU to `path`; `flags` are further ones of the compiler."""
     library = f"{path}.so"
-    flags = [] if saves_state else ["-DNO_STATE"]
+    flags = [*flags, *([] if saves_state else ["-DNO_STATE"])]
     compiler = os.environ.get("CC", "cc" if subprocess.run(["which", "cc"], capture_output=True, check=False).returncode == 0 else "clang")
     subprocess.run([compiler, f"-DFMI={version}", *flags, "-shared", "-fPIC", "-O1", "-fvisibility=hidden", "-o", library, SOURCE,
                     "-lm"], check=True)

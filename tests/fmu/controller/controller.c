@@ -3,8 +3,9 @@
      torque = proportional e + I,  dI/dt = integral e,  e = wanted - speed
 
    with inputs that last over a communication step. The parameter `fault` makes it fail from `fault_time` on: 1 error,
-   2 discard (FMI 2) or the wish to end (FMI 3), 3 an output that is no number, 4 fatal. With NO_STATE it cannot save its
-   state. HERSEY_TEST_INTERRUPT names a time at which the process gets an interrupt, as from a keyboard. */
+   2 discard (FMI 2) or the wish to end (FMI 3), 3 an output that is no number, 4 fatal, 5 a warning. With NO_STATE it cannot save its
+   state; with STATES_ARE_RESTORED a step fails whose importer promises to return to none; with NEEDS_SPEED its torque is
+   no number before it has a speed. HERSEY_TEST_INTERRUPT names a time at which the process gets an interrupt, as from a keyboard. */
 #include <math.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -68,26 +69,39 @@ static double missing(const State* s) {
 
 static void answer(State* s) { s->torque = s->proportional * missing(s) + s->sum; }
 
-static int step(Controller* c, double time, double length) {
+static int step(Controller* c, double time, double length, bool no_return) {
   State* s = &c->state;
+#ifdef STATES_ARE_RESTORED
+  if (no_return) {
+    say(c, ERROR, "the importer promises not to return to a saved state");
+    return ERROR;
+  }
+#endif
+  (void)no_return;
   if (fabs(time - s->time) > 1e-9) {
     say(c, ERROR, "a step that does not begin where the last one has ended");
     return ERROR;
   }
+  int status = OK;
   const char* interrupt = getenv("HERSEY_TEST_INTERRUPT");
   if (interrupt != NULL && fabs(time - atof(interrupt)) < length / 2) raise(SIGINT);
   if (s->fault != 0 && time + length > s->fault_time) {
-    if (s->fault == 3) {
+    if (s->fault == 5) {
+      say(c, WARNING, "the fuse is warm");
+      status = WARNING;
+    } else if (s->fault == 3) {
       s->torque = NAN;
       return OK;
     }
-    say(c, s->fault, "the fuse has blown");
-    return s->fault == 1 ? ERROR : s->fault == 2 ? DISCARD : FATAL;
+    if (status == OK) {
+      say(c, s->fault, "the fuse has blown");
+      return s->fault == 1 ? ERROR : s->fault == 2 ? DISCARD : FATAL;
+    }
   }
   s->sum += s->integral * missing(s) * length;
   s->time = time + length;
   answer(s);
-  return OK;
+  return status;
 }
 
 #define NAMED(version, name) fmi##version##name
@@ -105,6 +119,9 @@ PUBLIC int F(ExitInitializationMode)(void* c) {
 }
 
 static int get(Controller* c, const Reference* references, size_t count, double* values) {
+#ifdef NEEDS_SPEED
+  c->state.torque += 0 / c->state.speed;
+#endif
   for (size_t i = 0; i < count; ++i) {
     if (real(c, references[i]) == NULL) return ERROR;
     values[i] = *real(c, references[i]);
@@ -197,7 +214,7 @@ PUBLIC int fmi2SetBoolean(void* c, const Reference* r, size_t n, const int* v) {
   return *r == IS_REVERSED ? (((Controller*)c)->state.is_reversed = *v, OK) : ERROR;
 }
 PUBLIC int fmi2SetString(void* c, const Reference* r, size_t n, const char* const* v) { return (void)n, set_text(c, r, v); }
-PUBLIC int fmi2DoStep(void* c, double time, double length, int no_return) { return (void)no_return, step(c, time, length); }
+PUBLIC int fmi2DoStep(void* c, double time, double length, int no_return) { return step(c, time, length, no_return); }
 #ifndef NO_STATE
 PUBLIC int fmi2GetFMUstate(void* c, void** s) { return get_state(c, s); }
 PUBLIC int fmi2SetFMUstate(void* c, void* s) { return set_state(c, s); }
@@ -241,10 +258,9 @@ PUBLIC int fmi3SetString(void* c, const Reference* r, size_t n, const char* cons
   return n == m ? set_text(c, r, v) : ERROR;
 }
 PUBLIC int fmi3DoStep(void* c, double time, double length, bool no_return, bool* events, bool* ends, bool* early, double* reached) {
-  (void)no_return;
   *events = *ends = *early = false;
   *reached = time + length;
-  const int status = step(c, time, length);
+  const int status = step(c, time, length, no_return);
   if (status != DISCARD) return status;
   *ends = true;
   *reached = time;

@@ -1,17 +1,20 @@
 #include "series/fmu_record.h"
 
 #include <algorithm>
+#include <set>
 
 namespace hersey::run {
 namespace {
 
-/// Names of variables are free text; a slash would open a group.
-std::string name_in_file(std::string name) {
+/// Names of variables are free text: a slash would open a group, dots are steps of a path, and `time` is the scale of
+/// the rows. Each name once.
+std::string name_in_file(std::string name, std::set<std::string>& taken) {
   std::replace(name.begin(), name.end(), '/', '|');
+  while (name.empty() || name.find_first_not_of('.') == std::string::npos || !taken.insert(name).second) name += '_';
   return name;
 }
 
-constexpr const char* kUnits = "1|rad|rad/s|rad/s^2|m|m/s|m/s^2|N|N.m|Pa|W|K|m^3/s";
+constexpr const char* kUnits = "1|rad|1/s|Hz|rad/s|rad/s^2|m|m/s|m/s^2|N|N.m|Pa|W|K|m^3/s";
 
 template <class Signal>
 Quantity<double, Signal> line_of(const char* name, const char* text) {
@@ -39,8 +42,9 @@ const FmuRecord::Table& FmuRecord::of_outputs() {
 
 FmuRecord::FmuRecord(const model::Fmu& fmu, results::Writer& writer) {
   const std::string group = "/fmus/" + fmu.name + "/";
-  const auto plan = [](const fmi::Variable& variable, const std::string& unit) {
-    return Signal{name_in_file(variable.name), unit.empty() ? "1" : unit};
+  std::set<std::string> taken{"time"};
+  const auto plan = [&](const fmi::Variable& variable, const std::string& unit) {
+    return Signal{name_in_file(variable.name, taken), unit.empty() ? "1" : unit};
   };
   for (const model::FmuInput& input : fmu.inputs)
     inputs_.emplace_back(of_inputs(), group, plan(input.variable, input.unit), writer);

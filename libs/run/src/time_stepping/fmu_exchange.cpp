@@ -80,7 +80,8 @@ void FmuExchange::start(const model::Fmu& fmu) {
   unit.instance->enter_initialisation(model_.simulation.start, model_.simulation.start + model_.simulation.duration);
   units_.push_back(std::move(unit));
   signals_.push_back({std::vector<double>(fmu.inputs.size()), std::vector<double>(fmu.outputs.size())});
-  get_outputs(units_.size() - 1);
+  get_outputs(units_.size() - 1, false);
+  note_warnings(units_.back(), model_.simulation.start);
 }
 
 void FmuExchange::follow(model::Function& function, Jump of_value, Jump of_slope) {
@@ -102,6 +103,25 @@ double FmuExchange::next() const {
   return earliest;
 }
 
+void FmuExchange::note_warnings(Unit& unit, double t) {
+  fmi::Warnings more = unit.instance->take_warnings();
+  if (more.count == 0) return;
+  if (unit.warnings.count == 0) unit.warnings.first = std::move(more.first), unit.warned_at = t;
+  unit.warnings.count += more.count;
+}
+
+std::string FmuExchange::warnings() const {
+  std::string text;
+  for (std::size_t f = 0; f < units_.size(); ++f) {
+    const Unit& unit = units_[f];
+    if (unit.warnings.count == 0) continue;
+    text += fmt::format("{}FMU {}: {} warning{}, the first at t = {:.6g} s: {}", text.empty() ? "" : "; ",
+                        model_.fmus[f].name, unit.warnings.count, unit.warnings.count == 1 ? "" : "s", unit.warned_at,
+                        unit.warnings.first);
+  }
+  return text;
+}
+
 void FmuExchange::give_inputs(std::size_t f) {
   const model::Fmu& fmu = model_.fmus[f];
   signals_[f].inputs = pending_.at(f);
@@ -114,14 +134,15 @@ void FmuExchange::give_inputs(std::size_t f) {
   units_[f].instance->set(units_[f].inputs, values);
 }
 
-void FmuExchange::get_outputs(std::size_t f) {
+void FmuExchange::get_outputs(std::size_t f, bool is_given) {
   const model::Fmu& fmu = model_.fmus[f];
   std::vector<double> values(fmu.outputs.size());
   units_[f].instance->get(units_[f].outputs, values);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = model::to_si(fmu.outputs[i].variable, values[i]);
-    if (!std::isfinite(values[i]))
-      throw fmi::FmuError(fmt::format("output {} is {}", fmu.outputs[i].variable.name, values[i]));
+    if (std::isfinite(values[i])) continue;
+    if (is_given) throw fmi::FmuError(fmt::format("output {} is {}", fmu.outputs[i].variable.name, values[i]));
+    values[i] = 0;
   }
   units_[f].before = std::exchange(signals_[f].outputs, std::move(values));
 }
@@ -135,6 +156,7 @@ Jump FmuExchange::begin() {
       get_outputs(f);
       units_[f].before = signals_[f].outputs;  // nothing has been exchanged earlier
     });
+    note_warnings(units_[f], model_.simulation.start);
     jump = std::max(jump, go_on_from(f, model_.simulation.start));
   }
   return jump;
@@ -152,6 +174,7 @@ Jump FmuExchange::exchange(double t, double slack) {
       give_inputs(f);
     });
     ++unit.exchanges;
+    note_warnings(unit, to);
     jump = std::max(jump, go_on_from(f, to));
   }
   return jump;
@@ -183,9 +206,12 @@ void FmuExchange::persist(Archive& archive) {
     archive.io("exchanges", units_[f].exchanges);
     archive.io("inputs", signals_[f].inputs), archive.io("outputs", signals_[f].outputs);
     archive.io("before", units_[f].before);
+    archive.io("warnings", units_[f].warnings.count), archive.io("warning", units_[f].warnings.first);
+    archive.io("warned_at", units_[f].warned_at);
     pending_.resize(units_.size());
     archive.io("pending", pending_[f]);
     ask(model_.fmus[f], [&] { persist_state(archive, *units_[f].instance); });
+    if (archive.restores()) (void)units_[f].instance->take_warnings();  // of what is undone
   }
   archive.each("functions", followers_, [](Archive& inside, Follower& one) { one.function->persist(inside); });
 }

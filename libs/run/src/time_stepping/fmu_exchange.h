@@ -69,6 +69,9 @@ class FmuExchange {
 
   [[nodiscard]] const std::vector<FmuSignals>& signals() const { return signals_; }
 
+  /// What FMUs have warned of: the first of each, its time, and how many there were; empty if there are none.
+  [[nodiscard]] std::string warnings() const;
+
   /// @throws ArchiveError with why_not_saved()
   void persist(Archive& archive);
 
@@ -79,6 +82,8 @@ class FmuExchange {
     std::vector<unsigned> inputs, outputs;  ///< value references
     std::size_t exchanges = 0;              ///< number of steps that it has taken
     std::vector<double> before;             ///< outputs at the exchange before the last [SI]
+    fmi::Warnings warnings;
+    double warned_at = 0;  ///< time of the first warning [s]
   };
   /// A function of the model that follows an output.
   struct Follower {
@@ -89,8 +94,10 @@ class FmuExchange {
 
   void start(const model::Fmu& fmu);
   void follow(model::Function& function, Jump of_value, Jump of_slope);
+  void note_warnings(Unit& unit, double t);
   void give_inputs(std::size_t f);
-  void get_outputs(std::size_t f);
+  /// @param is_given  inputs are known: before, an output need not be finite, and is 0 where it is not
+  void get_outputs(std::size_t f, bool is_given = true);
   [[nodiscard]] Jump go_on_from(std::size_t f, double t);
   [[nodiscard]] double instant(std::size_t f, std::size_t n) const;
 

@@ -27,8 +27,12 @@ std::vector<std::string> names_of(const results::LatestRow& row) {
   return names;
 }
 
-bool is_same_dimension(const std::string& unit, const std::string& other) {
-  return unit == other || (si_unit_of(unit) && si_unit_of(unit) == si_unit_of(other));
+/// Factor and offset of a row's unit; units of no dimension that the program knows are SI as they stand.
+std::pair<double, double> to_si(const std::string& unit) {
+  const std::optional<std::string> si = si_unit_of(unit);
+  if (!si || *si == unit) return {1, 0};
+  const double offset = convert_to_si({0, unit}, *si);
+  return {convert_to_si({1, unit}, *si) - offset, offset};
 }
 
 }  // namespace
@@ -63,11 +67,13 @@ FmuInputs::Column FmuInputs::find(const model::FmuInput& input) const {
       all.insert(all.end(), names.begin(), names.end());
       continue;
     }
-    if (!input.unit.empty() && !is_same_dimension(rows[i].unit, input.unit))
+    if (!input.unit.empty() && rows[i].unit != input.unit &&
+        !measure_the_same_but_for_radians(rows[i].unit, input.unit))
       throw InputError(Fault{input.position, input.path, fmt::format("'{}', in {}", input.quantity, rows[i].unit),
                              fmt::format("a quantity in {}, as the FMU's input {} is", input.unit, input.variable.name),
                              ""});
-    return {i, static_cast<std::size_t>(found - names.begin())};
+    const auto [factor, offset] = to_si(rows[i].unit);
+    return {i, static_cast<std::size_t>(found - names.begin()), factor, offset};
   }
   throw InputError(Fault{input.position, input.path, "no quantity '" + input.quantity + "' in the results",
                          "a number of the results at each step by its path with dots: joints.<j>.rotation, "
@@ -104,7 +110,7 @@ std::vector<std::vector<double>> FmuInputs::at(const StepRecord& step, const Ene
       const std::optional<model::Function>& function = model_.fmus[f].inputs[i].function;
       const Column& column = columns_[f][i];
       own.push_back(function ? value_of(*function, step.mechanism)
-                             : snapshot_.latest()[column.row].values[column.column]);
+                             : column.factor * snapshot_.latest()[column.row].values[column.column] + column.offset);
     }
   }
   return values;

@@ -23,9 +23,10 @@ class FmuInputs {
   [[nodiscard]] std::vector<std::vector<double>> at(const StepRecord& step, const EnergySummary& energy);
 
  private:
-  /// A number of a row.
+  /// A number of a row, and what leads from the row's unit to SI: value = factor * number + offset.
   struct Column {
     std::size_t row = 0, column = 0;
+    double factor = 1, offset = 0;
   };
   [[nodiscard]] Column find(const model::FmuInput& input) const;
   [[nodiscard]] double value_of(const model::Function& function, const mbd::Observation& seen) const;

@@ -44,6 +44,8 @@ class MachineRun {
   [[nodiscard]] bool is_at_end() const { return stepper_.is_at_end() || record_.ends_run(); }
   /// Message of a run that ended normally; may be empty.
   [[nodiscard]] std::string ending() const;
+  /// What FMUs have warned of; empty if there is nothing.
+  [[nodiscard]] std::string fmu_warnings() const { return exchange_ ? exchange_->warnings() : std::string(); }
 
   /// Takes one accepted step, at most to `limit` [s].
   /// @returns unsolved, with the reason why there is no step, or why none can follow it

@@ -39,6 +39,10 @@ double last_time(const std::filesystem::path& file) {
   return rows > 0 ? reader.read_rows("/time", rows - 1, 1).values.front() : 0;
 }
 
+void add_warning(Summary& summary, const std::string& text) {
+  summary.warning += (summary.warning.empty() || text.empty() ? "" : "; ") + text;
+}
+
 // One run: time stepping or another analysis of the machine, to its end.
 class Run {
  public:
@@ -63,6 +67,7 @@ class Run {
     Summary summary = machine_.summary();
     summary.status = status_;
     summary.message = message_;
+    summary.warning = machine_.fmu_warnings();
     summary.newton_iterations += newton_iterations_;
     const std::optional<double> last_row = machine_.last_row();
     summary.t_results = is_all_written_ && last_row ? *last_row : last_time(options_.results);
@@ -213,7 +218,7 @@ Summary simulate_with_step_error(const model::Model& model, const Options& optio
   const bool is_known = coarse.status == Status::completed;
   Summary summary = simulate_from(std::nullopt, model, options, is_known ? &coarse : nullptr);
   if (!is_known)
-    summary.warning = "the step error is not known: with steps twice as long the run ends early: " + coarse.message;
+    add_warning(summary, "the step error is not known: with steps twice as long the run ends early: " + coarse.message);
   return summary;
 }
 
@@ -223,7 +228,7 @@ Summary resume_from(Archive::Content checkpoint, const model::Model& model, cons
   std::string warning;
   require_identity(checkpoint, model, checkpoint_file(options.results), warning);
   Summary summary = simulate_from(std::move(checkpoint), model, options);
-  summary.warning = warning;
+  add_warning(summary, warning);
   return summary;
 }
 
@@ -249,7 +254,7 @@ Summary resume(const model::Model& model, const Options& options) {
   anew.overwrite = true;
   anew.resume = false;
   summary = simulate_locked(model, anew);
-  summary.warning = "there was no checkpoint to go on from: the run began anew";
+  add_warning(summary, "there was no checkpoint to go on from: the run began anew");
   return summary;
 }
 

@@ -46,6 +46,10 @@ inline constexpr double smallest_quantity = 1e-100;
 /// the same. None if the unit is unknown, or no dimension of `dimensions()` is that of it.
 [[nodiscard]] std::optional<std::string> si_unit_of(const std::string& unit);
 
+/// True if two units measure the same where radians are left out or added freely, as other programs do: rad/s and 1/s,
+/// N.m and N.m/rad. Not so for Hz, which counts turns: it measures what 1/s does, and not what rad/s does.
+[[nodiscard]] bool measure_the_same_but_for_radians(const std::string& unit, const std::string& other);
+
 /// Number and unit as written by the user.
 struct Quantity {
   double number = 0;

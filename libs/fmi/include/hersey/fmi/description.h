@@ -37,6 +37,7 @@ struct Variable {
   bool is_array = false;       ///< it has dimensions (FMI 3)
   bool is_constant = false;    ///< its variability
   std::optional<Unit> unit;    ///< unset: the FMU gives none
+  bool is_relative = false;    ///< a difference (relativeQuantity), to which the unit's offset is not added
   std::string start;           ///< as written; empty: none
 };
 

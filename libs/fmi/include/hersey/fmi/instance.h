@@ -5,12 +5,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hersey/fmi/description.h"
 #include "hersey/fmi/fmu_file.h"
 
 namespace hersey::fmi {
+
+/// What an FMU has warned of: calls with the status warning, or in which it logs one.
+struct Warnings {
+  std::size_t count = 0;  ///< of calls
+  std::string first;      ///< which call, and what was logged in it
+};
 
 /// One instance of an FMU for co-simulation, of FMI 2.0 or 3.0. It is unpacked into a private temporary folder, and its
 /// library loaded; both last as long as the object. Calls follow the states of the standards (FMI 2.0.4, section 4.2.4;
@@ -48,8 +55,17 @@ class Instance {
   /// Returns to a saved state, also to that of another instance of the same FMU. @pre  Description::saves_state
   virtual void restore(std::span<const unsigned char> bytes) = 0;
 
+  /// What it has warned of since this was asked last.
+  [[nodiscard]] Warnings take_warnings() { return std::exchange(warnings_, {}); }
+
  protected:
   Instance() = default;
+  void warn(const std::string& text) {
+    if (warnings_.count++ == 0) warnings_.first = text;
+  }
+
+ private:
+  Warnings warnings_;
 };
 
 /// Unpacks an FMU, loads its library, and makes an instance called `name`.

@@ -6,12 +6,27 @@
 #include "hersey/core/units.h"
 
 namespace hersey::model {
+namespace {
+
+/// SI unit of a unit that an FMU defines, with the radian where it makes a unit that the program knows.
+std::optional<std::string> si_unit_of_defined(const fmi::Unit& given) {
+  if (const auto si = si_unit_of(given.base_units()))
+    return *si == "Hz" && given.name.find("Hz") == std::string::npos ? "1/s" : *si;
+  fmi::Unit unit = given;
+  for (const int radians : {0, 1, -1}) {
+    unit.powers.back() = radians;
+    if (auto si = si_unit_of(unit.base_units())) return si;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::optional<ExchangedVariable> with_unit(Context& context, const Value& at, const fmi::Variable& variable) {
   if (!variable.unit) return ExchangedVariable{variable, ""};
   ExchangedVariable known{variable, ""};
   fmi::Unit& unit = *known.variable.unit;
-  const std::optional<std::string> si = si_unit_of(unit.is_defined ? unit.base_units() : unit.name);
+  const std::optional<std::string> si = unit.is_defined ? si_unit_of_defined(unit) : si_unit_of(unit.name);
   if (!si) {
     context.fault(at,
                   fmt::format("variable '{}' in '{}', {}", variable.name, unit.name,
@@ -25,6 +40,7 @@ std::optional<ExchangedVariable> with_unit(Context& context, const Value& at, co
   // A name that says enough, as N.m does.
   unit.offset = convert_to_si({0, unit.name}, *si);
   unit.factor = convert_to_si({1, unit.name}, *si) - unit.offset;
+  if (variable.is_relative) unit.offset = 0;
   unit.is_defined = true;
   return known;
 }
@@ -56,6 +72,8 @@ std::optional<ExchangedVariable> exchanged_variable(Context& context, const Valu
   return std::nullopt;
 }
 
-bool measures(const std::string& unit, const std::string& si_unit) { return si_unit_of(unit) == si_unit_of(si_unit); }
+std::string kind_in_words(const std::string& si_unit) {
+  return si_unit == "1/s" ? "an angular velocity or a frequency" : dimension_of(si_unit).name;
+}
 
 }  // namespace hersey::model

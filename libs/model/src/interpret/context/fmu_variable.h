@@ -7,7 +7,8 @@
 
 namespace hersey::model {
 
-/// A variable of an FMU, its unit made complete, and the SI unit of what it measures; empty: it has no unit.
+/// A variable of an FMU, its unit made complete, and the SI unit of what it measures; empty: it has no unit. FMUs leave
+/// the radian out or add it as they like, so that "1/s" may be an angular velocity; "Hz" is none.
 struct ExchangedVariable {
   fmi::Variable variable;
   std::string unit;
@@ -21,7 +22,7 @@ struct ExchangedVariable {
 [[nodiscard]] std::optional<ExchangedVariable> exchanged_variable(Context& context, const Value& at, const Fmu& fmu,
                                                                   const std::string& name, fmi::Causality causality);
 
-/// True if two SI units are of one dimension.
-[[nodiscard]] bool measures(const std::string& unit, const std::string& si_unit);
+/// What a variable in this SI unit measures, in words.
+[[nodiscard]] std::string kind_in_words(const std::string& si_unit);
 
 }  // namespace hersey::model

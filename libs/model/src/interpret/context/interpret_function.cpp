@@ -167,7 +167,9 @@ class FunctionReader {
     try {
       const Quantity factor = scale.formula.empty() ? split_quantity(scale.text) : evaluate_formula(scale.formula);
       if (output.unit.empty()) return factor.unit.empty() ? factor.number : convert_to_si(factor, si_unit_);
-      return convert_to_si(product({1, output.unit}, factor), si_unit_);
+      Quantity one = product({1, output.unit}, factor);  // in an SI unit, as the output is
+      if (measure_the_same_but_for_radians(one.unit, si_unit_)) one.unit = si_unit_;
+      return convert_to_si(one, si_unit_);
     } catch (const QuantityError& error) {
       context_.fault(scale.given ? scale : *content.find("output"), error.found,
                      expectation_of(si_unit_) + ", by the output's unit times `scale`", error.suggestion);
@@ -181,7 +183,7 @@ class FunctionReader {
       return one.variable.name == output.variable.name;
     });
     const auto at = static_cast<std::size_t>(known - outputs.begin());
-    // One without a unit in the FMU is recorded in that of what first follows it.
+    // One without a unit in the FMU is recorded as a pure number: followers may give it different ones by `scale`.
     if (known == outputs.end()) outputs.push_back({output.variable, output.unit});
     function_.signal = FmuSignal{index, at, scale,
                                  hold == "ramp"           ? FmuHold::ramp

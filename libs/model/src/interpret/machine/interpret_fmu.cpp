@@ -103,17 +103,20 @@ class FmuReader {
     fmu_.inputs.push_back(std::move(input));
   }
 
-  /// An expression or table; for a variable without a unit in the SI unit of what it gives.
+  /// An expression or table; an expression in the SI unit of what it gives, if that fits.
   Function function(const Value& given, const Value& content, const std::string& unit) {
     std::string wanted = unit;
-    if (wanted.empty() && content.has("expression")) wanted = si_unit_of(text_of(content, "unit")).value_or("");
+    if (content.has("expression")) {
+      const std::optional<std::string> own = si_unit_of(text_of(content, "unit"));
+      if (own && (wanted.empty() || measure_the_same_but_for_radians(*own, wanted))) wanted = *own;
+    }
     return function_of(context_, given, wanted.empty() ? "1" : wanted);
   }
 
   /// A joint coordinate or its rate, "main.rotation_rate".
   std::optional<Function> value_of(const JointVariable& coordinate, const Value& content, const FmuInput& input) {
-    if (!input.unit.empty() && !measures(coordinate.unit, input.unit)) {
-      context_.fault(content, dimension_of(coordinate.unit).name, dimension_of(input.unit).name + " for this input");
+    if (!input.unit.empty() && !measure_the_same_but_for_radians(coordinate.unit, input.unit)) {
+      context_.fault(content, dimension_of(coordinate.unit).name, kind_in_words(input.unit) + " for this input");
       return std::nullopt;
     }
     return Function{.value = std::make_shared<ExpressionFunction>(content.text, std::vector{content.text}),
@@ -125,8 +128,8 @@ class FmuReader {
   std::optional<Function> constant(const Value& content, const std::string& unit) {
     const auto number = si_number(context_, content, formula_of_scalar(content));
     if (!number) return std::nullopt;
-    if (!unit.empty() && !measures(number->second, unit)) {
-      context_.fault(content, dimension_of(number->second).name, dimension_of(unit).name + " for this input");
+    if (!unit.empty() && !measure_the_same_but_for_radians(number->second, unit)) {
+      context_.fault(content, dimension_of(number->second).name, kind_in_words(unit) + " for this input");
       return std::nullopt;
     }
     Function function{.value = std::make_shared<ConstantFunction>(number->first)};
@@ -135,17 +138,29 @@ class FmuReader {
     return function;
   }
 
+  /// Structural parameters are none: they change sizes of arrays, in a mode of their own.
+  static bool is_settable(const fmi::Variable& variable) {
+    return !variable.is_constant && !variable.is_array && variable.type != fmi::VariableType::other &&
+           (variable.causality_name == "parameter" || variable.causality == fmi::Causality::input);
+  }
+
+  [[nodiscard]] std::vector<std::string> settable_names() const {
+    std::vector<std::string> names;
+    for (const fmi::Causality causality : {fmi::Causality::parameter, fmi::Causality::input})
+      for (const std::string& name : fmu_.description.names(causality))
+        if (is_settable(*fmu_.description.find(name))) names.push_back(name);
+    return names;
+  }
+
   void read_parameter(const std::string& name, const Value& given) {
     const fmi::Variable* found = fmu_.description.find(name);
-    const bool is_settable = found != nullptr && !found->is_constant && !found->is_array &&
-                             (found->causality_name == "parameter" || found->causality == fmi::Causality::input);
-    if (!is_settable) {
-      const std::vector<std::string> names = fmu_.description.names(fmi::Causality::parameter);
-      context_.fault_at_key(given,
-                            found == nullptr ? "no variable '" + name + "' in the FMU"
-                                             : "variable '" + name + "', which is no single parameter or input",
-                            names.empty() ? "a parameter; this FMU has none" : one_of(names),
-                            did_you_mean(name, names));
+    if (found == nullptr || !is_settable(*found)) {
+      const std::vector<std::string> names = settable_names();
+      context_.fault_at_key(
+          given,
+          found == nullptr ? "no variable '" + name + "' in the FMU"
+                           : "variable '" + name + "', which is no parameter or input that can be set",
+          names.empty() ? "a parameter or input; this FMU has none" : one_of(names), did_you_mean(name, names));
       return;
     }
     if (given.broken) return;
@@ -175,11 +190,12 @@ class FmuReader {
     if (number->second == "1") return number->first;
     const std::optional<ExchangedVariable> known = with_unit(context_, given, variable);
     if (!known) return std::nullopt;
-    if (!known->unit.empty() && measures(number->second, known->unit)) return from_si(known->variable, number->first);
+    if (!known->unit.empty() && measure_the_same_but_for_radians(number->second, known->unit))
+      return from_si(known->variable, number->first);
     context_.fault(given, dimension_of(number->second).name,
                    known->unit.empty() ? "a bare number: the FMU gives this variable no unit"
-                                       : dimension_of(known->unit).name + ", or a bare number in " +
-                                             variable.unit->name + ", the variable's own unit");
+                                       : kind_in_words(known->unit) + ", or a bare number in " + variable.unit->name +
+                                             ", the variable's own unit");
     return std::nullopt;
   }
 
@@ -195,6 +211,24 @@ void interpret_fmus(Context& context) {
     if (std::optional<Fmu> fmu = FmuReader(context, name, value).read()) context.model.fmus.push_back(std::move(*fmu));
 }
 
+namespace {
+
+/// Checkpoints that are asked for, of a run whose state cannot be saved.
+void warn_of_checkpoints(Context& context) {
+  const Value* simulation = context.root.find("simulation");
+  const Value* asked = simulation == nullptr ? nullptr : simulation->find("checkpoint");
+  if (asked == nullptr || !asked->given) return;
+  for (const Fmu& fmu : context.model.fmus) {
+    if (fmu.description.saves_state) continue;
+    context.model.warnings.push_back({asked->key_position, asked->path,
+                                      "checkpoints, but FMU " + fmu.name + " cannot save its state: none is written",
+                                      "FMUs with canGetAndSetFMUState and canSerializeFMUState", ""});
+    return;
+  }
+}
+
+}  // namespace
+
 void check_fmus(Context& context) {
   if (context.model.fmus.empty() || context.model.is_of_bearings_alone()) return;
   const Simulation& run = context.model.simulation;
@@ -207,6 +241,7 @@ void check_fmus(Context& context) {
   if (run.cycle && run.cycle->lead_in != LeadIn::none)
     refuse("simulation.cycle.lead_in", "a lead-in with `fmus`",
            "`lead_in: none`: the state of an FMU is no part of a motion that is searched for");
+  warn_of_checkpoints(context);
 }
 
 }  // namespace hersey::model

@@ -52,6 +52,13 @@ bool stands_before(const Fault& a, const Fault& b) {
 std::string file_text(const std::string& path) {
   InputFile file = read_input_file(path, kLargestModelFile);
   if (!file.fault.empty()) throw InputError(Fault{{path, 0, 0}, "", file.fault, "a model file", ""});
+  if (file.content.starts_with("\x89HDF"))
+    throw InputError(Fault{{path, 0, 0},
+                           "",
+                           "the results of a run, or another HDF5 file",
+                           "a model file; results are for `hersey report`, and `hersey export` with `--loads`, "
+                           "`--films` or `--netcdf`",
+                           ""});
   return std::move(file.content);
 }
 

@@ -79,7 +79,7 @@ struct EnergySummary {
 /// Summary of a run; completed and stopped runs count as solved. The message gives the reason of an early end:
 /// "settled" if nothing changed any more.
 struct [[nodiscard]] Summary : OutcomeOf<Status, Status::completed, Status::stopped> {
-  std::string warning;   ///< warning about a resumed run
+  std::string warning;   ///< about a resumed run, and of FMUs
   double t_end = 0;      ///< last accepted time [s]
   double t_results = 0;  ///< last time in the results file [s]
   int steps = 0, rejected_steps = 0;
