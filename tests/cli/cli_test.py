@@ -769,8 +769,9 @@ simulation: {duration: 200 s, step: 0.2 s, spectral_radius: 0.9}
         with open(page, encoding="utf-8") as file:
             self.assertIn('"label":"load = 2kN"', file.read())
         nowhere = hersey("bearing", ALONE, "--no-grid-error", "--report", os.path.join(page, "x.html"))
-        self.assertEqual(nowhere.returncode, FAILED)
-        self.assertIn("cannot write", nowhere.stderr)
+        self.assertEqual(nowhere.returncode, WRONG_INPUT)  # before anything is computed
+        self.assertIn("cannot be written", nowhere.stderr)
+        self.assertEqual(nowhere.stdout, "")
 
     def test_bearing_faults_are_wrong_input(self):
         for arguments, word in ((["--bearing", "mian"], "'main'"), (["--sweep", "load=1N:2N"], "first:last:count"),

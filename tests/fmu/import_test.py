@@ -211,6 +211,13 @@ class Cases:
         np.testing.assert_array_equal(plain, same)
         away = self.speeds("fmus.controller.parameters.is_reversed=true", "simulation.duration=20 ms")["w"]
         self.assertLess(away[-1], plain[40] - 10)
+        # Names of variables have dots: of a value that the text has, and of one that it does not have.
+        stronger = self.speeds(f"fmus.controller.parameters.gain[1].integral={2 * INTEGRAL}")["w"]
+        self.assertGreater(np.abs(stronger - plain).max(), 0.1)
+        without = ROTOR.replace(f', "gain[1].integral": {INTEGRAL}', "")
+        self.assertNotEqual(without, ROTOR)
+        with h5py.File(self.results(self.write("without.yaml", without), f"fmus.controller.parameters.gain[1].integral={INTEGRAL}")) as file:
+            np.testing.assert_array_equal(file["joints/shaft/rates"][:], plain)
         # An input that the model does not connect keeps its start value.
         text = ROTOR.replace(f", wanted: {WANTED} rad/s", "").replace("parameters: {", "parameters: {wanted: 100 rad/s, ")
         with h5py.File(self.results(self.write("start.yaml", text))) as file:
