@@ -22,6 +22,11 @@ extern "C" void on_crash(int signal) {
     for (const char* const text : {"hersey: ", file, ": damaged: its structure cannot be read\n"}) write(text);
     ::_exit(kWrongInput);
   }
+  if (const char* const file = foreign_code(); file != nullptr) {
+    for (const char* const text : {"hersey: ", file, ": its library has crashed; what was written stays readable\n"})
+      write(text);
+    ::_exit(kFailed);
+  }
   // The handler is gone by SA_RESETHAND: this is the crash that it would have been.
   ::raise(signal);
 }

@@ -316,6 +316,17 @@ class Cases:
                 self.assertEqual(set(file["fmus/controller"]) - {"time"}, {"speed", "wanted", recorded})
                 self.assertEqual(file["fmus/controller"][recorded].attrs["units"], "N.m")
 
+    def test_a_library_that_crashes_is_named(self):
+        out = os.path.join(self.folder, "crashed")
+        crash = subprocess.run([HERSEY, "run", self.model, "--output", out, "--set", "fmus.controller.parameters.fault=6", "--set",
+                                "fmus.controller.parameters.fault_time=0.05"], capture_output=True, text=True, check=False,
+                               env={**os.environ, "TMPDIR": self.temporary})
+        for name in os.listdir(self.temporary):  # nothing is tidied up by a program that has crashed
+            shutil.rmtree(os.path.join(self.temporary, name))
+        self.assertEqual(crash.returncode, 1)
+        self.assertIn("controller.fmu: its library has crashed", crash.stderr)
+        self.hersey("report", os.path.join(out, "results.h5"), "--output", os.path.join(out, "page.html"))  # they are still readable
+
     def test_warnings_are_told_at_the_end(self):
         out = os.path.join(self.folder, "warned")
         words = ("run", self.model, "--output", out, "--set", "fmus.controller.parameters.fault=5", "--set",

@@ -4,6 +4,7 @@ namespace hersey {
 namespace {
 
 thread_local const char* current = nullptr;
+thread_local const char* foreign = nullptr;
 
 }  // namespace
 
@@ -14,5 +15,11 @@ UntrustedFile::UntrustedFile(const char* path) : before_(current) {
 }
 
 UntrustedFile::~UntrustedFile() { current = before_; }
+
+const char* foreign_code() { return foreign; }
+
+ForeignCode::ForeignCode(const char* path) { foreign = path; }
+
+ForeignCode::~ForeignCode() { foreign = nullptr; }
 
 }  // namespace hersey

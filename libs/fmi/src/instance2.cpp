@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "hersey/core/untrusted_file.h"
 #include "hersey/fmi/fmi2_types.h"
 #include "loaded_library.h"
 #include "versions.h"
@@ -177,6 +178,7 @@ class Instance2 final : public Instance {
   template <class Function, class... Arguments>
   void must(const char* name, Function function, Arguments... arguments) {
     log_.clear();
+    const ForeignCode in_library(library_.file());
     const fmi2Status status = function(component_, arguments...);
     if (status == fmi2Warning || (status == fmi2OK && log_.warns()))
       warn(fmt::format("{}{}{}", name, status == fmi2Warning ? " ends with status warning" : "", log_.text()));

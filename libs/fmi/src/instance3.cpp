@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "hersey/core/untrusted_file.h"
 #include "hersey/fmi/fmi3_types.h"
 #include "loaded_library.h"
 #include "versions.h"
@@ -164,6 +165,7 @@ class Instance3 final : public Instance {
   template <class Function, class... Arguments>
   void must(const char* name, Function function, Arguments... arguments) {
     log_.clear();
+    const ForeignCode in_library(library_.file());
     const fmi3Status status = function(instance_, arguments...);
     if (status == fmi3Warning || (status == fmi3OK && log_.warns()))
       warn(fmt::format("{}{}{}", name, status == fmi3Warning ? " ends with status warning" : "", log_.text()));

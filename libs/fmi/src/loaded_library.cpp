@@ -27,7 +27,7 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-LoadedLibrary::LoadedLibrary(const FmuFile& file, const Description& description) {
+LoadedLibrary::LoadedLibrary(const FmuFile& file, const Description& description) : file_(file.path().string()) {
   if (const std::string why = missing_library(file, description); !why.empty()) throw FmuError(why);
   const std::string name = library_name(description);
   file.extract(name.substr(0, name.rfind('/') + 1), folder_.path());

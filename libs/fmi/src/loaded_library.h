@@ -36,12 +36,15 @@ class LoadedLibrary {
   void find(Function*& function, const char* name) const {
     function = reinterpret_cast<Function*>(symbol(name));
   }
+  /// Path of the FMU, for whoever marks its calls (ForeignCode).
+  [[nodiscard]] const char* file() const { return file_.c_str(); }
   /// Path of the folder `resources`, whether the FMU has one or not.
   [[nodiscard]] std::filesystem::path resources() const { return folder_.path() / "resources"; }
 
  private:
   [[nodiscard]] void* symbol(const char* name) const;
 
+  std::string file_;
   TemporaryFolder folder_;
   void* handle_ = nullptr;
 };

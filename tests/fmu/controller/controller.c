@@ -3,7 +3,7 @@
      torque = proportional e + I,  dI/dt = integral e,  e = wanted - speed
 
    with inputs that last over a communication step. The parameter `fault` makes it fail from `fault_time` on: 1 error,
-   2 discard (FMI 2) or the wish to end (FMI 3), 3 an output that is no number, 4 fatal, 5 a warning. With NO_STATE it cannot save its
+   2 discard (FMI 2) or the wish to end (FMI 3), 3 an output that is no number, 4 fatal, 5 a warning, 6 a crash. With NO_STATE it cannot save its
    state; with STATES_ARE_RESTORED a step fails whose importer promises to return to none; with NEEDS_SPEED its torque is
    no number before it has a speed. HERSEY_TEST_INTERRUPT names a time at which the process gets an interrupt, as from a keyboard. */
 #include <math.h>
@@ -89,6 +89,8 @@ static int step(Controller* c, double time, double length, bool no_return) {
     if (s->fault == 5) {
       say(c, WARNING, "the fuse is warm");
       status = WARNING;
+    } else if (s->fault == 6) {
+      abort();
     } else if (s->fault == 3) {
       s->torque = NAN;
       return OK;

@@ -20,4 +20,18 @@ class UntrustedFile {
   const char* before_;
 };
 
+/// Returns the path of the file whose code this thread runs, a library that others have made; null if there is none.
+/// Handlers of a crash name it. Safe in signal handlers.
+[[nodiscard]] const char* foreign_code();
+
+/// Marks calls of a library that others have made as long as the object exists.
+class ForeignCode {
+ public:
+  /// @param path  of its file, must outlive the object
+  explicit ForeignCode(const char* path);
+  ForeignCode(const ForeignCode&) = delete;
+  ForeignCode& operator=(const ForeignCode&) = delete;
+  ~ForeignCode();
+};
+
 }  // namespace hersey
