@@ -18,6 +18,7 @@ class FmuFile {
   /// @throws FmuError if it cannot be read or is no ZIP archive
   explicit FmuFile(std::filesystem::path path);
 
+  /// As given.
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// True if there is an entry of this name, with '/' between folders.
   [[nodiscard]] bool has(const std::string& name) const;
