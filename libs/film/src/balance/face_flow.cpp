@@ -62,22 +62,20 @@ Speeds FlowBalance::entrained_upstream(std::size_t f, int from) const {
   return by;
 }
 
-// The content of the control volume upstream moves at the surfaces' mean speed; the content of a rotating pocket only
-// at the speed relative to its step, in addition to the oil that rotates over the face with the pocket (film.28).
-LittleOil<double> FlowBalance::little_oil_upstream(std::size_t f, int from) const {
-  const double speed = entrainment(f), half_slip = this->half_slip(f), journal = faces_[f].stretch * speeds_.u_journal;
-  LittleOil<double> oil;
-  oil.flow = entrained_upstream(f, from).dot({speed, half_slip, journal});
-  oil.h = speed * cells_[from].gap_h + half_slip * rough_[from].drag_h[axial(f) ? 1 : 0];
-  oil.excess = speed * cells_[from].gap_excess;
+// The content of a rotating pocket moves only at the speed relative to its step, in addition to the oil that rotates
+// over the face with the pocket (film.28).
+void FlowBalance::add_oil_of_pockets(std::size_t f, int from, LittleOil<double>& oil) const {
+  const Cell& cell = cells_[from];
+  const double speed = entrainment(f), journal = faces_[f].stretch * speeds_.u_journal;
+  const bool crosses = oil_crosses_pocket_edge(f);
+  oil.flow += speed * cell.depth;
+  if (cell.turning > 0 && !axial(f)) oil.flow -= (crosses ? journal : speed) * cell.turning;
   if (flow_tube_of_[f] >= 0) {
     const PocketFlowTube& flow_tube = relief_.flow_tubes()[static_cast<std::size_t>(flow_tube_of_[f])];
     oil.flow += flow_tube.swept / faces_[f].width;
-    oil.journal = flow_tube.swept_journal / faces_[f].width;
+    oil.journal += flow_tube.swept_journal / faces_[f].width;
   }
-  if (relief_.has_pockets() && oil_crosses_pocket_edge(f))
-    oil.journal += (axial(f) ? speed : speed - journal) * relief_.depth_by_journal()[from];
-  return oil;
+  if (crosses) oil.journal += (axial(f) ? speed : speed - journal) * relief_.depth_by_journal()[from];
 }
 
 std::array<double, 2> FlowBalance::thickness_weights(std::size_t f) const {

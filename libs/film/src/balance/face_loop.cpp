@@ -1,4 +1,6 @@
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 #include "balance/face_law.h"
 #include "balance/flow_balance.h"
@@ -108,7 +110,9 @@ void FlowBalance::add_face(int f) {
   gap.from_a = gap.full >= 0;
   const int from = gap.from_a ? face.a : face.b;
   const bool may_lack_oil = nodes_[from].theta != 1 || expects_any_fill_;
-  limit_by_little(little_oil_upstream(f, from), may_lack_oil, flow.is_deep, gap);
+  LittleOil<double> oil = little_oil<is_rough>(shape, a, b, gap.from_a);
+  if (relief_.has_pockets()) add_oil_of_pockets(f, from, oil);
+  limit_by_little(oil, may_lack_oil, flow.is_deep, gap);
   const EntrainedFlow carried = find_flow(shape, a, b, gap, flow);
   const auto [full, little] = carried_by_speeds(f);
   const Speeds by_speeds = (full * carried.full + little * carried.little) * flow.density;

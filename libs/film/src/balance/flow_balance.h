@@ -493,7 +493,7 @@ class FlowBalance {
   template <bool is_rough, class Number>
   [[nodiscard]] BesideFace<Number> beside_face(int first, bool is_axial) const;
   void deepen(std::size_t f, FaceGap<double>& gap);
-  [[nodiscard]] LittleOil<double> little_oil_upstream(std::size_t f, int from) const;
+  void add_oil_of_pockets(std::size_t f, int from, LittleOil<double>& oil) const;
   [[nodiscard]] double thickness_on(std::size_t f) const;
   [[nodiscard]] bool is_limited(std::size_t f) const;
   void replace_boundary_rows();
