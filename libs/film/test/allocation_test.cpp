@@ -67,16 +67,18 @@ TEST_CASE("WarmLinearisation_DoesNotAllocate") {
     Eigen::VectorXd du;
     Eigen::MatrixXd answers;
     Eigen::Matrix<double, 6, Eigen::Dynamic> wrench;
-    const Eigen::MatrixXd openings = seeded_random(m.grid.size(), 2, 3);
+    SurfaceShapes shapes = SurfaceShapes::none(m.grid.size());
+    shapes.openings = seeded_random(m.grid.size(), 2, 3);
+    shapes.surfaces.push_back({shapes.openings.sparseView(), {}, Eigen::MatrixXd::Identity(2, 2), false});
     CondensedFilm condensed;
-    const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()));
+    const Eigen::VectorXd still = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(directions.size()) + 4);
     Vector6 sum = Vector6::Zero();
     const auto iterate = [&] {
       reynolds.linearise(step.motion, step.history, step.u);
       reynolds.newton_increment(du);
       respond(reynolds, directions, answers, wrench);
-      reynolds.condense(directions, openings, condensed);
-      reynolds.follow(still, du);
+      reynolds.condense(directions, shapes, condensed);
+      reynolds.follow(still, shapes, du);
       sum = reynolds.forces().wrench_on_shell + reynolds.forces().wrench_by_u * du;
     };
     step.motion.phi_journal = 0;

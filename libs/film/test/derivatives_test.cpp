@@ -147,48 +147,123 @@ TEST_CASE("ResponsesTogether_AreTheResponsesOneByOne") {
   }
 }
 
+// Two surfaces that deform by functions of which some are zero at a node; the second turns.
+SurfaceShapes some_shapes(int n) {
+  const auto functions = [n](int count, unsigned seed) {
+    Eigen::MatrixXd dense = seeded_random(n, count, seed);
+    for (int k = 0; k < count; ++k)
+      for (int i = 0; i < n; ++i)
+        if ((i + k) % 3 != 0) dense(i, k) = 0;
+    return SurfaceShapes::Functions(dense.sparseView());
+  };
+  SurfaceShapes shapes = SurfaceShapes::none(n);
+  shapes.surfaces.push_back({functions(7, 1), {}, seeded_random(7, 4, 2), true});
+  shapes.surfaces.push_back({functions(5, 3), functions(5, 4), seeded_random(5, 3, 5), false});
+  shapes.openings.resize(n, 7);
+  shapes.openings << shapes.surfaces[0].opening * shapes.surfaces[0].functions,
+      shapes.surfaces[1].opening * shapes.surfaces[1].functions;
+  return shapes;
+}
+
+// Directions, between which and those of ports the shapes stand; shapes whose films feed nothing are found without
+// columns of their own.
 TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
-  const State s = rough_state(Cavitation::mass_conserving, true, true);
-  std::vector<MotionDirection> all;
-  for (const auto& [what, direction] : directions(s)) all.push_back(direction);
-  Eigen::VectorXd du0, du;
-  Eigen::MatrixXd answers;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> partial;
-  CondensedFilm film;
-  const Eigen::MatrixXd openings = seeded_random(s.model.grid.size(), 3, 4);
-  const Eigen::VectorXd ds = 1e-7 * Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(all.size()), 1, 2);
+  State s = rough_state(Cavitation::mass_conserving, true, true);
+  const SurfaceShapes shapes = some_shapes(s.model.grid.size());
+  s.motion.shell_opening = Eigen::VectorXd::Zero(s.model.grid.size());
   for (const auto linear : {LinearSolver::direct, LinearSolver::multigrid}) {
-    CAPTURE(static_cast<int>(linear));
-    Reynolds reynolds(s.model, linear);
-    reynolds.linearise(s.motion, s.history, s.u);
-    reynolds.newton_increment(du0);
-    respond(reynolds, all, answers, partial);
-    reynolds.condense(all, openings, film, PortFlows::included);
-    const NormalForces normal = reynolds.forces().normal;
-    FlowBalance balance(s.model);
-    REQUIRE(balance.evaluate(s.motion, s.history, s.u).is_inside());
-    Eigen::VectorXd flow;
-    Eigen::MatrixXd by_u;
-    balance.find_port_flows(flow);
-    balance.find_port_flows_by_u(by_u);
-    CHECK((film.port_flow - flow - by_u.transpose() * du0).norm() < kLinear * film.port_flow.norm());
-    const auto pushed = [&](const Eigen::VectorXd& force) -> Eigen::VectorXd { return openings.transpose() * force; };
-    CHECK((film.Q - pushed(normal.value + normal.by_u.cwiseProduct(du0))).norm() < kLinear * film.Q.norm());
-    CHECK((film.wrench - reynolds.forces().wrench_on_shell - reynolds.forces().wrench_by_u * du0).norm() <
-          1e-8 * film.wrench.norm());
-    for (Eigen::Index k = 0; k < answers.cols(); ++k) {
-      const Vector6 total = partial.col(k) + reynolds.forces().wrench_by_u * answers.col(k);
-      CHECK((film.wrench_by_s.col(k) - total).norm() <= kLinear * total.norm());
-      Eigen::VectorXd force = normal.by_u.cwiseProduct(answers.col(k));
-      const MotionDirection& direction = all[static_cast<std::size_t>(k)];
-      if (direction.g.size() > 0) force += normal.by_g.cwiseProduct(direction.g);
-      CHECK((film.Q_by_s.col(k) - pushed(force)).norm() <= kLinear * pushed(force).norm());
-      balance.find_port_flows_along(direction, flow);
-      const Eigen::VectorXd total_flow = flow + by_u.transpose() * answers.col(k);
-      CHECK((film.port_flow_by_s.col(k) - total_flow).norm() <= kLinear * total_flow.norm());
+    for (const PortFlows flows : {PortFlows::left_out, PortFlows::included}) {
+      CAPTURE(static_cast<int>(linear));
+      CAPTURE(static_cast<int>(flows));
+      std::vector<MotionDirection> given, ports, all;
+      for (const auto& [what, direction] : directions(s))
+        (direction.port_pressure.size() ? ports : given).push_back(direction);
+      REQUIRE(!ports.empty());
+      all = given;
+      for (Eigen::Index a = 0; a < shapes.amplitudes(); ++a) shapes.find_along_amplitude(a, all.emplace_back());
+      for (Eigen::Index a = 0; a < shapes.amplitudes(); ++a) shapes.find_along_rate(a, all.emplace_back());
+      all.insert(all.end(), ports.begin(), ports.end());
+      given.insert(given.end(), ports.begin(), ports.end());
+      const Eigen::VectorXd ds = 1e-7 * Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(all.size()), 1, 2);
+      Eigen::VectorXd du0, du;
+      Eigen::MatrixXd answers;
+      Eigen::Matrix<double, 6, Eigen::Dynamic> partial;
+      CondensedFilm film;
+      Reynolds reynolds(s.model, linear);
+      reynolds.linearise(s.motion, s.history, s.u);
+      reynolds.newton_increment(du0);
+      respond(reynolds, all, answers, partial);
+      reynolds.condense(given, shapes, film, flows);
+      const NormalForces normal = reynolds.forces().normal;
+      FlowBalance balance(s.model);
+      REQUIRE(balance.evaluate(s.motion, s.history, s.u).is_inside());
+      Eigen::VectorXd flow;
+      Eigen::MatrixXd by_u;
+      balance.find_port_flows(flow);
+      balance.find_port_flows_by_u(by_u);
+      const bool feeds = flows == PortFlows::included;
+      CHECK(film.port_flow.size() == (feeds ? flow.size() : 0));
+      if (feeds) CHECK((film.port_flow - flow - by_u.transpose() * du0).norm() < kLinear * film.port_flow.norm());
+      const auto pushed = [&](const Eigen::VectorXd& force) -> Eigen::VectorXd {
+        return shapes.openings.transpose() * force;
+      };
+      CHECK((film.Q - pushed(normal.value + normal.by_u.cwiseProduct(du0))).norm() < kLinear * film.Q.norm());
+      CHECK((film.wrench - reynolds.forces().wrench_on_shell - reynolds.forces().wrench_by_u * du0).norm() <
+            1e-8 * film.wrench.norm());
+      for (Eigen::Index k = 0; k < answers.cols(); ++k) {
+        CAPTURE(k);
+        const Vector6 total = partial.col(k) + reynolds.forces().wrench_by_u * answers.col(k);
+        CHECK((film.wrench_by_s.col(k) - total).norm() <= kLinear * total.norm());
+        Eigen::VectorXd force = normal.by_u.cwiseProduct(answers.col(k));
+        const MotionDirection& direction = all[static_cast<std::size_t>(k)];
+        if (direction.g.size() > 0) force += normal.by_g.cwiseProduct(direction.g);
+        CHECK((film.Q_by_s.col(k) - pushed(force)).norm() <= kLinear * pushed(force).norm());
+        if (!feeds) continue;
+        balance.find_port_flows_along(direction, flow);
+        const Eigen::VectorXd total_flow = flow + by_u.transpose() * answers.col(k);
+        CHECK((film.port_flow_by_s.col(k) - total_flow).norm() <= kLinear * total_flow.norm());
+      }
+      reynolds.follow(ds, shapes, du);
+      CHECK((du - du0 - answers * ds).norm() < kLinear * du.norm());
     }
-    reynolds.follow(ds, du);
-    CHECK((du - du0 - answers * ds).norm() < kLinear * du.norm());
+  }
+}
+
+// The operator and its transpose on random states, beside derivatives along one change of the gap at a time: at rows of
+// lines and features, of seals, beside pockets, in films that rupture.
+TEST_CASE("GapOperator_IsTheDerivativeByTheGap") {
+  for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
+    for (const bool line : {false, true}) {
+      for (const bool feature : {false, true}) {
+        for (const bool leaks : {false, true}) {
+          State s = rough_state(cavitation, line, feature);
+          if (leaks) {
+            s.model.edge_left.kind = EdgeKind::leaking;
+            s.model.edge_left.leakage = 0.3;
+          }
+          CAPTURE(leaks);
+          CAPTURE(static_cast<int>(cavitation));
+          CAPTURE(line);
+          CAPTURE(feature);
+          const int n = s.model.grid.size();
+          FlowBalance balance(s.model);
+          REQUIRE(balance.evaluate(s.motion, s.history, s.u).is_inside());
+          GapOperator by_gap = balance.gap_operator();
+          balance.find_gap_operator(by_gap);
+          const Eigen::MatrixXd changes = seeded_random(n, 2, 6);
+          const PackedColumns x = seeded_random(n, Packed::width, 7);
+          Eigen::VectorXd dr, expected;
+          by_gap.apply(changes.col(0), changes.col(1), dr);
+          balance.derivative({.g = changes.col(0), .g_rate = changes.col(1)}, expected);
+          CHECK((dr - expected).norm() <= 1e-14 * expected.norm());  // the same terms, summed in another order
+          PackedColumns of_gap, of_rate;
+          by_gap.apply_transposed(x, of_gap, of_rate);
+          const Eigen::VectorXd there = x.transpose() * expected,
+                                back = of_gap.transpose() * changes.col(0) + of_rate.transpose() * changes.col(1);
+          CHECK((there - back).norm() <= 1e-12 * x.norm() * expected.norm());  // sums of n terms of either sign
+        }
+      }
+    }
   }
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("FlowThroughAPort_FollowsItsPressureAsTheSolvedFilmDoes") {
     for (std::size_t k : {0U, 1U}) ports[k].port_pressure = Eigen::Vector2d::Unit(static_cast<Eigen::Index>(k));
     REQUIRE(reynolds.linearise(s.motion, s.history, s.u).is_inside());
     CondensedFilm film;
-    reynolds.condense(ports, Eigen::MatrixXd(s.u.size(), 0), film, PortFlows::included);
+    reynolds.condense(ports, SurfaceShapes::none(s.u.size()), film, PortFlows::included);
     const double step = 10;  // Pa of 5e5: the set of cavitated nodes does not change
     for (std::size_t k : {0U, 1U}) {
       const auto solved_at = [&](double change) {

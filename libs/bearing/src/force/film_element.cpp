@@ -115,17 +115,18 @@ Eigen::VectorXd FilmElement::predicted(double dt) const {
 }
 
 // u += du0 + U (s - s_last): the film's part of the Newton increment the bodies have just taken.
-void FilmElement::follow(const Eigen::VectorXd& parameters) {
+void FilmElement::follow(const Eigen::VectorXd& parameters, const film::SurfaceShapes& shapes) {
   if (!is_linearised_) return;
   parameter_change_ = parameters - parameters_linearised_;
   for (const Eigen::Index k : options_.angles)
     parameter_change_[k] = std::remainder(parameter_change_[k], 2 * std::numbers::pi);
-  reynolds_.follow(parameter_change_, du_);
+  reynolds_.follow(parameter_change_, shapes, du_);
   u_ = u_linearised_ + du_;
 }
 
-film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters) {
-  follow(parameters);
+film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters,
+                                        const film::SurfaceShapes& shapes) {
+  follow(parameters, shapes);
   film::FilmDomain domain = linearise(surfaces);
   if (!domain.is_inside() && is_linearised_) {
     u_ = u_linearised_;
@@ -141,8 +142,8 @@ film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, con
   return domain;
 }
 
-// Within a step a film is not swept: sweeps that find what Newton's method does not cost as much as a hundred steps, and
-// the integrator shortens the step.
+// Within a step a film is not swept: sweeps that find what Newton's method does not cost as much as a hundred steps,
+// and the integrator shortens the step.
 film::FilmSolveSummary FilmElement::solve_in_step(const film::SurfaceMotion& surfaces, Eigen::VectorXd& u) {
   film::FilmSolveOptions without_fallback = options_.solve;
   without_fallback.allows_fallback = false;
@@ -159,8 +160,8 @@ film::FilmDomain FilmElement::find_by_itself(const film::SurfaceMotion& surfaces
 }
 
 film::CondensedFilm& FilmElement::condense(const std::vector<film::MotionDirection>& directions,
-                                           const Eigen::MatrixXd& openings, film::PortFlows flows) {
-  reynolds_.condense(directions, openings, condensed_, flows);
+                                           const film::SurfaceShapes& shapes, film::PortFlows flows) {
+  reynolds_.condense(directions, shapes, condensed_, flows);
   is_linearised_ = true;
   return condensed_;
 }
@@ -178,22 +179,22 @@ FilmElement::Forces FilmElement::forces_after(const Eigen::VectorXd& du, const E
 }
 
 film::FilmDomain FilmElement::follow_on_chord(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters,
-                                              const Eigen::MatrixXd& openings, Forces& forces) {
+                                              const film::SurfaceShapes& shapes, Forces& forces) {
   film::FilmDomain domain{film::FilmDomain::Violation::not_finite, -1};
   if (is_linearised_ && reynolds_.linear_solver().has_factor) {
-    follow(parameters);
+    follow(parameters, shapes);
     domain = reynolds_.chord_increment(surfaces, history_, u_, du_);
     is_linearised_ = false;
     is_evaluated_ = domain.is_inside();
     if (is_evaluated_ && reynolds_.residual().relative <= kNearOnChord) {
       ++iterations_;
-      forces = forces_after(du_, openings);
+      forces = forces_after(du_, shapes.openings);
       return domain;
     }
     if (!domain.is_inside()) u_ = u_linearised_;
   }
-  domain = linearise(surfaces, parameters);
-  if (domain.is_inside()) forces = increment(openings);
+  domain = linearise(surfaces, parameters, shapes);
+  if (domain.is_inside()) forces = increment(shapes.openings);
   return domain;
 }
 

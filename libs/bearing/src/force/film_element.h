@@ -43,10 +43,11 @@ class FilmElement {
 
   /// Linearises the film at surfaces that have moved with `parameters`, after u has followed these. A prediction that
   /// lies outside the domain is not taken: the film then stays as it was while the surfaces move.
-  [[nodiscard]] film::FilmDomain linearise(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters);
+  [[nodiscard]] film::FilmDomain linearise(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters,
+                                           const film::SurfaceShapes& shapes);
   /// Forces after the film's increment with their derivatives by each parameter (bearing.10), from the last
   /// linearisation; u follows the parameters from now on.
-  film::CondensedFilm& condense(const std::vector<film::MotionDirection>& directions, const Eigen::MatrixXd& openings,
+  film::CondensedFilm& condense(const std::vector<film::MotionDirection>& directions, const film::SurfaceShapes& shapes,
                                 film::PortFlows flows = film::PortFlows::left_out);
   struct Forces {
     Vector6 wrench_on_shell;
@@ -57,7 +58,7 @@ class FilmElement {
   /// The same at surfaces that have moved with `parameters`, after u has followed these: where the step has been
   /// linearised already, on the factor that this has left.
   [[nodiscard]] film::FilmDomain follow_on_chord(const film::SurfaceMotion& surfaces, const Eigen::VectorXd& parameters,
-                                                 const Eigen::MatrixXd& openings, Forces& forces);
+                                                 const film::SurfaceShapes& shapes, Forces& forces);
 
   /// Solves the film at fixed surfaces. Films that do not converge have no fallback: the step is rather shortened.
   [[nodiscard]] film::FilmSolveSummary solve(const film::SurfaceMotion& surfaces);
@@ -111,7 +112,7 @@ class FilmElement {
   [[nodiscard]] film::FilmDomain find_by_itself(const film::SurfaceMotion& surfaces);
   [[nodiscard]] Eigen::VectorXd predicted(double dt) const;
   [[nodiscard]] Forces forces_after(const Eigen::VectorXd& du, const Eigen::MatrixXd& openings) const;
-  void follow(const Eigen::VectorXd& parameters);
+  void follow(const Eigen::VectorXd& parameters, const film::SurfaceShapes& shapes);
   void compute_oil_balance(const film::SurfaceMotion& surfaces, bool is_evaluated);
 
   Options options_;

@@ -81,7 +81,7 @@ FilmForce::FilmForce(std::string name, const film::FilmModel& model, std::unique
                                                  model.R)),
       gap_parameter_count_(gap_->parameters().size()),
       parameters_(Eigen::VectorXd::Zero(gap_parameter_count_ + 2 * deforming_->amplitudes() + port_count())),
-      directions_(static_cast<std::size_t>(parameters_.size())),
+      directions_(static_cast<std::size_t>(gap_parameter_count_ + port_count())),
       port_pressures_(Eigen::VectorXd::Constant(port_count(), model.p_cav)),
       accepted_s_(Eigen::VectorXd::Zero(deforming_->amplitudes())) {
   if (options.wear)
@@ -237,12 +237,13 @@ double FilmForce::summed_forces() const {
 void FilmForce::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& response) {
   if (!want_tangent && port_count() == 0) {
     FilmElement::Forces forces;
-    const film::FilmDomain domain = film_->follow_on_chord(surfaces_, parameters_, deforming_->openings(), forces);
+    const film::FilmDomain domain = film_->follow_on_chord(surfaces_, parameters_, deforming_->shapes(), forces);
     if (!domain.is_inside()) return report(domain);
     internal_residual_ = film_->reynolds().residual().relative;
     return respond_without_derivatives(forces, response);
   }
-  if (const film::FilmDomain domain = film_->linearise(surfaces_, parameters_); !domain.is_inside())
+  if (const film::FilmDomain domain = film_->linearise(surfaces_, parameters_, deforming_->shapes());
+      !domain.is_inside())
     return report(domain);
   internal_residual_ = film_->reynolds().residual().relative;
   condense_film(response);
@@ -250,10 +251,8 @@ void FilmForce::evaluate_monolithic(bool want_tangent, mbd::ForceResponse& respo
 
 void FilmForce::condense_film(mbd::ForceResponse& response) {
   for (Eigen::Index k = 0; k < gap_parameter_count_; ++k) directions_[static_cast<std::size_t>(k)] = gap_->direction(k);
-  std::copy(deforming_->directions().begin(), deforming_->directions().end(),
-            directions_.begin() + gap_parameter_count_);
   for (const auto& shape : shapes_) shape->add_turning(gap_->turning(), directions_);
-  condensed_ = &film_->condense(directions_, deforming_->openings(),
+  condensed_ = &film_->condense(directions_, deforming_->shapes(),
                                 port_count() > 0 ? film::PortFlows::included : film::PortFlows::left_out);
   if (port_count() == 0) respond(response);
 }
@@ -322,7 +321,7 @@ void FilmForce::evaluate_partitioned(mbd::ForceResponse& response) {
     }
     // One more Newton increment: the exchange would otherwise see the film's tolerance as a change of the wrench.
     if (const film::FilmDomain domain = film_->linearise(surfaces_); !domain.is_inside()) return report(domain);
-    respond_without_derivatives(film_->increment(deforming_->openings()), response);
+    respond_without_derivatives(film_->increment(deforming_->shapes().openings), response);
     film_->take_increment();
     internal_residual_ = exchange_->correct(response);
   }
@@ -458,7 +457,8 @@ BearingObservation FilmForce::observe(const mbd::RelativeMotion& motion) const {
   shown.power_into_bodies = -shown.wrench_on_shell.dot(motion.V_AB_A);
   if (options_.inertia) shown.wrench_on_shell -= options_.inertia->wrench(motion);
   if (deforming_->deform())
-    shown.power_into_bodies += (deforming_->openings().transpose() * shown.film.normal_forces).dot(motion.s_rate);
+    shown.power_into_bodies +=
+        (deforming_->shapes().openings.transpose() * shown.film.normal_forces).dot(motion.s_rate);
   for (const auto& shape : shapes_) shown.power_of_growth += shape->power(shown.film.normal_forces);
   shown.power_into_bodies += shown.power_of_growth;
   shown.clearance = clearance(model(), thermal_->growth());

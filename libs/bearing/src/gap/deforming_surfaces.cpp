@@ -16,16 +16,16 @@ DeformingSurfaces::DeformingSurfaces(const film::FilmModel& model, std::shared_p
       shell_(std::move(shell)),
       journal_(std::move(journal)),
       turned_(std::numeric_limits<double>::quiet_NaN()) {
-  const Index n = grid_.size(), count = shell_count() + (journal_ ? journal_->D.cols() : 0);
-  openings_ = MatrixXd::Zero(n, count);
-  if (count == 0) return;
-  directions_.resize(2 * static_cast<std::size_t>(count));
-  if (shell_) openings_.leftCols(shell_count()) = at_nodes(shell_->functions, 0)[0] * shell_->D;
-  if (journal_) turn_journal(0);
-  for (Index a = 0; a < count; ++a) {
-    directions_[static_cast<std::size_t>(a)].g = openings_.col(a);
-    directions_[static_cast<std::size_t>(a)].shell_fraction = a < shell_count() ? 1 : 0;
-    directions_[static_cast<std::size_t>(count + a)].g_rate = openings_.col(a);
+  const Index shell_amplitudes = shell_count();
+  shapes_.openings = MatrixXd::Zero(grid_.size(), shell_amplitudes + (journal_ ? journal_->D.cols() : 0));
+  if (shell_) {
+    shapes_.surfaces.push_back({at_nodes(shell_->functions, 0)[0], {}, shell_->D, true});
+    shapes_.openings.leftCols(shell_amplitudes) = shapes_.surfaces.back().opening * shell_->D;
+  }
+  if (journal_) {
+    shapes_.surfaces.push_back({{}, {}, journal_->D, false});
+    turn_journal(0);
+    shapes_.surfaces.back().rate = 0 * slopes_;
   }
 }
 
@@ -54,33 +54,37 @@ void DeformingSurfaces::turn_journal(double phi) {
   if (phi == turned_) return;
   turned_ = phi;
   const std::array<Functions, 3> fields = at_nodes(journal_->functions, phi);
-  openings_.rightCols(journal_->D.cols()) = -(fields[0] * journal_->D);
-  slopes_ = fields[1] * journal_->D;
-  curvatures_ = -(fields[2] * journal_->D);
+  film::SurfaceShapes::Surface& journal = shapes_.surfaces.back();
+  journal.opening = -fields[0];
+  shapes_.openings.rightCols(journal_->D.cols()) = journal.opening * journal_->D;
+  slopes_ = fields[1];
+  curvatures_ = -fields[2];
 }
 
 void DeformingSurfaces::add_displacements(const VectorXd& s, const VectorXd& s_rate,
                                           const GapKinematics::Turning& turning, film::SurfaceMotion& motion) {
   if (!deform()) return;
-  const double omega = turning.speed;
   if (journal_) turn_journal(turning.angle);
-  motion.g.noalias() += openings_ * s;
   if (motion.shell_opening.size() == 0) motion.shell_opening.setZero(motion.g.size());
-  motion.shell_opening.noalias() += openings_.leftCols(shell_count()) * s.head(shell_count());
-  motion.g_rate.noalias() += openings_ * s_rate;
-  if (!journal_) return;
-  const Index count = journal_->D.cols(), first = shell_count();
-  const auto s_j = s.tail(count), rate_j = s_rate.tail(count);
-  by_angle_.noalias() = slopes_ * s_j;
-  motion.g_rate += omega * by_angle_;
-  rate_by_angle_.noalias() = slopes_ * rate_j;
-  rate_by_angle_.noalias() += omega * (curvatures_ * s_j);
-  for (Index a = 0; a < count; ++a) {
-    film::MotionDirection& position = directions_[static_cast<std::size_t>(first + a)];
-    position.g = openings_.col(first + a);
-    position.g_rate = omega * slopes_.col(a);
-    directions_[static_cast<std::size_t>(amplitudes() + first + a)].g_rate = openings_.col(first + a);
+  if (shell_) {
+    const film::SurfaceShapes::Functions& opening = shapes_.surfaces.front().opening;
+    opened_.noalias() = opening * (shell_->D * s.head(shell_count()));
+    motion.g += opened_;
+    motion.shell_opening += opened_;
+    motion.g_rate.noalias() += opening * (shell_->D * s_rate.head(shell_count()));
   }
+  if (!journal_) return;
+  const double omega = turning.speed;
+  film::SurfaceShapes::Surface& journal = shapes_.surfaces.back();
+  const VectorXd amplitudes = journal_->D * s.tail(journal_->D.cols()),
+                 rates = journal_->D * s_rate.tail(journal_->D.cols());
+  motion.g.noalias() += journal.opening * amplitudes;
+  by_angle_.noalias() = slopes_ * amplitudes;
+  motion.g_rate.noalias() += journal.opening * rates;
+  motion.g_rate += omega * by_angle_;
+  rate_by_angle_.noalias() = slopes_ * rates;
+  rate_by_angle_.noalias() += omega * (curvatures_ * amplitudes);
+  journal.rate = omega * slopes_;
 }
 
 void DeformingSurfaces::add_turning(const GapKinematics::Turning& turning,
@@ -96,17 +100,17 @@ void DeformingSurfaces::add_turning(const GapKinematics::Turning& turning,
 void DeformingSurfaces::add_turning_forces(const GapKinematics::Turning& turning, const VectorXd& normal_forces,
                                            MatrixXd& Q_by_s) const {
   if (!journal_) return;
-  const Index first = Q_by_s.rows() - slopes_.cols();
-  for (Index k = 0; k < slopes_.cols(); ++k) Q_by_s(first + k, turning.of_angle) += slopes_.col(k).dot(normal_forces);
+  Q_by_s.col(turning.of_angle).tail(journal_->D.cols()) +=
+      journal_->D.transpose() * (slopes_.transpose() * normal_forces);
 }
 
 VectorXd DeformingSurfaces::shell_displacement(const VectorXd& s) const {
-  return openings_.leftCols(shell_count()) * s.head(shell_count());
+  return shapes_.openings.leftCols(shell_count()) * s.head(shell_count());
 }
 
 VectorXd DeformingSurfaces::journal_displacement(const VectorXd& s) const {
-  const Index count = openings_.cols() - shell_count();
-  return -(openings_.rightCols(count) * s.tail(count));
+  const Index count = amplitudes() - shell_count();
+  return -(shapes_.openings.rightCols(count) * s.tail(count));
 }
 
 }  // namespace hersey::bearing

@@ -11,6 +11,7 @@
 #include "hersey/bearing/gap_kinematics.h"
 #include "hersey/film/film_model.h"
 #include "hersey/film/reynolds.h"
+#include "hersey/film/surface_shapes.h"
 
 namespace hersey::bearing {
 
@@ -24,8 +25,8 @@ class DeformingSurfaces : public SurfaceShape {
                     std::shared_ptr<const ElasticSurface> journal);
 
   /// Amplitudes of the shell's body, then of the journal's.
-  [[nodiscard]] Eigen::Index amplitudes() const { return openings_.cols(); }
-  [[nodiscard]] bool deform() const { return openings_.cols() > 0; }
+  [[nodiscard]] Eigen::Index amplitudes() const { return shapes_.amplitudes(); }
+  [[nodiscard]] bool deform() const { return amplitudes() > 0; }
   [[nodiscard]] bool shell_deforms() const { return shell_ != nullptr; }
   [[nodiscard]] bool journal_deforms() const { return journal_ != nullptr; }
 
@@ -41,10 +42,8 @@ class DeformingSurfaces : public SurfaceShape {
   /// True if a surface deforms.
   [[nodiscard]] bool changes_gap() const override { return deform(); }
 
-  /// Gap opened by unit amplitudes at the journal's last angle, shape (nodes, amplitudes).
-  [[nodiscard]] const Eigen::MatrixXd& openings() const { return openings_; }
-  /// Change of the surfaces with a unit of each amplitude, then of each rate.
-  [[nodiscard]] const std::vector<film::MotionDirection>& directions() const { return directions_; }
+  /// Shapes by which the amplitudes open the gap, at the journal's last angle and speed.
+  [[nodiscard]] const film::SurfaceShapes& shapes() const { return shapes_; }
 
   /// Adds to the directions of the gap's parameters that the journal's deformation rotates with the journal.
   void add_turning(const GapKinematics::Turning& turning,
@@ -58,7 +57,7 @@ class DeformingSurfaces : public SurfaceShape {
   [[nodiscard]] Eigen::VectorXd journal_displacement(const Eigen::VectorXd& s) const;
 
  private:
-  using Functions = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< (nodes, functions)
+  using Functions = film::SurfaceShapes::Functions;
   /// Values at the nodes and first and second derivatives by phi of a surface's functions rotated by `phi`.
   [[nodiscard]] std::array<Functions, 3> at_nodes(const SurfaceFunctions& functions, double phi) const;
   void turn_journal(double phi);
@@ -67,10 +66,10 @@ class DeformingSurfaces : public SurfaceShape {
   film::Grid grid_;
   double L_;
   std::shared_ptr<const ElasticSurface> shell_, journal_;
-  Eigen::MatrixXd openings_;
-  Eigen::MatrixXd slopes_, curvatures_;  ///< d openings / d phi of the journal's amplitudes, and again
+  film::SurfaceShapes shapes_;
+  Functions slopes_, curvatures_;  ///< d opening / d phi of the journal's functions, and again
   double turned_ = 0;
-  std::vector<film::MotionDirection> directions_;
+  Eigen::VectorXd opened_;
   Eigen::VectorXd by_angle_, rate_by_angle_;  ///< d(gap) / d phi = d(gap rate) / d omega, and d(gap rate) / d phi
 };
 

@@ -124,8 +124,10 @@ void SteadyFilm::lay_openings() {
   const Index count = coordinates_->count();
   film::SurfaceMotion motion = coordinates_->surfaces(point_, coordinates_->widest());
   deforming_.add_displacements(s_0_, VectorXd::Zero(amplitudes()), {.angle = point_.journal_angle}, motion);
-  positions_.assign(deforming_.directions().begin(), deforming_.directions().begin() + amplitudes());
-  all_openings_ = deforming_.openings();
+  positions_.assign(static_cast<std::size_t>(amplitudes()), {});
+  for (Eigen::Index a = 0; a < amplitudes(); ++a)
+    deforming_.shapes().find_along_amplitude(a, positions_[static_cast<std::size_t>(a)]);
+  all_openings_ = deforming_.shapes().openings;
   for (const film::MotionDirection& tilt : coordinates_->directions(coordinates_->widest(), count, 2))
     positions_.push_back(tilt);
   for (const Index k : {0, 1})
@@ -297,7 +299,7 @@ film::FilmDomain SteadyFilm::linearise(const Coordinates& e, const VectorXd& x) 
   C_W_now_.rightCols<3>() += by_offset_moment_ * skew(offset_by_s_ * amplitudes_of(x));
   eliminate_deformation();
   const film::NormalForces& normal = reynolds_.forces().normal;
-  const MatrixXd& B = deforming_.openings();
+  const MatrixXd& B = deforming_.shapes().openings;
   const VectorXd s = amplitudes_of(x);
   r_s_ = s_0_ + answer(B.transpose() * normal.value, reynolds_.forces().wrench_on_shell) - s;
   const VectorXd Q = B.transpose() * (normal.value + normal.by_u.cwiseProduct(du));
@@ -367,7 +369,7 @@ MatrixXd SteadyFilm::change_of_force(const MatrixXd& dx, const Columns& dW) cons
 /// Changes of the forces on shapes with changes of the film's unknowns and of the gap, column by column.
 MatrixXd SteadyFilm::forces_on_shapes(const MatrixXd& du, const MatrixXd& g) const {
   const film::NormalForces& normal = reynolds_.forces().normal;
-  return deforming_.openings().transpose() * (normal.by_u.asDiagonal() * du + normal.by_g.asDiagonal() * g);
+  return deforming_.shapes().openings.transpose() * (normal.by_u.asDiagonal() * du + normal.by_g.asDiagonal() * g);
 }
 
 /// The film's answers to the amplitudes, and the factor of 1 - C P_s, the matrix of (bearing.27).
@@ -438,7 +440,7 @@ double SteadyFilm::depth(const Coordinates& load) {
     borne += forces[k] * cosine;
   }
   forces *= load.norm() / borne;
-  const MatrixXd& B = deforming_.openings();
+  const MatrixXd& B = deforming_.shapes().openings;
   return (B * (C_ * (B.transpose() * forces))).cwiseAbs().maxCoeff();
 }
 

@@ -6,6 +6,34 @@
 // Changes of the balances along changes of the surfaces (film.39).
 namespace hersey::film {
 
+// A row is linear in the change of the gap beside it, so that changes of one place at a time give its coefficients.
+void FlowBalance::find_prescribed_by_gap() const {
+  direction_sliding_.assign(static_cast<std::size_t>(model_.grid.n_z), {});
+  by_surfaces_.prescribed.clear();
+  const MotionDirection still;
+  for (const PrescribedNode& prescribed : prescribed_) {
+    const auto by = [&](const GapChangeBesideLine& unit) { return prescribed_along(prescribed, still, unit); };
+    RowByGap row{.node = prescribed.node, .weight = 1 - prescribed.chi, .by_node = by({.g = 1})};
+    if (prescribed.other >= 0) {
+      const std::size_t f = line_face(prescribed);
+      row.other = prescribed.other, row.face = static_cast<int>(f);
+      row.upstream = flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b;
+      row.by_other = by({.g_other = 1}), row.by_bend = by({.bend = 1}), row.by_excess = by({.excess = 1});
+      row.by_rate = by({.g_rate = 1});
+    }
+    by_surfaces_.prescribed.push_back(row);
+  }
+}
+
+void FlowBalance::find_gap_operator(GapOperator& by_gap) const {
+  HERSEY_REQUIRE(restricted_.empty(), "no ports behind restrictors, whose rows take other changes");
+  find_changes_by_surfaces();
+  find_prescribed_by_gap();
+  by_surfaces_.leaks.clear();
+  for (const int node : leaking_edge_nodes_) by_surfaces_.leaks.push_back({node, seal_flow(node).g});
+  by_gap.take(by_surfaces_);
+}
+
 // Directions are many and share these factors.
 void FlowBalance::find_changes_by_surfaces() const {
   BySurfaces& by = by_surfaces_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <vector>
 
 /// How storage and flows of a film change with its surfaces, at one state.
 namespace hersey::film {
@@ -35,11 +36,34 @@ struct FlowsBySurfaces {
   }
 };
 
+/// A change of the gap beside a supply line: at a node, at the one on the line's other side, of the bend of the gap
+/// between them, of the excess upstream, and of the gap's rate at the node.
+struct GapChangeBesideLine {
+  double g = 0, g_other = 0, bend = 0, excess = 0, g_rate = 0;
+};
+
+/// How the row of a node with a supply changes with the gap: with its own balance, by a weight, and by itself.
+struct RowByGap {
+  int node = 0;
+  double weight = 0;  ///< of the balance [-]
+  int other = -1, face = 0, upstream = 0;
+  double by_node = 0, by_other = 0, by_bend = 0, by_excess = 0;  ///< [m^2/s]
+  double by_rate = 0;                                            ///< [m^2]
+};
+
+/// How the row of a node with a seal changes with the gap there, besides its balance.
+struct LeakByGap {
+  int node = 0;
+  double by_gap = 0;  ///< [m^2/s]
+};
+
 /// Derivatives at the state last evaluated.
 struct BySurfaces {
   bool is_found = false;
   Eigen::VectorXd storage_gap, storage_excess, storage_rate, storage_excess_rate;  ///< of the storage, shape (n)
   FlowsBySurfaces around, axial;
+  std::vector<RowByGap> prescribed;  ///< this and the next of the last gap operator
+  std::vector<LeakByGap> leaks;
 };
 
 }  // namespace hersey::film

@@ -477,24 +477,9 @@ void FlowBalance::derivative(const MotionDirection& direction, Eigen::VectorXd& 
                  "a change of pressure for each feature or none");
   balance_along(direction, dr);
   if (!restricted_.empty() || port_flows != nullptr) direction_balance_ = dr;
-  const bool gap = direction.g.size() != 0;
   for (const PrescribedNode& prescribed : prescribed_) {
-    const int i = prescribed.node;
-    const Tie t = tie(prescribed);
-    const auto [above, slope] = excess(prescribed);
-    if (prescribed.other >= 0) dr[i] += line_row_along(prescribed, direction);
-    const SlidingChange& sliding = sliding_along(i);
-    const double chi = prescribed.chi_line * direction.phi_supply + prescribed.chi_journal * direction.phi_journal;
-    dr[i] = (1 - prescribed.chi) * dr[i] - chi * (line_balance(i) + slack(i));
-    double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal + t.k_rate * sliding.rate +
-               t.k_rotation * sliding.rotation;
-    if (gap) {
-      k += t.k_g * direction.g[i];
-      if (prescribed.other >= 0)
-        k += t.k_g_other * direction.g[prescribed.other] + t.k_bend * direction_bends_[line_face(prescribed)];
-    }
-    dr[i] += k * above;
-    dr[i] += t.k * (draws_along(prescribed, direction) - supply_along(prescribed, direction));
+    double& row = dr[prescribed.node];
+    row = (1 - prescribed.chi) * row + prescribed_along(prescribed, direction, gap_change_at(prescribed, direction));
   }
   for (const int node : prescribed_edge_nodes_) dr[node] = 0;
   if (!restricted_.empty()) find_restricted_along(direction, direction_balance_, dr);

@@ -6,6 +6,7 @@
 
 #include "balance/by_surfaces.h"
 #include "balance/face_law.h"
+#include "balance/gap_operator.h"
 #include "balance/node.h"
 #include "gap/feature_cover.h"
 #include "gap/gap_interpolation.h"
@@ -78,6 +79,9 @@ class FlowBalance {
   /// Derivative of the residual along a direction, at fixed u.
   /// @param port_flows  if asked for: that of the flows through features, as find_port_flows_along(), for less work
   void derivative(const MotionDirection& direction, Eigen::VectorXd& dr, Eigen::VectorXd* port_flows = nullptr) const;
+  /// Gives an operator the derivatives by gap and rate at the state last evaluated. @pre restricted_ports().empty()
+  void find_gap_operator(GapOperator& by_gap) const;
+  [[nodiscard]] GapOperator gap_operator() const { return {interpolation_, prescribed_edge_nodes_}; }
 
   /// Change of the residual as flows accelerate at the rate at which they change with `du` (damper.6) [m^3 s].
   void inertia_residual(const Eigen::Ref<const Eigen::VectorXd>& du, double momentum_factor, Eigen::VectorXd& dr) const;
@@ -397,15 +401,22 @@ class FlowBalance {
   [[nodiscard]] double line_balance(int node) const;
   void find_carried_fraction(std::size_t f, const FaceGap<double>& gap, const EntrainedFlow& carried);
   [[nodiscard]] CutFaceFraction fraction_towards_line(int node, const TowardsLine& t) const;
-  [[nodiscard]] double line_fraction_along(std::size_t f, const CutFaceFraction& fraction,
-                                           const MotionDirection& direction) const;
+  [[nodiscard]] double line_fraction_along(const PrescribedNode& prescribed, const CutFaceFraction& fraction,
+                                           const MotionDirection& direction, const GapChangeBesideLine& gap) const;
   [[nodiscard]] double thickness_towards_line(const PrescribedNode& prescribed) const;
   [[nodiscard]] FlowTubeGap gap_towards_line(const PrescribedNode& prescribed, double h) const;
   [[nodiscard]] ByGap carried_in_pockets(const PrescribedNode& prescribed) const;
   [[nodiscard]] double strip_area(
       const PrescribedNode& prescribed) const;  ///< of the half of the distance nearer to the line [m^2]
   void add_line_by_u(const PrescribedNode& prescribed);
-  [[nodiscard]] double line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
+  [[nodiscard]] double line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction,
+                                      const GapChangeBesideLine& gap) const;
+  /// Change of a prescribed row but for that of its weighted balance.
+  [[nodiscard]] double prescribed_along(const PrescribedNode& prescribed, const MotionDirection& direction,
+                                        const GapChangeBesideLine& gap) const;
+  /// Of the direction last given to balance_along().
+  [[nodiscard]] GapChangeBesideLine gap_change_at(const PrescribedNode& prescribed,
+                                                  const MotionDirection& direction) const;
   /// u - u_given [Pa] as it counts in the row, and its slope.
   [[nodiscard]] ValueAndSlope excess(const PrescribedNode& prescribed) const;
   [[nodiscard]] double draws_along(const PrescribedNode& prescribed, const MotionDirection& direction) const;
@@ -420,6 +431,7 @@ class FlowBalance {
   /// Change of the balances of all nodes with the surfaces, flows towards a supply line apart.
   void balance_along(const MotionDirection& direction, Eigen::VectorXd& db) const;
   void find_changes_by_surfaces() const;
+  void find_prescribed_by_gap() const;
   void add_storage_along(const MotionDirection& direction, Eigen::VectorXd& dr) const;
   void find_flow_by_surfaces(std::size_t f, FlowsBySurfaces& by) const;
   /// Adds the changes of the flows over the faces of one kind, whose nodes lie `next` apart.

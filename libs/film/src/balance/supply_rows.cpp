@@ -386,9 +386,10 @@ void FlowBalance::add_line_by_u(const PrescribedNode& prescribed) {
 }
 
 /// Returns the change of fraction_towards_line() with the surfaces.
-double FlowBalance::line_fraction_along(std::size_t f, const CutFaceFraction& fraction,
-                                        const MotionDirection& direction) const {
+double FlowBalance::line_fraction_along(const PrescribedNode& prescribed, const CutFaceFraction& fraction,
+                                        const MotionDirection& direction, const GapChangeBesideLine& gap) const {
   if (fraction.theta == 0) return 0;
+  const std::size_t f = line_face(prescribed);
   const Face& face = faces_[f];
   const FaceFlow& flow = flows_[f];
   const Speeds speeds = speeds_along(f, direction);
@@ -400,15 +401,15 @@ double FlowBalance::line_fraction_along(std::size_t f, const CutFaceFraction& fr
     change += flow.density *
               ((carried.full - fraction.value) * full.dot(speeds) + carried.little * little.dot(speeds)) / flow.couette;
   }
-  if (direction.g.size() == 0) return change;
-  return change + fraction.h_a * nodes_[face.a].h_g * direction.g[face.a] +
-         fraction.h_b * nodes_[face.b].h_g * direction.g[face.b] +
-         fraction.bend * direction_bends_[static_cast<Eigen::Index>(f)] +
-         fraction.excess * direction_excesses_[flow.couette >= 0 ? face.a : face.b];
+  const bool is_a = prescribed.node == face.a;
+  return change + fraction.h_a * nodes_[face.a].h_g * (is_a ? gap.g : gap.g_other) +
+         fraction.h_b * nodes_[face.b].h_g * (is_a ? gap.g_other : gap.g) + fraction.bend * gap.bend +
+         fraction.excess * gap.excess;
 }
 
 /// Returns the change of the terms of towards_line() with the surfaces.
-double FlowBalance::line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction) const {
+double FlowBalance::line_row_along(const PrescribedNode& prescribed, const MotionDirection& direction,
+                                   const GapChangeBesideLine& gap) const {
   const std::size_t f = line_face(prescribed);
   const Face& face = faces_[f];
   const auto bend = static_cast<Eigen::Index>(f);
@@ -427,11 +428,9 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
   double q = prescribed.near * carried(prescribed.node, speed, half_slip_change) +
              prescribed.far * carried(prescribed.other, speed, half_slip_change) +
              prescribed.bend * speed * bends_[bend];
-  if (direction.g.size() != 0) {
-    q += prescribed.near * by_h(prescribed.node) * nodes_[prescribed.node].h_g * direction.g[prescribed.node] +
-         prescribed.far * by_h(prescribed.other) * nodes_[prescribed.other].h_g * direction.g[prescribed.other] +
-         prescribed.bend * (entrainment(f) + deeper.h) * direction_bends_[bend];
-  }
+  q += prescribed.near * by_h(prescribed.node) * nodes_[prescribed.node].h_g * gap.g +
+       prescribed.far * by_h(prescribed.other) * nodes_[prescribed.other].h_g * gap.g_other +
+       prescribed.bend * (entrainment(f) + deeper.h) * gap.bend;
   const double rotation = direction.phi_supply;
   q += rotation * (prescribed.near_line * (carried(prescribed.node, entrainment(f), half_slip(f)) -
                                            carried(prescribed.other, entrainment(f), half_slip(f)) +
@@ -443,10 +442,38 @@ double FlowBalance::line_row_along(const PrescribedNode& prescribed, const Motio
     const double h = thickness_towards_line(prescribed), step = edge_speed_of(flow_tube, speed, journal);
     q += (speed - step) * (gap_towards_line(prescribed, h).carry.value - h) + deeper.journal * direction.phi_journal;
   }
-  double row = scale * q + t.full * line_fraction_along(f, fraction, direction);
-  if (direction.g_rate.size() != 0) row -= density * strip_area(prescribed) * direction.g_rate[prescribed.node];
+  const double row = scale * q + t.full * line_fraction_along(prescribed, fraction, direction, gap) -
+                     density * strip_area(prescribed) * gap.g_rate;
   return row +
          0.5 * prescribed.distance_line * rotation * density * face.length * face.width * g_rate_[prescribed.node];
+}
+
+GapChangeBesideLine FlowBalance::gap_change_at(const PrescribedNode& prescribed,
+                                               const MotionDirection& direction) const {
+  GapChangeBesideLine change;
+  if (direction.g_rate.size() != 0) change.g_rate = direction.g_rate[prescribed.node];
+  if (direction.g.size() == 0) return change;
+  change.g = direction.g[prescribed.node];
+  if (prescribed.other < 0) return change;
+  const std::size_t f = line_face(prescribed);
+  change.g_other = direction.g[prescribed.other];
+  change.bend = direction_bends_[static_cast<Eigen::Index>(f)];
+  change.excess = direction_excesses_[flows_[f].couette >= 0 ? faces_[f].a : faces_[f].b];
+  return change;
+}
+
+double FlowBalance::prescribed_along(const PrescribedNode& prescribed, const MotionDirection& direction,
+                                     const GapChangeBesideLine& gap) const {
+  const int i = prescribed.node;
+  const Tie t = tie(prescribed);
+  const SlidingChange& sliding = sliding_along(i);
+  const double chi = prescribed.chi_line * direction.phi_supply + prescribed.chi_journal * direction.phi_journal;
+  double change = chi == 0 ? 0 : -chi * (line_balance(i) + slack(i));
+  if (prescribed.other >= 0) change += (1 - prescribed.chi) * line_row_along(prescribed, direction, gap);
+  const double k = t.k_line * direction.phi_supply + t.k_journal * direction.phi_journal + t.k_rate * sliding.rate +
+                   t.k_rotation * sliding.rotation + t.k_g * gap.g + t.k_g_other * gap.g_other + t.k_bend * gap.bend;
+  return change + k * excess(prescribed).value +
+         t.k * (draws_along(prescribed, direction) - supply_along(prescribed, direction));
 }
 
 /// Returns the change of excess() as line and journal move [Pa].

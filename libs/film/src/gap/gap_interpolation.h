@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gap/grid_geometry.h"
+#include "hersey/core/packed.h"
 #include "hersey/film/grid.h"
 
 namespace hersey::film {
@@ -29,6 +30,25 @@ class GapInterpolation {
   /// Computes the excess of the field's mean over each control volume over the value at its node, shape (grid.size()).
   void excesses(const Eigen::VectorXd& field, Eigen::VectorXd& excesses) const;
 
+  /// Adds to fields what bends() and excesses() make of them, transposed: of as many columns as are packed, whose
+  /// numbers at a node follow one another.
+  HERSEY_KERNEL void add_transposed_bends(const double* bends, double* fields) const {
+    add_transposed(face_, bends, fields);
+  }
+  HERSEY_KERNEL void add_transposed_excesses(const double* excesses, double* fields) const {
+    add_transposed(cell_, excesses, fields);
+  }
+
+  /// Calls act(node, weight) for the nodes whose values make the excess on the face after node (i, j).
+  template <class Act>
+  void for_each_of_bend(int i, int j, const Act& act) const {
+    const Lines<4>& f = face_[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < 4; ++k) act(f.line[k] * n_z_ + j, f.weight[k]);
+  }
+
+  /// Nodes of a line along the axis.
+  [[nodiscard]] Eigen::Index line_size() const { return n_z_; }
+
  private:
   /// Weights of some lines.
   template <std::size_t N>
@@ -38,6 +58,18 @@ class GapInterpolation {
   };
   template <std::size_t N>
   void sum(const std::vector<Lines<N>>& of, const Eigen::VectorXd& field, Eigen::VectorXd& sums) const;
+  template <std::size_t N>
+  HERSEY_KERNEL void add_transposed(const std::vector<Lines<N>>& of, const double* sums, double* fields) const {
+    const auto numbers = static_cast<std::ptrdiff_t>(n_z_) * Packed::width;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const double* const sum = sums + static_cast<std::ptrdiff_t>(i) * numbers;
+      for (std::size_t k = 0; k < N; ++k) {
+        double* const at = fields + of[i].line[k] * numbers;
+        for (std::ptrdiff_t j = 0; j < numbers; j += Packed::width)
+          (Packed::load(at + j) + of[i].weight[k] * Packed::load(sum + j)).store(at + j);
+      }
+    }
+  }
 
   int n_z_;
   std::vector<Lines<4>> face_;  ///< bend on the face after each line; without weights where there is none

@@ -422,4 +422,21 @@ Vector6 FilmWrench::along(const MotionDirection& direction) const {
   return d;
 }
 
+void FilmWrench::find_by_gap(Eigen::Matrix<double, 6, Eigen::Dynamic>& by) const {
+  by = by_g_;
+  const Grid& grid = model_.grid;
+  for (const WallPush& push : pushes_) {
+    const auto node = static_cast<int>(push.face);
+    if (push.face >= static_cast<std::size_t>(grid.size())) continue;
+    interpolation_.for_each_of_bend(node / grid.n_z, node % grid.n_z, [&](int of, double weight) {
+      by.col(of) += push.by_bend * weight * push.direction;
+    });
+  }
+}
+
+const Eigen::Matrix<double, 6, Eigen::Dynamic>& FilmWrench::by_shell_opening() const {
+  HERSEY_REQUIRE(opening_.size() != 0, "what the shell's surface opens the gap by comes with the motion");
+  return by_opening_;
+}
+
 }  // namespace hersey::film

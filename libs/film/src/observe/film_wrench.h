@@ -41,6 +41,10 @@ class FilmWrench {
   [[nodiscard]] Vector6 change_by_u(const Eigen::Ref<const Eigen::VectorXd>& du) const { return by_u_ * du; }
   /// d total / d(direction) at fixed u.
   [[nodiscard]] Vector6 along(const MotionDirection& direction) const;
+  /// d total / d(gap) at fixed u, shape (6, n).
+  void find_by_gap(Eigen::Matrix<double, 6, Eigen::Dynamic>& by) const;
+  /// What is added to it where the shell's surface opens the gap.
+  [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& by_shell_opening() const;
   [[nodiscard]] const Eigen::Matrix<double, 6, Eigen::Dynamic>& gradient_u() const { return by_u_; }
   /// Difference of shear() with the other CavitatedShear, all else being the same.
   [[nodiscard]] Vector6 more_of_other_shear(const FlowBalance& balance) const;

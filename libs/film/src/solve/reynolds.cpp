@@ -15,6 +15,7 @@
 #include "solve/grid_lu.h"
 #include "solve/multigrid_solver.h"
 #include "solve/port_border.h"
+#include "solve/shape_answers.h"
 
 namespace hersey::film {
 namespace {
@@ -36,7 +37,8 @@ std::span<double> numbers_of(Eigen::Ref<Eigen::MatrixXd>& columns) {
 }  // namespace
 
 struct Reynolds::Impl {
-  Impl(const FilmModel& model, LinearSolver chosen) : balance(model), wrench(model), lu(balance.model().grid) {
+  Impl(const FilmModel& model, LinearSolver chosen)
+      : balance(model), wrench(model), lu(balance.model().grid), shape_answers(balance) {
     state.kind = chosen;
   }
 
@@ -55,12 +57,14 @@ struct Reynolds::Impl {
   void solve_by_factor(std::span<double> columns, SystemMatrix matrix = SystemMatrix::jacobian);
   void solve_directly(const Eigen::Ref<Eigen::MatrixXd>& columns);
   void solve_transposed(const Eigen::Ref<Eigen::MatrixXd>& columns);
-  void condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film);
+  void condense_by_adjoint(const SurfaceShapes& shapes, CondensedFilm& film);
   void multiply_by_adjoint();
   void condense_by_columns(const Eigen::MatrixXd& openings, CondensedFilm& film);
   void find_port_flows(PortFlows flows, CondensedFilm& film);
-  void find_partials(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, PortFlows flows,
+  void find_partials(std::span<const MotionDirection> directions, const SurfaceShapes& shapes, PortFlows flows,
                      CondensedFilm& film);
+  void find_partials_along(const MotionDirection& direction, Eigen::Index column, const Eigen::MatrixXd& openings,
+                           PortFlows flows, CondensedFilm& film);
   void set_up_multigrid();
   void solve_for_settling();
   void subtract_product(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& y) const;
@@ -81,6 +85,11 @@ struct Reynolds::Impl {
   Eigen::MatrixXd unsolved, residual_by_s, adjoint, products, answers, port_flow_by_u;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> adjoint_rows;
   Eigen::VectorXd condensed_residual, increment;
+  // Where outputs are found by the adjoint, shapes need no columns of residual_by_s: it has those of the directions.
+  ShapeAnswers shape_answers;
+  MotionDirection along_amplitude, along_rate;
+  Eigen::Index before_shapes = 0;  // directions whose columns stand before those of the shapes
+  bool shapes_by_operator = false;
   SurfaceMotion speeds;    // without gap and rate
   bool evaluated = false;  // `balance` has the state of the last evaluation, which was inside the domain
   bool linearised = false, summed = false, factorised = false, set_up = false, multigrid_is_sound = false;
@@ -233,22 +242,29 @@ void Reynolds::Impl::solve_in_pattern(Eigen::Ref<Eigen::MatrixXd> columns, doubl
 }
 
 // With J^T Lambda = F_u^T for forces and flows F:  F_u du0 = -Lambda^T r  and  F_u U = -Lambda^T r_s.
-void Reynolds::Impl::condense_by_adjoint(const Eigen::MatrixXd& openings, CondensedFilm& film) {
+void Reynolds::Impl::condense_by_adjoint(const SurfaceShapes& shapes, CondensedFilm& film) {
   factorise();
-  const Eigen::Index shapes = openings.cols(), ports = film.port_flow.size();
-  adjoint.resize(wrench.gradient_u().cols(), 6 + shapes + ports);
+  const Eigen::Index count = shapes.amplitudes(), ports = film.port_flow.size();
+  adjoint.resize(wrench.gradient_u().cols(), 6 + count + ports);
   adjoint.leftCols<6>() = wrench.gradient_u().transpose();
-  adjoint.middleCols(6, shapes) = wrench.normal().by_u.asDiagonal() * openings;
+  adjoint.middleCols(6, count) = wrench.normal().by_u.asDiagonal() * shapes.openings;
   adjoint.rightCols(ports) = port_flow_by_u;
   solve_transposed(adjoint);
   for (Eigen::Index i = 0; i < 6; ++i) film.wrench[i] -= adjoint.col(i).dot(balance.residual());
-  film.Q.noalias() -= adjoint.middleCols(6, shapes).transpose() * balance.residual();
+  film.Q.noalias() -= adjoint.middleCols(6, count).transpose() * balance.residual();
   film.port_flow.noalias() -= adjoint.rightCols(ports).transpose() * balance.residual();
   const Stopwatch watch(work.derivatives);
   multiply_by_adjoint();
-  film.wrench_by_s += products.topRows<6>();
-  film.Q_by_s += products.middleRows(6, shapes);
-  film.port_flow_by_s += products.middleRows(6 + shapes, ports);
+  const auto add = [&](Eigen::Index column, Eigen::Index from, Eigen::Index columns) {
+    film.wrench_by_s.middleCols(column, columns) += products.block(0, from, 6, columns);
+    film.Q_by_s.middleCols(column, columns) += products.block(6, from, count, columns);
+    film.port_flow_by_s.middleCols(column, columns) += products.block(6 + count, from, ports, columns);
+  };
+  if (!shapes_by_operator) return add(0, 0, products.cols());
+  const Eigen::Index behind = residual_by_s.cols() - before_shapes;
+  add(0, 0, before_shapes);
+  add(before_shapes + 2 * count, before_shapes, behind);
+  shape_answers.add(shapes, adjoint.leftCols(6 + count), wrench, film, before_shapes);
 }
 
 // Computes -Lambda^T r_s, with rows of zeros up to whole registers. Rows of the transposed product are columns of this
@@ -282,21 +298,39 @@ void Reynolds::Impl::condense_by_columns(const Eigen::MatrixXd& openings, Conden
   }
 }
 
-// Derivatives along each direction at fixed u.
-void Reynolds::Impl::find_partials(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings,
+// Derivatives at fixed u along each direction, and along each shape that is a column of its own.
+void Reynolds::Impl::find_partials(std::span<const MotionDirection> directions, const SurfaceShapes& shapes,
                                    PortFlows flows, CondensedFilm& film) {
   const Stopwatch watch(work.derivatives);
-  const bool contact_pushes = openings.cols() > 0 && !wrench.normal().by_g.isZero(0);
-  for (Eigen::Index k = 0; k < residual_by_s.cols(); ++k) {
-    const MotionDirection& direction = directions[static_cast<std::size_t>(k)];
-    balance.derivative(direction, rhs, flows == PortFlows::included ? &port_change : nullptr);
-    residual_by_s.col(k) = rhs;
-    if (flows == PortFlows::included) film.port_flow_by_s.col(k) = port_change;
-    film.wrench_by_s.col(k) = wrench.along(direction);
-    if (!contact_pushes || direction.g.size() == 0) continue;
-    rhs = wrench.normal().by_g.cwiseProduct(direction.g);
-    film.Q_by_s.col(k).noalias() = openings.transpose() * rhs;
+  const Eigen::Index count = shapes.amplitudes();
+  const Eigen::Index inserted = shapes_by_operator ? 0 : 2 * count;
+  residual_by_s.resize(balance.size(), static_cast<Eigen::Index>(directions.size()) + inserted);
+  film.wrench_by_s.setZero(6, static_cast<Eigen::Index>(directions.size()) + 2 * count);
+  film.Q_by_s.setZero(count, film.wrench_by_s.cols());
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(directions.size()); ++k) {
+    const Eigen::Index column = k < before_shapes ? k : k + inserted;
+    find_partials_along(directions[static_cast<std::size_t>(k)], column, shapes.openings, flows, film);
   }
+  for (Eigen::Index a = 0; a < inserted / 2; ++a) {
+    shapes.find_along_amplitude(a, along_amplitude);
+    shapes.find_along_rate(a, along_rate);
+    find_partials_along(along_amplitude, before_shapes + a, shapes.openings, flows, film);
+    find_partials_along(along_rate, before_shapes + count + a, shapes.openings, flows, film);
+  }
+}
+
+// `column` of residual_by_s; of the outputs those of the shapes stand in between in any case.
+void Reynolds::Impl::find_partials_along(const MotionDirection& direction, Eigen::Index column,
+                                         const Eigen::MatrixXd& openings, PortFlows flows, CondensedFilm& film) {
+  balance.derivative(direction, rhs, flows == PortFlows::included ? &port_change : nullptr);
+  residual_by_s.col(column) = rhs;
+  const Eigen::Index missing = film.wrench_by_s.cols() - residual_by_s.cols();
+  const Eigen::Index of_outputs = column < before_shapes ? column : column + missing;
+  if (flows == PortFlows::included) film.port_flow_by_s.col(of_outputs) = port_change;
+  film.wrench_by_s.col(of_outputs) = wrench.along(direction);
+  if (openings.cols() == 0 || direction.g.size() == 0 || wrench.normal().by_g.isZero(0)) return;
+  rhs = wrench.normal().by_g.cwiseProduct(direction.g);
+  film.Q_by_s.col(of_outputs).noalias() = openings.transpose() * rhs;
 }
 
 // Flows through the ports, or none; their derivatives along directions are condense()'s.
@@ -304,12 +338,10 @@ void Reynolds::Impl::find_port_flows(PortFlows flows, CondensedFilm& film) {
   if (flows == PortFlows::left_out) {
     port_flow_by_u.resize(balance.size(), 0);
     film.port_flow.resize(0);
-    film.port_flow_by_s.resize(0, residual_by_s.cols());
     return;
   }
   balance.find_port_flows(film.port_flow);
   balance.find_port_flows_by_u(port_flow_by_u);
-  film.port_flow_by_s.resize(film.port_flow.size(), residual_by_s.cols());
 }
 
 Reynolds::Reynolds(const FilmModel& model, LinearSolver linear) : impl_(std::make_unique<Impl>(model, linear)) {}
@@ -401,38 +433,51 @@ FilmWork Reynolds::work() const {
   return work;
 }
 
-void Reynolds::condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings,
-                        CondensedFilm& film, PortFlows flows) {
+void Reynolds::condense(std::span<const MotionDirection> directions, const SurfaceShapes& shapes, CondensedFilm& film,
+                        PortFlows flows) {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(openings.rows() == m.balance.size(), "openings of shape (grid.size(), shapes)");
+  HERSEY_REQUIRE(shapes.openings.rows() == m.balance.size(), "openings of shape (grid.size(), amplitudes)");
   const FilmWrench& now = m.summed_wrench();
+  const auto feeds = [](const MotionDirection& direction) { return direction.port_pressure.size() != 0; };
+  const auto ports = std::find_if(directions.begin(), directions.end(), feeds);
+  HERSEY_REQUIRE(shapes.amplitudes() == 0 || std::all_of(ports, directions.end(), feeds), "ports behind all motions");
   m.condensed_residual = m.balance.residual();
   m.condensed = true;
-  m.residual_by_s.resize(m.balance.size(), static_cast<Eigen::Index>(directions.size()));
-  film.wrench_by_s.resize(6, m.residual_by_s.cols());
-  film.Q_by_s.setZero(openings.cols(), m.residual_by_s.cols());
+  m.before_shapes = ports - directions.begin();
+  m.shapes_by_operator =
+      m.state.kind == LinearSolver::direct && flows == PortFlows::left_out && m.balance.restricted_ports().empty();
   m.find_port_flows(flows, film);
-  m.find_partials(directions, openings, flows, film);
+  film.port_flow_by_s.resize(film.port_flow.size(),
+                             static_cast<Eigen::Index>(directions.size()) + 2 * shapes.amplitudes());
+  m.find_partials(directions, shapes, flows, film);
   film.wrench = now.total();
-  film.Q.noalias() = openings.transpose() * now.normal().value;
+  film.Q.noalias() = shapes.openings.transpose() * now.normal().value;
   if (m.state.kind == LinearSolver::direct) {
-    m.condense_by_adjoint(openings, film);
+    m.condense_by_adjoint(shapes, film);
   } else {
-    m.condense_by_columns(openings, film);
+    m.condense_by_columns(shapes.openings, film);
   }
 }
 
-void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du) {
+void Reynolds::follow(const Eigen::Ref<const Eigen::VectorXd>& ds, const SurfaceShapes& shapes, Eigen::VectorXd& du) {
   Impl& m = *impl_;
-  HERSEY_REQUIRE(m.condensed && ds.size() == m.residual_by_s.cols(), "condense() comes first");
-  if (m.state.kind == LinearSolver::direct) {
-    du = -m.condensed_residual;
-    du.noalias() -= m.residual_by_s * ds;
-    m.solve_directly(du);
-  } else {
+  const Eigen::Index count = shapes.amplitudes(), inserted = m.shapes_by_operator ? 2 * count : 0;
+  HERSEY_REQUIRE(m.condensed && ds.size() == m.residual_by_s.cols() + inserted, "condense() comes first");
+  if (m.state.kind != LinearSolver::direct) {
     du = m.increment;
     du.noalias() += m.answers.leftCols(ds.size()) * ds;
+    return;
   }
+  du = -m.condensed_residual;
+  if (inserted == 0) {
+    du.noalias() -= m.residual_by_s * ds;
+  } else {
+    const Eigen::Index before = m.before_shapes, behind = m.residual_by_s.cols() - before;
+    du.noalias() -= m.residual_by_s.leftCols(before) * ds.head(before);
+    du.noalias() -= m.residual_by_s.rightCols(behind) * ds.tail(behind);
+    m.shape_answers.subtract_residual(shapes, ds.segment(before, count), ds.segment(before + count, count), du);
+  }
+  m.solve_directly(du);
 }
 
 void Reynolds::partials(std::span<const MotionDirection> directions, Eigen::MatrixXd& residual,

@@ -13,6 +13,7 @@
 #include "hersey/film/film_observables.h"
 #include "hersey/film/film_response.h"
 #include "hersey/film/film_work.h"
+#include "hersey/film/surface_shapes.h"
 
 namespace hersey::film {
 
@@ -107,20 +108,20 @@ class Reynolds {
   /// surfaces, and the wrench's total derivative along each direction (theory manual, bearing.10). `direct` solves the
   /// transposed system, once per entry of the wrench (bearing.11); `multigrid` once per direction.
   ///
-  /// Surfaces that deform bring the shapes by which they open the gap, `openings` (n, shapes) for unit amplitudes: the
-  /// film puts the force Q = openings^T forces().normal on them (theory manual, bearing.14 and bearing.15). (n, 0): no
-  /// shapes.
+  /// Surfaces that deform bring their shapes, rigid ones SurfaceShapes::none(): the film puts the force Q = openings^T
+  /// forces().normal on them (theory manual, bearing.14 and bearing.15). Their amplitudes and then the rates of these
+  /// are parameters as well. They come behind the directions, but before those of ports, which have to be the last.
   ///
   /// The pressures of its ports are directions as well (MotionDirection::port_pressure), and the flows through them
   /// outputs: with these a circuit of oil is solved together with the film. Flows are those at the end of a step, from
   /// which those of settle(), means over it, differ by what the gap's exact rate leaves.
-  void condense(std::span<const MotionDirection> directions, const Eigen::MatrixXd& openings, CondensedFilm& film,
+  void condense(std::span<const MotionDirection> directions, const SurfaceShapes& shapes, CondensedFilm& film,
                 PortFlows flows = PortFlows::left_out);
 
-  /// The film's part `du` of a Newton step in which the bodies have moved by `ds` along the directions last condensed
+  /// The film's part `du` of a Newton step in which the bodies have moved by `ds` along the parameters last condensed
   /// (theory manual, bearing.9). Comes after `condense` and before the next `linearise` inside the domain: a trial
-  /// outside leaves what it takes.
-  void follow(const Eigen::Ref<const Eigen::VectorXd>& ds, Eigen::VectorXd& du);
+  /// outside leaves what it takes. Shapes that have turned since change it by the second order.
+  void follow(const Eigen::Ref<const Eigen::VectorXd>& ds, const SurfaceShapes& shapes, Eigen::VectorXd& du);
 
   /// Derivatives along each change of the surfaces at fixed u, a column each: of the residual [m^3/s], shape (n,
   /// directions), and of the wrench. What respond() needs; by themselves for adjoints.
