@@ -142,12 +142,15 @@ film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, con
   return domain;
 }
 
-// Within a step a film is not swept: sweeps that find what Newton's method does not cost as much as a hundred steps,
-// and the integrator shortens the step.
+// Sweeps that find a film which Newton's method does not are worth a few steps, not a hundred: where they have failed,
+// the integrator shortens the step.
 film::FilmSolveSummary FilmElement::solve_in_step(const film::SurfaceMotion& surfaces, Eigen::VectorXd& u) {
-  film::FilmSolveOptions without_fallback = options_.solve;
-  without_fallback.allows_fallback = false;
-  return film::solve_film(reynolds_, surfaces, history_, without_fallback, u);
+  film::FilmSolveOptions options = options_.solve;
+  options.allows_fallback = sweeps_help_;
+  options.sweeps_to_the_end = false;
+  const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, options, u);
+  if (!summary.solved()) sweeps_help_ = false;
+  return summary;
 }
 
 // Newton's iteration of film and bodies may switch the same nodes between full and cavitated for ever. The film by
@@ -199,8 +202,10 @@ film::FilmDomain FilmElement::follow_on_chord(const film::SurfaceMotion& surface
 }
 
 film::FilmSolveSummary FilmElement::solve(const film::SurfaceMotion& surfaces) {
+  film::FilmSolveOptions without_fallback = options_.solve;
+  without_fallback.allows_fallback = false;
   is_evaluated_ = false;
-  const film::FilmSolveSummary summary = solve_in_step(surfaces, u_);
+  const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, without_fallback, u_);
   iterations_ += summary.iterations;
   return summary;
 }
@@ -239,6 +244,7 @@ void FilmElement::compute_oil_balance(const film::SurfaceMotion& surfaces, bool 
 // follow the film by a step, so that its derivatives are those of what is solved.
 void FilmElement::accept_step(const film::SurfaceMotion& surfaces, bool is_evaluated) {
   history_accepted_ = history_;
+  sweeps_help_ = true;
   const bool is_step = has_started_;
   if (is_step) {
     if (!has_step_oil_) compute_oil_balance(surfaces, is_evaluated && is_evaluated_);

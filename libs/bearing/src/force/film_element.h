@@ -142,6 +142,7 @@ class FilmElement {
   bool is_evaluated_ = false;    // reynolds_ stands at u_ and the surfaces it has seen last
   bool is_at_accepted_ = false;  // reynolds_ stands at the state accepted last
   bool is_repeated_ = false;     // the next step has been begun before
+  bool sweeps_help_ = true;      // none has failed since the state accepted last
 };
 
 }  // namespace hersey::bearing

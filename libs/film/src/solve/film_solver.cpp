@@ -241,7 +241,7 @@ FilmSolveSummary rescue_by_sor(Reynolds& reynolds, const SurfaceMotion& motion, 
   without_fallback.max_iterations = std::min(options.max_iterations, patience);
   u = near;
   FilmSolveSummary summary = solve_by_newton(reynolds, motion, history, without_fallback, u);
-  if (summary.solved()) return summary;
+  if (summary.solved() || !options.sweeps_to_the_end) return summary;
   u = near;
   summary = sweep_on(reynolds, motion, history, options, u);
   summary.iterations = without_fallback.max_iterations;

@@ -12,6 +12,8 @@ struct FilmSolveOptions {
   int max_iterations = 50;  ///< Newton iterations, or thousands of SOR sweeps
   bool allows_fallback =
       true;  ///< where Newton's method cycles, SOR sweeps go on; a step in time may rather be shortened
+  /// Sweeps go on to the answer where Newton's method cycles from near it, too; thousands of them.
+  bool sweeps_to_the_end = true;
 };
 
 /// Result of a film's solution. `message` states why a film is unsolved, or that a solved one has no oil.
