@@ -161,7 +161,7 @@ TEST_CASE("LeadInWithAFoundPeriod_ReportsItsPeriods") {
     const Summary summary = simulate(rig(text), options);
     INFO(summary.message);
     REQUIRE(summary.message.find("with the period 6.6") != std::string::npos);
-    CHECK(static_cast<int>(reported.size()) == summary.lead_in_cycles);
+    REQUIRE(static_cast<int>(reported.size()) == summary.lead_in_cycles);
     for (std::size_t k = 0; k < reported.size(); ++k) CHECK(reported[k].number == static_cast<int>(k) + 1);
     CHECK(reported.back().change < 1e-4);  // of its swing: the last period repeats
   }
