@@ -24,12 +24,12 @@ void age(const std::filesystem::path& folder) {
 }
 
 /// A process with a folder that never removes it, and its number.
-pid_t hold_a_folder(const std::filesystem::path& told) {
+pid_t hold_a_folder(const std::filesystem::path& names) {
   const pid_t child = ::fork();
   if (child != 0) return child;
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "resources");
-  std::filesystem::create_directory_symlink(folder.path(), told);
+  std::filesystem::create_directory_symlink(folder.path(), names);
   ::pause();
   ::_exit(0);
 }
@@ -40,13 +40,13 @@ TEST_CASE("FoldersOfTheDead_AreRemovedByTheNext") {
   const char* before = std::getenv("TMPDIR");
   const std::string kept = before == nullptr ? "" : before;
   REQUIRE(::setenv("TMPDIR", (scratch / "").c_str(), 1) == 0);
-  const std::filesystem::path told[] = {scratch / "told_dead", scratch / "told_living"};
-  const pid_t dead = hold_a_folder(told[0]), living = hold_a_folder(told[1]);
-  for (const auto& link : told)
+  const std::filesystem::path names[] = {scratch / "name_of_dead", scratch / "name_of_living"};
+  const pid_t dead = hold_a_folder(names[0]), living = hold_a_folder(names[1]);
+  for (const auto& link : names)
     while (!std::filesystem::is_symlink(std::filesystem::symlink_status(link))) ::usleep(1000);
   ::kill(dead, SIGKILL);
   ::waitpid(dead, nullptr, 0);
-  const auto of_dead = std::filesystem::read_symlink(told[0]), of_living = std::filesystem::read_symlink(told[1]);
+  const auto of_dead = std::filesystem::read_symlink(names[0]), of_living = std::filesystem::read_symlink(names[1]);
   const std::filesystem::path stranger = scratch / "hersey-fmu-mine";  // without a lock
   std::filesystem::create_directory(stranger);
   {
