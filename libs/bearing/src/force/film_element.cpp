@@ -141,11 +141,19 @@ film::FilmDomain FilmElement::linearise(const film::SurfaceMotion& surfaces, con
   return domain;
 }
 
+// Within a step a film is not swept: sweeps that find what Newton's method does not cost as much as a hundred steps, and
+// the integrator shortens the step.
+film::FilmSolveSummary FilmElement::solve_in_step(const film::SurfaceMotion& surfaces, Eigen::VectorXd& u) {
+  film::FilmSolveOptions without_fallback = options_.solve;
+  without_fallback.allows_fallback = false;
+  return film::solve_film(reynolds_, surfaces, history_, without_fallback, u);
+}
+
 // Newton's iteration of film and bodies may switch the same nodes between full and cavitated for ever. The film by
-// itself has fallbacks that find it at the bodies' present motion, and from there the iteration goes on.
+// itself is often found at the bodies' present motion, on coarser grids first, and from there the iteration goes on.
 film::FilmDomain FilmElement::find_by_itself(const film::SurfaceMotion& surfaces) {
   Eigen::VectorXd film = u_;
-  const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, options_.solve, film);
+  const film::FilmSolveSummary summary = solve_in_step(surfaces, film);
   if (summary.solved()) u_ = film;
   return linearise(surfaces);
 }
@@ -190,10 +198,8 @@ film::FilmDomain FilmElement::follow_on_chord(const film::SurfaceMotion& surface
 }
 
 film::FilmSolveSummary FilmElement::solve(const film::SurfaceMotion& surfaces) {
-  film::FilmSolveOptions without_fallback = options_.solve;
-  without_fallback.allows_fallback = false;
   is_evaluated_ = false;
-  film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, without_fallback, u_);
+  const film::FilmSolveSummary summary = solve_in_step(surfaces, u_);
   iterations_ += summary.iterations;
   return summary;
 }
@@ -211,7 +217,7 @@ bool FilmElement::is_step_consistent(const film::SurfaceMotion& surfaces) {
   if (oil_.of_step().redistributed_overfill <= kLargestRedistributedOverfill || history_.by_gap) return true;
   history_.by_gap = true;
   Eigen::VectorXd film = u_;
-  const film::FilmSolveSummary summary = film::solve_film(reynolds_, surfaces, history_, options_.solve, film);
+  const film::FilmSolveSummary summary = solve_in_step(surfaces, film);
   if (summary.solved()) u_ = film;
   is_evaluated_ = false;
   iterations_ += summary.iterations;

@@ -107,6 +107,7 @@ class FilmElement {
   void persist_reynolds(Archive& archive) { reynolds_.persist(archive); }
 
  private:
+  [[nodiscard]] film::FilmSolveSummary solve_in_step(const film::SurfaceMotion& surfaces, Eigen::VectorXd& u);
   [[nodiscard]] film::FilmDomain find_by_itself(const film::SurfaceMotion& surfaces);
   [[nodiscard]] Eigen::VectorXd predicted(double dt) const;
   [[nodiscard]] Forces forces_after(const Eigen::VectorXd& du, const Eigen::MatrixXd& openings) const;
