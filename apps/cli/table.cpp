@@ -44,6 +44,7 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines, std::siz
 std::string heading_of(const SummaryRow& row) {
   if (row.group == "run") return row.run;
   if (row.group == "modes") return "small motions";
+  if (row.group == "run-up") return "run-up or coast-down";
   if (row.group == "computing") return "computing time";
   if (row.group == "cycles" || row.group == "thermal network" || row.group == "circuit" ||
       row.group.starts_with("contact ") || row.group.starts_with("ring ") || row.group.starts_with("films of "))

@@ -81,8 +81,9 @@ std::vector<PackedFile> files_of_units() {
 /// Writes the FMU of the session's model to a file that is no input of it.
 Variables write_fmu(const session::Session& session, const std::vector<std::string>& overrides,
                     const std::filesystem::path& target, int version) {
-  const model::Model& model = session.model();
   run::Simulation simulation = session.simulation();
+  model::Model model = session.model();
+  model.simulation = simulation.model().simulation;  // with its period, where that is found
   Variables variables;
   variables.list = variables_of(session.text(), simulation, version);
   const PackedModel packed = pack(model, session.text(), overrides);

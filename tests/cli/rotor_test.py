@@ -197,6 +197,18 @@ class Rotors(unittest.TestCase):
         (self.folder / "several.yaml").write_text(several, encoding="utf-8")
         self.assertIn("an unbalance of several sizes", self.hersey("check", self.folder / "several.yaml", code=2).stderr)
 
+    def test_a_film_and_a_force_of_one_name_are_told_apart(self):
+        text = FILM + LINEAR
+        (self.folder / "two.yaml").write_text(text, encoding="utf-8")
+        (self.folder / "one.yaml").write_text(text.replace("  other:", "  main:"), encoding="utf-8")
+        two, one = self.at("two.yaml"), self.at("one.yaml")
+        for part in ("bearings", "unbalance"):
+            named, same = (state[part] if part == "bearings" else state[part]["bearing_forces"] for state in (two, one))
+            self.assertEqual(set(named), {"main", "other"})
+            self.assertEqual(set(same), {"bearings.main", "forces.main"})
+            self.assertEqual(same["bearings.main"], named["main"])
+            self.assertEqual(same["forces.main"], named["other"])
+
     def require_run_at(self, expected, text, speed, duration):
         """The last two revolutions of a run, as amplitudes of exp(i omega t), are the linear answer."""
         import h5py

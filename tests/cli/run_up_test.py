@@ -213,6 +213,9 @@ class RunUp(unittest.TestCase):
         self.assertLess(abs(float(speed) / critical - 1.01), 0.01)
         # The unbalance is 40 deg ahead, y a quarter behind; 1 % of speed turn the phase by 6 deg.
         self.assertLess(abs(float(lag) - (90 - 40 + (90 if axis == "y" else 0))), 12)
+        headings = [line for line in self.hersey("report", "--all", path).stdout.splitlines() if line and not line.startswith(" ")]
+        self.assertIn("run-up or coast-down", headings)
+        self.assertFalse([line for line in headings if line.startswith("bearing")], "there is no bearing")
 
     def test_a_shaft_that_turns_round_is_tracked_in_the_longer_direction(self):
         # From 50 rad/s forward to 350 backward: the rotor turns round after 0.25 s.

@@ -13,6 +13,7 @@ import tempfile
 import textwrap
 import unittest
 import zipfile
+from xml.etree import ElementTree
 
 import h5py
 import numpy as np
@@ -56,6 +57,21 @@ bearings:
 simulation: {duration: 4 ms, step: 0.1 ms, spectral_radius: 0.6}
 """
 STEP = 1e-4  # of the rig [s]
+# x'' - (1 - x^2) x' + x = 0, whose period of 6.6633 s is not known beforehand.
+VAN_DER_POL = """hersey: 1
+parameters: {guess: 6.5 s}
+bodies:
+  weight: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 kg.m^2}}
+joints:
+  slide: {type: prismatic, between: [ground, weight], axis: x, initial: {translation: 1.5 m}}
+forces:
+  spring: {type: sliding_spring, joint: slide, stiffness: 1 N/m, damping: 0 N.s/m}
+  rest: {type: force, body: weight, direction: x, magnitude: {expression: "(1 - slide.translation^2)*slide.translation_rate", unit: N}}
+simulation:
+  cycle: {period: {about: "${guess}"}, lead_in: shooting, until_converged: 1e-5}
+  step: "${guess}/100"
+  spectral_radius: 0.95
+"""
 LOAD_Y = "forces.push.components.y"
 H_MIN = "bearings.big_end.h_min"
 CLEARANCE = "bearings.big_end.radial_clearance"
@@ -381,6 +397,21 @@ class Cases:
         self.assertEqual(float(experiment.get("stopTime")), 4e-3)
         self.assertEqual(float(experiment.get("stepSize")), STEP)
         self.assertIn("inputs", self.printed)
+
+    def test_step_of_a_machine_whose_period_is_found(self):
+        """The step is a part of the period that the machine has, whatever was guessed."""
+        with tempfile.TemporaryDirectory(dir=WORK) as folder:
+            model, target = os.path.join(folder, "oscillator.yaml"), os.path.join(folder, "oscillator.fmu")
+            with open(model, "w", encoding="utf-8") as file:
+                file.write(VAN_DER_POL)
+            for guess in ("6.5 s", "6.2 s"):
+                run("export", model, "--fmu", target, "--fmi", self.version, "--force", "--set", f"guess={guess}")
+                with zipfile.ZipFile(target) as fmu:
+                    experiment = ElementTree.fromstring(fmu.read("modelDescription.xml")).find("DefaultExperiment")
+                # Steps of a hundredth of the period lengthen it by some (2 pi/100)^2.
+                self.assertAlmostEqual(float(experiment.get("stepSize")) / 0.066633, 1, delta=4e-3)
+                periods = float(experiment.get("stopTime")) / (100 * float(experiment.get("stepSize")))
+                self.assertAlmostEqual(periods, round(periods), delta=1e-9)  # round-off
 
     def test_description_keeps_to_the_standards_schema(self):
         """Elements in their order, attributes that there are, and the lists that a checker compares."""

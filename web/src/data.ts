@@ -66,6 +66,9 @@ export interface RunUpText {
 export interface DisplacementText {
   path: string;
   column: number;
+  /** Whose orders these are: that of the run, or a second shaft that it rotates with. */
+  shaft: string;
+  revolutions: number;
   time: DatasetText;
   speed: DatasetText;
   peak_to_peak: DatasetText;

@@ -79,7 +79,7 @@ export class RunUpView {
       frequency,
       amplitude: scaled(amplitude.slice(i * lines, (i + 1) * lines), display.factor),
     }));
-    const shaft = spaced(this.runUp.shaft);
+    const shaft = spaced(displacement.shaft);
     const plot = waterfall(ridges, { x: "frequency [Hz]", y: `speed of ${shaft} [rpm]`, unit: "rpm", amplitude: display.unit, turns: 1 / 60 });
     const table = () => [
       ["speed [rpm]", "frequency [Hz]", axisLabel("amplitude", display.unit)],
@@ -91,7 +91,8 @@ export class RunUpView {
 
   private bode(displacement: DisplacementText, display: Display): HTMLElement[] {
     const windows = this.windows(displacement);
-    const { orders, revolutions } = this.runUp;
+    const { orders } = this.runUp;
+    const { revolutions } = displacement;
     const amplitude = numbersOf(displacement.amplitude);
     const column = (values: Numbers, k: number) => windows.order.map((i) => values[i * orders.length + k]!);
     const curves: Curve[] = orders.map((order, k) => ({ label: `${order}×`, unit: display.unit, hue: k, y: column(amplitude, k).map((a) => a * display.factor) }));
@@ -108,7 +109,7 @@ export class RunUpView {
       height,
       curves: [{ label: "1×", unit: degree.unit, hue: first, y: lag.map((v) => v && v * degree.factor) }],
     });
-    const [name, shaft] = [nameOf(displacement), spaced(this.runUp.shaft)];
+    const [name, shaft] = [nameOf(displacement), spaced(displacement.shaft)];
     const amplitudes = figure("run-up-amplitude", `Amplitudes of ${name} at orders of ${shaft}, in windows of ${revolutions} revolutions; and all of the motion from peak to peak.`, sizes.tools, sizes.element);
     if (lag.every((v) => v === null)) return [amplitudes];
     return [
@@ -123,7 +124,7 @@ export class RunUpView {
     const along = overSpeed ? speed : time;
     const order = Array.from(along, (_, i) => i).sort((a, b) => along[a]! - along[b]!);
     const values = order.map((i) => (overSpeed ? rpm(along[i]!) : along[i]!));
-    return { order, x: overSpeed ? { label: `speed of ${spaced(this.runUp.shaft)}`, unit: "rpm", values } : { label: "time", unit: "s", values } };
+    return { order, x: overSpeed ? { label: `speed of ${spaced(displacement.shaft)}`, unit: "rpm", values } : { label: "time", unit: "s", values } };
   }
 }
 

@@ -3,29 +3,12 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdlib>
-#include <system_error>
-
 namespace hersey::fmi {
 namespace {
 
 constexpr std::size_t kLongestLog = 2000;  // characters of one call; FMUs can log a line for each of their variables
 
 }  // namespace
-
-TemporaryFolder::TemporaryFolder() {
-  std::string path = (std::filesystem::temp_directory_path() / "hersey-fmu-XXXXXX").string();
-  if (::mkdtemp(path.data()) == nullptr)
-    throw std::filesystem::filesystem_error("a temporary folder", path,
-                                            std::error_code(errno, std::generic_category()));
-  path_ = path;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;  // what cannot be removed is left to the system's own tidying of the temporary folder
-  std::filesystem::remove_all(path_, ignored);
-}
 
 LoadedLibrary::LoadedLibrary(const FmuFile& file, const Description& description) : file_(file.path().string()) {
   if (const std::string why = missing_library(file, description); !why.empty()) throw FmuError(why);

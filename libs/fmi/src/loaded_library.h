@@ -5,22 +5,9 @@
 
 #include "hersey/fmi/description.h"
 #include "hersey/fmi/fmu_file.h"
+#include "temporary_folder.h"
 
 namespace hersey::fmi {
-
-/// A folder for this program alone, which vanishes with the object.
-class TemporaryFolder {
- public:
-  /// @throws std::filesystem::filesystem_error
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The library of an unpacked FMU.
 class LoadedLibrary {

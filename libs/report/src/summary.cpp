@@ -294,7 +294,8 @@ class Summary {
     for (auto first = all.begin(); first != all.end();) {
       const auto end = std::find_if(first, all.end(), [&](const RunUpSignal& s) { return s.path != first->path; });
       const auto smaller = [](const RunUpSignal& a, const RunUpSignal& b) { return a.peak().size < b.peak().size; };
-      add_peak(*std::max_element(first, end, smaller), run_up->shaft.name);
+      const RunUpSignal& largest = *std::max_element(first, end, smaller);
+      add_peak(largest, run_up->shafts[largest.shaft].name);
       first = end;
     }
   }

@@ -129,10 +129,49 @@ TEST_CASE("LimitCycle_IsThatOfALongRun") {
   CHECK(branch.orbits.front().period == doctest::Approx(period).epsilon(1e-4));  // a passage is read off a chord
 }
 
+// A small oscillation grows by a share each period; shooting takes its growth for the way to rest.
+TEST_CASE("FirstOrbit_IsFoundFromFarInside") {
+  const auto first = [](const char* start, double mu) {
+    const std::string text = edited(van_der_pol(100), "translation: 1.5 m", std::string("translation: ") + start);
+    const Branch branch = followed(text, "mu", mu, mu + 0.1);
+    INFO(branch.message);
+    REQUIRE(branch.solved());
+    return branch.orbits.front();
+  };
+  for (const double mu : {0.05, 0.1}) {
+    CAPTURE(mu);
+    const OrbitAtValue near = first("0.5 m", mu), far = first("1 mm", mu);
+    CHECK(far.period == doctest::Approx(near.period).epsilon(1e-5));  // to which orbits are found
+    CHECK(far.excursions.front().highest == doctest::Approx(near.excursions.front().highest).epsilon(1e-3));  // a step
+  }
+}
+
+// Periods are counted that are run, however far off the first guess is.
+TEST_CASE("LeadInWithAFoundPeriod_ReportsItsPeriods") {
+  for (const char* about : {"6.5 s", "4.55 s"}) {
+    CAPTURE(about);
+    const TemporaryDirectory scratch;
+    std::string text = edited(van_der_pol(100), "{about: 6.5 s}", std::string("{about: ") + about + "}");
+    text = edited(text, ", multipliers: 1", "");
+    std::vector<CycleProgress> reported;
+    Options options{.results = scratch / "run.h5"};
+    options.on_cycle = [&](const CycleProgress& cycle) {
+      if (cycle.leads_in) reported.push_back(cycle);
+    };
+    const Summary summary = simulate(rig(text), options);
+    INFO(summary.message);
+    REQUIRE(summary.message.find("with the period 6.6") != std::string::npos);
+    REQUIRE(static_cast<int>(reported.size()) == summary.lead_in_cycles);
+    for (std::size_t k = 0; k < reported.size(); ++k) CHECK(reported[k].number == static_cast<int>(k) + 1);
+    CHECK(reported.back().change < 1e-4);  // of its swing: the last period repeats
+  }
+}
+
 TEST_CASE("Branch_SaysWhyItHasNoBeginning") {
   const Branch rests = followed(van_der_pol(100), "mu", -0.5, 0.5);
   CHECK(!rests.solved());
   CHECK(rests.message.find("comes to rest") != std::string::npos);
+  CHECK(rests.message.find("begin nearer to it") != std::string::npos);
   BranchOptions options;
   options.from = 80, options.to = 90;
   options.observed = {"joints.slide.coordinate"};

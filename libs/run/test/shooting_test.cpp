@@ -87,6 +87,32 @@ TEST_CASE("Shooting_FindsTheMotionThatWaitingLeadsTo") {
   CHECK(shot.summary.message.find("cycles of shooting") != std::string::npos);
 }
 
+// A wheel on a torsion spring swings by most of a revolution to either side: where it is a whole revolution off, the
+// spring pulls it elsewhere.
+TEST_CASE("Shooting_CountsTheRevolutionsOfWhatSwings") {
+  const Oscillator of{.mass = 1e-3, .force = 426};  // [kg m^2, N m]
+  std::string text = edited(rig_by("shooting"), "bodies:\n",
+                            "bodies:\n  wheel: {mass: 1 kg, inertia: {xx: 1e-3 kg.m^2, yy: 1e-3 kg.m^2, zz: 1e-3 "
+                            "kg.m^2}}\n");
+  text = edited(text, "joints:\n", "joints:\n  slide: {type: revolute, between: [ground, wheel]}\n");
+  text = edited(text, "forces:\n",
+                "forces:\n  spring: {type: torsion_spring, joint: slide, stiffness: " + std::to_string(of.stiffness()) +
+                    " N.m/rad, damping: " + std::to_string(of.damping()) +
+                    " N.m.s/rad}\n  shake: {type: torque, body: wheel, direction: z, magnitude: {expression: \"" +
+                    std::to_string(of.force) + "*cos(main.rotation)\", unit: N.m}}\n");
+  const Answer shot = answer_of(text);
+  INFO(shot.summary.message);
+  REQUIRE(shot.summary.message.find("cycles of shooting") != std::string::npos);
+  REQUIRE(of.amplitude() > 1.4 * std::numbers::pi);
+  const double tolerance = 2e-3 * of.amplitude();  // 2 deg a step: period and amplitude are off by its square
+  const double lags = std::atan2(of.damping() * kSpeed, of.stiffness() - of.mass * kSpeed * kSpeed);
+  for (std::size_t k = 0; k < shot.slide.size(); ++k) {
+    CAPTURE(k);
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / 180 - lags;
+    CHECK(std::abs(shot.slide[k] - of.amplitude() * std::cos(angle)) < tolerance);
+  }
+}
+
 TEST_CASE("Shooting_FindsMotionsThatDecaySlowly") {
   const Oscillator oscillator;
   const Answer shot = answer_of(with_oscillator(rig_by("shooting"), oscillator));

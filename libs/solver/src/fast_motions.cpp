@@ -125,6 +125,26 @@ bool ends_a_motion(const Equations::SparseMatrix& inertia, const Equations::Spar
   return false;
 }
 
+/// The difference of two accelerations as what damping leaves of it, g(w) of each motion by (integrator.9); false where
+/// the equations do not determine it.
+bool settle_difference(const Equations::SparseMatrix& inertia, const Equations::SparseMatrix& damped,
+                       VectorXd& difference) {
+  if (difference.isZero(0)) return true;
+  const Index nv = difference.size();
+  const Equations::SparseMatrix M = inertia.topLeftCorner(nv, nv);
+  const SparseKkt kkt(damped, nv);
+  if (!kkt.sound()) return false;
+  VectorXd force = VectorXd::Zero(inertia.rows()), x, left = difference;
+  difference.setZero();
+  for (const double share : kShares) {
+    force.head(nv) = M * left;
+    if (!kkt.solve(force, x)) return false;
+    left = x.head(nv);
+    difference += share * left;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<SettledStart> settle_fast_motions(Equations& equations, const State& state, double dt) {
@@ -143,7 +163,10 @@ std::optional<SettledStart> settle_fast_motions(Equations& equations, const Stat
   if (all_have_inertia && !ends_a_motion(inertia, steps.matrix(), instant, instant - steps.vdot())) return std::nullopt;
 
   // The acceleration that the equations give at the start may differ from vdot, because condensed unknowns respond.
-  SettledStart settled{VectorXd::Zero(state.v.size()), VectorXd::Zero(state.v.size()), state.vdot - instant};
+  // Damping that ends a motion ends what it has of that, too: force over a light mass, which would be extrapolated.
+  VectorXd difference = state.vdot - instant;
+  if (!settle_difference(inertia, steps.matrix(), difference)) return std::nullopt;
+  SettledStart settled{VectorXd::Zero(state.v.size()), VectorXd::Zero(state.v.size()), std::move(difference)};
   VectorXd v = state.v, way = VectorXd::Zero(v.size());
   for (std::size_t k = 0; k < kShares.size(); ++k) {
     if (k > 0 && !steps.solve(v, dt)) return std::nullopt;

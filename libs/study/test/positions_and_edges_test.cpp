@@ -113,6 +113,25 @@ TEST_CASE("LineBesideANode_IsThatOnTheNode") {
   }
 }
 
+// A node beside the line has film by what the line presses in, whichever of the two cells the line is counted to.
+TEST_CASE("CavitatedShareBesideALine_IsThatOfTheMirrorImageAndContinuous") {
+  const std::string free = "bearings.main.features={}";
+  const auto share = [&](std::vector<std::string> overrides) {
+    overrides.push_back(free);
+    return figure(solved(hot_line, overrides), "cavitated_share");
+  };
+  const double on = share({});
+  constexpr double solved_for = 1e-6;  // films and temperatures are found to 1e-8
+  CHECK(share({"s=-3000 rpm", "a=90 deg", "l=-90 deg"}) == doctest::Approx(on).epsilon(solved_for));
+  CHECK(share({"s=-3000 rpm"}) == doctest::Approx(on).epsilon(solved_for));
+  CHECK(share({"a=90 deg", "l=270 deg"}) == doctest::Approx(on).epsilon(solved_for));
+  // A millionth of a cell's six degrees; over a cell the share changes by a tenth.
+  for (const char* beside : {"l=89.999994 deg", "l=90.000006 deg"}) {
+    CAPTURE(beside);
+    CHECK(share({beside}) == doctest::Approx(on).epsilon(solved_for));
+  }
+}
+
 TEST_CASE("FrictionBesideOpenEdges_IsOfSecondOrder") {
   for (const char* law : {"guembel", "reynolds", "mass_conserving"}) {
     CAPTURE(law);

@@ -158,20 +158,28 @@ void FlowBalance::extend_borders_to_edges() {
 }
 
 // Where oil is conserved, the flow that pressure drives in fills the fraction that it has in the sum of itself and the
-// missing oil.
+// missing oil. Beside a supply line both are those of the node's row, and the line drives in what a node at its
+// position would: a line on a node belongs to either of two cells, by round-off.
 double FlowBalance::cavitated_fraction(int node) const {
   const Node& at = nodes_[node];
   if (!cavitation_.has_fill())
     return 1 - (model_.cavitated_shear == CavitatedShear::full ? at.other_sheared_fraction : at.sheared_fraction);
   if (u_[node] >= -round_off_of_u() || is_flooded(node)) return 0;
+  const PrescribedNode* line = has_line_row(node) ? prescribed_at(node) : nullptr;
   double in = 0, carried = 0;  // by pressure; out of a full gap by the surfaces
   for (const int f : faces_around(node)) {
     if (f < 0) continue;
     const Face& face = faces_[f];
-    in += flows_[f].K * nodes_[face.a == node ? face.b : face.a].p;
     carried += std::max(face.a == node ? flows_[f].couette : -flows_[f].couette, 0.0);
+    if (line == nullptr || !is_cut(static_cast<std::size_t>(f)))
+      in += flows_[f].K * nodes_[face.a == node ? face.b : face.a].p;
   }
-  const double missing = (1 - at.theta) * carried;
+  double missing = (1 - at.theta) * carried;
+  if (line != nullptr) {
+    const double k = tie(*line).k;
+    in = line->distance * in + k * (std::max(line->u, 0.0) - line->draws * u_[node]);
+    missing *= line->distance;
+  }
   return missing > 0 ? missing / (in + missing) : 1;
 }
 

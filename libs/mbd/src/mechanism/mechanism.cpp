@@ -98,7 +98,8 @@ void Mechanism::retract(const Eigen::VectorXd& q0, const Eigen::VectorXd& dq, Ei
   q.tail(own) = q0.tail(own) + dq.segment(parts_->tree.nv, own);
 }
 
-Eigen::VectorXd Mechanism::difference(const Eigen::VectorXd& q0, const Eigen::VectorXd& q) const {
+Eigen::VectorXd Mechanism::difference(const Eigen::VectorXd& q0, const Eigen::VectorXd& q,
+                                      const std::vector<Index>& counted) const {
   Eigen::VectorXd dq = Eigen::VectorXd::Zero(nv());
   const auto at = [](const Link& link, const Eigen::VectorXd& of) {
     const Eigen::Vector4d p = of.segment<4>(link.first_q);
@@ -109,7 +110,8 @@ Eigen::VectorXd Mechanism::difference(const Eigen::VectorXd& q0, const Eigen::Ve
       dq.segment<3>(link.first_v) = rotation_log(at(link, q0).conjugate() * at(link, q));
     } else if (link.columns == 1) {
       const double way = q[link.first_q] - q0[link.first_q];
-      dq[link.first_v] = link.motion == Motion::revolute ? std::remainder(way, 2 * std::numbers::pi) : way;
+      const bool is_any = link.motion == Motion::revolute && std::ranges::find(counted, link.first_v) == counted.end();
+      dq[link.first_v] = is_any ? std::remainder(way, 2 * std::numbers::pi) : way;
     }
   }
   const Index own = parts_->nv - parts_->tree.nv;

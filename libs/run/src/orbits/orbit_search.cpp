@@ -16,8 +16,10 @@
 namespace hersey::run {
 namespace {
 
-constexpr int kMostOfFirst = 60;  // periods
+constexpr int kMostOfFirst = 60;    // periods
+constexpr int kMostOfGrowth = 600;  // from so small an oscillation that shooting finds none
 constexpr int kMostOfNext = 16;
+constexpr const char* kAtRest = "the search leads to rest";
 constexpr int kStarts = 2;           // deviations with which the search for multipliers begins
 constexpr double kDeviation = 1e-3;  // of a swing
 constexpr double kBeyond = 0.02;     // of the range, by which trials may leave it
@@ -95,6 +97,14 @@ Motion beside(const PeriodMap& map, const Motion& at, int which) {
   return moved;
 }
 
+// What to do where no orbit has been found from the model's start.
+std::string advice(bool finds_period) {
+  return std::string(
+             "; begin nearer to it: let `hersey run` without `lead_in` run many periods, and give its last "
+             "positions and speeds as `initial` of the joints; or begin the branch at another value") +
+         (finds_period ? ", or give another `about`" : "");
+}
+
 double largest_share(const Eigen::VectorXd& way, Eigen::Index coordinates) {
   return coordinates > 0 ? way.head(coordinates).cwiseAbs().maxCoeff() : 0;
 }
@@ -127,11 +137,23 @@ FoundOrbit OrbitSearch::first(double value) {
   }
   if (finds_period_)
     if (const Outcome section = machine.map().lay_section(kMostOfFirst); !section.solved())
-      return no_answer<FoundOrbit>(section.message);
-  Shooting found =
-      shoot(machine.map(), {.tolerance = options_.tolerance, .most = kMostOfFirst, .repeats = [] { return true; }});
-  if (!found.solved()) return no_answer<FoundOrbit>(found.message);
-  return complete({found.motion, value, machine.map().period()}, found.periods);
+      return no_answer<FoundOrbit>(section.message + advice(finds_period_));
+  Shooting found = shoot_first(machine.map());
+  if (!found.solved() && finds_period_ && !is_stopped()) {
+    machine_.reset();
+    PeriodMap& grown = machine_at(value, 0).map();
+    if (grown.wait_while_it_grows(kMostOfGrowth).solved() && grown.lay_section(kMostOfFirst).solved())
+      found = shoot_first(grown);
+  }
+  if (!found.solved()) return no_answer<FoundOrbit>(found.message + advice(finds_period_));
+  return complete({found.motion, value, machine_->map().period()}, found.periods);
+}
+
+Shooting OrbitSearch::shoot_first(PeriodMap& map) const {
+  Shooting found = shoot(map, {.tolerance = options_.tolerance, .most = kMostOfFirst, .repeats = [] { return true; }});
+  // Where a small oscillation grows, rest is a motion that repeats, too.
+  if (found.solved() && finds_period_ && map.swing().is_rest()) found.fail(kAtRest);
+  return found;
 }
 
 MotionAtValue OrbitSearch::onto_section(MotionAtValue at) const {

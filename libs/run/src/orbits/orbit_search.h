@@ -8,6 +8,7 @@
 #include "hersey/core/outcome.h"
 #include "orbits/branch_point.h"
 #include "orbits/orbit_machine.h"
+#include "time_stepping/shooting.h"
 
 namespace hersey::run {
 
@@ -48,6 +49,7 @@ class OrbitSearch {
 
  private:
   OrbitMachine& machine_at(double value, double period);
+  [[nodiscard]] Shooting shoot_first(PeriodMap& map) const;
   [[nodiscard]] FoundOrbit search(const AcrossBranch& plane, std::vector<PeriodTrial> near);
   [[nodiscard]] FoundOrbit complete(const MotionAtValue& at, int periods);
 

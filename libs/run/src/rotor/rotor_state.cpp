@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "hersey/core/input_error.h"
@@ -340,6 +341,15 @@ class RotorFinder {
                           "between: [housing, shaft]", "exchange its two frames");
       add_bearing(force, {static_cast<int>(i)});
     }
+    tell_names_apart();
+  }
+
+  /// A film and a force of one name are called by their sections, too: `bearings.left`, `forces.left`.
+  void tell_names_apart() {
+    std::map<std::string, int> count;
+    for (const RotorBearing& bearing : rotor_.bearings) ++count[bearing.name];
+    for (std::size_t b = 0; b < rotor_.bearings.size(); ++b)
+      if (std::string& name = rotor_.bearings[b].name; count[name] > 1) name = sections_[b] + "." + name;
   }
 
   [[nodiscard]] BodySpin spin_of(std::size_t frame) const {
@@ -425,7 +435,7 @@ class RotorFinder {
     mbd::Mechanism& mechanism = spinning_.mechanism();
     const auto a = static_cast<std::size_t>(force.a.index), b = static_cast<std::size_t>(force.b.index);
     RotorBearing bearing;
-    bearing.name = name_of_bearing(force, id);
+    std::tie(sections_.emplace_back(), bearing.name) = name_of_bearing(force, id);
     const mbd::RelativeMotion motion = mechanism.relative_motion(state_, id);
     mbd::ForceResponse response;
     response.set_zero(motion.s.size());
@@ -448,12 +458,13 @@ class RotorFinder {
     rotor_.bearings.push_back(std::move(bearing));
   }
 
-  /// The name in the model: films are called "bearing left" in a mechanism.
-  [[nodiscard]] std::string name_of_bearing(const mbd::MechanismSpec::Force& force, mbd::ForceId id) const {
+  /// Section and name in the model: films are called "bearing left" in a mechanism.
+  [[nodiscard]] std::pair<std::string, std::string> name_of_bearing(const mbd::MechanismSpec::Force& force,
+                                                                    mbd::ForceId id) const {
     const std::vector<model::BuiltBearing>& films = spinning_.machine().bearings;
     for (std::size_t i = 0; i < films.size(); ++i)
-      if (films[i].force == id) return model_.bearings[i].name;
-    return force.name;
+      if (films[i].force == id) return {"bearings", model_.bearings[i].name};
+    return {"forces", force.name};
   }
 
   [[nodiscard]] std::string name_of(std::size_t frame) const {
@@ -494,6 +505,7 @@ class RotorFinder {
   FrameTwists frames_;
   AcrossAxis axis_;
   std::map<std::string, int> bodies_;  // of stations
+  std::vector<std::string> sections_;  // of the model, of bearings
 };
 
 bool are_alike(const Mobility& a, const Mobility& b) {

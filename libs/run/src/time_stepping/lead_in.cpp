@@ -83,10 +83,17 @@ PeriodicStart run_cycles(const model::Model& model, const Options& options) {
   const model::Cycle& cycle = *model.simulation.cycle;
   double change = std::numeric_limits<double>::quiet_NaN();
   Options quiet;
-  quiet.on_cycle = [&options, &change](CycleProgress progress) {
+  quiet.on_cycle = [&options, &change, &cycle](CycleProgress progress) {
     change = progress.change;
     progress.leads_in = true;
-    if (options.on_cycle) options.on_cycle(progress);
+    // Where the period is to be found, cycles of the run are those of its first guess.
+    if (options.on_cycle && !cycle.is_period_found) options.on_cycle(progress);
+  };
+  int periods = 0;
+  const auto end_period = [&](double misfit) {
+    ++periods;
+    if (options.on_cycle && cycle.is_period_found)
+      options.on_cycle({.number = periods, .change = misfit, .largest = "motion over its swing", .leads_in = true});
   };
   MachineRun run(trial, quiet);
   run.begin();
@@ -94,16 +101,23 @@ PeriodicStart run_cycles(const model::Model& model, const Options& options) {
   PeriodMap map(run, cycle.period, options.stop);
   if (cycle.is_period_found) {
     map.divide(static_cast<int>(std::lround(cycle.period / model.simulation.step)));
-    if (const Outcome section = map.lay_section(kMostToSection); !section.solved())
+    if (const Outcome section =
+            map.lay_section(kMostToSection, [&] { end_period(std::numeric_limits<double>::quiet_NaN()); });
+        !section.solved())
       throw std::runtime_error(section.message);
   }
   const Shooting found = shoot(map, {.tolerance = (cycle.is_period_found ? kOfFigures : 1) * cycle.tolerance,
                                      .most = cycle.most,
                                      .predicts = can_be_combined(model),
-                                     .repeats = [&] { return change <= cycle.tolerance || cycle.is_period_found; }});
+                                     .repeats = [&] { return change <= cycle.tolerance || cycle.is_period_found; },
+                                     .on_period = end_period});
   // Cycles that have not repeated yet are nearer to those that do than the start of the model.
-  if (!found.solved() && (!is_coarse || found.periods < cycle.most)) throw std::runtime_error(found.message);
-  PeriodicStart start{.cycles = found.periods};
+  if (!found.solved() && (!is_coarse || found.periods < cycle.most)) {
+    const bool may_go_on = found.periods == cycle.most;
+    throw std::runtime_error(
+        found.message + (may_go_on ? "; a larger `cycle.most` goes on, and a start nearer to it needs fewer" : ""));
+  }
+  PeriodicStart start{.cycles = periods};
   start.message = fmt::format("begun after {} cycles {}{}", start.cycles, is_coarse ? "on half grids" : "of shooting",
                               found.solved() ? "" : ", which have not repeated");
   if (cycle.is_period_found) {
@@ -115,12 +129,15 @@ PeriodicStart run_cycles(const model::Model& model, const Options& options) {
   run.move_to(found.motion);
   start.state = run.state();
   // Drives and functions of angles begin again at the start of the run.
-  run.mechanism().retract(q_start, run.mechanism().difference(q_start, run.state().q), start.state.q);
+  const Eigen::VectorXd way = run.mechanism().difference(q_start, run.state().q, found.motion.swinging);
+  run.mechanism().retract(q_start, way, start.state.q);
   if (cycle.is_period_found)
-    start.state.q = with_rings_at(run.mechanism(), q_start, map.swing().sizes(), {start.state.q, {}}).q;
+    start.state.q =
+        with_rings_at(run.mechanism(), q_start, map.swing().sizes(), {start.state.q, {}, found.motion.swinging}).q;
   if (!is_coarse) {
     start.motion = run.motion();
     start.motion->q = start.state.q;
+    start.motion->swinging = found.motion.swinging;
     return start;
   }
   for (std::size_t i = 0; i < model.bearings.size(); ++i)

@@ -258,12 +258,12 @@ void MachineRun::persist_motion(Archive& archive) {
 Motion MachineRun::motion() {
   Archive archive;
   persist_motion(archive);
-  return {state_.q, archive.content()};
+  return {.q = state_.q, .memory = archive.content()};
 }
 
 void MachineRun::move_to(const Motion& motion) {
   const Eigen::VectorXd here = state_.q;
-  mechanism().retract(here, mechanism().difference(here, motion.q), state_.q);
+  mechanism().retract(here, mechanism().difference(here, motion.q, motion.swinging), state_.q);
   Archive archive(motion.memory);
   persist_motion(archive);
   place_surfaces();

@@ -49,7 +49,8 @@ Motion combine(const mbd::Mechanism& mechanism, const std::vector<Motion>& motio
   Motion combined = motions.front();
   Eigen::VectorXd dq = Eigen::VectorXd::Zero(mechanism.nv());
   for (std::size_t k = 1; k < motions.size(); ++k)
-    dq += weights[static_cast<Eigen::Index>(k)] * mechanism.difference(motions.front().q, motions[k].q);
+    dq += weights[static_cast<Eigen::Index>(k)] *
+          mechanism.difference(motions.front().q, motions[k].q, combined.swinging);
   mechanism.retract(motions.front().q, dq, combined.q);
   for (auto& [name, numbers] : combined.memory.numbers) {
     if (is_of_a_factor(name)) continue;
@@ -111,11 +112,19 @@ Eigen::VectorXd Swing::ways() const {
 // It ends a period at least half a revolution from where it began; one that swings comes back.
 bool Swing::goes_round(Eigen::Index i) const { return std::abs(way_[i]) > std::numbers::pi; }
 
+std::vector<mbd::Mechanism::Index> Swing::swinging() const {
+  std::vector<mbd::Mechanism::Index> angles;
+  if (way_.size() == 0) return angles;
+  for (const Eigen::Index i : mechanism_.revolutions())
+    if (!goes_round(i)) angles.push_back(i);
+  return angles;
+}
+
 bool Swing::is_rest() const { return ways().isZero(0); }
 
 Motion with_rings_at(const mbd::Mechanism& mechanism, const Eigen::VectorXd& here, const Eigen::VectorXd& sizes,
                      Motion motion) {
-  Eigen::VectorXd way = mechanism.difference(here, motion.q);
+  Eigen::VectorXd way = mechanism.difference(here, motion.q, motion.swinging);
   for (Eigen::Index i = 0; i < way.size(); ++i)
     if (std::isinf(sizes[i])) way[i] = 0;
   mechanism.retract(here, way, motion.q);
@@ -124,7 +133,7 @@ Motion with_rings_at(const mbd::Mechanism& mechanism, const Eigen::VectorXd& her
 
 Eigen::VectorXd way_between(const mbd::Mechanism& mechanism, const Motion& from, const Motion& to) {
   std::vector<double> way;
-  const Eigen::VectorXd dq = mechanism.difference(from.q, to.q);
+  const Eigen::VectorXd dq = mechanism.difference(from.q, to.q, to.swinging);
   const std::vector<double>&v0 = from.memory.numbers.at("v").values, &v = to.memory.numbers.at("v").values;
   for (Eigen::Index i = 0; i < dq.size(); ++i) way.push_back(dq[i]);
   for (std::size_t i = 0; i < v.size(); ++i) way.push_back(v[i] - v0[i]);

@@ -13,6 +13,8 @@ namespace hersey::run {
 struct Motion {
   Eigen::VectorXd q;        ///< positions
   Archive::Content memory;  ///< velocities and accelerations, films, contacts, elastic bodies, temperatures
+  /// Angles of joints that swing, Swing::swinging(), whose whole revolutions count; those of all others do not.
+  std::vector<mbd::Mechanism::Index> swinging = {};
 };
 
 /// Combines motions at the same instant of different periods (theory manual, integrator.44). What cannot be combined,
@@ -37,6 +39,8 @@ class Swing {
   /// How far positions went: shape (nv). 0 for angles that go round, and for what stands still, which is at most a
   /// ten-millionth of the machine's size.
   [[nodiscard]] Eigen::VectorXd ways() const;
+  /// Angles of joints that do not go round, ascending; none before the first state.
+  [[nodiscard]] std::vector<mbd::Mechanism::Index> swinging() const;
   /// True if nothing oscillates.
   [[nodiscard]] bool is_rest() const;
 

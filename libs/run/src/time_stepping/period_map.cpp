@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -13,6 +14,8 @@ namespace hersey::run {
 namespace {
 
 constexpr double kNearlyReturns = 0.3;  // of a swing, over a period: a section across this motion is across its cycle
+constexpr int kGrowing = 4;             // periods, after which a motion is compared with that of as many before
+constexpr double kGrows = 1.02;  // of it: growth that is left to shooting, which finds what grows or decays slowly
 constexpr double kSoonest = 0.6, kLatest = 1.7;  // of the expected period: returns to a section
 
 // Weights of four motions, a step apart, for one between the second and the third. @param share  of the way, 0 to 1
@@ -51,6 +54,12 @@ struct LastMotions {
 
 PeriodMap::PeriodMap(MachineRun& run, double period, const std::atomic<bool>* stop)
     : run_(run), period_(period), stop_(stop), swing_(run.mechanism(), period), end_(run.state().t) {}
+
+Motion PeriodMap::motion() {
+  Motion motion = returned_ ? *returned_ : run_.motion();
+  motion.swinging = swing_.swinging();
+  return motion;
+}
 
 Outcome PeriodMap::take() {
   if (section_) return take_to_section();
@@ -92,6 +101,7 @@ Outcome PeriodMap::take_to_section() {
     const double share = last.share_of_passage();
     period_ = (k - 2 + share) * step;
     returned_ = combine(mechanism(), last.motions, cubic_weights(share));
+    returned_->swinging = swing_.swinging();
     return {Ending::solved};
   }
   return no_answer<Outcome>(fmt::format("the motion does not return within {:.3g} s", kLatest * period_));
@@ -106,12 +116,32 @@ Motion PeriodMap::onto_section(const Motion& motion) const {
   return combine(mechanism(), {motion, section_->next, section_->at}, Eigen::Vector3d(1, -beyond, beyond));
 }
 
-Outcome PeriodMap::lay_section(int most) {
+// Over periods that are not quite those of the motion how far it goes depends on where they begin: the farthest of a
+// few counts.
+Outcome PeriodMap::wait_while_it_grows(int most) {
+  HERSEY_REQUIRE(steps_ > 0 && !section_, "the period is divided into steps, and there is no section yet");
+  const Eigen::VectorXd scales = mechanism().position_scales();
+  double before = 0;
+  for (int periods = 0; periods < most; periods += kGrowing) {
+    double farthest = 0;
+    for (int k = 0; k < kGrowing; ++k) {
+      if (Outcome period = take(); !period.solved()) return period;
+      farthest = std::max(farthest, swing_.ways().cwiseQuotient(scales).norm());
+    }
+    if (farthest < kGrows * before) break;
+    before = farthest;
+  }
+  return {Ending::solved};
+}
+
+Outcome PeriodMap::lay_section(int most, const std::function<void()>& on_period) {
   HERSEY_REQUIRE(steps_ > 0, "the period is divided into steps");
   for (int periods = 0; periods < most; ++periods) {
     const Motion start = run_.motion();
     if (Outcome period = take(); !period.solved() && !section_) return period;
-    const Motion end = run_.motion();
+    if (on_period) on_period();
+    Motion end = run_.motion();
+    end.swinging = swing_.swinging();
     if (swing_.is_rest()) return no_answer<Outcome>("the machine comes to rest: it does not oscillate");
     const bool nearly_returns = section_ && returned_ && way(start, end).head(coordinates()).norm() < kNearlyReturns;
     section_.reset();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 
 #include "hersey/core/outcome.h"
@@ -24,10 +25,15 @@ class PeriodMap {
   /// Divides each period into `count` steps of equal length, which differ little from those of the model.
   void divide(int count) { steps_ = count; }
 
+  /// Runs periods one after the other until the motion grows no more.
+  /// @param most  periods
+  /// @pre divided, without a section
+  [[nodiscard]] Outcome wait_while_it_grows(int most);
   /// Lays a section across the motion of a machine whose period is about period(), where it is after some periods.
   /// @param most  periods to wait for a motion that nearly returns
+  /// @param on_period  called at the end of each; may be empty
   /// @pre divided
-  [[nodiscard]] Outcome lay_section(int most);
+  [[nodiscard]] Outcome lay_section(int most, const std::function<void()>& on_period = {});
   /// Lays the section of another map of the same machine.
   void lay_section_of(const PeriodMap& other) { section_ = other.section_; }
   /// Lays the section across the start of the last period.
@@ -41,7 +47,7 @@ class PeriodMap {
   [[nodiscard]] Outcome take_from(const Motion& start);
 
   /// Motion at the end of the last period; with a section, on it.
-  [[nodiscard]] Motion motion() { return returned_ ? *returned_ : run_.motion(); }
+  [[nodiscard]] Motion motion();
   [[nodiscard]] const mbd::Mechanism& mechanism() const { return run_.mechanism(); }
   /// Length of the last period, or the one that is expected [s].
   [[nodiscard]] double period() const { return period_; }

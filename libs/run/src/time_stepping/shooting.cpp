@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "hersey/solver/least_residual.h"
@@ -43,6 +44,7 @@ Shooting shoot(PeriodMap& map, const ShootingOptions& options) {
     const Outcome period = is_predicted ? map.take_from(start) : map.take();
     ++found.periods;
     if (!period.solved()) {
+      if (options.on_period) options.on_period(std::numeric_limits<double>::quiet_NaN());
       // A prediction that no machine can follow: the motion before it goes on as it is.
       if (!is_predicted || found.periods == options.most) return no_answer<Shooting>(period.message);
       trials.keep(0);
@@ -55,6 +57,8 @@ Shooting shoot(PeriodMap& map, const ShootingOptions& options) {
     trials.add(std::move(end), std::move(residual));
     std::vector<Eigen::VectorXd> residuals = trials.residuals;
     for (Eigen::VectorXd& way : residuals) map.compare_by_swing(way);
+    const double misfit = largest(residuals.front().head(map.coordinates()));
+    if (options.on_period) options.on_period(misfit);
     if (residuals.size() > 1 && residuals[0].norm() > kGrowth * residuals[1].norm()) {
       trials.keep(1);
       residuals.resize(1);
@@ -62,8 +66,7 @@ Shooting shoot(PeriodMap& map, const ShootingOptions& options) {
     const solver::LeastResidual least = solver::combine_to_least_residual(residuals);
     start = combine(map.mechanism(), trials.ends, least.weights);
     const double distance = largest(map.way(trials.ends.front(), start).head(map.coordinates()));
-    const bool repeats = largest(residuals.front().head(map.coordinates())) <= options.tolerance &&
-                         distance <= options.tolerance && options.repeats();
+    const bool repeats = misfit <= options.tolerance && distance <= options.tolerance && options.repeats();
     if (repeats && (trials.ends.size() >= kFewestTrials || !options.predicts)) {
       found.motion = std::move(start);
       found.near = std::move(trials.ends);

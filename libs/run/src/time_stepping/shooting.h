@@ -12,6 +12,9 @@ struct ShootingOptions {
   int most = 20;                  ///< periods
   bool predicts = true;           ///< false: each period begins where the one before has ended
   std::function<bool()> repeats;  ///< whether the figures of the period that has ended are those of the one before
+  /// Called at the end of each period with its distance from one that repeats, in shares of every coordinate's swing;
+  /// not a number where the period could not be run. May be empty.
+  std::function<void(double)> on_period = {};
 };
 
 /// Periodic motion of a machine, or why there is none.

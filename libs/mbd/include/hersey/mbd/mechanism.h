@@ -57,7 +57,9 @@ class Mechanism final : public solver::Equations {
 
   /// Returns the smallest increment dq with q = q0 (+) dq, the inverse of retract(): rotations of revolute joints less
   /// whole revolutions.
-  [[nodiscard]] Eigen::VectorXd difference(const Eigen::VectorXd& q0, const Eigen::VectorXd& q) const;
+  /// @param counted  velocity components of rotations whose whole revolutions count
+  [[nodiscard]] Eigen::VectorXd difference(const Eigen::VectorXd& q0, const Eigen::VectorXd& q,
+                                           const std::vector<Index>& counted = {}) const;
 
   /// Saves or restores what `persist` does, apart from drives and forces of joints, which depend on the time and on
   /// angles that grow with it.
