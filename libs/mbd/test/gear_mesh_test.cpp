@@ -57,7 +57,8 @@ Vector6 wrench(GearMesh& mesh, const RelativeMotion& motion) {
 TEST_CASE("GearMesh_PushesAlongItsLineOfAction") {
   for (const int side : {1, -1}) {
     for (const double helix : {0.0, 0.25, -0.25}) {
-      CAPTURE(side), CAPTURE(helix);
+      CAPTURE(side);
+      CAPTURE(helix);
       const GearMesh::Data data = data_of(side, helix);
       const double alpha = 0.4, gamma = 1.1, a = sum_of_radii(data) / std::cos(alpha), turned = 2e-4;
       const Vector3 e(std::cos(gamma), std::sin(gamma), 0), t(-std::sin(gamma), std::cos(gamma), 0);
@@ -87,7 +88,7 @@ TEST_CASE("RightHandedWheel_IsPushedAsAScrewDrivesItself") {
   GearMesh mesh(data);
   const Vector3 centre(1.05 * sum_of_radii(data), 0, 0);
   mesh.mesh_here(between(Pose{}, wheel_at(centre, 0)));
-  CHECK(mesh.load(between(wheel_at({}, 1e-4), wheel_at(centre, 0))).axial > 0);
+  CHECK(mesh.load(between(wheel_at(Vector3::Zero(), 1e-4), wheel_at(centre, 0))).axial > 0);
 }
 
 /// Angle that the flank of an involute on the base radius r_b has turned on by at the radius r.
@@ -134,12 +135,12 @@ TEST_CASE("WheelsThatRollInTheirRatio_HaveNoForceOverAnyNumberOfRevolutions") {
   const Vector3 centre = 1.05 * sum_of_radii(data) * Vector3(std::cos(2.0), std::sin(2.0), 0);
   GearMesh mesh(data);
   const double first = 0.8, second = -1.9;
-  mesh.mesh_here(between(wheel_at({}, first), wheel_at(centre, second)));
+  mesh.mesh_here(between(wheel_at(Vector3::Zero(), first), wheel_at(centre, second)));
   for (const double revolutions : {0.013, 0.5, 1.7, 1e3, 1e6}) {
     CAPTURE(revolutions);
     const double turned = 2 * kPi * revolutions;
-    const RelativeMotion motion =
-        between(wheel_at({}, first + turned), wheel_at(centre, second - turned * data.teeth[0] / data.teeth[1]));
+    const RelativeMotion motion = between(wheel_at(Vector3::Zero(), first + turned),
+                                          wheel_at(centre, second - turned * data.teeth[0] / data.teeth[1]));
     // Round-off of the angles that were turned.
     CHECK(std::abs(mesh.load(motion).deflection) <
           16 * std::numeric_limits<double>::epsilon() * (10 + turned) * data.base_radius[1]);

@@ -55,7 +55,7 @@ TEST_CASE("FaultsOfAGearMesh_NameTheKey") {
   const auto after = [](const char* from, const char* to) { return faults_of(edited(kStage, from, to)); };
   CHECK(after("teeth: [23, 57]", "teeth: [23]").find("forces.mesh.teeth") != std::string::npos);
   CHECK(after("teeth: [23, 57]", "teeth: [23, 0]").find("forces.mesh.teeth") != std::string::npos);
-  CHECK(after("torque_on_first: negative", "torque_on_first: backward").find("'positive'") != std::string::npos);
+  CHECK(after("torque_on_first: negative", "torque_on_first: backward").find("positive") != std::string::npos);
   CHECK(after("    torque_on_first: negative\n", "").find("torque_on_first") != std::string::npos);
   CHECK(after("helix_angle: 15 deg", "helix_angle: 75 deg").find("forces.mesh.helix_angle") != std::string::npos);
   CHECK(after("between: [pinion, wheel]", "between: [pinion, pinion]").find("wheels on two bodies") !=

@@ -183,7 +183,10 @@ std::vector<ResponsePeak> peaks_of(const std::vector<double>& x, const std::vect
     const double a = x[k] - x[k - 1], b = x[k + 1] - x[k];
     const double left = (inverse(k) - inverse(k - 1)) / a, right = (inverse(k + 1) - inverse(k)) / b;
     const double bend = (right - left) / (a + b), slope = (left * b + right * a) / (a + b);
-    const double shift = bend > 0 ? std::clamp(-slope / (2 * bend), -a / 2, b / 2) : 0;
+    double shift = bend > 0 ? std::clamp(-slope / (2 * bend), -a / 2, b / 2) : 0;
+    // Of a peak that is sharp beside the distance of the speeds the parabola falls below zero: its speed is the
+    // nearest.
+    if (inverse(k) + shift * (slope + bend * shift) <= 0) shift = 0;
     ResponsePeak peak{station, x[k] + shift, 1 / std::sqrt(inverse(k) + shift * (slope + bend * shift))};
     const double level = peak.amplitude / std::sqrt(2);
     const auto low = flank(x, y, k, -1, level), high = flank(x, y, k, 1, level);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -123,7 +124,7 @@ void require_rolling_wheels(const model::Model& model, const model::Machine& mac
                                   "first wheel",
                                   -first / kRpm * teeth[0] / teeth[1], -second / kRpm * teeth[1] / teeth[0]),
                       "give the joint of the wheel that no drive rotates its speed under `initial`, as "
-                      "`rotation_speed`, or let the drive start from rest by `ramp`"});
+                      "`rotation_rate`, or let the drive start from rest by `ramp`"});
   }
   if (!faults.empty()) throw InputError(std::move(faults));
 }
