@@ -164,6 +164,19 @@ class Rotors(unittest.TestCase):
         self.assertAlmostEqual(peak["separation_margin"], 1 - peak["speed"] / 5500, delta=1e-9)  # round-off
         self.assertTrue(peak["is_enough"])
 
+    def test_threads_change_no_number(self):
+        (self.folder / "film.yaml").write_text(FILM + LINEAR, encoding="utf-8")
+        sweep = ("--sweep", "drives.motor.speed=1200rpm:1800rpm:5")
+        one, two = (self.hersey("rotor", self.folder / "film.yaml", "--json", *sweep, "--threads", n).stdout for n in (1, 2))
+        self.assertEqual(one, two)
+
+    def test_a_peak_between_few_speeds_has_an_amplitude(self):
+        # So sharp that the parabola through its three highest points of 1/amplitude^2 falls below zero.
+        found = self.rotor("jeffcott.yaml", "--sweep", "speed=2500rpm,3000rpm,3050rpm,8000rpm", c="2 N.s/m")
+        for peak in found["response_peaks"]:
+            largest = max(at["unbalance"]["stations"][peak["station"]]["major_axis"] for at in found["speeds"])
+            self.assertGreaterEqual(peak["amplitude"], largest)
+
     def test_response_scales_with_the_unbalance_and_follows_its_phase(self):
         one = self.at("jeffcott.yaml", k_y="2 MN/m", q="0.1 MN/m", q_yx="-0.1 MN/m")["unbalance"]["stations"]["rotor"]
         double = self.at("jeffcott.yaml", k_y="2 MN/m", q="0.1 MN/m", q_yx="-0.1 MN/m", amount="20 g.mm", phase="40 deg")["unbalance"]["stations"]["rotor"]

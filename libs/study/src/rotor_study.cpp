@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hersey/core/input_error.h"
+#include "hersey/core/task_pool.h"
 
 namespace hersey::study {
 namespace {
@@ -119,25 +120,25 @@ double least_log_decrement(const run::RotorState& rotor) {
 
 std::vector<RotorAtSpeed> rotor_over_speeds(const ModelReader& read, const std::vector<model::StudyRun>& runs,
                                             const std::vector<std::string>& stations) {
-  std::vector<RotorAtSpeed> rotor;
-  std::optional<InputError> refused;  // where no speed has an answer
-  for (const model::StudyRun& one : runs) {
-    RotorAtSpeed at;
-    at.label = one.label;
+  std::vector<RotorAtSpeed> rotor(runs.size());
+  std::vector<std::optional<InputError>> refused(runs.size());
+  TaskPool::shared().run(runs.size(), [&](std::size_t i) {
+    RotorAtSpeed& at = rotor[i];
+    at.label = runs[i].label;
     try {
-      at.state = run::find_rotor_state(read(one.overrides), stations);
+      at.state = run::find_rotor_state(read(runs[i].overrides), stations);
     } catch (const InputError& error) {
       at.state.fail(error.what());
-      if (!refused) refused = error;
+      refused[i] = error;
     }
     if (at.state.solved()) {
       at.modes = run::whirl_modes(at.state);
       if (at.state.unbalances > 0) at.response = run::unbalance_response(at.state);
     }
-    rotor.push_back(std::move(at));
-  }
-  if (refused && std::none_of(rotor.begin(), rotor.end(), [](const RotorAtSpeed& at) { return at.state.solved(); }))
-    throw InputError(*refused);
+  });
+  if (std::none_of(rotor.begin(), rotor.end(), [](const RotorAtSpeed& at) { return at.state.solved(); }))
+    for (const std::optional<InputError>& error : refused)
+      if (error) throw InputError(*error);
   std::stable_sort(rotor.begin(), rotor.end(),
                    [](const RotorAtSpeed& a, const RotorAtSpeed& b) { return a.state.speed < b.state.speed; });
   const RotorAtSpeed none;
