@@ -90,7 +90,7 @@ export class RunUpView {
     const caption = `Waterfall: spectra of ${nameOf(displacement)}, piece by piece of the run, each at its mean speed; dashed: orders of ${shaft}.`;
     return [
       figure("run-up-waterfall", caption, tableButton("run-up-waterfall", table), waterfall(ridges, axes)),
-      figure("run-up-map", `The same spectra of ${nameOf(displacement)} as a map, in decibels below the largest amplitude; dashed: orders of ${shaft}.`, new SpectrumMap(ridges, axes).element),
+      figure("run-up-map", `The same spectra of ${nameOf(displacement)} as a map, in decibels below the largest amplitude; dashed: orders of ${shaft}.`, tableButton("run-up-map", table), new SpectrumMap(ridges, axes).element),
     ];
   }
 

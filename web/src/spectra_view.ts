@@ -188,7 +188,7 @@ export class SpectraView {
     const caption = `Waterfall: spectra of ${label} (${choice.group}), piece by piece of the run, each at its mean speed; dashed: orders of ${spaced(shaft.name)}.`;
     return [
       figure("waterfall", caption, tableButton("waterfall", table), waterfall(ridges, axes)),
-      figure("waterfall-map", `The same spectra of ${label} as a map, in decibels below the largest amplitude; dashed: orders of ${spaced(shaft.name)}.`, new SpectrumMap(ridges, axes).element),
+      figure("waterfall-map", `The same spectra of ${label} as a map, in decibels below the largest amplitude; dashed: orders of ${spaced(shaft.name)}.`, tableButton("waterfall-map", table), new SpectrumMap(ridges, axes).element),
     ];
   }
 
