@@ -39,6 +39,120 @@ SUPPORTS = """  left: {type: bearing_table, between: [ground, pinion], stiffness
 """
 TURNING = "simulation: {analysis: modes, modes_about: turning}\n"
 
+# The geared generator and turbine of Rao, Shiau and Chang (1998), as ROSS has it in the documentation of MultiRotor.
+TURBINE = """hersey: 1
+parameters: {per_metre: 1, side: positive}
+bodies:
+  ground:
+    frames:
+      a: {origin: 0 0 0 mm}
+      b: {origin: 0 0 5500 mm}
+      c: {origin: 589.15 0 6100 mm}
+      e: {origin: 589.15 0 5800 mm}
+      d: {origin: 589.15 0 11100 mm}
+  low:
+    beam: &beam
+      points: [0 0 0 mm, 0 0 100 mm, 0 0 4340 mm]
+      section: {circle: {diameter: 300 mm}}
+      material: &steel {youngs_modulus: 207 GPa, poisson_ratio: 0.30188679245283, density: 7800 kg/m^3}
+      elements: "${per_metre}*6"
+    frames: {start: {along: start}, generator: {along: 100 mm}, end: {along: end}}
+  thin:
+    beam:
+      points: [0 0 4340 mm, 0 0 5500 mm, 0 0 5800 mm]
+      section: {circle: {diameter: 220 mm}}
+      material: *steel
+      elements: "${per_metre}*3"
+    frames: {start: {along: start}, bearing: {along: 1160 mm}, end: {along: end}}
+  high:
+    beam:
+      points: [589.15 0 5800 mm, 589.15 0 6100 mm, 589.15 0 11100 mm, 589.15 0 11200 mm]
+      section: {circle: {diameter: 150 mm}}
+      material: *steel
+      elements: "${per_metre}*10"
+    frames: {start: {along: start}, first: {along: 300 mm}, turbine: {along: 5300 mm}, end: {along: end}}
+  generator: {mass: 525.7 kg, inertia: {xx: 16.1 kg.m^2, yy: 16.1 kg.m^2, zz: 32.2 kg.m^2}}
+  disk: {mass: 116.04 kg, inertia: {xx: 3.115 kg.m^2, yy: 3.115 kg.m^2, zz: 6.23 kg.m^2}}
+  wheel: {mass: 726.4 kg, inertia: {xx: 56.95 kg.m^2, yy: 56.95 kg.m^2, zz: 113.9 kg.m^2}}
+  pinion: {mass: 5 kg, inertia: {xx: 0.002 kg.m^2, yy: 0.002 kg.m^2, zz: 0.004 kg.m^2}}
+  turbine: {mass: 7.45 kg, inertia: {xx: 0.0745 kg.m^2, yy: 0.0745 kg.m^2, zz: 0.149 kg.m^2}}
+joints:
+  floats: {type: free, between: [ground.a, low.start]}
+  floats_too: {type: free, between: [ground.e, high.start]}
+  join: {type: fixed, between: [low.end, thin.start]}
+  g: {type: fixed, between: [low.generator, generator]}
+  k: {type: fixed, between: [low.end, disk]}
+  w: {type: fixed, between: [thin.end, wheel]}
+  p: {type: fixed, between: [high.start, pinion]}
+  t: {type: fixed, between: [high.turbine, turbine]}
+forces:
+  mesh: {type: gear_mesh, between: [wheel, pinion], teeth: [328, 23], normal_module: 3.357 mm, pressure_angle: 22.5 deg, torque_on_first: "${side}", stiffness: 100 MN/m}
+  b1: {type: bearing_table, between: [ground.a, low.start], stiffness: {xx: 183.9 MN/m, yy: 200.4 MN/m}, damping: {xx: 3 kN.s/m, yy: 3 kN.s/m}}
+  b2: {type: bearing_table, between: [ground.b, thin.bearing], stiffness: {xx: 183.9 MN/m, yy: 200.4 MN/m}, damping: {xx: 3 kN.s/m, yy: 3 kN.s/m}}
+  b3: {type: bearing_table, between: [ground.c, high.first], stiffness: {xx: 10.1 MN/m, yy: 41.6 MN/m}, damping: {xx: 3 kN.s/m, yy: 3 kN.s/m}}
+  b4: {type: bearing_table, between: [ground.d, high.end], stiffness: {xx: 10.1 MN/m, yy: 41.6 MN/m}, damping: {xx: 3 kN.s/m, yy: 3 kN.s/m}}
+simulation: {analysis: modes, modes_about: start}
+"""
+
+
+class BeamElements:
+    """Both shafts of TURBINE by cubic elements of Timoshenko's beam, undamped and at rest: x, y, two slopes and the twist of each node."""
+
+    E, G, RHO = 207e9, 79.5e9, 7800
+
+    def __init__(self, per_segment):
+        low = self.shaft([0.1, 4.24, 1.16, 0.3], [0.3, 0.3, 0.22, 0.22], per_segment)
+        high = self.shaft([0.3, 5, 0.1], [0.15] * 3, per_segment)
+        for node, disk in ((1, (525.7, 16.1, 32.2)), (2, (116.04, 3.115, 6.23)), (4, (726.4, 56.95, 113.9))):
+            self.add_disk(low[1], node * per_segment, *disk)
+        for node, disk in ((0, (5, 0.002, 0.004)), (2, (7.45, 0.0745, 0.149))):
+            self.add_disk(high[1], node * per_segment, *disk)
+        for K, nodes, k in ((low[0], (0, 3), (183.9e6, 200.4e6)), (high[0], (1, 3), (10.1e6, 41.6e6))):
+            for node in nodes:
+                for axis in (0, 1):
+                    K[5 * node * per_segment + axis, 5 * node * per_segment + axis] += k[axis]
+        first = len(low[0])
+        self.K, self.M = (np.block([[a, np.zeros((first, len(b)))], [np.zeros((len(b), first)), b]]) for a, b in zip(low, high))
+        lever = np.zeros(len(self.K))
+        alpha, wheel = math.radians(22.5), 20 * per_segment
+        lever[[wheel, wheel + 1, wheel + 4]] = math.sin(alpha), math.cos(alpha), 0.5086
+        lever[[first, first + 1, first + 4]] = -math.sin(alpha), -math.cos(alpha), 0.03567
+        self.K += 1e8 * np.outer(lever, lever)
+
+    @staticmethod
+    def add_disk(M, node, mass, across, along):
+        for k, value in enumerate((mass, mass, across, across, along)):
+            M[5 * node + k, 5 * node + k] += value
+
+    def shaft(self, lengths, diameters, per_segment):
+        segments = [(length / per_segment, d) for length, d in zip(lengths, diameters) for _ in range(per_segment)]
+        K, M = np.zeros((2, 5 * len(segments) + 5, 5 * len(segments) + 5))
+        nu = self.E / (2 * self.G) - 1
+        for i, (L, d) in enumerate(segments):
+            area, inertia = math.pi * d**2 / 4, math.pi * d**4 / 64
+            phi = 12 * self.E * inertia / (self.G * area * L**2 * 6 * (1 + nu) / (7 + 6 * nu))
+            k = self.E * inertia / ((1 + phi) * L**3) * np.array(
+                [[12, 6 * L, -12, 6 * L], [6 * L, (4 + phi) * L**2, -6 * L, (2 - phi) * L**2],
+                 [-12, -6 * L, 12, -6 * L], [6 * L, (2 - phi) * L**2, -6 * L, (4 + phi) * L**2]])
+            m = self.RHO * area * L / 420 * np.array([[156, 22 * L, 54, -13 * L], [22 * L, 4 * L**2, 13 * L, -3 * L**2],
+                                                      [54, 13 * L, 156, -22 * L], [-13 * L, -3 * L**2, -22 * L, 4 * L**2]])
+            m += self.RHO * inertia / (30 * L) * np.array([[36, 3 * L, -36, 3 * L], [3 * L, 4 * L**2, -3 * L, -(L**2)],
+                                                           [-36, -3 * L, 36, -3 * L], [3 * L, -(L**2), -3 * L, 4 * L**2]])
+            for across, slope, sign in ((0, 3, 1), (1, 2, -1)):
+                at = np.ix_(*2 * [[5 * i + across, 5 * i + slope, 5 * i + 5 + across, 5 * i + 5 + slope]])
+                turned = np.diag([1, sign, 1, sign])
+                K[at] += turned @ k @ turned
+                M[at] += turned @ m @ turned
+            twist = np.ix_([5 * i + 4, 5 * i + 9], [5 * i + 4, 5 * i + 9])
+            K[twist] += 2 * self.G * inertia / L * np.array([[1, -1], [-1, 1]])
+            M[twist] += self.RHO * 2 * inertia * L / 6 * np.array([[2, 1], [1, 2]])
+        return K, M
+
+    def frequencies(self, count):
+        """The lowest [rad/s], without the motion in which both shafts rotate."""
+        return np.sqrt(np.abs(np.sort(np.linalg.eigvals(np.linalg.solve(self.M, self.K)).real)))[1:count + 1]
+
+
 
 def teeth(helix_deg, distance=None):
     """Base radii, helix angle on the base cylinder and pressure angle in service."""
@@ -133,6 +247,17 @@ class Gears(unittest.TestCase):
             for value, exact in zip(self.frequencies(text, helix=f"{signed} deg"), expected, strict=True):
                 self.assertAlmostEqual(value / exact, 1, delta=1e-8)  # round-off of the spin's differences
 
+    def test_a_geared_turbine(self):
+        # ROSS documents 74, 77, 112, 113 rad/s, of one element a segment.
+        self.assertEqual(list(np.round(BeamElements(1).frequencies(4))), [74, 77, 112, 113])
+        exact = BeamElements(8).frequencies(4)
+        found = []
+        for elements in (1, 2):
+            with h5py.File(self.run_model(TURBINE, per_metre=elements)) as file:
+                found.append(2 * math.pi * np.sort(file["modes/fields/damped_frequency"][...])[6:10])  # after six that displace nothing
+        for a, b, value in zip(*found, exact, strict=True):
+            self.assertAlmostEqual((4 * b - a) / 3 / value, 1, delta=1e-3)  # linear elements, of second order, extrapolated
+
     # -- forces --------------------------------------------------------------------------------------------------
 
     def test_a_torque_is_carried_along_the_line_of_action(self):
@@ -173,6 +298,14 @@ class Gears(unittest.TestCase):
     def test_wheels_too_near_are_refused(self):
         done = self.hersey("run", self.write(self.pair(DRIVE + "simulation: {analysis: steady}\n", distance=0.149)), "--output", self.folder / "out", "--force", code=2)
         self.assertIn("need more than the sum of their base radii", done.stderr)
+
+    def test_teeth_that_would_part_are_told(self):
+        text = self.pair(DRIVE + "simulation: {analysis: steady}\n")
+        done = self.hersey("run", self.write(text, torque="100 N.m", side="negative"), "--output", self.folder / "out", "--force")
+        self.assertIn("gear mesh mesh: for 100 % of the time its teeth would part", done.stderr)
+        self.assertRegex(done.stdout, r"(?s)\ngear mesh mesh\n.*smallest mesh force +-933")  # 100 N m over the base radius
+        done = self.hersey("run", self.write(text, torque="100 N.m"), "--output", self.folder / "out", "--force")
+        self.assertNotIn("would part", done.stderr)
 
     # -- motion --------------------------------------------------------------------------------------------------
 

@@ -126,7 +126,7 @@ TEST_CASE("InvolutesTouch_WhereTheMeshIsFreeOfForce") {
   mesh.mesh_here(between(Pose{}, wheel_at({near, 0, 0}, touching(near))));
   const double apart = mesh.load(between(Pose{}, wheel_at({far, 0, 0}, touching(near)))).deflection;
   const double met = mesh.load(between(Pose{}, wheel_at({far, 0, 0}, touching(far)))).deflection;
-  CHECK(apart < -1e-4);
+  CHECK(apart < -1e-4);                           // m: sin(alpha) of the 0.5 mm by which the wheels were moved
   CHECK(std::abs(met) < 1e-4 * std::abs(apart));  // of flanks by 4001 points: the square of their distance
 }
 

@@ -28,6 +28,8 @@ forces:
 simulation: {duration: 1 ms, step: 0.1 ms}
 )";
 
+constexpr double kRoundOff = 1e-12;  // of some dozens of operations
+
 TEST_CASE("Teeth_GiveTheBaseCirclesOfTheirPitch") {
   const Model model = read_text(kStage, "m.yaml");
   const mbd::GearMesh::Data data = model.forces.at(0).as<GearMesh>()->data;
@@ -35,11 +37,11 @@ TEST_CASE("Teeth_GiveTheBaseCirclesOfTheirPitch") {
   CHECK(data.teeth == std::array{23, 57});
   // Along the normal of the flanks one tooth follows the other after the base pitch of the basic rack.
   const double pitch = 2 * std::numbers::pi * data.base_radius[0] / 23 * std::cos(data.base_helix);
-  CHECK(pitch == doctest::Approx(std::numbers::pi * 4e-3 * std::cos(20 * std::numbers::pi / 180)).epsilon(1e-12));
+  CHECK(pitch == doctest::Approx(std::numbers::pi * 4e-3 * std::cos(20 * std::numbers::pi / 180)).epsilon(kRoundOff));
   // The lead is that of the reference cylinder.
   const double reference = 4e-3 * 23 / 2 / std::cos(15 * std::numbers::pi / 180);
   CHECK(std::tan(data.base_helix) / data.base_radius[0] ==
-        doctest::Approx(std::tan(15 * std::numbers::pi / 180) / reference).epsilon(1e-12));
+        doctest::Approx(std::tan(15 * std::numbers::pi / 180) / reference).epsilon(kRoundOff));
 }
 
 TEST_CASE("Wheels_MeshWithoutForceWhereTheirJointsStart") {

@@ -48,6 +48,7 @@ class GearMesh final : public TwoBodyForce {
   [[nodiscard]] double lost_power(const RelativeMotion& motion) const override;
   [[nodiscard]] std::string domain_error() const override { return fault_; }
 
+  /// Returns what acts in the mesh.
   [[nodiscard]] Load load(const RelativeMotion& motion) const;
   /// Rate of the deflection [m/s]: zero where the wheels roll in their ratio.
   [[nodiscard]] double approach(const RelativeMotion& motion) const;
