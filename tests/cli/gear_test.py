@@ -262,10 +262,10 @@ class Gears(unittest.TestCase):
 
     def test_a_torque_is_carried_along_the_line_of_action(self):
         torque = 800.0
-        for helix in (0, 15, -15):
+        for helix, analysis in ((0, "steady"), (15, "steady"), (-15, "static")):
             distance = distance_of(helix) + 0.4e-3  # wheels with profile shift
             r_b, beta_b, alpha = teeth(helix, distance)
-            text = self.pair(DRIVE + "simulation: {analysis: steady}\n", distance=distance)
+            text = self.pair(DRIVE + f"simulation: {{analysis: {analysis}}}\n", distance=distance)
             with h5py.File(self.run_model(text, helix=f"{helix} deg", torque=f"{torque} N.m")) as file:
                 found = {name: file[f"forces/mesh/{name}"][-1] for name in file["forces/mesh"] if name.startswith("mesh_")}
                 drive = file["drives/motor/force_or_torque"][-1]

@@ -122,6 +122,12 @@ void require_damped_multipliers(const model::Model& model, const mbd::Mechanism&
                          "`step: {tolerance}` do not"});
 }
 
+// True unless the analysis looks at the machine at rest.
+bool keeps_speeds(const model::Simulation& plan) {
+  return plan.analysis != model::Analysis::equilibrium &&
+         (plan.analysis != model::Analysis::modes || plan.modes_about != model::ModesAbout::equilibrium);
+}
+
 // Deformable bodies start in equilibrium with the forces on them, if this is requested.
 void deform(const model::Model& model, model::Machine& machine, solver::InitialiseOptions options,
             solver::State& state) {
@@ -157,7 +163,7 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   if (!summary.solved()) throw InputError(faults_of(model, summary));
   require_given_start(model, *machine.mechanism, state, summary);
   if (model.simulation.is_steady_motion()) roll_wheels(machine, state);
-  require_rolling_wheels(model, machine, state);
+  if (keeps_speeds(model.simulation)) require_rolling_wheels(model, machine, state);
   require_clearance(model, machine, state);
   deform(model, machine, options, state);
   if (model.simulation.analysis == model::Analysis::kinematics) require_prescribed_motion(model, machine, state);
