@@ -209,10 +209,12 @@ class Gears(unittest.TestCase):
             distance = distance_of(helix)
             r_b, beta_b, _ = teeth(helix)
             text = self.pair("simulation: {analysis: modes, modes_about: start}\n", distance=distance)
-            with h5py.File(self.run_model(text, helix=f"{helix} deg")) as file:
-                found = file["modes/fields/damped_frequency"][...]
+            c = 2e3
+            with h5py.File(self.run_model(text, helix=f"{helix} deg", c=f"{c} N.s/m")) as file:
+                found, damping = (file[f"modes/fields/{name}"][...] for name in ("frequency", "damping_ratio"))
             expected = math.sqrt(4e8 * math.cos(beta_b) ** 2 * (r_b[0] ** 2 / PINION[1] + r_b[1] ** 2 / WHEEL[1]))
             self.assertAlmostEqual(2 * math.pi * found.max() / expected, 1, delta=1e-9)  # round-off
+            self.assertAlmostEqual(damping[found.argmax()] / (c * expected / (2 * 4e8)), 1, delta=1e-7)  # round-off of a small number
 
     def test_a_geared_jeffcott_pair(self):
         k = 4e8
