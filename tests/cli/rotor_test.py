@@ -177,6 +177,33 @@ class Rotors(unittest.TestCase):
             largest = max(at["unbalance"]["stations"][peak["station"]]["major_axis"] for at in found["speeds"])
             self.assertGreaterEqual(peak["amplitude"], largest)
 
+    def test_results_as_hdf5_are_those_as_json(self):
+        import h5py
+        import numpy
+        values = {"k_y": "2 MN/m", "q": "0.1 MN/m", "q_yx": "-0.1 MN/m"}
+        path = self.folder / "rotor.h5"
+        found = self.rotor("jeffcott.yaml", "--sweep", "speed=1000rpm:6000rpm:6", "--results", path, **values)
+        with h5py.File(path) as file:
+            names = [name.decode() for name in file["station"][...]]
+            words = list(file["modes/whirl"].attrs["words"])
+            answer = {name: file[f"unbalance/{name}"][...].reshape(6, len(names)) for name in ("x_real", "x_imaginary", "major_axis")}
+            self.assertEqual(file["speed"].shape, (6,))
+            for i, at in enumerate(found["speeds"]):
+                self.assertAlmostEqual(file["speed"][i] / (at["speed"] * RPM), 1, delta=1e-12)  # round-off of the unit
+                for k, mode in enumerate(at["modes"]):
+                    for name in ("damped_frequency", "log_decrement", "track"):
+                        self.assertEqual(file[f"modes/{name}"][i, k], mode[name])
+                    self.assertEqual(words[int(file["modes/whirl"][i, k])], mode["whirl"])
+                for s, name in enumerate(names):
+                    orbit = at["unbalance"]["stations"][name]
+                    x = complex(answer["x_real"][i, s], answer["x_imaginary"][i, s])
+                    self.assertAlmostEqual(abs(x) / orbit["x"], 1, delta=1e-12)  # round-off of the absolute value
+                    self.assertAlmostEqual((-math.degrees(cmath.phase(x)) - orbit["x_lag_deg"] + 180) % 360 - 180, 0, delta=1e-9)  # round-off of angles
+                    self.assertEqual(answer["major_axis"][i, s], orbit["major_axis"])
+                stiffness = at["bearings"]["support"]["stiffness"]
+                numpy.testing.assert_array_equal(file["bearings/support/stiffness"][i], [[stiffness["xx"], stiffness["xy"]], [stiffness["yx"], stiffness["yy"]]])
+            numpy.testing.assert_allclose(file["critical_speeds/critical_speed"][...], [c["speed"] * RPM for c in found["critical_speeds"]], rtol=1e-12)  # round-off of the unit
+
     def test_response_scales_with_the_unbalance_and_follows_its_phase(self):
         one = self.at("jeffcott.yaml", k_y="2 MN/m", q="0.1 MN/m", q_yx="-0.1 MN/m")["unbalance"]["stations"]["rotor"]
         double = self.at("jeffcott.yaml", k_y="2 MN/m", q="0.1 MN/m", q_yx="-0.1 MN/m", amount="20 g.mm", phase="40 deg")["unbalance"]["stations"]["rotor"]
