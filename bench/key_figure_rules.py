@@ -37,6 +37,7 @@ COMMANDS = {
     "floating_ring/entry": [("bearing",), ("run",)],
     "floating_ring/model": [("run",)],
     "four_bar/model": [("run",)],
+    "geared_rotors/model": [("run", "simulation.duration=10ms")],
     "gyroscope/model": [("run", "simulation.duration=1s")],
     "hot_bearing/global": [("bearing",)],
     "hot_bearing/isothermal": [("bearing",)],

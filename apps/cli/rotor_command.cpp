@@ -17,6 +17,7 @@
 #include "hersey/study/rotor_study.h"
 #include "page_text.h"
 #include "rotor_page.h"
+#include "rotor_results.h"
 #include "standard_streams.h"
 
 namespace hersey::cli {
@@ -123,13 +124,18 @@ int rotor_command(const RotorArguments& arguments) {
     all_solved = false;
     say("hersey: {}{}{}\n", at.label, at.label.empty() ? "" : ": ", at.state.message);
   }
-  const std::string json =
-      arguments.json || !arguments.results.empty() ? rotor_json(found, arguments.model).dump(2) + "\n" : std::string();
+  const bool as_hdf5 = arguments.results.extension() == ".h5";
+  const std::string json = arguments.json || (!arguments.results.empty() && !as_hdf5)
+                               ? rotor_json(found, arguments.model).dump(2) + "\n"
+                               : std::string();
   if (arguments.json)
     fmt::print("{}", json);
   else
     fmt::print("{}", rotor_text(found));
-  if (!arguments.results.empty()) write_text(arguments.results, json);
+  if (as_hdf5)
+    write_rotor_results(found, arguments.model, arguments.results);
+  else if (!arguments.results.empty())
+    write_text(arguments.results, json);
   if (!arguments.report.empty()) {
     report::write_html(rotor_page(found, session.model(), arguments.model), arguments.report);
     if (!arguments.json) fmt::print("report: {}\n", arguments.report.string());

@@ -128,9 +128,10 @@ std::string groups_text(const std::vector<SummaryRow>& rows) {
   return lines.empty() ? "" : "\nbearings of several films\n" + aligned(lines, 99);
 }
 
-/// Name of a figure; with that of its ring or contact, of which a machine has several.
+/// Name of a figure; with that of its ring, contact or gear mesh, of which a machine has several.
 std::string name_on_screen(const SummaryRow& row) {
-  const bool is_one_of_several = row.group.starts_with("ring ") || row.group.starts_with("contact ");
+  const bool is_one_of_several =
+      row.group.starts_with("ring ") || row.group.starts_with("contact ") || row.group.starts_with("gear mesh ");
   return is_one_of_several ? row.group + ": " + row.name : row.name;
 }
 

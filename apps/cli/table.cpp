@@ -47,7 +47,8 @@ std::string heading_of(const SummaryRow& row) {
   if (row.group == "run-up") return "run-up or coast-down";
   if (row.group == "computing") return "computing time";
   if (row.group == "cycles" || row.group == "thermal network" || row.group == "circuit" ||
-      row.group.starts_with("contact ") || row.group.starts_with("ring ") || row.group.starts_with("films of "))
+      row.group.starts_with("contact ") || row.group.starts_with("ring ") || row.group.starts_with("gear mesh ") ||
+      row.group.starts_with("films of "))
     return row.group;
   return "bearing " + row.group;
 }

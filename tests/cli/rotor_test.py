@@ -164,6 +164,46 @@ class Rotors(unittest.TestCase):
         self.assertAlmostEqual(peak["separation_margin"], 1 - peak["speed"] / 5500, delta=1e-9)  # round-off
         self.assertTrue(peak["is_enough"])
 
+    def test_threads_change_no_number(self):
+        (self.folder / "film.yaml").write_text(FILM + LINEAR, encoding="utf-8")
+        sweep = ("--sweep", "drives.motor.speed=1200rpm:1800rpm:5")
+        one, two = (self.hersey("rotor", self.folder / "film.yaml", "--json", *sweep, "--threads", n).stdout for n in (1, 2))
+        self.assertEqual(one, two)
+
+    def test_a_peak_between_few_speeds_has_an_amplitude(self):
+        # So sharp that the parabola through its three highest points of 1/amplitude^2 falls below zero.
+        found = self.rotor("jeffcott.yaml", "--sweep", "speed=2500rpm,3000rpm,3050rpm,8000rpm", c="2 N.s/m")
+        for peak in found["response_peaks"]:
+            largest = max(at["unbalance"]["stations"][peak["station"]]["major_axis"] for at in found["speeds"])
+            self.assertGreaterEqual(peak["amplitude"], largest)
+
+    def test_results_as_hdf5_are_those_as_json(self):
+        import h5py
+        import numpy
+        values = {"k_y": "2 MN/m", "q": "0.1 MN/m", "q_yx": "-0.1 MN/m"}
+        path = self.folder / "rotor.h5"
+        found = self.rotor("jeffcott.yaml", "--sweep", "speed=1000rpm:6000rpm:6", "--results", path, **values)
+        with h5py.File(path) as file:
+            names = [name.decode() for name in file["station"][...]]
+            words = list(file["modes/whirl"].attrs["words"])
+            answer = {name: file[f"unbalance/{name}"][...].reshape(6, len(names)) for name in ("x_real", "x_imaginary", "major_axis")}
+            self.assertEqual(file["speed"].shape, (6,))
+            for i, at in enumerate(found["speeds"]):
+                self.assertAlmostEqual(file["speed"][i] / (at["speed"] * RPM), 1, delta=1e-12)  # round-off of the unit
+                for k, mode in enumerate(at["modes"]):
+                    for name in ("damped_frequency", "log_decrement", "track"):
+                        self.assertEqual(file[f"modes/{name}"][i, k], mode[name])
+                    self.assertEqual(words[int(file["modes/whirl"][i, k])], mode["whirl"])
+                for s, name in enumerate(names):
+                    orbit = at["unbalance"]["stations"][name]
+                    x = complex(answer["x_real"][i, s], answer["x_imaginary"][i, s])
+                    self.assertAlmostEqual(abs(x) / orbit["x"], 1, delta=1e-12)  # round-off of the absolute value
+                    self.assertAlmostEqual((-math.degrees(cmath.phase(x)) - orbit["x_lag_deg"] + 180) % 360 - 180, 0, delta=1e-9)  # round-off of angles
+                    self.assertEqual(answer["major_axis"][i, s], orbit["major_axis"])
+                stiffness = at["bearings"]["support"]["stiffness"]
+                numpy.testing.assert_array_equal(file["bearings/support/stiffness"][i], [[stiffness["xx"], stiffness["xy"]], [stiffness["yx"], stiffness["yy"]]])
+            numpy.testing.assert_allclose(file["critical_speeds/critical_speed"][...], [c["speed"] * RPM for c in found["critical_speeds"]], rtol=1e-12)  # round-off of the unit
+
     def test_response_scales_with_the_unbalance_and_follows_its_phase(self):
         one = self.at("jeffcott.yaml", k_y="2 MN/m", q="0.1 MN/m", q_yx="-0.1 MN/m")["unbalance"]["stations"]["rotor"]
         double = self.at("jeffcott.yaml", k_y="2 MN/m", q="0.1 MN/m", q_yx="-0.1 MN/m", amount="20 g.mm", phase="40 deg")["unbalance"]["stations"]["rotor"]

@@ -23,6 +23,7 @@ SHORTENED = {
     "examples/flexible_rotor/films.yaml": "simulation.duration=0.06s",
     "examples/flexible_rotor/model.yaml": "simulation.duration=0.3s",
     "examples/flexible_slider_crank/model.yaml": "simulation.duration=60deg",
+    "examples/geared_rotors/model.yaml": "simulation.duration=20ms",
     "examples/oil_whirl/flexible.yaml": "simulation.duration=0.06s",
     "examples/oil_whirl/model.yaml": "simulation.duration=0.06s",
     "examples/oil_whirl/unbalance.yaml": "study.parameters.speed=[9000rpm]",

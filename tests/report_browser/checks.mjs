@@ -527,6 +527,30 @@ export const runUpReport = {
       if (speed > 1000) assert.ok(Math.abs(lag - 90) < 0.5, `at ${speed} rpm the sine lags behind by ${lag} deg`);
   },
 
+  "the map of the run-up's spectra is bright on the first order alone": async (page) => {
+    const figure = page.locator('[data-figure="run-up-map"]');
+    await figure.scrollIntoViewIfNeeded();
+    await frame(page);
+    const { rows } = await table(page, page.locator('[data-figure="run-up-waterfall"]'));
+    const speeds = [...new Set(rows.map(([speed]) => speed))].sort((a, b) => a - b);
+    const highest = Math.max(...rows.map(([, frequency]) => frequency));
+    const [low, high] = [speeds[0], speeds[speeds.length - 1]];
+    const canvas = figure.locator("canvas");
+    const { width, height } = await canvas.boundingBox();
+    // The margins of the map.
+    const decibels = async (speed, frequency) => {
+      const x = 62 + ((width - 62 - 92) * frequency) / highest;
+      await canvas.hover({ position: { x, y: 10 + (height - 10 - 44) * (1 - (speed - low) / (high - low)) } });
+      const [, value] = /, (\S+) dB/.exec(await figure.locator(".tooltip").innerText());
+      return Number(value.replace("−", "-"));
+    };
+    for (const speed of speeds.filter((s) => s > 1500 && s < 2900)) {
+      // The speed rises by 60 rpm and more within a piece: order 1 spreads over some lines.
+      assert.ok((await decibels(speed, speed / 60)) > -8, `dark on the first order at ${speed} rpm`);
+      assert.ok((await decibels(speed, (2 * speed) / 60)) < -20, `bright on the second order at ${speed} rpm`);
+    }
+  },
+
   "curves are drawn over the speed, and marked where the instant is": async (page) => {
     const label = () => page.locator('[data-figure="slider-position"] .u-over, [data-figure="hinge-rates"] .u-over').first().getAttribute("aria-label");
     if ((await page.locator("details:has(summary:text-is('Joints'))").getAttribute("open")) === null) await page.locator("summary", { hasText: /^Joints$/ }).click();

@@ -26,6 +26,7 @@ ENGINE = ["--set", "simulation.cycle.period=4deg", "--set", "simulation.cycle.mo
 RUNS = {
     "engine": ENGINE,
     "four_bar": ["--set", "simulation.duration=10ms"],
+    "geared_rotors": ["--set", "simulation.duration=1ms"],
     "ball_drop": ["--set", "simulation.duration=10ms"],
     "spinning_rod": ["--set", "simulation.duration=20ms"],
     "flexible_slider_crank": ["--set", "simulation.duration=1ms"],

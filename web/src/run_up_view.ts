@@ -8,7 +8,8 @@ import { scaled } from "./series";
 import { isSorted } from "./shafts";
 import { summaryTables } from "./summary_table";
 import { axisLabel, degree, micrometre, millimetre, type Display } from "./units";
-import { waterfall } from "./waterfall";
+import { SpectrumMap } from "./spectrum_map";
+import { waterfall, type WaterfallAxes } from "./waterfall";
 
 /** An order with less than this share of the whole motion has no phase worth showing: beside a whirl it is what the window leaves of that. */
 const negligible = 0.05;
@@ -46,8 +47,9 @@ export class RunUpView {
   render(): void {
     const { displacement } = this;
     const display = displayOf(displacement);
+    const [lines, map] = this.cascade(displacement, display);
     this.element.replaceChildren(
-      ...[this.picker(), h("div", { class: "figures" }, this.cascade(displacement, display), h("div", { class: "bode" }, ...this.bode(displacement, display)))].filter((part) => part !== null),
+      ...[this.picker(), h("div", { class: "figures" }, lines, h("div", { class: "bode" }, ...this.bode(displacement, display)), map)].filter((part) => part !== null),
       h("section", { class: "summary", "aria-label": "Largest amplitudes once a revolution" }, ...summaryTables(this.run, "run-up", "Once a revolution")),
     );
   }
@@ -70,7 +72,7 @@ export class RunUpView {
     return h("div", { class: "controls" }, picker);
   }
 
-  private cascade(displacement: DisplacementText, display: Display): HTMLElement {
+  private cascade(displacement: DisplacementText, display: Display): [HTMLElement, HTMLElement] {
     const { cascade } = displacement;
     const [speed, frequency, amplitude] = [numbersOf(cascade.speed), numbersOf(cascade.frequency), numbersOf(cascade.amplitude)];
     const lines = frequency.length;
@@ -80,13 +82,16 @@ export class RunUpView {
       amplitude: scaled(amplitude.slice(i * lines, (i + 1) * lines), display.factor),
     }));
     const shaft = spaced(displacement.shaft);
-    const plot = waterfall(ridges, { x: "frequency [Hz]", y: `speed of ${shaft} [rpm]`, unit: "rpm", amplitude: display.unit, turns: 1 / 60 });
+    const axes: WaterfallAxes = { x: "frequency [Hz]", y: `speed of ${shaft} [rpm]`, unit: "rpm", amplitude: display.unit, turns: 1 / 60 };
     const table = () => [
       ["speed [rpm]", "frequency [Hz]", axisLabel("amplitude", display.unit)],
       ...ridges.flatMap((ridge) => Array.from(ridge.frequency, (f, i) => [ridge.at, f, ridge.amplitude[i]!])),
     ];
     const caption = `Waterfall: spectra of ${nameOf(displacement)}, piece by piece of the run, each at its mean speed; dashed: orders of ${shaft}.`;
-    return figure("run-up-waterfall", caption, tableButton("run-up-waterfall", table), plot);
+    return [
+      figure("run-up-waterfall", caption, tableButton("run-up-waterfall", table), waterfall(ridges, axes)),
+      figure("run-up-map", `The same spectra of ${nameOf(displacement)} as a map, in decibels below the largest amplitude; dashed: orders of ${shaft}.`, tableButton("run-up-map", table), new SpectrumMap(ridges, axes).element),
+    ];
   }
 
   private bode(displacement: DisplacementText, display: Display): HTMLElement[] {

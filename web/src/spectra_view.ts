@@ -8,9 +8,10 @@ import { lastCycle } from "./overview";
 import { scaled } from "./series";
 import { isRunUp, isSorted, shafts, type Shaft } from "./shafts";
 import { ascending, orderLines, orderTrack, pieces, spectrum, type Spectrum } from "./spectrum";
+import { SpectrumMap } from "./spectrum_map";
 import { capital } from "./summary_table";
 import { axisLabel, displayOf, format, micrometre, type Display } from "./units";
-import { waterfall } from "./waterfall";
+import { waterfall, type WaterfallAxes } from "./waterfall";
 
 interface Choice {
   path: string;
@@ -179,13 +180,16 @@ export class SpectraView {
     const most = rows.reduce((count, row) => Math.max(count, cut(row, largest).frequency.length), 0);
     const ridges = rows.map(({ at, frequency, amplitude }) => ({ at: 60 * shaft.speed[rowAt(this.time, at)]!, frequency: frequency.slice(0, most), amplitude: amplitude.slice(0, most) }));
     const { label, display } = choice;
-    const plot = waterfall(ridges, { x: "frequency [Hz]", y: `speed of ${spaced(shaft.name)} [rpm]`, unit: "rpm", amplitude: display.unit, turns: 1 / 60 });
+    const axes: WaterfallAxes = { x: "frequency [Hz]", y: `speed of ${spaced(shaft.name)} [rpm]`, unit: "rpm", amplitude: display.unit, turns: 1 / 60 };
     const table = () => [
       ["speed [rpm]", "frequency [Hz]", axisLabel(`amplitude of ${label}`, display.unit)],
       ...ridges.flatMap(({ at, frequency, amplitude }) => Array.from(frequency, (f, i) => [at, f, amplitude[i]!])),
     ];
     const caption = `Waterfall: spectra of ${label} (${choice.group}), piece by piece of the run, each at its mean speed; dashed: orders of ${spaced(shaft.name)}.`;
-    return [figure("waterfall", caption, tableButton("waterfall", table), plot)];
+    return [
+      figure("waterfall", caption, tableButton("waterfall", table), waterfall(ridges, axes)),
+      figure("waterfall-map", `The same spectra of ${label} as a map, in decibels below the largest amplitude; dashed: orders of ${spaced(shaft.name)}.`, tableButton("waterfall-map", table), new SpectrumMap(ridges, axes).element),
+    ];
   }
 
   private trackFigure(choice: Choice, shaft: Shaft): HTMLElement[] {

@@ -22,11 +22,11 @@ export interface WaterfallAxes {
 
 const frame: Frame = { ...usual, width: 640, height: 440 };
 const tallest = 70;
-const orders = [0.5, 1, 2, 3];
+export const orders = [0.5, 1, 2, 3];
 
 export function waterfall(ridges: Ridge[], { x: xLabel, y: yLabel, unit, amplitude, turns }: WaterfallAxes): SVGElement {
   const rows = [...ridges].sort((a, b) => b.at - a.at);
-  const top = peak(rows);
+  const top = largestOf(rows);
   const plot = canvasOf(frame, `Waterfall of spectra: ${rows.length} spectra, ${yLabel} from ${format(rows[rows.length - 1]!.at)} to ${format(rows[0]!.at)}; ${textOf(top, unit, amplitude)}`);
   const x = scaleOf([0, Math.max(...rows.map((row) => row.frequency[row.frequency.length - 1] ?? 0))], frame.left, frame.width - frame.right, 0);
   const places = rows.map((row) => row.at);
@@ -42,13 +42,13 @@ export function waterfall(ridges: Ridge[], { x: xLabel, y: yLabel, unit, amplitu
   return plot;
 }
 
-interface Peak {
+export interface Peak {
   amplitude: number;
   frequency: number;
   at: number;
 }
 
-function peak(rows: Ridge[]): Peak {
+export function largestOf(rows: Ridge[]): Peak {
   let best: Peak = { amplitude: 0, frequency: 0, at: 0 };
   for (const row of rows)
     for (let i = 0; i < row.amplitude.length; i++) if (row.amplitude[i]! > best.amplitude) best = { amplitude: row.amplitude[i]!, frequency: row.frequency[i]!, at: row.at };

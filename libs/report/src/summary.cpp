@@ -77,7 +77,7 @@ class Summary {
     thermal_rows();
     circuit_rows();
     contact_rows();
-    ring_rows();
+    force_rows();
     run_up_rows();
     run_rows();
     return std::move(rows_);
@@ -273,14 +273,13 @@ class Summary {
     }
   }
 
-  void ring_rows() {
+  void force_rows() {
     using Statistic = SummaryEntry::Statistic;
     const std::vector<QuantityInfo> quantities = run::quantities_of("/forces/<f>/");
     for (const std::string& force : reader_.children("/forces")) {
-      group_ = "ring " + force;
       path_ = "/forces/" + force + "/";
-      if (reader_.has(path_ + "radial_load"))
-        add_rows(quantities, {Statistic::largest, Statistic::largest_in_size, Statistic::mean});
+      group_ = (reader_.has(path_ + "mesh_force") ? "gear mesh " : "ring ") + force;
+      add_rows(quantities, {Statistic::largest, Statistic::smallest, Statistic::largest_in_size, Statistic::mean});
     }
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hersey/core/input_error.h"
+#include "hersey/core/task_pool.h"
 
 namespace hersey::study {
 namespace {
@@ -119,25 +120,25 @@ double least_log_decrement(const run::RotorState& rotor) {
 
 std::vector<RotorAtSpeed> rotor_over_speeds(const ModelReader& read, const std::vector<model::StudyRun>& runs,
                                             const std::vector<std::string>& stations) {
-  std::vector<RotorAtSpeed> rotor;
-  std::optional<InputError> refused;  // where no speed has an answer
-  for (const model::StudyRun& one : runs) {
-    RotorAtSpeed at;
-    at.label = one.label;
+  std::vector<RotorAtSpeed> rotor(runs.size());
+  std::vector<std::optional<InputError>> refused(runs.size());
+  TaskPool::shared().run(runs.size(), [&](std::size_t i) {
+    RotorAtSpeed& at = rotor[i];
+    at.label = runs[i].label;
     try {
-      at.state = run::find_rotor_state(read(one.overrides), stations);
+      at.state = run::find_rotor_state(read(runs[i].overrides), stations);
     } catch (const InputError& error) {
       at.state.fail(error.what());
-      if (!refused) refused = error;
+      refused[i] = error;
     }
     if (at.state.solved()) {
       at.modes = run::whirl_modes(at.state);
       if (at.state.unbalances > 0) at.response = run::unbalance_response(at.state);
     }
-    rotor.push_back(std::move(at));
-  }
-  if (refused && std::none_of(rotor.begin(), rotor.end(), [](const RotorAtSpeed& at) { return at.state.solved(); }))
-    throw InputError(*refused);
+  });
+  if (std::none_of(rotor.begin(), rotor.end(), [](const RotorAtSpeed& at) { return at.state.solved(); }))
+    for (const std::optional<InputError>& error : refused)
+      if (error) throw InputError(*error);
   std::stable_sort(rotor.begin(), rotor.end(),
                    [](const RotorAtSpeed& a, const RotorAtSpeed& b) { return a.state.speed < b.state.speed; });
   const RotorAtSpeed none;
@@ -183,7 +184,10 @@ std::vector<ResponsePeak> peaks_of(const std::vector<double>& x, const std::vect
     const double a = x[k] - x[k - 1], b = x[k + 1] - x[k];
     const double left = (inverse(k) - inverse(k - 1)) / a, right = (inverse(k + 1) - inverse(k)) / b;
     const double bend = (right - left) / (a + b), slope = (left * b + right * a) / (a + b);
-    const double shift = bend > 0 ? std::clamp(-slope / (2 * bend), -a / 2, b / 2) : 0;
+    double shift = bend > 0 ? std::clamp(-slope / (2 * bend), -a / 2, b / 2) : 0;
+    // Of a peak that is sharp beside the distance of the speeds the parabola falls below zero: its speed is the
+    // nearest.
+    if (inverse(k) + shift * (slope + bend * shift) <= 0) shift = 0;
     ResponsePeak peak{station, x[k] + shift, 1 / std::sqrt(inverse(k) + shift * (slope + bend * shift))};
     const double level = peak.amplitude / std::sqrt(2);
     const auto low = flank(x, y, k, -1, level), high = flank(x, y, k, 1, level);

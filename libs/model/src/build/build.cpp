@@ -113,6 +113,12 @@ class Builder {
     machine_.grooves = model_.thermal.grooves;
     machine_.frames = frames_;
     machine_.mechanism = mechanism_.finalise();
+    // Gears mesh where the joints start.
+    if (!machine_.meshes.empty()) {
+      const solver::State start = machine_.mechanism->initial_state();
+      for (const BuiltMesh& mesh : machine_.meshes)
+        mesh.mesh->mesh_here(machine_.mechanism->relative_motion(start, mesh.force));
+    }
     return std::move(machine_);
   }
 
@@ -318,6 +324,11 @@ class Builder {
     if (ring.gas) data.gas = std::make_shared<OverTime>(*ring.gas, model_.simulation);
     const auto made = std::make_shared<mbd::PistonRing>(std::move(data));
     machine_.rings.push_back({name, mechanism_.add_force(name, frame(ring.from), frame(ring.to), made), made});
+  }
+
+  void add(const std::string& name, const GearMesh& mesh) {
+    const auto made = std::make_shared<mbd::GearMesh>(mesh.data);
+    machine_.meshes.push_back({name, mechanism_.add_force(name, frame(mesh.from), frame(mesh.to), made), made});
   }
 
   void add(const std::string& name, const CoordinateSpring& spring) {

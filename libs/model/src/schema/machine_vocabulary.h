@@ -65,6 +65,12 @@ inline constexpr Vocabulary<ModesAbout, 4> modes_about_words{{
      "the state at the end of a run over `duration`; bearings by their tangent there, over its last step"},
 }};
 
+/// Sign of a torque: true if positive.
+inline constexpr Vocabulary<bool, 2> torque_sign_words{{
+    {true, "positive", "it drives the first wheel about its z-axis: from x to y"},
+    {false, "negative", "the other way round"},
+}};
+
 inline constexpr Vocabulary<LeadIn, 3> lead_in_words{{
     {LeadIn::none, "none", "the cycles of the run begin with the state at the start of the model"},
     {LeadIn::half_grids, "half_grids",

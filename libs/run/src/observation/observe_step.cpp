@@ -43,6 +43,8 @@ StepRecord observe_step(const model::Machine& machine, const solver::State& stat
     const Pose& X_WA = record.mechanism.bodies[static_cast<std::size_t>(contact.first.index)].X_WF;
     record.contacts.push_back(in_ground(contact.contact->observe(motion), X_WA));
   }
+  for (const model::BuiltMesh& mesh : machine.meshes)
+    record.meshes.push_back(mesh.mesh->load(mechanism.relative_motion(state, mesh.force)));
   if (machine.network) record.network = machine.network->observables();
   if (machine.circuit) record.circuit = machine.circuit->observation();
   record.power = power_balance(mechanism.spec(), record.mechanism, kinds);

@@ -6,6 +6,7 @@
 #include "hersey/bearing/oil_circuit.h"
 #include "hersey/film/thermal_network.h"
 #include "hersey/mbd/contact.h"
+#include "hersey/mbd/gear_mesh.h"
 #include "hersey/mbd/observation.h"
 #include "observation/fmu_signals.h"
 #include "observation/power_balance.h"
@@ -27,6 +28,7 @@ struct StepRecord {
   std::vector<mbd::RelativeMotion> journal_motions;  ///< of each bearing
   std::vector<bearing::BearingObservation> bearings;
   std::vector<mbd::ContactObservation> contacts;  ///< in ground's axes
+  std::vector<mbd::GearMesh::Load> meshes;        ///< of each gear mesh
   film::NetworkObservables network;               ///< state of the thermal network; empty if there is none
   bearing::CircuitObservation circuit;            ///< empty if there is none
   std::vector<FmuSignals> fmus;                   ///< of each FMU; empty if there are none

@@ -21,6 +21,7 @@
 #include "series/geometry_record.h"
 #include "series/group_record.h"
 #include "series/joint_record.h"
+#include "series/mesh_record.h"
 #include "series/mode_record.h"
 #include "series/multiplier_record.h"
 #include "series/ring_record.h"
@@ -58,6 +59,7 @@ QuantityGroup force_group() {
   QuantityGroup group{.path = "/forces/<f>/", .heading = "of a force between two bodies", .quantities = {}};
   describe_link(group);
   RingRecord::describe(group);
+  MeshRecord::describe(group);
   return group;
 }
 

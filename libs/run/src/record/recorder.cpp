@@ -95,6 +95,7 @@ void Recorder::declare() {
   for (const model::BuiltBeam& beam : machine_.beams) beams_.emplace_back(model_, machine_, beam, writer_);
   for (const model::Contact& contact : model_.contacts) contacts_.emplace_back(contact, writer_);
   for (const model::BuiltRing& ring : machine_.rings) rings_.emplace_back(ring, writer_);
+  for (const model::BuiltMesh& mesh : machine_.meshes) meshes_.emplace_back(mesh, writer_);
   for (std::size_t i = 0; i < model_.bearings.size(); ++i) {
     const bearing::FilmForce& film = *machine_.bearings[i].bearing;
     bearings_.emplace_back(BearingPlan{model_, model_.bearings[i], film.fields()}, film, writer_);
@@ -124,6 +125,7 @@ void Recorder::write_row(const StepRecord& step, const EnergySummary& energy) {
   for (const BeamRecord& beam : beams_) beam.append(observation);
   for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].append(step.contacts[i]);
   for (const RingRecord& ring : rings_) ring.append(observation);
+  for (std::size_t i = 0; i < meshes_.size(); ++i) meshes_[i].append(step.meshes[i]);
   for (std::size_t i = 0; i < bearings_.size(); ++i) bearings_[i].append(step.bearings[i]);
   if (thermal_) thermal_->append({model_, step.network});
   if (circuit_) circuit_->append(step.circuit);

@@ -25,6 +25,7 @@
 #include "series/fmu_record.h"
 #include "series/group_record.h"
 #include "series/joint_record.h"
+#include "series/mesh_record.h"
 #include "series/mode_record.h"
 #include "series/multiplier_record.h"
 #include "series/ring_record.h"
@@ -100,6 +101,7 @@ class Recorder {
   std::vector<BeamRecord> beams_;
   std::vector<ContactRecord> contacts_;
   std::vector<RingRecord> rings_;
+  std::vector<MeshRecord> meshes_;
   std::vector<BearingRecord> bearings_;
   std::optional<ThermalRecord> thermal_;
   std::optional<CircuitRecord> circuit_;

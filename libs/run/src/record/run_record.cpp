@@ -11,6 +11,15 @@
 #include "record/coarser_run.h"
 
 namespace hersey::run {
+namespace {
+
+std::vector<std::string> names_of_meshes(const model::Machine& machine) {
+  std::vector<std::string> names;
+  for (const model::BuiltMesh& mesh : machine.meshes) names.push_back(mesh.name);
+  return names;
+}
+
+}  // namespace
 
 RunRecord::RunRecord(const model::Model& model, const model::Machine& machine, const solver::State& start,
                      const Options& options, bool resumes)
@@ -20,6 +29,7 @@ RunRecord::RunRecord(const model::Model& model, const model::Machine& machine, c
       deformed_(model, machine, options.results),
       settling_(model),
       cycles_(model),
+      parted_(names_of_meshes(machine)),
       energy_(machine.mechanism->spec()) {
   for (const model::Bearing& bearing : model.bearings) extremes_.emplace_back(bearing.name);
 }
@@ -34,6 +44,7 @@ void RunRecord::take(const StepRecord& step) {
   largest_error_ = std::max(largest_error_, std::abs(step.power.error()));
   for (std::size_t i = 0; i < extremes_.size(); ++i) extremes_[i].take(t, step.dt, step.bearings[i]);
   if (model_.circuit) take_starvation(step);
+  parted_.take(step.meshes, step.dt);
   energy_.take(step);
   settled_ = settling_.settled(step);
   recorder_.gather(step);
@@ -228,6 +239,10 @@ void RunRecord::persist(Archive& archive) {
     const Archive::Group circuit(archive, "circuit");
     archive.io("starved_time", starved_time_), archive.io("lowest_fill", lowest_fill_);
     archive.io("lowest_at_axis", lowest_at_axis_), archive.io("time", circuit_time_);
+  }
+  {
+    const Archive::Group meshes(archive, "parted_teeth");
+    parted_.persist(archive);
   }
   {
     const Archive::Group energy(archive, "energy");

@@ -14,6 +14,7 @@
 #include "hersey/run/summary.h"
 #include "observation/energy_balance.h"
 #include "observation/extremes.h"
+#include "observation/parted_teeth.h"
 #include "record/deformed_meshes.h"
 #include "record/recorder.h"
 
@@ -51,6 +52,8 @@ class RunRecord {
   /// Message about films of smooth surfaces that almost touch, for a run that finds no further step; empty if there are
   /// none.
   [[nodiscard]] std::string thin_films() const;
+  /// Message about gear meshes whose teeth would have parted; empty if there are none.
+  [[nodiscard]] std::string parted_teeth() const { return parted_.warning(); }
   /// Books energies from here on as they are behind a jump: EnergyBalance::go_on_from.
   void go_on_from(const StepRecord& step) { energy_.go_on_from(step); }
   /// Energy balance since the start of the run.
@@ -79,6 +82,7 @@ class RunRecord {
   SettlingTest settling_;
   CycleConvergence cycles_;
   std::vector<BearingExtremes> extremes_;
+  PartedTeeth parted_;
   EnergyBalance energy_;
   Eigen::VectorXd starved_time_, lowest_fill_;  ///< of each node of the circuit [s, -]
   Eigen::VectorXd lowest_at_axis_;              ///< of each of its drillings through an axis [Pa]

@@ -15,6 +15,7 @@
 #include "hersey/run/rotor.h"
 #include "hersey/solver/equilibrium.h"
 #include "hersey/solver/spinning.h"
+#include "start/rolling_wheels.h"
 #include "start/start.h"
 #include "time_stepping/steady_heat.h"
 
@@ -54,9 +55,11 @@ VectorXd driven_velocities(mbd::Mechanism& mechanism, const solver::State& start
   return v;
 }
 
-std::vector<BodySpin> spins_of(mbd::Mechanism& mechanism, const solver::State& start) {
+std::vector<BodySpin> spins_of(const model::Machine& machine, const solver::State& start) {
+  mbd::Mechanism& mechanism = *machine.mechanism;
   solver::State moving = start;
   moving.v = driven_velocities(mechanism, start);
+  roll_wheels(machine, moving);
   std::vector<BodySpin> spins;
   for (const mbd::FrameId frame : mechanism.spec().body_frames) {
     const mbd::FrameMotion motion = mechanism.frame_motion(moving, frame);
@@ -80,7 +83,7 @@ class SpinningMachine {
  public:
   explicit SpinningMachine(const model::Model& model)
       : model_(model), machine_(model::build(model)), state_(starting_state(model, machine_)) {
-    spins_ = spins_of(mechanism(), state_);
+    spins_ = spins_of(machine_, state_);
     require_shaft();
     const VectorXd at_start = state_.v;
     double misfit = 0;
@@ -215,6 +218,8 @@ std::pair<model::Model, std::vector<model::Unbalance>> without_unbalances(const 
   std::pair<model::Model, std::vector<model::Unbalance>> apart{model, {}};
   apart.first.simulation.analysis = model::Analysis::modes;
   apart.first.simulation.modes_about = model::ModesAbout::turning;
+  for (model::Force& force : apart.first.forces)
+    if (auto* mesh = std::get_if<model::GearMesh>(&force.data)) mesh->data.error = 0;
   std::erase_if(apart.first.forces, [&](const model::Force& force) {
     if (const auto* unbalance = force.as<model::Unbalance>()) apart.second.push_back(*unbalance);
     return force.as<model::Unbalance>() != nullptr;

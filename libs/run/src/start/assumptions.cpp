@@ -509,10 +509,21 @@ Rows circuit_assumptions(const model::OilCircuit& circuit) {
   return rows;
 }
 
+std::string gear_mesh(const mbd::GearMesh::Data& mesh) {
+  return fmt::format(
+      "{} on {} teeth, base radii {:.4g} and {:.4g} mm, helix angle {:.3g} deg on them; {:.4g} N/um along the normal, "
+      "constant; teeth touch at all times on the flanks that a {} torque on the first wheel presses",
+      mesh.teeth[0], mesh.teeth[1], 1e3 * mesh.base_radius[0], 1e3 * mesh.base_radius[1],
+      mesh.base_helix * 180 / std::numbers::pi, 1e-6 * mesh.stiffness, mesh.side > 0 ? "positive" : "negative");
+}
+
 }  // namespace
 
 Rows assumptions(const model::Model& model) {
   Rows rows;
+  for (const model::Force& force : model.forces)
+    if (const auto* mesh = force.as<model::GearMesh>())
+      rows.emplace_back(force.name + ": gear mesh", gear_mesh(mesh->data));
   for (const model::Bearing& bearing : model.bearings) {
     for (auto& row : bearing_assumptions(bearing)) rows.push_back(std::move(row));
     rows.emplace_back(bearing.name + ": coupling", bearing.coupling.scheme == model::CouplingScheme::monolithic

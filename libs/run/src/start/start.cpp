@@ -15,6 +15,7 @@
 #include "hersey/solver/kinematics.h"
 #include "hersey/solver/static_deformation.h"
 #include "start/facing_surfaces.h"
+#include "start/rolling_wheels.h"
 #include "start/start_changes.h"
 
 namespace hersey::run {
@@ -69,6 +70,14 @@ std::vector<Fault> faults_of(const model::Model& model, const solver::Initialise
     return {fault_at(model, summary.message, summary.message, "a shaft at a speed of the table",
                      "write a row for that speed, or the housing's frame first in `between`")};
   }
+  if (summary.status == Status::domain_error && summary.message.find(": its wheels are") != std::string::npos) {
+    return {fault_at(model, summary.message, summary.message, "wheels whose teeth reach each other",
+                     "place the frames of `between` on the wheels' axes, at the centre distance of the gears")};
+  }
+  if (summary.status == Status::domain_error && summary.message.find(": the axes of its wheels") != std::string::npos) {
+    return {fault_at(model, summary.message, summary.message, "parallel shafts",
+                     "turn the frames of `between`, or the bodies by the joints' `initial` values")};
+  }
   if (summary.status == Status::domain_error && path_of_named_part(summary.message).starts_with("circuit")) {
     return {fault_at(
         model, summary.message, summary.message, "pumps that turn forwards, and a way out for all oil that comes in",
@@ -113,6 +122,12 @@ void require_damped_multipliers(const model::Model& model, const mbd::Mechanism&
                          "`step: {tolerance}` do not"});
 }
 
+// True unless the analysis looks at the machine at rest.
+bool keeps_speeds(const model::Simulation& plan) {
+  return plan.analysis != model::Analysis::equilibrium &&
+         (plan.analysis != model::Analysis::modes || plan.modes_about != model::ModesAbout::equilibrium);
+}
+
 // Deformable bodies start in equilibrium with the forces on them, if this is requested.
 void deform(const model::Model& model, model::Machine& machine, solver::InitialiseOptions options,
             solver::State& state) {
@@ -147,6 +162,8 @@ solver::State starting_state(const model::Model& model, model::Machine& machine)
   const solver::InitialiseSummary summary = solver::initialise(*machine.mechanism, state, options);
   if (!summary.solved()) throw InputError(faults_of(model, summary));
   require_given_start(model, *machine.mechanism, state, summary);
+  if (model.simulation.is_steady_motion()) roll_wheels(machine, state);
+  if (keeps_speeds(model.simulation)) require_rolling_wheels(model, machine, state);
   require_clearance(model, machine, state);
   deform(model, machine, options, state);
   if (model.simulation.analysis == model::Analysis::kinematics) require_prescribed_motion(model, machine, state);

@@ -44,6 +44,8 @@ class MachineRun {
   [[nodiscard]] bool is_at_end() const { return stepper_.is_at_end() || record_.ends_run(); }
   /// Message of a run that ended normally; may be empty.
   [[nodiscard]] std::string ending() const;
+  /// Message about gear meshes whose teeth would have parted; empty if there are none.
+  [[nodiscard]] std::string parted_teeth() const { return record_.parted_teeth(); }
   /// What FMUs have warned of; empty if there is nothing.
   [[nodiscard]] std::string fmu_warnings() const { return exchange_ ? exchange_->warnings() : std::string(); }
 

@@ -68,6 +68,7 @@ class Run {
     summary.status = status_;
     summary.message = message_;
     summary.warning = machine_.fmu_warnings();
+    add_warning(summary, machine_.parted_teeth());
     summary.newton_iterations += newton_iterations_;
     const std::optional<double> last_row = machine_.last_row();
     summary.t_results = is_all_written_ && last_row ? *last_row : last_time(options_.results);

@@ -10,6 +10,7 @@
 #include "hersey/fem/mesh.h"
 #include "hersey/mbd/bushing.h"
 #include "hersey/mbd/coordinate_laws.h"
+#include "hersey/mbd/gear_mesh.h"
 #include "hersey/mbd/linear_bearing.h"
 #include "hersey/mbd/piston_ring.h"
 #include "hersey/mbd/spring_damper.h"
@@ -75,6 +76,12 @@ struct Unbalance {
   std::optional<double> begins;      ///< the instant at which it appears; unset: it has always been there [s]
 };
 
+/// The mesh of two gear wheels, `from` the first `to` the second.
+struct GearMesh {
+  FrameName from, to;
+  mbd::GearMesh::Data data;
+};
+
 /// Friction of a piston ring, `from` the liner `to` the piston.
 struct PistonRing {
   FrameName from, to;
@@ -119,8 +126,8 @@ struct SurfaceLoad {
 /// One entry of `forces`.
 struct Force {
   std::string name;
-  std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, BearingTable, Unbalance, PistonRing,
-               JointFriction, SpeedControl>
+  std::variant<BodyLoad, SurfaceLoad, SpringDamper, CoordinateSpring, Bushing, BearingTable, Unbalance, GearMesh,
+               PistonRing, JointFriction, SpeedControl>
       data;
   SourcePosition position;
 

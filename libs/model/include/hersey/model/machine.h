@@ -12,6 +12,7 @@
 #include "hersey/film/thermal_network.h"
 #include "hersey/mbd/beam_segment.h"
 #include "hersey/mbd/contact.h"
+#include "hersey/mbd/gear_mesh.h"
 #include "hersey/mbd/mechanism.h"
 #include "hersey/model/model.h"
 
@@ -66,6 +67,13 @@ struct BuiltRing {
   std::shared_ptr<const mbd::PistonRing> ring;
 };
 
+/// A gear mesh of a machine, a force between two bodies.
+struct BuiltMesh {
+  std::string name;
+  mbd::ForceId force;
+  std::shared_ptr<mbd::GearMesh> mesh;
+};
+
 /// A beam of a machine.
 struct BuiltBeam {
   std::string name;
@@ -86,6 +94,7 @@ struct Machine {
   std::vector<BuiltFlexible> flexibles;
   std::vector<BuiltSurfaceLoad> surface_loads;
   std::vector<BuiltRing> rings;
+  std::vector<BuiltMesh> meshes;
   std::vector<BuiltBeam> beams;
   std::map<std::pair<std::string, std::string>, mbd::FrameId> frames;  ///< by body and frame; "": the body's own
 };

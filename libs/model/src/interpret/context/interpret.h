@@ -169,6 +169,10 @@ void require_facing_surfaces(Context& context, const Value& value, const Bearing
 [[nodiscard]] std::vector<Key> unbalance_keys();
 [[nodiscard]] Unbalance unbalance_of(Context& context, const Value& value);
 
+/// Keys of the mesh of two gear wheels, and the mesh.
+[[nodiscard]] std::vector<Key> gear_mesh_keys();
+[[nodiscard]] GearMesh gear_mesh_of(Context& context, const Value& value);
+
 /// Keys of a bearing given by its coefficients, and the bearing; reads their file.
 [[nodiscard]] std::vector<Key> bearing_table_keys();
 [[nodiscard]] BearingTable bearing_table_of(Context& context, const Value& value);

@@ -10,7 +10,7 @@ namespace hersey::report {
 /// One line of the closing table: a number in the units engineers use, and where or when it occurred.
 struct SummaryRow {
   std::string run;    ///< by file or folder, different for each run of a table
-  std::string group;  ///< name of a bearing, "contact NAME", "modes", "cycles", "run-up", "run" or "computing"
+  std::string group;  ///< a bearing, "contact NAME", "gear mesh NAME", "ring NAME", "modes", "run" or another part
   std::string name;   ///< e.g. "minimum film thickness (MOFT)"
   double value = 0;   ///< in `unit`
   std::string unit;   ///< e.g. "µm"; "" for a pure number
