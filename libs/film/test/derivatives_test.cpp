@@ -257,7 +257,8 @@ TEST_CASE("GapOperator_IsTheDerivativeByTheGap") {
           balance.derivative({.g = changes.col(0), .g_rate = changes.col(1)}, expected);
           CHECK((dr - expected).norm() <= 1e-14 * expected.norm());  // the same terms, summed in another order
           PackedColumns of_gap, of_rate;
-          by_gap.apply_transposed(x, of_gap, of_rate);
+          GapOperator::Scratch scratch;
+          by_gap.apply_transposed(x, of_gap, of_rate, scratch);
           const Eigen::VectorXd there = x.transpose() * expected,
                                 back = of_gap.transpose() * changes.col(0) + of_rate.transpose() * changes.col(1);
           CHECK((there - back).norm() <= 1e-12 * x.norm() * expected.norm());  // sums of n terms of either sign

@@ -51,14 +51,15 @@ void GapOperator::apply(const VectorXd& g, const VectorXd& g_rate, VectorXd& dr)
 /// The same steps backwards.
 class GapOperator::Transposed {
  public:
-  Transposed(GapOperator& op, const PackedColumns& x, PackedColumns& by_gap, PackedColumns& by_rate)
+  Transposed(const GapOperator& op, const PackedColumns& x, PackedColumns& by_gap, PackedColumns& by_rate,
+             Scratch& scratch)
       : op_(op), n_(x.rows()) {
-    op.of_row_ = x;
-    for (PackedColumns* columns : {&op.of_excess_, &op.of_bend_, &by_gap, &by_rate})
+    scratch.row = x;
+    for (PackedColumns* columns : {&scratch.excess, &scratch.bend, &by_gap, &by_rate})
       columns->setZero(n_, Packed::width);
-    op.of_rate_excess_.resize(n_, Packed::width);
-    row_ = op.of_row_.data(), excess_ = op.of_excess_.data(), bend_ = op.of_bend_.data();
-    rate_excess_ = op.of_rate_excess_.data(), gap_ = by_gap.data(), rate_ = by_rate.data();
+    scratch.rate_excess.resize(n_, Packed::width);
+    row_ = scratch.row.data(), excess_ = scratch.excess.data(), bend_ = scratch.bend.data();
+    rate_excess_ = scratch.rate_excess.data(), gap_ = by_gap.data(), rate_ = by_rate.data();
   }
 
   HERSEY_FUSED void find_fused() { find(); }
@@ -120,13 +121,14 @@ class GapOperator::Transposed {
     put(get(to, node) + numbers, to, node);
   }
 
-  GapOperator& op_;
+  const GapOperator& op_;
   Index n_;
   double *row_, *excess_, *bend_, *rate_excess_, *gap_, *rate_;  ///< a pack a node
 };
 
-void GapOperator::apply_transposed(const PackedColumns& x, PackedColumns& by_gap, PackedColumns& by_rate) {
-  Transposed transposed(*this, x, by_gap, by_rate);
+void GapOperator::apply_transposed(const PackedColumns& x, PackedColumns& by_gap, PackedColumns& by_rate,
+                                   Scratch& scratch) const {
+  Transposed transposed(*this, x, by_gap, by_rate, scratch);
   has_fused_instructions() ? transposed.find_fused() : transposed.find_plain();
 }
 

@@ -24,10 +24,15 @@ class GapOperator {
   /// Takes the derivatives at a state, those of prescribed rows and of leaks among them.
   void take(const BySurfaces& by) { by_ = by; }
 
+  /// What apply_transposed() works in: a thread has its own.
+  struct Scratch {
+    PackedColumns row, excess, rate_excess, bend;
+  };
+
   /// dr = dr/dg g + dr/dg_rate g_rate.
   void apply(const Eigen::VectorXd& g, const Eigen::VectorXd& g_rate, Eigen::VectorXd& dr);
   /// by_gap = (dr/dg)^T x and by_rate = (dr/dg_rate)^T x.
-  void apply_transposed(const PackedColumns& x, PackedColumns& by_gap, PackedColumns& by_rate);
+  void apply_transposed(const PackedColumns& x, PackedColumns& by_gap, PackedColumns& by_rate, Scratch& scratch) const;
 
  private:
   class Transposed;
@@ -36,7 +41,6 @@ class GapOperator {
   const std::vector<int>& prescribed_edges_;
   BySurfaces by_;
   Eigen::VectorXd bends_, excesses_, rate_excesses_;
-  PackedColumns of_row_, of_excess_, of_rate_excess_, of_bend_;
 };
 
 }  // namespace hersey::film

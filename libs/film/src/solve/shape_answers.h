@@ -34,21 +34,30 @@ class ShapeAnswers {
   struct OfFunctions {
     Rows coefficients, rates;
   };
-  void find_by_nodes(const SurfaceShapes& shapes, const Eigen::Ref<const Eigen::MatrixXd>& adjoint,
-                     Eigen::Index output);
+  /// What a task works in.
+  struct Work {
+    GapOperator::Scratch scratch;
+    PackedColumns adjoint, by_gap, by_rate;  ///< negative outputs by gap and rate at each node
+    PackedColumns of_coefficients, of_rates;
+    Eigen::MatrixXd outputs;  ///< by each amplitude
+  };
+  /// Outputs that packs hold.
+  [[nodiscard]] Eigen::Index width() const { return of_surfaces_.front().rates.cols(); }
+  void find_by_nodes(const SurfaceShapes& shapes, const Eigen::Ref<const Eigen::MatrixXd>& adjoint, Eigen::Index output,
+                     Work& work) const;
   void find_by_functions(const SurfaceShapes::Surface& surface, const FilmWrench& wrench, Eigen::Index output,
-                         OfFunctions& of);
-  void add_columns(const Rows& of_functions, const Eigen::MatrixXd& functions, CondensedFilm& film,
-                   Eigen::Index column);
+                         Work& work, OfFunctions& of) const;
+  void add_columns(const Rows& of_functions, const Eigen::Ref<const Eigen::MatrixXd>& functions, Eigen::Index column,
+                   Work& work, CondensedFilm& film) const;
+  template <class Act>
+  void in_tasks(Eigen::Index count, const Act& act);
 
   const FlowBalance& balance_;
   GapOperator operator_;
   Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_by_gap_;
-  Eigen::VectorXd push_by_gap_;               ///< of asperities, at each node [N/m]
-  PackedColumns adjoint_, by_gap_, by_rate_;  ///< negative outputs by gap and rate at each node
-  PackedColumns of_coefficients_, of_rates_;
+  Eigen::VectorXd push_by_gap_;  ///< of asperities, at each node [N/m]
   std::vector<OfFunctions> of_surfaces_;
-  Eigen::MatrixXd outputs_;  ///< by each amplitude
+  std::vector<Work> works_;  ///< of the tasks
   Eigen::VectorXd coefficients_, gap_, gap_rate_, change_;
 };
 
