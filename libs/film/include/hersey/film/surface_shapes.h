@@ -31,9 +31,9 @@ struct SurfaceShapes {
 
   /// Returns the number of all amplitudes.
   [[nodiscard]] Eigen::Index amplitudes() const { return openings.cols(); }
-  /// Makes a direction the change of the surfaces with an amplitude, or with the rate of one. What is empty in it or
-  /// has been made by the same function is all it may have had.
+  /// Makes a direction, new or made by this function before, the change of the surfaces with an amplitude.
   void find_along_amplitude(Eigen::Index a, MotionDirection& direction) const;
+  /// Makes a direction, new or made by this function before, the change of the surfaces with the rate of an amplitude.
   void find_along_rate(Eigen::Index a, MotionDirection& direction) const;
 };
 
