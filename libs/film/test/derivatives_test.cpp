@@ -229,41 +229,41 @@ TEST_CASE("CondensedFilm_IsThatOfItsResponses") {
   }
 }
 
-// The operator and its transpose on random states, beside derivatives along one change of the gap at a time: at rows of
-// lines and features, of seals, beside pockets, in films that rupture.
+// The operator, its transpose and the wrench by the gap beside derivatives along one change: at rows of lines, features
+// and seals, in pockets, on pads.
 TEST_CASE("GapOperator_IsTheDerivativeByTheGap") {
-  for (const auto cavitation : {Cavitation::guembel, Cavitation::reynolds, Cavitation::mass_conserving}) {
-    for (const bool line : {false, true}) {
-      for (const bool feature : {false, true}) {
-        for (const bool leaks : {false, true}) {
-          State s = rough_state(cavitation, line, feature);
-          if (leaks) {
-            s.model.edge_left.kind = EdgeKind::leaking;
-            s.model.edge_left.leakage = 0.3;
-          }
-          CAPTURE(leaks);
-          CAPTURE(static_cast<int>(cavitation));
-          CAPTURE(line);
-          CAPTURE(feature);
-          const int n = s.model.grid.size();
-          FlowBalance balance(s.model);
-          REQUIRE(balance.evaluate(s.motion, s.history, s.u).is_inside());
-          GapOperator by_gap = balance.gap_operator();
-          balance.find_gap_operator(by_gap);
-          const Eigen::MatrixXd changes = seeded_random(n, 2, 6);
-          const PackedColumns x = seeded_random(n, Packed::width, 7);
-          Eigen::VectorXd dr, expected;
-          by_gap.apply(changes.col(0), changes.col(1), dr);
-          balance.derivative({.g = changes.col(0), .g_rate = changes.col(1)}, expected);
-          CHECK((dr - expected).norm() <= 1e-14 * expected.norm());  // the same terms, summed in another order
-          PackedColumns of_gap, of_rate;
-          GapOperator::Scratch scratch;
-          by_gap.apply_transposed(x, of_gap, of_rate, scratch);
-          const Eigen::VectorXd there = x.transpose() * expected,
-                                back = of_gap.transpose() * changes.col(0) + of_rate.transpose() * changes.col(1);
-          CHECK((there - back).norm() <= 1e-12 * x.norm() * expected.norm());  // sums of n terms of either sign
-        }
-      }
+  for (State s : all_states()) {
+    for (const bool leaks : {false, true}) {
+      CAPTURE(s.name);
+      CAPTURE(leaks);
+      if (leaks) s.model.edge_left.kind = EdgeKind::leaking, s.model.edge_left.leakage = 0.3;
+      const int n = s.model.grid.size();
+      FlowBalance balance(s.model);
+      REQUIRE(balance.evaluate(s.motion, s.history, s.u).is_inside());
+      const Eigen::MatrixXd changes = seeded_random(n, 2, 6);
+      const MotionDirection change{.g = changes.col(0), .g_rate = changes.col(1)};
+      Eigen::VectorXd expected, dr;
+      balance.derivative(change, expected);
+
+      GapOperator by_gap = balance.gap_operator();
+      balance.find_gap_operator(by_gap);
+      by_gap.apply(change.g, change.g_rate, dr);
+      CHECK((dr - expected).norm() <= 1e-14 * expected.norm());  // the same terms, summed in another order
+
+      const PackedColumns x = seeded_random(n, Packed::width, 7);
+      PackedColumns of_gap, of_rate;
+      GapOperator::Scratch scratch;
+      by_gap.apply_transposed(x, of_gap, of_rate, scratch);
+      const Eigen::VectorXd there = x.transpose() * expected,
+                            back = of_gap.transpose() * change.g + of_rate.transpose() * change.g_rate;
+      CHECK((there - back).norm() <= 1e-12 * x.norm() * expected.norm());  // sums of n terms of either sign
+
+      FilmWrench wrench(s.model);
+      wrench.evaluate(balance, s.motion, true);
+      Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_by_gap;
+      wrench.find_by_gap(wrench_by_gap);
+      const Vector6 along = wrench.along(change);
+      CHECK((wrench_by_gap * change.g - along).norm() <= 1e-12 * along.norm());  // likewise
     }
   }
 }
