@@ -94,12 +94,15 @@ class RotorFile {
                    "the same of the force where a matrix has two directions");
   }
 
-  /// What the sweep varies beside the speed, so that rows of one speed are told apart; words have no series.
+  /// What the sweep varies beside the speed, so that rows of one speed differ; words have no series. (In a
+  /// group of their own a parameter `speed` would take the name of the rows' dimension.)
   void declare_parameters() {
     for (std::size_t k = 0; k < first_->values.size(); ++k) {
       const model::StudyValue& value = first_->values[k];
-      if (value.unit.empty() && value.number == 0 && !std::isdigit(value.text.back())) continue;
-      add(writer_.series("/parameters/" + value.name, 1, value.unit.empty() ? "1" : value.unit,
+      const bool ends_as_number =
+          !value.text.empty() && std::isdigit(static_cast<unsigned char>(value.text.back())) != 0;
+      if (value.unit.empty() && value.number == 0 && !ends_as_number) continue;
+      add(writer_.series("/swept_" + value.name, 1, value.unit.empty() ? "1" : value.unit,
                          "value of the sweep, in its unit"),
           [k](const Solved& at) { return Row{at.values[k].number}; });
     }

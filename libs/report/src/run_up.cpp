@@ -238,7 +238,7 @@ class SignalCollector {
   }
 
   /// The shaft of the run, but for what rotates at another speed: its joint, else the body itself; unset where that
-  /// makes no run-up, so that no orders are told of it.
+  /// makes no run-up, so that it has no orders.
   [[nodiscard]] std::optional<std::size_t> shaft_of(const Rotation& own) {
     if (way(own.angle) <= kHalfTurn || rotate_alike(own, main_)) return 0;
     if (way(own.angle) < kFewestRevolutions * kOneRevolution) return std::nullopt;
