@@ -82,12 +82,20 @@ class RotorFile {
         [](const Solved& at) { return Row{at.state.speed}; });
     add(writer_.series("/sense", 1, "1", "1: rotates from x to y; -1: from y to x"),
         [](const Solved& at) { return Row{static_cast<double>(at.state.sense)}; });
-    Row along;
-    each_new_name(solved_, &run::RotorState::stations, [&](const run::RotorStation& station) {
-      stations_.push_back(station.name), along.push_back(station.along);
-    });
+    each_new_name(solved_, &run::RotorState::stations,
+                  [&](const run::RotorStation& station) { stations_.push_back(station.name); });
     writer_.labels("/station", stations_, "points of the shaft's axis");
-    writer_.constant("/along", along, "m", "positions of the stations along the axis", "/station");
+    Row along = positions(*first_);
+    for (const Solved* at : solved_) {
+      const Row other = positions(*at);
+      for (std::size_t s = 0; s < along.size(); ++s)
+        if (!(std::abs(other[s] - along[s]) <= 1e-9)) along[s] = kNone;  // m: round-off
+    }
+    writer_.constant("/along", along, "m", "positions of the stations along the axis; NaN: not the same in all rows",
+                     "/station");
+    add(writer_.series("/station_along", static_cast<int>(stations_.size()), "m", "the same in each row",
+                       results::Precision::float64, "/station"),
+        [this](const Solved& at) { return positions(at); });
     writer_.labels("/direction", {first_->state.x_name, first_->state.y_name},
                    "directions across the axis: axes of the ground");
     writer_.labels("/force_direction", {first_->state.x_name, first_->state.y_name},
@@ -209,6 +217,14 @@ class RotorFile {
   }
 
   [[nodiscard]] Row none_along_axis() const { return Row(stations_.size(), kNone); }
+
+  [[nodiscard]] Row positions(const Solved& at) const {
+    Row row = none_along_axis();
+    for (std::size_t s = 0; s < stations_.size(); ++s)
+      if (const auto place = at.state.places.find(stations_[s]); place != at.state.places.end())
+        row[s] = at.state.stations[place->second].along;
+    return row;
+  }
 
   /// A value at each station of the file; NaN where this speed does not have it.
   [[nodiscard]] Row along_axis(const Solved& at, const std::vector<run::Orbit>& orbits,

@@ -573,6 +573,12 @@ class Rotors(unittest.TestCase):
             self.assertLess(counts[0], counts[1])
             self.assertLessEqual(numpy.nanmax(numpy.abs(shapes)), 1 + 1e-12)  # round-off of the largest axis, 1
             self.assertEqual(len(names), shapes.shape[2])
+            # A node of the beam has its number's name, and lies elsewhere with more elements.
+            along, fixed = file["station_along"][...], file["along"][...]
+            numpy.testing.assert_array_equal(numpy.isnan(along), numpy.isnan(shapes[:, 0, :]))
+            moved = numpy.isnan(fixed)
+            self.assertIn(True, moved)
+            numpy.testing.assert_allclose(along[:, ~moved], numpy.broadcast_to(fixed[~moved], along[:, ~moved].shape), atol=1e-9)  # m: round-off
             self.assertEqual(file["bearings/left/stiffness"][1, 0, 0], found["speeds"][1]["bearings"]["left"]["stiffness"]["xx"])
 
     def test_results_say_what_has_no_answer(self):
